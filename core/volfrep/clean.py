@@ -1,0 +1,193 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Removing what single precision would lose: edges as short as the steps between its numbers.
+
+And slivers as thin: three corners almost on a line may lie on it after rounding.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import remesh
+from .mesh import TriangleMesh, compact
+
+Ints = NDArray[np.int64]
+Bools = NDArray[np.bool_]
+
+#: Edges shorter than this many steps of float32 at the mesh's farthest coordinate are removed.
+STEPS = 16
+#: Passes over the edges: each takes those that do not touch each other.
+PASSES = 8
+
+
+def shortest_edge(mesh: TriangleMesh) -> float:
+    """Length in mm below which an edge may not survive in a file of single precision."""
+    farthest = np.float32(np.abs(mesh.vertices).max(initial=1.0))
+    return float(STEPS * np.spacing(farthest))
+
+
+def remove_slivers(mesh: TriangleMesh, tolerance: float, among: int | None = None) -> TriangleMesh:
+    """The closed mesh without edges or heights below `tolerance` mm, where topology allows it.
+
+    Only the neighbourhoods of such triangles are touched; genus, shells and closedness stay.
+
+    Args:
+        mesh: closed.
+        tolerance: mm.
+        among: look for slivers in so many of the first triangles; None: in all.
+    """
+    triangles = mesh.triangles
+    corners = mesh.vertices[triangles[:among]]
+    sides = [corners[:, k] - corners[:, k - 2] for k in range(3)]
+    squares = np.stack([np.einsum("ij,ij->i", side, side) for side in sides])
+    twice = np.cross(sides[0], sides[1])
+    thin = np.einsum("ij,ij->i", twice, twice) < tolerance**2 * squares.max(axis=0)
+    thin |= squares.min(axis=0) < tolerance**2
+    if not thin.any():
+        return mesh
+    # Two rings of triangles about the slivers; the outer ring's border stays as it is.
+    near = np.zeros(len(mesh.vertices), bool)
+    near[triangles[:among][thin]] = True
+    part = near[triangles].any(axis=1)
+    near[triangles[part]] = True
+    part = near[triangles].any(axis=1)
+
+    used, local = np.unique(triangles[part], return_inverse=True)
+    corners = local.reshape(-1, 3).astype(np.int64)
+    points, (kept, inner) = _collapse(mesh.vertices[used], corners, tolerance)
+    stay = used[kept]
+    vertices = mesh.vertices.copy()
+    vertices[stay] = points
+    return compact(
+        TriangleMesh(vertices, np.concatenate([triangles[~part], stay[inner].astype(np.int32)]))
+    )
+
+
+def _collapse(
+    points: NDArray[np.float64], triangles: NDArray[np.int64], tolerance: float
+) -> tuple[NDArray[np.float64], tuple[NDArray[np.int64], NDArray[np.int64]]]:
+    """An open piece of mesh collapsed within its border: points, (old index, triangles)."""
+    table = remesh.edges(triangles, len(points))
+    border = np.zeros(len(points), bool)
+    border[table.ends[table.triangles[:, 1] < 0]] = True
+    kept = np.arange(len(points))
+    for _ in range(PASSES):
+        rank = border[kept].astype(np.int64)
+
+        def is_free(gone: Ints, _: Ints, rank: Ints = rank) -> Bools:
+            free: Bools = rank[gone] == 0
+            return free
+
+        rules = remesh.Rules(rank, is_free, _none, lambda a, b: _keeps_side(a, b, tolerance))
+        before = len(points)
+        points, triangles, renumber = remesh.collapse(points, triangles, rules, tolerance, np.inf)
+        kept = kept[renumber >= 0]
+        triangles, flipped = _flip_slivers(points, triangles, tolerance)
+        if len(points) == before and not flipped:
+            break
+    return points, (kept, triangles)
+
+
+def _flip_slivers(
+    points: NDArray[np.float64], triangles: Ints, tolerance: float
+) -> tuple[Ints, int]:
+    """Slivers given away to the triangle beyond their longest edge."""
+
+    def gain(ends: Ints, corners: Ints) -> NDArray[np.float64]:
+        a, b, c, d = (
+            points[ends[:, 0]],
+            points[ends[:, 1]],
+            points[corners[:, 0]],
+            points[corners[:, 1]],
+        )
+        old = np.minimum(_height(a, b, c), _height(b, a, d))
+        new = np.minimum(_height(c, d, b), _height(d, c, a))
+        wanted: NDArray[np.float64] = np.where(old < tolerance, new - 1.5 * old, -1.0)
+        return wanted
+
+    return remesh.flip(points, triangles, gain, _none)
+
+
+def _height(
+    a: NDArray[np.float64], b: NDArray[np.float64], c: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """The least height of triangles, mm."""
+    corners = np.stack([a, b, c], axis=1)
+    longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
+    height: NDArray[np.float64] = np.linalg.norm(remesh.normals(corners), axis=1) / np.maximum(
+        longest, 1e-300
+    )
+    return height
+
+
+def _none(one: Ints, two: Ints) -> Bools:
+    return np.zeros(len(one), bool)
+
+
+def _keeps_side(old: NDArray[np.float64], new: NDArray[np.float64], tolerance: float) -> Bools:
+    """Whether triangles keep their side; a sliver as thin as the tolerance has none to keep."""
+    before, after = remesh.normals(old), remesh.normals(new)
+    longest = np.linalg.norm(old - np.roll(old, 1, axis=1), axis=2).max(axis=1)
+    thin = np.linalg.norm(before, axis=1) < 4.0 * tolerance * longest
+    result: Bools = thin | (np.einsum("ij,ij->i", before, after) > 0.0)
+    return result
+
+
+def separate_vertices(mesh: TriangleMesh, precision: float) -> TriangleMesh:
+    """The mesh with no two vertices that single precision would take for one.
+
+    Where two sheets of a surface touch, a reader that merges equal corners finds edges of four
+    triangles. Such vertices are moved into the material, against their normals, by a few steps of
+    single precision.
+
+    Args:
+        mesh: closed.
+        precision: `shortest_edge` of the part, mm.
+    """
+    for attempt in range(1, PASSES + 1):
+        twins = _twins(mesh.vertices.astype(np.float32))
+        if not len(twins):
+            break
+        moved = np.zeros(len(mesh.vertices), bool)
+        moved[twins] = True
+        part = mesh.triangles[moved[mesh.triangles].any(axis=1)]
+        normal = np.repeat(remesh.normals(mesh.vertices[part]), 3, axis=0)
+        total = np.stack(
+            [
+                np.bincount(part.ravel(), normal[:, k], minlength=len(mesh.vertices))[twins]
+                for k in range(3)
+            ],
+            axis=1,
+        )
+        # Twins whose normals agree part nevertheless: each goes a little further than the last.
+        length = np.maximum(np.linalg.norm(total, axis=1), 1e-300)
+        reach = precision / STEPS * (2.0 + attempt + 3.0 * (np.arange(len(twins)) % 5))
+        vertices = mesh.vertices.copy()
+        vertices[twins] -= total * (reach / length)[:, None]
+        mesh = TriangleMesh(vertices, mesh.triangles)
+    return mesh
+
+
+def _twins(points: NDArray[np.float32]) -> Ints:
+    """Indices of the points that share all their coordinates with another one, twins together."""
+    bits = (points + np.float32(0.0)).view(np.uint32).astype(np.uint64)
+    with np.errstate(over="ignore"):
+        key = bits[:, 0] * np.uint64(0x9E3779B97F4A7C15)
+        key ^= bits[:, 1] * np.uint64(0xC2B2AE3D27D4EB4F)
+        key += (bits[:, 2] << np.uint64(32)) ^ (bits[:, 2] * np.uint64(0x165667B19E3779F9))
+    order = np.argsort(key, kind="stable")
+    same = key[order[1:]] == key[order[:-1]]
+    candidates = np.zeros(len(points), bool)
+    candidates[order[1:][same]] = True
+    candidates[order[:-1][same]] = True
+    index = np.flatnonzero(candidates)
+    if not len(index):
+        return index
+    _, inverse, count = np.unique(
+        points[index] + np.float32(0.0), axis=0, return_inverse=True, return_counts=True
+    )
+    inverse = inverse.ravel()
+    shared = count[inverse] > 1
+    twins: Ints = index[shared][np.argsort(inverse[shared], kind="stable")]
+    return twins

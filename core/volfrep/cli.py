@@ -1,0 +1,333 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The ``volfrep`` command.
+
+Exit codes: 0 done, 2 bad input (one sentence on standard error), 130 interrupted.
+numpy and the engine are imported inside the commands, so that ``--help`` answers at once.
+"""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+import io
+import os
+import re
+import sys
+import time
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, NoReturn
+
+from .errors import VolfrepError
+
+if TYPE_CHECKING:
+    from .pipeline import Result
+    from .progress import ProgressCallback
+    from .spec import LatticeSpec
+
+EXIT_BAD_INPUT = 2
+EXIT_INTERRUPTED = 130
+
+
+def main() -> NoReturn:
+    """Run the command of this process's arguments and exit with its code."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")  # a file's name may be any bytes
+    try:
+        code = run(sys.argv[1:])
+        sys.stdout.flush()
+    except BrokenPipeError:  # the reader of the text, such as `head`, has had enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        code = 0
+    sys.stderr.flush()
+    if code == EXIT_INTERRUPTED:
+        # A compiled call may still be busy on a thread: an ordinary exit would wait for it.
+        os._exit(code)
+    sys.exit(code)
+
+
+def run(arguments: Sequence[str]) -> int:
+    """Run a command and return its exit code; errors of the user become one sentence."""
+    try:
+        options = _parser().parse_args([_plain_number(argument) for argument in arguments])
+        command: Callable[[argparse.Namespace], None] = options.command
+        command(options)
+    except VolfrepError as error:
+        print(f"volfrep: {error}", file=sys.stderr)
+        return EXIT_BAD_INPUT
+    except MemoryError:
+        print(
+            "volfrep: There is not enough memory for this job: "
+            "use a coarser resolution or larger cells.",
+            file=sys.stderr,
+        )
+        return EXIT_BAD_INPUT
+    except KeyboardInterrupt:
+        print("volfrep: Interrupted, no file was left half-written.", file=sys.stderr)
+        return EXIT_INTERRUPTED
+    return 0
+
+
+class _Parser(argparse.ArgumentParser):
+    """An argument parser whose errors are one sentence, without the usage in front."""
+
+    def error(self, message: str) -> NoReturn:
+        raise VolfrepError(f"{message[:1].upper()}{message[1:]} (see '{self.prog} --help').")
+
+
+class _Version(argparse.Action):
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
+        from importlib.metadata import version
+
+        print(f"volfrep {version('volfrep')}")
+        parser.exit()
+
+
+def _plain_number(argument: str) -> str:
+    """Negative numbers such as ``-1e3`` as ``-1000.0``: argparse takes them for options."""
+    if not re.fullmatch(r"-(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?", argument):
+        return argument
+    return argument if re.fullmatch(r"-\d+", argument) else f"{float(argument):.15f}"
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = _Parser(
+        prog="volfrep",
+        description="Fill a solid with a strut lattice. Lengths are in mm.",
+        allow_abbrev=False,
+    )
+    parser.add_argument("--version", action=_Version, nargs=0, help="show the version and exit")
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
+
+    def add(name: str, command: Callable[[argparse.Namespace], None], text: str) -> _Parser:
+        sub: _Parser = commands.add_parser(name, help=text, description=text, allow_abbrev=False)
+        sub.set_defaults(command=command)
+        return sub
+
+    fill = add("fill", _fill, "Fill a solid (an STL file) with a lattice under a closed skin.")
+    fill.add_argument("part", metavar="PART", help="the closed solid, an STL file")
+    _add_lattice_options(fill)
+    fill.add_argument(
+        "--shell", type=float, required=True, metavar="MM", help="thickness of the skin, 0 for none"
+    )
+    fill.add_argument(
+        "--activation",
+        metavar="RULE",
+        help="cells to fill: 'touching' the domain (default) or with their 'centre' inside it",
+    )
+    fill.add_argument(
+        "--output",
+        metavar="WHAT",
+        help="'part' (skin and lattice, default), 'lattice' (trimmed) or 'domain' (what it fills)",
+    )
+    fill.add_argument(
+        "--origin",
+        type=float,
+        nargs=3,
+        metavar=("X", "Y", "Z"),
+        help="a point that is to be a corner of a cell (default: the part's box)",
+    )
+
+    block = add("block", _block, "Make a free-standing block of whole cells with round struts.")
+    block.add_argument(
+        "--count", type=int, nargs=3, required=True, metavar=("NX", "NY", "NZ"), help="cells"
+    )
+    _add_lattice_options(block)
+
+    add("cells", _cells, "List the library of unit cells.")
+
+    check = add("check", _check, "Tell what a reader sees in a mesh file (STL, OBJ, PLY).")
+    check.add_argument("file", metavar="FILE")
+    return parser
+
+
+def _add_lattice_options(parser: argparse.ArgumentParser) -> None:
+    add = parser.add_argument
+    add("-o", dest="out", required=True, metavar="OUT", help="the file to write (.stl)")
+    add("--cell", required=True, help="a library cell (see 'volfrep cells') or a cell's .json file")
+    add("--cell-size", type=float, required=True, metavar="MM", help="edge L of a cell")
+    add("--strut-radius", type=float, required=True, metavar="MM", help="radius r of the struts")
+    detail = parser.add_mutually_exclusive_group()
+    detail.add_argument("--resolution", type=int, metavar="N", help="facets along L")
+    detail.add_argument(
+        "--deviation", type=float, metavar="MM", help="largest distance from the exact surface"
+    )
+    add("--fillet", type=float, metavar="MM", help="radius of the round at the joints (default 0)")
+    add("--density", type=float, metavar="G_PER_CM3", help="of the material (default 1)")
+    add("--report", metavar="FILE.json", help="write the figures of the run as JSON")
+    add("--quiet", action="store_true", help="print nothing but errors")
+
+
+def _fill(options: argparse.Namespace) -> None:
+    part = Path(options.part)
+    _check_targets(options, part)
+    spec = _spec(options, "shell", "activation", "output", "origin")
+
+    from .pipeline import fill
+    from .solid import read_solid
+
+    start = time.perf_counter()
+    solid = read_solid(part)
+    read_seconds = time.perf_counter() - start
+    with _Progress(options.quiet) as progress:
+        result = fill(solid, spec, progress=progress)
+    _finish(result, options, {"read": read_seconds})
+
+
+def _block(options: argparse.Namespace) -> None:
+    _check_targets(options)
+    spec = _spec(options)
+
+    from .pipeline import block
+
+    with _Progress(options.quiet) as progress:
+        result = block(spec, tuple(options.count), progress=progress)
+    _finish(result, options, {})
+
+
+def _check_targets(options: argparse.Namespace, part: Path | None = None) -> None:
+    """Refuse before the work what could not be written after it."""
+    from .export import mesh_writer
+    from .export.files import check_writable
+
+    out = check_writable(options.out)
+    mesh_writer(out)
+    if part is not None and out.exists() and part.exists() and out.samefile(part):
+        raise VolfrepError(f"The output '{out}' is the part itself: give another name.")
+    if options.report is not None:
+        report = check_writable(options.report)
+        if report.resolve() == out.resolve():
+            raise VolfrepError(f"The report and the mesh cannot both be written to '{out}'.")
+
+
+def _spec(options: argparse.Namespace, *more: str) -> LatticeSpec:
+    from .spec import LatticeSpec
+
+    names = ("cell", "cell_size", "strut_radius", "resolution", "deviation", "fillet", "density")
+    given = {name: getattr(options, name) for name in (*names, *more)}
+    if given.get("origin") is not None:
+        given["origin"] = tuple(given["origin"])
+    return LatticeSpec(**{name: value for name, value in given.items() if value is not None})
+
+
+def _finish(result: Result, options: argparse.Namespace, before: dict[str, float]) -> None:
+    """Write the mesh and the report; say what was made."""
+    from .export import write_mesh
+    from .export.files import replacing
+    from .progress import peak_memory_mb
+
+    start = time.perf_counter()
+    write_mesh(result.mesh, options.out)
+    report = dataclasses.replace(
+        result.report,
+        stages={**before, **result.report.stages, "write": time.perf_counter() - start},
+        peak_memory_mb=peak_memory_mb(),
+    )
+    if options.report is not None:
+        with replacing(options.report) as file:
+            file.write(report.to_json().encode() + b"\n")
+    for warning in report.warnings:
+        print(f"volfrep: warning: {warning}", file=sys.stderr)
+    if options.quiet:
+        return
+    size = Path(options.out).stat().st_size / 1e6
+    grid = " x ".join(str(n) for n in report.grid)
+    _print_rows(
+        ("file", f"{options.out}, {size:.1f} MB"),
+        ("cells", f"{report.cells_active:,} active of {report.cells_total:,} ({grid})"),
+        ("struts", f"{report.struts:,} between {report.nodes:,} nodes"),
+        ("triangles", f"{report.triangles:,}"),
+        ("watertight", f"{_yes(report.watertight)}, {_bodies(report.bodies, report.voids)}"),
+        ("volume", f"{report.volume_mm3:,.1f} mm3"),
+        ("relative density", f"{100 * report.relative_density:.2f} %"),
+        ("mass", f"{report.mass_g:,.2f} g"),
+        ("time", f"{sum(report.stages.values()):.2f} s, {report.peak_memory_mb:,.0f} MB of memory"),
+    )
+
+
+def _cells(_: argparse.Namespace) -> None:
+    from .cells import LIBRARY
+
+    print(f"{'name':<12}{'nodes':>6}{'struts':>8}{'Maxwell':>9}  deformation")
+    for cell in LIBRARY.values():
+        print(
+            f"{cell.name:<12}{len(cell.nodes):>6}{len(cell.struts):>8}"
+            f"{cell.maxwell_number:>9}  {cell.deformation_mode}"
+        )
+
+
+def _check(options: argparse.Namespace) -> None:
+    from .export.stl import as_read
+    from .quality import measure, pinched_vertices, shape_statistics
+    from .solid import read_triangles
+
+    mesh = as_read(read_triangles(options.file))
+    quality = measure(mesh)
+    pinched = pinched_vertices(mesh)
+    closed = quality.open_edges == 0
+    defects = [
+        f"{count:,} {what}"
+        for count, what in (
+            (quality.overused_edges, "edges of more than two triangles"),
+            (quality.misoriented_edges, "edges between triangles of opposite orientation"),
+            (quality.degenerate_triangles, "degenerate triangles"),
+            (pinched, "vertices where surfaces touch"),
+        )
+        if count
+    ]
+    low, high = quality.bounds
+    _print_rows(
+        ("file", str(options.file)),
+        ("triangles", f"{quality.triangles:,}"),
+        ("vertices", f"{quality.vertices:,}"),
+        ("closed", _yes(closed) + ("" if closed else f" ({quality.open_edges:,} open edges)")),
+        ("manifold", _yes(closed and not defects) + (f" ({', '.join(defects)})" * bool(defects))),
+        ("bodies", f"{quality.bodies:,}"),
+        ("voids", f"{quality.voids:,}"),
+        *([("genus", str(quality.genus))] if quality.watertight else []),
+        ("volume", f"{quality.volume:,.3f} mm3"),
+        ("area", f"{quality.area:,.3f} mm2"),
+        ("box", " x ".join(f"{side:.3f}" for side in high - low) + " mm"),
+        ("from", ", ".join(f"{value:.3f}" for value in low)),
+        ("smallest angle", f"{shape_statistics(mesh).smallest_angle:.2f} degrees"),
+    )
+
+
+def _yes(value: bool) -> str:
+    return "yes" if value else "no"
+
+
+def _bodies(bodies: int, voids: int) -> str:
+    text = f"{bodies:,} " + ("body" if bodies == 1 else "bodies")
+    return text + (f", {voids:,} closed " + ("void" if voids == 1 else "voids")) * bool(voids)
+
+
+def _print_rows(*rows: tuple[str, str]) -> None:
+    width = max(len(name) for name, _ in rows) + 2
+    for name, value in rows:
+        print(f"{name:<{width}}{value}")
+
+
+class _Progress:
+    """Shows the stage and the fraction done on one line of standard error, if it is a terminal."""
+
+    def __init__(self, quiet: bool) -> None:
+        self._visible = not quiet and sys.stderr.isatty()
+        self._shown = ""
+
+    def __enter__(self) -> ProgressCallback:
+        # Always a callback, shown or not: with one, long compiled calls run beside the main
+        # thread, which can then be interrupted.
+        return self._update
+
+    def __exit__(self, *_: object) -> None:
+        if self._shown:
+            print("\r" + " " * len(self._shown) + "\r", end="", file=sys.stderr, flush=True)
+
+    def _update(self, fraction: float, stage: str) -> None:
+        text = f"{100 * fraction:3.0f} % {stage}"
+        if self._visible and text != self._shown:
+            padding = " " * (len(self._shown) - len(text))
+            print(f"\r{text}{padding}", end="", file=sys.stderr, flush=True)
+            self._shown = text

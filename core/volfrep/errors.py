@@ -1,0 +1,10 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What can go wrong, as exceptions whose text is one sentence meant for a user."""
+
+
+class VolfrepError(ValueError):
+    """Bad input: the text names what is wrong, where, and what to do about it."""
+
+
+class Cancelled(Exception):
+    """The progress callback asked to stop; nothing was written."""

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Writing a file so that it is either complete or not there."""
+
+from __future__ import annotations
+
+import os
+import secrets
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import BinaryIO
+
+from ..errors import VolfrepError
+
+
+def check_writable(path: str | os.PathLike[str]) -> Path:
+    """The path itself, once it is clear that a file could be put there.
+
+    Raises:
+        VolfrepError: the folder does not exist or is closed to us, or the name is taken by
+            something that is not a file.
+    """
+    target = Path(path)
+    try:
+        folder = target.resolve().parent
+        taken = target.exists()
+        if not folder.is_dir():
+            raise VolfrepError(f"Cannot write '{target}': there is no folder '{folder}'.")
+        if taken and not target.is_file():
+            raise VolfrepError(f"Cannot write '{target}': it exists and is not a file.")
+    except OSError as error:  # a name too long, a loop of links
+        raise VolfrepError(f"Cannot write '{target}': {error.strerror}.") from error
+    if not os.access(folder, os.W_OK) or (taken and not os.access(target, os.W_OK)):
+        raise VolfrepError(f"Cannot write '{target}': permission denied.")
+    return target
+
+
+@contextmanager
+def replacing(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
+    """A binary file to write, which takes the target's place only when the block succeeds.
+
+    It is written beside the target (beside what a link points at); after an error or an
+    interruption it is removed, and whatever the target held before is untouched.
+
+    Raises:
+        VolfrepError: naming the target and why it cannot be written (a full disk included).
+    """
+    target = check_writable(path)
+    real = target.resolve()
+    part = real.with_name(f".volfrep-{secrets.token_hex(4)}.part")
+    try:
+        try:
+            with part.open("xb") as file:
+                yield file
+            if real.exists():
+                shutil.copymode(real, part)
+            os.replace(part, real)
+        finally:
+            part.unlink(missing_ok=True)
+    except OSError as error:
+        raise VolfrepError(f"Cannot write '{target}': {error.strerror}.") from error

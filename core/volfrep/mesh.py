@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The one mesh type that every stage takes and returns."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True, eq=False)
+class TriangleMesh:
+    """An indexed triangle mesh in mm.
+
+    Attributes:
+        vertices: (n, 3) float64 coordinates.
+        triangles: (m, 3) int32 vertex indices, counter-clockwise seen from outside.
+    """
+
+    vertices: NDArray[np.float64]
+    triangles: NDArray[np.int32]
+
+    @property
+    def bounds(self) -> NDArray[np.float64]:
+        """(2, 3) lowest and highest corner of the box; zeros for an empty mesh."""
+        return box_of(self.vertices)
+
+    @property
+    def volume(self) -> float:
+        """Signed enclosed volume in mm3, by the divergence theorem about the box's centre."""
+        return float(self.signed_volumes().sum())
+
+    @property
+    def area(self) -> float:
+        """Surface area in mm2."""
+        a, b, c = self.corners()
+        return float(0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1).sum())
+
+    def corners(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        """The three (m, 3) arrays of corner coordinates."""
+        t = self.triangles
+        return self.vertices[t[:, 0]], self.vertices[t[:, 1]], self.vertices[t[:, 2]]
+
+    def signed_volumes(self) -> NDArray[np.float64]:
+        """(m,) signed volume of the tetrahedron that each triangle spans with the box's centre."""
+        if not len(self.triangles):
+            return np.zeros(0)
+        a, b, c = self.corners()
+        centre = self.bounds.mean(axis=0)
+        a, b, c = a - centre, b - centre, c - centre
+        volumes: NDArray[np.float64] = np.einsum("ij,ij->i", a, np.cross(b, c)) / 6.0
+        return volumes
+
+    def reversed(self) -> TriangleMesh:
+        """The same surface seen from the other side."""
+        return TriangleMesh(self.vertices, np.ascontiguousarray(self.triangles[:, ::-1]))
+
+
+def box_of(points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(2, 3) lowest and highest corner of the box about (n, 3) points; zeros for none."""
+    if not len(points):
+        return np.zeros((2, 3))
+    # A column at a time: numpy is slow at reducing many short rows.
+    columns = [points[:, k] for k in range(3)]
+    return np.array([[c.min() for c in columns], [c.max() for c in columns]])
+
+
+def empty_mesh() -> TriangleMesh:
+    """A mesh without vertices or triangles."""
+    return TriangleMesh(np.zeros((0, 3)), np.zeros((0, 3), np.int32))
+
+
+def concatenate(*meshes: TriangleMesh) -> TriangleMesh:
+    """All the meshes as one, nothing welded."""
+    offsets = np.cumsum([0] + [len(mesh.vertices) for mesh in meshes[:-1]])
+    return TriangleMesh(
+        np.concatenate([mesh.vertices for mesh in meshes]),
+        np.concatenate(
+            [mesh.triangles + np.int32(k) for mesh, k in zip(meshes, offsets, strict=True)]
+        ),
+    )
+
+
+def compact(mesh: TriangleMesh) -> TriangleMesh:
+    """The mesh without the vertices that no triangle uses."""
+    used = np.zeros(len(mesh.vertices), bool)
+    used[mesh.triangles.ravel()] = True
+    index = np.cumsum(used, dtype=np.int32) - 1
+    return TriangleMesh(mesh.vertices[used], index[mesh.triangles])

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What a run made, in figures: shown to the user and serialised to JSON."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, dataclass, field
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Report:
+    """Figures of one result, all measured on the mesh that is handed out.
+
+    Attributes:
+        cells_total: cells in the grid.
+        cells_active: cells that hold a lattice.
+        grid: cells along x, y, z.
+        nodes, struts: of the unique wireframe of the active cells (before trimming).
+        triangles, vertices: of the mesh.
+        bodies: separate pieces of material (surfaces that enclose material).
+        voids: closed cavities (surfaces that enclose emptiness).
+        genus: through-holes, summed over all the surfaces.
+        volume_mm3, area_mm2: of the mesh.
+        domain_volume_mm3: of what the lattice fills.
+        relative_density: volume of the lattice over the volume of its domain.
+        mass_g: of the mesh at the given density.
+        watertight: every edge shared by exactly two triangles, oriented oppositely.
+        pieces_removed: lattice fragments that hung on nothing and were dropped.
+        specks_removed: shells smaller than a facet that were dropped.
+        stages: seconds by stage.
+        stage_memory_mb: peak resident memory at the end of each stage, MB.
+        peak_memory_mb: of the process.
+        spec: the specification, as plain values.
+        warnings: sentences for the user.
+    """
+
+    cells_total: int
+    cells_active: int
+    grid: tuple[int, int, int]
+    nodes: int
+    struts: int
+    triangles: int
+    vertices: int
+    bodies: int
+    voids: int
+    genus: int
+    volume_mm3: float
+    area_mm2: float
+    domain_volume_mm3: float
+    relative_density: float
+    mass_g: float
+    watertight: bool
+    pieces_removed: int
+    specks_removed: int
+    stages: dict[str, float]
+    stage_memory_mb: dict[str, float]
+    peak_memory_mb: float
+    spec: dict[str, Any] = field(default_factory=dict)
+    warnings: tuple[str, ...] = ()
+
+    def as_dict(self) -> dict[str, Any]:
+        """The figures as plain JSON values."""
+        return asdict(self)
+
+    def to_json(self) -> str:
+        """The figures as a JSON text."""
+        return json.dumps(self.as_dict(), indent=2)

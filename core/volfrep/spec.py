@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What a user asks for, validated once, before any work starts."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from .cells import UnitCell, find_cell
+from .errors import VolfrepError
+
+ACTIVATIONS = ("touching", "centre")
+OUTPUTS = ("part", "lattice", "domain")
+
+#: Deviation from the exact surface in units of the strut radius, where the user says nothing.
+#: About nine facets round a strut.
+DEFAULT_RELATIVE_DEVIATION = 1.0 / 35.0
+MIN_RESOLUTION, MAX_RESOLUTION = 4, 400
+#: The resolution that is chosen for thick struts, whose windows are smaller than they are.
+MIN_AUTOMATIC_RESOLUTION = 15
+
+
+@dataclass(frozen=True)
+class LatticeSpec:
+    """Everything that defines a lattice infill; lengths in mm.
+
+    Attributes:
+        cell: name of a library cell, path of a cell's JSON file, or a `UnitCell`.
+        cell_size: L, edge of the cubic cell.
+        strut_radius: r, of every strut.
+        shell: thickness of the closed skin; 0 trims the lattice at the outer surface.
+        resolution: facets along L; or
+        deviation: largest distance in mm between a facet and the exact strut. With neither,
+            the deviation is `DEFAULT_RELATIVE_DEVIATION` r.
+        activation: ``touching`` (every cell that touches the domain) or ``centre`` (cells whose
+            centre lies inside it: the rule of the paper).
+        output: ``part`` (skin and lattice), ``lattice`` (trimmed) or ``domain`` (what it fills).
+        fillet: radius of the round between struts at a joint; 0 for none.
+        origin: a point that is to be a cell's corner; None puts the grid at the part's box.
+        density: of the material in g/cm3.
+
+    Raises:
+        VolfrepError: at construction, naming the first value that makes no sense.
+    """
+
+    cell: str | UnitCell = "CVC"
+    cell_size: float = 10.0
+    strut_radius: float = 1.0
+    shell: float = 2.0
+    resolution: int | None = None
+    deviation: float | None = None
+    activation: str = "touching"
+    output: str = "part"
+    fillet: float = 0.0
+    origin: tuple[float, float, float] | None = None
+    density: float = 1.0
+
+    def __post_init__(self) -> None:
+        size = _number("cell size", self.cell_size, "mm", positive=True)
+        radius = _number("strut radius", self.strut_radius, "mm", positive=True)
+        _number("shell thickness", self.shell, "mm", positive=False)
+        _number("joint fillet", self.fillet, "mm", positive=False)
+        _number("density", self.density, "g/cm3", positive=True)
+        if radius + radius * radius / size + self.fillet >= size / 2:
+            limit = _largest_radius(size, self.fillet)
+            with_fillet = " with this fillet" if self.fillet else ""
+            if limit <= 0:
+                raise VolfrepError(
+                    f"A joint fillet of {self.fillet:g} mm is too large for a cell of "
+                    f"{size:g} mm: keep it below {size / 2:g} mm less the strut radius."
+                )
+            raise VolfrepError(
+                f"Struts of radius {radius:g} mm are too thick for a cell of {size:g} mm"
+                f"{with_fillet}: keep the radius below {limit:.4g} mm or enlarge the cell."
+            )
+        if self.resolution is not None and self.deviation is not None:
+            raise VolfrepError("Give either a resolution or a deviation, not both.")
+        if self.deviation is not None:
+            _number("deviation", self.deviation, "mm", positive=True)
+        if self.resolution is not None:
+            whole = _number("resolution", self.resolution, "facets along L", positive=True)
+            if whole != int(whole) or not MIN_RESOLUTION <= whole <= MAX_RESOLUTION:
+                raise VolfrepError(
+                    f"The resolution must be a whole number from {MIN_RESOLUTION} to "
+                    f"{MAX_RESOLUTION}, not {self.resolution}."
+                )
+        if self.activation not in ACTIVATIONS:
+            raise VolfrepError(
+                f"There is no activation '{self.activation}': choose {' or '.join(ACTIVATIONS)}."
+            )
+        if self.output not in OUTPUTS:
+            raise VolfrepError(
+                f"There is no output '{self.output}': choose one of {', '.join(OUTPUTS)}."
+            )
+        if self.origin is not None:
+            if len(self.origin) != 3:
+                raise VolfrepError("The origin must be three coordinates.")
+            for value in self.origin:
+                _number("origin", value, "mm", positive=None)
+        _ = self.facets_along_cell
+        self.unit_cell()
+
+    @property
+    def joint_radius(self) -> float:
+        """Radius of the joint spheres, r (1 + r / L) (Eq. 8 of the paper)."""
+        return self.strut_radius * (1.0 + self.strut_radius / self.cell_size)
+
+    @property
+    def facets_along_cell(self) -> int:
+        """How many facet edges fit along L: the resolution, or what the deviation asks for.
+
+        Facets of edge e fitted to a cylinder of radius r in the mean stray from it by up to
+        e2 / (16 r) to either side (the sagitta of a chord, e2 / 8 r, halved by the fit).
+        """
+        if self.resolution is not None:
+            return int(self.resolution)
+        deviation = self.deviation or DEFAULT_RELATIVE_DEVIATION * self.strut_radius
+        wanted = self.cell_size / math.sqrt(16.0 * self.strut_radius * deviation)
+        if wanted > MAX_RESOLUTION:
+            edge = self.cell_size / MAX_RESOLUTION
+            smallest = edge * edge / (16.0 * self.strut_radius)
+            raise VolfrepError(
+                f"A deviation of {deviation:.3g} mm needs {wanted:.0f} facets along a cell: the "
+                f"limit is {MAX_RESOLUTION}, which reaches {smallest:.3g} mm."
+            )
+        least = MIN_RESOLUTION if self.deviation is not None else MIN_AUTOMATIC_RESOLUTION
+        return max(math.ceil(wanted), least)
+
+    def unit_cell(self) -> UnitCell:
+        """The cell itself, looked up in the library or read from its file."""
+        return self.cell if isinstance(self.cell, UnitCell) else find_cell(self.cell)
+
+    def as_dict(self) -> dict[str, Any]:
+        """The specification as plain JSON values."""
+        values = {name: getattr(self, name) for name in self.__dataclass_fields__}
+        values["cell"] = self.unit_cell().name
+        values["origin"] = None if self.origin is None else [float(c) for c in self.origin]
+        return values
+
+
+def _largest_radius(size: float, fillet: float) -> float:
+    """The r at which joint sphere and fillet reach half a cell: r + r2 / L + fillet = L / 2."""
+    room = size / 2 - fillet
+    return float(size * (math.sqrt(0.25 + max(room, 0.0) / size) - 0.5)) if room > 0 else 0.0
+
+
+def _number(name: str, value: float, unit: str, *, positive: bool | None) -> float:
+    """`value` as a finite float; `positive` True: above 0, False: not below 0, None: any."""
+    try:
+        number = float(value)
+    except (TypeError, ValueError) as error:
+        raise VolfrepError(f"The {name} must be a number in {unit}, not {value!r}.") from error
+    if not math.isfinite(number):
+        raise VolfrepError(f"The {name} must be a finite number in {unit}, not {number}.")
+    if positive and number <= 0:
+        raise VolfrepError(f"The {name} must be above 0 {unit}, not {number:g}.")
+    if positive is False and number < 0:
+        raise VolfrepError(f"The {name} must not be negative, not {number:g} {unit}.")
+    return number

@@ -1,0 +1,209 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The meshed octants that a lattice is laid from: everything costly, done once a pattern."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import frep
+from .cells import UnitCell
+from .even import even_out
+from .fit import fit
+from .frep import Field, Floats, Ints, Primitives
+from .octant import (
+    OctantKey,
+    RawOctant,
+    octant_primitives,
+    raw_octant,
+    sample_octant,
+)
+from .progress import Monitor
+from .surface import Surface
+
+#: The sampling step is at most this, in units of r: no strut slips between the samples.
+COARSEST_STEP = 0.75
+#: Primitives are kept near a vertex up to this distance beyond the nearest, in wanted edges:
+#: vertices move by one edge, and a facet reaches another one further, in both distances.
+NEAR_EDGES = 3.0
+#: Pieces are meshed together up to about this many vertices.
+BATCH_VERTICES = 150_000
+
+
+@dataclass(frozen=True)
+class TileSpec:
+    """What a tile depends on, and nothing else.
+
+    Attributes:
+        cell_size: L, mm.
+        strut_radius: r, mm.
+        fillet: joint fillet, mm.
+        facets: facet edges along L.
+    """
+
+    cell_size: float
+    strut_radius: float
+    fillet: float
+    facets: int
+
+    @property
+    def edge(self) -> float:
+        """Wanted edge length, mm."""
+        return self.cell_size / self.facets
+
+    @property
+    def steps(self) -> int:
+        """Sampling steps along an octant."""
+        finest = self.cell_size / (COARSEST_STEP * self.strut_radius)
+        return math.ceil(0.5 * max(self.facets, finest))
+
+
+@dataclass(frozen=True, eq=False)
+class Octant:
+    """The finished surface inside one octant, in the octant's frame.
+
+    Attributes:
+        vertices: (n, 3) float64, mm.
+        triangles: (m, 3) int32, counter-clockwise seen from outside.
+        entity: (n,) int8, 9 px + 3 py + pz with p 0 on the low face, 1 between, 2 on the high
+            face: which face or edge of the octant the vertex is shared on; 13 inside.
+        rank: (n,) int32, number of the vertex among those of its entity; the same number in
+            every octant that shares the entity.
+        solid_corners: (2, 2, 2) bool, whether the octant's corners are inside the lattice.
+    """
+
+    vertices: Floats
+    triangles: NDArray[np.int32]
+    entity: NDArray[np.int8]
+    rank: NDArray[np.int32]
+    solid_corners: NDArray[np.bool_]
+
+
+def mesh_octants(
+    cell: UnitCell, spec: TileSpec, keys: Sequence[OctantKey], monitor: Monitor
+) -> dict[OctantKey, Octant]:
+    """Mesh the octants of the given keys."""
+    result: dict[OctantKey, Octant] = {}
+    todo = list(dict.fromkeys(keys))
+    done = 0
+    while todo:
+        batch = _Batch.of(cell, spec, todo)
+        even, origin = even_out(batch.surface)
+        fitted = fit(even, batch.piece_of(origin))
+        result.update(batch.split(fitted, origin))
+        done += len(batch.keys)
+        todo = todo[len(batch.keys) :]
+        monitor.tick(done / (done + len(todo)))
+    return result
+
+
+@dataclass(frozen=True, eq=False)
+class _Batch:
+    """Raw octants laid into one surface; `piece` tells whose each vertex is."""
+
+    keys: list[OctantKey]
+    raw: list[RawOctant]
+    solid_corners: list[NDArray[np.bool_]]
+    surface: Surface
+
+    @staticmethod
+    def of(cell: UnitCell, spec: TileSpec, keys: Sequence[OctantKey]) -> _Batch:
+        """As many of the keys, from the first, as fit in a batch."""
+        reach = NEAR_EDGES * spec.edge + 2.0 * spec.fillet
+        used: list[OctantKey] = []
+        raw: list[RawOctant] = []
+        solid: list[NDArray[np.bool_]] = []
+        primitives: list[Primitives] = []
+        counts: list[Ints] = []
+        near: list[Ints] = []
+        total = offset = 0
+        for key in keys:
+            own = octant_primitives(cell, key, spec.cell_size, spec.strut_radius, reach)
+            samples = sample_octant(own, spec.cell_size, spec.steps, spec.fillet)
+            piece = raw_octant(samples, spec.cell_size)
+            if used and total + len(piece.vertices) > BATCH_VERTICES:
+                break
+            used.append(key)
+            raw.append(piece)
+            solid.append(samples[:: spec.steps, :: spec.steps, :: spec.steps] < 0.0)
+            primitives.append(own)
+            if len(piece.vertices):
+                count, index = _near(piece.vertices, own, reach)
+                counts.append(count)
+                near.append(index + offset)
+            total += len(piece.vertices)
+            offset += len(own)
+        first = np.cumsum([0] + [len(piece.vertices) for piece in raw])
+        place = np.concatenate([piece.place for piece in raw])
+        none = np.zeros(0, np.int64)
+        field = Field(
+            frep.join(*primitives),
+            np.concatenate([[0], np.cumsum(np.concatenate([none, *counts]))]).astype(np.int64),
+            np.concatenate([none, *near]),
+            spec.fillet,
+        )
+        whole = Surface(
+            np.concatenate([piece.vertices for piece in raw]),
+            np.concatenate([piece.triangles + k for piece, k in zip(raw, first[:-1], strict=True)]),
+            place,
+            np.full(place.shape, -1, np.int64),
+            field,
+            spec.edge,
+            0.5 * spec.cell_size / spec.steps,
+        )
+        return _Batch(used, raw, solid, whole)
+
+    def piece_of(self, vertices: Ints) -> Ints:
+        """Which of the octants each of the raw surface's vertices belongs to."""
+        end = np.cumsum([len(piece.vertices) for piece in self.raw])
+        return np.searchsorted(end, vertices, side="right")
+
+    def split(self, refined: Surface, origin: Ints) -> dict[OctantKey, Octant]:
+        """The refined surface cut into the octants again."""
+        first = np.cumsum([0] + [len(piece.vertices) for piece in self.raw])
+        # Vertices stay in order, and so the pieces stay runs of vertices.
+        begin = np.searchsorted(origin, first)
+        owner = np.searchsorted(begin, refined.triangles[:, 0], side="right") - 1
+        order = np.argsort(owner, kind="stable")
+        cuts = np.searchsorted(owner[order], np.arange(len(self.raw) + 1))
+        result = {}
+        for k, (key, piece) in enumerate(zip(self.keys, self.raw, strict=True)):
+            part = slice(begin[k], begin[k + 1])
+            source = origin[part] - first[k]
+            entity = piece.place[source].astype(np.int64) @ np.array([9, 3, 1])
+            vertices = refined.vertices[part]
+            triangles = refined.triangles[order[cuts[k] : cuts[k + 1]]] - begin[k]
+            result[key] = Octant(
+                vertices,
+                triangles.astype(np.int32),
+                entity.astype(np.int8),
+                _ranks(entity, piece.order[source]),
+                self.solid_corners[k],
+            )
+        return result
+
+
+def _near(points: Floats, primitives: Primitives, reach: float) -> tuple[Ints, Ints]:
+    """For every point how many and which primitives are up to `reach` beyond the nearest."""
+    counts, index = [], []
+    chunk = max(1, 1_000_000 // max(len(primitives), 1))
+    for k in range(0, len(points), chunk):
+        distance = frep.distances(points[k : k + chunk, None], primitives)
+        is_near = distance <= distance.min(axis=1, keepdims=True).clip(min=0.0) + reach
+        counts.append(is_near.sum(axis=1))
+        index.append(np.nonzero(is_near)[1])
+    return np.concatenate(counts), np.concatenate(index)
+
+
+def _ranks(entity: Ints, order: Ints) -> NDArray[np.int32]:
+    """Number of every vertex within its entity, by `order`."""
+    sequence = np.lexsort((order, entity))
+    count = np.bincount(entity, minlength=27)
+    start = np.cumsum(count) - count
+    rank = np.empty(len(entity), np.int32)
+    rank[sequence] = np.arange(len(entity)) - start[entity[sequence]]
+    return rank

@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Parts for the tests, modelled from their own equations, each with its exact inside test."""
+
+from __future__ import annotations
+
+import manifold3d
+import numpy as np
+import trimesh
+
+from volfrep.mesh import TriangleMesh
+
+
+def _mesh(solid: manifold3d.Manifold) -> TriangleMesh:
+    data = solid.to_mesh64()
+    return TriangleMesh(
+        np.array(data.vert_properties[:, :3], np.float64), np.array(data.tri_verts, np.int32)
+    )
+
+
+def box(size=(40.0, 30.0, 20.0), corner=(0.0, 0.0, 0.0)) -> TriangleMesh:
+    return _mesh(manifold3d.Manifold.cube(size).translate(corner))
+
+
+def sphere(radius=20.0, subdivisions=4) -> TriangleMesh:
+    ball = trimesh.creation.icosphere(subdivisions, radius)
+    return TriangleMesh(np.array(ball.vertices, np.float64), np.array(ball.faces, np.int32))
+
+
+#: Centres of the plate's through-holes, and their radius.
+HOLES = ((15.0, 15.0), (45.0, 15.0), (30.0, 30.0))
+HOLE_RADIUS = 5.0
+
+
+def plate(sides=256) -> TriangleMesh:
+    """A plate of 60 x 40 x 12 with three through-holes."""
+    hole = manifold3d.Manifold.cylinder(20.0, HOLE_RADIUS, HOLE_RADIUS, sides)
+    solid = manifold3d.Manifold.cube((60.0, 40.0, 12.0))
+    for x, y in HOLES:
+        solid -= hole.translate((x, y, -4.0))
+    return _mesh(solid)
+
+
+def inside_plate(points, margin=0.02):
+    """Inside by more than the margin (the holes are polygons, not circles)."""
+    inside = ((points > margin) & (points < np.array([60.0, 40.0, 12.0]) - margin)).all(axis=1)
+    for centre in HOLES:
+        inside &= np.linalg.norm(points[:, :2] - centre, axis=1) > HOLE_RADIUS + margin
+    return inside
+
+
+def bracket(turn=0.0) -> TriangleMesh:
+    """An L of two arms 50 long, 10 thick, 30 wide, turned about the x axis by some degrees."""
+    return _mesh(_bracket().rotate((turn, 0.0, 0.0)))
+
+
+def _bracket() -> manifold3d.Manifold:
+    outline = [(0.0, 0.0), (50.0, 0.0), (50.0, 10.0), (10.0, 10.0), (10.0, 50.0), (0.0, 50.0)]
+    return manifold3d.CrossSection([np.array(outline)]).extrude(30.0)
+
+
+def inside_bracket(points, turn=0.0):
+    angle = np.deg2rad(-turn)
+    x, y, z = points.T
+    y, z = np.cos(angle) * y - np.sin(angle) * z, np.sin(angle) * y + np.cos(angle) * z
+    arms = ((x < 50.0) & (y < 10.0)) | ((x < 10.0) & (y < 50.0))
+    return arms & (x > 0.0) & (y > 0.0) & (z > 0.0) & (z < 30.0)
+
+
+def naca2412(chord=1000.0, span=1000.0, points=200) -> TriangleMesh:
+    """The NACA 2412 wing: chord along x, thickness along y, span along z."""
+    share = (1.0 - np.cos(np.linspace(0.0, np.pi, points))) / 2.0
+    m, p, t = 0.02, 0.4, 0.12
+    half = 5.0 * t * (
+        0.2969 * np.sqrt(share) - 0.1260 * share - 0.3516 * share**2
+        + 0.2843 * share**3 - 0.1015 * share**4
+    )  # fmt: skip
+    front = share < p
+    camber = np.where(
+        front,
+        m / p**2 * (2 * p * share - share**2),
+        m / (1 - p) ** 2 * (1 - 2 * p + 2 * p * share - share**2),
+    )
+    slope = np.where(front, 2 * m / p**2 * (p - share), 2 * m / (1 - p) ** 2 * (p - share))
+    angle = np.arctan(slope)
+    upper = np.stack([share - half * np.sin(angle), camber + half * np.cos(angle)], axis=1)
+    lower = np.stack([share + half * np.sin(angle), camber - half * np.cos(angle)], axis=1)
+    outline = chord * np.concatenate([upper[::-1], lower[1:]])
+    return _mesh(
+        manifold3d.CrossSection([outline[::-1]], manifold3d.FillRule.NonZero).extrude(span)
+    )

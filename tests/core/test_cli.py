@@ -1,0 +1,319 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The command: its interface, its one sentence for any bad input, its exit codes."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import trimesh
+
+from volfrep import cli
+from volfrep.cells import LIBRARY
+from volfrep.export.stl import as_read, write_stl
+from volfrep.mesh import TriangleMesh, concatenate
+from volfrep.quality import measure
+from volfrep.solid import read_triangles
+
+COMMAND = [sys.executable, "-m", "volfrep"]
+
+LATTICE = ["--cell", "Box", "--cell-size", "10", "--strut-radius", "1"]
+
+
+def cube(side: float = 30.0) -> TriangleMesh:
+    shape = trimesh.creation.box((side, side, side))
+    return TriangleMesh(np.array(shape.vertices), np.array(shape.faces).astype(np.int32))
+
+
+@pytest.fixture
+def part(tmp_path: Path) -> Path:
+    path = tmp_path / "part.stl"
+    write_stl(cube(), path)
+    return path
+
+
+def refused(capsys: pytest.CaptureFixture[str], *arguments: object) -> str:
+    """The sentence with which the command refuses."""
+    assert cli.run([str(argument) for argument in arguments]) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert err.startswith("volfrep: ")
+    assert err.endswith(".\n")
+    assert err.count("\n") == 1
+    return err
+
+
+# --- without any work ---------------------------------------------------------------------------
+
+
+def test_help_and_version_start_at_once() -> None:
+    for option, expected in (("--help", "fill"), ("--version", "volfrep 0.")):
+        start = time.perf_counter()
+        done = subprocess.run([*COMMAND, option], capture_output=True, text=True, check=True)
+        assert time.perf_counter() - start < 1.0  # 0.05 s on an idle machine
+        assert expected in done.stdout
+
+
+def test_help_imports_no_numpy() -> None:
+    code = (
+        "import sys\nfrom volfrep import cli\n"
+        "try:\n    cli.run(['fill', '--help'])\nexcept SystemExit:\n    pass\n"
+        "sys.exit('numpy' in sys.modules)"
+    )
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True).returncode == 0
+
+
+def test_cells(capsys: pytest.CaptureFixture[str]) -> None:
+    assert cli.run(["cells"]) == 0
+    rows = [line.split() for line in capsys.readouterr().out.splitlines()]
+    assert rows[0] == ["name", "nodes", "struts", "Maxwell", "deformation"]
+    assert rows[1:] == [
+        [
+            cell.name,
+            str(len(cell.nodes)),
+            str(len(cell.struts)),
+            str(cell.maxwell_number),
+            cell.deformation_mode,
+        ]
+        for cell in LIBRARY.values()
+    ]
+
+
+def test_a_reader_that_stops_early_is_no_error() -> None:
+    done = subprocess.run(
+        f"(sleep 0.5; {' '.join(COMMAND)} cells) | true",
+        shell=True,
+        executable="/bin/bash",
+        capture_output=True,
+        text=True,
+    )
+    assert done.stderr == ""
+
+
+# --- bad input ----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ([], "required: COMMAND"),
+        (["melt"], "invalid choice: 'melt'"),
+        (["fill"], "required: PART, -o, --cell"),
+        (["block", "-o", "x.stl", *LATTICE], "required: --count"),
+        (["block", "-o", "x.stl", *LATTICE, "--count", "1", "2"], "expected 3 arguments"),
+        (
+            ["block", "-o", "x.stl", *LATTICE, "--count", "1", "2", "2.5"],
+            "invalid int value: '2.5'",
+        ),
+        (["block", "-o", "x.stl", *LATTICE, "--count", "1", "2", "3", "--foo"], "--foo"),
+        (["block", "--cell-size", "ten"], "invalid float value: 'ten'"),
+        (["cells", "--all"], "Unrecognized arguments: --all"),
+        (["check"], "required: FILE"),
+    ],
+)
+def test_arguments_that_make_no_sense(
+    capsys: pytest.CaptureFixture[str], arguments: list[str], message: str
+) -> None:
+    assert message in refused(capsys, *arguments)
+
+
+def test_resolution_or_deviation(capsys: pytest.CaptureFixture[str]) -> None:
+    both = ["--resolution", "20", "--deviation", "0.1"]
+    assert "not allowed with" in refused(capsys, "block", "-o", "x.stl", *LATTICE, *both)
+
+
+@pytest.mark.parametrize(
+    ("changed", "message"),
+    [
+        (["--cell", "Gyroid"], "no unit cell named 'Gyroid'"),
+        (["--cell-size", "nan"], "cell size must be a finite number"),
+        (["--cell-size", "-1e1"], "cell size must be above 0 mm, not -10"),
+        (["--strut-radius", "7"], "too thick for a cell"),
+        (["--shell", "-1"], "shell thickness must not be negative"),
+        (["--activation", "near"], "There is no activation 'near'"),
+        (["--output", "skin"], "There is no output 'skin'"),
+        (["--origin", "0", "0", "inf"], "origin must be a finite number"),
+        (["--resolution", "1"], "resolution must be a whole number"),
+        (["--deviation", "0"], "deviation must be above 0"),
+        (["--fillet", "9"], "fillet of 9 mm is too large"),
+        (["--density", "0"], "density must be above 0"),
+    ],
+)
+def test_values_that_make_no_sense(
+    capsys: pytest.CaptureFixture[str],
+    tmp_path: Path,
+    part: Path,
+    changed: list[str],
+    message: str,
+) -> None:
+    arguments = ["fill", part, "-o", tmp_path / "out.stl", *LATTICE, "--shell", "2", *changed]
+    assert message in refused(capsys, *arguments)
+    assert not (tmp_path / "out.stl").exists()
+
+
+def test_places_that_cannot_be_written(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, part: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fill_to(out: object, *more: object) -> str:
+        return refused(capsys, "fill", part, "-o", out, *LATTICE, "--shell", "2", *more)
+
+    assert "'.xyz' is not a known mesh format" in fill_to(tmp_path / "out.xyz")
+    assert "name without an extension" in fill_to(tmp_path / "out")
+    assert "there is no folder" in fill_to(tmp_path / "none" / "out.stl")
+    assert "is not a file" in fill_to(tmp_path)
+    assert "is the part itself" in fill_to(part)
+    good = tmp_path / "out.stl"
+    assert "there is no folder" in fill_to(good, "--report", tmp_path / "none" / "r.json")
+    assert "cannot both be written" in fill_to(good, "--report", good)
+    # As a user without the right to write there (root has every right).
+    monkeypatch.setattr(os, "access", lambda path, mode: False)
+    assert "permission denied" in fill_to(good)
+
+
+def test_a_file_to_check_must_be_readable(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    assert "No such file" in refused(capsys, "check", tmp_path / "missing.stl")
+    assert "not a kind of file" in refused(capsys, "check", tmp_path / "part.txt")
+    (tmp_path / "empty.stl").touch()
+    assert "is empty" in refused(capsys, "check", tmp_path / "empty.stl")
+    (tmp_path / "folder.stl").mkdir()
+    assert "Is a directory" in refused(capsys, "check", tmp_path / "folder.stl")
+
+
+@pytest.mark.parametrize(
+    ("argument", "expected"),
+    [
+        ("-1", "-1"),
+        ("-1.5", "-1.500000000000000"),
+        ("-1e3", "-1000.000000000000000"),
+        ("-.5E-1", "-0.050000000000000"),
+        ("-5.", "-5.000000000000000"),
+        ("-o", "-o"),
+        ("-e5", "-e5"),
+        ("1e3", "1e3"),
+        ("-1-2", "-1-2"),
+    ],
+)
+def test_negative_numbers_are_numbers(argument: str, expected: str) -> None:
+    assert cli._plain_number(argument) == expected
+
+
+# --- check --------------------------------------------------------------------------------------
+
+
+def checked(capsys: pytest.CaptureFixture[str], path: Path) -> dict[str, str]:
+    assert cli.run(["check", str(path)]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    return {line[:16].strip(): line[16:].strip() for line in lines}
+
+
+def test_check_of_a_good_file(capsys: pytest.CaptureFixture[str], part: Path) -> None:
+    said = checked(capsys, part)
+    assert said["triangles"] == "12"
+    assert (said["closed"], said["manifold"], said["bodies"]) == ("yes", "yes", "1")
+    assert said["volume"] == "27,000.000 mm3"
+    assert said["box"] == "30.000 x 30.000 x 30.000 mm"
+    assert said["smallest angle"] == "45.00 degrees"
+
+
+def test_check_of_broken_surfaces(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    path = tmp_path / "odd.stl"
+    write_stl(TriangleMesh(cube().vertices, cube().triangles[1:]), path)
+    said = checked(capsys, path)
+    assert (said["closed"], said["manifold"]) == ("no (3 open edges)", "no")
+    assert "genus" not in said
+
+    moved = TriangleMesh(cube().vertices + 30.0, cube().triangles)
+    write_stl(concatenate(cube(), moved), path)
+    said = checked(capsys, path)
+    assert said["closed"] == "yes"
+    assert said["manifold"] == "no (1 vertices where surfaces touch)"
+
+    beside = TriangleMesh(cube().vertices + np.array([30.0, 30.0, 0.0]), cube().triangles)
+    write_stl(concatenate(cube(), beside), path)
+    assert "1 edges of more than two triangles" in checked(capsys, path)["manifold"]
+
+
+# --- the work -----------------------------------------------------------------------------------
+
+
+def test_block(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    out, report = tmp_path / "block.stl", tmp_path / "block.json"
+    arguments = ["block", "-o", out, *LATTICE, "--count", "2", "1", "3", "--report", report]
+    assert cli.run([str(argument) for argument in arguments]) == 0
+    said = capsys.readouterr()
+    assert "cells" in said.out
+    assert said.err == ""
+    figures = json.loads(report.read_text())
+    assert figures["cells_total"] == figures["cells_active"] == 6
+    assert (figures["nodes"], figures["struts"]) == (24, 46)
+    assert figures["genus"] == 46 - 24 + 1
+    assert {"write"} < figures["stages"].keys()
+    quality = measure(as_read(read_triangles(out)))
+    assert quality.watertight
+    assert (quality.bodies, quality.genus) == (1, 23)
+    assert quality.triangles == figures["triangles"]
+    assert quality.volume == pytest.approx(figures["volume_mm3"], rel=1e-5)
+
+
+def test_fill(capsys: pytest.CaptureFixture[str], tmp_path: Path, part: Path) -> None:
+    out, report = tmp_path / "out.stl", tmp_path / "out.json"
+    arguments = ["fill", part, "-o", out, *LATTICE, "--shell", "2", "--report", report, "--quiet"]
+    arguments += ["--density", "2.7", "--origin", "-1e0", "0", "0"]
+    assert cli.run([str(argument) for argument in arguments]) == 0
+    assert capsys.readouterr().out == ""
+    figures = json.loads(report.read_text())
+    expected = {
+        "cells_total", "cells_active", "nodes", "struts", "triangles", "bodies", "genus",
+        "volume_mm3", "relative_density", "mass_g", "watertight", "stages", "peak_memory_mb",
+    }  # fmt: skip
+    assert expected <= figures.keys()
+    assert {"read", "write"} < figures["stages"].keys()
+    assert figures["mass_g"] == pytest.approx(figures["volume_mm3"] * 2.7e-3)
+    assert figures["spec"]["origin"] == [-1, 0, 0]
+    quality = measure(as_read(read_triangles(out)))
+    assert (quality.watertight, quality.bodies) == (True, 1)
+    assert quality.bounds == pytest.approx(np.array([[-15.0] * 3, [15.0] * 3]))
+
+
+def test_a_part_that_cannot_be_read(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    for name, content in (("missing.stl", None), ("empty.stl", b""), ("text.stl", b"hello\n" * 99)):
+        path = tmp_path / name
+        if content is not None:
+            path.write_bytes(content)
+        out = tmp_path / "out.stl"
+        assert name in refused(capsys, "fill", path, "-o", out, *LATTICE, "--shell", "2")
+
+
+def test_not_enough_memory(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def greedy(*_: Any, **__: Any) -> None:
+        raise MemoryError
+
+    monkeypatch.setattr("volfrep.pipeline.block", greedy)
+    arguments = ["block", "-o", tmp_path / "x.stl", *LATTICE, "--count", "1", "1", "1"]
+    assert "not enough memory" in refused(capsys, *arguments)
+
+
+def test_ctrl_c_leaves_nothing(tmp_path: Path) -> None:
+    (tmp_path / "block.stl").write_bytes(b"old")
+    arguments = ["block", "-o", "block.stl", "--cell", "CVC", "--cell-size", "10"]
+    arguments += ["--strut-radius", "1", "--count", "20", "20", "20"]
+    running = subprocess.Popen([*COMMAND, *arguments], cwd=tmp_path, stderr=subprocess.PIPE)
+    time.sleep(1.5)
+    running.send_signal(signal.SIGINT)
+    start = time.perf_counter()
+    _, said = running.communicate(timeout=60)
+    assert time.perf_counter() - start < 5.0
+    assert running.returncode == 130
+    assert said == b"volfrep: Interrupted, no file was left half-written.\n"
+    assert os.listdir(tmp_path) == ["block.stl"]
+    assert (tmp_path / "block.stl").read_bytes() == b"old"

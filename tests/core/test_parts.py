@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Real parts, read where they lie; skipped where they are not at hand."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from volfrep import LatticeSpec, StageCache, fill, quality, read_solid
+from volfrep.cells import LIBRARY
+from volfrep.export.stl import as_read
+
+PARTS = Path(__file__).resolve().parents[3] / "shared" / "parts"
+needs_parts = pytest.mark.skipif(not PARTS.is_dir(), reason="the folder of real parts is not here")
+
+#: Cell size, strut radius, shell for each part, in the part's own unit.
+SETTINGS = {
+    "axom_naca0012.stl": (0.08, 0.008, 0.02),
+    "comodo_bracket_01.stl": (8.0, 0.8, 2.0),
+    "conrod_slevin48.stl": (0.3, 0.03, 0.06),
+    "fw_ExpansionCard_SelfTapping.stl": (1.5, 0.12, 0.3),
+    "ge_bracket.stl": (10.0, 1.0, 3.0),
+    "numpystl_rear_case.stl": (3.0, 0.3, 1.0),
+    "odri_electronics_box_base.STL": (6.0, 0.5, 1.5),
+    "odri_lower_leg_v2.STL": (4.0, 0.4, 1.0),
+    "piston_rod.stl": (2.0, 0.2, 1.0),
+    "trimesh_angle_block.STL": (0.2, 0.02, 0.05),
+}
+#: Thin skins on large parts: half a minute each.
+SLOW = {"fw_ExpansionCard_SelfTapping.stl", "numpystl_rear_case.stl"}
+STEP = {
+    "nist_ctc_01_asme1_rd.stp", "nist_ctc_02_asme1_rc.stp", "nist_ctc_03_asme1_rc.stp",
+    "nist_ftc_06_asme1_rd.stp", "nist_ftc_10_asme1_rb.stp", "ge_bracket.step", "piston_rod.step",
+    "trimesh_featuretype.STEP",
+}  # fmt: skip
+
+_caches: dict[str, StageCache] = {}
+
+
+def check(name, spec):
+    result = fill(read_solid(PARTS / name), spec, cache=_caches.setdefault(name, StageCache()))
+    read = quality.measure(as_read(result.mesh))
+    assert read.watertight
+    assert read.degenerate_triangles == 0
+    assert (read.bodies, read.voids, read.genus) == (
+        result.report.bodies,
+        result.report.voids,
+        result.report.genus,
+    )
+    return result
+
+
+@needs_parts
+def test_every_part_of_the_folder_has_settings():
+    found = {path.name for path in PARTS.iterdir() if path.suffix.lower() != ".md"}
+    assert found == SETTINGS.keys() | STEP
+
+
+@needs_parts
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(n, marks=pytest.mark.slow if n in SLOW else ()) for n in SETTINGS],
+)
+def test_a_real_part_becomes_one_body(name):
+    size, radius, shell = SETTINGS[name]
+    result = check(name, LatticeSpec(cell="CVC", cell_size=size, strut_radius=radius, shell=shell))
+    assert result.report.bodies == 1
+    assert np.isfinite(result.mesh.vertices).all()
+
+
+@needs_parts
+@pytest.mark.parametrize("cell", LIBRARY)
+def test_every_cell_fills_the_bracket(cell):
+    spec = LatticeSpec(cell=cell, cell_size=10, strut_radius=1, shell=3)
+    result = check("ge_bracket.stl", spec)
+    assert result.report.bodies == 1
+    assert result.report.grid == (18, 7, 11)

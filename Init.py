@@ -1,0 +1,6 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Run by FreeCAD at its start, with or without windows.
+
+FreeCAD has by then put the add-on's folder on the module path, so that ``from freecad_volfrep
+import make_lattice_infill`` works. Nothing else is needed, and nothing that costs time is done.
+"""

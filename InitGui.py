@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Run by FreeCAD at the start of its windows: tells it about the workbench.
+
+FreeCAD executes this file inside a function, so its names are not visible inside the methods
+below, which import what they need, when they need it.
+"""
+
+import FreeCADGui as Gui
+
+
+class VolfrepWorkbench(Gui.Workbench):
+    """The VOLFREP workbench: fill a solid with a strut lattice."""
+
+    def __init__(self):
+        from freecad_volfrep import ICONS
+
+        self.__class__.MenuText = "VOLFREP"
+        self.__class__.ToolTip = "Fill a solid with a strut lattice, ready for the printer"
+        self.__class__.Icon = str(ICONS / "volfrep.svg")
+
+    def Initialize(self):  # noqa: N802
+        """Called by FreeCAD when the workbench is first activated."""
+        import FreeCAD as App
+
+        from freecad_volfrep.deps import explain_missing, missing_packages
+        from freecad_volfrep.gui.commands import register_commands
+
+        names = register_commands()
+        self.appendToolbar("VOLFREP", names)
+        self.appendMenu("&VOLFREP", names)
+        missing = missing_packages()
+        if missing:
+            App.Console.PrintError(explain_missing(missing) + "\n")
+
+    def ContextMenu(self, recipient):  # noqa: N802
+        """Offer the commands in the context menu of the view and the tree."""
+        from freecad_volfrep.gui.commands import COMMANDS
+
+        self.appendContextMenu("VOLFREP", list(COMMANDS))
+
+    def GetClassName(self):  # noqa: N802
+        """Tell FreeCAD that this is a workbench written in Python."""
+        return "Gui::PythonWorkbench"
+
+
+Gui.addWorkbench(VolfrepWorkbench())

@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The VOLFREP workbench: everything that knows FreeCAD.
+
+Importing this package costs nothing: the engine (`volfrep`, in the folder ``core`` beside this
+one) and its packages are imported by the first thing that computes.
+"""
+
+from __future__ import annotations
+
+import sys
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+#: The add-on's folder: what FreeCAD puts on the module path.
+ROOT = Path(__file__).resolve().parent.parent
+ICONS = Path(__file__).resolve().parent / "resources" / "icons"
+
+_CORE = str(ROOT / "core")
+if _CORE not in sys.path:
+    # In front, so that the workbench runs the engine it was shipped with; the folder holds
+    # nothing but the package `volfrep`.
+    sys.path.insert(0, _CORE)
+
+_EXPORTS = {
+    "make_lattice_infill": "freecad_volfrep.features.factory",
+    "make_solid": "freecad_volfrep.features.faceted_solid",
+    "export_mesh": "freecad_volfrep.features.export",
+}
+__all__ = ["ICONS", "ROOT", "export_mesh", "make_lattice_infill", "make_solid"]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _EXPORTS:
+        raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
+    return getattr(import_module(_EXPORTS[name]), name)

@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""From what a user picks (a solid, a Body, an App::Part, a Link, a mesh) to a triangle mesh."""
+
+from __future__ import annotations
+
+import FreeCAD as App
+import numpy as np
+import Part
+
+from volfrep.errors import VolfrepError
+from volfrep.mesh import TriangleMesh, concatenate
+
+from .meshes import from_freecad
+
+#: Largest distance between a facet and the shape: this part of the diagonal of the shape's box...
+RELATIVE_DEVIATION = 1.0 / 4000.0
+#: ...but no more than this, in mm; and the largest angle between neighbours on a curve, radians.
+MAX_DEVIATION = 0.1
+ANGULAR_DEVIATION = 0.2
+
+
+def resolve_base(obj: App.DocumentObject) -> App.DocumentObject:
+    """What to fill when `obj` was picked: the Body for a feature inside one, else `obj`."""
+    parent = obj.getParentGeoFeatureGroup()
+    if parent is not None and parent.TypeId == "PartDesign::Body":
+        return parent
+    return obj
+
+
+def is_fillable(obj: App.DocumentObject) -> bool:
+    """Whether the object holds a solid or a mesh; quick enough to be asked at every click."""
+    target = _linked(resolve_base(obj))
+    if target is None:
+        return False
+    if target.isDerivedFrom("Mesh::Feature"):
+        return bool(target.Mesh.CountFacets)
+    if target.TypeId == "App::Part":
+        return any(is_fillable(member) for member in target.Group)
+    if target.isDerivedFrom("Part::Feature"):
+        return not target.Shape.isNull() and bool(target.Shape.Solids)
+    return False
+
+
+def parent_placement(obj: App.DocumentObject) -> App.Placement:
+    """Placement of the coordinate system that `obj.Placement` refers to: its App::Part's."""
+    parent = obj.getParentGeoFeatureGroup()
+    return App.Placement() if parent is None else parent.getGlobalPlacement()
+
+
+class SolidReader:
+    """Reads a base object and remembers the last shape's mesh, for as long as it is the same."""
+
+    def __init__(self) -> None:
+        self._shape: Part.Shape | None = None
+        self._mesh: TriangleMesh | None = None
+
+    def read(self, base: App.DocumentObject, frame: App.Placement) -> TriangleMesh:
+        """The base's solid as a mesh, in mm, in the coordinates of `frame`.
+
+        Solids that overlap are fused. The mesh is as FreeCAD made it: not checked.
+
+        Raises:
+            VolfrepError: the base has no solid.
+        """
+        base = resolve_base(base)
+        parent = parent_placement(base)
+        to_frame = frame.inverse().multiply(parent)
+        meshes = _mesh_objects(base)
+        if meshes:
+            mesh = concatenate(*(_placed(from_freecad(m), p) for m, p in meshes))
+            return _placed(mesh, to_frame)
+        shape = Part.getShape(base)
+        if shape.isNull():
+            raise VolfrepError(
+                f"'{base.Label}' has no shape yet: recompute or repair it, or choose another Base."
+            )
+        known = self._shape is not None and self._shape.isPartner(shape)
+        if not known or self._mesh is None:
+            self._mesh = mesh_of_shape(_unplaced(shape), base.Label)
+            self._shape = shape
+        return _placed(self._mesh, to_frame.multiply(shape.Placement))
+
+
+def mesh_of_shape(shape: Part.Shape, label: str) -> TriangleMesh:
+    """The solids of a shape as one mesh; `label` names the object in error messages.
+
+    Raises:
+        VolfrepError: the shape has no solid, or it cannot be meshed.
+    """
+    import MeshPart
+
+    solids = shape.Solids
+    if not solids:
+        raise VolfrepError(
+            f"'{label}' is a {shape.ShapeType.lower()} without a solid: choose a solid, or close "
+            "it and convert it to one (Part > Convert to solid)."
+        )
+    if _boxes_overlap(solids):
+        solids = solids[0].multiFuse(solids[1:]).Solids
+        if not solids:
+            raise VolfrepError(f"The solids of '{label}' cannot be fused: fuse them yourself.")
+    # A copy has no facets of its own: those made for the display would be used again, and the
+    # result would depend on what was shown.
+    body = Part.Compound(solids).copy()
+    deviation = min(body.BoundBox.DiagonalLength * RELATIVE_DEVIATION, MAX_DEVIATION)
+    mesh = MeshPart.meshFromShape(
+        Shape=body, LinearDeflection=deviation, AngularDeflection=ANGULAR_DEVIATION, Relative=False
+    )
+    if not mesh.CountFacets:
+        raise VolfrepError(f"'{label}' cannot be meshed: check its geometry (Part > Check).")
+    return from_freecad(mesh)
+
+
+def _linked(obj: App.DocumentObject) -> App.DocumentObject | None:
+    """What a link, or a link to a link, stands for; any other object itself."""
+    target: App.DocumentObject | None = obj.getLinkedObject(True)
+    return target
+
+
+def _mesh_objects(base: App.DocumentObject) -> list[tuple[object, App.Placement]]:
+    """The meshes of a mesh object, of a link to one, or of an App::Part that holds no shape.
+
+    Each comes with a placement that takes it to the coordinates `base.Placement` refers to.
+    """
+    target = _linked(base)
+    if target is None:
+        raise VolfrepError(f"The link '{base.Label}' leads nowhere: choose another Base.")
+    if target.isDerivedFrom("Mesh::Feature"):
+        own = target.Placement.inverse()  # the mesh already lies where its object does
+        place = base.getSubObject("", retType=3)
+        return [(target.Mesh, place.multiply(own))]
+    if target.TypeId == "App::Part" and Part.getShape(base).isNull():
+        place = base.getSubObject("", retType=3)
+        return [(mesh, place.multiply(p)) for o in target.Group for mesh, p in _mesh_objects(o)]
+    return []
+
+
+def _unplaced(shape: Part.Shape) -> Part.Shape:
+    """The shape in its own coordinates; shares its geometry with the original."""
+    bare = Part.Shape(shape)
+    bare.Placement = App.Placement()
+    return bare
+
+
+def _placed(mesh: TriangleMesh, placement: App.Placement) -> TriangleMesh:
+    if placement.isIdentity():
+        return mesh
+    matrix = np.array(placement.toMatrix().A).reshape(4, 4)
+    vertices = mesh.vertices @ matrix[:3, :3].T + matrix[:3, 3]
+    return TriangleMesh(vertices, mesh.triangles)
+
+
+def _boxes_overlap(solids: list[Part.Shape]) -> bool:
+    """Whether any two solids' boxes touch, so that the solids may."""
+    boxes = np.array(
+        [
+            [b.XMin, b.YMin, b.ZMin, b.XMax, b.YMax, b.ZMax]
+            for b in (solid.BoundBox for solid in solids)
+        ]
+    )
+    low, high = boxes[:, None, :3], boxes[:, None, 3:]
+    apart = ((low > high.swapaxes(0, 1)) | (high < low.swapaxes(0, 1))).any(axis=2)
+    return bool((~apart).sum() > len(solids))
+
+
+def mesh_in_document(obj: App.DocumentObject) -> TriangleMesh:
+    """The mesh of a mesh object in the document's coordinates, its App::Part's place included."""
+    return _placed(from_freecad(obj.Mesh), parent_placement(obj))

@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The Python packages of the engine: which are missing, and how to get them for this FreeCAD."""
+
+from __future__ import annotations
+
+import importlib.metadata
+import importlib.util
+import os
+import shlex
+import sys
+from pathlib import Path
+
+import FreeCAD as App
+
+from .compat import package_folder
+
+#: Name to import by, name to install by.
+PACKAGES = {
+    "numpy": "numpy",
+    "scipy": "scipy",
+    "skimage": "scikit-image",
+    "trimesh": "trimesh",
+    "manifold3d": "manifold3d",
+}
+#: FreeCAD and its other add-ons use these too: their version must stay what it is.
+SHARED = ("numpy", "scipy")
+
+
+def missing_packages() -> list[str]:
+    """Names to install by of the packages that this FreeCAD cannot import."""
+    return [
+        package
+        for module, package in PACKAGES.items()
+        if module not in sys.modules and importlib.util.find_spec(module) is None
+    ]
+
+
+def python_executable() -> str:
+    """The Python interpreter that belongs to this FreeCAD (`sys.executable` is FreeCAD itself)."""
+    home = Path(App.getHomePath())
+    if os.name == "nt":
+        candidates = [home / "bin" / "python.exe"]
+    else:
+        name = f"python{sys.version_info.major}.{sys.version_info.minor}"
+        prefixes = [Path(sys.prefix), Path(sys.base_prefix), home, home / "usr"]
+        candidates = [prefix / "bin" / name for prefix in prefixes]
+    for candidate in candidates:
+        if candidate.is_file():
+            return str(candidate)
+    return candidates[0].name
+
+
+def install_command(packages: list[str]) -> str:
+    """The command, for a shell, that installs the packages where this FreeCAD finds them."""
+    pins = [f"{name}=={importlib.metadata.version(name)}" for name in SHARED if _installed(name)]
+    wanted = [name for name in packages if not _installed(name)]
+    target = str(package_folder())
+    arguments = [python_executable(), "-m", "pip", "install", "--target", target, *wanted, *pins]
+    if os.name == "nt":
+        return " ".join(f'"{part}"' if " " in part else part for part in arguments)
+    return shlex.join(arguments)
+
+
+def explain_missing(packages: list[str]) -> str:
+    """One sentence for the user: what is missing and the command that installs it."""
+    return (
+        f"VOLFREP needs the Python packages {', '.join(packages)}: install them for this FreeCAD "
+        f"with the command  {install_command(packages)}  and restart FreeCAD."
+    )
+
+
+def _installed(name: str) -> bool:
+    try:
+        importlib.metadata.version(name)
+    except importlib.metadata.PackageNotFoundError:
+        return False
+    return True

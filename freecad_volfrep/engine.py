@@ -1,0 +1,21 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The door to the engine: called before anything of it that computes is imported."""
+
+from __future__ import annotations
+
+from volfrep.errors import VolfrepError
+
+from .compat import repair_lazy_loader
+from .deps import explain_missing, missing_packages
+
+
+def require_engine() -> None:
+    """Make sure that the engine can be imported.
+
+    Raises:
+        VolfrepError: Python packages are missing; the text says which command installs them.
+    """
+    missing = missing_packages()
+    if missing:
+        raise VolfrepError(explain_missing(missing))
+    repair_lazy_loader()

@@ -1,0 +1,9 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The document objects: their proxies, and the factories that commands and scripts share.
+
+Saved files name the proxies' classes by this package: keep the names below importable from here.
+"""
+
+from .lattice_infill import LatticeInfill
+
+__all__ = ["LatticeInfill"]

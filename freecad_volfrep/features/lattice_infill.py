@@ -1,0 +1,212 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The lattice infill: a mesh object that follows its base and its properties."""
+
+from __future__ import annotations
+
+import hashlib
+from typing import TYPE_CHECKING, Any
+
+import FreeCAD as App
+
+from freecad_volfrep.engine import require_engine
+
+from .progress import progress_of
+from .properties import CUSTOM_CELL, PROPERTIES, ensure_properties
+
+if TYPE_CHECKING:
+    from volfrep import LatticeSpec
+    from volfrep.mesh import TriangleMesh
+    from volfrep.pipeline import Result
+
+UP_TO_DATE = "Up to date"
+OUT_OF_DATE = "Out of date: AutoUpdate is off, use Update Lattice Infill"
+FAILED = "Failed: see the report view"
+CANCELLED = (
+    "Cancelled: the mesh is that of the last finished update; recompute to try again, or switch "
+    "AutoUpdate off."
+)
+
+
+class LatticeInfill:
+    """Proxy of a ``Mesh::FeaturePython`` that fills its Base with a lattice.
+
+    What is kept between two runs (the base's mesh and the stages' results) lives here and is
+    not saved; everything that is saved is a property.
+    """
+
+    def __init__(self, obj: App.DocumentObject) -> None:
+        self._forget()
+        obj.Proxy = self
+        ensure_properties(obj)
+
+    def execute(self, obj: App.DocumentObject) -> None:
+        """Bring the mesh up to date; called by FreeCAD's recompute.
+
+        Raises:
+            VolfrepError: one sentence; the object turns Invalid and its last mesh stays.
+        """
+        from volfrep.errors import Cancelled, VolfrepError
+
+        forced, self._forced = self._forced, False
+        self.was_cancelled = False
+        obj.Status = FAILED  # what stays if something fails that is not the input's fault
+        try:
+            self._run(obj, forced)
+        except VolfrepError as error:
+            message = str(error)
+        except Cancelled:
+            message = CANCELLED
+            self.was_cancelled = True
+        except MemoryError:
+            message = "Not enough memory: choose larger cells or a coarser deviation."
+        else:
+            return
+        obj.Status = message
+        App.Console.PrintError(f"VOLFREP, {obj.Label}: {message}\n")
+        raise VolfrepError(message)
+
+    def update(self, obj: App.DocumentObject) -> bool:
+        """Compute now, AutoUpdate or not; returns whether the object is valid afterwards."""
+        self._forced = True
+        obj.touch()
+        obj.Document.recompute()
+        self._forced = False  # where a failing base kept the object from being executed
+        return bool(obj.isValid())
+
+    def onDocumentRestored(self, obj: App.DocumentObject) -> None:  # noqa: N802
+        """Bring an object of an older file up to the present table of properties."""
+        ensure_properties(obj)
+
+    def dumps(self) -> None:
+        """Nothing to save beside the properties."""
+
+    def loads(self, state: Any) -> None:
+        """Start with empty hands after a file was opened."""
+        self._forget()
+
+    __getstate__ = dumps  # FreeCAD 0.20
+    __setstate__ = loads
+
+    def _forget(self) -> None:
+        self._forced = False
+        self._reader: Any = None
+        self._cache: Any = None
+        self.was_cancelled = False
+
+    def _run(self, obj: App.DocumentObject, forced: bool) -> None:
+        from volfrep.errors import VolfrepError
+
+        require_engine()
+        from freecad_volfrep.bridge.meshes import to_freecad
+        from freecad_volfrep.bridge.solids import SolidReader, parent_placement
+        from volfrep.pipeline import StageCache, fill
+        from volfrep.solid import check_solid
+
+        spec = spec_of(obj)
+        if obj.Base is None:
+            raise VolfrepError("There is no solid to fill: choose one as Base.")
+        self._reader = self._reader or SolidReader()
+        self._cache = self._cache or StageCache()
+        solid = self._reader.read(obj.Base, parent_placement(obj))
+        fingerprint = fingerprint_of(spec, solid)
+        if obj.Fingerprint == fingerprint and obj.Mesh.CountFacets == obj.Triangles:
+            obj.Mass = obj.Volume.Value * spec.density / 1000.0
+            obj.Status = UP_TO_DATE
+            return
+        if not obj.AutoUpdate and not forced:
+            obj.Status = OUT_OF_DATE
+            return
+        solid = check_solid(solid, obj.Base.Label)
+        with progress_of(f"Filling {obj.Base.Label}") as progress:
+            result = fill(solid, spec, progress=progress, cache=self._cache)
+        mesh = to_freecad(result.mesh)
+        placement = obj.Placement
+        obj.Mesh = mesh
+        obj.Placement = placement  # assigning a mesh also assigns the mesh's placement
+        _write_results(obj, result)
+        obj.Fingerprint = fingerprint
+        obj.Status = UP_TO_DATE
+
+
+# Saved files find the class under this name, wherever the file it is written in moves to.
+LatticeInfill.__module__ = "freecad_volfrep.features"
+
+
+def spec_of(obj: App.DocumentObject) -> LatticeSpec:
+    """The specification that the object's properties stand for.
+
+    Raises:
+        VolfrepError: naming the first property that makes no sense.
+    """
+    from volfrep.errors import VolfrepError
+    from volfrep.spec import LatticeSpec
+
+    cell = obj.CellType
+    if cell == CUSTOM_CELL:
+        cell = obj.CellFile
+        if not cell.lower().endswith(".json"):
+            raise VolfrepError(
+                "The cell type Custom needs a cell: choose its .json file as CellFile."
+            )
+    return LatticeSpec(
+        cell=cell,
+        cell_size=obj.CellSize.Value,
+        strut_radius=obj.StrutRadius.Value,
+        shell=obj.ShellThickness.Value,
+        resolution=None if obj.Resolution == 0 else obj.Resolution,
+        deviation=None if obj.Deviation.Value == 0 else obj.Deviation.Value,
+        activation=obj.Activation,
+        output=obj.Output,
+        fillet=obj.JointFillet.Value,
+        origin=tuple(obj.Origin) if obj.UseOrigin else None,
+        density=obj.Density,
+    )
+
+
+def fingerprint_of(spec: LatticeSpec, solid: TriangleMesh) -> str:
+    """A digest of all that a result's geometry depends on (so not of the density)."""
+    import numpy as np
+
+    digest = hashlib.sha256()
+    values = spec.as_dict()
+    values.pop("density")
+    digest.update(repr(sorted(values.items())).encode())
+    cell = spec.unit_cell()
+    digest.update(np.ascontiguousarray(cell.nodes, np.float64).tobytes())
+    digest.update(np.ascontiguousarray(cell.struts, np.int64).tobytes())
+    # To a thousandth of a micrometre, so that the rounding of a placement that is undone, or of
+    # a file that was saved and opened, does not count as a change; plus zero turns -0 to 0.
+    digest.update((np.round(solid.vertices, 6) + 0.0).tobytes())
+    digest.update(np.ascontiguousarray(solid.triangles, np.int32).tobytes())
+    return digest.hexdigest()
+
+
+def _write_results(obj: App.DocumentObject, result: Result) -> None:
+    report = result.report
+    values = {
+        "CellsTotal": report.cells_total,
+        "CellsActive": report.cells_active,
+        "Nodes": report.nodes,
+        "Struts": report.struts,
+        "Triangles": report.triangles,
+        "Bodies": report.bodies,
+        "Genus": report.genus,
+        "Volume": report.volume_mm3,
+        "RelativeDensity": report.relative_density,
+        "Mass": report.mass_g,
+        "PiecesRemoved": report.pieces_removed,
+        "Watertight": report.watertight,
+        "Seconds": sum(report.stages.values()),
+        "Report": report.to_json(),
+        "Warnings": list(report.warnings),
+    }
+    results = {prop.name for prop in PROPERTIES if prop.group == "Result"} - {"Status"}
+    assert values.keys() == results, "the table of properties and the report have drifted apart"
+    for name, value in values.items():
+        setattr(obj, name, value)
+    for sentence in report.warnings:
+        App.Console.PrintWarning(f"VOLFREP, {obj.Label}: {sentence}\n")
+    App.Console.PrintMessage(
+        f"VOLFREP, {obj.Label}: {report.cells_active} of {report.cells_total} cells, "
+        f"{report.triangles} triangles, {report.mass_g:.4g} g in {obj.Seconds:.1f} s\n"
+    )

@@ -1,0 +1,170 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The properties of a lattice infill, as one table for making new objects and migrating old."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import FreeCAD as App
+
+#: Raised with every change that an older file's objects must be brought up to.
+SCHEMA_VERSION = 1
+
+#: The entry of `CellType` that stands for a cell of the user's own, read from `CellFile`.
+CUSTOM_CELL = "Custom"
+
+# Flags of addProperty: Output says that a change does not ask for a recompute.
+_READ_ONLY, _HIDDEN, _OUTPUT = 1, 4, 8
+
+
+@dataclass(frozen=True)
+class Property:
+    """One property: FreeCAD's type, name, group, description, first value, and its flags."""
+
+    type: str
+    name: str
+    group: str
+    description: str
+    default: Any = None
+    flags: int = 0
+
+
+def _result(type_name: str, name: str, description: str) -> Property:
+    return Property(type_name, name, "Result", description, flags=_READ_ONLY | _OUTPUT)
+
+
+def _internal(type_name: str, name: str, description: str, default: Any) -> Property:
+    return Property(type_name, name, "Internal", description, default, _HIDDEN | _OUTPUT)
+
+
+PROPERTIES = (
+    Property(
+        "App::PropertyLinkGlobal",
+        "Base",
+        "Solid",
+        "The solid to fill: a solid, a Body, a Part, a link to one of these, or a closed mesh",
+    ),
+    Property(
+        "App::PropertyLength",
+        "ShellThickness",
+        "Solid",
+        "Thickness of the closed skin; 0 for none: the lattice is cut at the outer surface",
+        2.0,
+    ),
+    Property("App::PropertyEnumeration", "CellType", "Lattice", "The unit cell", "CVC"),
+    Property(
+        "App::PropertyFile",
+        "CellFile",
+        "Lattice",
+        "The .json file of your own unit cell (nodes and struts), for the cell type Custom",
+    ),
+    Property(
+        "App::PropertyLength", "CellSize", "Lattice", "L: edge length of the cubic cell", 10.0
+    ),
+    Property("App::PropertyLength", "StrutRadius", "Lattice", "r: radius of the struts", 1.0),
+    Property(
+        "App::PropertyLength",
+        "JointFillet",
+        "Lattice",
+        "Radius of the round between struts where they meet; 0 for none",
+        0.0,
+    ),
+    Property(
+        "App::PropertyBool",
+        "UseOrigin",
+        "Lattice",
+        "Put a corner of a cell at Origin; otherwise the cells start at the corner of the solid",
+        False,
+    ),
+    Property(
+        "App::PropertyVectorDistance",
+        "Origin",
+        "Lattice",
+        "Where a cell has a corner, if UseOrigin is set",
+    ),
+    Property(
+        "App::PropertyEnumeration",
+        "Activation",
+        "Lattice",
+        "Which cells hold a lattice: those that touch the inside, or whose centre lies inside",
+        "touching",
+    ),
+    Property(
+        "App::PropertyInteger",
+        "Resolution",
+        "Mesh",
+        "Facets along the edge of a cell; 0 to choose it by Deviation",
+        0,
+    ),
+    Property(
+        "App::PropertyLength",
+        "Deviation",
+        "Mesh",
+        "Largest distance between a facet and the exact strut; 0 for a fortieth of the radius",
+        0.0,
+    ),
+    Property(
+        "App::PropertyEnumeration",
+        "Output",
+        "Mesh",
+        "part: skin and lattice; lattice: without the skin; domain: what the lattice fills",
+        "part",
+    ),
+    Property(
+        "App::PropertyBool",
+        "AutoUpdate",
+        "Mesh",
+        "Compute at every change; switch it off for large jobs and use Update Lattice Infill",
+        True,
+    ),
+    Property("App::PropertyFloat", "Density", "Material", "Density of the material in g/cm3", 1.0),
+    _result("App::PropertyString", "Status", "Whether the mesh fits the properties, or why not"),
+    _result("App::PropertyStringList", "Warnings", "What to know about this result"),
+    _result("App::PropertyInteger", "CellsTotal", "Cells in the grid"),
+    _result("App::PropertyInteger", "CellsActive", "Cells that hold a lattice"),
+    _result("App::PropertyInteger", "Nodes", "Nodes of the lattice before trimming"),
+    _result("App::PropertyInteger", "Struts", "Struts of the lattice before trimming"),
+    _result("App::PropertyInteger", "Triangles", "Triangles of the mesh"),
+    _result("App::PropertyInteger", "Bodies", "Separate pieces of material"),
+    _result("App::PropertyInteger", "Genus", "Through-holes of the mesh"),
+    _result("App::PropertyVolume", "Volume", "Volume of material"),
+    _result("App::PropertyFloat", "RelativeDensity", "Volume of the lattice over what it fills"),
+    _result("App::PropertyFloat", "Mass", "Mass in g at the given density"),
+    _result("App::PropertyInteger", "PiecesRemoved", "Loose fragments that were dropped"),
+    _result("App::PropertyBool", "Watertight", "Every edge is shared by exactly two triangles"),
+    _result("App::PropertyFloat", "Seconds", "Computing time of the last update"),
+    _result("App::PropertyString", "Report", "All figures of the last update, as JSON"),
+    _internal("App::PropertyString", "Fingerprint", "Of all that the mesh was made from", ""),
+    _internal("App::PropertyInteger", "SchemaVersion", "Of this table", SCHEMA_VERSION),
+)
+
+#: What a user sets, by name.
+INPUTS = tuple(prop.name for prop in PROPERTIES if not prop.flags)
+
+
+def ensure_properties(obj: App.DocumentObject) -> None:
+    """Give `obj` every property of the table that it lacks; safe to call again at any time."""
+    from volfrep.cells import LIBRARY
+    from volfrep.spec import ACTIVATIONS, OUTPUTS
+
+    choices = {
+        "CellType": [*LIBRARY, CUSTOM_CELL],
+        "Activation": list(ACTIVATIONS),
+        "Output": list(OUTPUTS),
+    }
+    for prop in PROPERTIES:
+        if prop.name in obj.PropertiesList:
+            continue
+        obj.addProperty(prop.type, prop.name, prop.group, prop.description, prop.flags)
+        if prop.name in choices:
+            setattr(obj, prop.name, choices[prop.name])
+        if prop.default is not None:
+            setattr(obj, prop.name, prop.default)
+    for name, values in choices.items():  # a cell may have been added since the file was saved
+        chosen = getattr(obj, name)
+        if obj.getEnumerationsOfProperty(name) != values and chosen in values:
+            setattr(obj, name, values)
+            setattr(obj, name, chosen)
+    if obj.SchemaVersion != SCHEMA_VERSION:
+        obj.SchemaVersion = SCHEMA_VERSION

@@ -1,0 +1,226 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The workbench's commands: thin, the work is in `features`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import FreeCAD as App
+import FreeCADGui as Gui
+
+from freecad_volfrep import ICONS
+from freecad_volfrep.deps import explain_missing, missing_packages
+
+from .messages import ask, errors_shown, show_error
+from .qt import QtWidgets
+
+
+def _resources(icon: str, text: str, tip: str) -> dict[str, str]:
+    return {"Pixmap": str(ICONS / icon), "MenuText": text, "ToolTip": tip}
+
+
+def _packages_present() -> bool:
+    """Whether the engine can run; says what to install where it cannot."""
+    missing = missing_packages()
+    if missing:
+        App.Console.PrintError(explain_missing(missing) + "\n")
+        show_error(explain_missing(missing))
+    return not missing
+
+
+class LatticeInfillCommand:
+    """Fill each selected solid with a lattice, in one undo step."""
+
+    def GetResources(self) -> dict[str, str]:  # noqa: N802
+        """Icon and texts."""
+        return _resources(
+            "lattice_infill.svg",
+            "Lattice Infill",
+            "Make the selected solid light: a closed skin and a strut lattice inside",
+        )
+
+    def IsActive(self) -> bool:  # noqa: N802
+        """Active when a usable solid is selected."""
+        if missing_packages():
+            return bool(Gui.Selection.getSelection())  # so that a click says what to install
+        from .selection import selected_solids
+
+        return bool(selected_solids())
+
+    def Activated(self) -> None:  # noqa: N802
+        """Make the objects and compute them; nothing remains of a cancelled job."""
+        if not _packages_present():
+            return
+        from .selection import selected_solids
+
+        doc = App.ActiveDocument
+        bases = selected_solids()
+        doc.openTransaction("Lattice Infill")
+        try:
+            kept = fill_selected(doc, bases)
+        except BaseException:
+            doc.abortTransaction()
+            raise
+        if not kept:
+            doc.abortTransaction()
+            return
+        doc.commitTransaction()
+
+
+def fill_selected(doc: App.Document, bases: list[App.DocumentObject]) -> bool:
+    """Fill every base with sizes that suit it and show the results; False if cancelled.
+
+    An infill that cannot be computed stays, marked, so that its sizes can be corrected.
+    """
+    from freecad_volfrep.bridge.solids import SolidReader, parent_placement
+    from freecad_volfrep.features.factory import make_lattice_infill, suggested_sizes
+
+    failures = []
+    with errors_shown():
+        for base in bases:
+            low, high = SolidReader().read(base, parent_placement(base)).bounds
+            obj = make_lattice_infill(doc, base, **suggested_sizes(tuple(high - low)))
+            doc.recompute()
+            if obj.Proxy.was_cancelled:
+                return False
+            if obj.isValid():
+                base.Visibility = False
+                Gui.Selection.clearSelection()
+                Gui.Selection.addSelection(obj)
+            else:
+                failures.append(f"{obj.Label}: {obj.getStatusString()}")
+        if failures:
+            show_error("\n".join(failures))
+        return True
+    return False
+
+
+class UpdateCommand:
+    """Compute the selected lattice infill now, AutoUpdate or not."""
+
+    def GetResources(self) -> dict[str, str]:  # noqa: N802
+        """Icon and texts."""
+        return _resources(
+            "update.svg",
+            "Update Lattice Infill",
+            "Compute the selected lattice infill now, also with AutoUpdate off",
+        )
+
+    def IsActive(self) -> bool:  # noqa: N802
+        """Active when one lattice infill is selected."""
+        from .selection import selected_infill
+
+        return selected_infill() is not None
+
+    def Activated(self) -> None:  # noqa: N802
+        """Update, in one undo step."""
+        if not _packages_present():
+            return
+        from .selection import selected_infill
+
+        obj = selected_infill()
+        doc = obj.Document
+        doc.openTransaction("Update Lattice Infill")
+        obj.Proxy.update(obj)
+        doc.commitTransaction()
+
+
+class ExportCommand:
+    """Write the selected mesh to a file."""
+
+    def GetResources(self) -> dict[str, str]:  # noqa: N802
+        """Icon and texts."""
+        return _resources(
+            "export.svg", "Export Lattice", "Write the selected lattice infill to an STL file"
+        )
+
+    def IsActive(self) -> bool:  # noqa: N802
+        """Active when one mesh object is selected."""
+        from .selection import selected_mesh
+
+        return selected_mesh() is not None
+
+    def Activated(self) -> None:  # noqa: N802
+        """Ask for the file's name and write it."""
+        if not _packages_present():
+            return
+        from freecad_volfrep.features.export import export_mesh
+        from volfrep.export import MESH_WRITERS
+
+        from .selection import selected_mesh
+
+        obj = selected_mesh()
+        folder = Path(obj.Document.FileName).parent if obj.Document.FileName else Path.home()
+        formats = ";;".join(f"{suffix[1:].upper()} (*{suffix})" for suffix in MESH_WRITERS)
+        path, chosen = QtWidgets.QFileDialog.getSaveFileName(
+            Gui.getMainWindow(), "Export Lattice", str(folder / f"{obj.Label}.stl"), formats
+        )
+        if not path:
+            return
+        if not Path(path).suffix:
+            path += f".{chosen.split()[0].lower()}"
+        with errors_shown():
+            export_mesh(obj, path)
+            App.Console.PrintMessage(f"VOLFREP: {path} written\n")
+
+
+class ToSolidCommand:
+    """Make a Part solid of the selected mesh, after showing what it costs."""
+
+    def GetResources(self) -> dict[str, str]:  # noqa: N802
+        """Icon and texts."""
+        return _resources(
+            "to_solid.svg",
+            "Lattice To Solid",
+            "Make a Part solid with a plane face for every triangle: for STEP and solid tools",
+        )
+
+    def IsActive(self) -> bool:  # noqa: N802
+        """Active when one mesh object is selected."""
+        from .selection import selected_mesh
+
+        return selected_mesh() is not None
+
+    def Activated(self) -> None:  # noqa: N802
+        """Predict, ask, make."""
+        if not _packages_present():
+            return
+        from freecad_volfrep.features.faceted_solid import (
+            DEFAULT_LIMIT,
+            make_solid,
+            predict_solid,
+        )
+
+        from .selection import selected_mesh
+
+        obj = selected_mesh()
+        doc = obj.Document
+        prediction = predict_solid(obj)
+        if prediction.triangles <= DEFAULT_LIMIT and not ask(
+            f"The solid of '{obj.Label}' will have {prediction}. Make it?"
+        ):
+            return
+        doc.openTransaction("Lattice To Solid")
+        try:
+            with errors_shown():
+                make_solid(doc, obj)
+                obj.Visibility = False
+        finally:
+            doc.commitTransaction()
+        doc.recompute()
+
+
+#: In the order of the toolbar.
+COMMANDS = {
+    "VOLFREP_LatticeInfill": LatticeInfillCommand,
+    "VOLFREP_Update": UpdateCommand,
+    "VOLFREP_Export": ExportCommand,
+    "VOLFREP_ToSolid": ToSolidCommand,
+}
+
+
+def register_commands() -> list[str]:
+    """Make the commands known to FreeCAD; returns their names in the order of the toolbar."""
+    for name, command in COMMANDS.items():
+        Gui.addCommand(name, command())
+    return list(COMMANDS)

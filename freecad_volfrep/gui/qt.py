@@ -1,0 +1,12 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Qt, the way that works with PySide2 in FreeCAD 0.20 and with PySide6 in 1.1.
+
+FreeCAD's own PySide module stands for either, and its QtGui has the widgets too; asking it for
+QtWidgets fails on 0.20.
+"""
+
+from PySide import QtCore, QtGui
+
+QtWidgets = QtGui
+
+__all__ = ["QtCore", "QtGui", "QtWidgets"]

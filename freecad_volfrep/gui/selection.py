@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What is selected, as the commands need it."""
+
+from __future__ import annotations
+
+import FreeCAD as App
+import FreeCADGui as Gui
+
+
+def selected_solids() -> list[App.DocumentObject]:
+    """The selected objects, each once, if every one of them can be filled; else none."""
+    from freecad_volfrep.bridge.solids import is_fillable, resolve_base
+
+    selected = [resolve_base(obj) for obj in Gui.Selection.getSelection()]
+    if not all(is_fillable(obj) for obj in selected):
+        return []
+    return list(dict.fromkeys(selected))
+
+
+def selected_mesh() -> App.DocumentObject | None:
+    """The selected mesh object, if it is the only selection and not empty."""
+    selected = Gui.Selection.getSelection()
+    if len(selected) != 1 or not selected[0].isDerivedFrom("Mesh::Feature"):
+        return None
+    return selected[0] if selected[0].Mesh.CountFacets else None
+
+
+def selected_infill() -> App.DocumentObject | None:
+    """The selected lattice infill, if it is the only selection."""
+    from freecad_volfrep.features import LatticeInfill
+
+    selected = Gui.Selection.getSelection()
+    if len(selected) != 1 or not isinstance(getattr(selected[0], "Proxy", None), LatticeInfill):
+        return None
+    return selected[0]

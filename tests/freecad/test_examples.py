@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The example parts: valid solids of the stated sizes that follow their spreadsheets."""
+
+import FreeCAD as App
+import MeshPart
+import pytest
+
+from freecad_volfrep.examples import make_bracket, make_piston_rod
+
+EXAMPLES = {
+    "bracket": (make_bracket, "BracketSizes", (178.5, 62.5, 108.3)),
+    "piston_rod": (make_piston_rod, "PistonRodSizes", (121.0, 28.0, 11.6)),
+}
+
+
+@pytest.fixture(params=EXAMPLES)
+def example(request):
+    make, sheet_name, box = EXAMPLES[request.param]
+    doc = App.newDocument(request.param)
+    yield make(doc), doc.getObject(sheet_name), box
+    App.closeDocument(doc.Name)
+
+
+def box_of(shape):
+    shape = shape.copy()
+    shape.tessellate(0.01)
+    box = shape.BoundBox
+    return (box.XLength, box.YLength, box.ZLength)
+
+
+def test_is_one_valid_solid_of_the_stated_size(example):
+    part, _, box = example
+    assert [obj.Name for obj in part.Document.Objects if not obj.isValid()] == []
+    assert part.Shape.isValid()
+    assert len(part.Shape.Solids) == 1
+    assert part.Shape.Solids[0].isClosed()
+    assert box_of(part.Shape) == pytest.approx(box, abs=0.02)
+    assert 0.2 < part.Shape.Volume / (box[0] * box[1] * box[2]) < 0.6
+
+
+def test_tessellates_to_a_closed_mesh(example):
+    part, _, _ = example
+    for deflection in (0.2, 0.05):
+        mesh = MeshPart.meshFromShape(
+            Shape=part.Shape.copy(), LinearDeflection=deflection, AngularDeflection=0.3
+        )
+        assert mesh.isSolid()
+        assert mesh.Volume == pytest.approx(part.Shape.Volume, rel=0.01)
+
+
+def test_follows_its_spreadsheet(example):
+    part, sheet, box = example
+    sheet.set("length", f"{box[0] + 10} mm")
+    part.Document.recompute()
+    assert [obj.Name for obj in part.Document.Objects if not obj.isValid()] == []
+    assert part.Shape.isValid()
+    assert len(part.Shape.Solids) == 1
+    assert box_of(part.Shape) == pytest.approx((box[0] + 10, box[1], box[2]), abs=0.02)

@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What FreeCAD and the Addon Manager find in this folder."""
+
+import ast
+import os
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+import FreeCAD as App
+import pytest
+import tomllib
+
+import freecad_volfrep
+from freecad_volfrep import compat, deps
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+@pytest.fixture(scope="module")
+def metadata():
+    return App.Metadata(str(ROOT / "package.xml"))
+
+
+def test_package_xml_says_what_the_addon_manager_needs(metadata):
+    assert metadata.Name == "VOLFREP"
+    assert metadata.Description
+    oldest = getattr(metadata, "FreeCADMin", None)
+    assert str(oldest).startswith("0.20")
+    assert metadata.License[0]["name"] == "LGPL-2.1-or-later"
+    assert (ROOT / metadata.License[0]["file"]).is_file()
+    assert (ROOT / metadata.Icon).is_file()
+    assert metadata.supportsCurrentFreeCAD()
+    workbench = metadata.Content["workbench"][0]
+    assert (ROOT / workbench.Icon).is_file()
+    assert f"class {workbench.Classname}(" in (ROOT / "InitGui.py").read_text(encoding="utf-8")
+
+
+def test_package_xml_agrees_with_the_engine(metadata):
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    assert metadata.Version == project["version"]
+    wanted = {requirement.split(">")[0] for requirement in project["dependencies"]}
+    # FreeCAD 0.20 knows no kinds of dependency.
+    listed = {d["package"] for d in metadata.Depend if d.get("type", "python") == "python"}
+    assert listed == wanted == set(deps.PACKAGES.values())
+
+
+def test_icons_are_drawings():
+    from xml.etree import ElementTree
+
+    icons = sorted(freecad_volfrep.ICONS.glob("*.svg"))
+    assert len(icons) >= 5
+    for icon in icons:
+        assert ElementTree.parse(icon).getroot().get("viewBox") == "0 0 64 64"
+
+
+def test_the_start_of_freecad_imports_nothing_heavy():
+    """Init.py and the import of the package must not cost every start of FreeCAD time."""
+    code = (
+        f"import sys; sys.path.insert(0, {str(ROOT)!r}); exec(open('Init.py').read());"
+        "import freecad_volfrep; heavy = {'numpy', 'scipy', 'skimage', 'trimesh', 'volfrep'};"
+        "sys.exit(str(heavy & set(sys.modules)) if heavy & set(sys.modules) else 0)"
+    )
+    python = deps.python_executable()
+    done = subprocess.run([python, "-c", code], cwd=ROOT, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+
+
+def test_the_engine_is_the_one_beside_the_workbench():
+    import volfrep.errors
+
+    assert Path(volfrep.errors.__file__).is_relative_to(ROOT / "core")
+
+
+def test_scikit_image_imports_inside_freecad():
+    compat.repair_lazy_loader()
+    import skimage.measure
+
+    assert skimage.measure.marching_cubes
+    import lazy_loader.lazy_loader  # FreeCAD's own, which its CAM workbench needs
+
+    assert lazy_loader.lazy_loader.LazyLoader
+
+
+def test_version_is_numbers():
+    assert (0, 20) <= compat.version() < (100, 0)
+
+
+def test_packages_go_where_freecad_looks(monkeypatch):
+    home = Path(App.getUserAppDataDir())
+    monkeypatch.setattr(compat, "version", lambda: (0, 20))
+    assert compat.package_folder() == home / "AdditionalPythonPackages"
+    for newer in ((1, 0), (1, 1), (26, 3)):
+        monkeypatch.setattr(compat, "version", lambda newer=newer: newer)
+        name = f"py3{sys.version_info.minor}"
+        assert compat.package_folder() == home / "AdditionalPythonPackages" / name
+
+
+def test_nothing_is_missing_here():
+    assert deps.missing_packages() == []
+
+
+def test_the_command_is_for_this_python(monkeypatch):
+    find = deps.importlib.util.find_spec
+    hidden = {"manifold3d", "trimesh"}
+    for name in hidden:
+        monkeypatch.delitem(sys.modules, name, raising=False)
+    monkeypatch.setattr(
+        deps.importlib.util, "find_spec", lambda name: None if name in hidden else find(name)
+    )
+    missing = deps.missing_packages()
+    assert missing == ["trimesh", "manifold3d"]
+    monkeypatch.setattr(deps, "_installed", lambda name: name not in missing)
+    words = shlex.split(deps.install_command(missing))
+    python = words[0]
+    version = subprocess.check_output([python, "-c", "import sys; print(sys.version)"], text=True)
+    assert version.strip() == sys.version
+    assert words[1:5] == ["-m", "pip", "install", "--target"]
+    assert words[5] == str(compat.package_folder())
+    assert {"trimesh", "manifold3d"} <= set(words)
+    import numpy
+
+    assert f"numpy=={numpy.__version__}" in words
+    sentence = deps.explain_missing(missing)
+    assert "trimesh, manifold3d" in sentence
+    assert deps.install_command(missing) in sentence
+
+
+def test_the_workbench_loads_without_the_packages(tmp_path):
+    """In a FreeCAD whose profile has no packages: import, make an object, read what it says."""
+    (tmp_path / "Mod").mkdir()
+    (tmp_path / "Mod" / "VOLFREP").symlink_to(ROOT)
+    script = tmp_path / "script.py"
+    script.write_text(
+        "import os, sys, FreeCAD as App\n"
+        "from freecad_volfrep import make_lattice_infill\n"
+        "from freecad_volfrep.deps import missing_packages\n"
+        "doc = App.newDocument('A')\n"
+        "box = doc.addObject('Part::Box', 'B')\n"
+        "obj = make_lattice_infill(doc, box)\n"
+        "doc.recompute()\n"
+        "print('MISSING', missing_packages())\n"
+        "print('STATUS', obj.isValid(), obj.getStatusString())\n"
+        "sys.stdout.flush()\n"
+        "os._exit(0)\n"
+    )
+    environment = dict(os.environ, FREECAD_USER_HOME=str(tmp_path), PYTHONPATH="")
+    done = subprocess.run(
+        [sys.executable, str(script)], env=environment, capture_output=True, text=True, timeout=120
+    )
+    lines = {line.split(" ", 1)[0]: line for line in done.stdout.splitlines()}
+    assert "STATUS" in lines, done.stdout + done.stderr
+    if lines["MISSING"] == "MISSING []":
+        pytest.skip("this FreeCAD has the engine's packages installed system-wide")
+    assert lines["STATUS"].startswith("STATUS False VOLFREP needs the Python packages")
+    assert f"--target {tmp_path}" in lines["STATUS"]
+
+
+def test_nothing_without_windows_imports_the_gui_at_its_top():
+    for path in (ROOT / "freecad_volfrep").rglob("*.py"):
+        if "gui" in path.relative_to(ROOT).parts:
+            continue
+        for node in ast.parse(path.read_text(encoding="utf-8")).body:
+            names = [alias.name for alias in getattr(node, "names", [])]
+            module = getattr(node, "module", "") or ""
+            assert not any("FreeCADGui" in name or "PySide" in name for name in [*names, module])
+            assert ".gui" not in module

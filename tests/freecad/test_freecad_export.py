@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""From the object to files and to a Part solid."""
+
+import FreeCAD as App
+import Mesh
+import numpy as np
+import Part
+import pytest
+from conftest import SMALL
+
+from freecad_volfrep import export_mesh, make_lattice_infill, make_solid
+from freecad_volfrep.bridge.faceted import faceted_solid
+from freecad_volfrep.bridge.meshes import from_freecad, to_freecad
+from freecad_volfrep.features.faceted_solid import export_step, predict_solid
+from volfrep.errors import VolfrepError
+from volfrep.mesh import TriangleMesh, concatenate
+
+
+def cube(size, centre=(0, 0, 0)):
+    mesh = from_freecad(Mesh.createBox(size, size, size))
+    return TriangleMesh(mesh.vertices + np.array(centre, float), mesh.triangles)
+
+
+def test_meshes_pass_both_ways_unchanged():
+    mesh = from_freecad(Mesh.createSphere(10, 60))
+    again = from_freecad(to_freecad(mesh))
+    assert np.array_equal(mesh.vertices, again.vertices)
+    assert np.array_equal(mesh.triangles, again.triangles)
+    assert to_freecad(mesh).isSolid()
+
+
+def test_an_empty_mesh_passes():
+    empty = TriangleMesh(np.zeros((0, 3)), np.zeros((0, 3), np.int32))
+    assert to_freecad(empty).CountFacets == 0
+    with pytest.raises(VolfrepError, match="empty"):
+        from_freecad(Mesh.Mesh())
+
+
+@pytest.mark.parametrize("way", ["File > Export", "command"])
+def test_stl(infill, tmp_path, way):
+    path = tmp_path / "part.stl"
+    if way == "command":
+        export_mesh(infill, path)
+    else:
+        Mesh.export([infill], str(path))
+    read = Mesh.Mesh(str(path))
+    assert read.CountFacets == infill.Triangles
+    assert read.isSolid()
+    assert not read.hasNonManifolds()
+    assert read.Volume == pytest.approx(infill.Volume.Value, rel=1e-4)
+
+
+def test_export_lies_on_the_base_whatever_part_it_is_in(doc, infill, tmp_path):
+    part = doc.addObject("App::Part", "Holder")
+    part.addObject(infill)
+    part.Placement.Base = App.Vector(0, 0, 100)
+    infill.Placement.Base = App.Vector(7, 0, 0)
+    doc.recompute()
+    export_mesh(infill, tmp_path / "part.stl")
+    box = Mesh.Mesh(str(tmp_path / "part.stl")).BoundBox
+    assert (box.XMin, box.ZMin) == pytest.approx((7, 0), abs=1e-3)
+
+
+def test_export_refuses(doc, box, infill, tmp_path):
+    with pytest.raises(VolfrepError, match="no mesh"):
+        export_mesh(box, tmp_path / "part.stl")
+    with pytest.raises(VolfrepError, match="format"):
+        export_mesh(infill, tmp_path / "part.xyz")
+    with pytest.raises(VolfrepError, match="nowhere"):
+        export_mesh(infill, tmp_path / "nowhere" / "part.stl")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_solid_and_step(doc, box, tmp_path):
+    box.Length = box.Width = box.Height = 12
+    infill = make_lattice_infill(doc, box, **{**SMALL, "CellType": "Box", "Resolution": 6})
+    doc.recompute()
+    assert infill.isValid(), infill.getStatusString()
+    prediction = predict_solid(infill)
+    assert prediction.triangles == infill.Triangles
+    assert "plane faces" in str(prediction)
+    solid = make_solid(doc, infill)
+    doc.recompute()
+    assert solid.isValid()
+    assert solid.TypeId == "Part::Feature"
+    assert solid.Shape.ShapeType == "Solid"
+    assert solid.Shape.isValid()
+    assert solid.Shape.isClosed()
+    assert len(solid.Shape.Faces) == infill.Triangles
+    assert solid.Shape.Volume == pytest.approx(infill.Volume.Value, rel=1e-4)
+    path = tmp_path / "part.step"
+    export_step(solid, path)
+    assert path.stat().st_size / 1e6 == pytest.approx(prediction.step_mb, rel=0.3)
+    assert [file.name for file in tmp_path.iterdir()] == ["part.step"]
+    read = Part.Shape()
+    read.read(str(path))
+    assert len(read.Solids) == 1
+    assert read.isValid()
+    assert read.Volume == pytest.approx(infill.Volume.Value, rel=1e-4)
+
+
+def test_the_limit_explains_itself(doc, infill):
+    count = len(doc.Objects)
+    with pytest.raises(VolfrepError, match=r"limit is 1,000 faces.*coarser deviation") as error:
+        make_solid(doc, infill, limit=1000)
+    assert f"{infill.Triangles:,} plane faces" in str(error.value)
+    assert len(doc.Objects) == count
+
+
+def test_solid_with_a_void():
+    shape = faceted_solid(concatenate(cube(10), cube(4).reversed()))
+    assert shape.ShapeType == "Solid"
+    assert shape.isValid()
+    assert len(shape.Shells) == 2
+    assert shape.Volume == pytest.approx(1000 - 64)
+
+
+def test_several_bodies():
+    shape = faceted_solid(concatenate(cube(10), cube(4, (20, 0, 0))))
+    assert len(shape.Solids) == 2
+    assert shape.isValid()
+    assert sorted(solid.Volume for solid in shape.Solids) == pytest.approx([64, 1000])
+
+
+def test_a_solid_can_be_worked_on():
+    shape = faceted_solid(cube(10))
+    cut = shape.cut(Part.makeCylinder(2, 20, App.Vector(0, 0, -10)))
+    assert cut.isValid()
+    assert cut.Volume == pytest.approx(1000 - np.pi * 4 * 10)
+
+
+def test_no_solid_of_a_bad_mesh():
+    box = cube(10)
+    with pytest.raises(VolfrepError, match="3 of its edges"):
+        faceted_solid(TriangleMesh(box.vertices, box.triangles[1:]))
+    with pytest.raises(VolfrepError, match="no volume"):
+        faceted_solid(box.reversed())
+    with pytest.raises(VolfrepError, match="separate bodies, and voids"):
+        faceted_solid(concatenate(box, cube(4).reversed(), cube(4, (20, 0, 0))))
+
+
+def test_solid_of_something_without_a_mesh(doc, box):
+    with pytest.raises(VolfrepError, match="no mesh"):
+        make_solid(doc, box)
+
+
+def test_a_large_solid_takes_seconds(doc):
+    import time
+
+    obj = doc.addObject("Mesh::Feature", "Ball")
+    obj.Mesh = Mesh.createSphere(20, 160)
+    start = time.perf_counter()
+    solid = make_solid(doc, obj)
+    assert time.perf_counter() - start < 20  # a second; FreeCAD's own sewing takes minutes
+    assert solid.Shape.Volume == pytest.approx(obj.Mesh.Volume, rel=1e-5)

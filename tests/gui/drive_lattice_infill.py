@@ -1,0 +1,320 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Drives the workbench in the real FreeCAD with real clicks and keys; see tools/run_gui.sh.
+
+Writes pictures and ``result.json`` to GUI_OUT and leaves with 0 when every check held.
+"""
+
+import json
+import os
+import subprocess
+import sys
+import time
+import traceback
+from pathlib import Path
+
+import FreeCAD as App
+import FreeCADGui as Gui
+from PySide import QtCore, QtGui
+
+OUT = Path(os.environ["GUI_OUT"])
+figures = {}
+failures = []
+
+
+def check(name, holds, detail=""):
+    """Note a check; go on to the others whatever it says."""
+    figures[name] = bool(holds)
+    if not holds:
+        failures.append(f"{name} {detail}".strip())
+
+
+def wait(milliseconds):
+    """Let Qt run, so that what xdotool sends arrives."""
+    loop = QtCore.QEventLoop()
+    QtCore.QTimer.singleShot(milliseconds, loop.quit)
+    (loop.exec if hasattr(loop, "exec") else loop.exec_)()
+
+
+def wait_until(condition, seconds):
+    """Wait for a condition; returns whether it came true."""
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        if condition():
+            return True
+        wait(50)
+    return bool(condition())
+
+
+def xdotool(*arguments):
+    """One call of the tool that sends real mouse and key events to the X server."""
+    subprocess.run(["xdotool", *map(str, arguments)], check=True)
+
+
+def click(widget):
+    """A real click in the middle of a widget."""
+    point = widget.mapToGlobal(widget.rect().center())
+    xdotool("mousemove", point.x(), point.y())
+    wait(300)
+    xdotool("click", 1)
+    wait(300)
+
+
+def picture(name):
+    """The whole screen as a file."""
+    Gui.updateGui()
+    wait(300)
+    subprocess.run(["import", "-window", "root", str(OUT / f"{name}.png")], check=True)
+
+
+def toolbar_button(name):
+    """The button of a command in the workbench's toolbar."""
+    for bar in Gui.getMainWindow().findChildren(QtGui.QToolBar):
+        if bar.windowTitle() == "VOLFREP":
+            for action in bar.actions():
+                if action.text().replace("&", "") == name:
+                    return bar.widgetForAction(action)
+    raise LookupError(f"no button {name}")
+
+
+def tree_texts():
+    """Labels of all the items of the model tree."""
+    texts = set()
+    for tree in Gui.getMainWindow().findChildren(QtGui.QTreeWidget):
+        iterator = QtGui.QTreeWidgetItemIterator(tree)
+        while iterator.value():
+            texts.add(iterator.value().text(0))
+            iterator += 1
+    return texts
+
+
+def infills(doc):
+    """The document's lattice infills."""
+    return [obj for obj in doc.Objects if obj.TypeId == "Mesh::FeaturePython"]
+
+
+def select(*objects):
+    """Select these objects only, and let the toolbar notice."""
+    Gui.Selection.clearSelection()
+    for obj in objects:
+        Gui.Selection.addSelection(obj)
+    wait(900)
+
+
+def drive():
+    """The whole session."""
+    doc = App.newDocument("Drive")
+    doc.UndoMode = 1
+    Gui.activateWorkbench("VolfrepWorkbench")
+    wait(800)
+    check("workbench", Gui.activeWorkbench().name() == "VolfrepWorkbench")
+    menus = [action.text() for action in Gui.getMainWindow().menuBar().actions()]
+    check("menu", "&VOLFREP" in menus, menus)
+
+    box = doc.addObject("Part::Box", "Block")
+    box.Length, box.Width, box.Height = 40, 30, 20
+    doc.recompute()
+    Gui.activeDocument().activeView().viewIsometric()
+    Gui.SendMsgToActiveView("ViewFit")
+    fill = toolbar_button("Lattice Infill")
+    select()
+    check("inactive without a selection", not fill.isEnabled())
+    select(box)
+    check("active with a solid selected", fill.isEnabled())
+    check("tooltip", "lattice" in fill.toolTip().lower(), fill.toolTip())
+    check("icon", not fill.icon().isNull())
+    undo_before = doc.UndoCount
+
+    click(fill)
+    check("one object appears", wait_until(lambda: len(infills(doc)) == 1, 60))
+    wait_until(lambda: infills(doc)[0].Mesh.CountFacets > 0, 60)
+    obj = infills(doc)[0]
+    check("valid", obj.isValid(), obj.getStatusString())
+    check("a closed mesh", obj.Mesh.isSolid())
+    check("in the tree", obj.Label in tree_texts(), tree_texts())
+    check("the tree shows its icon", not obj.ViewObject.Icon.isNull())
+    check("the solid is hidden", not box.ViewObject.isVisible())
+    check("the result is selected", Gui.Selection.getSelection() == [obj])
+    check("one undo step", doc.UndoCount == undo_before + 1, doc.UndoNames)
+    figures["infill"] = {n: getattr(obj, n) for n in ("CellsActive", "Triangles", "Seconds")}
+    picture("1_filled")
+
+    obj.Output = "lattice"
+    doc.recompute()
+    wait(500)
+    picture("2_lattice")
+    obj.Output = "part"
+    doc.recompute()
+    while doc.UndoCount > undo_before + 1:
+        doc.undo()
+
+    doc.undo()
+    doc.recompute()
+    wait(500)
+    check("undo removes it", infills(doc) == [])
+    check("undo shows the solid again", box.ViewObject.isVisible())
+    doc.redo()
+    doc.recompute()
+    wait(500)
+    check("redo brings it back", len(infills(doc)) == 1 and infills(doc)[0].isValid())
+    picture("3_redone")
+    obj = infills(doc)[0]
+
+    cancel_an_edit(doc, obj)
+    cancel_a_creation(doc, box, fill)
+    make_a_solid(doc, obj)
+    save_and_reopen(doc, obj)
+
+
+def press_escape_soon(pressed):
+    """Press Escape, really, once the progress window is there; `pressed` gets the time."""
+    timer = QtCore.QTimer(Gui.getMainWindow())
+    looks = []
+
+    def look():
+        dialog = QtGui.QApplication.activeModalWidget()
+        if dialog is not None and dialog.objectName() == "VolfrepProgress":
+            looks.append((int(dialog.winId()), dialog.labelText()))
+        if len(looks) == 3:  # by now it is drawn
+            subprocess.run(["import", "-window", "root", str(OUT / "4_progress.png")], check=True)
+            window, figures["progress text"] = looks[-1]
+            # Without a window manager nobody gives a new window the keyboard.
+            xdotool("windowfocus", window)
+            pressed.append(time.monotonic())
+            xdotool("key", "Escape")
+
+    timer.timeout.connect(look)
+    timer.start(100)
+    return timer
+
+
+def cancel_an_edit(doc, obj):
+    """Escape during a recompute keeps the last mesh and says so."""
+    before = obj.Mesh.CountFacets
+    seen = []
+    timer = press_escape_soon(seen)
+    obj.Deviation = 0.002
+    obj.CellSize = 2.5
+    obj.StrutRadius = 0.25
+    doc.recompute()
+    timer.stop()
+    check("a long edit shows its progress", seen)
+    if seen:
+        figures["seconds from Escape to the end"] = round(time.monotonic() - seen[0], 2)
+        check("cancel is quick", time.monotonic() - seen[0] < 2.0)
+    check("a cancelled edit is invalid", not obj.isValid())
+    check("and says so", "Cancelled" in obj.getStatusString(), obj.getStatusString())
+    check("and keeps the last mesh", obj.Mesh.CountFacets == before)
+    check("no wait cursor stays", QtGui.QApplication.overrideCursor() is None)
+    obj.Deviation = 0
+    obj.CellSize = 5
+    obj.StrutRadius = 0.5
+    doc.recompute()
+    check("corrected, it is valid", obj.isValid(), obj.getStatusString())
+
+
+def cancel_a_creation(doc, box, fill):
+    """Escape during the command leaves nothing behind."""
+    box.Visibility = True
+    big = doc.addObject("Part::Feature", "Big")
+    import Part
+
+    big.Shape = Part.makeBox(300, 300, 12).cut(Part.makeCylinder(40, 50))
+    doc.recompute()
+    select(big)
+    names = sorted(o.Name for o in doc.Objects)
+    undo_before = doc.UndoCount
+    seen = []
+    timer = press_escape_soon(seen)
+    click(fill)
+    wait_until(lambda: seen, 30)
+    wait(3000)
+    timer.stop()
+    check("a long command shows its progress", seen)
+    check("nothing remains of it", sorted(o.Name for o in doc.Objects) == names, doc.Objects)
+    check("the undo stack is as before", doc.UndoCount == undo_before, doc.UndoNames)
+    check("its solid still shows", big.ViewObject.isVisible())
+    doc.removeObject(big.Name)
+
+
+def make_a_solid(doc, obj):
+    """Lattice To Solid asks, with figures, and makes a Part solid."""
+    obj.Resolution = 5
+    obj.CellSize = 10
+    obj.StrutRadius = 1
+    doc.recompute()
+    asked = []
+
+    def answer():
+        box = QtGui.QApplication.activeModalWidget()
+        if isinstance(box, QtGui.QMessageBox):
+            asked.append(box.text())
+            subprocess.run(["import", "-window", "root", str(OUT / "5_to_solid.png")])
+            box.button(QtGui.QMessageBox.Yes).click()
+
+    select(obj)
+    QtCore.QTimer.singleShot(2500, answer)
+    click(toolbar_button("Lattice To Solid"))
+    wait_until(lambda: any(o.Name.endswith("Solid") for o in doc.Objects), 60)
+    check("it shows the predicted size first", asked and "plane faces" in asked[0], asked)
+    made = [o for o in doc.Objects if o.TypeId == "Part::Feature" and o.Name.endswith("Solid")]
+    check("it makes a solid", len(made) == 1 and made[0].Shape.ShapeType == "Solid")
+    picture("6_solid")
+    for solid in made:
+        doc.removeObject(solid.Name)
+    obj.Visibility = True
+
+
+def save_and_reopen(doc, obj):
+    """A file opened in the windows shows the lattice without computing."""
+    path = OUT / "drive.FCStd"
+    facets = obj.Mesh.CountFacets
+    doc.saveAs(str(path))
+    App.closeDocument(doc.Name)
+    again = App.openDocument(str(path))
+    wait(1500)
+    found = infills(again)
+    check("reopened", len(found) == 1 and found[0].Mesh.CountFacets == facets)
+    check("reopened without a recompute", found and found[0].State == ["Up-to-date"])
+    view = found[0].ViewObject.Proxy if found else None
+    check("reopened with its icon", view is not None and view.getIcon().endswith(".svg"))
+    picture("7_reopened")
+
+
+class UnexpectedMessages(QtCore.QObject):
+    """Closes message boxes that nobody answers within seconds, and notes what they say."""
+
+    def __init__(self):
+        super().__init__()
+        self.box = None
+        timer = QtCore.QTimer(self)
+        timer.timeout.connect(self.look)
+        timer.start(5000)
+
+    def look(self):
+        """Every five seconds: close what was there the last time too."""
+        box = QtGui.QApplication.activeModalWidget()
+        box = box if isinstance(box, QtGui.QMessageBox) else None
+        if box is not None and box is self.box:
+            failures.append(f"unexpected message: {box.text()}")
+            box.reject()
+        self.box = box
+
+
+def main():
+    """Drive, write down, leave."""
+    code = 1
+    watch = UnexpectedMessages()
+    try:
+        drive()
+        code = 1 if failures else 0
+    except Exception:
+        failures.append(traceback.format_exc())
+    watch.deleteLater()
+    figures["failures"] = failures
+    (OUT / "result.json").write_text(json.dumps(figures, indent=1), encoding="utf-8")
+    print("\n".join(failures) or "every check held")
+    sys.stdout.flush()
+    os._exit(code)
+
+
+QtCore.QTimer.singleShot(2500, main)

@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Everything from one word. `make demo` and `make test` begin with the set-up, which installs what
+# is missing on Debian 12 or 13 (as root) and takes no time when nothing is.
+
+SHELL := /bin/bash
+PYTHON := .venv/bin/python
+# FreeCAD with a profile of its own, on a virtual screen where it needs one.
+export FREECAD_USER_HOME := $(CURDIR)/.cache/fchome
+SCREEN := xvfb-run -a -s "-screen 0 1600x1200x24 -dpi 96"
+
+.NOTPARALLEL:
+.PHONY: help setup demo test test-all lint format test-core test-freecad test-gui bench clean
+
+help: ## show this list
+	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 22
+
+setup: ## install what is missing: FreeCAD, Python packages, a private FreeCAD profile
+	@tools/setup.sh
+
+demo: setup ## model a bracket, fill it, and leave files and a picture in build/demo
+	@mkdir -p build/demo
+	@freecadcmd demo/fill_bracket.py < /dev/null
+	@$(SCREEN) $(PYTHON) demo/render.py cutaway build/demo/bracket.stl \
+		build/demo/bracket_solid.stl 3 build/demo/bracket.png
+	@$(SCREEN) $(PYTHON) demo/render.py cells build/demo/cells.png
+	@ls -l build/demo
+
+test: lint test-freecad test-gui test-core ## style, types, and every test but the slow ones
+
+test-all: QUICK :=
+test-all: test ## the same with the slow tests
+
+lint: setup ## ruff and mypy
+	@.venv/bin/ruff check .
+	@.venv/bin/ruff format --check .
+	@.venv/bin/mypy
+
+format: setup ## let ruff rewrite the sources
+	@.venv/bin/ruff format .
+	@.venv/bin/ruff check --fix .
+
+QUICK := -m "not slow"
+test-core: setup ## the engine's tests on plain Python
+	@$(PYTHON) -m pytest tests/core $(QUICK)
+
+test-freecad: setup ## the workbench's tests in the real freecadcmd
+	@PYTEST_ARGS='tests/freecad $(QUICK)' freecadcmd tools/run_in_freecad.py < /dev/null
+
+test-gui: setup ## the real FreeCAD window on a virtual screen
+	@set -e; for script in tests/gui/drive_*.py; do tools/run_gui.sh "$$script" < /dev/null; done
+
+bench: setup ## the benchmarks beside their bars
+	@$(PYTHON) bench/run.py
+
+clean: ## remove what was made; the installed Debian packages stay
+	rm -rf .venv .cache build .pytest_cache .mypy_cache .ruff_cache .hypothesis core/*.egg-info
+	find . -name __pycache__ -prune -exec rm -rf {} +

@@ -1,0 +1,246 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Pictures for the README, with VTK on a virtual screen.
+
+    xvfb-run python demo/render.py cutaway PART.stl SOLID.stl SHELL PICTURE.png
+    xvfb-run python demo/render.py cells PICTURE.png
+
+The first cuts a corner out of a filled part so that its skin, its lattice and the cut faces are
+seen, each in a colour of its own; the second shows the library's unit cells with their names.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+
+import manifold3d
+import numpy as np
+import trimesh
+import vtk
+from numpy.typing import NDArray
+from PIL import Image
+from scipy.spatial import cKDTree
+from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
+
+from volfrep import LatticeSpec, block
+from volfrep.cells import LIBRARY
+from volfrep.mesh import TriangleMesh
+
+Colour = tuple[float, float, float]
+SKIN: Colour = (0.72, 0.76, 0.82)
+WALL: Colour = (0.80, 0.82, 0.86)
+LATTICE: Colour = (0.20, 0.50, 0.86)
+CELL: Colour = (0.34, 0.62, 0.92)
+CUT: Colour = (0.98, 0.58, 0.16)
+
+#: Rendered this many times larger and scaled down: smooth edges without the driver's help.
+OVERSAMPLING = 2
+#: Edges sharper than this stay sharp, in degrees.
+FEATURE_ANGLE = 40.0
+
+
+def cutaway(part_file: str, solid_file: str, shell: float, picture: str) -> None:
+    """Cut the corner towards the viewer out of a part and picture what remains.
+
+    Args:
+        part_file: STL of the filled part.
+        solid_file: STL of the solid before it was filled; tells skin from lattice.
+        shell: thickness of the skin, mm.
+        picture: PNG to write.
+    """
+    part = _read(part_file)
+    solid = _read(solid_file)
+    low, high = solid.bounds
+    length, height, width = high - low
+    # One cut lengthwise through the front lug, one across it: the corner between them goes.
+    corner = low + np.array([0.40 * length, -0.1 * height, 0.725 * width])
+    mesh, is_cut = _remove_box(part, corner, np.array([length, 1.2 * height, width]))
+
+    samples = trimesh.sample.sample_surface_even(
+        trimesh.Trimesh(solid.vertices, solid.triangles, process=False), 400_000, seed=1
+    )[0]
+    depth = cKDTree(samples).query(mesh.vertices, workers=-1)[0][mesh.triangles]
+    is_skin = (depth < 0.25 * shell).all(axis=1) & ~is_cut
+    is_wall = ((depth > 0.9 * shell) & (depth < 1.12 * shell)).all(axis=1) & ~is_cut
+    is_lattice = ~(is_skin | is_wall | is_cut)
+
+    scene = _Scene((1400, 860), ambient_occlusion_radius=9.0)
+    for selected, colour in (
+        (is_skin, SKIN),
+        (is_wall, WALL),
+        (is_lattice, LATTICE),
+        (is_cut, CUT),
+    ):
+        if selected.any():
+            # The cut faces are flat: an even colour reads better there than a shaded one.
+            scene.add(mesh, selected, colour, ambient=0.75 if colour is CUT else 0.25)
+    scene.look(direction=(0.62, 0.62, 1.0), up=(0.0, 1.0, 0.0), zoom=1.66, raised=0.10)
+    scene.save(picture)
+
+
+def cells(picture: str) -> None:
+    """Picture every cell of the library as a free-standing block of one, with its name."""
+    size, columns = 10.0, 3
+    scene = _Scene((1200, 760))
+    for k, name in enumerate(LIBRARY):
+        row, column = divmod(k, columns)
+        spec = LatticeSpec(cell=name, cell_size=size, strut_radius=0.8, resolution=40)
+        mesh = block(spec, (1, 1, 1)).mesh
+        place = np.array([1.9 * size * column, -2.05 * size * row, 0.0])
+        # Turned in place, so that every cell is seen from the same side.
+        turned = (mesh.vertices - mesh.bounds.mean(axis=0)) @ _turn(-28.0, 20.0).T + place
+        scene.add(TriangleMesh(turned, mesh.triangles), None, CELL, ambient=0.0)
+        scene.label(name, place + np.array([0.0, -1.02 * size, 0.0]))
+    scene.look(direction=(0.0, 0.0, 1.0), up=(0.0, 1.0, 0.0), zoom=1.5)
+    scene.save(picture)
+
+
+class _Scene:
+    """A white stage, lit from above the viewer's shoulder, seen without perspective."""
+
+    def __init__(self, size: tuple[int, int], ambient_occlusion_radius: float = 0.0) -> None:
+        self.size = size
+        self.renderer = vtk.vtkRenderer()
+        self.renderer.SetBackground(1.0, 1.0, 1.0)
+        self.renderer.AutomaticLightCreationOff()
+        for position, intensity in (
+            ((-0.5, 1.0, 0.9), 0.95),
+            ((1.0, 0.25, 0.6), 0.42),
+            ((0.0, -0.6, 1.0), 0.22),
+        ):
+            light = vtk.vtkLight()
+            light.SetLightTypeToCameraLight()
+            light.SetPosition(*position)
+            light.SetIntensity(intensity)
+            self.renderer.AddLight(light)
+        if ambient_occlusion_radius > 0.0:
+            shade = vtk.vtkSSAOPass()
+            shade.SetRadius(ambient_occlusion_radius)
+            shade.SetBias(0.02 * ambient_occlusion_radius)
+            shade.SetKernelSize(96)
+            shade.BlurOn()
+            shade.SetDelegatePass(vtk.vtkRenderStepsPass())
+            self.renderer.SetPass(shade)
+        self.window = vtk.vtkRenderWindow()
+        self.window.SetOffScreenRendering(1)
+        self.window.SetMultiSamples(0)
+        self.window.SetSize(*(OVERSAMPLING * side for side in size))
+        self.window.AddRenderer(self.renderer)
+
+    def add(
+        self,
+        mesh: TriangleMesh,
+        selected: NDArray[np.bool_] | None,
+        colour: Colour,
+        ambient: float = 0.25,
+    ) -> None:
+        triangles = mesh.triangles if selected is None else mesh.triangles[selected]
+        data = vtk.vtkPolyData()
+        points = vtk.vtkPoints()
+        points.SetData(numpy_to_vtk(mesh.vertices, deep=True))
+        data.SetPoints(points)
+        table = np.insert(triangles.astype(np.int64), 0, 3, axis=1)
+        faces = vtk.vtkCellArray()
+        faces.SetCells(len(triangles), numpy_to_vtkIdTypeArray(table.ravel(), deep=True))
+        data.SetPolys(faces)
+        normals = vtk.vtkPolyDataNormals()
+        normals.SetInputData(data)
+        normals.SetFeatureAngle(FEATURE_ANGLE)
+        normals.ConsistencyOff()
+        mapper = vtk.vtkPolyDataMapper()
+        mapper.SetInputConnection(normals.GetOutputPort())
+        actor = vtk.vtkActor()
+        actor.SetMapper(mapper)
+        look = actor.GetProperty()
+        look.SetColor(*colour)
+        look.SetAmbient(ambient)
+        look.SetDiffuse(1.0 - ambient)
+        look.SetSpecular(0.12)
+        look.SetSpecularPower(25)
+        self.renderer.AddActor(actor)
+
+    def label(self, text: str, place: NDArray[np.float64]) -> None:
+        label = vtk.vtkBillboardTextActor3D()
+        label.SetInput(text)
+        label.SetPosition(*place)
+        style = label.GetTextProperty()
+        style.SetFontSize(26 * OVERSAMPLING)
+        style.SetColor(0.2, 0.22, 0.26)
+        style.SetJustificationToCentered()
+        self.renderer.AddActor(label)
+
+    def look(
+        self, direction: Sequence[float], up: Sequence[float], zoom: float, raised: float = 0.0
+    ) -> None:
+        camera = self.renderer.GetActiveCamera()
+        camera.ParallelProjectionOn()
+        camera.SetPosition(*direction)
+        camera.SetFocalPoint(0.0, 0.0, 0.0)
+        camera.SetViewUp(*up)
+        self.renderer.ResetCamera()
+        camera.Zoom(zoom)
+        camera.SetWindowCenter(0.0, -raised)
+        self.renderer.ResetCameraClippingRange()
+
+    def save(self, picture: str) -> None:
+        self.window.Render()
+        grab = vtk.vtkWindowToImageFilter()
+        grab.SetInput(self.window)
+        grab.ReadFrontBufferOff()
+        grab.Update()
+        image = grab.GetOutput()
+        wide, high, _ = image.GetDimensions()
+        pixels = vtk_to_numpy(image.GetPointData().GetScalars()).reshape(high, wide, -1)[::-1]
+        if int(pixels.min()) == int(pixels.max()):
+            raise RuntimeError(f"The picture {picture} came out empty: is there a screen?")
+        full = Image.fromarray(np.ascontiguousarray(pixels[..., :3]))
+        small = full.resize(self.size, Image.LANCZOS)
+        small.quantize(255, method=Image.MEDIANCUT, dither=Image.FLOYDSTEINBERG).save(
+            picture, optimize=True
+        )
+
+
+def _read(path: str) -> TriangleMesh:
+    mesh = trimesh.load(path, process=True)
+    return TriangleMesh(np.asarray(mesh.vertices, float), np.asarray(mesh.faces, np.int32))
+
+
+def _remove_box(
+    part: TriangleMesh, corner: NDArray[np.float64], size: NDArray[np.float64]
+) -> tuple[TriangleMesh, NDArray[np.bool_]]:
+    """The part less a box, and which of its triangles the box left behind."""
+    body = manifold3d.Manifold(
+        manifold3d.Mesh(part.vertices.astype(np.float32), part.triangles.astype(np.uint32))
+    )
+    tool = manifold3d.Manifold.cube(tuple(size)).translate(tuple(corner)).as_original()
+    rest = (body - tool).to_mesh()
+    owner = np.repeat(rest.run_original_id, np.diff(rest.run_index) // 3)
+    mesh = TriangleMesh(
+        np.asarray(rest.vert_properties[:, :3], float), np.asarray(rest.tri_verts, np.int32)
+    )
+    return mesh, owner == tool.original_id()
+
+
+def _turn(about_y: float, about_x: float) -> NDArray[np.float64]:
+    """Rotation about Y, then about X, in degrees."""
+    a, b = np.radians([about_y, about_x])
+    yaw = np.array([[np.cos(a), 0, np.sin(a)], [0, 1, 0], [-np.sin(a), 0, np.cos(a)]])
+    pitch = np.array([[1, 0, 0], [0, np.cos(b), -np.sin(b)], [0, np.sin(b), np.cos(b)]])
+    rotation: NDArray[np.float64] = pitch @ yaw
+    return rotation
+
+
+def main(arguments: list[str]) -> None:
+    """Dispatch on the first argument."""
+    kind, *rest = arguments
+    if kind == "cutaway":
+        part, solid, shell, picture = rest
+        cutaway(part, solid, float(shell), picture)
+    elif kind == "cells":
+        cells(*rest)
+    else:
+        raise SystemExit(f"There is no picture '{kind}': choose cutaway or cells.")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

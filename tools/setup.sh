@@ -1,0 +1,80 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Install what the project needs on Debian 12 or 13: FreeCAD and the tools of its tests from
+# Debian, the engine and its Python packages into .venv, and a private FreeCAD profile in .cache
+# that sees this checkout as the workbench. Runs again only when its inputs change.
+set -euo pipefail
+cd "$(dirname "$(readlink -f "$0")")/.."
+root=$PWD
+system_python=/usr/bin/python3
+debian_packages=(
+  freecad python3 python3-venv python3-pip python3-numpy python3-scipy python3-vtk9
+  xvfb xauth xdotool imagemagick libgl1-mesa-dri admesh ca-certificates
+)
+
+say() { printf 'setup: %s\n' "$*"; }
+refuse() { printf 'setup: %s\n' "$*" >&2; exit 1; }
+
+inputs() {
+  printf '%s\n' "$root"
+  cat tools/setup.sh tools/requirements-dev.txt pyproject.toml
+}
+fingerprint=$(inputs | sha256sum)
+stamp=.venv/setup-stamp
+if [ -e "$stamp" ] && [ "$(cat "$stamp")" = "$fingerprint" ] && [ -x .venv/bin/volfrep ] &&
+  [ -e .cache/fchome/Mod/VOLFREP ] && .venv/bin/python -c '' 2>/dev/null; then
+  exit 0
+fi
+
+command -v dpkg-query >/dev/null || refuse "this set-up knows only Debian: install FreeCAD, make a \
+Python environment for its Python and run 'pip install -e .' there."
+missing=()
+for package in "${debian_packages[@]}"; do
+  state=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)
+  [ "$state" = installed ] || missing+=("$package")
+done
+if [ ${#missing[@]} -gt 0 ]; then
+  [ "$(id -u)" = 0 ] ||
+    refuse "these Debian packages are missing: run 'apt-get install ${missing[*]}' as root."
+  say "Debian packages: ${missing[*]}"
+  export DEBIAN_FRONTEND=noninteractive
+  apt-get update -qq || refuse "apt-get update failed: is the network up?"
+  log=$(mktemp)
+  if ! apt-get install -y -qq --no-install-recommends "${missing[@]}" >"$log" 2>&1; then
+    cat "$log" >&2
+    refuse "apt-get could not install ${missing[*]}: see above."
+  fi
+  rm -f "$log"
+fi
+
+# FreeCAD runs on Debian's Python: packages for any other would not load inside it.
+version_of() { "$1" -c 'import sys; print(sys.version_info[:2], sys.base_prefix)'; }
+if [ -x .venv/bin/python ] && [ "$(version_of .venv/bin/python)" != "$(version_of $system_python)" ]
+then
+  say ".venv belongs to another Python: making it anew"
+  rm -rf .venv
+fi
+grep -qs '^include-system-site-packages = true' .venv/pyvenv.cfg && [ -x .venv/bin/pip ] ||
+  $system_python -m venv --clear --system-site-packages .venv
+rm -f "$stamp"
+
+# numpy and scipy stay Debian's own: FreeCAD's compiled modules were built against them.
+mkdir -p .cache
+$system_python - >.cache/constraints.txt <<'PYTHON'
+import numpy
+import scipy
+
+print(f"numpy=={numpy.__version__}")
+print(f"scipy=={scipy.__version__}")
+PYTHON
+say "Python packages"
+.venv/bin/python -m pip install --quiet --disable-pip-version-check \
+  -c .cache/constraints.txt -r tools/requirements-dev.txt -e . ||
+  refuse "pip could not install the Python packages: see above."
+
+site=$(.venv/bin/python -c 'import sysconfig; print(sysconfig.get_paths()["purelib"])')
+mkdir -p .cache/fchome/Mod
+ln -sfn "$root" .cache/fchome/Mod/VOLFREP
+ln -sfn "$site" .cache/fchome/AdditionalPythonPackages
+printf '%s\n' "$fingerprint" >"$stamp"
+say "ready: FreeCAD $(dpkg-query -W -f='${Version}' freecad), $(.venv/bin/python --version)"

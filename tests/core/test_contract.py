@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Whatever is asked for, what comes out is one closed surface, also as a reader sees it."""
+
+import numpy as np
+import pytest
+
+import samples
+from volfrep import LatticeSpec, VolfrepError, fill, quality
+from volfrep.cells import LIBRARY, make_cell
+from volfrep.export.stl import as_read
+
+SKEW = make_cell(
+    "skew",
+    [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1], [0.3, 0.6, 0.45]],
+    [[0, 5], [5, 4], [5, 1], [0, 3], [2, 5], [1, 4]],
+)
+SOLIDS = (
+    lambda: samples.box(),
+    lambda: samples.sphere(),
+    lambda: samples.plate(),
+    lambda: samples.bracket(0.0),
+    lambda: samples.bracket(17.0),
+)
+
+
+def random_case(seed):
+    random = np.random.default_rng(seed)
+    solid = SOLIDS[random.integers(len(SOLIDS))]()
+    size = np.sort(np.ptp(solid.bounds, axis=0))
+    cell_size = float(np.round(random.uniform(0.15, 0.6) * size[1], random.integers(0, 3)))
+    return solid, LatticeSpec(
+        cell=random.choice([*LIBRARY.values(), SKEW]),
+        cell_size=cell_size,
+        strut_radius=cell_size * float(np.round(random.uniform(0.05, 0.2), random.integers(2, 4))),
+        shell=float(random.choice([0.0, 0.05, 0.08, 0.15]) * size[0]),
+        activation=str(random.choice(["touching", "centre"])),
+        output=str(random.choice(["part", "lattice"])),
+        fillet=0.03 * cell_size * float(random.integers(2)),
+        origin=None if random.random() < 0.5 else tuple(np.round(random.uniform(-9, 9, 3), 1)),
+        resolution=int(random.integers(8, 22)),
+    )
+
+
+@pytest.mark.parametrize(
+    "seed", [pytest.param(s, marks=pytest.mark.slow if s >= 12 else ()) for s in range(80)]
+)
+def test_random_specifications_hold_the_contract(seed):
+    solid, spec = random_case(seed)
+    refusal = ""
+    try:
+        result = fill(solid, spec)
+    except VolfrepError as error:
+        refusal = str(error)
+    if refusal:
+        assert "reduce" in refusal  # a sentence that says what to do
+        return
+    report, read = result.report, quality.measure(as_read(result.mesh))
+    assert report.watertight
+    assert read.watertight
+    assert read.degenerate_triangles == 0
+    assert (read.bodies, read.genus) == (report.bodies, report.genus)
+    if spec.output == "part":
+        assert report.bodies == 1

@@ -42,3 +42,17 @@ def in_lattice(points, cell, cell_size, radius, active=None):
         for node in joint_points:
             inside |= there & (np.linalg.norm(local - node, axis=1) <= joint)
     return inside
+
+
+def distances_to_one_cell(points, cell, cell_size, radius):
+    """Signed distance to one free-standing cell: capsules, whose caps the joint spheres cover."""
+    nearest = np.full(len(points), np.inf)
+    for a, b in cell.struts:
+        p, q = cell.nodes[a] * cell_size, cell.nodes[b] * cell_size
+        t = np.clip((points - p) @ (q - p) / ((q - p) @ (q - p)), 0.0, 1.0)
+        gap = np.linalg.norm(points - p - t[:, None] * (q - p), axis=1) - radius
+        nearest = np.minimum(nearest, gap)
+    for node in cell.nodes * cell_size:
+        gap = np.linalg.norm(points - node, axis=1) - radius * (1 + radius / cell_size)
+        nearest = np.minimum(nearest, gap)
+    return nearest

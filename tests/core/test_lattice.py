@@ -5,7 +5,7 @@ import manifold3d
 import numpy as np
 import pytest
 
-from exact import DENSITY, in_lattice
+from exact import DENSITY, distances_to_one_cell, in_lattice
 from volfrep import quality
 from volfrep.caps import with_corners
 from volfrep.cells import LIBRARY, make_cell
@@ -134,6 +134,21 @@ def test_triangles_are_well_shaped(name):
     shape = quality.shape_statistics(mesh)
     assert shape.radius_ratio_mean > 0.88
     assert shape.smallest_angle > 5.0
+
+
+@pytest.mark.parametrize("name", LIBRARY)
+@pytest.mark.parametrize(("resolution", "allowed"), [(15, 0.03), (30, 0.008)])
+def test_facets_stray_little_and_to_both_sides_alike(name, resolution, allowed):
+    mesh = lattice(LIBRARY[name], np.ones((1, 1, 1), bool), 1.0, resolution)
+    a, b, c = mesh.corners()
+    area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    random = np.random.default_rng(2)
+    pick = random.choice(len(area), 20_000, p=area / area.sum())
+    u, v, w = random.dirichlet((1.0, 1.0, 1.0), len(pick)).T[:, :, None]
+    points = u * a[pick] + v * b[pick] + w * c[pick]
+    distance = distances_to_one_cell(points, LIBRARY[name], L, 1.0)
+    assert np.sqrt((distance**2).mean()) < allowed
+    assert abs(distance.mean()) < 0.1 * allowed
 
 
 @pytest.mark.parametrize("name", ["CVC", "Octet"])

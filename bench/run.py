@@ -112,9 +112,7 @@ def block_case(
     row = {"case": name, "cell": cell}
     if done.code:
         return {**row, "note": done.said.splitlines()[-1] if done.said else f"exit {done.code}"}
-    size = out.stat().st_size / 1e6
-    mesh = as_read(read_triangles(out))
-    out.unlink()
+    size, mesh = take(out)
     quality = measure(mesh)
     graph = wireframe(LIBRARY[cell], np.ones((count,) * 3, bool), SIZE, np.zeros(3))
     volume_error = quality.volume / true_volume(cell, count) - 1
@@ -141,6 +139,14 @@ def block_case(
     return {**row, "bars": verdict(bars) if ours else "(not ours)"}
 
 
+def take(out: Path) -> tuple[float, TriangleMesh]:
+    """A file's size in MB and what a reader sees in it; the file is removed."""
+    size = out.stat().st_size / 1e6
+    mesh = as_read(read_triangles(out))
+    out.unlink()
+    return size, mesh
+
+
 def bracket_case(folder: Path, cell: str) -> Row:
     """The GE bracket with a skin of 3 mm."""
     out = folder / f"{cell}.stl"
@@ -149,9 +155,7 @@ def bracket_case(folder: Path, cell: str) -> Row:
     done = run([*command, "--shell", "3", "--quiet", "--report", str(folder / "report.json")])
     if done.code:
         return {**row, "note": done.said.splitlines()[-1] if done.said else f"exit {done.code}"}
-    size = out.stat().st_size / 1e6
-    mesh = as_read(read_triangles(out))
-    out.unlink()
+    size, mesh = take(out)
     quality = measure(mesh)
     bars = [
         *time_bar(done, 8),

@@ -6,8 +6,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from .distance import spread
 from .mesh import TriangleMesh
+from .ragged import spread
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]

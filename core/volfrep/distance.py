@@ -16,6 +16,7 @@ from scipy.spatial import cKDTree
 
 from .errors import VolfrepError
 from .mesh import TriangleMesh
+from .ragged import spread
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -294,10 +295,3 @@ def _sample_reentrant_edges(
     pieces = np.maximum(np.ceil(length / spacing), 1).astype(np.int64)
     owner, place = spread(pieces + 1)
     return start[owner] + (place / pieces[owner])[:, None] * along[owner], triangle[owner]
-
-
-def spread(counts: Ints) -> tuple[Ints, Ints]:
-    """For counts (2, 3): owners (0, 0, 1, 1, 1) and places (0, 1, 0, 1, 2)."""
-    owner = np.repeat(np.arange(len(counts)), counts)
-    place = np.arange(len(owner)) - np.repeat(np.cumsum(counts) - counts, counts)
-    return owner, place

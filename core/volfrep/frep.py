@@ -14,6 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from .ragged import rows_of
+
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
@@ -152,15 +154,10 @@ class Field:
 
     def rows(self, index: Ints) -> Field:
         """The field at points that take over the neighbourhoods of the points `index`."""
-        counts = (self.start[1:] - self.start[:-1])[index]
+        pairs, _ = rows_of(self.start, index)
+        counts = self.start[index + 1] - self.start[index]
         start = np.concatenate([[0], np.cumsum(counts)])
-        within = np.arange(start[-1]) - np.repeat(start[:-1], counts)
-        return Field(
-            self.primitives,
-            start,
-            self.near[np.repeat(self.start[:-1][index], counts) + within],
-            self.fillet,
-        )
+        return Field(self.primitives, start, self.near[pairs], self.fillet)
 
     def _pairs(self, points: Floats) -> tuple[Ints, Floats]:
         owner = np.repeat(np.arange(len(points)), self.start[1:] - self.start[:-1])

@@ -19,7 +19,7 @@ from .frep import Floats
 from .mesh import TriangleMesh
 from .octant import OctantKey, corner_patterns, octant_mirrors
 from .progress import Monitor
-from .tile import Octant, TileSpec, mesh_octants
+from .tile import Octant
 
 #: Octants are laid in groups of about so many vertices or triangles: a cancel is soon seen.
 CHUNK_VERTICES = 200_000
@@ -174,9 +174,8 @@ def facets(
     return triangles
 
 
-def lay(grid: OctantGrid, octants: dict[OctantKey, Octant], monitor: Monitor) -> TriangleMesh:
-    """All the octants of the grid as one welded mesh."""
-    layout = lay_out(grid, octants)
+def lay(layout: Layout, monitor: Monitor) -> TriangleMesh:
+    """All the octants of a layout as one welded mesh."""
     return TriangleMesh(coordinates(layout, monitor), facets(layout, monitor))
 
 
@@ -189,19 +188,6 @@ def _entity_positions(place: NDArray[np.int64], step: NDArray[np.int64]) -> NDAr
     """Where an entity of octants is on the complex: reflected frames run backwards."""
     result: NDArray[np.int64] = 2 * place + np.where(place % 2 == 0, 2 - step, step)
     return result
-
-
-def free_standing(
-    cell: UnitCell,
-    active: NDArray[np.bool_],
-    origin: Floats,
-    spec: TileSpec,
-    monitor: Monitor,
-) -> TriangleMesh:
-    """The lattice of the active cells with full round struts on its outside, as one surface."""
-    grid = octant_grid(cell, active, spec.cell_size, origin)
-    octants = mesh_octants(cell, spec, grid.keys, monitor)
-    return lay(grid, octants, monitor)
 
 
 def neighbour_missing(

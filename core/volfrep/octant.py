@@ -47,7 +47,7 @@ class OctantKey:
     pattern: int
 
 
-def cell_copies(cell: UnitCell, offsets: Ints, mirror: int = 0) -> tuple[Floats, Ints, Floats]:
+def cell_copies(cell: UnitCell, offsets: Ints, mirror: int = 0) -> tuple[Floats, Ints]:
     """Unique struts and nodes of copies of a cell, in units of L.
 
     Args:
@@ -56,8 +56,7 @@ def cell_copies(cell: UnitCell, offsets: Ints, mirror: int = 0) -> tuple[Floats,
         mirror: bit per axis about whose mid-plane the cell is reflected first.
 
     Returns:
-        nodes (n, 3) float64, struts (m, 2) of its rows, and the nodes that carry a joint sphere
-        (all of them, (n, 3)).
+        nodes (n, 3) float64, each of which carries a joint sphere, and struts (m, 2) of its rows.
     """
     reflect = np.array([mirror >> axis & 1 for axis in range(3)], bool)
     local = np.where(reflect, 1.0 - cell.nodes, cell.nodes)
@@ -68,7 +67,7 @@ def cell_copies(cell: UnitCell, offsets: Ints, mirror: int = 0) -> tuple[Floats,
     grid = np.round(nodes / NODE_TOLERANCE).astype(np.int64)
     _, first, inverse = np.unique(grid, axis=0, return_index=True, return_inverse=True)
     ends = np.unique(np.sort(inverse.ravel()[struts], axis=1), axis=0)
-    return nodes[first], ends, nodes[first]
+    return nodes[first], ends
 
 
 def octant_primitives(
@@ -79,10 +78,10 @@ def octant_primitives(
     `reach` in mm is how far from a strut's surface the field is still wanted.
     """
     active = [k for k in range(8) if key.pattern >> k & 1]
-    nodes, ends, joints = cell_copies(cell, NEIGHBOURS[active], key.mirror)
-    nodes, joints = nodes * cell_size, joints * cell_size
+    nodes, ends = cell_copies(cell, NEIGHBOURS[active], key.mirror)
+    nodes = nodes * cell_size
     all_struts = frep.struts(nodes[ends[:, 0]], nodes[ends[:, 1]], strut_radius)
-    all_joints = frep.spheres(joints, strut_radius * (1.0 + strut_radius / cell_size))
+    all_joints = frep.spheres(nodes, strut_radius * (1.0 + strut_radius / cell_size))
     low, high = -reach, 0.5 * cell_size + reach
     # A segment's box against the octant's: keeps a few too many, drops none.
     half = np.abs(all_struts.direction) * all_struts.half_length[:, None]

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from .cells import UnitCell
 from .clean import remove_slivers, separate_vertices, shortest_edge
 from .errors import VolfrepError
-from .lattice import OctantGrid, coordinates, facets, lay_out, octant_grid
-from .mesh import TriangleMesh
+from .lattice import OctantGrid, lay, lay_out, octant_grid
+from .mesh import TriangleMesh, concatenate
 from .octant import ALL_ACTIVE, OctantKey, octant_mirrors
 from .progress import Monitor, ProgressCallback, peak_memory_mb
 from .quality import Quality, combined, inspect, measure
@@ -25,7 +25,7 @@ from .shell import TOLERANCE, inner_wall
 from .spec import LatticeSpec
 from .survey import survey
 from .tile import Octant, TileSpec, mesh_octants
-from .trim import Cleared, OctantRoles, clear, join, octant_roles, trim
+from .trim import Cleared, OctantRoles, clear, octant_roles, trim
 from .voxels import CellGrid, active_cells, make_grid
 from .wireframe import Wireframe, wireframe
 
@@ -194,7 +194,7 @@ def block(
     _refuse_too_large(grid, octants, None)
     with monitor.stage("lattice", 0.4, 0.8):
         layout = lay_out(grid, octants)
-        mesh = TriangleMesh(coordinates(layout, monitor), facets(layout, monitor))
+        mesh = lay(layout, monitor)
     graph = wireframe(cell, active, spec.cell_size, origin)
     with monitor.stage("check", 0.8, 1.0):
         measured = survey(layout, mesh.vertices)
@@ -269,7 +269,9 @@ def _trimmed_output(
     cleared = replace(cleared, pieces_removed=cleared.pieces_removed + removed)
     if not with_skin:
         return cleared, measured
-    return replace(cleared, mesh=join(solid, cleared.mesh)), combined(measure(solid), measured)
+    return replace(cleared, mesh=concatenate(solid, cleared.mesh)), combined(
+        measure(solid), measured
+    )
 
 
 def _smallest_shell(spec: LatticeSpec) -> float:

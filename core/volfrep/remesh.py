@@ -15,6 +15,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from .ragged import rows_of
+
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Bools = NDArray[np.bool_]
@@ -80,15 +82,6 @@ def normals(points: Floats) -> Floats:
     return np.cross(points[:, 1] - points[:, 0], points[:, 2] - points[:, 0])
 
 
-def _rows_of(start: Ints, index: Ints) -> tuple[Ints, Ints]:
-    """Positions of the CSR rows `index`, and which of `index` each belongs to."""
-    counts = start[index + 1] - start[index]
-    owner = np.repeat(np.arange(len(index)), counts)
-    ends = np.cumsum(counts)
-    within = np.arange(ends[-1] if len(ends) else 0) - np.repeat(ends - counts, counts)
-    return np.repeat(start[index], counts) + within, owner
-
-
 def _csr(rows: Ints, values: Ints, count: int) -> tuple[Ints, Ints]:
     order = np.argsort(rows, kind="stable")
     start = np.concatenate([[0], np.cumsum(np.bincount(rows, minlength=count))])
@@ -150,7 +143,7 @@ def collapse(
     edge_keys = np.sort(both[:, 0] * np.int64(count) + both[:, 1])
 
     # Link condition: the ends share exactly the two corners opposite to the edge.
-    rows, owner = _rows_of(near_start, gone)
+    rows, owner = rows_of(near_start, gone)
     key = kept[owner] * np.int64(count) + near[rows]
     found = edge_keys[np.minimum(np.searchsorted(edge_keys, key), len(edge_keys) - 1)] == key
     good = np.bincount(owner[found], minlength=len(gone)) == 2
@@ -162,7 +155,7 @@ def collapse(
     free &= rules.rank[kept] == 0
     target = np.where(free[:, None], 0.5 * (vertices[gone] + vertices[kept]), vertices[kept])
     for side, other, moves in ((gone, kept, np.ones(len(gone), bool)), (kept, gone, free)):
-        rows, owner = _rows_of(corner_start, side)
+        rows, owner = rows_of(corner_start, side)
         corners = triangles[corner_triangle[rows]]
         affected = ~(corners == other[owner][:, None]).any(axis=1) & moves[owner]
         corners, owner = corners[affected], owner[affected]

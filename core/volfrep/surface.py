@@ -78,14 +78,9 @@ def project(surface: Surface, passes: int = 2) -> Surface:
         size = np.maximum(np.einsum("ij,ij->i", gradient, gradient), 0.05)
         vertices[free] -= shortened(gradient * (value / size)[:, None], 0.5 * surface.edge)
         if len(bound):
-            step = _newton_step(surface, vertices[bound], bound)
+            step = step_to_primitives(surface, vertices[bound], surface.held[bound], loose[bound])
             vertices[bound] += shortened(step, 0.5 * surface.edge)
     return replace(surface, vertices=vertices)
-
-
-def _newton_step(surface: Surface, points: Floats, index: Ints) -> Floats:
-    """The shortest step onto all the surfaces that each of the points is held by."""
-    return step_to_primitives(surface, points, surface.held[index], ~surface.pinned[index])
 
 
 def step_to_primitives(

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from .caps import with_corners
 from .errors import VolfrepError
 from .lattice import Layout, OctantGrid, coordinates, facets, lay_out, neighbour_missing
-from .mesh import TriangleMesh, compact, concatenate
+from .mesh import TriangleMesh, compact
 from .octant import OctantKey
 from .progress import Monitor
 from .quality import Inspection
@@ -280,11 +280,6 @@ def _open_vertices(triangles: NDArray[np.int32]) -> NDArray[np.int64]:
     ends = np.concatenate([key[single] >> 32, key[single] & 0xFFFFFFFF])
     result: NDArray[np.int64] = np.unique(ends)
     return result
-
-
-def join(outer: TriangleMesh, cavity: TriangleMesh) -> TriangleMesh:
-    """Skin and lattice: the outer surface and the cavity's, which do not meet."""
-    return concatenate(outer, cavity)
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from .distance import spread
 from .errors import VolfrepError
 from .mesh import TriangleMesh
 from .progress import Monitor
+from .ragged import spread
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]

@@ -13,9 +13,10 @@ from volfrep.lattice import (
     OctantGrid,
     coordinates,
     facets,
-    free_standing,
+    lay,
     lay_out,
     neighbour_missing,
+    octant_grid,
 )
 from volfrep.mesh import TriangleMesh, compact
 from volfrep.octant import ALL_ACTIVE, OctantKey
@@ -33,7 +34,9 @@ L = 10.0
 
 def lattice(cell, active, radius=1.0, facets_along=16, fillet=0.0):
     spec = TileSpec(L, radius, fillet, facets_along)
-    return free_standing(cell, active, np.zeros(3), spec, Monitor())
+    monitor = Monitor()
+    grid = octant_grid(cell, active, L, np.zeros(3))
+    return lay(lay_out(grid, mesh_octants(cell, spec, grid.keys, monitor)), monitor)
 
 
 def monte_carlo_volume(cell, active, radius, samples=60_000):

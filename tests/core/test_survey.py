@@ -8,8 +8,7 @@ import pytest
 
 from volfrep import quality
 from volfrep.cells import LIBRARY, make_cell
-from volfrep.lattice import coordinates, facets, lay_out, octant_grid
-from volfrep.mesh import TriangleMesh
+from volfrep.lattice import coordinates, lay, lay_out, octant_grid
 from volfrep.progress import Monitor
 from volfrep.survey import survey
 from volfrep.tile import TileSpec, mesh_octants
@@ -28,8 +27,7 @@ def layout_of(cell, active, radius=1.0):
 def test_the_survey_agrees_with_the_measure(cell, share):
     active = np.random.default_rng(3).random((3, 4, 2)) <= share
     layout = layout_of(cell, active)
-    monitor = Monitor()
-    mesh = TriangleMesh(coordinates(layout, monitor), facets(layout, monitor))
+    mesh = lay(layout, Monitor())
     surveyed, measured = survey(layout, mesh.vertices), quality.measure(mesh)
     for name in ("triangles", "vertices", "watertight", "shells", "bodies", "voids", "genus"):
         assert getattr(surveyed, name) == getattr(measured, name), name

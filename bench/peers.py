@@ -97,7 +97,7 @@ def main() -> int:
         except ImportError:
             print(f"The Python package {module} is not installed: {name} is left out.")
             return 3
-    graph = wireframe(LIBRARY[cell], np.ones((int(count),) * 3, bool), SIZE, np.zeros(3))
+    graph = wireframe(LIBRARY[cell], np.ones((int(count),) * 3, bool), SIZE, np.zeros(3), RADIUS)
     build(graph.nodes, graph.struts, int(count)).export(out)
     return 0
 

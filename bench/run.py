@@ -114,7 +114,7 @@ def block_case(
         return {**row, "note": done.said.splitlines()[-1] if done.said else f"exit {done.code}"}
     size, mesh = take(out)
     quality = measure(mesh)
-    graph = wireframe(LIBRARY[cell], np.ones((count,) * 3, bool), SIZE, np.zeros(3))
+    graph = wireframe(LIBRARY[cell], np.ones((count,) * 3, bool), SIZE, np.zeros(3), RADIUS)
     volume_error = quality.volume / true_volume(cell, count) - 1
     bars = [
         *time_bar(done, seconds),

@@ -49,6 +49,11 @@ class Primitives:
         )
 
 
+def joint_radius(strut_radius: float, cell_size: float) -> float:
+    """Radius of a joint sphere, r (1 + r / L), mm (Eq. 8)."""
+    return strut_radius * (1.0 + strut_radius / cell_size)
+
+
 def struts(start: Floats, end: Floats, radius: float) -> Primitives:
     """Capped cylinders of one radius between (k, 3) points (Eq. 1-7)."""
     span = end - start

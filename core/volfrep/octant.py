@@ -81,7 +81,7 @@ def octant_primitives(
     nodes, ends = cell_copies(cell, NEIGHBOURS[active], key.mirror)
     nodes = nodes * cell_size
     all_struts = frep.struts(nodes[ends[:, 0]], nodes[ends[:, 1]], strut_radius)
-    all_joints = frep.spheres(nodes, strut_radius * (1.0 + strut_radius / cell_size))
+    all_joints = frep.spheres(nodes, frep.joint_radius(strut_radius, cell_size))
     low, high = -reach, 0.5 * cell_size + reach
     # A segment's box against the octant's: keeps a few too many, drops none.
     half = np.abs(all_struts.direction) * all_struts.half_length[:, None]

@@ -136,7 +136,7 @@ def fill(
             f"No cell of {spec.cell_size:g} mm has its centre inside the domain: reduce the cell "
             "size or choose the activation 'touching'."
         )
-    graph = wireframe(cell, active, spec.cell_size, cells.origin)
+    graph = wireframe(cell, active, spec.cell_size, cells.origin, spec.strut_radius)
 
     tile_spec = TileSpec(spec.cell_size, spec.strut_radius, spec.fillet, spec.facets_along_cell)
     if spec.output == "domain":
@@ -195,7 +195,7 @@ def block(
     with monitor.stage("lattice", 0.4, 0.8):
         layout = lay_out(grid, octants)
         mesh = lay(layout, monitor)
-    graph = wireframe(cell, active, spec.cell_size, origin)
+    graph = wireframe(cell, active, spec.cell_size, origin, spec.strut_radius)
     with monitor.stage("check", 0.8, 1.0):
         measured = survey(layout, mesh.vertices)
         cleared = Cleared(mesh, 0, 0)

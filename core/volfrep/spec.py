@@ -9,6 +9,7 @@ from typing import Any
 
 from .cells import UnitCell, find_cell
 from .errors import VolfrepError
+from .frep import joint_radius
 
 ACTIVATIONS = ("touching", "centre")
 OUTPUTS = ("part", "lattice", "domain")
@@ -104,7 +105,7 @@ class LatticeSpec:
     @property
     def joint_radius(self) -> float:
         """Radius of the joint spheres, r (1 + r / L) (Eq. 8 of the paper)."""
-        return self.strut_radius * (1.0 + self.strut_radius / self.cell_size)
+        return joint_radius(self.strut_radius, self.cell_size)
 
     @property
     def facets_along_cell(self) -> int:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .cells import NODE_TOLERANCE, UnitCell
+from .frep import joint_radius
 
 
 @dataclass(frozen=True, eq=False)
@@ -18,10 +19,15 @@ class Wireframe:
     Attributes:
         nodes: (n, 3) float64, mm.
         struts: (m, 2) int32, rows of `nodes`.
+        radii: (m, 2) float64, radius of each strut at its two ends, mm: it is a cone where they
+            differ.
+        joint_radii: (n,) float64, radius of the joint sphere of each node, mm.
     """
 
     nodes: NDArray[np.float64]
     struts: NDArray[np.int32]
+    radii: NDArray[np.float64]
+    joint_radii: NDArray[np.float64]
 
     @property
     def genus(self) -> int:
@@ -34,6 +40,7 @@ def wireframe(
     active: NDArray[np.bool_],
     cell_size: float,
     origin: NDArray[np.float64],
+    strut_radius: float,
 ) -> Wireframe:
     """The unique nodes and struts of the active cells.
 
@@ -42,6 +49,7 @@ def wireframe(
         active: (nx, ny, nz) bool, the cells that hold a lattice.
         cell_size: L in mm.
         origin: (3,) lowest corner of the grid in mm.
+        strut_radius: r, of every strut, in mm.
     """
     index = np.argwhere(active)
     # A node is identified by whole numbers: the cell it begins in and its place there, so that
@@ -62,4 +70,9 @@ def wireframe(
     ends = np.sort(ends.reshape(-1, 2), axis=1)
     strut_keys = np.unique(ends[:, 0] * len(unique) + ends[:, 1])
     struts = np.stack([strut_keys // len(unique), strut_keys % len(unique)], axis=1)
-    return Wireframe(nodes, struts.astype(np.int32))
+    return Wireframe(
+        nodes,
+        struts.astype(np.int32),
+        np.full(struts.shape, float(strut_radius)),
+        np.full(len(nodes), joint_radius(strut_radius, cell_size)),
+    )

@@ -54,7 +54,7 @@ def test_a_block_is_one_closed_surface_of_the_wireframes_genus(cell):
     active = np.ones((2, 2, 2), bool)
     mesh = lattice(cell, active)
     found = quality.measure(mesh)
-    graph = wireframe(cell, active, L, np.zeros(3))
+    graph = wireframe(cell, active, L, np.zeros(3), 1.0)
     assert found.watertight
     assert found.shells == 1
     assert found.genus == graph.genus
@@ -67,7 +67,7 @@ def test_scattered_cells_give_closed_surfaces_too(cell):
     active = np.random.default_rng(5).random((3, 3, 2)) < 0.5
     mesh = lattice(cell, active, 0.8, 16)
     found = quality.measure(mesh)
-    graph = wireframe(cell, active, L, np.zeros(3))
+    graph = wireframe(cell, active, L, np.zeros(3), 1.0)
     pieces = _pieces(len(graph.nodes), graph.struts)
     assert found.watertight
     assert found.bodies == pieces

@@ -31,7 +31,7 @@ CLOSED_FORMS: dict[str, tuple[Count, Count]] = {
 
 
 def block(name: str, *count: int, size: float = 10.0) -> Wireframe:
-    return wireframe(LIBRARY[name], np.ones(count, bool), size, np.zeros(3))
+    return wireframe(LIBRARY[name], np.ones(count, bool), size, np.zeros(3), 0.1 * size)
 
 
 @pytest.mark.parametrize("name", CLOSED_FORMS)
@@ -71,7 +71,7 @@ def by_hand(
 def test_any_pattern_of_cells(name: str, shape: tuple[int, int, int], seed: int) -> None:
     active = np.random.default_rng(seed).random(shape) < 0.5
     origin = np.array([-3.0, 5.0, 0.25])
-    graph = wireframe(LIBRARY[name], active, 2.0, origin)
+    graph = wireframe(LIBRARY[name], active, 2.0, origin, 0.2)
     nodes, struts = by_hand(name, active, 2.0, origin)
     points = [tuple(p) for p in np.round(graph.nodes, 6).tolist()]
     assert set(points) == nodes
@@ -81,12 +81,19 @@ def test_any_pattern_of_cells(name: str, shape: tuple[int, int, int], seed: int)
 
 
 def test_size_and_origin() -> None:
-    graph = wireframe(LIBRARY["Box"], np.ones((2, 1, 1), bool), 4.0, np.array([1.0, 2.0, 3.0]))
+    graph = wireframe(LIBRARY["Box"], np.ones((2, 1, 1), bool), 4.0, np.array([1.0, 2.0, 3.0]), 0.4)
     assert graph.nodes.min(axis=0).tolist() == [1, 2, 3]
     assert graph.nodes.max(axis=0).tolist() == [9, 6, 7]
     assert graph.struts.dtype == np.int32
 
 
 def test_no_active_cell() -> None:
-    graph = wireframe(LIBRARY["Box"], np.zeros((2, 2, 2), bool), 1.0, np.zeros(3))
+    graph = wireframe(LIBRARY["Box"], np.zeros((2, 2, 2), bool), 1.0, np.zeros(3), 0.1)
     assert (graph.nodes.shape, graph.struts.shape) == ((0, 3), (0, 2))
+
+
+def test_every_strut_and_joint_knows_its_radius() -> None:
+    graph = block("CVC", 2, 1, 1)
+    assert graph.radii.shape == graph.struts.shape
+    assert (graph.radii == 1.0).all()
+    assert graph.joint_radii == pytest.approx(np.full(len(graph.nodes), 1.1))

@@ -5,7 +5,7 @@ A table holds a point a line, separated by semicolons, tabs, commas or blanks (t
 that the first line holds). Blank lines and lines that begin with # are passed over. Without a
 header the columns are x, y, z and the value; with one they are found by their names. Between
 semicolons and tabs a decimal comma is understood; between commas and blanks it cannot be, and
-the line is refused for its number of columns. Lengths are mm, unless the header of x, y or z
+such a line is refused. Lengths are mm, unless the header of x, y or z
 says cm, m or in, as in ``X Location (m)``.
 """
 
@@ -22,6 +22,7 @@ from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
 from typing import Any, TextIO
+from urllib.parse import unquote
 from xml.etree.ElementTree import ParseError
 
 import numpy as np
@@ -287,29 +288,9 @@ def _check_line(number: int, line: str, text: str, layout: _Layout, name: str) -
 
 
 def _read_vtk(file: Path, column: str | None) -> PointsAndValues:
-    try:
-        import meshio
-    except ImportError as error:
-        raise VolfrepError(
-            f"Reading '{file.name}' needs the Python package meshio: install it with "
-            "'pip install meshio', or save the field as CSV."
-        ) from error
-    if file.suffix.lower() == ".vtk":
-        _refuse_empty_promises(file)
-    # Not meshio.read: it ends the program when a file is damaged.
-    read = meshio.vtk.read if file.suffix.lower() == ".vtk" else meshio.vtu.read
-    try:
-        mesh: Any = read(os.fspath(file))
-        points = np.asarray(mesh.points, dtype=np.float64)
-        data = {str(k): np.asarray(v) for k, v in mesh.point_data.items()}
-        in_cells = [str(k) for k in mesh.cell_data]
-    except (meshio.ReadError, meshio._exceptions.CorruptionError, *DAMAGE) as error:
-        raise VolfrepError(
-            f"'{file.name}' is damaged or not a VTK file of points and cells that meshio reads "
-            f"({_reason(error)}): save it as .vtu or CSV, for instance with ParaView."
-        ) from error
-    scalars = [k for k, v in data.items() if v.size == len(points)]
-    if (column in in_cells and column not in scalars) or (in_cells and not scalars):
+    points, data, in_cells = _load_vtk(file)
+    scalars = [name for name, array in data.items() if array.size == len(points)]
+    if (column in in_cells and column not in data) or (in_cells and not scalars):
         raise VolfrepError(
             f"'{file.name}' has '{column or in_cells[0]}' in its cells and not at its points: "
             "convert it, for instance with ParaView's filter 'Cell Data to Point Data'."
@@ -319,10 +300,8 @@ def _read_vtk(file: Path, column: str | None) -> PointsAndValues:
             f"In '{file.name}', '{column}' has several components a point: choose one of "
             f"{_listed(scalars)}."
         )
-    chosen = _choose(scalars, column, f"'{file.name}'", "array of point data")
+    chosen = _choose(scalars, column, f"'{file.name}'", "array")
     values = data[chosen].reshape(-1).astype(np.float64)
-    if points.shape[1:] != (3,) or not len(points):
-        raise VolfrepError(f"'{file.name}' holds no points in space.")
     bad = np.flatnonzero(~np.isfinite(points).all(axis=1) | ~np.isfinite(values))
     if len(bad):
         raise VolfrepError(
@@ -331,9 +310,33 @@ def _read_vtk(file: Path, column: str | None) -> PointsAndValues:
     return points, values
 
 
-def _reason(error: Exception) -> str:
-    lines = str(error).strip().splitlines()
-    return lines[0].strip(" .")[:80] if lines else type(error).__name__
+def _load_vtk(file: Path) -> tuple[Floats, dict[str, NDArray[Any]], list[str]]:
+    """Points (n, 3), the arrays at the points, and the names of those in the cells."""
+    try:
+        import meshio
+    except ImportError as error:
+        raise VolfrepError(
+            f"Reading '{file.name}' needs the Python package meshio: install it with "
+            "'pip install meshio', or save the field as CSV."
+        ) from error
+    legacy = file.suffix.lower() == ".vtk"
+    if legacy:
+        _refuse_empty_promises(file)
+    # Not meshio.read: it ends the program when a file is damaged.
+    read = meshio.vtk.read if legacy else meshio.vtu.read
+    try:
+        mesh: Any = read(os.fspath(file))
+        points = np.asarray(mesh.points, dtype=np.float64)
+        # Legacy files write a blank in a name as %20.
+        data = {unquote(k) if legacy else k: np.asarray(v) for k, v in mesh.point_data.items()}
+    except (meshio.ReadError, meshio._exceptions.CorruptionError, *DAMAGE) as error:
+        raise VolfrepError(
+            f"'{file.name}' is damaged, or of a kind that meshio does not read: save it as an "
+            "unstructured grid (.vtu) or as CSV, for instance with ParaView."
+        ) from error
+    if points.shape[1:] != (3,) or not len(points):
+        raise VolfrepError(f"'{file.name}' holds no points in space.")
+    return points, data, list(mesh.cell_data)
 
 
 def _refuse_empty_promises(file: Path) -> None:

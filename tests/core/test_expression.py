@@ -4,7 +4,9 @@
 import math
 import operator
 import pickle
+import re
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -18,6 +20,7 @@ from volfrep.expression import (
     MAX_CHARACTERS,
     MAX_DEPTH,
     MAX_NODES,
+    SAMPLES,
     check_finite,
     compile_expression,
 )
@@ -382,5 +385,15 @@ def test_a_branch_not_taken_may_be_infinite() -> None:
     check_finite(compile_expression("1 / s if s > 0 else 1"))
 
 
-def test_every_function_shows_its_own_name() -> None:
+def test_the_documentation_names_every_function() -> None:
+    page = (Path(__file__).parents[2] / "docs" / "grading.md").read_text(encoding="utf-8")
+    assert [f.usage for f in FUNCTIONS.values() if f"`{f.usage}`" not in page] == []
     assert all(f.usage.startswith(f"{name}(") for name, f in FUNCTIONS.items())
+
+
+def test_the_formulas_of_the_documentation_work() -> None:
+    page = (Path(__file__).parents[2] / "docs" / "grading.md").read_text(encoding="utf-8")
+    formulas = re.findall(r"^\| `([^`]*\bs\b[^`]*)` \|", page, re.MULTILINE)
+    assert len(formulas) >= 5
+    for formula in formulas:
+        assert compile_expression(formula)(SAMPLES).min() > 0.0

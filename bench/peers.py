@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from volfrep.cells import LIBRARY
-from volfrep.wireframe import wireframe
+from volfrep.wireframe import cell_graph
 
 SIZE, RADIUS = 10.0, 1.0
 JOINT = RADIUS * (1 + RADIUS / SIZE)
@@ -97,7 +97,7 @@ def main() -> int:
         except ImportError:
             print(f"The Python package {module} is not installed: {name} is left out.")
             return 3
-    graph = wireframe(LIBRARY[cell], np.ones((int(count),) * 3, bool), SIZE, np.zeros(3), RADIUS)
+    graph = cell_graph(LIBRARY[cell], np.ones((int(count),) * 3, bool), SIZE, np.zeros(3))
     build(graph.nodes, graph.struts, int(count)).export(out)
     return 0
 

@@ -30,7 +30,7 @@ from volfrep.export.stl import as_read
 from volfrep.mesh import TriangleMesh
 from volfrep.quality import measure, pinched_vertices, shape_statistics
 from volfrep.solid import read_triangles
-from volfrep.wireframe import wireframe
+from volfrep.wireframe import cell_graph
 
 ROOT = Path(__file__).resolve().parent.parent
 BRACKET = ROOT.parent / "shared" / "parts" / "ge_bracket.stl"
@@ -114,7 +114,7 @@ def block_case(
         return {**row, "note": done.said.splitlines()[-1] if done.said else f"exit {done.code}"}
     size, mesh = take(out)
     quality = measure(mesh)
-    graph = wireframe(LIBRARY[cell], np.ones((count,) * 3, bool), SIZE, np.zeros(3), RADIUS)
+    graph = cell_graph(LIBRARY[cell], np.ones((count,) * 3, bool), SIZE, np.zeros(3))
     volume_error = quality.volume / true_volume(cell, count) - 1
     bars = [
         *time_bar(done, seconds),

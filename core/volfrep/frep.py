@@ -2,14 +2,16 @@
 """The function representation of a strut-and-node lattice (section 2.3 of the VOLFREP paper).
 
 A lattice is the union of capped cylinders (Eq. 1-7) and joint spheres (Eq. 8-9), joined by min
-(Eq. 10). Where the paper samples squared distances, these are true signed distances in mm,
-negative inside: the zero set is the same, and a fillet, an offset and an interpolation are then
-exact in mm. A sphere is kept as a cylinder without direction, so that one expression serves both.
+(Eq. 10). A strut whose radius differs at its ends is a cone. Where the paper samples squared
+distances, these are true signed distances in mm, negative inside: the zero set is the same, and a
+fillet, an offset and an interpolation are then exact in mm. A sphere is kept as a cylinder without
+direction, so that one expression serves both.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,13 +33,15 @@ class Primitives:
         middle: (k, 3) middle of the strut's axis, or the sphere's centre.
         direction: (k, 3) unit vector of the axis; zero for a sphere.
         half_length: (k,) of the axis; `_NO_CAPS` for a sphere.
-        radius: (k,).
+        radius: (k,) at the middle.
+        slope: (k,) by which the radius grows along the direction; 0 for a cylinder.
     """
 
     middle: Floats
     direction: Floats
     half_length: Floats
     radius: Floats
+    slope: Floats
 
     def __len__(self) -> int:
         return len(self.radius)
@@ -45,35 +49,48 @@ class Primitives:
     def take(self, index: NDArray[np.generic]) -> Primitives:
         """The primitives of that index or mask, in its order."""
         return Primitives(
-            self.middle[index], self.direction[index], self.half_length[index], self.radius[index]
+            self.middle[index],
+            self.direction[index],
+            self.half_length[index],
+            self.radius[index],
+            self.slope[index],
         )
 
 
-def joint_radius(strut_radius: float, cell_size: float) -> float:
+Number = TypeVar("Number", float, Floats)
+
+
+def joint_radius(strut_radius: Number, cell_size: float) -> Number:
     """Radius of a joint sphere, r (1 + r / L), mm (Eq. 8)."""
     return strut_radius * (1.0 + strut_radius / cell_size)
 
 
-def struts(start: Floats, end: Floats, radius: float) -> Primitives:
-    """Capped cylinders of one radius between (k, 3) points (Eq. 1-7)."""
+def struts(start: Floats, end: Floats, radius: float | Floats) -> Primitives:
+    """Capped cylinders (Eq. 1-7) or cones between (k, 3) points.
+
+    `radius` is one for all, or (k, 2) at their starts and ends, in mm.
+    """
     span = end - start
     length = np.linalg.norm(span, axis=1)
+    ends = np.broadcast_to(np.asarray(radius, float), (len(length), 2))
     return Primitives(
         0.5 * (start + end),
         span / length[:, None],
         0.5 * length,
-        np.full(len(length), float(radius)),
+        ends.mean(axis=1),
+        (ends[:, 1] - ends[:, 0]) / length,
     )
 
 
-def spheres(centre: Floats, radius: float) -> Primitives:
-    """Joint spheres of one radius about (k, 3) points (Eq. 8-9)."""
+def spheres(centre: Floats, radius: float | Floats) -> Primitives:
+    """Joint spheres about (k, 3) points (Eq. 8-9), of one radius or of (k,) radii, mm."""
     count = len(centre)
     return Primitives(
         np.asarray(centre, float),
         np.zeros((count, 3)),
         np.full(count, _NO_CAPS),
-        np.full(count, float(radius)),
+        np.broadcast_to(np.asarray(radius, float), count).copy(),
+        np.zeros(count),
     )
 
 
@@ -84,6 +101,7 @@ def join(*parts: Primitives) -> Primitives:
         np.concatenate([p.direction for p in parts]),
         np.concatenate([p.half_length for p in parts]),
         np.concatenate([p.radius for p in parts]),
+        np.concatenate([p.slope for p in parts]),
     )
 
 
@@ -96,7 +114,8 @@ def distances(points: Floats, primitives: Primitives) -> Floats:
     axial = np.einsum("...i,...i->...", offset, primitives.direction)
     # The radius from the rejected vector, not from Pythagoras: no cancellation on thin struts.
     rejected = offset - axial[..., None] * primitives.direction
-    beside = np.sqrt(np.einsum("...i,...i->...", rejected, rejected)) - primitives.radius
+    across = np.sqrt(np.einsum("...i,...i->...", rejected, rejected))
+    beside = _beside(across, axial, primitives)
     beyond = np.abs(axial) - primitives.half_length
     outside = np.hypot(np.maximum(beside, 0.0), np.maximum(beyond, 0.0))
     result: Floats = outside + np.minimum(np.maximum(beside, beyond), 0.0)
@@ -109,7 +128,7 @@ def distances_and_gradients(points: Floats, primitives: Primitives) -> tuple[Flo
     axial = np.einsum("...i,...i->...", offset, primitives.direction)
     rejected = offset - axial[..., None] * primitives.direction
     across = np.sqrt(np.einsum("...i,...i->...", rejected, rejected))
-    beside = across - primitives.radius
+    beside = _beside(across, axial, primitives)
     beyond = np.abs(axial) - primitives.half_length
     outer_beside, outer_beyond = np.maximum(beside, 0.0), np.maximum(beyond, 0.0)
     outside = np.hypot(outer_beside, outer_beyond)
@@ -120,10 +139,22 @@ def distances_and_gradients(points: Floats, primitives: Primitives) -> tuple[Flo
         is_out = outside > 0.0
         radial_weight = np.where(is_out, outer_beside / outside, beside >= beyond)
         axial_weight = np.where(is_out, outer_beyond / outside, beside < beyond)
-    radial_weight /= np.maximum(across, 1e-300)
+    # The normal of a cone leans back by its slope.
+    upright = 1.0 / np.sqrt(1.0 + primitives.slope**2)
+    axial_weight = axial_weight * np.sign(axial) - radial_weight * upright * primitives.slope
+    radial_weight *= upright / np.maximum(across, 1e-300)
     gradient = radial_weight[..., None] * rejected
-    gradient += (axial_weight * np.sign(axial))[..., None] * primitives.direction
+    gradient += axial_weight[..., None] * primitives.direction
     return value, gradient
+
+
+def _beside(across: Floats, axial: Floats, primitives: Primitives) -> Floats:
+    """Distance from the side of a cylinder or, along its normal, of a cone."""
+    if not primitives.slope.any():
+        return across - primitives.radius
+    slope = primitives.slope
+    result: Floats = (across - primitives.radius - slope * axial) / np.sqrt(1.0 + slope**2)
+    return result
 
 
 def union(values: Floats, fillet: float = 0.0) -> Floats:

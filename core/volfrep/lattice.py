@@ -8,7 +8,7 @@ by where it lies. No coordinates are compared.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +17,7 @@ from . import caps
 from .cells import UnitCell
 from .frep import Floats
 from .mesh import TriangleMesh
-from .octant import OctantKey, corner_patterns, octant_mirrors
+from .octant import OPEN, OctantKey, Periodic, corner_patterns, octant_mirrors
 from .progress import Monitor
 from .tile import Octant
 
@@ -35,6 +35,7 @@ class OctantGrid:
         origin: (3,) the grid corner about which octant (0, 0, 0) lies on the low side, mm.
         cell_size: L, mm.
         symmetric: whether octants are described up to reflection.
+        periodic: axes along which the last octant is followed by the first one.
     """
 
     keys: list[OctantKey]
@@ -42,10 +43,26 @@ class OctantGrid:
     origin: Floats
     cell_size: float
     symmetric: bool
+    periodic: Periodic = OPEN
+
+
+def used_kinds(grid: OctantGrid) -> OctantGrid:
+    """The grid without the kinds of octant that lie nowhere in it."""
+    used, kind = np.unique(grid.kind, return_inverse=True)
+    first = int((used < 0).any())
+    return replace(
+        grid,
+        keys=[grid.keys[k] for k in used[first:]],
+        kind=(kind.reshape(grid.kind.shape) - first).astype(np.int16),
+    )
 
 
 def octant_grid(
-    cell: UnitCell, active: NDArray[np.bool_], cell_size: float, origin: Floats
+    cell: UnitCell,
+    active: NDArray[np.bool_],
+    cell_size: float,
+    origin: Floats,
+    periodic: Periodic = OPEN,
 ) -> OctantGrid:
     """The octants of the active cells, with the half cell about them that their struts reach.
 
@@ -54,8 +71,9 @@ def octant_grid(
         active: (nx, ny, nz) bool.
         cell_size: L, mm.
         origin: (3,) lowest corner of the cells, mm.
+        periodic: axes along which the last cell is followed by the first one.
     """
-    pattern = corner_patterns(active)
+    pattern = corner_patterns(active, periodic)
     symmetric = cell.is_mirror_symmetric
     code = pattern.astype(np.int64)
     if not symmetric:
@@ -66,7 +84,7 @@ def octant_grid(
     if len(values) and values[0] < 0:
         values, kind = values[1:], kind - np.int16(1)
     keys = [OctantKey(int(v) >> 8, int(v) & 0xFF) for v in values]
-    return OctantGrid(keys, kind, np.asarray(origin, float), cell_size, symmetric)
+    return OctantGrid(keys, kind, np.asarray(origin, float), cell_size, symmetric, periodic)
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,22 +112,23 @@ _STEPS = np.stack(np.unravel_index(np.arange(27), (3, 3, 3)), axis=1)
 
 def lay_out(grid: OctantGrid, octants: dict[OctantKey, Octant]) -> Layout:
     """Number the vertices of all the octants of the grid, each once."""
-    count = np.zeros(tuple(2 * np.array(grid.kind.shape) + 1), np.int32)
+    count = np.zeros(_complex_shape(grid), np.int32)
     places = [np.argwhere(grid.kind == k) for k in range(len(grid.keys))]
     for key, place in zip(grid.keys, places, strict=True):
         number = np.bincount(octants[key].entity, minlength=27)
         for entity in np.flatnonzero(number):
-            count[tuple(_entity_positions(place, _STEPS[entity]).T)] = number[entity]
+            count[tuple(_entity_positions(grid, place, _STEPS[entity]).T)] = number[entity]
     end = np.cumsum(count.ravel(), dtype=np.int64)
     base = (end - count.ravel()).astype(np.int32).reshape(count.shape)
     return Layout(grid, octants, places, base, int(end[-1]))
 
 
-def _numbers(layout: Layout, octant: Octant, place: NDArray[np.int64]) -> NDArray[np.int32]:
+def numbers(layout: Layout, octant: Octant, place: NDArray[np.int64]) -> NDArray[np.int32]:
     """(k, n) numbers of the vertices of an octant at k places."""
     used, column = np.unique(octant.entity, return_inverse=True)
     first = np.stack(
-        [layout.base[tuple(_entity_positions(place, _STEPS[e]).T)] for e in used], axis=1
+        [layout.base[tuple(_entity_positions(layout.grid, place, _STEPS[e]).T)] for e in used],
+        axis=1,
     )
     result: NDArray[np.int32] = first[:, column.ravel()] + octant.rank
     return result
@@ -128,7 +147,7 @@ def coordinates(layout: Layout, monitor: Monitor) -> Floats:
             part = place[begin : begin + size]
             corner, sign = frames(part)
             position = (corner * grid.cell_size + grid.origin)[:, None, :]
-            vertices[_numbers(layout, octant, part)] = position + sign[:, None, :] * octant.vertices
+            vertices[numbers(layout, octant, part)] = position + sign[:, None, :] * octant.vertices
             monitor.tick()
     return vertices
 
@@ -168,7 +187,7 @@ def facets(
             part = place[begin : begin + size]
             amount = len(part) * len(pattern)
             out = triangles[filled : filled + amount].reshape(len(part), len(pattern), 3)
-            np.take(_numbers(layout, octant, part), pattern, axis=1, out=out, mode="clip")
+            np.take(numbers(layout, octant, part), pattern, axis=1, out=out, mode="clip")
             filled += amount
             monitor.tick()
     return triangles
@@ -184,21 +203,34 @@ def frames(place: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int6
     return place // 2, np.where(place % 2 == 0, -1, 1)
 
 
-def _entity_positions(place: NDArray[np.int64], step: NDArray[np.int64]) -> NDArray[np.int64]:
+def _complex_shape(grid: OctantGrid) -> tuple[int, ...]:
+    """Entities of the complex of octants along each axis.
+
+    There are as many cells as planes, and one more plane where it does not close upon itself.
+    """
+    return tuple(
+        2 * n + (not closed) for n, closed in zip(grid.kind.shape, grid.periodic, strict=True)
+    )
+
+
+def _entity_positions(
+    grid: OctantGrid, place: NDArray[np.int64], step: NDArray[np.int64]
+) -> NDArray[np.int64]:
     """Where an entity of octants is on the complex: reflected frames run backwards."""
     result: NDArray[np.int64] = 2 * place + np.where(place % 2 == 0, 2 - step, step)
+    result %= np.array(_complex_shape(grid))
     return result
 
 
 def neighbour_missing(
-    kind: NDArray[np.int16], where: NDArray[np.bool_], axis: int, high: bool
+    grid: OctantGrid, where: NDArray[np.bool_], axis: int, high: bool
 ) -> NDArray[np.bool_]:
     """Octants of `where` whose neighbour across a face, named in their own frame, is not of it."""
-    padded = np.pad(where, 1)
-    index = np.arange(kind.shape[axis])
+    width = [(1, 1) if k == axis else (0, 0) for k in range(3)]
+    padded = np.pad(where, width, mode="wrap" if grid.periodic[axis] else "constant")
+    index = np.arange(where.shape[axis])
     # Frames run backwards at even places: the high face is then on the grid's low side.
     step = np.where((index % 2 == 0) == high, -1, 1)
-    inner = tuple(slice(1, -1) if k != axis else slice(None) for k in range(3))
-    beyond = np.take(padded[inner], index + 1 + step, axis=axis)
+    beyond = np.take(padded, index + 1 + step, axis=axis)
     result: NDArray[np.bool_] = where & ~beyond
     return result

@@ -27,6 +27,9 @@ from .frep import Floats, Ints, Primitives
 #: which is shifted by -1 along the axes whose bit is set in k. Cell 0 is the octant's own.
 NEIGHBOURS = np.array([[-(k >> axis & 1) for axis in range(3)] for k in range(8)])
 ALL_ACTIVE = 0xFF
+#: Along which axes a grid closes upon itself; and none of them.
+Periodic = tuple[bool, bool, bool]
+OPEN: Periodic = (False, False, False)
 #: Samples nearer to the surface than this, in units of the step, are moved off it: a zero sample
 #: would make marching cubes put several vertices on one grid point. Not a round number, so that
 #: a radius that is a multiple of the step cannot meet it.
@@ -169,14 +172,23 @@ def raw_octant(samples: Floats, cell_size: float) -> RawOctant:
     return RawOctant(found * step, triangles, place, order)
 
 
-def corner_patterns(active: NDArray[np.bool_]) -> NDArray[np.uint8]:
+def wrapped(values: NDArray[np.bool_], periodic: Periodic) -> NDArray[np.bool_]:
+    """The array with one more layer all about: what follows along a periodic axis, else False."""
+    for axis, closed in enumerate(periodic):
+        width = [(1, 1) if k == axis else (0, 0) for k in range(3)]
+        values = np.pad(values, width, mode="wrap" if closed else "constant")
+    return values
+
+
+def corner_patterns(active: NDArray[np.bool_], periodic: Periodic = OPEN) -> NDArray[np.uint8]:
     """(2 nx + 2, 2 ny + 2, 2 nz + 2) pattern of every octant in and about the cells.
 
     Octant (0, 0, 0) lies half a cell outside the grid's lowest corner: the struts on the outer
     faces of a block are round, so half a cell about the active ones belongs to the lattice.
-    Octants that no active cell touches have pattern 0.
+    Octants that no active cell touches have pattern 0. Along a periodic axis there are just the
+    2 n octants, of which the first follows the last.
     """
-    padded = np.pad(active, 1)
+    padded = wrapped(active, periodic)
     shape = tuple(2 * np.array(active.shape) + 2)
     result = np.zeros(shape, np.uint8)
     for parity in itertools.product((0, 1), repeat=3):
@@ -191,7 +203,7 @@ def corner_patterns(active: NDArray[np.bool_]) -> NDArray[np.uint8]:
             part = padded[tuple(slice(b, b + c) for b, c in zip(begin, count, strict=True))]
             view |= part.astype(np.uint8) << np.uint8(bit)
         result[tuple(slice(p, None, 2) for p in parity)] = view
-    return result
+    return result[tuple(slice(None, -2 if closed else None) for closed in periodic)]
 
 
 def octant_mirrors(shape: tuple[int, int, int]) -> NDArray[np.uint8]:

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import hashlib
-import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, TypeVar
@@ -15,9 +14,20 @@ from numpy.typing import NDArray
 from .cells import UnitCell
 from .clean import remove_slivers, separate_vertices, shortest_edge
 from .errors import VolfrepError
-from .lattice import OctantGrid, lay, lay_out, octant_grid
+from .frep import Floats
+from .graded import (
+    Ground,
+    Setting,
+    block_setting,
+    graded_wireframe,
+    ground,
+    setting,
+    vertices_of,
+)
+from .lattice import Layout, facets, lay_out, octant_grid
+from .limits import BYTES_PER_CELL, expected_triangles, refuse_memory, refuse_too_large
 from .mesh import TriangleMesh, concatenate
-from .octant import ALL_ACTIVE, OctantKey, octant_mirrors
+from .octant import OctantKey
 from .progress import Monitor, ProgressCallback, peak_memory_mb
 from .quality import Quality, combined, inspect, measure
 from .report import Report
@@ -25,19 +35,16 @@ from .shell import TOLERANCE, inner_wall
 from .spec import LatticeSpec
 from .survey import survey
 from .tile import Octant, TileSpec, mesh_octants
-from .trim import Cleared, OctantRoles, clear, octant_roles, trim
-from .voxels import CellGrid, active_cells, make_grid
-from .wireframe import Wireframe, wireframe
+from .trim import Cleared, Kept, clear, keep, octant_roles, trim
+from .voxels import CellGrid, active_cells, make_grid, mapped_grid, wall_corners
+from .wireframe import Wireframe, cell_graph
 
+Bools = NDArray[np.bool_]
 T = TypeVar("T")
 
-#: Bytes that a triangle takes at the peak: laid out and checked, or in the Boolean as well.
-BYTES_PER_TRIANGLE = 150
-BYTES_PER_BOOLEAN_TRIANGLE = 900
-#: Bytes that a cell of the grid takes while cells and octants are told apart.
-BYTES_PER_CELL = 500
-#: Taken for free memory where the system does not tell.
-ASSUMED_MEMORY = 8e9
+
+#: Octants on moved struts are looked for this much farther than the last ones reached.
+SPARE_MARGIN = 1.05
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,38 +132,36 @@ def fill(
         )
 
     if spec.output != "domain":
-        _refuse_memory(_expected_triangles(cell, spec, domain.volume), 0)
-    voxel_key = (wall_key, spec.cell_size, spec.origin, spec.activation)
+        refuse_memory(expected_triangles(cell, spec, domain.volume), 0)
+    where = setting(solid, spec, monitor)
+    voxel_key = (wall_key, *_cells_key(cell, spec))
     with monitor.stage("voxels", 0.3, 0.4):
-        cells, active, roles = cache.get(
-            "voxels", voxel_key, lambda: _voxels(solid, domain, spec, monitor)
+        floor, active = cache.get(
+            "voxels", voxel_key, lambda: _voxels(solid, domain, cell, spec, where, monitor)
         )
     if not active.any():
         raise VolfrepError(
             f"No cell of {spec.cell_size:g} mm has its centre inside the domain: reduce the cell "
             "size or choose the activation 'touching'."
         )
-    graph = wireframe(cell, active, spec.cell_size, cells.origin, spec.strut_radius)
+    graph = cell_graph(cell, active, spec.cell_size, floor.cells.origin, floor.cells.periodic)
+    frame = graded_wireframe(graph, spec, where)
 
-    tile_spec = TileSpec(spec.cell_size, spec.strut_radius, spec.fillet, spec.facets_along_cell)
     if spec.output == "domain":
         cleared, measured = Cleared(domain, 0, 0), measure(domain)
     else:
-        grid = _octants(cell, cells, active, spec)
+        trimming = _Trimming(solid, domain, cell, spec, where, floor, active, voxel_key)
         with monitor.stage("tile", 0.4, 0.5):
-            octants = cache.get(
-                "tile",
-                (_cell_key(cell), tile_spec, tuple(grid.keys)),
-                lambda: mesh_octants(cell, tile_spec, grid.keys, monitor),
-            )
-        _refuse_solid_cells(octants, spec)
-        _refuse_too_large(grid, octants, roles)
-        with monitor.stage("trim", 0.5, 1.0):
-            cleared, measured = _trimmed_output(solid, domain, grid, octants, roles, spec, monitor)
+            kept, octants = trimming.octants(0.0, cache, monitor)
+        with monitor.stage("lattice", 0.5, 0.6):
+            kept, layout, points = trimming.lay(kept, octants, cache, monitor)
+        with monitor.stage("trim", 0.6, 1.0):
+            cleared, measured = trimming.output(kept, layout, points, monitor)
     skin_volume = solid.volume - domain.volume if spec.output == "part" else 0.0
     return _result(
-        cleared, measured, graph, cells, active, domain.volume, spec, monitor, skin_volume, warnings
-    )
+        cleared, measured, frame, floor.cells, active, domain.volume, spec, monitor, skin_volume,
+        warnings,
+    )  # fmt: skip
 
 
 def block(
@@ -181,97 +186,152 @@ def block(
         raise VolfrepError(f"The count must be three whole numbers above 0, not {list(count)}.")
     monitor = Monitor(progress)
     cell = spec.unit_cell()
-    tile_spec = TileSpec(spec.cell_size, spec.strut_radius, spec.fillet, spec.facets_along_cell)
-    origin = np.array(spec.origin or (0.0, 0.0, 0.0), float)
-    cells = CellGrid(origin, spec.cell_size, (shape[0], shape[1], shape[2]))
+    cells, where = block_setting(spec, shape)
     volume = float(np.prod(shape, dtype=float)) * spec.cell_size**3
-    _refuse_memory(_expected_triangles(cell, spec, volume), 0)
+    refuse_memory(expected_triangles(cell, spec, volume), 0)
     active = np.ones(shape, bool)
+    tile = tile_spec(spec)
     with monitor.stage("tile", 0.0, 0.4):
-        grid = octant_grid(cell, active, spec.cell_size, origin)
-        octants = mesh_octants(cell, tile_spec, grid.keys, monitor)
+        grid = octant_grid(cell, active, spec.cell_size, cells.origin, cells.periodic)
+        octants = mesh_octants(cell, tile, grid.keys, monitor)
     _refuse_solid_cells(octants, spec)
-    _refuse_too_large(grid, octants, None)
+    refuse_too_large(grid, octants, None)
+    graph = cell_graph(cell, active, spec.cell_size, cells.origin, cells.periodic)
     with monitor.stage("lattice", 0.4, 0.8):
         layout = lay_out(grid, octants)
-        mesh = lay(layout, monitor)
-    graph = wireframe(cell, active, spec.cell_size, origin, spec.strut_radius)
+        placed = vertices_of(layout, lambda: graph, cell, spec, tile, where, monitor)
+        mesh = TriangleMesh(placed.vertices, facets(layout, monitor))
+    frame = graded_wireframe(graph, spec, where)
     with monitor.stage("check", 0.8, 1.0):
-        measured = survey(layout, mesh.vertices)
+        measured = measure(mesh, monitor) if spec.is_graded else survey(layout, mesh.vertices)
         cleared = Cleared(mesh, 0, 0)
         if measured.shells > 1:
             cleared = clear(mesh, inspect(mesh, monitor), _smallest_shell(spec))
             measured = measure(cleared.mesh, monitor)
-    return _result(cleared, measured, graph, cells, active, volume, spec, monitor)
+    return _result(cleared, measured, frame, cells, active, volume, spec, monitor)
 
 
 def _voxels(
-    solid: TriangleMesh, domain: TriangleMesh, spec: LatticeSpec, monitor: Monitor
-) -> tuple[CellGrid, NDArray[np.bool_], OctantRoles]:
-    cells = make_grid(solid.bounds, spec.cell_size, spec.origin)
-    _refuse_memory(0, 0, cells.cells * BYTES_PER_CELL)
-    active = active_cells(cells, domain, spec.activation, monitor)
-    return cells, active, octant_roles(domain, cells, 1, monitor)
-
-
-def _octants(
-    cell: UnitCell, cells: CellGrid, active: NDArray[np.bool_], spec: LatticeSpec
-) -> OctantGrid:
-    """The octants of the active cells.
-
-    Where every cell that touches the domain is active, those of a lattice without end: what lies
-    outside is cut off anyway.
-    """
-    if spec.activation == "centre":
-        return octant_grid(cell, active, cells.cell_size, cells.origin)
-    shape = (2 * active.shape[0] + 2, 2 * active.shape[1] + 2, 2 * active.shape[2] + 2)
-    if cell.is_mirror_symmetric:
-        kind, keys = np.zeros(shape, np.int16), [OctantKey(0, ALL_ACTIVE)]
-    else:
-        kind = octant_mirrors(shape).astype(np.int16)
-        keys = [OctantKey(mirror, ALL_ACTIVE) for mirror in range(8)]
-    return OctantGrid(keys, kind, cells.origin, cells.cell_size, cell.is_mirror_symmetric)
-
-
-def _trimmed_output(
     solid: TriangleMesh,
     domain: TriangleMesh,
-    grid: OctantGrid,
-    octants: dict[OctantKey, Octant],
-    roles: OctantRoles,
+    cell: UnitCell,
     spec: LatticeSpec,
+    where: Setting,
     monitor: Monitor,
-) -> tuple[Cleared, Quality]:
-    """The part or the lattice, without loose pieces and slivers, and its quality."""
-    with_skin = spec.output == "part" and spec.shell > 0
-    trimmed = trim(domain, grid, octants, roles, cavity=with_skin, monitor=monitor)
-    mesh, cut, removed = trimmed.mesh, trimmed.cut, 0
-    smallest, precision = _smallest_shell(spec), shortest_edge(solid)
-    if spec.output == "lattice" and spec.shell > 0:
-        on_wall = np.flatnonzero(trimmed.on_wall)
-        held = clear(mesh, inspect(mesh, monitor), smallest, keep=on_wall)
-        mesh, cut, removed = held.mesh, len(held.mesh.triangles), held.pieces_removed
-    mesh = separate_vertices(remove_slivers(mesh, precision, cut), precision)
-    found = inspect(mesh, monitor)
-    bodies = 0
-    if spec.shell == 0:
-        bodies = max(1, inspect(solid).quality.bodies)
-    cleared = clear(mesh, found, smallest, floating=with_skin, bodies=bodies)
-    if not len(cleared.mesh.triangles):
-        if with_skin:
-            raise _cells_are_full(spec)
-        raise VolfrepError(
-            "No strut lies inside the part: reduce the cell size or move the origin."
+) -> tuple[Ground, Bools]:
+    if where.chart is None:
+        cells = make_grid(solid.bounds, spec.cell_size, spec.origin)
+    else:
+        corners = wall_corners(solid, where.chart)
+        cells = mapped_grid(corners, where.chart, spec.cell_size, spec.origin)
+    refuse_memory(0, 0, cells.cells * BYTES_PER_CELL)
+    floor = ground(cells, cell, spec, where)
+    usable = floor.inner_usable
+    return floor, active_cells(cells, domain, spec.activation, monitor, where.chart, usable)
+
+
+def _cells_key(cell: UnitCell, spec: LatticeSpec) -> tuple[object, ...]:
+    """What the cells of the grid, and which of them are active, depend on besides the wall."""
+    width: tuple[object, ...] = ()
+    if spec.cell_map is not None:
+        width = (_cell_key(cell), spec.keep_radius, spec.radius_extremes[1])
+    return (
+        spec.cell_size, spec.origin, spec.activation,
+        spec.size_grading, spec.cell_map, spec.orientation, *width,
+    )  # fmt: skip
+
+
+@dataclass(frozen=True, eq=False)
+class _Trimming:
+    """From active cells to the trimmed lattice."""
+
+    solid: TriangleMesh
+    domain: TriangleMesh
+    cell: UnitCell
+    spec: LatticeSpec
+    where: Setting
+    floor: Ground
+    active: Bools
+    key: object
+
+    def octants(
+        self, margin: float, cache: StageCache, monitor: Monitor
+    ) -> tuple[Kept, dict[OctantKey, Octant]]:
+        """Which octants there are, and their meshes."""
+        spec, cells = self.spec, self.floor.cells
+        roles = cache.get(
+            "octants",
+            (self.key, margin),
+            lambda: octant_roles(self.domain, cells, monitor, self.where.chart, margin),
         )
-    measured = found.quality
-    if cleared.mesh is not mesh:
-        measured = measure(cleared.mesh, monitor)
-    cleared = replace(cleared, pieces_removed=cleared.pieces_removed + removed)
-    if not with_skin:
-        return cleared, measured
-    return replace(cleared, mesh=concatenate(solid, cleared.mesh)), combined(
-        measure(solid), measured
-    )
+        kept = keep(self.floor.octants(self.cell, self.active, spec.activation), roles)
+        tile = tile_spec(spec)
+        keys = kept.grid.keys
+        octants = cache.get(
+            "tile",
+            (_cell_key(self.cell), tile, tuple(keys)),
+            lambda: mesh_octants(self.cell, tile, keys, monitor),
+        )
+        _refuse_solid_cells(octants, spec)
+        refuse_too_large(kept.grid, octants, kept.border)
+        return kept, octants
+
+    def lay(
+        self, kept: Kept, octants: dict[OctantKey, Octant], cache: StageCache, monitor: Monitor
+    ) -> tuple[Kept, Layout, Floats]:
+        """The octants laid where the struts are; with more of them, where struts reach far out."""
+        margin = 0.0
+        while True:
+            layout = kept.lay_out(octants)
+            placed = vertices_of(
+                layout,
+                lambda: self.floor.graph(self.cell, self.active, self.spec.activation),
+                self.cell, self.spec, tile_spec(self.spec), self.where, monitor,
+            )  # fmt: skip
+            if placed.excess <= margin + 1e-9:
+                return kept, layout, placed.vertices
+            margin = SPARE_MARGIN * placed.excess
+            kept, octants = self.octants(margin, cache, monitor)
+
+    def output(
+        self, kept: Kept, layout: Layout, points: Floats, monitor: Monitor
+    ) -> tuple[Cleared, Quality]:
+        """The part or the lattice, without loose pieces and slivers, and its quality."""
+        spec, solid, domain = self.spec, self.solid, self.domain
+        with_skin = spec.output == "part" and spec.shell > 0
+        trimmed = trim(domain, kept, layout, points, cavity=with_skin, monitor=monitor)
+        mesh, cut, removed = trimmed.mesh, trimmed.cut, 0
+        smallest, precision = _smallest_shell(spec), shortest_edge(solid)
+        if spec.output == "lattice" and spec.shell > 0:
+            on_wall = np.flatnonzero(trimmed.on_wall)
+            held = clear(mesh, inspect(mesh, monitor), smallest, keep=on_wall)
+            mesh, cut, removed = held.mesh, len(held.mesh.triangles), held.pieces_removed
+        mesh = separate_vertices(remove_slivers(mesh, precision, cut), precision)
+        found = inspect(mesh, monitor)
+        bodies = 0
+        if spec.shell == 0:
+            bodies = max(1, inspect(solid).quality.bodies)
+        cleared = clear(mesh, found, smallest, floating=with_skin, bodies=bodies)
+        if not len(cleared.mesh.triangles):
+            if with_skin:
+                raise _cells_are_full(spec)
+            raise VolfrepError(
+                "No strut lies inside the part: reduce the cell size or move the origin."
+            )
+        measured = found.quality
+        if cleared.mesh is not mesh:
+            measured = measure(cleared.mesh, monitor)
+        cleared = replace(cleared, pieces_removed=cleared.pieces_removed + removed)
+        if not with_skin:
+            return cleared, measured
+        return replace(cleared, mesh=concatenate(solid, cleared.mesh)), combined(
+            measure(solid), measured
+        )
+
+
+def tile_spec(spec: LatticeSpec) -> TileSpec:
+    """What the octants of a lattice are meshed for."""
+    return TileSpec(spec.cell_size, spec.template_radius, spec.fillet, spec.facets_along_cell)
 
 
 def _smallest_shell(spec: LatticeSpec) -> float:
@@ -329,58 +389,6 @@ def _cells_are_full(spec: LatticeSpec) -> VolfrepError:
         f"Struts of radius {spec.strut_radius:g} mm fill cells of {spec.cell_size:g} mm "
         "completely: reduce the radius or enlarge the cells."
     )
-
-
-def _refuse_too_large(
-    grid: OctantGrid, octants: dict[OctantKey, Octant], roles: OctantRoles | None
-) -> None:
-    per_kind = np.array([len(octants[key].triangles) for key in grid.keys])
-    present = grid.kind >= 0
-    if roles is not None:
-        present &= roles.border | roles.inside
-    triangles = int(per_kind[grid.kind[present]].sum())
-    in_boolean = 0
-    if roles is not None:
-        in_boolean = int(per_kind[grid.kind[present & roles.border]].sum())
-    _refuse_memory(triangles, in_boolean)
-
-
-def _expected_triangles(cell: UnitCell, spec: LatticeSpec, volume: float) -> float:
-    """Triangles of the lattice in a volume, rather too few: known before any work starts.
-
-    A strut on a cell's edge is shared by four cells; facets are equilateral triangles; about
-    half of the struts' surface is lost to one another at the joints at the worst.
-    """
-    ends = cell.nodes[cell.struts]
-    length = float(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).sum()) / 4.0
-    surface = 0.5 * length * spec.cell_size * 2.0 * np.pi * spec.strut_radius
-    facet = np.sqrt(3.0) / 4.0 * (spec.cell_size / spec.facets_along_cell) ** 2
-    return float(volume / spec.cell_size**3 * surface / facet)
-
-
-def _refuse_memory(triangles: float, in_boolean: float, other: float = 0.0) -> None:
-    needed = triangles * BYTES_PER_TRIANGLE + in_boolean * BYTES_PER_BOOLEAN_TRIANGLE + other
-    free = _free_memory()
-    if needed > free or triangles > np.iinfo(np.int32).max // 3:
-        what = f"have about {triangles / 1e6:.3g} million triangles and " if triangles else ""
-        raise VolfrepError(
-            f"This lattice would {what}take {needed / 1e9:.3g} GB of the {free / 1e9:.3g} GB of "
-            "free memory: enlarge the cells, or choose a coarser resolution or fewer cells."
-        )
-
-
-def _free_memory() -> float:
-    """Bytes of memory that are free, as far as the system tells."""
-    try:
-        with open("/proc/meminfo", encoding="ascii") as file:
-            for line in file:
-                if line.startswith("MemAvailable:"):
-                    return float(line.split()[1]) * 1024.0
-    except OSError:
-        pass
-    if hasattr(os, "sysconf") and "SC_AVPHYS_PAGES" in os.sysconf_names:
-        return float(os.sysconf("SC_AVPHYS_PAGES")) * os.sysconf("SC_PAGE_SIZE")
-    return ASSUMED_MEMORY
 
 
 def _fingerprint(mesh: TriangleMesh) -> str:

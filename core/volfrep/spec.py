@@ -10,6 +10,7 @@ from typing import Any
 from .cells import UnitCell, find_cell
 from .errors import VolfrepError
 from .frep import joint_radius
+from .grading import CellMap, Orientation, RadiusGrading, SizeGrading, as_plain
 
 ACTIVATIONS = ("touching", "centre")
 OUTPUTS = ("part", "lattice", "domain")
@@ -40,6 +41,12 @@ class LatticeSpec:
         fillet: radius of the round between struts at a joint; 0 for none.
         origin: a point that is to be a cell's corner; None puts the grid at the part's box.
         density: of the material in g/cm3.
+        size_grading: cells that grow along a direction; None for equal cells.
+        radius_grading: struts whose radius varies, in place of `strut_radius`; None for one radius.
+        cell_map: cells about an axis or a centre; None for cells along straight axes.
+        orientation: the lattice turned; None for along x, y, z.
+        keep_radius: where cells are stretched or bent, struts stay straight and round: the nodes
+            are moved and joined anew. False: they are deformed with their cells, as published.
 
     Raises:
         VolfrepError: at construction, naming the first value that makes no sense.
@@ -56,13 +63,19 @@ class LatticeSpec:
     fillet: float = 0.0
     origin: tuple[float, float, float] | None = None
     density: float = 1.0
+    size_grading: SizeGrading | None = None
+    radius_grading: RadiusGrading | None = None
+    cell_map: CellMap | None = None
+    orientation: Orientation | None = None
+    keep_radius: bool = True
 
     def __post_init__(self) -> None:
         size = _number("cell size", self.cell_size, "mm", positive=True)
-        radius = _number("strut radius", self.strut_radius, "mm", positive=True)
+        _number("strut radius", self.strut_radius, "mm", positive=True)
         _number("shell thickness", self.shell, "mm", positive=False)
         _number("joint fillet", self.fillet, "mm", positive=False)
         _number("density", self.density, "g/cm3", positive=True)
+        radius = self.radius_extremes[1]
         if radius + radius * radius / size + self.fillet >= size / 2:
             limit = _largest_radius(size, self.fillet)
             with_fillet = " with this fillet" if self.fillet else ""
@@ -108,19 +121,43 @@ class LatticeSpec:
         return joint_radius(self.strut_radius, self.cell_size)
 
     @property
+    def is_graded(self) -> bool:
+        """Whether the lattice is anything but equal cells along x, y, z."""
+        parts = (self.size_grading, self.radius_grading, self.cell_map, self.orientation)
+        return any(part is not None for part in parts)
+
+    @property
+    def radius_extremes(self) -> tuple[float, float]:
+        """The smallest and the largest radius of a strut, mm."""
+        if self.radius_grading is None:
+            return float(self.strut_radius), float(self.strut_radius)
+        return self.radius_grading.extremes
+
+    @property
+    def template_radius(self) -> float:
+        """The radius that octants are meshed for, between the extremes, mm."""
+        least, most = self.radius_extremes
+        return least if least == most else math.sqrt(least * most)
+
+    @property
     def facets_along_cell(self) -> int:
         """How many facet edges fit along L: the resolution, or what the deviation asks for.
 
         Facets of edge e fitted to a cylinder of radius r in the mean stray from it by up to
-        e2 / (16 r) to either side (the sagitta of a chord, e2 / 8 r, halved by the fit).
+        e2 / (16 r) to either side (the sagitta of a chord, e2 / 8 r, halved by the fit). Where
+        the radius varies, every strut has as many facets round it, and the thickest one strays
+        most.
         """
         if self.resolution is not None:
             return int(self.resolution)
-        deviation = self.deviation or DEFAULT_RELATIVE_DEVIATION * self.strut_radius
-        wanted = self.cell_size / math.sqrt(16.0 * self.strut_radius * deviation)
+        radius = self.template_radius**2 / self.radius_extremes[1]
+        if self.deviation is None:
+            radius = self.template_radius
+        deviation = self.deviation or DEFAULT_RELATIVE_DEVIATION * radius
+        wanted = self.cell_size / math.sqrt(16.0 * radius * deviation)
         if wanted > MAX_RESOLUTION:
             edge = self.cell_size / MAX_RESOLUTION
-            smallest = edge * edge / (16.0 * self.strut_radius)
+            smallest = edge * edge / (16.0 * radius)
             raise VolfrepError(
                 f"A deviation of {deviation:.3g} mm needs {wanted:.0f} facets along a cell: the "
                 f"limit is {MAX_RESOLUTION}, which reaches {smallest:.3g} mm."
@@ -134,9 +171,8 @@ class LatticeSpec:
 
     def as_dict(self) -> dict[str, Any]:
         """The specification as plain JSON values."""
-        values = {name: getattr(self, name) for name in self.__dataclass_fields__}
+        values = {name: as_plain(getattr(self, name)) for name in self.__dataclass_fields__}
         values["cell"] = self.unit_cell().name
-        values["origin"] = None if self.origin is None else [float(c) for c in self.origin]
         return values
 
 

@@ -11,6 +11,7 @@ copies. `volfrep.quality.measure` finds the same on the triangles, in time that 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -149,10 +150,12 @@ def _fit_together(layout: Layout, kinds: list[_Kind], first: Ints) -> Ints:
     keys = layout.grid.keys
     links = [np.stack([np.arange(0), np.arange(0)], axis=1)]
     for axis in range(3):
-        # One octant of emptiness about all, so that the outermost faces are looked at too.
-        width = [(1, 1) if k == axis else (0, 0) for k in range(3)]
-        own = np.pad(kind, width, constant_values=-1)
-        number = np.pad(first, width, constant_values=-1)
+        # One octant of emptiness about all, so that the outermost faces are looked at too; or the
+        # last one before the first.
+        closed = layout.grid.periodic[axis]
+        width = [(1, not closed) if k == axis else (0, 0) for k in range(3)]
+        fill: dict[str, Any] = {"mode": "wrap"} if closed else {"constant_values": -1}
+        own, number = np.pad(kind, width, **fill), np.pad(first, width, **fill)
         low = [slice(None)] * 3
         high = [slice(None)] * 3
         low[axis], high[axis] = slice(None, -1), slice(1, None)

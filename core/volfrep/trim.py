@@ -10,7 +10,7 @@ and what it hands out untouched has exactly the coordinates that went in.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,13 +18,14 @@ from numpy.typing import NDArray
 
 from .caps import with_corners
 from .errors import VolfrepError
-from .lattice import Layout, OctantGrid, coordinates, facets, lay_out, neighbour_missing
+from .lattice import Layout, OctantGrid, facets, lay_out, neighbour_missing, used_kinds
+from .mapping import LatticeMap
 from .mesh import TriangleMesh, compact
-from .octant import OctantKey
+from .octant import OctantKey, Periodic, wrapped
 from .progress import Monitor
 from .quality import Inspection
 from .tile import Octant
-from .voxels import CellGrid, crossed_cells, inside_grid
+from .voxels import CellGrid, crossed_cells, inside_cells, inside_points, wall_corners
 
 if TYPE_CHECKING:
     import manifold3d
@@ -52,22 +53,32 @@ class OctantRoles:
 
 
 def octant_roles(
-    domain: TriangleMesh, cells: CellGrid, margin_octants: int, monitor: Monitor
+    domain: TriangleMesh,
+    cells: CellGrid,
+    monitor: Monitor,
+    chart: LatticeMap | None = None,
+    margin: float = 0.0,
 ) -> OctantRoles:
-    """Classify the octants of a grid of cells, and `margin_octants` more all about it."""
+    """Classify the octants of a grid of cells, and of the half cells about it.
+
+    Args:
+        domain: closed mesh of what the lattice fills.
+        cells: the grid.
+        monitor: for progress and cancel.
+        chart: from lattice space to the part, where they differ.
+        margin: how near the wall may come to an octant that is not of the border, in units of its
+            edge: octants on struts that were moved reach beyond their places.
+    """
     half = 0.5 * cells.cell_size
-    grid = CellGrid(
-        cells.origin - margin_octants * half,
-        half,
-        (
-            2 * cells.shape[0] + 2 * margin_octants,
-            2 * cells.shape[1] + 2 * margin_octants,
-            2 * cells.shape[2] + 2 * margin_octants,
-        ),
+    shape = [
+        2 * n + (0 if closed else 2) for n, closed in zip(cells.shape, cells.periodic, strict=True)
+    ]
+    grid = CellGrid(cells.origin - half, half, (shape[0], shape[1], shape[2]), cells.periodic)
+    # The margin is on either side, the cell is enlarged by both.
+    border = crossed_cells(
+        grid, wall_corners(domain, chart), monitor, CROSSING_MARGIN + 2.0 * margin
     )
-    border = crossed_cells(grid, domain, monitor, CROSSING_MARGIN)
-    inside = inside_grid(domain, grid.centres(0), grid.centres(1), grid.centres(2), monitor)
-    return OctantRoles(border, inside & ~border)
+    return OctantRoles(border, inside_cells(grid, domain, monitor, chart) & ~border)
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,11 +98,42 @@ class Trimmed:
     boolean_triangles: int
 
 
+@dataclass(frozen=True, eq=False)
+class Kept:
+    """What is left of a lattice where octants outside are dropped.
+
+    Attributes:
+        grid: the octants that are left.
+        border: (nx, ny, nz) bool, octants that go into the Boolean.
+        inside: octants that are put back afterwards.
+    """
+
+    grid: OctantGrid
+    border: NDArray[np.bool_]
+    inside: NDArray[np.bool_]
+
+    def lay_out(self, octants: dict[OctantKey, Octant]) -> Layout:
+        """The octants numbered, with corners for caps."""
+        half = 0.5 * self.grid.cell_size
+        capped = {key: with_corners(octants[key], half) for key in self.grid.keys}
+        return lay_out(self.grid, capped)
+
+
+def keep(grid: OctantGrid, roles: OctantRoles) -> Kept:
+    """Drop the octants outside; `roles` is shaped as the grid."""
+    present = grid.kind >= 0
+    border, inside = roles.border & present, roles.inside & present
+    border = _without_pinches(border, present, grid.periodic)
+    inside = inside & ~border
+    kind = np.where(border | inside, grid.kind, np.int16(-1))
+    return Kept(used_kinds(replace(grid, kind=kind)), border, inside)
+
+
 def trim(
     domain: TriangleMesh,
-    grid: OctantGrid,
-    octants: dict[OctantKey, Octant],
-    roles: OctantRoles,
+    kept: Kept,
+    layout: Layout,
+    points: NDArray[np.float64],
     *,
     cavity: bool,
     monitor: Monitor,
@@ -100,9 +142,9 @@ def trim(
 
     Args:
         domain: closed mesh of what the lattice fills.
-        grid: the octants that hold a lattice.
-        octants: their meshes.
-        roles: which octants the wall crosses, shaped as the grid.
+        kept: the octants of the lattice.
+        layout: the same, numbered.
+        points: (n, 3) where their vertices are, mm.
         cavity: True for domain - lattice turned inside out (the wall with holes where struts
             meet it, and the struts), False for domain & lattice.
         monitor: for progress and cancel.
@@ -110,24 +152,11 @@ def trim(
     Raises:
         VolfrepError: the domain's mesh is not a solid that can be cut.
     """
-    present = grid.kind >= 0
-    border, inside = roles.border & present, roles.inside & present
-    border = _without_pinches(border, present)
-    inside = inside & ~border
-    half = 0.5 * grid.cell_size
-    kept = OctantGrid(
-        grid.keys,
-        np.where(border | inside, grid.kind, np.int16(-1)),
-        grid.origin + NUDGE * grid.cell_size,
-        grid.cell_size,
-        grid.symmetric,
-    )
-    layout = lay_out(kept, {key: with_corners(octants[key], half) for key in grid.keys})
-    points = coordinates(layout, monitor)
+    points = points + NUDGE * layout.grid.cell_size
     monitor.tick(0.1)
-    surface = facets(layout, monitor, border)
-    caps = _caps(layout, border, monitor)
-    inner = facets(layout, monitor, inside)
+    surface = facets(layout, monitor, kept.border)
+    caps = _caps(layout, kept.border, monitor)
+    inner = facets(layout, monitor, kept.inside)
     monitor.tick(0.2)
 
     import manifold3d
@@ -154,14 +183,16 @@ def trim(
     )
 
 
-def _without_pinches(border: NDArray[np.bool_], present: NDArray[np.bool_]) -> NDArray[np.bool_]:
+def _without_pinches(
+    border: NDArray[np.bool_], present: NDArray[np.bool_], periodic: Periodic
+) -> NDArray[np.bool_]:
     """The border, grown until no two of its octants touch along an edge or a corner only.
 
     The caps of two such octants would share an edge between four triangles.
     """
     current = border.copy()
     while True:
-        padded = np.pad(current, 1)
+        padded = wrapped(current, periodic)
         add = np.zeros_like(padded)
         for axis in range(3):
             a, b = (k for k in range(3) if k != axis)
@@ -193,7 +224,7 @@ def _caps(layout: Layout, border: NDArray[np.bool_], monitor: Monitor) -> NDArra
         facets(
             layout,
             monitor,
-            neighbour_missing(layout.grid.kind, border, axis, high),
+            neighbour_missing(layout.grid, border, axis, high),
             (axis, high),
         )
         for axis in range(3)
@@ -358,6 +389,5 @@ def _enclosed(
         point = mesh.vertices[mesh.triangles[triangle, 0]]
         if (point < low).any() or (point > high).any():
             continue
-        x, y, z = point[:, None]
-        result[shell] = inside_grid(pieces, x, y, z, quiet)[0, 0, 0]
+        result[shell] = inside_points(pieces, point[None], quiet)[0]
     return result

@@ -4,13 +4,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
 from .errors import VolfrepError
+from .mapping import LatticeMap, triangles_in_lattice
 from .mesh import TriangleMesh
 from .progress import Monitor
 from .ragged import spread
@@ -33,12 +34,14 @@ class CellGrid:
     Attributes:
         origin: (3,) float64, lowest corner, mm.
         cell_size: L, mm.
-        shape: cells along x, y, z.
+        shape: cells along x, y, z (of lattice space, where that is not the part's own).
+        periodic: axes along which the last cell is followed by the first one.
     """
 
     origin: Floats
     cell_size: float
     shape: tuple[int, int, int]
+    periodic: tuple[bool, bool, bool] = (False, False, False)
 
     @property
     def cells(self) -> int:
@@ -77,8 +80,39 @@ def make_grid(
     return CellGrid(low, float(cell_size), (int(wanted[0]), int(wanted[1]), int(wanted[2])))
 
 
+def mapped_grid(
+    corners: Floats,
+    chart: LatticeMap,
+    cell_size: float,
+    origin: tuple[float, float, float] | None,
+) -> CellGrid:
+    """The smallest grid in lattice space that covers a part.
+
+    Args:
+        corners: (m, 3, 3) the part's triangles there (`mapping.triangles_in_lattice`).
+        chart: the map; along its periodic axes the grid is the full turn.
+        cell_size: L, mm.
+        origin: a point of the part that is to be a cell's corner; None: the part's lowest corner
+            in lattice space.
+
+    Raises:
+        VolfrepError: the grid would have more than `MAX_CELLS` cells.
+    """
+    bounds = np.stack([corners.min(axis=(0, 1)), corners.max(axis=(0, 1))])
+    at = None if origin is None else chart.to_lattice(np.array([origin], float))[0]
+    for axis in np.flatnonzero(chart.base.periodic):
+        bounds[:, axis] = (0.0 if at is None else at[axis]) + np.array([0.0, chart.base.turn])
+    grid = make_grid(bounds, cell_size, at)
+    return replace(grid, periodic=chart.base.periodic)
+
+
 def active_cells(
-    grid: CellGrid, domain: TriangleMesh, rule: str, monitor: Monitor
+    grid: CellGrid,
+    domain: TriangleMesh,
+    rule: str,
+    monitor: Monitor,
+    chart: LatticeMap | None = None,
+    usable: NDArray[np.bool_] | None = None,
 ) -> NDArray[np.bool_]:
     """Which cells of the grid hold a lattice.
 
@@ -89,19 +123,77 @@ def active_cells(
             whose centre lies inside it, less those without an active cell among their 26
             neighbours (Appendix A.1 of the VOLFREP paper).
         monitor: for progress and cancel.
+        chart: from lattice space to the part, where they differ.
+        usable: (nx, ny, nz) bool, cells that may hold a lattice; None: all.
 
     Returns:
         (nx, ny, nz) bool.
     """
     monitor.tick(0.0)
-    active = inside_grid(domain, grid.centres(0), grid.centres(1), grid.centres(2), monitor)
+    active = inside_cells(grid, domain, monitor, chart)
+    if usable is not None:
+        active &= usable
     if rule == "centre":
-        around = ndimage.convolve(active.astype(np.int32), np.ones((3, 3, 3), int), mode="constant")
+        modes = ["wrap" if closed else "constant" for closed in grid.periodic]
+        around = active.astype(np.int32)
+        for axis, mode in enumerate(modes):
+            around = ndimage.convolve1d(around, np.ones(3, int), axis=axis, mode=mode)
         return np.asarray(active & (around > 1), np.bool_)
     if rule != "touching":
         raise VolfrepError(f"There is no activation '{rule}': choose touching or centre.")
-    active |= crossed_cells(grid, domain, monitor)
-    return active
+    crossed = crossed_cells(grid, wall_corners(domain, chart), monitor)
+    return active | (crossed if usable is None else crossed & usable)
+
+
+def wall_corners(mesh: TriangleMesh, chart: LatticeMap | None) -> Floats:
+    """(m, 3, 3) corners of a mesh's triangles in lattice space."""
+    if chart is None:
+        return mesh.vertices[mesh.triangles]
+    return triangles_in_lattice(mesh, chart)
+
+
+def inside_cells(
+    grid: CellGrid, domain: TriangleMesh, monitor: Monitor, chart: LatticeMap | None
+) -> NDArray[np.bool_]:
+    """(nx, ny, nz) bool, the cells whose centres lie inside a closed mesh."""
+    x, y, z = (grid.centres(axis) for axis in range(3))
+    if chart is None:
+        return inside_grid(domain, x, y, z, monitor)
+    centres = np.stack(np.meshgrid(x, y, z, indexing="ij"), axis=-1).reshape(-1, 3)
+    return inside_points(domain, chart.to_part(centres), monitor).reshape(grid.shape)
+
+
+def inside_points(mesh: TriangleMesh, points: Floats, monitor: Monitor) -> NDArray[np.bool_]:
+    """(n,) bool, which points lie inside a closed, outward oriented mesh, by winding number.
+
+    A line goes up from every point; points and triangles meet in the bins of a grid seen along z.
+    """
+    winding = np.zeros(len(points), np.int64)
+    corners = mesh.vertices[mesh.triangles]
+    low, high = mesh.bounds
+    within = np.flatnonzero(((points > low) & (points < high)).all(axis=1))
+    if not len(within):
+        return winding > 0
+    size = float(np.sqrt((high - low)[0] * (high - low)[1] / len(within)))
+    columns = np.ceil((high - low)[:2] / size).astype(np.int64) + 1
+    bins = np.floor((points[within, :2] - low[:2]) / size).astype(np.int64)
+    number = bins[:, 0] * columns[1] + bins[:, 1]
+    order = np.argsort(number, kind="stable")
+    within, number = within[order], number[order]
+    first = np.floor((corners[:, :, :2].min(axis=1) - low[:2]) / size).astype(np.int64)
+    last = np.floor((corners[:, :, :2].max(axis=1) - low[:2]) / size).astype(np.int64)
+    extent = last - first + 1
+    for owner, place in _pairs(extent.prod(axis=1)):
+        monitor.tick()
+        own = (first[owner, 0] + place // extent[owner, 1]) * columns[1]
+        own += first[owner, 1] + place % extent[owner, 1]
+        begin = np.searchsorted(number, own)
+        row, among = spread(np.searchsorted(number, own, "right") - begin)
+        triangle, point = owner[row], within[begin[row] + among]
+        hit, z, step = _crossings(corners[triangle], points[point, 0], points[point, 1])
+        above = z > points[point[hit], 2]
+        np.add.at(winding, point[hit][above], -step[above])
+    return winding > 0
 
 
 def inside_grid(
@@ -157,24 +249,29 @@ def column_crossings(
         monitor.tick()
         i = first[owner, 0] + place // size[owner, 1]
         j = first[owner, 1] + place % size[owner, 1]
-        x, y = xs[i], ys[j]
-        side = np.empty((3, len(owner)))
-        left = np.empty((3, len(owner)), bool)
-        for k in range(3):
-            side[k], left[k] = _side(corners[owner, k], corners[owner, (k + 1) % 3], x, y)
-        up, down = left.all(axis=0), ~left.any(axis=0)
-        hit = np.flatnonzero(up | down)
-        weight = np.abs(side[:, hit])
-        weight[:, weight.sum(axis=0) == 0] = 1.0
-        height = corners[owner[hit], :, 2]
-        z = weight[1] * height[:, 0] + weight[2] * height[:, 1] + weight[0] * height[:, 2]
-        z /= weight.sum(axis=0)
-        found.append((i[hit], j[hit], z, np.where(up[hit], -1, 1)))
+        hit, z, step = _crossings(corners[owner], xs[i], ys[j])
+        found.append((i[hit], j[hit], z, step))
     if not found:
         none = np.zeros(0, np.int64)
         return none, none, np.zeros(0), none
     i, j, z, step = (np.concatenate(values) for values in zip(*found, strict=True))
     return i, j, z, step
+
+
+def _crossings(corners: Floats, x: Floats, y: Floats) -> tuple[Ints, Floats, Ints]:
+    """Which of n triangles (n, 3, 3) the lines through (x, y) cross, where, and in which sense."""
+    side = np.empty((3, len(corners)))
+    left = np.empty((3, len(corners)), bool)
+    for k in range(3):
+        side[k], left[k] = _side(corners[:, k], corners[:, (k + 1) % 3], x, y)
+    up, down = left.all(axis=0), ~left.any(axis=0)
+    hit = np.flatnonzero(up | down)
+    weight = np.abs(side[:, hit])
+    weight[:, weight.sum(axis=0) == 0] = 1.0
+    height = corners[hit, :, 2]
+    z = weight[1] * height[:, 0] + weight[2] * height[:, 1] + weight[0] * height[:, 2]
+    z /= weight.sum(axis=0)
+    return hit, z, np.where(up[hit], -1, 1)
 
 
 def _side(a: Floats, b: Floats, x: Floats, y: Floats) -> tuple[Floats, NDArray[np.bool_]]:
@@ -193,24 +290,26 @@ def _side(a: Floats, b: Floats, x: Floats, y: Floats) -> tuple[Floats, NDArray[n
 
 
 def crossed_cells(
-    grid: CellGrid, mesh: TriangleMesh, monitor: Monitor, margin: float = -TOUCH_TOLERANCE
+    grid: CellGrid, corners: Floats, monitor: Monitor, margin: float = -TOUCH_TOLERANCE
 ) -> NDArray[np.bool_]:
-    """The cells that a triangle of the mesh overlaps.
+    """The cells that a triangle overlaps.
 
     Args:
         grid: the cells.
-        mesh: any triangles.
+        corners: (m, 3, 3) of any triangles.
         monitor: for progress and cancel.
         margin: by which the cells are enlarged (or shrunk, where negative) first, in units of L.
 
     Returns:
         (nx, ny, nz) bool.
     """
+    if any(grid.periodic):
+        return _crossed_around(grid, corners, monitor, margin)
     crossed = np.zeros(grid.cells, bool)
     # In units of half a cell, about the first cell's centre.
     half = 0.5 * grid.cell_size * (1.0 + margin)
     pitch = grid.cell_size / half
-    corners = (mesh.vertices[mesh.triangles] - grid.origin - 0.5 * grid.cell_size) / half
+    corners = (corners - grid.origin - 0.5 * grid.cell_size) / half
     shape = np.array(grid.shape)
     first = np.ceil((corners.min(axis=1) - 1.0) / pitch).astype(np.int64)
     last = np.floor((corners.max(axis=1) + 1.0) / pitch).astype(np.int64)
@@ -235,6 +334,25 @@ def crossed_cells(
         owner, cell, index = owner[open_pairs], cell[open_pairs], index[open_pairs]
         crossed[index[_overlap_unit_box(corners[owner] - (cell * pitch)[:, None])]] = True
     return crossed.reshape(grid.shape)
+
+
+def _crossed_around(
+    grid: CellGrid, corners: Floats, monitor: Monitor, margin: float
+) -> NDArray[np.bool_]:
+    """`crossed_cells` where the grid closes upon itself: three turns of it side by side."""
+    shape, corners = list(grid.shape), corners.copy()
+    origin = grid.origin.copy()
+    for axis in np.flatnonzero(grid.periodic):
+        turn = grid.shape[axis] * grid.cell_size
+        begin = corners[:, :, axis].min(axis=1) - origin[axis]
+        corners[:, :, axis] -= (turn * np.floor(begin / turn))[:, None]
+        origin[axis] -= turn
+        shape[axis] *= 3
+    wide = CellGrid(origin, grid.cell_size, (shape[0], shape[1], shape[2]))
+    crossed = crossed_cells(wide, corners, monitor, margin)
+    for axis in np.flatnonzero(grid.periodic):
+        crossed = np.logical_or.reduce(np.split(crossed, 3, axis=axis))
+    return crossed
 
 
 def _overlap_unit_box(corners: Floats) -> NDArray[np.bool_]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The lattice as a graph: the unique nodes and struts of the active cells."""
+"""The lattice as a graph: the unique nodes and struts of cells."""
 
 from __future__ import annotations
 
@@ -11,23 +11,21 @@ from numpy.typing import NDArray
 from .cells import NODE_TOLERANCE, UnitCell
 from .frep import joint_radius
 
+Floats = NDArray[np.float64]
+Bools = NDArray[np.bool_]
+
 
 @dataclass(frozen=True, eq=False)
-class Wireframe:
+class Graph:
     """Nodes and struts, each once.
 
     Attributes:
         nodes: (n, 3) float64, mm.
         struts: (m, 2) int32, rows of `nodes`.
-        radii: (m, 2) float64, radius of each strut at its two ends, mm: it is a cone where they
-            differ.
-        joint_radii: (n,) float64, radius of the joint sphere of each node, mm.
     """
 
-    nodes: NDArray[np.float64]
+    nodes: Floats
     struts: NDArray[np.int32]
-    radii: NDArray[np.float64]
-    joint_radii: NDArray[np.float64]
 
     @property
     def genus(self) -> int:
@@ -35,30 +33,63 @@ class Wireframe:
         return len(self.struts) - len(self.nodes) + 1
 
 
-def wireframe(
+@dataclass(frozen=True, eq=False)
+class Wireframe(Graph):
+    """The lattice in the part: what its nodes and struts are, and how thick.
+
+    Attributes:
+        radii: (m, 2) float64, radius of each strut at its two ends, mm: it is a cone where they
+            differ.
+        joint_radii: (n,) float64, radius of the joint sphere of each node, mm.
+    """
+
+    radii: Floats
+    joint_radii: Floats
+
+
+@dataclass(frozen=True, eq=False)
+class CellGraph(Graph):
+    """A graph in lattice space, and which of its nodes is which of a cell's.
+
+    Attributes:
+        row: (nx, ny, nz) int32, row of a cell in `node_of`; -1 for one that is not of it.
+        node_of: (cells, k) int32, the nodes of each cell in the unit cell's order.
+        first: (3,) index in `row` of the first cell of the grid that the lattice is laid on.
+    """
+
+    row: NDArray[np.int32]
+    node_of: NDArray[np.int32]
+    first: NDArray[np.int64]
+
+
+def cell_graph(
     cell: UnitCell,
-    active: NDArray[np.bool_],
+    cells: Bools,
     cell_size: float,
-    origin: NDArray[np.float64],
-    strut_radius: float,
-) -> Wireframe:
-    """The unique nodes and struts of the active cells.
+    origin: Floats,
+    periodic: tuple[bool, bool, bool] = (False, False, False),
+    first: tuple[int, int, int] = (0, 0, 0),
+) -> CellGraph:
+    """The graph of some cells of a grid.
 
     Args:
         cell: the unit cell.
-        active: (nx, ny, nz) bool, the cells that hold a lattice.
+        cells: (nx, ny, nz) bool, the cells that it consists of.
         cell_size: L in mm.
         origin: (3,) lowest corner of the grid in mm.
-        strut_radius: r, of every strut, in mm.
+        periodic: axes along which the last cell is followed by the first one.
+        first: cells that were added to the grid below its first one.
     """
-    index = np.argwhere(active)
+    index = np.argwhere(cells)
     # A node is identified by whole numbers: the cell it begins in and its place there, so that
     # a node on a cell's far side is one on the near side of the next cell.
     steps = round(1.0 / NODE_TOLERANCE)
     local = np.round(cell.nodes * steps).astype(np.int64)
     places, place_of = np.unique(local % steps, axis=0, return_inverse=True)
     whole = index[:, None, :] + (local // steps)[None, :, :]
-    shape = np.array(active.shape) + 1
+    for axis in np.flatnonzero(periodic):
+        whole[:, :, axis] %= cells.shape[axis]
+    shape = np.array(cells.shape) + 1
     packed = np.ravel_multi_index(tuple(np.moveaxis(whole, -1, 0)), tuple(shape))
     packed = packed * len(places) + place_of.ravel()[None, :]
     unique, inverse = np.unique(packed.ravel(), return_inverse=True)
@@ -70,9 +101,20 @@ def wireframe(
     ends = np.sort(ends.reshape(-1, 2), axis=1)
     strut_keys = np.unique(ends[:, 0] * len(unique) + ends[:, 1])
     struts = np.stack([strut_keys // len(unique), strut_keys % len(unique)], axis=1)
-    return Wireframe(
-        nodes,
-        struts.astype(np.int32),
-        np.full(struts.shape, float(strut_radius)),
-        np.full(len(nodes), joint_radius(strut_radius, cell_size)),
+    row = np.full(cells.shape, -1, np.int32)
+    row[cells] = np.arange(len(index))
+    return CellGraph(
+        nodes, struts.astype(np.int32), row, inverse.astype(np.int32), np.array(first, np.int64)
     )
+
+
+def wireframe(graph: CellGraph, points: Floats, radius: Floats, cell_size: float) -> Wireframe:
+    """The struts and joints of a graph in the part.
+
+    Args:
+        graph: its nodes and struts.
+        points: (n, 3) where the nodes lie in the part, mm.
+        radius: (n,) radius of the struts where they end at each node, mm.
+        cell_size: L in mm.
+    """
+    return Wireframe(points, graph.struts, radius[graph.struts], joint_radius(radius, cell_size))

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 #: rho = a x^2 - b x^3 with x = r / L, for joint spheres no larger than the struts' own overlap:
 #: struts straight through their nodes, so that the spheres change nothing inside the lattice.
@@ -56,3 +57,36 @@ def distances_to_one_cell(points, cell, cell_size, radius):
         gap = np.linalg.norm(points - node, axis=1) - radius * (1 + radius / cell_size)
         nearest = np.minimum(nearest, gap)
     return nearest
+
+
+def in_struts(points, graph):
+    """Whether points lie in the cones and spheres of a `volfrep.wireframe.Wireframe`.
+
+    Candidates by distance to the struts' middles, membership from the definition of a cone: shares
+    nothing with the engine but the wireframe.
+    """
+    start, end = graph.nodes[graph.struts[:, 0]], graph.nodes[graph.struts[:, 1]]
+    length = np.linalg.norm(end - start, axis=1)
+    reach = float(length.max() / 2 + max(graph.radii.max(), graph.joint_radii.max()))
+    inside = np.zeros(len(points), bool)
+    tree = cKDTree((start + end) / 2)
+    joints = cKDTree(graph.nodes)
+    for part in np.array_split(np.arange(len(points)), max(1, len(points) // 20_000)):
+        p = points[part]
+        near = tree.query_ball_point(p, reach, workers=-1)
+        row = np.repeat(np.arange(len(p)), [len(n) for n in near])
+        strut = np.concatenate([np.array(n, int) for n in near])
+        offset = p[row] - start[strut]
+        axis = (end - start)[strut] / length[strut][:, None]
+        t = (offset * axis).sum(axis=1)
+        gap = np.linalg.norm(np.cross(offset, axis), axis=1)
+        share = t / length[strut]
+        radius = graph.radii[strut, 0] * (1 - share) + graph.radii[strut, 1] * share
+        hit = (share >= 0) & (share <= 1) & (gap <= radius)
+        inside[part[row[hit]]] = True
+        near = joints.query_ball_point(p, graph.joint_radii.max(), workers=-1)
+        row = np.repeat(np.arange(len(p)), [len(n) for n in near])
+        node = np.concatenate([np.array(n, int) for n in near])
+        hit = np.linalg.norm(p[row] - graph.nodes[node], axis=1) <= graph.joint_radii[node]
+        inside[part[row[hit]]] = True
+    return inside

@@ -22,7 +22,7 @@ from volfrep.mesh import TriangleMesh, compact
 from volfrep.octant import ALL_ACTIVE, OctantKey
 from volfrep.progress import Monitor
 from volfrep.tile import TileSpec, mesh_octants
-from volfrep.wireframe import wireframe
+from volfrep.wireframe import cell_graph
 
 SKEW = make_cell(
     "skew",
@@ -54,7 +54,7 @@ def test_a_block_is_one_closed_surface_of_the_wireframes_genus(cell):
     active = np.ones((2, 2, 2), bool)
     mesh = lattice(cell, active)
     found = quality.measure(mesh)
-    graph = wireframe(cell, active, L, np.zeros(3), 1.0)
+    graph = cell_graph(cell, active, L, np.zeros(3))
     assert found.watertight
     assert found.shells == 1
     assert found.genus == graph.genus
@@ -67,7 +67,7 @@ def test_scattered_cells_give_closed_surfaces_too(cell):
     active = np.random.default_rng(5).random((3, 3, 2)) < 0.5
     mesh = lattice(cell, active, 0.8, 16)
     found = quality.measure(mesh)
-    graph = wireframe(cell, active, L, np.zeros(3), 1.0)
+    graph = cell_graph(cell, active, L, np.zeros(3))
     pieces = _pieces(len(graph.nodes), graph.struts)
     assert found.watertight
     assert found.bodies == pieces
@@ -207,6 +207,6 @@ def capped_box(cell, where, radius, facets_along):
     parts = [facets(layout, monitor)]
     for axis in range(3):
         for high in (False, True):
-            missing = neighbour_missing(kind, where, axis, high)
+            missing = neighbour_missing(grid, where, axis, high)
             parts.append(facets(layout, monitor, missing, (axis, high)))
     return compact(TriangleMesh(coordinates(layout, monitor), np.concatenate(parts)))

@@ -8,12 +8,12 @@ import pytest
 import samples
 from volfrep import quality
 from volfrep.cells import LIBRARY
-from volfrep.lattice import OctantGrid
+from volfrep.lattice import OctantGrid, coordinates
 from volfrep.mesh import TriangleMesh, concatenate
 from volfrep.octant import ALL_ACTIVE, OctantKey
 from volfrep.progress import Monitor
 from volfrep.tile import TileSpec, mesh_octants
-from volfrep.trim import clear, octant_roles, trim
+from volfrep.trim import clear, keep, octant_roles, trim
 from volfrep.voxels import make_grid
 
 L = 10.0
@@ -23,13 +23,16 @@ def trimmed(domain, name="CVC", radius=1.0, cavity=True, grow=0):
     """The lattice cut at the domain; with `grow`, that many more octants go into the Boolean."""
     cell, monitor = LIBRARY[name], Monitor()
     cells = make_grid(domain.bounds, L, (1.3, 2.1, 0.7))
-    roles = octant_roles(domain, cells, 1, monitor)
+    roles = octant_roles(domain, cells, monitor)
     if grow:
         roles = type(roles)(roles.border | roles.inside, np.zeros_like(roles.inside))
     key = OctantKey(0, ALL_ACTIVE)
     grid = OctantGrid([key], np.zeros(roles.border.shape, np.int16), cells.origin, L, True)
     octants = mesh_octants(cell, TileSpec(L, radius, 0.0, 15), [key], monitor)
-    return trim(domain, grid, octants, roles, cavity=cavity, monitor=monitor)
+    kept = keep(grid, roles)
+    layout = kept.lay_out(octants)
+    points = coordinates(layout, monitor)
+    return trim(domain, kept, layout, points, cavity=cavity, monitor=monitor)
 
 
 @pytest.mark.parametrize("name", LIBRARY)

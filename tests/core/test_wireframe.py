@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from volfrep.cells import LIBRARY
-from volfrep.wireframe import Wireframe, wireframe
+from volfrep.wireframe import Bools, Floats, Wireframe, cell_graph, wireframe
 
 Count = Callable[[int], int]
 
@@ -31,7 +31,12 @@ CLOSED_FORMS: dict[str, tuple[Count, Count]] = {
 
 
 def block(name: str, *count: int, size: float = 10.0) -> Wireframe:
-    return wireframe(LIBRARY[name], np.ones(count, bool), size, np.zeros(3), 0.1 * size)
+    return frame(name, np.ones(count, bool), size, np.zeros(3))
+
+
+def frame(name: str, active: Bools, size: float, origin: Floats) -> Wireframe:
+    graph = cell_graph(LIBRARY[name], active, size, origin)
+    return wireframe(graph, graph.nodes, np.full(len(graph.nodes), 0.1 * size), size)
 
 
 @pytest.mark.parametrize("name", CLOSED_FORMS)
@@ -71,7 +76,7 @@ def by_hand(
 def test_any_pattern_of_cells(name: str, shape: tuple[int, int, int], seed: int) -> None:
     active = np.random.default_rng(seed).random(shape) < 0.5
     origin = np.array([-3.0, 5.0, 0.25])
-    graph = wireframe(LIBRARY[name], active, 2.0, origin, 0.2)
+    graph = frame(name, active, 2.0, origin)
     nodes, struts = by_hand(name, active, 2.0, origin)
     points = [tuple(p) for p in np.round(graph.nodes, 6).tolist()]
     assert set(points) == nodes
@@ -81,14 +86,14 @@ def test_any_pattern_of_cells(name: str, shape: tuple[int, int, int], seed: int)
 
 
 def test_size_and_origin() -> None:
-    graph = wireframe(LIBRARY["Box"], np.ones((2, 1, 1), bool), 4.0, np.array([1.0, 2.0, 3.0]), 0.4)
+    graph = frame("Box", np.ones((2, 1, 1), bool), 4.0, np.array([1.0, 2.0, 3.0]))
     assert graph.nodes.min(axis=0).tolist() == [1, 2, 3]
     assert graph.nodes.max(axis=0).tolist() == [9, 6, 7]
     assert graph.struts.dtype == np.int32
 
 
 def test_no_active_cell() -> None:
-    graph = wireframe(LIBRARY["Box"], np.zeros((2, 2, 2), bool), 1.0, np.zeros(3), 0.1)
+    graph = frame("Box", np.zeros((2, 2, 2), bool), 1.0, np.zeros(3))
     assert (graph.nodes.shape, graph.struts.shape) == ((0, 3), (0, 2))
 
 

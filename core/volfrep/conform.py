@@ -1,0 +1,422 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The laid octants brought onto struts of any radii between nodes at any places.
+
+The octants of a graded lattice have the connectivity of a uniform one. Every vertex keeps its
+anchor (see `volfrep.anchors`) and finds its place by it on the cones and spheres that are really
+there: in closed form, each vertex for itself, all at once. Vertices on creases stay on creases.
+What would change the connectivity, struts that meet before their middles, is refused.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .anchors import (
+    SPACE,
+    SPHERE,
+    STRUT,
+    Anchors,
+    angles_to_struts,
+    counter_clockwise,
+    crease,
+    neighbour_table,
+)
+from .cells import NODE_TOLERANCE, UnitCell
+from .errors import VolfrepError
+from .frep import Field, Floats, Ints, join, joint_radius, spheres, struts
+from .lattice import CHUNK_VERTICES, Layout, frames, numbers
+from .mapping import LatticeMap
+from .octant import NEIGHBOURS, OctantKey
+from .progress import Monitor
+from .wireframe import CellGraph
+
+Bools = NDArray[np.bool_]
+
+#: Between its creases a strut must be at least this long, in units of its radius, on each side of
+#: its middle.
+LEAST_ROOM = 0.05
+#: A vertex of a joint sphere keeps this share of its angle from the nearest strut.
+KEPT_ANGLE = 0.5
+#: Angle from a strut, in radians, within which it draws the sphere's vertices along.
+DRAWN = 0.6
+#: Newton steps onto rounded joints, and the longest of them in units of the radius.
+FILLET_STEPS = 4
+LONGEST_STEP = 0.3
+
+
+@dataclass(frozen=True, eq=False)
+class Joints:
+    """The nodes of a lattice as they are to be.
+
+    Attributes:
+        graph: which nodes and struts there are.
+        points: (n, 3) where the nodes lie, mm.
+        radius: (n,) radius of the struts where they end at each node, mm.
+        joint: (n,) radius of the joint spheres, mm.
+        rotation: (n, 3, 3) by which the map turns lattice space there, its stretch left out; None
+            where the nodes stay in lattice space.
+        were: (n, k, 3) directions of the struts in lattice space.
+        neighbours: (n, k) the nodes at the other ends of a node's struts; -1 for none.
+        directions: (n, k, 3) unit vectors to them.
+        slopes: (n, k) by which the struts' radii grow on the way.
+        period: (3,) after which the nodes repeat, mm; infinite where they do not.
+    """
+
+    graph: CellGraph
+    points: Floats
+    radius: Floats
+    joint: Floats
+    rotation: Floats | None
+    were: Floats
+    neighbours: Ints
+    directions: Floats
+    slopes: Floats
+    period: Floats
+
+
+def joints(
+    graph: CellGraph,
+    points: Floats,
+    radius: Floats,
+    cell_size: float,
+    jacobian: Floats | None = None,
+    period: Floats | None = None,
+) -> Joints:
+    """The nodes of a graph at given places, with given radii; see `Joints`.
+
+    Args:
+        graph: its nodes and struts.
+        points: (n, 3) where the nodes are to lie, mm.
+        radius: (n,) of the struts there, mm.
+        cell_size: L, mm.
+        jacobian: (n, 3, 3) of the map that took them from lattice space; None if they stay there.
+        period: (3,) after which lattice space repeats, mm; infinite where it does not.
+    """
+    table = neighbour_table(graph.struts, len(points))
+    period = np.full(3, np.inf) if period is None else period
+    directions, length = _outwards(
+        points, table, np.full(3, np.inf) if jacobian is not None else period
+    )
+    were, turn = directions, None
+    if jacobian is not None:
+        were, _ = _outwards(graph.nodes, table, period)
+        left, _, right = np.linalg.svd(jacobian)
+        turn = left @ right
+    return Joints(
+        graph,
+        points,
+        radius,
+        joint_radius(radius, cell_size),
+        turn,
+        were,
+        table,
+        directions,
+        (radius[table] - radius[:, None]) / length,
+        np.full(3, np.inf) if jacobian is not None else period,
+    )
+
+
+def _outwards(points: Floats, table: Ints, period: Floats) -> tuple[Floats, Floats]:
+    """Directions and lengths of the struts of the neighbours' table."""
+    span = _shortest(points[table] - points[:, None], period)
+    length = np.linalg.norm(span, axis=2)
+    length[table < 0] = 1.0
+    return span / length[:, :, None], length
+
+
+def _shortest(span: Floats, period: Floats) -> Floats:
+    """Vectors between nodes, each to the nearest of its end's repetitions."""
+    for axis in np.flatnonzero(np.isfinite(period)):
+        span[..., axis] -= period[axis] * np.round(span[..., axis] / period[axis])
+    return span
+
+
+@dataclass(frozen=True, eq=False)
+class Conformed:
+    """The vertices of a layout on the struts that are really there.
+
+    Attributes:
+        vertices: (n, 3), mm.
+        excess: how far vertices lie beyond their octants in lattice space, in units of their edge.
+    """
+
+    vertices: Floats
+    excess: float
+
+
+def conform(
+    layout: Layout,
+    anchors: dict[OctantKey, Anchors],
+    cell: UnitCell,
+    nodes: Joints,
+    chart: LatticeMap,
+    fillet: float,
+    monitor: Monitor,
+) -> Conformed:
+    """Place the vertices of a layout.
+
+    Args:
+        layout: the numbered octants; their grid lies on that of `nodes.graph`.
+        anchors: of all its kinds of octant.
+        cell: the unit cell.
+        nodes: the nodes as they are to be: in the part (round struts), or in lattice space, to be
+            mapped into the part as a whole (stretched struts).
+        chart: from lattice space to the part.
+        fillet: joint fillet, mm.
+        monitor: for progress and cancel.
+
+    Raises:
+        VolfrepError: struts meet before their middles; the text says where.
+    """
+    grid = layout.grid
+    vertices = np.empty((layout.count, 3))
+    excess, done = 0.0, 0
+    total = sum(len(place) for place in layout.places)
+    rounding = _Rounding.of(nodes, fillet) if fillet > 0.0 else None
+    for key, place in zip(grid.keys, layout.places, strict=True):
+        if not len(place) or not len(layout.octants[key].vertices):
+            continue
+        octant, own = layout.octants[key], anchors[key]
+        size = max(1, CHUNK_VERTICES // max(len(own.kind), 1))
+        lookup = _node_lookup(cell, own, key)
+        for begin in range(0, len(place), size):
+            part = place[begin : begin + size]
+            corner, sign = frames(part)
+            base = corner * grid.cell_size + grid.origin
+            inside = base[:, None, :] + sign[:, None, :] * octant.vertices
+            rows = _nodes_of(own, lookup, nodes.graph, part, sign, grid.periodic)
+            found = _place(own, rows, sign, nodes, monitor)
+            if rounding is not None:
+                found = rounding.project(found, own, rows)
+            corners = np.broadcast_to(own.kind == SPACE, inside.shape[:2])
+            in_part = nodes.rotation is not None
+            found = found.reshape(inside.shape)
+            found[corners] = chart.to_part(inside[corners]) if in_part else inside[corners]
+            there = found.reshape(-1, 3)
+            back = chart.to_lattice(there) if in_part else there
+            middle = base + sign * (0.25 * grid.cell_size)
+            seen = np.concatenate([middle[:, None], back.reshape(inside.shape)], axis=1)
+            away = np.abs(chart.unwrapped(seen)[:, 1:] - middle[:, None]).max()
+            excess = max(excess, float(away) / (0.5 * grid.cell_size) - 0.5)
+            vertices[numbers(layout, octant, part)] = (
+                there if in_part else chart.to_part(there)
+            ).reshape(inside.shape)
+            done += len(part)
+            monitor.tick(done / total)
+    return Conformed(vertices, excess)
+
+
+def _node_lookup(cell: UnitCell, own: Anchors, key: OctantKey) -> Ints:
+    """(8, k) index in the unit cell of each anchor node, by how the octant's frame is reflected."""
+    steps = round(1.0 / NODE_TOLERANCE)
+    names = {tuple(n): i for i, n in enumerate(np.round(cell.nodes * steps).astype(int).tolist())}
+    result = np.zeros((8, len(own.copy)), np.int64)
+    for mirror in range(8):
+        if not cell.is_mirror_symmetric and mirror != key.mirror:
+            continue
+        reflect = np.array([mirror >> axis & 1 for axis in range(3)], bool)
+        local = np.where(reflect, 1.0 - own.place, own.place)
+        result[mirror] = [names[tuple(n)] for n in np.round(local * steps).astype(int).tolist()]
+    return result
+
+
+def _nodes_of(
+    own: Anchors,
+    lookup: Ints,
+    graph: CellGraph,
+    place: Ints,
+    sign: Ints,
+    periodic: tuple[bool, bool, bool],
+) -> Ints:
+    """(p, k) the nodes of the whole that octants at some places are anchored to."""
+    cells = (place - 1) // 2 + graph.first
+    cells = cells[:, None, :] + sign[:, None, :] * NEIGHBOURS[own.copy]
+    for axis in np.flatnonzero(periodic):
+        cells[:, :, axis] %= graph.row.shape[axis]
+    row = graph.row[tuple(np.moveaxis(cells, -1, 0))]
+    mirror = ((sign < 0) * np.array([1, 2, 4])).sum(axis=1)
+    if (row < 0).any():
+        raise RuntimeError("an octant hangs on a cell that is not in the graph")
+    result: Ints = graph.node_of[row, lookup[mirror]].astype(np.int64)
+    return result
+
+
+def _place(own: Anchors, rows: Ints, sign: Ints, nodes: Joints, monitor: Monitor) -> Floats:
+    """(p n, 3) places of the vertices of some octants of one kind; corners are left out."""
+    count = len(rows)
+    near, far = rows[:, own.near], rows[:, own.far]
+    radial = sign[:, None, :] * own.radial
+    found = np.zeros((*near.shape, 3))
+    is_strut, is_sphere = own.kind == STRUT, own.kind == SPHERE
+    if is_strut.any():
+        found[:, is_strut] = _on_struts(
+            near[:, is_strut].ravel(),
+            far[:, is_strut].ravel(),
+            rows[:, own.left[is_strut]].ravel(),
+            rows[:, own.right[is_strut]].ravel(),
+            np.repeat(sign.prod(axis=1), is_strut.sum()),
+            np.tile(own.turn[is_strut], count),
+            radial[:, is_strut].reshape(-1, 3),
+            np.tile(own.along[is_strut], count),
+            np.tile(own.share[is_strut], count),
+            np.tile(own.scale[is_strut], count),
+            nodes,
+        ).reshape(count, -1, 3)
+    if is_sphere.any():
+        found[:, is_sphere] = _on_spheres(
+            near[:, is_sphere].ravel(),
+            radial[:, is_sphere].reshape(-1, 3),
+            np.tile(own.share[is_sphere], count),
+            np.tile(own.scale[is_sphere], count),
+            nodes,
+        ).reshape(count, -1, 3)
+    monitor.tick()
+    return found.reshape(-1, 3)
+
+
+def _on_struts(
+    near: Ints,
+    far: Ints,
+    left: Ints,
+    right: Ints,
+    sense: Ints,
+    turn: Floats,
+    radial: Floats,
+    along: Floats,
+    share: Floats,
+    scale: Floats,
+    nodes: Joints,
+) -> Floats:
+    start = nodes.points[near]
+    axis = _shortest(nodes.points[far] - start, nodes.period)
+    length = np.linalg.norm(axis, axis=1)
+    axis /= length[:, None]
+    radius, other = nodes.radius[near], nodes.radius[far]
+    slope = (other - radius) / length
+    if nodes.rotation is not None:
+        even = (1.0 - along)[:, None, None] * nodes.rotation[near]
+        even += along[:, None, None] * nodes.rotation[far]
+        radial = _across(np.einsum("nij,nj->ni", even, radial), axis)
+        # At the joint a ruling lies between the same struts, and as far between them, as it did;
+        # towards the middle it is just turned with the strut.
+        off = np.flatnonzero(left != near)
+        first = _across(nodes.points[left[off]] - start[off], axis[off])
+        second = _across(nodes.points[right[off]] - start[off], axis[off])
+        about = sense[off, None] * axis[off]
+        angle = counter_clockwise(first, second, about)
+        angle[left[off] == right[off]] = 2.0 * np.pi
+        angle *= turn[off]
+        own = np.cos(angle)[:, None] * first + np.sin(angle)[:, None] * np.cross(about, first)
+        mixed = np.clip(share[off], 0.0, 1.0)[:, None]
+        radial[off] = _across((1.0 - mixed) * own + mixed * radial[off], axis[off])
+    ends = nodes.neighbours[near]
+    begin = crease(
+        axis, radial, radius, slope, nodes.joint[near],
+        nodes.directions[near], nodes.slopes[near], (ends >= 0) & (ends != far[:, None]),
+    )  # fmt: skip
+    # Thicker joints reach farther: the middle is where both ends have the same room.
+    room = length * radius / (radius + other) - begin
+    tight = int(np.argmin(room / radius))
+    if room[tight] < LEAST_ROOM * radius[tight]:
+        x, y, z = start[tight] + begin[tight] * axis[tight]
+        raise VolfrepError(
+            f"Near ({x:.4g}, {y:.4g}, {z:.4g}) struts of radius {radius[tight]:.3g} mm and length "
+            f"{length[tight]:.3g} mm grow into each other: reduce the radius or let the cells be "
+            "larger there."
+        )
+    t = begin + share * room
+    distance = (radius + slope * t) * scale
+    result: Floats = start + t[:, None] * axis + distance[:, None] * radial
+    return result
+
+
+def _across(vectors: Floats, axis: Floats) -> Floats:
+    """Unit vectors along what stands across the axes."""
+    off = vectors - np.einsum("ij,ij->i", vectors, axis)[:, None] * axis
+    result: Floats = off / np.linalg.norm(off, axis=1)[:, None]
+    return result
+
+
+def _on_spheres(near: Ints, radial: Floats, share: Floats, scale: Floats, nodes: Joints) -> Floats:
+    directions, others = nodes.directions[near], nodes.neighbours[near] >= 0
+    if nodes.rotation is not None:
+        # The sphere is turned with the node, and drawn along by the struts that are near.
+        weight = np.exp(-((angles_to_struts(radial, nodes.were[near], others) / DRAWN) ** 2))
+        weight /= np.maximum(weight.sum(axis=1, keepdims=True), 1.0)
+        turned = np.einsum("nij,nkj->nki", nodes.rotation[near], nodes.were[near])
+        radial = np.einsum("nij,nj->ni", nodes.rotation[near], radial)
+        radial += np.einsum("nk,nkj->nj", weight, directions - turned)
+        radial /= np.linalg.norm(radial, axis=1)[:, None]
+    rows = np.arange(len(near))
+    # Struts cover the sphere up to this angle from their axes: keep clear of it.
+    cover = np.arcsin(np.minimum(nodes.radius[near] / nodes.joint[near], 1.0))
+    for _ in range(2):
+        angle = angles_to_struts(radial, directions, others)
+        nearest = angle.argmin(axis=1)
+        lack = np.maximum(cover + KEPT_ANGLE * share - angle[rows, nearest], 0.0)
+        strut = directions[rows, nearest]
+        aside = radial - np.einsum("ij,ij->i", radial, strut)[:, None] * strut
+        aside /= np.maximum(np.linalg.norm(aside, axis=1), 1e-300)[:, None]
+        turned = np.cos(angle[rows, nearest] + lack)[:, None] * strut
+        turned += np.sin(angle[rows, nearest] + lack)[:, None] * aside
+        radial = np.where((lack > 0.0)[:, None], turned, radial)
+    result: Floats = nodes.points[near] + (scale * nodes.joint[near])[:, None] * radial
+    return result
+
+
+@dataclass(frozen=True, eq=False)
+class _Rounding:
+    """Rounded joints: every vertex is moved onto the round union of what is at its strut's ends.
+
+    Attributes:
+        nodes: of the lattice.
+        field: all struts, then all joint spheres; with nobody's neighbourhood in it.
+        table: (n, k) the struts at every node; -1 for none.
+    """
+
+    nodes: Joints
+    field: Field
+    table: Ints
+
+    @staticmethod
+    def of(nodes: Joints, fillet: float) -> _Rounding:
+        ends = nodes.graph.struts.astype(np.int64)
+        start = nodes.points[ends[:, 0]]
+        end = start + _shortest(nodes.points[ends[:, 1]] - start, nodes.period)
+        primitives = join(
+            struts(start, end, nodes.radius[ends]), spheres(nodes.points, nodes.joint)
+        )
+        # The strut of each entry of the neighbours' table: both list a node's struts in one order.
+        number = np.arange(len(ends))
+        by_node = np.argsort(np.concatenate([ends[:, 0], ends[:, 1]]), kind="stable")
+        table = np.full(nodes.neighbours.shape, -1, np.int64)
+        table[nodes.neighbours >= 0] = np.concatenate([number, number])[by_node]
+        none = np.zeros(0, np.int64)
+        return _Rounding(nodes, Field(primitives, none, none, fillet), table)
+
+    def project(self, points: Floats, own: Anchors, rows: Ints) -> Floats:
+        """The points at the distance from the rounded surface that their anchors had."""
+        near, far = rows[:, own.near].ravel(), rows[:, own.far].ravel()
+        first = len(self.nodes.graph.struts)
+        beyond = np.where((far != near)[:, None], self.table[far], -1)
+        # The strut itself is at both ends; it counts once.
+        beyond[(beyond[:, :, None] == self.table[near][:, None, :]).any(axis=2)] = -1
+        ends = np.where(far != near, first + far, -1)
+        lists = np.concatenate(
+            [self.table[near], beyond, (first + near)[:, None], ends[:, None]], axis=1
+        )
+        listed = lists >= 0
+        begin = np.concatenate([[0], np.cumsum(listed.sum(axis=1))])
+        field = Field(self.field.primitives, begin, lists[listed], self.field.fillet)
+        radius = self.nodes.radius[near]
+        level = np.tile(own.level, len(rows)) * radius
+        moved = points
+        for _ in range(FILLET_STEPS):
+            value, gradient = field.values_and_gradients(moved)
+            square = np.maximum(np.einsum("ij,ij->i", gradient, gradient), 0.05)
+            step = np.clip((value - level) / square, -LONGEST_STEP * radius, LONGEST_STEP * radius)
+            moved = moved - step[:, None] * gradient
+        return moved

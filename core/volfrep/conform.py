@@ -22,11 +22,11 @@ from .anchors import (
     angles_to_struts,
     counter_clockwise,
     crease,
-    neighbour_table,
 )
 from .cells import NODE_TOLERANCE, UnitCell
 from .errors import VolfrepError
-from .frep import Field, Floats, Ints, join, joint_radius, spheres, struts
+from .frep import Field, Floats, Ints, join, spheres, struts
+from .joints import Joints, shortest
 from .lattice import CHUNK_VERTICES, Layout, frames, numbers
 from .mapping import LatticeMap
 from .octant import NEIGHBOURS, OctantKey
@@ -45,93 +45,6 @@ DRAWN = 0.6
 #: Newton steps onto rounded joints, and the longest of them in units of the radius.
 FILLET_STEPS = 4
 LONGEST_STEP = 0.3
-
-
-@dataclass(frozen=True, eq=False)
-class Joints:
-    """The nodes of a lattice as they are to be.
-
-    Attributes:
-        graph: which nodes and struts there are.
-        points: (n, 3) where the nodes lie, mm.
-        radius: (n,) radius of the struts where they end at each node, mm.
-        joint: (n,) radius of the joint spheres, mm.
-        rotation: (n, 3, 3) by which the map turns lattice space there, its stretch left out; None
-            where the nodes stay in lattice space.
-        were: (n, k, 3) directions of the struts in lattice space.
-        neighbours: (n, k) the nodes at the other ends of a node's struts; -1 for none.
-        directions: (n, k, 3) unit vectors to them.
-        slopes: (n, k) by which the struts' radii grow on the way.
-        period: (3,) after which the nodes repeat, mm; infinite where they do not.
-    """
-
-    graph: CellGraph
-    points: Floats
-    radius: Floats
-    joint: Floats
-    rotation: Floats | None
-    were: Floats
-    neighbours: Ints
-    directions: Floats
-    slopes: Floats
-    period: Floats
-
-
-def joints(
-    graph: CellGraph,
-    points: Floats,
-    radius: Floats,
-    cell_size: float,
-    jacobian: Floats | None = None,
-    period: Floats | None = None,
-) -> Joints:
-    """The nodes of a graph at given places, with given radii; see `Joints`.
-
-    Args:
-        graph: its nodes and struts.
-        points: (n, 3) where the nodes are to lie, mm.
-        radius: (n,) of the struts there, mm.
-        cell_size: L, mm.
-        jacobian: (n, 3, 3) of the map that took them from lattice space; None if they stay there.
-        period: (3,) after which lattice space repeats, mm; infinite where it does not.
-    """
-    table = neighbour_table(graph.struts, len(points))
-    period = np.full(3, np.inf) if period is None else period
-    directions, length = _outwards(
-        points, table, np.full(3, np.inf) if jacobian is not None else period
-    )
-    were, turn = directions, None
-    if jacobian is not None:
-        were, _ = _outwards(graph.nodes, table, period)
-        left, _, right = np.linalg.svd(jacobian)
-        turn = left @ right
-    return Joints(
-        graph,
-        points,
-        radius,
-        joint_radius(radius, cell_size),
-        turn,
-        were,
-        table,
-        directions,
-        (radius[table] - radius[:, None]) / length,
-        np.full(3, np.inf) if jacobian is not None else period,
-    )
-
-
-def _outwards(points: Floats, table: Ints, period: Floats) -> tuple[Floats, Floats]:
-    """Directions and lengths of the struts of the neighbours' table."""
-    span = _shortest(points[table] - points[:, None], period)
-    length = np.linalg.norm(span, axis=2)
-    length[table < 0] = 1.0
-    return span / length[:, :, None], length
-
-
-def _shortest(span: Floats, period: Floats) -> Floats:
-    """Vectors between nodes, each to the nearest of its end's repetitions."""
-    for axis in np.flatnonzero(np.isfinite(period)):
-        span[..., axis] -= period[axis] * np.round(span[..., axis] / period[axis])
-    return span
 
 
 @dataclass(frozen=True, eq=False)
@@ -172,6 +85,7 @@ def conform(
         VolfrepError: struts meet before their middles; the text says where.
     """
     grid = layout.grid
+    in_part = nodes.rotation is not None
     vertices = np.empty((layout.count, 3))
     excess, done = 0.0, 0
     total = sum(len(place) for place in layout.places)
@@ -182,31 +96,30 @@ def conform(
         octant, own = layout.octants[key], anchors[key]
         size = max(1, CHUNK_VERTICES // max(len(own.kind), 1))
         lookup = _node_lookup(cell, own, key)
+        is_corner = own.kind == SPACE
         for begin in range(0, len(place), size):
             part = place[begin : begin + size]
             corner, sign = frames(part)
             base = corner * grid.cell_size + grid.origin
-            inside = base[:, None, :] + sign[:, None, :] * octant.vertices
             rows = _nodes_of(own, lookup, nodes.graph, part, sign, grid.periodic)
             found = _place(own, rows, sign, nodes, monitor)
             if rounding is not None:
                 found = rounding.project(found, own, rows)
-            corners = np.broadcast_to(own.kind == SPACE, inside.shape[:2])
-            in_part = nodes.rotation is not None
-            found = found.reshape(inside.shape)
-            found[corners] = chart.to_part(inside[corners]) if in_part else inside[corners]
+            inside = base[:, None] + sign[:, None] * octant.vertices[is_corner]
+            if in_part:
+                inside = chart.to_part(inside.reshape(-1, 3)).reshape(inside.shape)
+            found = found.reshape(len(part), -1, 3)
+            found[:, is_corner] = inside
             there = found.reshape(-1, 3)
-            back = chart.to_lattice(there) if in_part else there
+            back = (chart.to_lattice(there) if in_part else there).reshape(found.shape)
             middle = base + sign * (0.25 * grid.cell_size)
-            seen = np.concatenate([middle[:, None], back.reshape(inside.shape)], axis=1)
-            away = np.abs(chart.unwrapped(seen)[:, 1:] - middle[:, None]).max()
-            excess = max(excess, float(away) / (0.5 * grid.cell_size) - 0.5)
-            vertices[numbers(layout, octant, part)] = (
-                there if in_part else chart.to_part(there)
-            ).reshape(inside.shape)
+            seen = chart.unwrapped(np.concatenate([middle[:, None], back], axis=1))
+            away = float(np.abs(seen[:, 1:] - middle[:, None]).max())
+            excess = max(excess, away / (0.5 * grid.cell_size) - 0.5)
+            vertices[numbers(layout, octant, part)] = found
             done += len(part)
             monitor.tick(done / total)
-    return Conformed(vertices, excess)
+    return Conformed(vertices if in_part else chart.to_part(vertices), excess)
 
 
 def _node_lookup(cell: UnitCell, own: Anchors, key: OctantKey) -> Ints:
@@ -290,12 +203,8 @@ def _on_struts(
     scale: Floats,
     nodes: Joints,
 ) -> Floats:
-    start = nodes.points[near]
-    axis = _shortest(nodes.points[far] - start, nodes.period)
-    length = np.linalg.norm(axis, axis=1)
-    axis /= length[:, None]
-    radius, other = nodes.radius[near], nodes.radius[far]
-    slope = (other - radius) / length
+    strut = _struts(near, far, nodes)
+    start, axis = strut.start, strut.axis
     if nodes.rotation is not None:
         even = (1.0 - along)[:, None, None] * nodes.rotation[near]
         even += along[:, None, None] * nodes.rotation[far]
@@ -312,25 +221,65 @@ def _on_struts(
         own = np.cos(angle)[:, None] * first + np.sin(angle)[:, None] * np.cross(about, first)
         mixed = np.clip(share[off], 0.0, 1.0)[:, None]
         radial[off] = _across((1.0 - mixed) * own + mixed * radial[off], axis[off])
-    ends = nodes.neighbours[near]
-    begin = crease(
-        axis, radial, radius, slope, nodes.joint[near],
-        nodes.directions[near], nodes.slopes[near], (ends >= 0) & (ends != far[:, None]),
-    )  # fmt: skip
-    # Thicker joints reach farther: the middle is where both ends have the same room.
-    room = length * radius / (radius + other) - begin
-    tight = int(np.argmin(room / radius))
-    if room[tight] < LEAST_ROOM * radius[tight]:
+    begin = _crease(strut, radial, near, far, nodes)
+    room = strut.middle - begin
+    tight = int(np.argmin(room / strut.radius))
+    if room[tight] < LEAST_ROOM * strut.radius[tight]:
         x, y, z = start[tight] + begin[tight] * axis[tight]
         raise VolfrepError(
-            f"Near ({x:.4g}, {y:.4g}, {z:.4g}) struts of radius {radius[tight]:.3g} mm and length "
-            f"{length[tight]:.3g} mm grow into each other: reduce the radius or let the cells be "
-            "larger there."
+            f"Near ({x:.4g}, {y:.4g}, {z:.4g}) struts of radius {strut.radius[tight]:.3g} mm and "
+            f"length {strut.length[tight]:.3g} mm grow into each other: reduce the radius or let "
+            "the cells be larger there."
         )
-    t = begin + share * room
-    distance = (radius + slope * t) * scale
-    result: Floats = start + t[:, None] * axis + distance[:, None] * radial
-    return result
+    return strut.point(begin + share * room, radial, scale)
+
+
+@dataclass(frozen=True, eq=False)
+class _Struts:
+    """The struts of some vertices, from the nearer node: one row a vertex.
+
+    Attributes:
+        start, axis: (n, 3) the node, mm, and the unit vector to the other one.
+        length, radius, slope: (n,) mm; radius at the node; by which it grows on the way.
+        middle: (n,) where the ends of the strut meet, mm: thicker joints reach farther.
+    """
+
+    start: Floats
+    axis: Floats
+    length: Floats
+    radius: Floats
+    slope: Floats
+    middle: Floats
+
+    def point(self, t: Floats, radial: Floats, scale: Floats) -> Floats:
+        """(n, 3) points at t mm along the struts, off them as the scale says."""
+        distance = (self.radius + self.slope * t) * scale
+        result: Floats = self.start + t[:, None] * self.axis + distance[:, None] * radial
+        return result
+
+
+def _struts(near: Ints, far: Ints, nodes: Joints) -> _Struts:
+    start = nodes.points[near]
+    axis = shortest(nodes.points[far] - start, nodes.period)
+    length = np.linalg.norm(axis, axis=1)
+    axis /= length[:, None]
+    radius, other = nodes.radius[near], nodes.radius[far]
+    middle = length * radius / (radius + other)
+    return _Struts(start, axis, length, radius, (other - radius) / length, middle)
+
+
+def _crease(strut: _Struts, radial: Floats, near: Ints, far: Ints, nodes: Joints) -> Floats:
+    ends = nodes.neighbours[near]
+    return crease(
+        strut.axis,
+        radial,
+        strut.radius,
+        strut.slope,
+        nodes.joint[near],
+        nodes.directions[near],
+        nodes.slopes[near],
+        (ends >= 0) & (ends != far[:, None]),
+    )
 
 
 def _across(vectors: Floats, axis: Floats) -> Floats:
@@ -385,7 +334,7 @@ class _Rounding:
     def of(nodes: Joints, fillet: float) -> _Rounding:
         ends = nodes.graph.struts.astype(np.int64)
         start = nodes.points[ends[:, 0]]
-        end = start + _shortest(nodes.points[ends[:, 1]] - start, nodes.period)
+        end = start + shortest(nodes.points[ends[:, 1]] - start, nodes.period)
         primitives = join(
             struts(start, end, nodes.radius[ends]), spheres(nodes.points, nodes.joint)
         )

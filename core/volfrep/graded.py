@@ -12,11 +12,12 @@ from scipy import ndimage
 
 from .anchors import anchor, crease
 from .cells import UnitCell
-from .conform import Conformed, Joints, conform, joints
+from .conform import Conformed, conform
 from .distance import closest_points
 from .errors import VolfrepError
 from .frep import Floats, joint_radius
 from .grading import lattice_map
+from .joints import Joints, joints
 from .lattice import Layout, OctantGrid, coordinates, octant_grid
 from .mapping import LatticeMap, identity_map, mapped_box
 from .mesh import TriangleMesh

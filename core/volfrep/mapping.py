@@ -178,12 +178,11 @@ def _extent(direction: Floats, bounds: Floats) -> tuple[float, float]:
 def _stretch(direction: Floats, law: Law, start: float, before: float, length: float) -> Stretch:
     at = np.linspace(0.0, 1.0, TABLE + 1)
     moved = at * law(at) / law.end
-    slope = np.diff(moved)
-    worst = int(np.argmin(slope))
-    if slope[worst] <= 0.0:
+    folds = np.diff(moved) <= 0.0
+    if folds.any():
         raise VolfrepError(
-            f"The size grading folds the lattice at s = {at[worst]:.3g}: s times lambda must rise "
-            "all the way, so let lambda fall less steeply (a linear one to more than half)."
+            f"The size grading folds the lattice at s = {at[folds.argmax()]:.3g}: s times lambda "
+            "must rise all the way, so let lambda fall less steeply (a linear one to more than half)."
         )
     return Stretch(direction, start, before, length, law, at, moved)
 

@@ -27,7 +27,7 @@ from .cells import NODE_TOLERANCE, UnitCell
 from .errors import VolfrepError
 from .frep import Field, Floats, Ints, join, spheres, struts
 from .joints import Joints, shortest
-from .lattice import CHUNK_VERTICES, Layout, frames, numbers
+from .lattice import Layout, frames, numbers
 from .mapping import LatticeMap
 from .octant import NEIGHBOURS, OctantKey
 from .progress import Monitor
@@ -35,6 +35,8 @@ from .wireframe import CellGraph
 
 Bools = NDArray[np.bool_]
 
+#: Vertices that are placed at a time: what they need should stay in the processor's cache.
+CHUNK_VERTICES = 16_000
 #: Between its creases a strut must be at least this long, in units of its radius, on each side of
 #: its middle.
 LEAST_ROOM = 0.05
@@ -94,7 +96,7 @@ def conform(
         if not len(place) or not len(layout.octants[key].vertices):
             continue
         octant, own = layout.octants[key], anchors[key]
-        size = max(1, CHUNK_VERTICES // max(len(own.kind), 1))
+        size = max(1, CHUNK_VERTICES // len(own.kind))
         lookup = _node_lookup(cell, own, key)
         is_corner = own.kind == SPACE
         for begin in range(0, len(place), size):

@@ -182,7 +182,7 @@ def _stretch(direction: Floats, law: Law, start: float, before: float, length: f
     if folds.any():
         raise VolfrepError(
             f"The size grading folds the lattice at s = {at[folds.argmax()]:.3g}: s times lambda "
-            "must rise all the way, so let lambda fall less steeply (a linear one to more than half)."
+            "must rise all the way, so let it fall less steeply (a linear one to more than half)."
         )
     return Stretch(direction, start, before, length, law, at, moved)
 

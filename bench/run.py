@@ -4,7 +4,7 @@
 Every job is a fresh ``volfrep`` process; its time runs from the start of the process to its end
 with the file on disk. What is then said about the file is measured on what a reader sees.
 
-    python bench/run.py [--only block fine bracket large peers] [--out build/bench.md]
+    python bench/run.py [--only block fine bracket graded large peers] [--out build/bench.md]
 """
 
 from __future__ import annotations
@@ -34,6 +34,7 @@ from volfrep.wireframe import cell_graph
 
 ROOT = Path(__file__).resolve().parent.parent
 BRACKET = ROOT.parent / "shared" / "parts" / "ge_bracket.stl"
+ROD = BRACKET.with_name("piston_rod.stl")
 VOLFREP = [sys.executable, "-m", "volfrep"]
 PEERS = [sys.executable, str(Path(__file__).with_name("peers.py"))]
 PEER_MISSING = 3
@@ -51,6 +52,15 @@ PAPER_BRACKET = {
     "Octet": (422, 150.57),
     "Octahedron": (277, 97.02),
     "CVC": (248, 78.52),
+}
+#: Table 4; the published rod is another one, of the same box.
+PAPER_ROD = {
+    "Box": (164, 17.11),
+    "BCC": (220, 41.16),
+    "FCC": (252, 46.19),
+    "Octet": (281, 48.24),
+    "Octahedron": (162, 37.30),
+    "CVC": (149, 29.68),
 }
 PAPER_LARGE = (3600, float("nan"))
 
@@ -147,24 +157,34 @@ def take(out: Path) -> tuple[float, TriangleMesh]:
     return size, mesh
 
 
-def bracket_case(folder: Path, cell: str) -> Row:
-    """The GE bracket with a skin of 3 mm."""
-    out = folder / f"{cell}.stl"
-    row = {"case": "GE bracket, skin 3", "cell": cell}
-    command = [*VOLFREP, "fill", str(BRACKET), "-o", str(out), "--cell", cell, *LATTICE]
-    done = run([*command, "--shell", "3", "--quiet", "--report", str(folder / "report.json")])
+def part_case(
+    folder: Path,
+    case: str,
+    part: Path,
+    cell: str,
+    options: list[str],
+    seconds: float,
+    paper: tuple[float, float] | None = None,
+) -> Row:
+    """A real part with a skin and a lattice."""
+    row = {"case": case, "cell": cell}
+    if not part.is_file():
+        return {**row, "note": f"left out: there is no {part}"}
+    out, report = folder / f"{cell}.stl", folder / "report.json"
+    command = [*VOLFREP, "fill", str(part), "-o", str(out), "--cell", cell, *options]
+    done = run([*command, "--quiet", "--report", str(report)])
     if done.code:
         return {**row, "note": done.said.splitlines()[-1] if done.said else f"exit {done.code}"}
     size, mesh = take(out)
     quality = measure(mesh)
     bars = [
-        *time_bar(done, 8),
+        *time_bar(done, seconds),
         Bar("one body", quality.bodies == 1),
         Bar("watertight", quality.watertight),
         Bar("no degenerate triangle", quality.degenerate_triangles == 0),
         Bar("no pinched vertex", pinched_vertices(mesh) == 0),
     ]
-    row |= figures(done, size, PAPER_BRACKET[cell], mesh) | {"peak MB": peak_memory(folder)}
+    row |= figures(done, size, paper, mesh) | {"peak MB": peak_memory(folder)}
     row |= {"bodies": str(quality.bodies), "genus": str(quality.genus)}
     return {**row, **shape(mesh, []), "bars": verdict(bars)}
 
@@ -232,11 +252,50 @@ def fine_rows(folder: Path) -> Iterator[Row]:
 
 
 def bracket_rows(folder: Path) -> Iterator[Row]:
-    if not BRACKET.is_file():
-        yield {"case": "GE bracket, skin 3", "note": f"left out: there is no {BRACKET}"}
-        return
-    for cell in PAPER_BRACKET:
-        yield bracket_case(folder, cell)
+    for cell, paper in PAPER_BRACKET.items():
+        options = [*LATTICE, "--shell", "3"]
+        yield part_case(folder, "GE bracket, skin 3", BRACKET, cell, options, 8, paper)
+
+
+def graded_rows(folder: Path) -> Iterator[Row]:
+    """Sizes and radii that vary: the paper's piston rod, a block, a field on the bracket."""
+    rod = ["--cell-size", "2", "--strut-radius", "0.2", "--shell", "1"]
+    linear = ["--size-grading", "linear", "--lambda-min", "1", "--lambda-max", "2"]
+    for cell, paper in PAPER_ROD.items():
+        name = "piston rod, skin 1, linear size 1 to 2 along x"
+        yield part_case(folder, name, ROD, cell, [*rod, *linear], 6, paper)
+    thicker = ["--radius-min", "0.6", "--radius-max", "1.4"]
+    along = ["--radius-grading", "direction", "--resolution", "15", *thicker]
+    out = folder / "graded.stl"
+    command = [*VOLFREP, "block", "-o", str(out), "--cell", "CVC", "--cell-size", f"{SIZE:g}"]
+    done = run([*command, "--count", "10", "10", "10", *along, "--quiet"])
+    row = {"case": "block 10 x 10 x 10, radius 0.6 to 1.4", "cell": "CVC"}
+    if done.code:
+        yield {**row, "note": done.said.splitlines()[-1]}
+    else:
+        size, mesh = take(out)
+        quality = measure(mesh)
+        bars = [
+            *time_bar(done, 5),
+            Bar("one closed body", quality.watertight and quality.bodies == 1),
+            Bar("genus 5670", quality.genus == 5670),
+        ]
+        row |= figures(done, size, None, mesh)
+        row |= {"bodies": str(quality.bodies), "genus": str(quality.genus)}
+        yield {**row, **shape(mesh, []), "bars": verdict(bars)}
+    field = folder / "field.csv"
+    write_field(field)
+    by_field = ["--radius-grading", "field", "--radius-field", str(field), *thicker]
+    options = ["--cell-size", f"{SIZE:g}", "--shell", "3", *by_field]
+    yield part_case(folder, "GE bracket, radius by a field", BRACKET, "CVC", options, 12)
+
+
+def write_field(path: Path) -> None:
+    """A smooth made-up field at 20,000 points in the bracket's box."""
+    points = np.random.default_rng(0).uniform((0, 0, 0), (180, 65, 110), (20_000, 3))
+    values = 100.0 + 40.0 * np.sin(points[:, 0] / 25.0) * np.cos(points[:, 2] / 30.0)
+    rows = np.column_stack([points, values])
+    np.savetxt(path, rows, "%.4f", ",", header="x,y,z,value", comments="")
 
 
 def large_rows(folder: Path) -> Iterator[Row]:
@@ -258,6 +317,7 @@ GROUPS: dict[str, Callable[[Path], Iterator[Row]]] = {
     "block": block_rows,
     "fine": fine_rows,
     "bracket": bracket_rows,
+    "graded": graded_rows,
     "large": large_rows,
     "peers": peer_rows,
 }

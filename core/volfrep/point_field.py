@@ -35,6 +35,7 @@ class PointField:
     Attributes:
         points: (n, 3) float64, mm; where several coincide there is one, with their mean value.
         values: (n,) float64, in whatever unit.
+        source: where they come from, for the report.
 
     Raises:
         VolfrepError: at construction: no points, or numbers that are not finite.
@@ -42,6 +43,7 @@ class PointField:
 
     points: Floats
     values: Floats
+    source: str = ""
     _tree: cKDTree = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -123,7 +125,7 @@ def read_point_field(path: str | os.PathLike[str], column: str | None = None) ->
     Raises:
         VolfrepError: naming the file, the line where there is one, and what is wrong.
     """
-    return PointField(*read_points(path, column))
+    return PointField(*read_points(path, column), source=os.fspath(path))
 
 
 @dataclass(frozen=True)

@@ -150,7 +150,8 @@ def _needed(options: argparse.Namespace, name: str, flag: str, kind: str) -> Any
 
 def _radius_grading(options: argparse.Namespace) -> RadiusGrading | None:
     from .grading import RadiusGrading
-    from .point_field import read_point_field
+    from .law import Law
+    from .point_field import read_curve, read_point_field
 
     by = options.radius_grading
     if by is None:
@@ -160,17 +161,15 @@ def _radius_grading(options: argparse.Namespace) -> RadiusGrading | None:
     field = None
     if options.radius_field is not None:
         field = read_point_field(options.radius_field, options.radius_column)
-    law = _radius_law(options, curve)
+    law = Law() if curve else _radius_law(options)  # a curve needs none
     given = _given(direction=options.radius_direction, reach=options.radius_reach)
     return RadiusGrading(by, law, field=field, column=options.radius_column, curve=curve, **given)
 
 
-def _radius_law(options: argparse.Namespace, curve: tuple[tuple[float, float], ...]) -> Law:
+def _radius_law(options: argparse.Namespace) -> Law:
     from .law import Law
 
     kind = options.radius_law or "linear"
-    if curve:
-        return Law("linear", curve[0][1], curve[-1][1])
     if kind == "expression":
         if options.radius_formula is None:
             raise VolfrepError("The radius law expression needs --radius-formula: give it.")
@@ -183,25 +182,6 @@ def _radius_law(options: argparse.Namespace, curve: tuple[tuple[float, float], .
     radius = options.strut_radius
     start = radius if options.radius_min is None else options.radius_min
     return Law(kind, start, radius if options.radius_max is None else options.radius_max)
-
-
-def read_curve(text: str) -> tuple[tuple[float, float], ...]:
-    """The pairs (value, radius in mm) of a text such as ``0:0.5, 120:1.2``.
-
-    Raises:
-        VolfrepError: the text is no list of pairs; it names the first that is none.
-    """
-    pairs = []
-    for part in text.split(","):
-        value, _, radius = part.partition(":")
-        try:
-            pairs.append((float(value), float(radius)))
-        except ValueError as error:
-            raise VolfrepError(
-                f"The curve's part '{part.strip()}' is no pair: write values and radii in mm, "
-                "such as '0:0.5, 120:1.2'."
-            ) from error
-    return tuple(pairs)
 
 
 def _cell_map(options: argparse.Namespace) -> CellMap | None:

@@ -64,7 +64,7 @@ class RadiusGrading:
         reach: depth in mm at which the law ends.
         field: the values, or the file that holds them.
         column: which values of the file.
-        curve: (value, radius in mm) pairs, rising in value, to use instead of the law's ends.
+        curve: (value, radius in mm) pairs, rising in value, to use instead of the law.
     """
 
     by: str

@@ -174,6 +174,25 @@ class TransferCurve:
         return np.asarray(np.interp(np.asarray(values, np.float64), self.values, self.radii))
 
 
+def read_curve(text: str) -> tuple[tuple[float, float], ...]:
+    """The pairs (value, radius in mm) of a text such as ``0:0.5, 120:1.2``.
+
+    Raises:
+        VolfrepError: the text is no list of pairs; it names the first that is none.
+    """
+    pairs = []
+    for part in text.split(","):
+        value, _, radius = part.partition(":")
+        try:
+            pairs.append((float(value), float(radius)))
+        except ValueError as error:
+            raise VolfrepError(
+                f"The curve's part '{part.strip()}' is no pair: write values and radii in mm, "
+                "such as '0:0.5, 120:1.2'."
+            ) from error
+    return tuple(pairs)
+
+
 def default_curve(
     values: ArrayLike, radius_at_least: float, radius_at_most: float
 ) -> TransferCurve:

@@ -41,19 +41,30 @@ def field_of_result(result: App.DocumentObject, quantity: str, frame: App.Placem
     if result.Mesh is None or not len(numbers):
         raise VolfrepError(f"The FEM result '{label}' is empty: run the solver.")
     values = _values(result, quantity, len(numbers))
-    nodes = result.Mesh.FemMesh.Nodes
-    lost = [number for number in result.NodeNumbers if number not in nodes]
-    if lost:
-        raise VolfrepError(
-            f"The FEM result '{label}' has values at node {lost[0]}, which its mesh "
-            f"'{result.Mesh.Label}' does not have: run the solver again."
-        )
-    # Values come in the order of NodeNumbers; FreeCAD hands nodes out one by one only.
-    points = np.array([tuple(nodes[number]) for number in result.NodeNumbers], np.float64)
+    points = _points(result, numbers)
     to_frame = frame.inverse().multiply(parent_placement(result.Mesh))
     matrix = np.array(to_frame.toMatrix().A).reshape(4, 4)
     placed = points @ matrix[:3, :3].T + matrix[:3, 3]
     return PointField(placed, values, source=f"{label}, {quantity}")
+
+
+def _points(result: App.DocumentObject, numbers: np.ndarray) -> np.ndarray:
+    """(n, 3) where the nodes of these numbers lie; values come in the numbers' order."""
+    nodes = result.Mesh.FemMesh.Nodes  # FreeCAD hands them out one by one only
+    known = np.array(sorted(nodes), np.int64)
+    coordinates = np.array([tuple(nodes[number]) for number in known], np.float64).reshape(-1, 3)
+    lost = np.setdiff1d(numbers, known)
+    if not len(lost):
+        return coordinates[np.searchsorted(known, numbers)]
+    # A mesh that was saved has its nodes numbered anew, from 1 and in the same order, and the
+    # result keeps the old numbers.
+    old = np.unique(numbers)
+    if len(old) == len(known) and known[-1] == len(known):
+        return coordinates[np.searchsorted(old, numbers)]
+    raise VolfrepError(
+        f"The FEM result '{result.Label}' has values at node {lost[0]}, which its mesh "
+        f"'{result.Mesh.Label}' does not have: run the solver again."
+    )
 
 
 def _values(result: App.DocumentObject, quantity: str, count: int) -> np.ndarray:

@@ -32,7 +32,7 @@ from .progress import Monitor, ProgressCallback, peak_memory_mb
 from .quality import Quality, combined, inspect, measure
 from .report import Report
 from .shell import TOLERANCE, inner_wall
-from .sizes import sizes
+from .sizes import mapped_volume, sizes
 from .spec import LatticeSpec
 from .survey import survey
 from .tile import Octant, TileSpec, mesh_octants
@@ -190,6 +190,8 @@ def block(
     cells, where = block_setting(spec, shape)
     volume = float(np.prod(shape, dtype=float)) * spec.cell_size**3
     refuse_memory(expected_triangles(cell, spec, volume), 0)
+    if where.chart is not None and not where.chart.is_rigid:
+        volume = mapped_volume(cells, where.chart)
     active = np.ones(shape, bool)
     tile = tile_spec(spec)
     with monitor.stage("tile", 0.0, 0.4):

@@ -8,7 +8,7 @@ from volfrep.cells import find_cell
 from volfrep.graded import block_setting, graded_wireframe
 from volfrep.grading import CellMap, Orientation, SizeGrading
 from volfrep.law import Law
-from volfrep.sizes import sizes
+from volfrep.sizes import mapped_volume, sizes
 from volfrep.spec import LatticeSpec
 from volfrep.wireframe import cell_graph
 
@@ -49,3 +49,24 @@ def test_cells_about_an_axis():
     found = sizes_of((2, 12, 1), cell_map=CellMap("cylindrical"))
     assert found.cell_edges == pytest.approx(tuple(chords))
     assert found.strut_lengths == pytest.approx(tuple(chords))
+
+
+def volume_of(shape, **options):
+    spec = LatticeSpec(cell="Box", cell_size=10.0, strut_radius=0.5, **options)
+    cells, where = block_setting(spec, shape)
+    return mapped_volume(cells, where.chart)
+
+
+def test_volume_of_a_block_that_grows():
+    law = Law("quadratic", 1.0, 2.0)
+    assert volume_of((3, 1, 2), size_grading=SizeGrading(law)) == pytest.approx(2.0 * 6000.0)
+
+
+def test_volume_of_a_ring_and_of_a_shell():
+    middle = 120.0 / (2.0 * np.pi)
+    ring = np.pi * ((middle + 10.0) ** 2 - (middle - 10.0) ** 2) * 10.0
+    assert volume_of((2, 12, 1), cell_map=CellMap("cylindrical")) == pytest.approx(ring)
+    inner, outer, reach = middle - 10.0, middle + 10.0, np.sin(2.0 * np.pi / 12.0)
+    shell = 4.0 * np.pi / 3.0 * (outer**3 - inner**3) * reach
+    found = volume_of((2, 2, 12), cell_map=CellMap("spherical"))
+    assert found == pytest.approx(shell, rel=1e-3)

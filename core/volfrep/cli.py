@@ -18,11 +18,13 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
+from .cli_grading import add_grading_options, gradings
 from .errors import VolfrepError
 
 if TYPE_CHECKING:
     from .pipeline import Result
     from .progress import ProgressCallback
+    from .report import Report
     from .spec import LatticeSpec
 
 EXIT_BAD_INPUT = 2
@@ -85,7 +87,12 @@ class _Version(argparse.Action):
 
 
 def _plain_number(argument: str) -> str:
-    """Negative numbers such as ``-1e3`` as ``-1000.0``: argparse takes them for options."""
+    """Negative numbers such as ``-1e3`` as ``-1000.0``: argparse takes them for options.
+
+    So it does pairs such as ``-5:0.4,0:1``, unless they begin with a blank.
+    """
+    if re.match(r"-[\d.]+([eE][-+]?\d+)?:", argument):
+        return f" {argument}"
     if not re.fullmatch(r"-(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?", argument):
         return argument
     return argument if re.fullmatch(r"-\d+", argument) else f"{float(argument):.15f}"
@@ -157,6 +164,7 @@ def _add_lattice_options(parser: argparse.ArgumentParser) -> None:
     add("--density", type=float, metavar="G_PER_CM3", help="of the material (default 1)")
     add("--report", metavar="FILE.json", help="write the figures of the run as JSON")
     add("--quiet", action="store_true", help="print nothing but errors")
+    add_grading_options(parser)
 
 
 def _fill(options: argparse.Namespace) -> None:
@@ -208,7 +216,8 @@ def _spec(options: argparse.Namespace, *more: str) -> LatticeSpec:
     given = {name: getattr(options, name) for name in (*names, *more)}
     if given.get("origin") is not None:
         given["origin"] = tuple(given["origin"])
-    return LatticeSpec(**{name: value for name, value in given.items() if value is not None})
+    given = {name: value for name, value in given.items() if value is not None}
+    return LatticeSpec(**given, **gradings(options))
 
 
 def _finish(result: Result, options: argparse.Namespace, before: dict[str, float]) -> None:
@@ -237,6 +246,7 @@ def _finish(result: Result, options: argparse.Namespace, before: dict[str, float
         ("file", f"{options.out}, {size:.1f} MB"),
         ("cells", f"{report.cells_active:,} active of {report.cells_total:,} ({grid})"),
         ("struts", f"{report.struts:,} between {report.nodes:,} nodes"),
+        *_sizes(report),
         ("triangles", f"{report.triangles:,}"),
         ("watertight", f"{_yes(report.watertight)}, {_bodies(report.bodies, report.voids)}"),
         ("volume", f"{report.volume_mm3:,.1f} mm3"),
@@ -244,6 +254,21 @@ def _finish(result: Result, options: argparse.Namespace, before: dict[str, float
         ("mass", f"{report.mass_g:,.2f} g"),
         ("time", f"{sum(report.stages.values()):.2f} s, {report.peak_memory_mb:,.0f} MB of memory"),
     )
+
+
+def _sizes(report: Report) -> list[tuple[str, str]]:
+    """What a grading came to; nothing for a lattice that is the same everywhere."""
+    gradings = ("size_grading", "radius_grading", "cell_map", "orientation")
+    if all(report.spec[name] is None for name in gradings):
+        return []
+    return [
+        (name, f"{least:.4g} to {most:.4g} mm")
+        for name, (least, most) in (
+            ("cell edges", report.cell_edges_mm),
+            ("strut lengths", report.strut_lengths_mm),
+            ("strut radii", report.strut_radii_mm),
+        )
+    ]
 
 
 def _cells(_: argparse.Namespace) -> None:

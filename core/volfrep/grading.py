@@ -64,7 +64,7 @@ class RadiusGrading:
         reach: depth in mm at which the law ends.
         field: the values, or the file that holds them.
         column: which values of the file.
-        curve: (value, radius in mm) pairs, rising in value, to use instead of the law's ends.
+        curve: (value, radius in mm) pairs, rising in value, to use instead of the law.
     """
 
     by: str
@@ -268,7 +268,7 @@ def as_plain(value: Any) -> Any:
     if isinstance(value, Law):
         return value.as_dict()
     if isinstance(value, PointField):
-        return f"{len(value.values)} points"
+        return f"{len(value.values)} points" + f" of {value.source}" * bool(value.source)
     if hasattr(value, "__dataclass_fields__"):
         return {name: as_plain(getattr(value, name)) for name in value.__dataclass_fields__}
     if isinstance(value, tuple):

@@ -32,6 +32,7 @@ from .progress import Monitor, ProgressCallback, peak_memory_mb
 from .quality import Quality, combined, inspect, measure
 from .report import Report
 from .shell import TOLERANCE, inner_wall
+from .sizes import mapped_volume, sizes
 from .spec import LatticeSpec
 from .survey import survey
 from .tile import Octant, TileSpec, mesh_octants
@@ -159,8 +160,8 @@ def fill(
             cleared, measured = trimming.output(kept, layout, points, monitor)
     skin_volume = solid.volume - domain.volume if spec.output == "part" else 0.0
     return _result(
-        cleared, measured, frame, floor.cells, active, domain.volume, spec, monitor, skin_volume,
-        warnings,
+        cleared, measured, frame, floor.cells, active, where, domain.volume, spec, monitor,
+        skin_volume, warnings,
     )  # fmt: skip
 
 
@@ -189,6 +190,8 @@ def block(
     cells, where = block_setting(spec, shape)
     volume = float(np.prod(shape, dtype=float)) * spec.cell_size**3
     refuse_memory(expected_triangles(cell, spec, volume), 0)
+    if where.chart is not None and not where.chart.is_rigid:
+        volume = mapped_volume(cells, where.chart)
     active = np.ones(shape, bool)
     tile = tile_spec(spec)
     with monitor.stage("tile", 0.0, 0.4):
@@ -208,7 +211,7 @@ def block(
         if measured.shells > 1:
             cleared = clear(mesh, inspect(mesh, monitor), _smallest_shell(spec))
             measured = measure(cleared.mesh, monitor)
-    return _result(cleared, measured, frame, cells, active, volume, spec, monitor)
+    return _result(cleared, measured, frame, cells, active, where, volume, spec, monitor)
 
 
 def _voxels(
@@ -345,18 +348,23 @@ def _result(
     graph: Wireframe,
     cells: CellGrid,
     active: NDArray[np.bool_],
+    where: Setting,
     domain_volume: float,
     spec: LatticeSpec,
     monitor: Monitor,
     skin_volume: float = 0.0,
     warnings: tuple[str, ...] = (),
 ) -> Result:
+    size = sizes(cells, active, where.chart, graph)
     report = Report(
         cells_total=cells.cells,
         cells_active=int(active.sum()),
         grid=cells.shape,
         nodes=len(graph.nodes),
         struts=len(graph.struts),
+        cell_edges_mm=size.cell_edges,
+        strut_lengths_mm=size.strut_lengths,
+        strut_radii_mm=size.strut_radii,
         triangles=measured.triangles,
         vertices=measured.vertices,
         bodies=measured.bodies,

@@ -35,6 +35,7 @@ class PointField:
     Attributes:
         points: (n, 3) float64, mm; where several coincide there is one, with their mean value.
         values: (n,) float64, in whatever unit.
+        source: where they come from, for the report.
 
     Raises:
         VolfrepError: at construction: no points, or numbers that are not finite.
@@ -42,6 +43,7 @@ class PointField:
 
     points: Floats
     values: Floats
+    source: str = ""
     _tree: cKDTree = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -123,7 +125,7 @@ def read_point_field(path: str | os.PathLike[str], column: str | None = None) ->
     Raises:
         VolfrepError: naming the file, the line where there is one, and what is wrong.
     """
-    return PointField(*read_points(path, column))
+    return PointField(*read_points(path, column), source=os.fspath(path))
 
 
 @dataclass(frozen=True)
@@ -170,6 +172,25 @@ class TransferCurve:
     def __call__(self, values: ArrayLike) -> Floats:
         """Radii in mm at `values`, float64 of the same shape."""
         return np.asarray(np.interp(np.asarray(values, np.float64), self.values, self.radii))
+
+
+def read_curve(text: str) -> tuple[tuple[float, float], ...]:
+    """The pairs (value, radius in mm) of a text such as ``0:0.5, 120:1.2``.
+
+    Raises:
+        VolfrepError: the text is no list of pairs; it names the first that is none.
+    """
+    pairs = []
+    for part in text.split(","):
+        value, _, radius = part.partition(":")
+        try:
+            pairs.append((float(value), float(radius)))
+        except ValueError as error:
+            raise VolfrepError(
+                f"The curve's part '{part.strip()}' is no pair: write values and radii in mm, "
+                "such as '0:0.5, 120:1.2'."
+            ) from error
+    return tuple(pairs)
 
 
 def default_curve(

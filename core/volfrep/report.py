@@ -17,6 +17,9 @@ class Report:
         cells_active: cells that hold a lattice.
         grid: cells along x, y, z.
         nodes, struts: of the unique wireframe of the active cells (before trimming).
+        cell_edges_mm: the shortest and the longest edge of an active cell.
+        strut_lengths_mm: the shortest and the longest strut, from node to node (before trimming).
+        strut_radii_mm: the smallest and the largest radius of a strut.
         triangles, vertices: of the mesh.
         bodies: separate pieces of material (surfaces that enclose material).
         voids: closed cavities (surfaces that enclose emptiness).
@@ -40,6 +43,9 @@ class Report:
     grid: tuple[int, int, int]
     nodes: int
     struts: int
+    cell_edges_mm: tuple[float, float]
+    strut_lengths_mm: tuple[float, float]
+    strut_radii_mm: tuple[float, float]
     triangles: int
     vertices: int
     bodies: int

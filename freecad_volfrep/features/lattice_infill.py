@@ -10,6 +10,7 @@ import FreeCAD as App
 
 from freecad_volfrep.engine import require_engine
 
+from .grading import CONTROLS, gradings_of, show_applicable
 from .progress import progress_of
 from .properties import CUSTOM_CELL, PROPERTIES, ensure_properties
 
@@ -72,6 +73,11 @@ class LatticeInfill:
         obj.Document.recompute()
         self._forced = False  # where a failing base kept the object from being executed
         return bool(obj.isValid())
+
+    def onChanged(self, obj: App.DocumentObject, name: str) -> None:  # noqa: N802
+        """Show the properties that apply now, and no others."""
+        if name in CONTROLS:
+            show_applicable(obj)
 
     def onDocumentRestored(self, obj: App.DocumentObject) -> None:  # noqa: N802
         """Bring an object of an older file up to the present table of properties."""
@@ -160,6 +166,7 @@ def spec_of(obj: App.DocumentObject) -> LatticeSpec:
         fillet=obj.JointFillet.Value,
         origin=tuple(obj.Origin) if obj.UseOrigin else None,
         density=obj.Density,
+        **gradings_of(obj),
     )
 
 
@@ -167,10 +174,16 @@ def fingerprint_of(spec: LatticeSpec, solid: TriangleMesh) -> str:
     """A digest of all that a result's geometry depends on (so not of the density)."""
     import numpy as np
 
+    from volfrep.point_field import PointField
+
     digest = hashlib.sha256()
     values = spec.as_dict()
     values.pop("density")
     digest.update(repr(sorted(values.items())).encode())
+    field = None if spec.radius_grading is None else spec.radius_grading.field
+    if isinstance(field, PointField):
+        digest.update(field.points.tobytes())
+        digest.update(field.values.tobytes())
     cell = spec.unit_cell()
     digest.update(np.ascontiguousarray(cell.nodes, np.float64).tobytes())
     digest.update(np.ascontiguousarray(cell.struts, np.int64).tobytes())
@@ -188,6 +201,9 @@ def _write_results(obj: App.DocumentObject, result: Result) -> None:
         "CellsActive": report.cells_active,
         "Nodes": report.nodes,
         "Struts": report.struts,
+        "CellEdges": report.cell_edges_mm,
+        "StrutLengths": report.strut_lengths_mm,
+        "StrutRadii": report.strut_radii_mm,
         "Triangles": report.triangles,
         "Bodies": report.bodies,
         "Genus": report.genus,

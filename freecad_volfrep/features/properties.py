@@ -8,8 +8,10 @@ from typing import Any
 
 import FreeCAD as App
 
+from .grading import CARTESIAN, CHOICES, OFF, show_applicable
+
 #: Raised with every change that an older file's objects must be brought up to.
-SCHEMA_VERSION = 1
+SCHEMA_VERSION = 2
 
 #: The entry of `CellType` that stands for a cell of the user's own, read from `CellFile`.
 CUSTOM_CELL = "Custom"
@@ -28,6 +30,10 @@ class Property:
     description: str
     default: Any = None
     flags: int = 0
+
+
+def _grading(type_name: str, name: str, description: str, default: Any = None) -> Property:
+    return Property(type_name, name, "Grading", description, default)
 
 
 def _result(type_name: str, name: str, description: str) -> Property:
@@ -90,6 +96,105 @@ PROPERTIES = (
         "Which cells hold a lattice: those that touch the inside, or whose centre lies inside",
         "touching",
     ),
+    _grading(
+        "App::PropertyEnumeration",
+        "SizeGrading",
+        "Cells that grow along a direction: the law of lambda (section 2.5 of the method)",
+        OFF,
+    ),
+    _grading("App::PropertyFloat", "LambdaMin", "lambda at the near end, s = 0", 1.0),
+    _grading("App::PropertyFloat", "LambdaMax", "lambda at the far end, s = 1", 2.0),
+    _grading("App::PropertyString", "LambdaFormula", "lambda as a formula of s", "1 + s"),
+    _grading("App::PropertyVector", "GradingDirection", "Cells grow along it", App.Vector(1, 0, 0)),
+    _grading(
+        "App::PropertyBool",
+        "KeepRadius",
+        "Where cells are stretched or bent, struts stay straight and round; otherwise they are "
+        "deformed with their cells, as published",
+        True,
+    ),
+    _grading(
+        "App::PropertyEnumeration",
+        "RadiusGrading",
+        "Struts whose radius varies: along a direction, by the depth below the skin (s = 1 at the "
+        "Skin, or at the Core), or by a field of values",
+        OFF,
+    ),
+    _grading("App::PropertyEnumeration", "RadiusLaw", "Law of the radius over s", "Linear"),
+    _grading(
+        "App::PropertyLength",
+        "RadiusMin",
+        "Radius where s = 0 or the field is smallest; 0 for StrutRadius",
+        0.0,
+    ),
+    _grading(
+        "App::PropertyLength",
+        "RadiusMax",
+        "Radius where s = 1 or the field is largest; 0 for StrutRadius",
+        0.0,
+    ),
+    _grading(
+        "App::PropertyString", "RadiusFormula", "Radius in mm as a formula of s", "0.8 + 0.4 * s"
+    ),
+    _grading(
+        "App::PropertyVector", "RadiusDirection", "The radius varies along it", App.Vector(1, 0, 0)
+    ),
+    _grading("App::PropertyLength", "RadiusReach", "Depth at which the law ends", 5.0),
+    _grading(
+        "App::PropertyFile", "RadiusField", "File of points and values: .csv, .txt, .vtu, .vtk"
+    ),
+    _grading(
+        "App::PropertyLinkGlobal", "RadiusResult", "Result of a FEM solver, instead of a file"
+    ),
+    _grading(
+        "App::PropertyString",
+        "RadiusColumn",
+        "Which values of the file or the FEM result; empty for the only ones, or for vonMises",
+        "",
+    ),
+    _grading(
+        "App::PropertyString",
+        "RadiusCurve",
+        "Values and their radii in mm, such as '0:0.5, 120:1.2', in place of RadiusMin, RadiusMax",
+        "",
+    ),
+    _grading(
+        "App::PropertyEnumeration",
+        "CellMap",
+        "Cells along straight axes, about an axis, or about a centre",
+        CARTESIAN,
+    ),
+    _grading(
+        "App::PropertyBool",
+        "UseMapCentre",
+        "Put the axis through MapCentre; otherwise through the middle of the solid's box",
+        False,
+    ),
+    _grading(
+        "App::PropertyVectorDistance", "MapCentre", "A point of the axis, if UseMapCentre is set"
+    ),
+    _grading(
+        "App::PropertyVector", "MapAxis", "Axis that the cells lie about", App.Vector(0, 0, 1)
+    ),
+    _grading(
+        "App::PropertyInteger",
+        "MapAround",
+        "Cells around the full turn; 0 for as many as make them CellSize wide half-way out",
+        0,
+    ),
+    _grading("App::PropertyAngle", "RotationAngle", "Turns the lattice, not the solid", 0.0),
+    _grading("App::PropertyVector", "RotationAxis", "Axis of the rotation", App.Vector(0, 0, 1)),
+    _grading(
+        "App::PropertyBool",
+        "UseRotationOrigin",
+        "Turn about RotationOrigin; otherwise about the middle of the solid's box",
+        False,
+    ),
+    _grading(
+        "App::PropertyVectorDistance",
+        "RotationOrigin",
+        "A point of the rotation's axis, if UseRotationOrigin is set",
+    ),
     Property(
         "App::PropertyInteger",
         "Resolution",
@@ -125,6 +230,9 @@ PROPERTIES = (
     _result("App::PropertyInteger", "CellsActive", "Cells that hold a lattice"),
     _result("App::PropertyInteger", "Nodes", "Nodes of the lattice before trimming"),
     _result("App::PropertyInteger", "Struts", "Struts of the lattice before trimming"),
+    _result("App::PropertyFloatList", "CellEdges", "Shortest and longest edge of a cell, mm"),
+    _result("App::PropertyFloatList", "StrutLengths", "Shortest and longest strut, mm"),
+    _result("App::PropertyFloatList", "StrutRadii", "Smallest and largest strut radius, mm"),
     _result("App::PropertyInteger", "Triangles", "Triangles of the mesh"),
     _result("App::PropertyInteger", "Bodies", "Separate pieces of material"),
     _result("App::PropertyInteger", "Genus", "Through-holes of the mesh"),
@@ -152,6 +260,7 @@ def ensure_properties(obj: App.DocumentObject) -> None:
         "CellType": [*LIBRARY, CUSTOM_CELL],
         "Activation": list(ACTIVATIONS),
         "Output": list(OUTPUTS),
+        **CHOICES,
     }
     for prop in PROPERTIES:
         if prop.name in obj.PropertiesList:
@@ -168,3 +277,4 @@ def ensure_properties(obj: App.DocumentObject) -> None:
             setattr(obj, name, chosen)
     if obj.SchemaVersion != SCHEMA_VERSION:
         obj.SchemaVersion = SCHEMA_VERSION
+    show_applicable(obj)

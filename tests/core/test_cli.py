@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from volfrep import cli
+from volfrep import cli, cli_grading, grading, law
 from volfrep.cells import LIBRARY
 from volfrep.export.stl import as_read, write_stl
 from volfrep.mesh import TriangleMesh, concatenate
@@ -199,6 +199,7 @@ def test_a_file_to_check_must_be_readable(
         ("-e5", "-e5"),
         ("1e3", "1e3"),
         ("-1-2", "-1-2"),
+        ("-5:0.4,0:1", " -5:0.4,0:1"),
     ],
 )
 def test_negative_numbers_are_numbers(argument: str, expected: str) -> None:
@@ -281,6 +282,142 @@ def test_fill(capsys: pytest.CaptureFixture[str], tmp_path: Path, part: Path) ->
     quality = measure(as_read(read_triangles(out)))
     assert (quality.watertight, quality.bodies) == (True, 1)
     assert quality.bounds == pytest.approx(np.array([[-15.0] * 3, [15.0] * 3]))
+
+
+# --- graded lattices ----------------------------------------------------------------------------
+
+GRADED_BLOCK = ["block", "--cell", "Box", "--cell-size", "10", "--strut-radius", "0.8"]
+
+
+def said_rows(text: str) -> dict[str, str]:
+    return {line[:18].strip(): line[18:].strip() for line in text.splitlines()}
+
+
+def test_block_of_growing_cells(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    out, report = tmp_path / "block.stl", tmp_path / "block.json"
+    arguments = [*GRADED_BLOCK, "-o", out, "--count", "2", "1", "1", "--resolution", "12"]
+    arguments += ["--size-grading", "linear", "--lambda-max", "2", "--report", report]
+    arguments += ["--grading-direction", "2", "0", "0"]
+    assert cli.run([str(argument) for argument in arguments]) == 0
+    rows = said_rows(capsys.readouterr().out)
+    # x (1 + x / 20) takes the faces at 0, 10, 20 mm to 0, 15, 40 mm.
+    assert rows["cell edges"] == "10 to 25 mm"
+    assert rows["strut lengths"] == "10 to 25 mm"
+    assert rows["strut radii"] == "0.8 to 0.8 mm"
+    figures = json.loads(report.read_text())
+    assert figures["cell_edges_mm"] == pytest.approx([10, 25])
+    assert figures["strut_lengths_mm"] == pytest.approx([10, 25])
+    assert figures["spec"]["size_grading"]["law"]["end"] == 2
+    mesh = as_read(read_triangles(out))
+    assert np.ptp(mesh.vertices[:, 0]) == pytest.approx(40 + 2 * 0.8 * 1.08, abs=0.25)
+    assert measure(mesh).watertight
+
+
+def test_block_turned_with_conical_struts(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    out = tmp_path / "block.stl"
+    arguments = [*GRADED_BLOCK, "-o", out, "--count", "2", "1", "1", "--resolution", "12"]
+    arguments += ["--radius-grading", "direction", "--radius-max", "1.2", "--radius-min", "0.6"]
+    arguments += ["--rotate", "0", "0", "-1", "90", "--radius-direction", "0", "-1", "0"]
+    arguments += ["--rotate-origin", "0", "0", "0"]
+    assert cli.run([str(argument) for argument in arguments]) == 0
+    rows = said_rows(capsys.readouterr().out)
+    assert rows["cell edges"] == "10 to 10 mm"
+    assert rows["strut radii"] == "0.6 to 1.2 mm"
+    low, high = as_read(read_triangles(out)).bounds
+    # Two cells that lay along x lie along -y; the thick end, its joints r (1 + r / L), is far out.
+    assert high[1] == pytest.approx(0.6 * 1.06, abs=0.1)
+    assert low[1] == pytest.approx(-20 - 1.2 * 1.12, abs=0.2)
+
+
+def test_fill_by_a_field(capsys: pytest.CaptureFixture[str], tmp_path: Path, part: Path) -> None:
+    table = tmp_path / "field.csv"
+    table.write_text("x,y,z,a,b\n-15,0,0,-5,1\n15,0,0,5,1\n")
+    out, report = tmp_path / "out.stl", tmp_path / "out.json"
+    arguments = ["fill", part, "-o", out, *LATTICE, "--shell", "2", "--resolution", "12"]
+    arguments += ["--radius-grading", "field", "--radius-field", table, "--radius-column", "a"]
+    arguments += ["--radius-curve", "-5:0.6,5:1.1", "--report", report]
+    assert cli.run([str(argument) for argument in arguments]) == 0
+    assert capsys.readouterr().err == ""
+    figures = json.loads(report.read_text())
+    least, most = figures["strut_radii_mm"]
+    assert 0.6 <= least < 0.7
+    assert 1.0 < most <= 1.1
+    assert figures["spec"]["radius_grading"]["field"] == f"2 points of {table}"
+    assert measure(as_read(read_triangles(out))).bodies == 1
+
+
+def test_fill_about_an_axis(tmp_path: Path, part: Path) -> None:
+    out, report = tmp_path / "out.stl", tmp_path / "out.json"
+    arguments = ["fill", part, "-o", out, "--cell", "Box", "--cell-size", "10", "--shell", "2"]
+    arguments += ["--strut-radius", "0.6", "--resolution", "12", "--cell-map", "cylindrical"]
+    arguments += ["--map-around", "9", "--map-centre", "0", "0", "5", "--map-axis", "0", "0", "1"]
+    arguments += ["--stretch-struts", "--report", report, "--quiet"]
+    assert cli.run([str(argument) for argument in arguments]) == 0
+    figures = json.loads(report.read_text())
+    assert figures["grid"][1] == 9
+    assert figures["spec"]["keep_radius"] is False
+    # Chords of a ninth of a turn, as far out as the box's corners at the most.
+    assert figures["cell_edges_mm"][1] <= 2 * 30 * np.sin(np.pi / 9)
+    assert measure(as_read(read_triangles(out))).bodies == 1
+
+
+LINEAR = ["--size-grading", "linear", "--lambda-max", "2"]
+BY_X = ["--radius-grading", "direction", "--radius-max", "1.2"]
+BY_FIELD = ["--radius-grading", "field"]
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["--size-grading", "cubic"], "invalid choice: 'cubic'"),
+        (["--size-grading", "linear"], "needs --lambda-max"),
+        (["--size-grading", "scalar"], "needs --lambda-min"),
+        (["--size-grading", "expression"], "needs --lambda"),
+        (["--size-grading", "expression", "--lambda", "1 + t"], "'t'"),
+        (["--size-grading", "linear", "--lambda-max", "0.4"], "folds the lattice at s ="),
+        ([*LINEAR, "--lambda-min", "-1"], "start must be finite and above 0, not -1"),
+        ([*LINEAR, "--grading-direction", "0", "0", "0"], "grading direction must have a length"),
+        (["--lambda-max", "2"], "--lambda-max has no effect without --size-grading"),
+        (["--lambda", "1 + s"], "--lambda has no effect without --size-grading expression"),
+        (["--grading-direction", "1", "0", "0"], "no effect without --size-grading"),
+        (["--stretch-struts"], "--stretch-struts has no effect without --size-grading or"),
+        (["--radius-grading", "direction"], "needs --radius-min or --radius-max"),
+        (["--radius-max", "1.2"], "--radius-max has no effect without --radius-grading"),
+        ([*BY_X, "--radius-reach", "4"], "no effect without --radius-grading skin or core"),
+        ([*BY_X, "--radius-field", "f.csv"], "no effect without --radius-grading field"),
+        ([*BY_X, "--radius-formula", "1"], "no effect without --radius-law expression"),
+        ([*BY_X, "--radius-law", "expression"], "no effect without --radius-law linear"),
+        ([*BY_X[:2], "--radius-law", "expression"], "needs --radius-formula"),
+        ([*BY_X, "--radius-max", "9"], "too thick for a cell"),
+        (["--radius-grading", "skin", "--radius-max", "1.2"], "no skin to grade the radius by"),
+        ([*BY_FIELD, "--radius-max", "1.2"], "a CSV or VTK file"),
+        ([*BY_FIELD, "--radius-field", "none.csv", "--radius-max", "1.2"], "none.csv"),
+        ([*BY_FIELD, "--radius-curve", "1:0.5,2"], "part '2' is no pair"),
+        ([*BY_FIELD, "--radius-curve", "0:1,1:2", "--radius-max", "1"], "--radius-curve, which"),
+        ([*BY_FIELD, "--radius-law", "linear"], "no effect without --radius-grading direction"),
+        (["--rotate", "0", "0", "0", "9"], "axis of the rotation must have a length"),
+        (["--rotate", "0", "0", "9"], "expected 4 arguments"),
+        (["--rotate-origin", "0", "0", "0"], "no effect without --rotate"),
+        (["--cell-map", "toroidal"], "invalid choice: 'toroidal'"),
+        (["--cell-map", "cylindrical", "--map-around", "2"], "whole number from 4"),
+        (["--map-axis", "0", "0", "1"], "no effect without --cell-map"),
+    ],
+)
+def test_gradings_that_make_no_sense(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, options: list[str], message: str
+) -> None:
+    out = tmp_path / "out.stl"
+    said = refused(capsys, *GRADED_BLOCK, "-o", out, "--count", "2", "2", "2", *options)
+    assert message in said
+    assert not out.exists()
+
+
+def test_the_choices_are_those_of_the_engine() -> None:
+    assert cli_grading.LAWS == law.KINDS
+    assert cli_grading.RADIUS_BY == grading.RADIUS_BY
+    assert ("cartesian", *cli_grading.MAPS) == grading.MAPS
 
 
 def test_a_part_that_cannot_be_read(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:

@@ -284,7 +284,7 @@ def test_an_older_object_gets_what_it_lacks(doc, infill):
     infill.Proxy.onDocumentRestored(infill)
     assert sorted(infill.PropertiesList) == sorted(names)
     assert infill.JointFillet.Value == 0
-    assert infill.SchemaVersion == 1
+    assert infill.SchemaVersion == 2
     ensure_properties(infill)
     assert sorted(infill.PropertiesList) == sorted(names)
     doc.recompute()

@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The properties of the group Grading: which of them apply, and what they ask the engine for.
+
+Points and directions are in the coordinate system that the object lies in, like `Origin`: the
+document's, or that of the App::Part that holds the object.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import FreeCAD as App
+
+if TYPE_CHECKING:
+    from volfrep.law import Law
+    from volfrep.point_field import PointField
+
+#: What a user chooses by name, and the engine's word for it.
+LAWS = {
+    "Scalar": "scalar",
+    "Linear": "linear",
+    "Quadratic": "quadratic",
+    "Exponential": "exponential",
+    "Formula": "expression",
+}
+OFF = "None"
+CARTESIAN = "Cartesian"
+CHOICES = {
+    "SizeGrading": [OFF, *LAWS],
+    "RadiusGrading": [OFF, "Direction", "Skin", "Core", "Field"],
+    "RadiusLaw": [name for name in LAWS if name != "Scalar"],
+    "CellMap": [CARTESIAN, "Cylindrical", "Spherical"],
+}
+#: Properties on which it hangs whether others apply.
+CONTROLS = (
+    *CHOICES, "RadiusCurve", "UseMapCentre", "RotationAngle", "UseRotationOrigin",
+)  # fmt: skip
+_SHOWN, _HIDDEN = 0, 2
+
+
+def show_applicable(obj: App.DocumentObject) -> None:
+    """Hide the properties that have no effect; does nothing while some are still missing."""
+    if not set(CONTROLS).issubset(obj.PropertiesList):
+        return
+    for name, applies in _applicable(obj).items():
+        if name in obj.PropertiesList:
+            obj.setEditorMode(name, _SHOWN if applies else _HIDDEN)
+
+
+def _applicable(obj: App.DocumentObject) -> dict[str, bool]:
+    size, radius, mapped = obj.SizeGrading, obj.RadiusGrading, obj.CellMap != CARTESIAN
+    by_law = radius in ("Direction", "Skin", "Core")
+    by_field = radius == "Field"
+    ends = (by_law and obj.RadiusLaw != "Formula") or (by_field and not obj.RadiusCurve.strip())
+    turned = obj.RotationAngle.Value != 0
+    return {
+        "LambdaMin": size not in (OFF, "Formula"),
+        "LambdaMax": size not in (OFF, "Formula", "Scalar"),
+        "LambdaFormula": size == "Formula",
+        "GradingDirection": size != OFF,
+        "KeepRadius": size != OFF or mapped,
+        "RadiusLaw": by_law,
+        "RadiusMin": ends,
+        "RadiusMax": ends,
+        "RadiusFormula": by_law and obj.RadiusLaw == "Formula",
+        "RadiusDirection": radius == "Direction",
+        "RadiusReach": radius in ("Skin", "Core"),
+        "RadiusField": by_field,
+        "RadiusResult": by_field,
+        "RadiusColumn": by_field,
+        "RadiusCurve": by_field,
+        "MapAxis": mapped,
+        "MapAround": mapped,
+        "UseMapCentre": mapped,
+        "MapCentre": mapped and obj.UseMapCentre,
+        "RotationAxis": turned,
+        "UseRotationOrigin": turned,
+        "RotationOrigin": turned and obj.UseRotationOrigin,
+    }
+
+
+def gradings_of(obj: App.DocumentObject) -> dict[str, Any]:
+    """What the properties ask for, by the names of `LatticeSpec`.
+
+    Raises:
+        VolfrepError: naming the first property that makes no sense.
+    """
+    from volfrep.grading import CellMap, Orientation, RadiusGrading, SizeGrading
+    from volfrep.law import Law
+    from volfrep.point_field import read_curve
+
+    size = radius = cell_map = orientation = None
+    if obj.SizeGrading != OFF:
+        law = _law(obj.SizeGrading, obj.LambdaMin, obj.LambdaMax, obj.LambdaFormula)
+        size = SizeGrading(law, tuple(obj.GradingDirection))
+    if obj.RadiusGrading == "Field":
+        curve = read_curve(obj.RadiusCurve) if obj.RadiusCurve.strip() else ()
+        radius = RadiusGrading(
+            "field",
+            Law() if curve else Law("linear", *_radii(obj)),  # a curve needs no law
+            field=_field(obj),
+            column=obj.RadiusColumn or None,
+            curve=curve,
+        )
+    elif obj.RadiusGrading != OFF:
+        law = _law(obj.RadiusLaw, *_radii(obj), obj.RadiusFormula)
+        by, direction = obj.RadiusGrading.lower(), tuple(obj.RadiusDirection)
+        radius = RadiusGrading(by, law, direction, obj.RadiusReach.Value)
+    if obj.CellMap != CARTESIAN:
+        centre = tuple(obj.MapCentre) if obj.UseMapCentre else None
+        kind, axis = obj.CellMap.lower(), tuple(obj.MapAxis)
+        cell_map = CellMap(kind, centre, axis, obj.MapAround or None)
+    if obj.RotationAngle.Value != 0:
+        origin = tuple(obj.RotationOrigin) if obj.UseRotationOrigin else None
+        orientation = Orientation(tuple(obj.RotationAxis), obj.RotationAngle.Value, origin)
+    return {
+        "size_grading": size,
+        "radius_grading": radius,
+        "cell_map": cell_map,
+        "orientation": orientation,
+        "keep_radius": obj.KeepRadius or (size is None and cell_map is None),
+    }
+
+
+def _law(name: str, start: float, end: float, formula: str = "") -> Law:
+    from volfrep.law import Law
+
+    kind = LAWS[name]
+    if kind == "expression":
+        return Law(kind, expression=formula)
+    return Law(kind, start, end)
+
+
+def _radii(obj: App.DocumentObject) -> tuple[float, float]:
+    usual = obj.StrutRadius.Value
+    return obj.RadiusMin.Value or usual, obj.RadiusMax.Value or usual
+
+
+def _field(obj: App.DocumentObject) -> PointField | None:
+    """The field of the FEM result or of the file; None where neither is chosen."""
+    from freecad_volfrep.bridge.fem_fields import field_of_result
+    from freecad_volfrep.bridge.solids import parent_placement
+    from volfrep.errors import VolfrepError
+    from volfrep.point_field import read_point_field
+
+    if obj.RadiusResult is not None:
+        if obj.RadiusField:
+            raise VolfrepError(
+                "The radius is to follow both a file and a FEM result: clear either RadiusField "
+                "or RadiusResult."
+            )
+        return field_of_result(obj.RadiusResult, obj.RadiusColumn, parent_placement(obj))
+    if obj.RadiusField:
+        return read_point_field(obj.RadiusField, obj.RadiusColumn or None)
+    return None

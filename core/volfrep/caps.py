@@ -35,7 +35,7 @@ def cap(octant: Octant, axis: int, high: bool) -> NDArray[np.int32]:
 
     They are counter-clockwise seen from outside the octant.
     """
-    place = np.stack(np.unravel_index(octant.entity.astype(np.int64), (3, 3, 3)), axis=1)
+    place = octant.places
     side = 2 if high else 0
     on_face = place[:, axis] == side
     following = dict(_border_edges(octant, on_face))

@@ -99,6 +99,7 @@ def conform(
         size = max(1, CHUNK_VERTICES // len(own.kind))
         lookup = _node_lookup(cell, own, key)
         is_corner = own.kind == SPACE
+        on_face = octant.places != 1
         for begin in range(0, len(place), size):
             part = place[begin : begin + size]
             corner, sign = frames(part)
@@ -107,17 +108,20 @@ def conform(
             found = _place(own, rows, sign, nodes, monitor)
             if rounding is not None:
                 found = rounding.project(found, own, rows)
-            inside = base[:, None] + sign[:, None] * octant.vertices[is_corner]
+            before = base[:, None] + sign[:, None] * octant.vertices
+            inside = before[:, is_corner]
             if in_part:
                 inside = chart.to_part(inside.reshape(-1, 3)).reshape(inside.shape)
-            found = found.reshape(len(part), -1, 3)
+            found = found.reshape(before.shape)
             found[:, is_corner] = inside
             there = found.reshape(-1, 3)
             back = (chart.to_lattice(there) if in_part else there).reshape(found.shape)
-            middle = base + sign * (0.25 * grid.cell_size)
-            seen = chart.unwrapped(np.concatenate([middle[:, None], back], axis=1))
-            away = float(np.abs(seen[:, 1:] - middle[:, None]).max())
-            excess = max(excess, away / (0.5 * grid.cell_size) - 0.5)
+            middle = (base + sign * (0.25 * grid.cell_size))[:, None]
+            seen = chart.unwrapped(np.concatenate([middle, back], axis=1))[:, 1:]
+            # What was on a face shared with another octant must stay near it on both sides.
+            left = np.abs(seen - before)[:, on_face].max(initial=0.0)
+            beyond = np.abs(seen - middle).max() - 0.25 * grid.cell_size
+            excess = max(excess, float(max(left, beyond)) / (0.5 * grid.cell_size))
             vertices[numbers(layout, octant, part)] = found
             done += len(part)
             monitor.tick(done / total)

@@ -37,7 +37,7 @@ from .spec import LatticeSpec
 from .survey import survey
 from .tile import Octant, TileSpec, mesh_octants
 from .trim import Cleared, Kept, clear, keep, octant_roles, trim
-from .voxels import CellGrid, active_cells, make_grid, mapped_grid, wall_corners
+from .voxels import CellGrid, active_cells, make_grid, mapped_grid
 from .wireframe import Wireframe, cell_graph
 
 Bools = NDArray[np.bool_]
@@ -225,8 +225,7 @@ def _voxels(
     if where.chart is None:
         cells = make_grid(solid.bounds, spec.cell_size, spec.origin)
     else:
-        corners = wall_corners(solid, where.chart)
-        cells = mapped_grid(corners, where.chart, spec.cell_size, spec.origin)
+        cells = mapped_grid(solid, where.chart, spec.cell_size, spec.origin, monitor)
     refuse_memory(0, 0, cells.cells * BYTES_PER_CELL)
     floor = ground(cells, cell, spec, where)
     usable = floor.inner_usable

@@ -108,7 +108,7 @@ def survey(layout: Layout, vertices: Floats) -> Quality:
 
 def _look_at(octant: Octant) -> _Kind:
     triangles, count = octant.triangles.astype(np.int64), len(octant.vertices)
-    place = np.stack(np.unravel_index(octant.entity.astype(np.int64), (3, 3, 3)), axis=1)
+    place = octant.places
     start, end = triangles.ravel(), triangles[:, [1, 2, 0]].ravel()
     forward, backward = start * count + end, end * count + start
     is_open = ~np.isin(forward, backward)
@@ -188,7 +188,7 @@ def _fit_together(layout: Layout, kinds: list[_Kind], first: Ints) -> Ints:
 
 def _pieces_on(octant: Octant, kind: _Kind, axis: int, side: int) -> Ints:
     """The piece of every vertex on a face, in the order that both its octants give them."""
-    place = np.stack(np.unravel_index(octant.entity.astype(np.int64), (3, 3, 3)), axis=1)
+    place = octant.places
     on_face = np.flatnonzero(place[:, axis] == side)
     order = np.lexsort((octant.rank[on_face], octant.entity[on_face]))
     result: Ints = kind.piece[on_face[order]]

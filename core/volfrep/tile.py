@@ -82,6 +82,11 @@ class Octant:
     rank: NDArray[np.int32]
     solid_corners: NDArray[np.bool_]
 
+    @property
+    def places(self) -> Ints:
+        """(n, 3) per axis 0 on the low face, 1 between, 2 on the high face."""
+        return np.stack(np.unravel_index(self.entity.astype(np.int64), (3, 3, 3)), axis=1)
+
 
 def mesh_octants(
     cell: UnitCell, spec: TileSpec, keys: Sequence[OctantKey], monitor: Monitor

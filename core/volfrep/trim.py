@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from .caps import with_corners
 from .errors import VolfrepError
 from .lattice import Layout, OctantGrid, facets, lay_out, neighbour_missing, used_kinds
-from .mapping import LatticeMap
+from .mapping import STRAIGHT, LatticeMap
 from .mesh import TriangleMesh, compact
 from .octant import OctantKey, Periodic, wrapped
 from .progress import Monitor
@@ -74,6 +74,8 @@ def octant_roles(
         2 * n + (0 if closed else 2) for n, closed in zip(cells.shape, cells.periodic, strict=True)
     ]
     grid = CellGrid(cells.origin - half, half, (shape[0], shape[1], shape[2]), cells.periodic)
+    if chart is not None and not chart.is_rigid:
+        margin += STRAIGHT * cells.cell_size / half  # where the wall is known no better
     # The margin is on either side, the cell is enlarged by both.
     border = crossed_cells(
         grid, wall_corners(domain, chart), monitor, CROSSING_MARGIN + 2.0 * margin

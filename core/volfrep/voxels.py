@@ -23,6 +23,7 @@ Ints = NDArray[np.int64]
 MAX_CELLS = 200_000_000
 #: Pairs of a triangle and a cell (or a column) that one vectorised step takes at a time.
 PAIRS_PER_STEP = 1_000_000
+_CENTRE = np.zeros((1, 3))
 #: A cell that overlaps the domain by less than this, in units of L, only touches it from outside.
 TOUCH_TOLERANCE = 1e-6
 
@@ -81,24 +82,30 @@ def make_grid(
 
 
 def mapped_grid(
-    corners: Floats,
+    part: TriangleMesh,
     chart: LatticeMap,
     cell_size: float,
     origin: tuple[float, float, float] | None,
+    monitor: Monitor,
 ) -> CellGrid:
     """The smallest grid in lattice space that covers a part.
 
     Args:
-        corners: (m, 3, 3) the part's triangles there (`mapping.triangles_in_lattice`).
+        part: closed mesh, mm.
         chart: the map; along its periodic axes the grid is the full turn.
         cell_size: L, mm.
         origin: a point of the part that is to be a cell's corner; None: the part's lowest corner
             in lattice space.
+        monitor: for cancel.
 
     Raises:
         VolfrepError: the grid would have more than `MAX_CELLS` cells.
     """
+    corners = triangles_in_lattice(part, chart)
     bounds = np.stack([corners.min(axis=(0, 1)), corners.max(axis=(0, 1))])
+    if chart.base.kind != "cartesian" and inside_points(part, chart.to_part(_CENTRE), monitor)[0]:
+        # Inside the part, there is no surface that would begin at radius 0.
+        bounds[0, 0] = 0.0
     at = None if origin is None else chart.to_lattice(np.array([origin], float))[0]
     for axis in np.flatnonzero(chart.base.periodic):
         bounds[:, axis] = (0.0 if at is None else at[axis]) + np.array([0.0, chart.base.turn])

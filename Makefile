@@ -23,6 +23,7 @@ demo: setup ## model a bracket, fill it, and leave files and a picture in build/
 	@$(SCREEN) $(PYTHON) demo/render.py cutaway build/demo/bracket.stl \
 		build/demo/bracket_solid.stl 3 build/demo/bracket.png
 	@$(SCREEN) $(PYTHON) demo/render.py cells build/demo/cells.png
+	@$(SCREEN) $(PYTHON) demo/render.py graded build/demo/graded.png
 	@ls -l build/demo
 
 test: lint test-freecad test-gui test-core ## style, types, and every test but the slow ones

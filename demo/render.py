@@ -3,15 +3,18 @@
 
     xvfb-run python demo/render.py cutaway PART.stl SOLID.stl SHELL PICTURE.png
     xvfb-run python demo/render.py cells PICTURE.png
+    xvfb-run python demo/render.py graded PICTURE.png
 
 The first cuts a corner out of a filled part so that its skin, its lattice and the cut faces are
-seen, each in a colour of its own; the second shows the library's unit cells with their names.
+seen, each in a colour of its own; the second shows the library's unit cells with their names; the
+third blocks whose cells or struts vary.
 """
 
 from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
+from typing import Any
 
 import manifold3d
 import numpy as np
@@ -24,6 +27,8 @@ from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to
 
 from volfrep import LatticeSpec, block
 from volfrep.cells import LIBRARY
+from volfrep.grading import CellMap, Orientation, RadiusGrading, SizeGrading
+from volfrep.law import Law
 from volfrep.mesh import TriangleMesh
 
 Colour = tuple[float, float, float]
@@ -92,6 +97,32 @@ def cells(picture: str) -> None:
         scene.add(TriangleMesh(turned, mesh.triangles), None, CELL, ambient=0.0)
         scene.label(name, place + np.array([0.0, -1.02 * size, 0.0]))
     scene.look(direction=(0.0, 0.0, 1.0), up=(0.0, 1.0, 0.0), zoom=1.5)
+    scene.save(picture)
+
+
+def graded(picture: str) -> None:
+    """Picture what may vary in a lattice, one block each."""
+    linear = SizeGrading(Law("linear", 1.0, 1.8))
+    thicker = RadiusGrading("direction", Law("linear", 0.4, 1.3))
+    asked: tuple[tuple[str, dict[str, Any], tuple[int, int, int]], ...] = (
+        ("size, round struts", {"size_grading": linear}, (4, 3, 2)),
+        ("size, struts deformed", {"size_grading": linear, "keep_radius": False}, (4, 3, 2)),
+        ("radius", {"radius_grading": thicker}, (6, 3, 2)),
+        ("turned", {"orientation": Orientation((0, 0, 1), 30.0)}, (5, 3, 2)),
+        ("cylindrical", {"cell_map": CellMap("cylindrical")}, (2, 16, 2)),
+        ("spherical", {"cell_map": CellMap("spherical"), "strut_radius": 0.5}, (1, 5, 16)),
+    )
+    scene = _Scene((1200, 720))
+    for k, (name, grading, count) in enumerate(asked):
+        row, column = divmod(k, 3)
+        spec = LatticeSpec("BCC", **({"strut_radius": 0.7, "resolution": 24} | grading))
+        mesh = block(spec, count).mesh
+        place = np.array([82.0 * column, -80.0 * row, 0.0])
+        size = 60.0 / np.ptp(mesh.bounds, axis=0)[:2].max()
+        turned = size * (mesh.vertices - mesh.bounds.mean(axis=0)) @ _turn(-16.0, 34.0).T + place
+        scene.add(TriangleMesh(turned, mesh.triangles), None, CELL, ambient=0.0)
+        scene.label(name, place + np.array([0.0, -37.0, 0.0]))
+    scene.look(direction=(0.0, 0.0, 1.0), up=(0.0, 1.0, 0.0), zoom=1.85)
     scene.save(picture)
 
 
@@ -230,16 +261,19 @@ def _turn(about_y: float, about_x: float) -> NDArray[np.float64]:
     return rotation
 
 
+PICTURES = {"cells": cells, "graded": graded}
+
+
 def main(arguments: list[str]) -> None:
     """Dispatch on the first argument."""
     kind, *rest = arguments
     if kind == "cutaway":
         part, solid, shell, picture = rest
         cutaway(part, solid, float(shell), picture)
-    elif kind == "cells":
-        cells(*rest)
+    elif kind in PICTURES:
+        PICTURES[kind](*rest)
     else:
-        raise SystemExit(f"There is no picture '{kind}': choose cutaway or cells.")
+        raise SystemExit(f"There is no picture '{kind}': choose cutaway, cells or graded.")
 
 
 if __name__ == "__main__":

@@ -7,7 +7,15 @@ import manifold3d
 import numpy as np
 import trimesh
 
+from volfrep.cells import make_cell
 from volfrep.mesh import TriangleMesh
+
+#: A cell without any symmetry.
+SKEW = make_cell(
+    "skew",
+    [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1], [0.3, 0.6, 0.45]],
+    [[0, 5], [5, 4], [5, 1], [0, 3], [2, 5], [1, 4]],
+)
 
 
 def _mesh(solid: manifold3d.Manifold) -> TriangleMesh:

@@ -6,10 +6,12 @@ import pytest
 from scipy.stats import qmc
 
 import samples
+from contract import check_contract
 from exact import in_lattice, in_struts
+from samples import SKEW
 from volfrep import LatticeSpec, VolfrepError, block, fill, quality
 from volfrep.anchors import crease
-from volfrep.cells import LIBRARY, make_cell
+from volfrep.cells import LIBRARY
 from volfrep.export.stl import as_read
 from volfrep.graded import block_setting, narrowest
 from volfrep.grading import CellMap, Orientation, RadiusGrading, SizeGrading
@@ -20,11 +22,6 @@ from volfrep.voxels import inside_points
 
 LINEAR = Law("linear", 1.0, 2.0)
 THICKER = RadiusGrading("direction", Law("linear", 0.6, 1.4))
-SKEW = make_cell(
-    "skew",
-    [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1], [0.3, 0.6, 0.45]],
-    [[0, 5], [5, 4], [5, 1], [0, 3], [2, 5], [1, 4]],
-)
 
 #: What is asked for besides cell and resolution, and the block's cells.
 GRADINGS = {
@@ -312,18 +309,4 @@ def test_random_gradings_hold_the_contract(seed):
         resolution=int(random.integers(8, 16)),
         **random_grading(random, size),
     )
-    refusal = ""
-    try:
-        result = fill(solid, spec)
-    except VolfrepError as error:
-        refusal = str(error)
-    if refusal:
-        assert "reduce" in refusal or "folds" in refusal  # a sentence that says what to do
-        return
-    report, read = result.report, quality.measure(as_read(result.mesh))
-    assert report.watertight
-    assert read.watertight
-    assert read.degenerate_triangles == 0
-    assert (read.bodies, read.genus) == (report.bodies, report.genus)
-    if spec.output == "part":
-        assert report.bodies == 1
+    check_contract(solid, spec, refusals=("reduce", "folds"))

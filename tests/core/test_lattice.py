@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from exact import DENSITY, distances_to_one_cell, in_lattice
+from samples import SKEW
 from volfrep import quality
 from volfrep.caps import with_corners
-from volfrep.cells import LIBRARY, make_cell
+from volfrep.cells import LIBRARY
 from volfrep.lattice import (
     OctantGrid,
     coordinates,
@@ -24,11 +25,6 @@ from volfrep.progress import Monitor
 from volfrep.tile import TileSpec, mesh_octants
 from volfrep.wireframe import cell_graph
 
-SKEW = make_cell(
-    "skew",
-    [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1], [0.3, 0.6, 0.45]],
-    [[0, 5], [5, 4], [5, 1], [0, 3], [2, 5], [1, 4]],
-)
 L = 10.0
 
 

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -11,14 +13,15 @@ from .ragged import spread
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
+Bools = NDArray[np.bool_]
 
 #: Pairs of triangles that one vectorised step takes at a time.
 PAIRS_PER_STEP = 500_000
+#: The finest grid has no more bins along the largest triangle: their names have 21 bits an axis.
+MOST_BINS = 1 << 16
 
 
-def crossing_triangles(
-    mesh: TriangleMesh, among: NDArray[np.bool_], depth: float
-) -> NDArray[np.bool_]:
+def crossing_triangles(mesh: TriangleMesh, among: Bools, depth: float) -> Bools:
     """The triangles that an edge of another triangle runs through.
 
     Args:
@@ -33,55 +36,94 @@ def crossing_triangles(
     if not among.any():
         return crossing
     corners = mesh.vertices[mesh.triangles]
-    low, high = corners.min(axis=1), corners.max(axis=1)
-    chosen = np.flatnonzero(among)
-    # Triangles meet in the bins of a coarse grid; only what reaches the chosen ones is binned.
-    size = float(np.percentile((high - low).max(axis=1), 90))
-    own, own_bin = _bins(low[chosen], high[chosen], low.min(axis=0), size)
-    reach = low[chosen].min(axis=0), high[chosen].max(axis=0)
-    close = np.flatnonzero((low <= reach[1]).all(axis=1) & (high >= reach[0]).all(axis=1))
-    other, other_bin = _bins(low[close], high[close], low.min(axis=0), size)
-    order = np.argsort(other_bin, kind="stable")
-    other, other_bin = close[other[order]], other_bin[order]
-    first = np.searchsorted(other_bin, own_bin)
-    count = np.searchsorted(other_bin, own_bin, "right") - first
-    total = np.cumsum(count)
-    steps = np.searchsorted(total, np.arange(0, int(total[-1]), PAIRS_PER_STEP))
-    for start, stop in zip(steps, [*steps[1:], len(count)], strict=True):
-        row, place = spread(count[start:stop])
-        a, b = chosen[own[start + row]], other[first[start + row] + place]
-        for axis in range(3):
-            lo, hi = low[:, axis], high[:, axis]
-            keep = (lo[a] <= hi[b]) & (lo[b] <= hi[a])
-            a, b = a[keep], b[keep]
-        # A pair of chosen triangles is met from both sides: once is enough.
-        once = (a < b) | ~among[b]
-        pair = np.unique(a[once] * len(among) + b[once])
-        a, b = pair // len(among), pair % len(among)
-        hit = _edges_cross(mesh, a, b, depth) | _edges_cross(mesh, b, a, depth)
-        crossing[a[hit]] = True
-        crossing[b[hit]] = True
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+    for a, b in _close_pairs(corners, among):
+        # Neighbours over an edge have no edge that could run through the other.
+        shared = np.zeros(len(a), np.int8)
+        for i in range(3):
+            for j in range(3):
+                shared += mesh.triangles[a, i] == mesh.triangles[b, j]
+        a, b = a[shared < 2], b[shared < 2]
+        for _ in range(2):
+            cut = _on_both_sides(_heights(corners, normal, a, b), 0.0)
+            a, b = b[cut], a[cut]
+        for one, other in ((a, b), (b, a)):
+            hit = _edges_cross(
+                mesh, corners, _heights(corners, normal, one, other), one, other, depth
+            )
+            crossing[one[hit]] = True
+            crossing[other[hit]] = True
     return crossing
 
 
-def _bins(low: Floats, high: Floats, origin: Floats, size: float) -> tuple[Ints, Ints]:
-    """Every box with every bin of the grid that it reaches into, as (box, bin) pairs."""
-    first = np.floor((low - origin) / size).astype(np.int64)
-    span = np.floor((high - origin) / size).astype(np.int64) - first + 1
-    box, place = spread(span.prod(axis=1))
-    s = span[box]
-    steps = [place // (s[:, 1] * s[:, 2]), place // s[:, 2] % s[:, 1], place % s[:, 2]]
-    x, y, z = (first[box, k] + steps[k] for k in range(3))
-    return box, ((x << 40) + (y << 20) + z)
+def _close_pairs(corners: Floats, among: Bools) -> Iterator[tuple[Ints, Ints]]:
+    """Pairs of triangles whose boxes overlap, at least one of them chosen; some of them twice.
+
+    They meet in the bins of several grids, each twice as coarse as the one before: every triangle
+    waits in the bins of its own size, and visits those and all coarser ones.
+    """
+    low, high = corners.min(axis=1), corners.max(axis=1)
+    extent = (high - low).max(axis=1)
+    size = max(float(np.percentile(extent, 50)), float(extent.max()) / MOST_BINS)
+    level = np.ceil(np.log2(np.maximum(extent / size, 1.0))).astype(np.int64)
+    origin = low.min(axis=0)
+    for grid in np.unique(level):
+        waiting = np.flatnonzero(level == grid)
+        visiting = np.flatnonzero(level <= grid)
+        if not among[waiting].any():
+            visiting = visiting[among[visiting]]
+        cell = size * 2.0**grid
+        waits, its_bin = _bins(waiting, low, high, origin, cell)
+        order = np.argsort(its_bin, kind="stable")
+        waits, its_bin = waits[order], its_bin[order]
+        visits, bins = _bins(visiting, low, high, origin, cell)
+        first = np.searchsorted(its_bin, bins)
+        count = np.searchsorted(its_bin, bins, "right") - first
+        if not count.any():
+            continue
+        total = np.cumsum(count)
+        steps = np.searchsorted(total, np.arange(0, int(count.sum()), PAIRS_PER_STEP))
+        for begin, end in zip(steps, [*steps[1:], len(count)], strict=True):
+            row, place = spread(count[begin:end])
+            a, b = visits[begin + row], waits[first[begin + row] + place]
+            # Of two of a size both may visit: once is enough.
+            keep = (among[a] | among[b]) & ((a < b) | (level[a] < grid) | ~among[b])
+            a, b = a[keep], b[keep]
+            for axis in range(3):
+                lo, hi = low[:, axis], high[:, axis]
+                keep = (lo[a] <= hi[b]) & (lo[b] <= hi[a])
+                a, b = a[keep], b[keep]
+            yield a, b
 
 
-def _edges_cross(mesh: TriangleMesh, a: Ints, b: Ints, depth: float) -> NDArray[np.bool_]:
+def _bins(boxes: Ints, low: Floats, high: Floats, origin: Floats, size: float) -> tuple[Ints, Ints]:
+    """Some boxes with every bin of a grid that they reach into, as (box, bin) pairs."""
+    first = np.floor((low[boxes] - origin) / size).astype(np.int64)
+    span = np.floor((high[boxes] - origin) / size).astype(np.int64) - first + 1
+    row, place = spread(span.prod(axis=1))
+    place, along_z = np.divmod(place, span[row, 2])
+    along_x, along_y = np.divmod(place, span[row, 1])
+    x, y, z = first[row].T
+    return boxes[row], ((x + along_x) << 42) + ((y + along_y) << 21) + z + along_z
+
+
+def _heights(corners: Floats, normal: Floats, a: Ints, b: Ints) -> Floats:
+    """(k, 3) the corners of triangles a above the planes of triangles b."""
+    above: Floats = np.einsum("nij,nj->ni", corners[a] - corners[b, :1], normal[b])
+    return above
+
+
+def _on_both_sides(heights: Floats, depth: float) -> Bools:
+    x, y, z = heights.T
+    above, below = np.maximum(np.maximum(x, y), z), np.minimum(np.minimum(x, y), z)
+    return np.asarray((above > depth) & (below < -depth), np.bool_)
+
+
+def _edges_cross(
+    mesh: TriangleMesh, corners: Floats, height: Floats, a: Ints, b: Ints, depth: float
+) -> Bools:
     """Whether an edge of triangle a, without a vertex in common with b, runs through b."""
-    corner = mesh.vertices[mesh.triangles[b]]
-    normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
-    normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
-    ends = mesh.vertices[mesh.triangles[a]]
-    height = np.einsum("nij,nj->ni", ends - corner[:, :1], normal)
     crosses = np.zeros(len(a), bool)
     for k in range(3):
         following = (k + 1) % 3
@@ -91,10 +133,10 @@ def _edges_cross(mesh: TriangleMesh, a: Ints, b: Ints, depth: float) -> NDArray[
         edge = mesh.triangles[a[rows]][:, [k, following]]
         shared = (edge[:, :, None] == mesh.triangles[b[rows]][:, None, :]).any(axis=(1, 2))
         rows = rows[~shared]
-        p, q = ends[rows, k], ends[rows, following]
+        p, q = corners[a[rows], k], corners[a[rows], following]
         sides = []
         for e in range(3):
-            u, v = corner[rows, e], corner[rows, (e + 1) % 3]
+            u, v = corners[b[rows], e], corners[b[rows], (e + 1) % 3]
             sides.append(np.einsum("ij,ij->i", np.cross(q - p, u - p), v - p))
         one_side = np.all([s > 0 for s in sides], axis=0) | np.all([s < 0 for s in sides], axis=0)
         crosses[rows[one_side]] = True

@@ -233,7 +233,7 @@ def index_surface(mesh: TriangleMesh, spacing: float) -> SurfaceIndex:
     edge_samples, edge_owner = _sample_reentrant_edges(mesh, across, spacing)
     samples = np.concatenate([samples, edge_samples])
     triangle = np.concatenate([owner, edge_owner]).astype(np.int32)
-    tree = cKDTree(samples, balanced_tree=False, compact_nodes=False)
+    tree = cKDTree(samples, balanced_tree=False, compact_nodes=False, leafsize=32)
     return SurfaceIndex(np.stack(mesh.corners(), axis=1), across, tree, triangle, spacing)
 
 

@@ -267,7 +267,7 @@ def graded_rows(folder: Path) -> Iterator[Row]:
     thicker = ["--radius-min", "0.6", "--radius-max", "1.4"]
     along = ["--radius-grading", "direction", "--resolution", "15", *thicker]
     out = folder / "graded.stl"
-    command = [*VOLFREP, "block", "-o", str(out), "--cell", "CVC", "--cell-size", f"{SIZE:g}"]
+    command = [*VOLFREP, "block", "-o", str(out), "--cell", "CVC", *LATTICE]
     done = run([*command, "--count", "10", "10", "10", *along, "--quiet"])
     row = {"case": "block 10 x 10 x 10, radius 0.6 to 1.4", "cell": "CVC"}
     if done.code:
@@ -286,7 +286,7 @@ def graded_rows(folder: Path) -> Iterator[Row]:
     field = folder / "field.csv"
     write_field(field)
     by_field = ["--radius-grading", "field", "--radius-field", str(field), *thicker]
-    options = ["--cell-size", f"{SIZE:g}", "--shell", "3", *by_field]
+    options = [*LATTICE, "--shell", "3", *by_field]
     yield part_case(folder, "GE bracket, radius by a field", BRACKET, "CVC", options, 12)
 
 

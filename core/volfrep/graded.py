@@ -296,6 +296,12 @@ def ground(cells: CellGrid, cell: UnitCell, spec: LatticeSpec, where: Setting) -
     return Ground(cells, (x, y, z), usable_cells(wide, cell, spec, where))
 
 
+def keeps_places(spec: LatticeSpec, where: Setting) -> bool:
+    """Whether the vertices of octants keep their places in lattice space."""
+    rigid = where.chart is None or where.chart.is_rigid
+    return spec.radius_grading is None and (rigid or not spec.keep_radius)
+
+
 def vertices_of(
     layout: Layout,
     graph: Callable[[], CellGraph],
@@ -320,7 +326,7 @@ def vertices_of(
         VolfrepError: struts grow into each other; the text says where.
     """
     chart = where.chart or identity_map(spec.cell_size)
-    if spec.radius_grading is None and (chart.is_rigid or not spec.keep_radius):
+    if keeps_places(spec, where):
         inside = coordinates(layout, monitor)
         return Conformed(inside if where.chart is None else chart.to_part(inside), 0.0)
     own = graph()

@@ -21,6 +21,7 @@ from .graded import (
     block_setting,
     graded_wireframe,
     ground,
+    keeps_places,
     setting,
     vertices_of,
 )
@@ -44,7 +45,9 @@ Bools = NDArray[np.bool_]
 T = TypeVar("T")
 
 
-#: Octants on moved struts are looked for this much farther than the last ones reached.
+#: Octants on moved struts mostly reach no farther out of their places than this, in units of
+#: their edges. Where they do, they are looked for so many times as far as the last ones reached.
+FIRST_MARGIN = 0.05
 SPARE_MARGIN = 1.05
 
 
@@ -153,9 +156,10 @@ def fill(
     else:
         trimming = _Trimming(solid, domain, cell, spec, where, floor, active, voxel_key)
         with monitor.stage("tile", 0.4, 0.5):
-            kept, octants = trimming.octants(0.0, cache, monitor)
+            margin = 0.0 if keeps_places(spec, where) else FIRST_MARGIN
+            kept, octants = trimming.octants(margin, cache, monitor)
         with monitor.stage("lattice", 0.5, 0.6):
-            kept, layout, points = trimming.lay(kept, octants, cache, monitor)
+            kept, layout, points = trimming.lay(kept, octants, margin, cache, monitor)
         with monitor.stage("trim", 0.6, 1.0):
             cleared, measured = trimming.output(kept, layout, points, monitor)
     skin_volume = solid.volume - domain.volume if spec.output == "part" else 0.0
@@ -279,10 +283,14 @@ class _Trimming:
         return kept, octants
 
     def lay(
-        self, kept: Kept, octants: dict[OctantKey, Octant], cache: StageCache, monitor: Monitor
+        self,
+        kept: Kept,
+        octants: dict[OctantKey, Octant],
+        margin: float,
+        cache: StageCache,
+        monitor: Monitor,
     ) -> tuple[Kept, Layout, Floats]:
         """The octants laid where the struts are; with more of them, where struts reach far out."""
-        margin = 0.0
         while True:
             layout = kept.lay_out(octants)
             placed = vertices_of(

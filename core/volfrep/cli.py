@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, NoReturn
 from .errors import VolfrepError
 
 if TYPE_CHECKING:
+    from .beams import BeamModel
     from .pipeline import Result
     from .progress import ProgressCallback
     from .spec import LatticeSpec
@@ -144,7 +145,14 @@ def _parser() -> argparse.ArgumentParser:
 
 def _add_lattice_options(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
-    add("-o", dest="out", required=True, metavar="OUT", help="the file to write (.stl)")
+    add("-o", dest="out", required=True, metavar="OUT", help="the file: .stl, .3mf, .ply or .obj")
+    add(
+        "--3mf",
+        dest="threemf",
+        choices=("mesh", "beams", "both"),
+        help="what a 3MF file holds: the part as triangles (default), its lattice as beams of the "
+        "beam lattice extension (small, and made without a mesh), or both",
+    )
     add("--cell", required=True, help="a library cell (see 'volfrep cells') or a cell's .json file")
     add("--cell-size", type=float, required=True, metavar="MM", help="edge L of a cell")
     add("--strut-radius", type=float, required=True, metavar="MM", help="radius r of the struts")
@@ -164,26 +172,39 @@ def _fill(options: argparse.Namespace) -> None:
     _check_targets(options, part)
     spec = _spec(options, "shell", "activation", "output", "origin")
 
-    from .pipeline import fill
+    from .beams import beam_model
+    from .pipeline import StageCache, fill
     from .solid import read_solid
 
     start = time.perf_counter()
     solid = read_solid(part)
     read_seconds = time.perf_counter() - start
+    cache = StageCache()
     with _Progress(options.quiet) as progress:
-        result = fill(solid, spec, progress=progress)
-    _finish(result, options, {"read": read_seconds})
+        if options.threemf == "beams":
+            _finish_beams(beam_model(solid, spec, progress=progress), options, start)
+            return
+        both = options.threemf == "both"
+        beams = beam_model(solid, spec, progress=progress, cache=cache) if both else None
+        result = fill(solid, spec, progress=progress, cache=cache)
+    _finish(result, options, {"read": read_seconds}, beams)
 
 
 def _block(options: argparse.Namespace) -> None:
     _check_targets(options)
     spec = _spec(options)
 
+    from .beams import block_beams
     from .pipeline import block
 
+    start = time.perf_counter()
+    if options.threemf == "beams":
+        _finish_beams(block_beams(spec, options.count), options, start)
+        return
+    beams = block_beams(spec, options.count) if options.threemf == "both" else None
     with _Progress(options.quiet) as progress:
         result = block(spec, tuple(options.count), progress=progress)
-    _finish(result, options, {})
+    _finish(result, options, {}, beams)
 
 
 def _check_targets(options: argparse.Namespace, part: Path | None = None) -> None:
@@ -193,6 +214,12 @@ def _check_targets(options: argparse.Namespace, part: Path | None = None) -> Non
 
     out = check_writable(options.out)
     mesh_writer(out)
+    if options.threemf is not None and out.suffix.lower() != ".3mf":
+        raise VolfrepError(f"'{out}' cannot hold what --3mf asks for: give it the extension .3mf.")
+    if options.threemf == "beams" and options.report is not None:
+        raise VolfrepError(
+            "A report is made of the mesh, which --3mf beams does without: use both."
+        )
     if part is not None and out.exists() and part.exists() and out.samefile(part):
         raise VolfrepError(f"The output '{out}' is the part itself: give another name.")
     if options.report is not None:
@@ -211,14 +238,39 @@ def _spec(options: argparse.Namespace, *more: str) -> LatticeSpec:
     return LatticeSpec(**{name: value for name, value in given.items() if value is not None})
 
 
-def _finish(result: Result, options: argparse.Namespace, before: dict[str, float]) -> None:
-    """Write the mesh and the report; say what was made."""
+def _finish_beams(model: BeamModel, options: argparse.Namespace, start: float) -> None:
+    """Write a lattice as beams; say what was made."""
+    from .export.threemf import write_3mf_beams
+
+    write_3mf_beams(model, options.out)
+    _warn(model.warnings)
+    if options.quiet:
+        return
+    lattice = model.lattice
+    _print_rows(
+        ("file", f"{options.out}, {Path(options.out).stat().st_size / 1e6:.1f} MB"),
+        ("struts", f"{len(lattice.struts):,} between {len(lattice.nodes):,} nodes, as beams"),
+        ("time", f"{time.perf_counter() - start:.2f} s"),
+    )
+
+
+def _finish(
+    result: Result,
+    options: argparse.Namespace,
+    before: dict[str, float],
+    beams: BeamModel | None,
+) -> None:
+    """Write the mesh, with its beams if there are any, and the report; say what was made."""
     from .export import write_mesh
     from .export.files import replacing
+    from .export.threemf import write_3mf_beams
     from .progress import peak_memory_mb
 
     start = time.perf_counter()
-    write_mesh(result.mesh, options.out)
+    if beams is None:
+        write_mesh(result.mesh, options.out)
+    else:
+        write_3mf_beams(beams, options.out, result.mesh)
     report = dataclasses.replace(
         result.report,
         stages={**before, **result.report.stages, "write": time.perf_counter() - start},
@@ -227,8 +279,7 @@ def _finish(result: Result, options: argparse.Namespace, before: dict[str, float
     if options.report is not None:
         with replacing(options.report) as file:
             file.write(report.to_json().encode() + b"\n")
-    for warning in report.warnings:
-        print(f"volfrep: warning: {warning}", file=sys.stderr)
+    _warn(report.warnings)
     if options.quiet:
         return
     size = Path(options.out).stat().st_size / 1e6
@@ -292,6 +343,11 @@ def _check(options: argparse.Namespace) -> None:
         ("from", ", ".join(f"{value:.3f}" for value in low)),
         ("smallest angle", f"{shape_statistics(mesh).smallest_angle:.2f} degrees"),
     )
+
+
+def _warn(warnings: Sequence[str]) -> None:
+    for warning in warnings:
+        print(f"volfrep: warning: {warning}", file=sys.stderr)
 
 
 def _yes(value: bool) -> str:

@@ -140,7 +140,9 @@ def fill(
 
     tile_spec = TileSpec(spec.cell_size, spec.strut_radius, spec.fillet, spec.facets_along_cell)
     if spec.output == "domain":
-        cleared, measured = Cleared(domain, 0, 0), measure(domain)
+        precision = shortest_edge(solid)
+        clean = separate_vertices(remove_slivers(domain, precision), precision)
+        cleared, measured = Cleared(clean, 0, 0), measure(clean)
     else:
         grid = _octants(cell, cells, active, spec)
         with monitor.stage("tile", 0.4, 0.5):
@@ -176,14 +178,11 @@ def block(
         VolfrepError: the counts make no sense or the block would not fit into memory.
         Cancelled: the callback said so.
     """
-    shape = tuple(int(n) for n in count)
-    if len(shape) != 3 or min(shape) < 1 or any(n != m for n, m in zip(shape, count, strict=True)):
-        raise VolfrepError(f"The count must be three whole numbers above 0, not {list(count)}.")
+    cells = block_cells(spec, count)
+    shape, origin = cells.shape, cells.origin
     monitor = Monitor(progress)
     cell = spec.unit_cell()
     tile_spec = TileSpec(spec.cell_size, spec.strut_radius, spec.fillet, spec.facets_along_cell)
-    origin = np.array(spec.origin or (0.0, 0.0, 0.0), float)
-    cells = CellGrid(origin, spec.cell_size, (shape[0], shape[1], shape[2]))
     volume = float(np.prod(shape, dtype=float)) * spec.cell_size**3
     _refuse_memory(_expected_triangles(cell, spec, volume), 0)
     active = np.ones(shape, bool)
@@ -203,6 +202,19 @@ def block(
             cleared = clear(mesh, inspect(mesh, monitor), _smallest_shell(spec))
             measured = measure(cleared.mesh, monitor)
     return _result(cleared, measured, graph, cells, active, volume, spec, monitor)
+
+
+def block_cells(spec: LatticeSpec, count: Sequence[int]) -> CellGrid:
+    """The grid of a free-standing block.
+
+    Raises:
+        VolfrepError: the counts are not three whole numbers above 0.
+    """
+    shape = tuple(int(n) for n in count)
+    if len(shape) != 3 or min(shape) < 1 or any(n != m for n, m in zip(shape, count, strict=True)):
+        raise VolfrepError(f"The count must be three whole numbers above 0, not {list(count)}.")
+    origin = np.array(spec.origin or (0.0, 0.0, 0.0), float)
+    return CellGrid(origin, spec.cell_size, (shape[0], shape[1], shape[2]))
 
 
 def _voxels(

@@ -177,6 +177,56 @@ def column_crossings(
     return i, j, z, step
 
 
+def inside_points(mesh: TriangleMesh, points: Floats) -> NDArray[np.bool_]:
+    """Which of (n, 3) scattered points lie inside a closed mesh, by winding number.
+
+    A line up from a point crosses the triangles above it. A point on a line through a vertex or
+    an edge counts as in `column_crossings`.
+    """
+    corners = mesh.vertices[mesh.triangles]
+    low, high = corners.min(axis=1)[:, :2], corners.max(axis=1)[:, :2]
+    top = corners[:, :, 2].max(axis=1)
+    # Square bins seen along z: about as many as triangles, so that few triangles share one.
+    origin = low.min(axis=0)
+    span = np.maximum(high.max(axis=0) - origin, 1e-300)
+    size = float(np.sqrt(span.prod() / len(corners))) or float(span.max())
+    shape = np.minimum(np.ceil(span / size).astype(np.int64), len(corners)) + 1
+    first = np.minimum(((low - origin) / size).astype(np.int64), shape - 1)
+    last = np.minimum(((high - origin) / size).astype(np.int64), shape - 1)
+    wide = last - first + 1
+    triangle, place = spread(wide.prod(axis=1))
+    column = first[triangle] + np.stack(np.divmod(place, wide[triangle, 1]), axis=1)
+    bins = column[:, 0] * shape[1] + column[:, 1]
+    order = np.argsort(bins, kind="stable")
+    triangle = triangle[order]
+    start = np.searchsorted(bins[order], np.arange(shape.prod() + 1))
+
+    winding = np.zeros(len(points), np.int64)
+    place = ((points[:, :2] - origin) / size).astype(np.int64)
+    near = np.flatnonzero(((points[:, :2] >= origin) & (place < shape)).all(axis=1))
+    here = place[near] @ np.array([shape[1], 1])
+    for owner, step in _pairs(start[here + 1] - start[here]):
+        point, facet = near[owner], triangle[start[here[owner]] + step]
+        reaches = top[facet] > points[point, 2]
+        point, facet = point[reaches], facet[reaches]
+        x, y, z = points[point].T
+        side, left = (
+            np.stack(values)
+            for values in zip(
+                *(_side(corners[facet, k], corners[facet, (k + 1) % 3], x, y) for k in range(3)),
+                strict=True,
+            )
+        )
+        up, down = left.all(axis=0), ~left.any(axis=0)
+        weight = np.abs(side)
+        weight[:, weight.sum(axis=0) == 0] = 1.0
+        height = corners[facet, :, 2]
+        crossing = weight[1] * height[:, 0] + weight[2] * height[:, 1] + weight[0] * height[:, 2]
+        above = crossing > z * weight.sum(axis=0)
+        np.add.at(winding, point, np.where(above, up.astype(np.int64) - down, 0))
+    return winding > 0
+
+
 def _side(a: Floats, b: Floats, x: Floats, y: Floats) -> tuple[Floats, NDArray[np.bool_]]:
     """Twice the area (a, b, point) seen along z, and whether the point lies left of a to b.
 

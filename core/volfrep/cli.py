@@ -10,6 +10,7 @@ from __future__ import annotations
 import argparse
 import dataclasses
 import io
+import json
 import os
 import re
 import sys
@@ -18,10 +19,13 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
+from . import cli_printing
+from .cli_printing import print_rows, print_warnings
 from .errors import VolfrepError
 
 if TYPE_CHECKING:
     from .beams import BeamModel
+    from .mesh import TriangleMesh
     from .pipeline import Result
     from .progress import ProgressCallback
     from .spec import LatticeSpec
@@ -86,7 +90,12 @@ class _Version(argparse.Action):
 
 
 def _plain_number(argument: str) -> str:
-    """Negative numbers such as ``-1e3`` as ``-1000.0``: argparse takes them for options."""
+    """Negative numbers such as ``-1e3`` as ``-1000.0``: argparse takes them for options.
+
+    And directions such as ``-1,0,0``, unless a space comes first.
+    """
+    if re.match(r"-[\d.]+(e[-+]?\d+)?,", argument, re.IGNORECASE):
+        return f" {argument}"
     if not re.fullmatch(r"-(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?", argument):
         return argument
     return argument if re.fullmatch(r"-\d+", argument) else f"{float(argument):.15f}"
@@ -146,13 +155,6 @@ def _parser() -> argparse.ArgumentParser:
 def _add_lattice_options(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("-o", dest="out", required=True, metavar="OUT", help="the file: .stl, .3mf, .ply or .obj")
-    add(
-        "--3mf",
-        dest="threemf",
-        choices=("mesh", "beams", "both"),
-        help="what a 3MF file holds: the part as triangles (default), its lattice as beams of the "
-        "beam lattice extension (small, and made without a mesh), or both",
-    )
     add("--cell", required=True, help="a library cell (see 'volfrep cells') or a cell's .json file")
     add("--cell-size", type=float, required=True, metavar="MM", help="edge L of a cell")
     add("--strut-radius", type=float, required=True, metavar="MM", help="radius r of the struts")
@@ -164,6 +166,7 @@ def _add_lattice_options(parser: argparse.ArgumentParser) -> None:
     add("--fillet", type=float, metavar="MM", help="radius of the round at the joints (default 0)")
     add("--density", type=float, metavar="G_PER_CM3", help="of the material (default 1)")
     add("--report", metavar="FILE.json", help="write the figures of the run as JSON")
+    cli_printing.add_options(parser)
     add("--quiet", action="store_true", help="print nothing but errors")
 
 
@@ -182,12 +185,15 @@ def _fill(options: argparse.Namespace) -> None:
     cache = StageCache()
     with _Progress(options.quiet) as progress:
         if options.threemf == "beams":
-            _finish_beams(beam_model(solid, spec, progress=progress), options, start)
+            cli_printing.finish_beams(beam_model(solid, spec, progress=progress), options, start)
             return
         both = options.threemf == "both"
         beams = beam_model(solid, spec, progress=progress, cache=cache) if both else None
         result = fill(solid, spec, progress=progress, cache=cache)
-    _finish(result, options, {"read": read_seconds}, beams)
+    domain = None
+    if options.print_report is not None:
+        domain = fill(solid, dataclasses.replace(spec, output="domain"), cache=cache).mesh
+    _finish(result, options, {"read": read_seconds}, beams, domain)
 
 
 def _block(options: argparse.Namespace) -> None:
@@ -199,7 +205,7 @@ def _block(options: argparse.Namespace) -> None:
 
     start = time.perf_counter()
     if options.threemf == "beams":
-        _finish_beams(block_beams(spec, options.count), options, start)
+        cli_printing.finish_beams(block_beams(spec, options.count), options, start)
         return
     beams = block_beams(spec, options.count) if options.threemf == "both" else None
     with _Progress(options.quiet) as progress:
@@ -214,12 +220,7 @@ def _check_targets(options: argparse.Namespace, part: Path | None = None) -> Non
 
     out = check_writable(options.out)
     mesh_writer(out)
-    if options.threemf is not None and out.suffix.lower() != ".3mf":
-        raise VolfrepError(f"'{out}' cannot hold what --3mf asks for: give it the extension .3mf.")
-    if options.threemf == "beams" and options.report is not None:
-        raise VolfrepError(
-            "A report is made of the mesh, which --3mf beams does without: use both."
-        )
+    cli_printing.check(options, out)
     if part is not None and out.exists() and part.exists() and out.samefile(part):
         raise VolfrepError(f"The output '{out}' is the part itself: give another name.")
     if options.report is not None:
@@ -238,29 +239,17 @@ def _spec(options: argparse.Namespace, *more: str) -> LatticeSpec:
     return LatticeSpec(**{name: value for name, value in given.items() if value is not None})
 
 
-def _finish_beams(model: BeamModel, options: argparse.Namespace, start: float) -> None:
-    """Write a lattice as beams; say what was made."""
-    from .export.threemf import write_3mf_beams
-
-    write_3mf_beams(model, options.out)
-    _warn(model.warnings)
-    if options.quiet:
-        return
-    lattice = model.lattice
-    _print_rows(
-        ("file", f"{options.out}, {Path(options.out).stat().st_size / 1e6:.1f} MB"),
-        ("struts", f"{len(lattice.struts):,} between {len(lattice.nodes):,} nodes, as beams"),
-        ("time", f"{time.perf_counter() - start:.2f} s"),
-    )
-
-
 def _finish(
     result: Result,
     options: argparse.Namespace,
     before: dict[str, float],
     beams: BeamModel | None,
+    domain: TriangleMesh | None = None,
 ) -> None:
-    """Write the mesh, with its beams if there are any, and the report; say what was made."""
+    """Write the mesh, with its beams if there are any, and the report; say what was made.
+
+    `domain` is what the lattice fills, for the print report.
+    """
     from .export import write_mesh
     from .export.files import replacing
     from .export.threemf import write_3mf_beams
@@ -276,15 +265,21 @@ def _finish(
         stages={**before, **result.report.stages, "write": time.perf_counter() - start},
         peak_memory_mb=peak_memory_mb(),
     )
+    printing = None
+    if options.print_report is not None:
+        printing = cli_printing.report_of(result, options, domain)
     if options.report is not None:
+        figures = report.as_dict()
+        if printing is not None:
+            figures["print_report"] = printing.as_dict()
         with replacing(options.report) as file:
-            file.write(report.to_json().encode() + b"\n")
-    _warn(report.warnings)
+            file.write(json.dumps(figures, indent=2).encode() + b"\n")
+    print_warnings(report.warnings)
     if options.quiet:
         return
     size = Path(options.out).stat().st_size / 1e6
     grid = " x ".join(str(n) for n in report.grid)
-    _print_rows(
+    print_rows(
         ("file", f"{options.out}, {size:.1f} MB"),
         ("cells", f"{report.cells_active:,} active of {report.cells_total:,} ({grid})"),
         ("struts", f"{report.struts:,} between {report.nodes:,} nodes"),
@@ -294,6 +289,7 @@ def _finish(
         ("relative density", f"{100 * report.relative_density:.2f} %"),
         ("mass", f"{report.mass_g:,.2f} g"),
         ("time", f"{sum(report.stages.values()):.2f} s, {report.peak_memory_mb:,.0f} MB of memory"),
+        *(printing.rows() if printing is not None else ()),
     )
 
 
@@ -328,7 +324,7 @@ def _check(options: argparse.Namespace) -> None:
         if count
     ]
     low, high = quality.bounds
-    _print_rows(
+    print_rows(
         ("file", str(options.file)),
         ("triangles", f"{quality.triangles:,}"),
         ("vertices", f"{quality.vertices:,}"),
@@ -345,11 +341,6 @@ def _check(options: argparse.Namespace) -> None:
     )
 
 
-def _warn(warnings: Sequence[str]) -> None:
-    for warning in warnings:
-        print(f"volfrep: warning: {warning}", file=sys.stderr)
-
-
 def _yes(value: bool) -> str:
     return "yes" if value else "no"
 
@@ -357,12 +348,6 @@ def _yes(value: bool) -> str:
 def _bodies(bodies: int, voids: int) -> str:
     text = f"{bodies:,} " + ("body" if bodies == 1 else "bodies")
     return text + (f", {voids:,} closed " + ("void" if voids == 1 else "voids")) * bool(voids)
-
-
-def _print_rows(*rows: tuple[str, str]) -> None:
-    width = max(len(name) for name, _ in rows) + 2
-    for name, value in rows:
-        print(f"{name:<{width}}{value}")
 
 
 class _Progress:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The command's files for the printer: formats by extension, and what a 3MF file holds."""
 
+import json
 import re
 import zipfile
 from pathlib import Path
@@ -84,12 +85,44 @@ def test_both(tmp_path: Path, part: Path, capsys: pytest.CaptureFixture[str]) ->
     assert model(tmp_path / "block.3mf").count("<b:beam ") == 20
 
 
+def test_the_print_report(tmp_path: Path, part: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    report = tmp_path / "out.json"
+    options = ["--print-report", "lpbf", "--report", report, "--density", 4.43]
+    assert fill(part, tmp_path / "out.stl", *options) == 0
+    said = capsys.readouterr().out
+    assert re.search(r"^process +LPBF, metal powder, laser$", said, re.MULTILINE)
+    assert re.search(r"^closed voids +1 with ", said, re.MULTILINE)
+    figures = json.loads(report.read_text())
+    printing = figures["print_report"]
+    assert printing["process"]["name"] == "LPBF"
+    assert printing["mass_g"] == pytest.approx(figures["mass_g"])
+    # Only what lies under the skin: two of the four layers of nodes each way are in it.
+    assert printing["strut_length_mm"] == pytest.approx(3 * 4 * 26, rel=0.05)
+    assert len(printing["findings"]) == 3
+
+
+def test_the_build_direction(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    shares = {}
+    for direction in ("0,0,1", "-1,0,0", "1,1e0,1"):
+        options = ["--print-report", "FFF", "--build-direction", direction]
+        assert block(tmp_path / "out.stl", *options) == 0
+        found = re.search(r"below 45 degrees +([\d.]+) %", capsys.readouterr().out)
+        assert found
+        shares[direction] = float(found[1])
+    # 6 of 20 struts stand along z, 8 along x, and along a diagonal all lie at 35 degrees.
+    assert shares == {"0,0,1": 70.0, "-1,0,0": 60.0, "1,1e0,1": 100.0}
+
+
 @pytest.mark.parametrize(
     ("name", "more", "message"),
     [
         ("x.stl", ["--3mf", "beams"], "give it the extension .3mf"),
         ("x.3mf", ["--3mf", "struts"], "invalid choice: 'struts'"),
         ("x.3mf", ["--3mf", "beams", "--report", "r.json"], "does without: use both"),
+        ("x.3mf", ["--3mf", "beams", "--print-report", "FFF"], "does without: use both"),
+        ("x.stl", ["--print-report", "EBM"], "no process 'EBM'"),
+        ("x.stl", ["--print-report", "FFF", "--build-direction", "0,0,0"], "not all 0"),
+        ("x.stl", ["--print-report", "FFF", "--build-direction", "0,1"], "is not three numbers"),
         ("x.3mf", ["--3mf", "both", "--fillet", "1"], "no fillets"),
         ("x.3mf", ["--3mf", "beams", "--fillet", "1"], "no fillets"),
     ],

@@ -103,7 +103,7 @@ def prusa_volume(path: Path) -> float:
 
 
 def cura_volume(path: Path) -> float:
-    """Volume in mm3 of the filament that CuraEngine wants for an STL file."""
+    """Volume in mm3 of the filament that CuraEngine wants for an STL file that starts at z = 0."""
     resources = cura_resources()
     assert resources is not None
     gcode = path.with_suffix(".cura.gcode")

@@ -10,12 +10,17 @@ from pathlib import Path
 from ..errors import VolfrepError
 from ..mesh import TriangleMesh
 from ..progress import Monitor
+from .step_faceted import write_step_faceted
 from .stl import write_stl
 
 MeshWriter = Callable[[TriangleMesh, "str | os.PathLike[str]", "Monitor | None"], None]
 
 #: Writers by extension. A new format is one more line here.
-MESH_WRITERS: dict[str, MeshWriter] = {".stl": write_stl}
+MESH_WRITERS: dict[str, MeshWriter] = {
+    ".stl": write_stl,
+    ".step": write_step_faceted,
+    ".stp": write_step_faceted,
+}
 
 
 def mesh_writer(path: str | os.PathLike[str]) -> MeshWriter:

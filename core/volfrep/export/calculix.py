@@ -14,7 +14,7 @@ from ..beams import BeamModel
 from ..errors import VolfrepError
 from ..tetrahedra import TetrahedralMesh
 from .files import replacing
-from .step import ROWS, rows
+from .step import rows
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -228,8 +228,7 @@ def _step(step: StaticStep, *, rotations: bool) -> Iterator[bytes]:
 
 def _numbers(chosen: Ints) -> Iterator[bytes]:
     """Node numbers, so many a line."""
-    for start in range(0, len(chosen), ROWS):
-        yield _lines((chosen[start : start + ROWS] + 1).tolist()).encode()
+    yield _lines((chosen + 1).tolist()).encode()
 
 
 def _lines(values: Sequence[object]) -> str:

@@ -25,7 +25,7 @@ from .cli_printing import print_rows, print_warnings
 from .errors import VolfrepError
 
 if TYPE_CHECKING:
-    from .beams import BeamModel
+    from .beam_lattice import BeamModel
     from .mesh import TriangleMesh
     from .pipeline import Result
     from .progress import ProgressCallback
@@ -157,7 +157,7 @@ def _parser() -> argparse.ArgumentParser:
 
 def _add_lattice_options(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
-    add("-o", dest="out", required=True, metavar="OUT", help="the file: .stl, .3mf, .ply or .obj")
+    add("-o", dest="out", required=True, metavar="OUT", help=".stl, .3mf, .ply, .obj or .step")
     add("--cell", required=True, help="a library cell (see 'volfrep cells') or a cell's .json file")
     add("--cell-size", type=float, required=True, metavar="MM", help="edge L of a cell")
     add("--strut-radius", type=float, required=True, metavar="MM", help="radius r of the struts")
@@ -179,7 +179,7 @@ def _fill(options: argparse.Namespace) -> None:
     _check_targets(options, part)
     spec = _spec(options, "shell", "activation", "output", "origin")
 
-    from .beams import beam_model
+    from .beam_lattice import beam_model
     from .pipeline import StageCache, fill
     from .solid import read_solid
 
@@ -204,7 +204,7 @@ def _block(options: argparse.Namespace) -> None:
     _check_targets(options)
     spec = _spec(options)
 
-    from .beams import block_beams
+    from .beam_lattice import block_beams
     from .pipeline import block
 
     start = time.perf_counter()

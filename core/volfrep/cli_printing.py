@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 from .errors import VolfrepError
 
 if TYPE_CHECKING:
-    from .beams import BeamModel
+    from .beam_lattice import BeamModel
     from .mesh import TriangleMesh
     from .pipeline import Result
     from .printability import PrintReport

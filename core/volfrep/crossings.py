@@ -37,10 +37,10 @@ def crossing_triangles(
     chosen = np.flatnonzero(among)
     # Triangles meet in the bins of a coarse grid; only what reaches the chosen ones is binned.
     size = float(np.percentile((high - low).max(axis=1), 90))
-    own, own_bin = _bins(low[chosen], high[chosen], low.min(axis=0), size)
+    own, own_bin = boxes_in_bins(low[chosen], high[chosen], low.min(axis=0), size)
     reach = low[chosen].min(axis=0), high[chosen].max(axis=0)
     close = np.flatnonzero((low <= reach[1]).all(axis=1) & (high >= reach[0]).all(axis=1))
-    other, other_bin = _bins(low[close], high[close], low.min(axis=0), size)
+    other, other_bin = boxes_in_bins(low[close], high[close], low.min(axis=0), size)
     order = np.argsort(other_bin, kind="stable")
     other, other_bin = close[other[order]], other_bin[order]
     first = np.searchsorted(other_bin, own_bin)
@@ -64,7 +64,7 @@ def crossing_triangles(
     return crossing
 
 
-def _bins(low: Floats, high: Floats, origin: Floats, size: float) -> tuple[Ints, Ints]:
+def boxes_in_bins(low: Floats, high: Floats, origin: Floats, size: float) -> tuple[Ints, Ints]:
     """Every box with every bin of the grid that it reaches into, as (box, bin) pairs."""
     first = np.floor((low - origin) / size).astype(np.int64)
     span = np.floor((high - origin) / size).astype(np.int64) - first + 1

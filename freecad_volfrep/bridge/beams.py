@@ -8,7 +8,7 @@ from dataclasses import replace
 import FreeCAD as App
 import numpy as np
 
-from volfrep.beams import BeamModel
+from volfrep.beam_lattice import BeamModel
 from volfrep.mesh import TriangleMesh
 from volfrep.wireframe import Wireframe
 

@@ -81,7 +81,7 @@ def export_mesh(
     if Path(path).suffix.lower() != ".3mf" or content not in ("beams", "both"):
         raise VolfrepError(f"'{path}' cannot hold {content}: only a 3MF file holds beams or both.")
     from freecad_volfrep.bridge.beams import place_in_document, placed_beams
-    from volfrep.beams import beam_model
+    from volfrep.beam_lattice import beam_model
 
     if not isinstance(getattr(obj, "Proxy", None), LatticeInfill):
         raise VolfrepError(f"'{obj.Label}' is a mesh without beams: export its mesh.")

@@ -6,7 +6,7 @@ import pytest
 from scipy.spatial import cKDTree
 
 from volfrep import LatticeSpec, clearance
-from volfrep.beams import block_beams
+from volfrep.beam_lattice import block_beams
 from volfrep.clearance import narrowest_gap
 from volfrep.wireframe import Wireframe
 

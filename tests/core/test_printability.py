@@ -8,7 +8,7 @@ import pytest
 
 import samples
 from volfrep import LatticeSpec, VolfrepError, block, fill
-from volfrep.beams import block_beams
+from volfrep.beam_lattice import block_beams
 from volfrep.mesh import TriangleMesh, concatenate
 from volfrep.printability import (
     PROCESSES,

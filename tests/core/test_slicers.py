@@ -8,7 +8,7 @@ import pytest
 import samples
 from slicers import cura_resources, cura_volume, prusa_info, prusa_slicer, prusa_volume
 from volfrep import LatticeSpec, Result, StageCache, block, fill, read_solid
-from volfrep.beams import beam_model
+from volfrep.beam_lattice import beam_model
 from volfrep.export import write_mesh
 from volfrep.export.threemf import write_3mf_beams
 from volfrep.mesh import TriangleMesh

@@ -14,7 +14,7 @@ import pytest
 import samples
 from exact import DENSITY
 from volfrep import LatticeSpec, block, fill
-from volfrep.beams import BeamModel, beam_model, block_beams
+from volfrep.beam_lattice import BeamModel, beam_model, block_beams
 from volfrep.errors import Cancelled, VolfrepError
 from volfrep.export import write_mesh
 from volfrep.export.threemf import write_3mf, write_3mf_beams

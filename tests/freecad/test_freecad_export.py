@@ -213,8 +213,13 @@ def test_no_solid_of_a_bad_mesh():
         faceted_solid(TriangleMesh(box.vertices, box.triangles[1:]))
     with pytest.raises(VolfrepError, match="no volume"):
         faceted_solid(box.reversed())
-    with pytest.raises(VolfrepError, match="separate bodies, and voids"):
-        faceted_solid(concatenate(box, cube(4).reversed(), cube(4, (20, 0, 0))))
+
+
+def test_voids_of_several_bodies():
+    hollow = concatenate(cube(10), cube(4).reversed())
+    shape = faceted_solid(concatenate(hollow, cube(4, (20, 0, 0))))
+    assert shape.isValid()
+    assert sorted(solid.Volume for solid in shape.Solids) == pytest.approx([64, 1000 - 64])
 
 
 def test_solid_of_something_without_a_mesh(doc, box):

@@ -12,6 +12,7 @@ from ..mesh import TriangleMesh
 from ..progress import Monitor
 from .obj import write_obj
 from .ply import write_ply
+from .step_faceted import write_step_faceted
 from .stl import write_stl
 from .threemf import write_3mf
 
@@ -23,6 +24,8 @@ MESH_WRITERS: dict[str, MeshWriter] = {
     ".3mf": write_3mf,
     ".ply": write_ply,
     ".obj": write_obj,
+    ".step": write_step_faceted,
+    ".stp": write_step_faceted,
 }
 
 

@@ -28,7 +28,7 @@ from .files import replacing
 from .precision import BLOCK_ROWS, as_text, lines, rounded
 
 if TYPE_CHECKING:
-    from ..beams import BeamModel
+    from ..beam_lattice import BeamModel
 
 Floats = NDArray[np.float64]
 

@@ -8,7 +8,7 @@ import pytest
 
 import samples
 from volfrep import LatticeSpec, StageCache, VolfrepError, fill, quality
-from volfrep.beams import beam_model, block_beams
+from volfrep.beam_lattice import beam_model, block_beams
 from volfrep.grading import CellMap, RadiusGrading, SizeGrading
 from volfrep.law import Law
 

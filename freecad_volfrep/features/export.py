@@ -44,6 +44,7 @@ FORMATS = (
     Format("3MF, beams only", ".3mf", "beams"),
     Format("PLY", ".ply"),
     Format("OBJ", ".obj"),
+    Format("STEP, faceted", ".step"),
 )
 
 

@@ -42,15 +42,21 @@ def test_a_mesh_comes_back_as_it_was(tmp_path: Path, suffix: str, lattice: Trian
 @pytest.mark.parametrize("suffix", MESH_WRITERS)
 def test_no_writer_leaves_a_file_that_is_not_whole(tmp_path: Path, suffix: str) -> None:
     path = tmp_path / f"ball{suffix}"
-    ball = samples.sphere(10.0, 3)
-    with pytest.raises(VolfrepError, match="nothing to write"):
+    with pytest.raises(VolfrepError, match="mesh is empty"):
         write_mesh(empty_mesh(), path)
+    with pytest.raises(Cancelled):
+        write_mesh(samples.sphere(10.0, 3), path, Monitor(lambda fraction, stage: False))
+    assert os.listdir(tmp_path) == []
+
+
+@pytest.mark.parametrize("suffix", [".stl", ".3mf", ".ply", ".obj"])
+def test_what_single_precision_cannot_hold_is_refused(tmp_path: Path, suffix: str) -> None:
+    path = tmp_path / f"ball{suffix}"
+    ball = samples.sphere(10.0, 3)
     with pytest.raises(VolfrepError, match="single-precision"):
         write_mesh(TriangleMesh(ball.vertices + np.inf, ball.triangles), path)
     with pytest.raises(VolfrepError, match=r"near \(.*nearer to the origin"):
         write_mesh(TriangleMesh(ball.vertices + 1e8, ball.triangles), path)
-    with pytest.raises(Cancelled):
-        write_mesh(ball, path, Monitor(lambda fraction, stage: False))
     assert os.listdir(tmp_path) == []
 
 
@@ -59,6 +65,7 @@ def test_every_writer_tells_its_progress(tmp_path: Path, suffix: str, monkeypatc
     monkeypatch.setattr("volfrep.export.stl.BLOCK_FACETS", 100)
     for module in ("precision", "ply", "obj", "threemf"):
         monkeypatch.setattr(f"volfrep.export.{module}.BLOCK_ROWS", 100)
+    monkeypatch.setattr("volfrep.export.step.VALUES", 1000)
     told: list[float] = []
     monitor = Monitor(lambda fraction, stage: told.append(fraction))
     write_mesh(samples.sphere(10.0, 3), tmp_path / f"ball{suffix}", monitor)

@@ -42,7 +42,9 @@ def check(shape, volume):
     assert shape.Volume == pytest.approx(volume, rel=1e-5)
 
 
-@pytest.mark.parametrize("cell", ["Box", "BCC", "Octet", "Octahedron", "CVC"])
+@pytest.mark.parametrize(
+    "cell", ["Box", "BCC", pytest.param("Octet", marks=pytest.mark.slow), "Octahedron", "CVC"]
+)
 def test_a_block(cell, tmp_path):
     made = result(cell)
     volume = write_exact(made.wireframe, tmp_path / "block.step")

@@ -42,6 +42,7 @@ def test_a_faceted_lattice(tmp_path):
     assert shape.Area == pytest.approx(mesh.area, rel=1e-7)
 
 
+@pytest.mark.slow
 def test_a_faceted_part_with_its_cavity(tmp_path):
     spec = LatticeSpec(cell="CVC", cell_size=10, strut_radius=1, shell=2, resolution=8)
     mesh = fill(cube(24.0), spec).mesh

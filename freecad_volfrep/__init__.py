@@ -26,8 +26,16 @@ _EXPORTS = {
     "make_lattice_infill": "freecad_volfrep.features.factory",
     "make_solid": "freecad_volfrep.features.faceted_solid",
     "export_mesh": "freecad_volfrep.features.export",
+    "make_print_check": "freecad_volfrep.features.print_check",
 }
-__all__ = ["ICONS", "ROOT", "export_mesh", "make_lattice_infill", "make_solid"]
+__all__ = [
+    "ICONS",
+    "ROOT",
+    "export_mesh",
+    "make_lattice_infill",
+    "make_print_check",
+    "make_solid",
+]
 
 
 def __getattr__(name: str) -> Any:

@@ -9,8 +9,11 @@ root=$PWD
 system_python=/usr/bin/python3
 debian_packages=(
   freecad python3 python3-venv python3-pip python3-numpy python3-scipy python3-vtk9
-  xvfb xauth xdotool imagemagick libgl1-mesa-dri admesh ca-certificates
+  xvfb xauth xdotool imagemagick libgl1-mesa-dri admesh prusa-slicer cura-engine gmsh
+  ca-certificates
 )
+# Debian 13 has no CalculiX: what needs it says so, and its tests are skipped.
+grep -qs '^VERSION_ID="13"' /etc/os-release || debian_packages+=(calculix-ccx)
 
 say() { printf 'setup: %s\n' "$*"; }
 refuse() { printf 'setup: %s\n' "$*" >&2; exit 1; }
@@ -47,6 +50,17 @@ if [ ${#missing[@]} -gt 0 ]; then
   rm -f "$log"
 fi
 
+# CuraEngine's printer definitions are in Debian's package of the whole Cura, which brings fifty
+# others: only its own files are unpacked.
+mkdir -p .cache
+if [ ! -d .cache/cura ]; then
+  say "Cura's printer definitions"
+  archive=$(mktemp -d)
+  (cd "$archive" && apt-get download -qq cura) || refuse "apt-get could not download 'cura'."
+  dpkg-deb -x "$archive"/cura_*.deb .cache/cura
+  rm -r "$archive"
+fi
+
 # FreeCAD runs on Debian's Python: packages for any other would not load inside it.
 version_of() { "$1" -c 'import sys; print(sys.version_info[:2], sys.base_prefix)'; }
 if [ -x .venv/bin/python ] && [ "$(version_of .venv/bin/python)" != "$(version_of $system_python)" ]
@@ -59,7 +73,6 @@ grep -qs '^include-system-site-packages = true' .venv/pyvenv.cfg && [ -x .venv/b
 rm -f "$stamp"
 
 # numpy and scipy stay Debian's own: FreeCAD's compiled modules were built against them.
-mkdir -p .cache
 $system_python - >.cache/constraints.txt <<'PYTHON'
 import numpy
 import scipy

@@ -10,6 +10,7 @@ from __future__ import annotations
 import argparse
 import dataclasses
 import io
+import json
 import os
 import re
 import sys
@@ -18,10 +19,14 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
+from . import cli_printing
 from .cli_grading import add_grading_options, gradings
+from .cli_printing import print_rows, print_warnings
 from .errors import VolfrepError
 
 if TYPE_CHECKING:
+    from .beam_lattice import BeamModel
+    from .mesh import TriangleMesh
     from .pipeline import Result
     from .progress import ProgressCallback
     from .report import Report
@@ -89,9 +94,10 @@ class _Version(argparse.Action):
 def _plain_number(argument: str) -> str:
     """Negative numbers such as ``-1e3`` as ``-1000.0``: argparse takes them for options.
 
-    So it does pairs such as ``-5:0.4,0:1``, unless they begin with a blank.
+    So it does pairs such as ``-5:0.4,0:1`` and directions such as ``-1,0,0``, unless they begin
+    with a blank.
     """
-    if re.match(r"-[\d.]+([eE][-+]?\d+)?:", argument):
+    if re.match(r"-[\d.]+(e[-+]?\d+)?[:,]", argument, re.IGNORECASE):
         return f" {argument}"
     if not re.fullmatch(r"-(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?", argument):
         return argument
@@ -151,7 +157,7 @@ def _parser() -> argparse.ArgumentParser:
 
 def _add_lattice_options(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
-    add("-o", dest="out", required=True, metavar="OUT", help="the file to write (.stl)")
+    add("-o", dest="out", required=True, metavar="OUT", help=".stl, .3mf, .ply, .obj or .step")
     add("--cell", required=True, help="a library cell (see 'volfrep cells') or a cell's .json file")
     add("--cell-size", type=float, required=True, metavar="MM", help="edge L of a cell")
     add("--strut-radius", type=float, required=True, metavar="MM", help="radius r of the struts")
@@ -163,6 +169,7 @@ def _add_lattice_options(parser: argparse.ArgumentParser) -> None:
     add("--fillet", type=float, metavar="MM", help="radius of the round at the joints (default 0)")
     add("--density", type=float, metavar="G_PER_CM3", help="of the material (default 1)")
     add("--report", metavar="FILE.json", help="write the figures of the run as JSON")
+    cli_printing.add_options(parser)
     add("--quiet", action="store_true", help="print nothing but errors")
     add_grading_options(parser)
 
@@ -172,26 +179,42 @@ def _fill(options: argparse.Namespace) -> None:
     _check_targets(options, part)
     spec = _spec(options, "shell", "activation", "output", "origin")
 
-    from .pipeline import fill
+    from .beam_lattice import beam_model
+    from .pipeline import StageCache, fill
     from .solid import read_solid
 
     start = time.perf_counter()
     solid = read_solid(part)
     read_seconds = time.perf_counter() - start
+    cache = StageCache()
     with _Progress(options.quiet) as progress:
-        result = fill(solid, spec, progress=progress)
-    _finish(result, options, {"read": read_seconds})
+        if options.threemf == "beams":
+            cli_printing.finish_beams(beam_model(solid, spec, progress=progress), options, start)
+            return
+        both = options.threemf == "both"
+        beams = beam_model(solid, spec, progress=progress, cache=cache) if both else None
+        result = fill(solid, spec, progress=progress, cache=cache)
+    domain = None
+    if options.print_report is not None:
+        domain = fill(solid, dataclasses.replace(spec, output="domain"), cache=cache).mesh
+    _finish(result, options, {"read": read_seconds}, beams, domain)
 
 
 def _block(options: argparse.Namespace) -> None:
     _check_targets(options)
     spec = _spec(options)
 
+    from .beam_lattice import block_beams
     from .pipeline import block
 
+    start = time.perf_counter()
+    if options.threemf == "beams":
+        cli_printing.finish_beams(block_beams(spec, options.count), options, start)
+        return
+    beams = block_beams(spec, options.count) if options.threemf == "both" else None
     with _Progress(options.quiet) as progress:
         result = block(spec, tuple(options.count), progress=progress)
-    _finish(result, options, {})
+    _finish(result, options, {}, beams)
 
 
 def _check_targets(options: argparse.Namespace, part: Path | None = None) -> None:
@@ -201,6 +224,7 @@ def _check_targets(options: argparse.Namespace, part: Path | None = None) -> Non
 
     out = check_writable(options.out)
     mesh_writer(out)
+    cli_printing.check(options, out)
     if part is not None and out.exists() and part.exists() and out.samefile(part):
         raise VolfrepError(f"The output '{out}' is the part itself: give another name.")
     if options.report is not None:
@@ -220,29 +244,47 @@ def _spec(options: argparse.Namespace, *more: str) -> LatticeSpec:
     return LatticeSpec(**given, **gradings(options))
 
 
-def _finish(result: Result, options: argparse.Namespace, before: dict[str, float]) -> None:
-    """Write the mesh and the report; say what was made."""
+def _finish(
+    result: Result,
+    options: argparse.Namespace,
+    before: dict[str, float],
+    beams: BeamModel | None,
+    domain: TriangleMesh | None = None,
+) -> None:
+    """Write the mesh, with its beams if there are any, and the report; say what was made.
+
+    `domain` is what the lattice fills, for the print report.
+    """
     from .export import write_mesh
     from .export.files import replacing
+    from .export.threemf import write_3mf_beams
     from .progress import peak_memory_mb
 
     start = time.perf_counter()
-    write_mesh(result.mesh, options.out)
+    if beams is None:
+        write_mesh(result.mesh, options.out)
+    else:
+        write_3mf_beams(beams, options.out, result.mesh)
     report = dataclasses.replace(
         result.report,
         stages={**before, **result.report.stages, "write": time.perf_counter() - start},
         peak_memory_mb=peak_memory_mb(),
     )
+    printing = None
+    if options.print_report is not None:
+        printing = cli_printing.report_of(result, options, domain)
     if options.report is not None:
+        figures = report.as_dict()
+        if printing is not None:
+            figures["print_report"] = printing.as_dict()
         with replacing(options.report) as file:
-            file.write(report.to_json().encode() + b"\n")
-    for warning in report.warnings:
-        print(f"volfrep: warning: {warning}", file=sys.stderr)
+            file.write(json.dumps(figures, indent=2).encode() + b"\n")
+    print_warnings(report.warnings if beams is None else beams.warnings)
     if options.quiet:
         return
     size = Path(options.out).stat().st_size / 1e6
     grid = " x ".join(str(n) for n in report.grid)
-    _print_rows(
+    print_rows(
         ("file", f"{options.out}, {size:.1f} MB"),
         ("cells", f"{report.cells_active:,} active of {report.cells_total:,} ({grid})"),
         ("struts", f"{report.struts:,} between {report.nodes:,} nodes"),
@@ -253,6 +295,7 @@ def _finish(result: Result, options: argparse.Namespace, before: dict[str, float
         ("relative density", f"{100 * report.relative_density:.2f} %"),
         ("mass", f"{report.mass_g:,.2f} g"),
         ("time", f"{sum(report.stages.values()):.2f} s, {report.peak_memory_mb:,.0f} MB of memory"),
+        *(printing.rows() if printing is not None else ()),
     )
 
 
@@ -302,7 +345,7 @@ def _check(options: argparse.Namespace) -> None:
         if count
     ]
     low, high = quality.bounds
-    _print_rows(
+    print_rows(
         ("file", str(options.file)),
         ("triangles", f"{quality.triangles:,}"),
         ("vertices", f"{quality.vertices:,}"),
@@ -326,12 +369,6 @@ def _yes(value: bool) -> str:
 def _bodies(bodies: int, voids: int) -> str:
     text = f"{bodies:,} " + ("body" if bodies == 1 else "bodies")
     return text + (f", {voids:,} closed " + ("void" if voids == 1 else "voids")) * bool(voids)
-
-
-def _print_rows(*rows: tuple[str, str]) -> None:
-    width = max(len(name) for name, _ in rows) + 2
-    for name, value in rows:
-        print(f"{name:<{width}}{value}")
 
 
 class _Progress:

@@ -74,10 +74,11 @@ def _close_pairs(corners: Floats, among: Bools) -> Iterator[tuple[Ints, Ints]]:
         if not among[waiting].any():
             visiting = visiting[among[visiting]]
         cell = size * 2.0**grid
-        waits, its_bin = _bins(waiting, low, high, origin, cell)
+        waits, its_bin = boxes_in_bins(low[waiting], high[waiting], origin, cell)
         order = np.argsort(its_bin, kind="stable")
-        waits, its_bin = waits[order], its_bin[order]
-        visits, bins = _bins(visiting, low, high, origin, cell)
+        waits, its_bin = waiting[waits[order]], its_bin[order]
+        visits, bins = boxes_in_bins(low[visiting], high[visiting], origin, cell)
+        visits = visiting[visits]
         first = np.searchsorted(its_bin, bins)
         count = np.searchsorted(its_bin, bins, "right") - first
         if not count.any():
@@ -97,15 +98,15 @@ def _close_pairs(corners: Floats, among: Bools) -> Iterator[tuple[Ints, Ints]]:
             yield a, b
 
 
-def _bins(boxes: Ints, low: Floats, high: Floats, origin: Floats, size: float) -> tuple[Ints, Ints]:
-    """Some boxes with every bin of a grid that they reach into, as (box, bin) pairs."""
-    first = np.floor((low[boxes] - origin) / size).astype(np.int64)
-    span = np.floor((high[boxes] - origin) / size).astype(np.int64) - first + 1
+def boxes_in_bins(low: Floats, high: Floats, origin: Floats, size: float) -> tuple[Ints, Ints]:
+    """Every box with every bin of a grid that it reaches into, as (box, bin) pairs."""
+    first = np.floor((low - origin) / size).astype(np.int64)
+    span = np.floor((high - origin) / size).astype(np.int64) - first + 1
     row, place = spread(span.prod(axis=1))
     place, along_z = np.divmod(place, span[row, 2])
     along_x, along_y = np.divmod(place, span[row, 1])
     x, y, z = first[row].T
-    return boxes[row], ((x + along_x) << 42) + ((y + along_y) << 21) + z + along_z
+    return row, ((x + along_x) << 42) + ((y + along_y) << 21) + z + along_z
 
 
 def _heights(corners: Floats, normal: Floats, a: Ints, b: Ints) -> Floats:

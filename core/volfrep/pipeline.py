@@ -152,7 +152,9 @@ def fill(
     frame = graded_wireframe(graph, spec, where)
 
     if spec.output == "domain":
-        cleared, measured = Cleared(domain, 0, 0), measure(domain)
+        precision = shortest_edge(solid)
+        clean = separate_vertices(remove_slivers(domain, precision), precision)
+        cleared, measured = Cleared(clean, 0, 0), measure(clean)
     else:
         trimming = _Trimming(solid, domain, cell, spec, where, floor, active, voxel_key)
         with monitor.stage("tile", 0.4, 0.5):
@@ -186,17 +188,14 @@ def block(
         VolfrepError: the counts make no sense or the block would not fit into memory.
         Cancelled: the callback said so.
     """
-    shape = tuple(int(n) for n in count)
-    if len(shape) != 3 or min(shape) < 1 or any(n != m for n, m in zip(shape, count, strict=True)):
-        raise VolfrepError(f"The count must be three whole numbers above 0, not {list(count)}.")
+    cells, where = _block_setting(spec, count)
     monitor = Monitor(progress)
     cell = spec.unit_cell()
-    cells, where = block_setting(spec, shape)
-    volume = float(np.prod(shape, dtype=float)) * spec.cell_size**3
+    volume = float(np.prod(cells.shape, dtype=float)) * spec.cell_size**3
     refuse_memory(expected_triangles(cell, spec, volume), 0)
     if where.chart is not None and not where.chart.is_rigid:
         volume = mapped_volume(cells, where.chart)
-    active = np.ones(shape, bool)
+    active = np.ones(cells.shape, bool)
     tile = tile_spec(spec)
     with monitor.stage("tile", 0.0, 0.4):
         grid = octant_grid(cell, active, spec.cell_size, cells.origin, cells.periodic)
@@ -216,6 +215,26 @@ def block(
             cleared = clear(mesh, inspect(mesh, monitor), _smallest_shell(spec))
             measured = measure(cleared.mesh, monitor)
     return _result(cleared, measured, frame, cells, active, where, volume, spec, monitor)
+
+
+def block_wireframe(spec: LatticeSpec, count: Sequence[int]) -> Wireframe:
+    """The nodes and struts of a free-standing block.
+
+    Raises:
+        VolfrepError: the counts make no sense.
+    """
+    cells, where = _block_setting(spec, count)
+    active = np.ones(cells.shape, bool)
+    graph = cell_graph(spec.unit_cell(), active, spec.cell_size, cells.origin, cells.periodic)
+    return graded_wireframe(graph, spec, where)
+
+
+def _block_setting(spec: LatticeSpec, count: Sequence[int]) -> tuple[CellGrid, Setting]:
+    """The grid and the setting of a free-standing block, with its counts checked."""
+    shape = tuple(int(n) for n in count)
+    if len(shape) != 3 or min(shape) < 1 or any(n != m for n, m in zip(shape, count, strict=True)):
+        raise VolfrepError(f"The count must be three whole numbers above 0, not {list(count)}.")
+    return block_setting(spec, (shape[0], shape[1], shape[2]))
 
 
 def _voxels(

@@ -17,6 +17,7 @@ from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from .errors import VolfrepError
+from .facets import winding
 from .mesh import TriangleMesh, compact
 
 Floats = NDArray[np.float64]
@@ -281,21 +282,10 @@ def _orient(mesh: TriangleMesh, name: str) -> TriangleMesh:
     )
 
 
-def _winding(mesh: TriangleMesh, point: Floats, shell: Ints) -> Floats:
-    """How often each shell winds around a point (Van Oosterom and Strackee's solid angles)."""
-    a, b, c = (corner - point for corner in mesh.corners())
-    la, lb, lc = (np.linalg.norm(side, axis=1) for side in (a, b, c))
-    upper = np.einsum("ij,ij->i", a, np.cross(b, c))
-    dots = [np.einsum("ij,ij->i", p, q) for p, q in ((a, b), (b, c), (c, a))]
-    angle = 2.0 * np.arctan2(upper, la * lb * lc + dots[0] * lc + dots[1] * la + dots[2] * lb)
-    winding: Floats = np.bincount(shell, weights=angle) / (4.0 * np.pi)
-    return winding
-
-
 def _containing(mesh: TriangleMesh, shell: Ints, signs: Floats) -> NDArray[np.bool_]:
     """(s, s) bool: shell j lies inside shell i, judged by one vertex of j."""
     first = mesh.vertices[mesh.triangles[np.unique(shell, return_index=True)[1], 0]]
-    inside = np.stack([_winding(mesh, point, shell) * signs > 0.5 for point in first], axis=1)
+    inside = np.stack([winding(mesh, point, shell) * signs > 0.5 for point in first], axis=1)
     np.fill_diagonal(inside, False)
     return inside
 

@@ -174,11 +174,12 @@ def inside_points(mesh: TriangleMesh, points: Floats, monitor: Monitor) -> NDArr
     """(n,) bool, which points lie inside a closed, outward oriented mesh, by winding number.
 
     A line goes up from every point; points and triangles meet in the bins of a grid seen along z.
+    Lines through vertices and edges, and points of the surface, count as in `column_crossings`.
     """
     winding = np.zeros(len(points), np.int64)
     corners = mesh.vertices[mesh.triangles]
     low, high = mesh.bounds
-    within = np.flatnonzero(((points > low) & (points < high)).all(axis=1))
+    within = np.flatnonzero(((points >= low) & (points < high)).all(axis=1))
     if not len(within):
         return winding > 0
     size = float(np.sqrt((high - low)[0] * (high - low)[1] / len(within)))

@@ -14,19 +14,8 @@ import Mesh
 import numpy as np
 
 from volfrep.errors import VolfrepError
+from volfrep.export.ply import END_OF_HEADER, FACE, ply_chunks
 from volfrep.mesh import TriangleMesh
-
-_FACE = np.dtype([("corners", "u1"), ("index", "<i4", 3)])
-_HEADER = """ply
-format binary_little_endian 1.0
-element vertex {vertices}
-property float x
-property float y
-property float z
-element face {triangles}
-property list uchar int vertex_indices
-end_header
-"""
 
 
 def to_freecad(mesh: TriangleMesh) -> Mesh.Mesh:
@@ -37,16 +26,10 @@ def to_freecad(mesh: TriangleMesh) -> Mesh.Mesh:
     """
     if not len(mesh.triangles):
         return Mesh.Mesh()
-    faces = np.empty(len(mesh.triangles), _FACE)
-    faces["corners"] = 3
-    faces["index"] = mesh.triangles
-    header = _HEADER.format(vertices=len(mesh.vertices), triangles=len(mesh.triangles))
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "mesh.ply"
         with path.open("wb") as file:
-            file.write(header.encode("ascii"))
-            file.write(mesh.vertices.astype("<f4").tobytes())
-            file.write(faces.tobytes())
+            file.writelines(ply_chunks(mesh.vertices.astype(np.float32), mesh.triangles))
         result = Mesh.Mesh(str(path))
     if result.CountFacets != len(mesh.triangles):
         raise VolfrepError(
@@ -68,9 +51,9 @@ def from_freecad(mesh: Mesh.Mesh) -> TriangleMesh:
         path = Path(folder) / "mesh.ply"
         mesh.write(str(path))
         data = path.read_bytes()
-    start = data.index(b"end_header\n") + len(b"end_header\n")
+    start = data.index(END_OF_HEADER) + len(END_OF_HEADER)
     points = np.frombuffer(data, "<f4", 3 * mesh.CountPoints, start).reshape(-1, 3)
-    faces = np.frombuffer(data, _FACE, mesh.CountFacets, start + points.nbytes)
+    faces = np.frombuffer(data, FACE, mesh.CountFacets, start + points.nbytes)
     if not (faces["corners"] == 3).all():
         raise VolfrepError("FreeCAD wrote a mesh that is not made of triangles.")
     return TriangleMesh(points.astype(np.float64), faces["index"].astype(np.int32))

@@ -67,8 +67,8 @@ class SolidReader:
         to_frame = frame.inverse().multiply(parent)
         meshes = _mesh_objects(base)
         if meshes:
-            mesh = concatenate(*(_placed(from_freecad(m), p) for m, p in meshes))
-            return _placed(mesh, to_frame)
+            mesh = concatenate(*(placed(from_freecad(m), p) for m, p in meshes))
+            return placed(mesh, to_frame)
         shape = Part.getShape(base)
         if shape.isNull():
             raise VolfrepError(
@@ -78,7 +78,7 @@ class SolidReader:
         if not known or self._mesh is None:
             self._mesh = mesh_of_shape(_unplaced(shape), base.Label)
             self._shape = shape
-        return _placed(self._mesh, to_frame.multiply(shape.Placement))
+        return placed(self._mesh, to_frame.multiply(shape.Placement))
 
 
 def mesh_of_shape(shape: Part.Shape, label: str) -> TriangleMesh:
@@ -142,7 +142,8 @@ def _unplaced(shape: Part.Shape) -> Part.Shape:
     return bare
 
 
-def _placed(mesh: TriangleMesh, placement: App.Placement) -> TriangleMesh:
+def placed(mesh: TriangleMesh, placement: App.Placement) -> TriangleMesh:
+    """The mesh moved by a placement."""
     if placement.isIdentity():
         return mesh
     matrix = np.array(placement.toMatrix().A).reshape(4, 4)
@@ -165,4 +166,4 @@ def _boxes_overlap(solids: list[Part.Shape]) -> bool:
 
 def mesh_in_document(obj: App.DocumentObject) -> TriangleMesh:
     """The mesh of a mesh object in the document's coordinates, its App::Part's place included."""
-    return _placed(from_freecad(obj.Mesh), parent_placement(obj))
+    return placed(from_freecad(obj.Mesh), parent_placement(obj))

@@ -5,5 +5,6 @@ Saved files name the proxies' classes by this package: keep the names below impo
 """
 
 from .lattice_infill import LatticeInfill
+from .print_check import PrintCheck
 
-__all__ = ["LatticeInfill"]
+__all__ = ["LatticeInfill", "PrintCheck"]

@@ -4,27 +4,92 @@
 from __future__ import annotations
 
 import os
+from dataclasses import dataclass
+from pathlib import Path
 
 import FreeCAD as App
 
 from freecad_volfrep.engine import require_engine
 from volfrep.errors import VolfrepError
 
+from .lattice_infill import LatticeInfill
+from .progress import progress_of
 
-def export_mesh(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
+
+@dataclass(frozen=True)
+class Format:
+    """One way to write a file.
+
+    Attributes:
+        title: for the file dialog.
+        suffix: of the file.
+        content: ``mesh``, ``beams`` or ``both``; the latter two are for lattice infills.
+    """
+
+    title: str
+    suffix: str
+    content: str = "mesh"
+
+    @property
+    def filter(self) -> str:
+        """The entry of the file dialog's list."""
+        return f"{self.title} (*{self.suffix})"
+
+
+#: In the order of the file dialog's list.
+FORMATS = (
+    Format("STL", ".stl"),
+    Format("3MF", ".3mf"),
+    Format("3MF, mesh and beams", ".3mf", "both"),
+    Format("3MF, beams only", ".3mf", "beams"),
+    Format("PLY", ".ply"),
+    Format("OBJ", ".obj"),
+    Format("STEP, faceted", ".step"),
+)
+
+
+def formats_of(obj: App.DocumentObject) -> list[Format]:
+    """The formats in which this mesh object can be written."""
+    infill = isinstance(getattr(obj, "Proxy", None), LatticeInfill)
+    return [form for form in FORMATS if infill or form.content == "mesh"]
+
+
+def export_mesh(
+    obj: App.DocumentObject, path: str | os.PathLike[str], content: str = "mesh"
+) -> None:
     """Write the object's mesh, where it lies in the document, in the format of the extension.
 
     Args:
         obj: a lattice infill, or any mesh object.
         path: the file to write; one that exists is replaced only when the new one is complete.
+        content: of a 3MF file of a lattice infill: ``mesh``, ``beams`` (of the beam lattice
+            extension) or ``both``.
 
     Raises:
-        VolfrepError: there is no mesh, or the file cannot be written.
+        VolfrepError: there is no mesh, the file cannot be written or cannot hold that content.
+        Cancelled: in the window, by the user.
     """
     require_engine()
     from freecad_volfrep.bridge.solids import mesh_in_document
     from volfrep.export import write_mesh
+    from volfrep.export.threemf import write_3mf_beams
 
     if not obj.isDerivedFrom("Mesh::Feature") or not obj.Mesh.CountFacets:
         raise VolfrepError(f"'{obj.Label}' has no mesh to export: update it first.")
-    write_mesh(mesh_in_document(obj), path)
+    if content == "mesh":
+        write_mesh(mesh_in_document(obj), path)
+        return
+    if Path(path).suffix.lower() != ".3mf" or content not in ("beams", "both"):
+        raise VolfrepError(f"'{path}' cannot hold {content}: only a 3MF file holds beams or both.")
+    from freecad_volfrep.bridge.beams import place_in_document, placed_beams
+    from volfrep.beam_lattice import beam_model
+
+    if not isinstance(getattr(obj, "Proxy", None), LatticeInfill):
+        raise VolfrepError(f"'{obj.Label}' is a mesh without beams: export its mesh.")
+    solid, spec, cache = obj.Proxy.inputs(obj)
+    with progress_of(f"Beams of {obj.Label}") as progress:
+        model = beam_model(solid, spec, progress=progress, cache=cache)
+    for sentence in model.warnings:
+        App.Console.PrintWarning(f"VOLFREP, {obj.Label}: {sentence}\n")
+    model = placed_beams(model, place_in_document(obj))
+    write_3mf_beams(model, path, mesh_in_document(obj) if content == "both" else None)

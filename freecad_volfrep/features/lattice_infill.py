@@ -17,7 +17,7 @@ from .properties import CUSTOM_CELL, PROPERTIES, ensure_properties
 if TYPE_CHECKING:
     from volfrep import LatticeSpec
     from volfrep.mesh import TriangleMesh
-    from volfrep.pipeline import Result
+    from volfrep.pipeline import Result, StageCache
 
 UP_TO_DATE = "Up to date"
 OUT_OF_DATE = "Out of date: AutoUpdate is off, use Update Lattice Infill"
@@ -79,6 +79,23 @@ class LatticeInfill:
         if name in CONTROLS:
             show_applicable(obj)
 
+    def inputs(self, obj: App.DocumentObject) -> tuple[TriangleMesh, LatticeSpec, StageCache]:
+        """What the present mesh was made of: the solid, the specification, the stages' results.
+
+        The solid lies as the mesh does before the object's Placement moves it.
+
+        Raises:
+            VolfrepError: the mesh does not fit the properties.
+        """
+        from volfrep.errors import VolfrepError
+        from volfrep.solid import check_solid
+
+        require_engine()
+        spec, solid = self._read(obj)
+        if obj.Fingerprint != fingerprint_of(spec, solid):
+            raise VolfrepError(f"'{obj.Label}' is out of date: update it first.")
+        return check_solid(solid, obj.Base.Label), spec, self._cache
+
     def onDocumentRestored(self, obj: App.DocumentObject) -> None:  # noqa: N802
         """Bring an object of an older file up to the present table of properties."""
         ensure_properties(obj)
@@ -100,20 +117,12 @@ class LatticeInfill:
         self.was_cancelled = False
 
     def _run(self, obj: App.DocumentObject, forced: bool) -> None:
-        from volfrep.errors import VolfrepError
-
         require_engine()
         from freecad_volfrep.bridge.meshes import to_freecad
-        from freecad_volfrep.bridge.solids import SolidReader, parent_placement
-        from volfrep.pipeline import StageCache, fill
+        from volfrep.pipeline import fill
         from volfrep.solid import check_solid
 
-        spec = spec_of(obj)
-        if obj.Base is None:
-            raise VolfrepError("There is no solid to fill: choose one as Base.")
-        self._reader = self._reader or SolidReader()
-        self._cache = self._cache or StageCache()
-        solid = self._reader.read(obj.Base, parent_placement(obj))
+        spec, solid = self._read(obj)
         fingerprint = fingerprint_of(spec, solid)
         if obj.Fingerprint == fingerprint and obj.Mesh.CountFacets == obj.Triangles:
             obj.Mass = obj.Volume.Value * spec.density / 1000.0
@@ -132,6 +141,19 @@ class LatticeInfill:
         _write_results(obj, result)
         obj.Fingerprint = fingerprint
         obj.Status = UP_TO_DATE
+
+    def _read(self, obj: App.DocumentObject) -> tuple[LatticeSpec, TriangleMesh]:
+        """The specification and the solid of the present properties, not checked."""
+        from freecad_volfrep.bridge.solids import SolidReader, parent_placement
+        from volfrep.errors import VolfrepError
+        from volfrep.pipeline import StageCache
+
+        spec = spec_of(obj)
+        if obj.Base is None:
+            raise VolfrepError("There is no solid to fill: choose one as Base.")
+        self._reader = self._reader or SolidReader()
+        self._cache = self._cache or StageCache()
+        return spec, self._reader.read(obj.Base, parent_placement(obj))
 
 
 # Saved files find the class under this name, wherever the file it is written in moves to.

@@ -36,7 +36,8 @@ def _grading(type_name: str, name: str, description: str, default: Any = None) -
     return Property(type_name, name, "Grading", description, default)
 
 
-def _result(type_name: str, name: str, description: str) -> Property:
+def result(type_name: str, name: str, description: str) -> Property:
+    """A property that only we write."""
     return Property(type_name, name, "Result", description, flags=_READ_ONLY | _OUTPUT)
 
 
@@ -224,25 +225,25 @@ PROPERTIES = (
         True,
     ),
     Property("App::PropertyFloat", "Density", "Material", "Density of the material in g/cm3", 1.0),
-    _result("App::PropertyString", "Status", "Whether the mesh fits the properties, or why not"),
-    _result("App::PropertyStringList", "Warnings", "What to know about this result"),
-    _result("App::PropertyInteger", "CellsTotal", "Cells in the grid"),
-    _result("App::PropertyInteger", "CellsActive", "Cells that hold a lattice"),
-    _result("App::PropertyInteger", "Nodes", "Nodes of the lattice before trimming"),
-    _result("App::PropertyInteger", "Struts", "Struts of the lattice before trimming"),
-    _result("App::PropertyFloatList", "CellEdges", "Shortest and longest edge of a cell, mm"),
-    _result("App::PropertyFloatList", "StrutLengths", "Shortest and longest strut, mm"),
-    _result("App::PropertyFloatList", "StrutRadii", "Smallest and largest strut radius, mm"),
-    _result("App::PropertyInteger", "Triangles", "Triangles of the mesh"),
-    _result("App::PropertyInteger", "Bodies", "Separate pieces of material"),
-    _result("App::PropertyInteger", "Genus", "Through-holes of the mesh"),
-    _result("App::PropertyVolume", "Volume", "Volume of material"),
-    _result("App::PropertyFloat", "RelativeDensity", "Volume of the lattice over what it fills"),
-    _result("App::PropertyFloat", "Mass", "Mass in g at the given density"),
-    _result("App::PropertyInteger", "PiecesRemoved", "Loose fragments that were dropped"),
-    _result("App::PropertyBool", "Watertight", "Every edge is shared by exactly two triangles"),
-    _result("App::PropertyFloat", "Seconds", "Computing time of the last update"),
-    _result("App::PropertyString", "Report", "All figures of the last update, as JSON"),
+    result("App::PropertyString", "Status", "Whether the mesh fits the properties, or why not"),
+    result("App::PropertyStringList", "Warnings", "What to know about this result"),
+    result("App::PropertyInteger", "CellsTotal", "Cells in the grid"),
+    result("App::PropertyInteger", "CellsActive", "Cells that hold a lattice"),
+    result("App::PropertyInteger", "Nodes", "Nodes of the lattice before trimming"),
+    result("App::PropertyInteger", "Struts", "Struts of the lattice before trimming"),
+    result("App::PropertyFloatList", "CellEdges", "Shortest and longest edge of a cell, mm"),
+    result("App::PropertyFloatList", "StrutLengths", "Shortest and longest strut, mm"),
+    result("App::PropertyFloatList", "StrutRadii", "Smallest and largest strut radius, mm"),
+    result("App::PropertyInteger", "Triangles", "Triangles of the mesh"),
+    result("App::PropertyInteger", "Bodies", "Separate pieces of material"),
+    result("App::PropertyInteger", "Genus", "Through-holes of the mesh"),
+    result("App::PropertyVolume", "Volume", "Volume of material"),
+    result("App::PropertyFloat", "RelativeDensity", "Volume of the lattice over what it fills"),
+    result("App::PropertyFloat", "Mass", "Mass in g at the given density"),
+    result("App::PropertyInteger", "PiecesRemoved", "Loose fragments that were dropped"),
+    result("App::PropertyBool", "Watertight", "Every edge is shared by exactly two triangles"),
+    result("App::PropertyFloat", "Seconds", "Computing time of the last update"),
+    result("App::PropertyString", "Report", "All figures of the last update, as JSON"),
     _internal("App::PropertyString", "Fingerprint", "Of all that the mesh was made from", ""),
     _internal("App::PropertyInteger", "SchemaVersion", "Of this table", SCHEMA_VERSION),
 )
@@ -262,14 +263,7 @@ def ensure_properties(obj: App.DocumentObject) -> None:
         "Output": list(OUTPUTS),
         **CHOICES,
     }
-    for prop in PROPERTIES:
-        if prop.name in obj.PropertiesList:
-            continue
-        obj.addProperty(prop.type, prop.name, prop.group, prop.description, prop.flags)
-        if prop.name in choices:
-            setattr(obj, prop.name, choices[prop.name])
-        if prop.default is not None:
-            setattr(obj, prop.name, prop.default)
+    add_missing(obj, PROPERTIES, choices)
     for name, values in choices.items():  # a cell may have been added since the file was saved
         chosen = getattr(obj, name)
         if obj.getEnumerationsOfProperty(name) != values and chosen in values:
@@ -278,3 +272,17 @@ def ensure_properties(obj: App.DocumentObject) -> None:
     if obj.SchemaVersion != SCHEMA_VERSION:
         obj.SchemaVersion = SCHEMA_VERSION
     show_applicable(obj)
+
+
+def add_missing(
+    obj: App.DocumentObject, table: tuple[Property, ...], choices: dict[str, list[str]]
+) -> None:
+    """Add the properties of a table that `obj` lacks; `choices` are those of its enumerations."""
+    for prop in table:
+        if prop.name in obj.PropertiesList:
+            continue
+        obj.addProperty(prop.type, prop.name, prop.group, prop.description, prop.flags)
+        if prop.name in choices:
+            setattr(obj, prop.name, choices[prop.name])
+        if prop.default is not None:
+            setattr(obj, prop.name, prop.default)

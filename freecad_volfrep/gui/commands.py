@@ -131,7 +131,10 @@ class ExportCommand:
     def GetResources(self) -> dict[str, str]:  # noqa: N802
         """Icon and texts."""
         return _resources(
-            "export.svg", "Export Lattice", "Write the selected lattice infill to an STL file"
+            "export.svg",
+            "Export Lattice",
+            "Write the selected lattice infill for the printer: STL, 3MF with or without beams, "
+            "PLY or OBJ",
         )
 
     def IsActive(self) -> bool:  # noqa: N802
@@ -144,23 +147,28 @@ class ExportCommand:
         """Ask for the file's name and write it."""
         if not _packages_present():
             return
-        from freecad_volfrep.features.export import export_mesh
-        from volfrep.export import MESH_WRITERS
+        from freecad_volfrep.features.export import export_mesh, formats_of
 
         from .selection import selected_mesh
 
         obj = selected_mesh()
         folder = Path(obj.Document.FileName).parent if obj.Document.FileName else Path.home()
-        formats = ";;".join(f"{suffix[1:].upper()} (*{suffix})" for suffix in MESH_WRITERS)
+        formats = {form.filter: form for form in formats_of(obj)}
         path, chosen = QtWidgets.QFileDialog.getSaveFileName(
-            Gui.getMainWindow(), "Export Lattice", str(folder / f"{obj.Label}.stl"), formats
+            Gui.getMainWindow(),
+            "Export Lattice",
+            str(folder / f"{obj.Label}.stl"),
+            ";;".join(formats),
         )
         if not path:
             return
-        if not Path(path).suffix:
-            path += f".{chosen.split()[0].lower()}"
+        form = formats[chosen]
+        if Path(path).suffix.lower() != form.suffix and form.content != "mesh":
+            path = str(Path(path).with_suffix(form.suffix))
+        elif not Path(path).suffix:
+            path += form.suffix
         with errors_shown():
-            export_mesh(obj, path)
+            export_mesh(obj, path, form.content)
             App.Console.PrintMessage(f"VOLFREP: {path} written\n")
 
 
@@ -210,10 +218,48 @@ class ToSolidCommand:
         doc.recompute()
 
 
+class PrintCheckCommand:
+    """Hold the selected lattice infill against a printing process."""
+
+    def GetResources(self) -> dict[str, str]:  # noqa: N802
+        """Icon and texts."""
+        return _resources(
+            "print_check.svg",
+            "Print Check",
+            "See what hangs over, is too thin or holds powder when the selected lattice infill is "
+            "printed",
+        )
+
+    def IsActive(self) -> bool:  # noqa: N802
+        """Active when one lattice infill is selected."""
+        from .selection import selected_infill
+
+        return selected_infill() is not None
+
+    def Activated(self) -> None:  # noqa: N802
+        """Show the overhanging facets in red on the infill, in one undo step."""
+        if not _packages_present():
+            return
+        from freecad_volfrep.features.print_check import make_print_check
+
+        from .selection import selected_infill
+
+        infill = selected_infill()
+        doc = infill.Document
+        doc.openTransaction("Print Check")
+        check = make_print_check(doc, infill)
+        doc.recompute()
+        doc.commitTransaction()
+        if check.isValid():
+            Gui.Selection.clearSelection()
+            App.Console.PrintMessage(f"VOLFREP, {check.Label}:\n{check.Text}\n")
+
+
 #: In the order of the toolbar.
 COMMANDS = {
     "VOLFREP_LatticeInfill": LatticeInfillCommand,
     "VOLFREP_Update": UpdateCommand,
+    "VOLFREP_PrintCheck": PrintCheckCommand,
     "VOLFREP_Export": ExportCommand,
     "VOLFREP_ToSolid": ToSolidCommand,
 }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""How a lattice infill shows in the tree and what a double click on it does."""
+"""How our objects show in the tree and in the view."""
 
 from __future__ import annotations
 
@@ -9,6 +9,8 @@ from freecad_volfrep import ICONS
 
 #: Of a new infill, in percent: the lattice shows through the skin.
 TRANSPARENCY = 60
+#: Of facets that hang over: red, green, blue.
+OVERHANG = (0.85, 0.16, 0.12)
 
 
 class LatticeInfillView:
@@ -41,5 +43,27 @@ class LatticeInfillView:
     __setstate__ = loads
 
 
-# Saved files find the class under this name.
+class PrintCheckView:
+    """View provider of a print check: its icon, and its facets in red."""
+
+    def __init__(self, view: Any) -> None:
+        view.Proxy = self
+        view.ShapeColor = OVERHANG
+
+    def getIcon(self) -> str:  # noqa: N802
+        """Path of the tree's icon."""
+        return str(ICONS / "print_check.svg")
+
+    def dumps(self) -> None:
+        """Nothing to save."""
+
+    def loads(self, state: Any) -> None:
+        """Nothing to restore."""
+
+    __getstate__ = dumps  # FreeCAD 0.20
+    __setstate__ = loads
+
+
+# Saved files find the classes under these names.
+PrintCheckView.__module__ = "freecad_volfrep.gui.view_provider"
 LatticeInfillView.__module__ = "freecad_volfrep.gui.view_provider"

@@ -6,7 +6,14 @@ import samples
 from volfrep.errors import Cancelled, VolfrepError
 from volfrep.mesh import concatenate
 from volfrep.progress import Monitor
-from volfrep.voxels import CellGrid, active_cells, column_crossings, inside_grid, make_grid
+from volfrep.voxels import (
+    CellGrid,
+    active_cells,
+    column_crossings,
+    inside_grid,
+    inside_points,
+    make_grid,
+)
 
 
 def grid_at(low, size, shape):
@@ -158,3 +165,26 @@ def test_an_unknown_rule_is_refused():
     grid = make_grid(samples.box().bounds, 5.0)
     with pytest.raises(VolfrepError, match="choose touching or centre"):
         active_cells(grid, samples.box(), "some", Monitor())
+
+
+def test_scattered_points_inside():
+    plate = samples.plate()
+    points = np.random.default_rng(1).uniform((-5, -5, -5), (65, 45, 17), (20_000, 3))
+    near_a_wall = samples.inside_plate(points, -0.05) & ~samples.inside_plate(points, 0.05)
+    points = points[~near_a_wall]
+    np.testing.assert_array_equal(
+        inside_points(plate, points, Monitor()), samples.inside_plate(points)
+    )
+
+
+def test_scattered_points_above_vertices_and_edges():
+    bracket = samples.bracket(30.0)
+    axes = [np.linspace(low, high, 9) for low, high in bracket.bounds.T]
+    nodes = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
+    below = bracket.vertices - np.array([0.0, 0.0, 99.0])
+    nodes = np.concatenate([nodes, bracket.vertices, below])
+    expected = inside_grid(bracket, *axes, Monitor()).ravel()
+    found = inside_points(bracket, nodes, Monitor())
+    np.testing.assert_array_equal(found[: len(expected)], expected)
+    assert not found[-len(bracket.vertices) :].any()
+    assert not inside_points(bracket, np.zeros((0, 3)), Monitor()).any()

@@ -11,8 +11,10 @@ from conftest import SMALL
 from freecad_volfrep import export_mesh, make_lattice_infill, make_solid
 from freecad_volfrep.bridge.faceted import faceted_solid
 from freecad_volfrep.bridge.meshes import from_freecad, to_freecad
+from freecad_volfrep.features.export import formats_of
 from freecad_volfrep.features.faceted_solid import export_step, predict_solid
 from volfrep.errors import VolfrepError
+from volfrep.export import MESH_WRITERS
 from volfrep.mesh import TriangleMesh, concatenate
 
 
@@ -59,6 +61,82 @@ def test_export_lies_on_the_base_whatever_part_it_is_in(doc, infill, tmp_path):
     export_mesh(infill, tmp_path / "part.stl")
     box = Mesh.Mesh(str(tmp_path / "part.stl")).BoundBox
     assert (box.XMin, box.ZMin) == pytest.approx((7, 0), abs=1e-3)
+
+
+@pytest.mark.parametrize("suffix", ["ply", "obj"])
+def test_other_mesh_formats(infill, tmp_path, suffix):
+    path = tmp_path / f"part.{suffix}"
+    export_mesh(infill, path)
+    read = Mesh.Mesh(str(path))
+    assert read.CountFacets == infill.Triangles
+    assert read.isSolid()
+    assert read.Volume == pytest.approx(infill.Volume.Value, rel=1e-4)
+
+
+def read_3mf(path):
+    """Number of triangles, box and number of beams of each object, as lib3mf reads them."""
+    lib3mf = pytest.importorskip("lib3mf", reason="lib3mf is not installed")
+    model = lib3mf.get_wrapper().CreateModel()
+    model.QueryReader("3mf").ReadFromFile(str(path))
+    objects, meshes = {}, model.GetMeshObjects()
+    while meshes.MoveNext():
+        mesh = meshes.GetCurrentMeshObject()
+        box = mesh.GetOutbox()
+        bounds = (*box.MinCoordinate, *box.MaxCoordinate)
+        objects[mesh.GetName()] = (
+            mesh.GetTriangleCount(), bounds, mesh.BeamLattice().GetBeamCount()
+        )  # fmt: skip
+    return objects
+
+
+@pytest.mark.parametrize("content", ["mesh", "beams", "both"])
+def test_3mf_lies_where_the_mesh_does(doc, infill, tmp_path, content):
+    part = doc.addObject("App::Part", "Holder")
+    part.addObject(infill)
+    part.Placement.Base = App.Vector(0, 0, 100)
+    infill.Placement = App.Placement(App.Vector(7, 0, 0), App.Rotation(App.Vector(0, 0, 1), 90))
+    doc.recompute()
+    export_mesh(infill, tmp_path / "part.3mf", content)
+    found = read_3mf(tmp_path / "part.3mf")
+    whole = (-13, 0, 0, 7, 30, 20)  # the base stays where it is
+    names = {"mesh": {"part"}, "beams": {"clip", "skin", "lattice"}, "both": {"clip", "lattice"}}
+    assert found.keys() == names[content]
+    for name in found.keys() - {"lattice"}:
+        assert found[name][1] == pytest.approx(whole, abs=1e-3)
+    if content != "mesh":
+        triangles, bounds, beams = found["lattice"]
+        assert triangles == (infill.Triangles if content == "both" else 0)
+        assert beams == infill.Struts == 8 * 3 * 2 * 2
+        if content == "beams":
+            assert bounds == pytest.approx(whole, abs=1e-3)
+
+
+def test_what_cannot_be_exported_as_beams(doc, infill, tmp_path):
+    copy = doc.addObject("Mesh::Feature", "Copy")
+    copy.Mesh = infill.Mesh
+    with pytest.raises(VolfrepError, match="a mesh without beams"):
+        export_mesh(copy, tmp_path / "part.3mf", "both")
+    with pytest.raises(VolfrepError, match="only a 3MF file"):
+        export_mesh(infill, tmp_path / "part.stl", "beams")
+    with pytest.raises(VolfrepError, match="only a 3MF file"):
+        export_mesh(infill, tmp_path / "part.3mf", "struts")
+    infill.AutoUpdate = False
+    infill.StrutRadius = 1.1
+    doc.recompute()
+    with pytest.raises(VolfrepError, match="out of date: update it first"):
+        export_mesh(infill, tmp_path / "part.3mf", "beams")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_the_formats_on_offer(doc, box, infill):
+    copy = doc.addObject("Mesh::Feature", "Copy")
+    assert [form.filter for form in formats_of(copy)] == [
+        "STL (*.stl)", "3MF (*.3mf)", "PLY (*.ply)", "OBJ (*.obj)", "STEP, faceted (*.step)",
+    ]  # fmt: skip
+    offered = formats_of(infill)
+    assert {form.content for form in offered} == {"mesh", "beams", "both"}
+    assert {form.suffix for form in offered} == MESH_WRITERS.keys() - {".stp"}
+    assert len({form.filter for form in offered}) == len(offered)
 
 
 def test_export_refuses(doc, box, infill, tmp_path):
@@ -135,8 +213,13 @@ def test_no_solid_of_a_bad_mesh():
         faceted_solid(TriangleMesh(box.vertices, box.triangles[1:]))
     with pytest.raises(VolfrepError, match="no volume"):
         faceted_solid(box.reversed())
-    with pytest.raises(VolfrepError, match="separate bodies, and voids"):
-        faceted_solid(concatenate(box, cube(4).reversed(), cube(4, (20, 0, 0))))
+
+
+def test_voids_of_several_bodies():
+    hollow = concatenate(cube(10), cube(4).reversed())
+    shape = faceted_solid(concatenate(hollow, cube(4, (20, 0, 0))))
+    assert shape.isValid()
+    assert sorted(solid.Volume for solid in shape.Solids) == pytest.approx([64, 1000 - 64])
 
 
 def test_solid_of_something_without_a_mesh(doc, box):

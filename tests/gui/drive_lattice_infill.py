@@ -161,6 +161,7 @@ def drive():
 
     cancel_an_edit(doc, obj)
     cancel_a_creation(doc, box, fill)
+    check_the_print(doc, obj)
     make_a_solid(doc, obj)
     save_and_reopen(doc, obj)
 
@@ -236,6 +237,21 @@ def cancel_a_creation(doc, box, fill):
     doc.removeObject(big.Name)
 
 
+def check_the_print(doc, obj):
+    """Print Check shows in red, on the infill, what hangs over."""
+    select(obj)
+    click(toolbar_button("Print Check"))
+    wait_until(lambda: doc.getObject("PrintCheck") is not None, 30)
+    made = doc.getObject("PrintCheck")
+    check("it makes a print check", made is not None and made.isValid())
+    check("it shows facets", made.Mesh.CountFacets > 0 and made.ViewObject.isVisible())
+    check("in red", made.ViewObject.ShapeColor[0] > 2 * made.ViewObject.ShapeColor[1])
+    check("the infill stays to be seen", obj.ViewObject.isVisible())
+    check("it has figures", "thinnest strut" in made.Text)
+    picture("5_print_check")
+    doc.removeObject(made.Name)
+
+
 def make_a_solid(doc, obj):
     """Lattice To Solid asks, with figures, and makes a Part solid."""
     obj.Resolution = 5
@@ -248,7 +264,7 @@ def make_a_solid(doc, obj):
         box = QtGui.QApplication.activeModalWidget()
         if isinstance(box, QtGui.QMessageBox):
             asked.append(box.text())
-            subprocess.run(["import", "-window", "root", str(OUT / "5_to_solid.png")])
+            subprocess.run(["import", "-window", "root", str(OUT / "6_to_solid.png")])
             box.button(QtGui.QMessageBox.Yes).click()
 
     select(obj)
@@ -258,7 +274,7 @@ def make_a_solid(doc, obj):
     check("it shows the predicted size first", asked and "plane faces" in asked[0], asked)
     made = [o for o in doc.Objects if o.TypeId == "Part::Feature" and o.Name.endswith("Solid")]
     check("it makes a solid", len(made) == 1 and made[0].Shape.ShapeType == "Solid")
-    picture("6_solid")
+    picture("7_solid")
     for solid in made:
         doc.removeObject(solid.Name)
     obj.Visibility = True
@@ -277,7 +293,7 @@ def save_and_reopen(doc, obj):
     check("reopened without a recompute", found and found[0].State == ["Up-to-date"])
     view = found[0].ViewObject.Proxy if found else None
     check("reopened with its icon", view is not None and view.getIcon().endswith(".svg"))
-    picture("7_reopened")
+    picture("8_reopened")
 
 
 class UnexpectedMessages(QtCore.QObject):

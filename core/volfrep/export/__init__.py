@@ -10,12 +10,23 @@ from pathlib import Path
 from ..errors import VolfrepError
 from ..mesh import TriangleMesh
 from ..progress import Monitor
+from .obj import write_obj
+from .ply import write_ply
+from .step_faceted import write_step_faceted
 from .stl import write_stl
+from .threemf import write_3mf
 
 MeshWriter = Callable[[TriangleMesh, "str | os.PathLike[str]", "Monitor | None"], None]
 
 #: Writers by extension. A new format is one more line here.
-MESH_WRITERS: dict[str, MeshWriter] = {".stl": write_stl}
+MESH_WRITERS: dict[str, MeshWriter] = {
+    ".stl": write_stl,
+    ".3mf": write_3mf,
+    ".ply": write_ply,
+    ".obj": write_obj,
+    ".step": write_step_faceted,
+    ".stp": write_step_faceted,
+}
 
 
 def mesh_writer(path: str | os.PathLike[str]) -> MeshWriter:

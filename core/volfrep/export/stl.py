@@ -12,17 +12,16 @@ from itertools import islice
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import VolfrepError
 from ..mesh import TriangleMesh, compact
 from ..progress import Monitor
 from .files import replacing
+from .precision import refuse_lost_corners, single_precision
 
 HEADER_BYTES = 80
 #: One facet as it lies in the file.
 FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 #: Facets prepared at once by each thread (bounds the memory).
 BLOCK_FACETS = 1 << 16
-MAX_FACETS = 2**32 - 1
 
 
 def write_stl(
@@ -40,17 +39,8 @@ def write_stl(
             that lose a corner in float32; or the path cannot be written.
         Cancelled: when the monitor says so; no file is left behind.
     """
+    vertices = single_precision(mesh, path)
     count = len(mesh.triangles)
-    if not count:
-        raise VolfrepError(f"There is nothing to write to '{path}': the mesh is empty.")
-    if count > MAX_FACETS:
-        raise VolfrepError(f"Cannot write '{path}': STL holds at most {MAX_FACETS} triangles.")
-    if not np.abs(mesh.bounds).max() < np.finfo(np.float32).max:
-        raise VolfrepError(
-            f"Cannot write '{path}': the mesh holds coordinates that are not finite "
-            "single-precision numbers."
-        )
-    vertices = mesh.vertices.astype(np.float32)
     threads = os.cpu_count() or 1
     starts = iter(range(0, count, BLOCK_FACETS))
     with replacing(path) as file, ThreadPoolExecutor(max_workers=threads) as pool:
@@ -102,18 +92,7 @@ def _facets(
     normal = np.stack([e[i] * f[j] - e[j] * f[i] for i, j in ((1, 2), (2, 0), (0, 1))])
     length = np.sqrt((normal * normal).sum(axis=0))
     flat = np.flatnonzero(length == 0.0)
-    for k in _lost_corners(corners[flat]):
-        x, y, z = corners[flat[k], 0]
-        raise VolfrepError(
-            f"Cannot write '{path}': near ({x:g}, {y:g}, {z:g}) the mesh is finer than the "
-            "single precision of an STL file there; move the part nearer to the origin or use a "
-            "coarser resolution."
-        )
+    refuse_lost_corners(vertices, triangles[flat], path)
     length[flat] = 1.0
     facets["normal"] = (normal / length).T
     return facets
-
-
-def _lost_corners(corners: NDArray[np.float32]) -> Iterator[int]:
-    same = [(corners[:, a] == corners[:, b]).all(axis=1) for a, b in ((0, 1), (1, 2), (2, 0))]
-    yield from np.flatnonzero(np.any(same, axis=0)).tolist()

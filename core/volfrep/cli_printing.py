@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The command's options for the printer, and what it prints.
+
+numpy and the engine are imported inside the functions, as in `cli`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from .errors import VolfrepError
+
+if TYPE_CHECKING:
+    from .beam_lattice import BeamModel
+    from .mesh import TriangleMesh
+    from .pipeline import Result
+    from .printability import PrintReport
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """The options of the commands that make a lattice."""
+    add = parser.add_argument
+    add(
+        "--3mf",
+        dest="threemf",
+        choices=("mesh", "beams", "both"),
+        help="what a 3MF file holds: the part as triangles (default), its lattice as beams of the "
+        "beam lattice extension (small, and made without a mesh), or both",
+    )
+    add(
+        "--print-report",
+        metavar="PROCESS",
+        help="say how the part suits a printing process: FFF, SLA, SLS or LPBF",
+    )
+    add(
+        "--build-direction",
+        type=_direction,
+        default=(0.0, 0.0, 1.0),
+        metavar="X,Y,Z",
+        help="from the build plate up (default 0,0,1)",
+    )
+
+
+def check(options: argparse.Namespace, out: Path) -> None:
+    """Refuse options that do not go together, before any work.
+
+    Raises:
+        VolfrepError: naming them.
+    """
+    from .printability import find_process, unit_direction
+
+    if options.threemf is not None and out.suffix.lower() != ".3mf":
+        raise VolfrepError(f"'{out}' cannot hold what --3mf asks for: give it the extension .3mf.")
+    if options.threemf == "beams" and (options.report or options.print_report):
+        raise VolfrepError(
+            "A report is made of the mesh, which --3mf beams does without: use both."
+        )
+    if options.print_report is not None:
+        find_process(options.print_report)
+        unit_direction(options.build_direction)
+
+
+def report_of(
+    result: Result, options: argparse.Namespace, domain: TriangleMesh | None
+) -> PrintReport:
+    """The print report that the options ask for."""
+    from .printability import find_process, print_report
+
+    return print_report(
+        result.mesh,
+        result.wireframe,
+        find_process(options.print_report),
+        build_direction=options.build_direction,
+        density=result.report.spec["density"],
+        domain=domain,
+    )
+
+
+def finish_beams(model: BeamModel, options: argparse.Namespace, start: float) -> None:
+    """Write a lattice as beams; say what was made since `start` (of `time.perf_counter`)."""
+    from .export.threemf import write_3mf_beams
+
+    write_3mf_beams(model, options.out)
+    print_warnings(model.warnings)
+    if options.quiet:
+        return
+    lattice = model.lattice
+    print_rows(
+        ("file", f"{options.out}, {Path(options.out).stat().st_size / 1e6:.1f} MB"),
+        ("struts", f"{len(lattice.struts):,} between {len(lattice.nodes):,} nodes, as beams"),
+        ("time", f"{time.perf_counter() - start:.2f} s"),
+    )
+
+
+def print_rows(*rows: tuple[str, str]) -> None:
+    """Names and values in two columns."""
+    width = max(len(name) for name, _ in rows) + 2
+    for name, value in rows:
+        print(f"{name:<{width}}{value}")
+
+
+def print_warnings(warnings: Sequence[str]) -> None:
+    """A line each, on standard error."""
+    for warning in warnings:
+        print(f"volfrep: warning: {warning}", file=sys.stderr)
+
+
+def _direction(text: str) -> tuple[float, float, float]:
+    """Three numbers between commas."""
+    try:
+        x, y, z = (float(number) for number in text.split(","))
+    except ValueError as error:
+        message = f"'{text}' is not three numbers such as 0,0,1"
+        raise argparse.ArgumentTypeError(message) from error
+    return x, y, z

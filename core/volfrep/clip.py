@@ -1,0 +1,243 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The struts' axes cut where they leave the domain: what beams, not meshes, need of a trimming."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+
+from .crossings import boxes_in_bins
+from .errors import VolfrepError
+from .mesh import TriangleMesh
+from .ragged import spread
+from .trim import NUDGE
+from .wireframe import Wireframe
+
+if TYPE_CHECKING:
+    from .pipeline import StageCache
+    from .progress import ProgressCallback
+    from .spec import LatticeSpec
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+Bools = NDArray[np.bool_]
+
+#: Pairs of a segment and a triangle that one vectorised step takes at a time.
+PAIRS_PER_STEP = 1_000_000
+#: Bins along the longest side of the box of all segments and triangles.
+MOST_BINS = 64
+#: Pieces shorter than this, in units of their radius, are dropped: no beam is that short.
+SHORTEST_PIECE = 0.5
+#: The direction of the line that tells whether a point is inside: along nothing that parts are.
+_LINE = np.array([0.123, 0.456, 0.881])
+
+
+@dataclass(frozen=True, eq=False)
+class Clipped:
+    """A wireframe inside a domain.
+
+    Attributes:
+        wireframe: nodes and struts inside; a cut strut ends in a node of its own on the wall.
+        on_wall: (n,) bool, nodes of the wireframe at which the wall holds the lattice.
+    """
+
+    wireframe: Wireframe
+    on_wall: Bools
+
+
+def clipped_infill(
+    solid: TriangleMesh,
+    spec: LatticeSpec,
+    *,
+    progress: ProgressCallback | None = None,
+    cache: StageCache | None = None,
+) -> Clipped:
+    """The axes of the struts that `volfrep.fill` would put into a solid, cut at its inner wall.
+
+    No lattice is meshed. The wireframe lies where the mesh's struts lie (`trim.NUDGE`).
+
+    Args:
+        solid: checked closed mesh, mm.
+        spec: what the solid is filled with; its output does not count.
+        progress: called with the fraction done and the stage; returning False cancels.
+        cache: keeps the stages' results between runs.
+
+    Raises:
+        VolfrepError: the specification does not fit the solid, or no strut lies inside.
+        Cancelled: the callback said so.
+    """
+    from .pipeline import fill
+
+    result = fill(solid, replace(spec, output="domain"), progress=progress, cache=cache)
+    nudged = result.wireframe.nodes + NUDGE * spec.cell_size
+    clipped = clip(replace(result.wireframe, nodes=nudged), result.mesh)
+    if not len(clipped.wireframe.struts):
+        raise VolfrepError(
+            "No strut's axis lies inside the part: reduce the cell size or move the origin."
+        )
+    return clipped
+
+
+def clip(wireframe: Wireframe, domain: TriangleMesh) -> Clipped:
+    """Keep what of the struts' axes lies inside a closed mesh.
+
+    Pieces shorter than half their radius are dropped; a node that loses such a piece to the
+    wall counts as on it.
+
+    Args:
+        wireframe: mm.
+        domain: closed and outward oriented, mm; no strut may run along its surface.
+    """
+    start, end = wireframe.nodes[wireframe.struts].swapaxes(0, 1)
+    strut, place, step = segment_crossings(domain, start, end)
+    inside = _inside(wireframe, domain, strut, place, step)
+    # Every strut becomes pieces between its ends and its crossings, by turns inside and outside.
+    count = np.bincount(strut, minlength=len(start))
+    owner, piece = spread(count + 1)
+    first = np.concatenate([[0], np.cumsum(count)])[owner]
+    padded = np.concatenate([place, [np.nan]])
+    low = np.where(piece == 0, 0.0, padded[np.minimum(first + piece - 1, len(place))])
+    high = np.where(piece == count[owner], 1.0, padded[np.minimum(first + piece, len(place))])
+    within = inside[wireframe.struts[owner, 0]] ^ (piece % 2 == 1)
+    radius = _between(wireframe.radii[owner], 0.5 * (low + high))
+    length = np.linalg.norm(end - start, axis=1)[owner] * (high - low)
+    whole = (low == 0.0) & (high == 1.0)
+    kept = within & (whole | (length > SHORTEST_PIECE * radius))
+    lost = within & ~kept
+
+    on_wall = np.zeros(len(wireframe.nodes), bool)
+    for side, at_end in ((0, low == 0.0), (1, high == 1.0)):
+        on_wall[wireframe.struts[owner[lost & at_end], side]] = True
+    return _assemble(wireframe, on_wall, owner[kept], low[kept], high[kept])
+
+
+def _assemble(
+    wireframe: Wireframe, on_wall: Bools, owner: Ints, low: Floats, high: Floats
+) -> Clipped:
+    """A wireframe of the pieces `low` to `high` of the struts `owner`."""
+    struts = wireframe.struts[owner].astype(np.int64)
+    radii = wireframe.radii[owner]
+    ends = wireframe.nodes[struts]
+    count = len(wireframe.nodes)
+    nodes, joints = [wireframe.nodes], [wireframe.joint_radii]
+    new_radii = np.stack([_between(radii, low), _between(radii, high)], axis=1)
+    for side, place, cut in ((0, low, low > 0.0), (1, high, high < 1.0)):
+        share = place[cut, None]
+        nodes.append((1.0 - share) * ends[cut, 0] + share * ends[cut, 1])
+        joints.append(new_radii[cut, side])
+        struts[cut, side] = count + np.arange(np.count_nonzero(cut))
+        count += np.count_nonzero(cut)
+    walls = np.concatenate([on_wall, np.ones(count - len(on_wall), bool)])
+    used, index = np.unique(struts, return_inverse=True)
+    clipped = Wireframe(
+        np.concatenate(nodes)[used],
+        index.reshape(-1, 2).astype(np.int32),
+        new_radii,
+        np.concatenate(joints)[used],
+    )
+    return Clipped(clipped, walls[used])
+
+
+def _between(ends: Floats, share: Floats) -> Floats:
+    """The value at that share of the way from the first to the second column."""
+    value: Floats = ends[:, 0] + share * (ends[:, 1] - ends[:, 0])
+    return value
+
+
+def _inside(
+    wireframe: Wireframe, domain: TriangleMesh, strut: Ints, place: Floats, step: Ints
+) -> Bools:
+    """(n,) whether each node lies inside, told by the crossings of its struts.
+
+    A strut that crosses nothing has both its nodes on one side, so that whole clusters of nodes
+    share one answer; only clusters without any crossing are asked for by a line to the outside.
+    """
+    count = len(wireframe.nodes)
+    crossed = np.bincount(strut, minlength=len(wireframe.struts))
+    a, b = wireframe.struts[crossed == 0].T
+    links = coo_matrix((np.ones(len(a), bool), (a, b)), shape=(count, count))
+    clusters, cluster = connected_components(links, directed=False)
+    # The first crossing tells about the strut's start, the last one about its end.
+    votes = np.zeros(clusters)
+    first = np.flatnonzero(np.diff(strut, prepend=-1))
+    last = np.flatnonzero(np.diff(strut, append=len(crossed)))
+    np.add.at(votes, cluster[wireframe.struts[strut[first], 0]], step[first])
+    np.add.at(votes, cluster[wireframe.struts[strut[last], 1]], -step[last])
+    silent = np.flatnonzero(votes == 0)
+    if len(silent):
+        sample = wireframe.nodes[np.unique(cluster, return_index=True)[1][silent]]
+        away = 2.0 * np.linalg.norm(np.ptp(np.vstack([domain.bounds, sample]), axis=0))
+        ray, _, way = segment_crossings(domain, sample, sample + away * _LINE)
+        votes[silent] = np.bincount(ray, way, len(silent))
+    result: Bools = votes[cluster] > 0.5
+    return result
+
+
+def segment_crossings(mesh: TriangleMesh, start: Floats, end: Floats) -> tuple[Ints, Floats, Ints]:
+    """Where (n, 3) segments pass through a closed mesh, in order along each.
+
+    Returns:
+        (k,) the segment; (k,) the place on it, above 0 and below 1; (k,) +1 where it leaves the
+        mesh, -1 where it enters. A line through an edge crosses one of its two triangles.
+    """
+    corners = mesh.vertices[mesh.triangles]
+    boxes = corners.min(axis=1), corners.max(axis=1)
+    low, high = np.minimum(start, end), np.maximum(start, end)
+    origin = np.minimum(boxes[0].min(axis=0), low.min(axis=0))
+    extent = float(np.ptp(np.vstack([*boxes, low, high]), axis=0).max())
+    size = max(float((high - low).max()) / 4.0, extent / MOST_BINS)
+    segment, segment_bin = boxes_in_bins(low, high, origin, size)
+    triangle, triangle_bin = boxes_in_bins(*boxes, origin, size)
+    order = np.argsort(triangle_bin, kind="stable")
+    triangle, triangle_bin = triangle[order], triangle_bin[order]
+    first = np.searchsorted(triangle_bin, segment_bin)
+    count = np.searchsorted(triangle_bin, segment_bin, "right") - first
+    total = np.concatenate([[0], np.cumsum(count)])
+    found = [(np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros(0), np.zeros(0, np.int64))]
+    begin = 0
+    while begin < len(count):
+        stop = max(
+            int(np.searchsorted(total, total[begin] + PAIRS_PER_STEP, "right")) - 1, begin + 1
+        )
+        row, place = spread(count[begin:stop])
+        a, b = segment[begin + row], triangle[first[begin + row] + place]
+        touching = (low[a] <= boxes[1][b]).all(axis=1) & (high[a] >= boxes[0][b]).all(axis=1)
+        a, b = a[touching], b[touching]
+        hit, share, way = _cross(mesh, start[a], end[a], b)
+        found.append((a[hit], b[hit], share, way))
+        begin = stop
+    a, b, share, way = (np.concatenate(column) for column in zip(*found, strict=True))
+    # A pair may have met in several bins.
+    _, once = np.unique(a * len(corners) + b, return_index=True)
+    once = once[np.lexsort((share[once], a[once]))]
+    return a[once], share[once], way[once]
+
+
+def _cross(
+    mesh: TriangleMesh, start: Floats, end: Floats, triangle: Ints
+) -> tuple[Ints, Floats, Ints]:
+    """Which segments run through their triangle, where, and which way."""
+    along = end - start
+    corner = mesh.triangles[triangle]
+    left = np.empty((3, len(triangle)), bool)
+    for k in range(3):
+        one, two = corner[:, k], corner[:, (k + 1) % 3]
+        # From the lesser index, so that the two triangles of an edge agree on its sides.
+        turned = one > two
+        low, high = np.where(turned, two, one), np.where(turned, one, two)
+        p, q = mesh.vertices[low] - start, mesh.vertices[high] - start
+        left[k] = (np.einsum("ij,ij->i", along, np.cross(p, q)) >= 0.0) ^ turned
+    hit = np.flatnonzero(left.all(axis=0) | ~left.any(axis=0))
+    a, b, c = (mesh.vertices[corner[hit, k]] for k in range(3))
+    normal = np.cross(b - a, c - a)
+    speed = np.einsum("ij,ij->i", normal, along[hit])
+    height = np.einsum("ij,ij->i", normal, a - start[hit])
+    share = np.divide(height, speed, out=np.full(len(hit), -1.0), where=speed != 0.0)
+    between = (share > 0.0) & (share < 1.0)
+    way = np.where(speed > 0.0, 1, -1)
+    return hit[between], share[between], way[between]

@@ -1,0 +1,189 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A lattice infill held against a printing process: the facets that hang over, and figures."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import FreeCAD as App
+
+from freecad_volfrep.engine import require_engine
+from volfrep.errors import VolfrepError
+
+from .lattice_infill import LatticeInfill
+from .progress import progress_of
+from .properties import Property, add_missing, result
+
+if TYPE_CHECKING:
+    from volfrep.printability import PrintReport
+
+PROPERTIES = (
+    Property("App::PropertyLink", "Infill", "Print", "The lattice infill to look at"),
+    Property("App::PropertyEnumeration", "Process", "Print", "How it will be printed", "FFF"),
+    Property(
+        "App::PropertyVector",
+        "BuildDirection",
+        "Print",
+        "From the build plate up, in the document's coordinates",
+        App.Vector(0, 0, 1),
+    ),
+    result("App::PropertyStringList", "Findings", "What does not suit the process"),
+    result("App::PropertyString", "Limits", "Of the process, and their source"),
+    result("App::PropertyFloat", "ThinnestStrut", "Smallest diameter of a strut, mm"),
+    result("App::PropertyString", "NarrowestGap", "Between struts that do not meet, mm"),
+    result("App::PropertyPercent", "OverhangShare", "Of the struts' length, too flat"),
+    result("App::PropertyLength", "LongestOverhang", "Length of the longest strut of these"),
+    result("App::PropertyArea", "OverhangArea", "Of the facets that hang over: this object's mesh"),
+    result("App::PropertyInteger", "Voids", "Closed cavities"),
+    result("App::PropertyVolume", "VoidVolume", "Their volume"),
+    result("App::PropertyArea", "SurfaceArea", "Of the part"),
+    result("App::PropertyFloat", "Mass", "Of the part, g"),
+    result("App::PropertyString", "Text", "All figures, for people"),
+    result("App::PropertyString", "Report", "All figures, as JSON"),
+)
+
+
+class PrintCheck:
+    """Proxy of a ``Mesh::FeaturePython`` that shows how a lattice infill suits a process.
+
+    Its mesh is what of the infill's hangs over: red on the infill, which is translucent.
+    """
+
+    def __init__(self, obj: App.DocumentObject) -> None:
+        obj.Proxy = self
+        self._ensure_properties(obj)
+
+    def execute(self, obj: App.DocumentObject) -> None:
+        """Bring mesh and figures up to date; called by FreeCAD's recompute.
+
+        Raises:
+            VolfrepError: one sentence; the object turns Invalid.
+        """
+        from volfrep.errors import Cancelled
+
+        try:
+            self._run(obj)
+        except VolfrepError as error:
+            App.Console.PrintError(f"VOLFREP, {obj.Label}: {error}\n")
+            raise
+        except Cancelled as error:
+            raise VolfrepError("Cancelled: recompute to try again.") from error
+
+    def onDocumentRestored(self, obj: App.DocumentObject) -> None:  # noqa: N802
+        """Bring an object of an older file up to the present table of properties."""
+        self._ensure_properties(obj)
+
+    def dumps(self) -> None:
+        """Nothing to save beside the properties."""
+
+    def loads(self, state: Any) -> None:
+        """Nothing to restore."""
+
+    __getstate__ = dumps  # FreeCAD 0.20
+    __setstate__ = loads
+
+    def _ensure_properties(self, obj: App.DocumentObject) -> None:
+        from volfrep.printability import PROCESSES
+
+        add_missing(obj, PROPERTIES, {"Process": list(PROCESSES)})
+
+    def _run(self, obj: App.DocumentObject) -> None:
+        infill = obj.Infill
+        if infill is None or not isinstance(getattr(infill, "Proxy", None), LatticeInfill):
+            raise VolfrepError("There is nothing to look at: choose a lattice infill as Infill.")
+        require_engine()
+        from freecad_volfrep.bridge.beams import place_in_document, placed_lattice
+        from freecad_volfrep.bridge.meshes import to_freecad
+        from freecad_volfrep.bridge.solids import mesh_in_document, placed
+        from volfrep.mesh import TriangleMesh, compact
+        from volfrep.pipeline import fill
+        from volfrep.printability import (
+            find_process,
+            overhanging_facets,
+            print_report,
+            unit_direction,
+        )
+
+        solid, spec, cache = infill.Proxy.inputs(infill)
+        if spec.output == "domain":
+            raise VolfrepError(f"'{infill.Label}' holds no lattice: set its Output to part.")
+        with progress_of(f"Print check of {infill.Label}") as progress:
+            filled = fill(solid, replace(spec, output="domain"), progress=progress, cache=cache)
+        place = place_in_document(infill)
+        mesh = mesh_in_document(infill)
+        process = find_process(obj.Process)
+        direction = tuple(obj.BuildDirection)
+        report = print_report(
+            mesh,
+            placed_lattice(filled.wireframe, place),
+            process,
+            build_direction=direction,
+            density=spec.density,
+            domain=placed(filled.mesh, place),
+        )
+        hanging = overhanging_facets(mesh, unit_direction(direction), process.inclination)
+        obj.Mesh = to_freecad(compact(TriangleMesh(mesh.vertices, mesh.triangles[hanging])))
+        _write_results(obj, report)
+
+
+# Saved files find the class under this name.
+PrintCheck.__module__ = "freecad_volfrep.features"
+
+
+def make_print_check(
+    doc: App.Document,
+    infill: App.DocumentObject,
+    process: str = "FFF",
+    build_direction: tuple[float, float, float] = (0.0, 0.0, 1.0),
+) -> App.DocumentObject:
+    """Add a print check of a lattice infill; ``doc.recompute()`` then computes it.
+
+    Args:
+        doc: the document that holds the infill.
+        infill: a lattice infill.
+        process: FFF, SLA, SLS or LPBF.
+        build_direction: from the build plate up, in the document's coordinates.
+
+    Raises:
+        VolfrepError: there is no such process, or that is no lattice infill; nothing is added.
+    """
+    from volfrep.printability import find_process, unit_direction
+
+    if not isinstance(getattr(infill, "Proxy", None), LatticeInfill):
+        raise VolfrepError(f"'{infill.Label}' is not a lattice infill: choose one.")
+    name = find_process(process).name
+    unit_direction(build_direction)
+    obj = doc.addObject("Mesh::FeaturePython", "PrintCheck")
+    PrintCheck(obj)
+    obj.Infill = infill
+    obj.Label = f"{infill.Label} print check"
+    obj.Process = name
+    obj.BuildDirection = App.Vector(*build_direction)
+    if App.GuiUp:
+        from freecad_volfrep.gui.view_provider import PrintCheckView
+
+        PrintCheckView(obj.ViewObject)
+    return obj
+
+
+def _write_results(obj: App.DocumentObject, report: PrintReport) -> None:
+    rows = dict(report.rows())
+    obj.Findings = list(report.findings)
+    obj.Limits = (
+        f"strut {report.process.strut:g} mm, gap {report.process.gap:g} mm, inclination "
+        f"{report.process.inclination:g} degrees ({report.process.source})"
+    )
+    obj.ThinnestStrut = report.thinnest_strut_mm or 0.0
+    obj.NarrowestGap = rows["narrowest gap"]
+    obj.OverhangShare = round(100 * report.overhanging_share)
+    obj.LongestOverhang = report.longest_overhang_mm
+    obj.OverhangArea = report.overhang_area_mm2
+    obj.Voids = report.voids
+    obj.VoidVolume = report.void_volume_mm3
+    obj.SurfaceArea = report.area_mm2
+    obj.Mass = report.mass_g
+    obj.Text = report.to_text()
+    obj.Report = report.to_json()
+    for sentence in report.findings:
+        App.Console.PrintWarning(f"VOLFREP, {obj.Label}: {sentence}\n")

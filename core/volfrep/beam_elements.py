@@ -2,8 +2,7 @@
 """A lattice as beams for a finite-element solver: fast where solid elements are out of reach.
 
 Bare beams from node to node are far too soft, because struts of ordinary thickness overlap at
-their joints. So the ends of each strut are stiff over a part of its radius. docs/solver.md
-compares the result with solid elements.
+their joints. So the ends of each strut are stiff over a part of its radius.
 """
 
 from __future__ import annotations
@@ -22,7 +21,7 @@ Ints = NDArray[np.int64]
 Bools = NDArray[np.bool_]
 
 #: Length of a strut's stiff ends in units of its radius. With it the displacements of all six
-#: cells come nearest to those of solid elements (docs/solver.md).
+#: cells come nearest to those of solid elements.
 JOINT_LENGTH = 0.8
 #: ... but never more than this part of a strut.
 LONGEST_JOINT = 0.4

@@ -18,7 +18,8 @@ from numpy.typing import NDArray
 from . import frep
 from .cells import UnitCell
 from .frep import Floats, Ints
-from .octant import NEIGHBOURS, OctantKey, cell_copies
+from .incidence import cells_of_nodes
+from .octant import NEIGHBOURS, OctantKey, octant_graph
 from .tile import Octant, TileSpec
 
 #: A vertex belongs to a joint sphere where that lies farther out than every strut by this, in r.
@@ -76,10 +77,10 @@ class Anchors:
 
 def anchor(cell: UnitCell, spec: TileSpec, key: OctantKey, octant: Octant) -> Anchors:
     """Anchor the vertices of an octant that `tile.mesh_octants` made."""
-    active = [k for k in range(8) if key.pattern >> k & 1]
     size, radius = spec.cell_size, spec.strut_radius
     joint = frep.joint_radius(radius, size)
-    places, ends, copies = _numbered(cell, key, active)
+    places, ends = octant_graph(cell, key)
+    copies = cells_of_nodes(cell, key, places)
     nodes = places * size
     points = octant.vertices
     count = len(points)
@@ -149,22 +150,6 @@ def anchor(cell: UnitCell, spec: TileSpec, key: OctantKey, octant: Octant) -> An
         off / radius,
         level,
     )
-
-
-def _numbered(cell: UnitCell, key: OctantKey, active: list[int]) -> tuple[Floats, Ints, Ints]:
-    """Nodes of the active cells about a corner, struts between them, and a cell of each node."""
-    places, ends = cell_copies(cell, NEIGHBOURS[active], key.mirror)
-    # A node is of the first of the cells that hold it.
-    inside = (places[:, None] >= NEIGHBOURS[active] - 1e-9) & (
-        places[:, None] <= NEIGHBOURS[active] + 1.0 + 1e-9
-    )
-    candidates = inside.all(axis=2)
-    local = places[:, None] - NEIGHBOURS[active]
-    reflect = np.array([key.mirror >> axis & 1 for axis in range(3)], bool)
-    own = np.where(reflect, 1.0 - cell.nodes, cell.nodes)
-    gap = np.abs(local[:, :, None] - own).max(axis=3).min(axis=2)
-    candidates &= gap < 1e-6
-    return places, ends, np.asarray(active)[candidates.argmax(axis=1)]
 
 
 def _nearest(points: Floats, primitives: frep.Primitives) -> tuple[Floats, Ints]:

@@ -62,6 +62,8 @@ def beam_model(
             "The output 'domain' holds no lattice to write as beams: choose part or lattice."
         )
     filled = fill(solid, replace(spec, output="domain"), progress=progress, cache=cache)
+    if not spec.is_cut:
+        return BeamModel(filled.wireframe, warnings=filled.report.warnings + _warnings(spec))
     domain = filled.mesh
     clip = domain if spec.output == "lattice" else solid
     with_skin = spec.output == "part" and spec.shell > 0

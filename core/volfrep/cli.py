@@ -19,7 +19,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
-from . import cli_printing
+from . import cli_domain, cli_printing
 from .cli_grading import add_grading_options, gradings
 from .cli_printing import print_rows, print_warnings
 from .errors import VolfrepError
@@ -124,11 +124,7 @@ def _parser() -> argparse.ArgumentParser:
     fill.add_argument(
         "--shell", type=float, required=True, metavar="MM", help="thickness of the skin, 0 for none"
     )
-    fill.add_argument(
-        "--activation",
-        metavar="RULE",
-        help="cells to fill: 'touching' the domain (default) or with their 'centre' inside it",
-    )
+    cli_domain.add_options(fill)
     fill.add_argument(
         "--output",
         metavar="WHAT",
@@ -177,7 +173,7 @@ def _add_lattice_options(parser: argparse.ArgumentParser) -> None:
 def _fill(options: argparse.Namespace) -> None:
     part = Path(options.part)
     _check_targets(options, part)
-    spec = _spec(options, "shell", "activation", "output", "origin")
+    spec = _spec(options, "shell", "output", "origin", *cli_domain.FIELDS)
 
     from .beam_lattice import beam_model
     from .pipeline import StageCache, fill
@@ -294,6 +290,7 @@ def _finish(
         ("volume", f"{report.volume_mm3:,.1f} mm3"),
         ("relative density", f"{100 * report.relative_density:.2f} %"),
         ("mass", f"{report.mass_g:,.2f} g"),
+        *cli_domain.rows(report),
         ("time", f"{sum(report.stages.values()):.2f} s, {report.peak_memory_mb:,.0f} MB of memory"),
         *(printing.rows() if printing is not None else ()),
     )

@@ -74,6 +74,8 @@ def clipped_infill(
     from .pipeline import fill
 
     result = fill(solid, replace(spec, output="domain"), progress=progress, cache=cache)
+    if spec.boundary == "whole" and spec.shell == 0:
+        return Clipped(result.wireframe, np.zeros(len(result.wireframe.nodes), bool))
     nudged = result.wireframe.nodes + NUDGE * spec.cell_size
     clipped = clip(replace(result.wireframe, nodes=nudged), result.mesh)
     if not len(clipped.wireframe.struts):
@@ -93,6 +95,41 @@ def clip(wireframe: Wireframe, domain: TriangleMesh) -> Clipped:
         wireframe: mm.
         domain: closed and outward oriented, mm; no strut may run along its surface.
     """
+    inside = pieces_inside(wireframe, domain)
+    owner, low, high = inside.owner, inside.low, inside.high
+    radius = _between(wireframe.radii[owner], 0.5 * (low + high))
+    whole = (low == 0.0) & (high == 1.0)
+    kept = whole | (inside.lengths(wireframe) > SHORTEST_PIECE * radius)
+
+    on_wall = np.zeros(len(wireframe.nodes), bool)
+    for side, at_end in ((0, low == 0.0), (1, high == 1.0)):
+        on_wall[wireframe.struts[owner[~kept & at_end], side]] = True
+    return _assemble(wireframe, on_wall, owner[kept], low[kept], high[kept])
+
+
+@dataclass(frozen=True, eq=False)
+class Pieces:
+    """What of the struts' axes lies inside a domain, in the order of the struts and along them.
+
+    Attributes:
+        owner: (p,) the strut.
+        low: (p,) where the piece begins, as a share of the strut's length; 0 at its first node.
+        high: (p,) where it ends; 1 at the strut's second node.
+    """
+
+    owner: Ints
+    low: Floats
+    high: Floats
+
+    def lengths(self, wireframe: Wireframe) -> Floats:
+        """(p,) in mm."""
+        ends = wireframe.nodes[wireframe.struts]
+        length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+        return np.asarray(length[self.owner] * (self.high - self.low))
+
+
+def pieces_inside(wireframe: Wireframe, domain: TriangleMesh) -> Pieces:
+    """The pieces of the struts' axes inside a closed mesh, however short."""
     start, end = wireframe.nodes[wireframe.struts].swapaxes(0, 1)
     strut, place, step = segment_crossings(domain, start, end)
     inside = _inside(wireframe, domain, strut, place, step)
@@ -104,16 +141,7 @@ def clip(wireframe: Wireframe, domain: TriangleMesh) -> Clipped:
     low = np.where(piece == 0, 0.0, padded[np.minimum(first + piece - 1, len(place))])
     high = np.where(piece == count[owner], 1.0, padded[np.minimum(first + piece, len(place))])
     within = inside[wireframe.struts[owner, 0]] ^ (piece % 2 == 1)
-    radius = _between(wireframe.radii[owner], 0.5 * (low + high))
-    length = np.linalg.norm(end - start, axis=1)[owner] * (high - low)
-    whole = (low == 0.0) & (high == 1.0)
-    kept = within & (whole | (length > SHORTEST_PIECE * radius))
-    lost = within & ~kept
-
-    on_wall = np.zeros(len(wireframe.nodes), bool)
-    for side, at_end in ((0, low == 0.0), (1, high == 1.0)):
-        on_wall[wireframe.struts[owner[lost & at_end], side]] = True
-    return _assemble(wireframe, on_wall, owner[kept], low[kept], high[kept])
+    return Pieces(owner[within], low[within], high[within])
 
 
 def _assemble(

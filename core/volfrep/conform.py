@@ -23,15 +23,15 @@ from .anchors import (
     counter_clockwise,
     crease,
 )
-from .cells import NODE_TOLERANCE, UnitCell
+from .cells import UnitCell
 from .errors import VolfrepError
 from .frep import Field, Floats, Ints, join, spheres, struts
+from .incidence import NodeLookup
 from .joints import Joints, shortest
 from .lattice import Layout, frames, numbers
 from .mapping import LatticeMap
-from .octant import NEIGHBOURS, OctantKey
+from .octant import OctantKey
 from .progress import Monitor
-from .wireframe import CellGraph
 
 Bools = NDArray[np.bool_]
 
@@ -97,14 +97,14 @@ def conform(
             continue
         octant, own = layout.octants[key], anchors[key]
         size = max(1, CHUNK_VERTICES // len(own.kind))
-        lookup = _node_lookup(cell, own, key)
+        lookup = NodeLookup.of(cell, key, own.copy, own.place)
         is_corner = own.kind == SPACE
         on_face = octant.places != 1
         for begin in range(0, len(place), size):
             part = place[begin : begin + size]
             corner, sign = frames(part)
             base = corner * grid.cell_size + grid.origin
-            rows = _nodes_of(own, lookup, nodes.graph, part, sign, grid.periodic)
+            rows = lookup.rows(nodes.graph, part, grid.periodic)
             found = _place(own, rows, sign, nodes, monitor)
             if rounding is not None:
                 found = rounding.project(found, own, rows)
@@ -126,41 +126,6 @@ def conform(
             done += len(part)
             monitor.tick(done / total)
     return Conformed(vertices if in_part else chart.to_part(vertices), excess)
-
-
-def _node_lookup(cell: UnitCell, own: Anchors, key: OctantKey) -> Ints:
-    """(8, k) index in the unit cell of each anchor node, by how the octant's frame is reflected."""
-    steps = round(1.0 / NODE_TOLERANCE)
-    names = {tuple(n): i for i, n in enumerate(np.round(cell.nodes * steps).astype(int).tolist())}
-    result = np.zeros((8, len(own.copy)), np.int64)
-    for mirror in range(8):
-        if not cell.is_mirror_symmetric and mirror != key.mirror:
-            continue
-        reflect = np.array([mirror >> axis & 1 for axis in range(3)], bool)
-        local = np.where(reflect, 1.0 - own.place, own.place)
-        result[mirror] = [names[tuple(n)] for n in np.round(local * steps).astype(int).tolist()]
-    return result
-
-
-def _nodes_of(
-    own: Anchors,
-    lookup: Ints,
-    graph: CellGraph,
-    place: Ints,
-    sign: Ints,
-    periodic: tuple[bool, bool, bool],
-) -> Ints:
-    """(p, k) the nodes of the whole that octants at some places are anchored to."""
-    cells = (place - 1) // 2 + graph.first
-    cells = cells[:, None, :] + sign[:, None, :] * NEIGHBOURS[own.copy]
-    for axis in np.flatnonzero(periodic):
-        cells[:, :, axis] %= graph.row.shape[axis]
-    row = graph.row[tuple(np.moveaxis(cells, -1, 0))]
-    mirror = ((sign < 0) * np.array([1, 2, 4])).sum(axis=1)
-    if (row < 0).any():
-        raise RuntimeError("an octant hangs on a cell that is not in the graph")
-    result: Ints = graph.node_of[row, lookup[mirror]].astype(np.int64)
-    return result
 
 
 def _place(own: Anchors, rows: Ints, sign: Ints, nodes: Joints, monitor: Monitor) -> Floats:

@@ -248,14 +248,10 @@ class Ground:
     def _inner(self, per_cell: int) -> tuple[slice, ...]:
         return tuple(slice(per_cell * n, -per_cell * n or None) for n in self.first)
 
-    def octants(self, cell: UnitCell, active: Bools, activation: str) -> OctantGrid:
-        """The octants of the active cells.
-
-        Where every cell that touches the domain is active, those of a lattice without end: what
-        lies outside is cut off anyway.
-        """
+    def octants(self, cell: UnitCell, active: Bools, endless: bool) -> OctantGrid:
+        """The octants of the active cells; or of all, as of a lattice without end."""
         cells, size = self.cells, self.cells.cell_size
-        if activation == "centre":
+        if not endless:
             return octant_grid(cell, active, size, cells.origin, cells.periodic)
         if self.usable is not None:
             # The grid that reaches beyond, without the octants beyond.
@@ -271,17 +267,17 @@ class Ground:
         symmetric = cell.is_mirror_symmetric
         return OctantGrid(keys, kind, cells.origin, size, symmetric, cells.periodic)
 
-    def graph(self, cell: UnitCell, active: Bools, activation: str) -> CellGraph:
+    def graph(self, cell: UnitCell, active: Bools, endless: bool) -> CellGraph:
         """The graph of all the cells whose struts the octants of the active ones hang on."""
         around = [(n, n) if n else (SUPPORT, SUPPORT) for n in self.first]
         wide = active
         for axis, width in enumerate(around):
             pad = [width if k == axis else (0, 0) for k in range(3)]
             wide = np.pad(wide, pad, mode="constant" if self.first[axis] else "wrap")
-        if activation != "centre":
+        if endless:
             wide = ndimage.binary_dilation(wide, np.ones((3, 3, 3), bool), SUPPORT)
         wide = wide[tuple(slice(None) if n else slice(SUPPORT, -SUPPORT) for n in self.first)]
-        if activation != "centre" and self.usable is not None:
+        if endless and self.usable is not None:
             wide &= self.usable
         origin = self.cells.origin - self.cells.cell_size * np.array(self.first)
         return cell_graph(cell, wide, self.cells.cell_size, origin, self.cells.periodic, self.first)

@@ -44,10 +44,17 @@ class OctantKey:
         mirror: bit per axis along which the octant's frame runs against the grid (0 for a cell
             that is its own mirror image: the frames then need no telling apart).
         pattern: bit per active cell of `NEIGHBOURS`.
+        missing: bit per strut of these cells (as `cell_copies` numbers them) that was taken away.
     """
 
     mirror: int
     pattern: int
+    missing: int = 0
+
+    @property
+    def active(self) -> Ints:
+        """The numbers of the active cells in `NEIGHBOURS`."""
+        return np.flatnonzero([self.pattern >> k & 1 for k in range(8)])
 
 
 def cell_copies(cell: UnitCell, offsets: Ints, mirror: int = 0) -> tuple[Floats, Ints]:
@@ -73,6 +80,30 @@ def cell_copies(cell: UnitCell, offsets: Ints, mirror: int = 0) -> tuple[Floats,
     return nodes[first], ends
 
 
+def octant_graph(cell: UnitCell, key: OctantKey) -> tuple[Floats, Ints]:
+    """The nodes and struts that an octant sees, in its frame, in units of L.
+
+    Without the struts that are missing, and without the nodes that have lost all of theirs.
+    """
+    nodes, ends = cell_copies(cell, NEIGHBOURS[key.active], key.mirror)
+    if not key.missing:
+        return nodes, ends
+    ends = ends[[not key.missing >> k & 1 for k in range(len(ends))]]
+    used, rows = np.unique(ends, return_inverse=True)
+    return nodes[used], rows.reshape(-1, 2)
+
+
+def reaches_octant(nodes: Floats, ends: Ints, radius: float) -> NDArray[np.bool_]:
+    """(m,) which struts come nearer to the octant than the radius, all in units of L.
+
+    A segment's box against the octant's: takes in a few too many, leaves out none.
+    """
+    low = np.minimum(nodes[ends[:, 0]], nodes[ends[:, 1]]) - radius
+    high = np.maximum(nodes[ends[:, 0]], nodes[ends[:, 1]]) + radius
+    near: NDArray[np.bool_] = (high > 0.0).all(axis=1) & (low < 0.5).all(axis=1)
+    return near
+
+
 def octant_primitives(
     cell: UnitCell, key: OctantKey, cell_size: float, strut_radius: float, reach: float
 ) -> Primitives:
@@ -80,17 +111,12 @@ def octant_primitives(
 
     `reach` in mm is how far from a strut's surface the field is still wanted.
     """
-    active = [k for k in range(8) if key.pattern >> k & 1]
-    nodes, ends = cell_copies(cell, NEIGHBOURS[active], key.mirror)
+    nodes, ends = octant_graph(cell, key)
+    keep = reaches_octant(nodes, ends, (reach + strut_radius) / cell_size)
     nodes = nodes * cell_size
     all_struts = frep.struts(nodes[ends[:, 0]], nodes[ends[:, 1]], strut_radius)
     all_joints = frep.spheres(nodes, frep.joint_radius(strut_radius, cell_size))
     low, high = -reach, 0.5 * cell_size + reach
-    # A segment's box against the octant's: keeps a few too many, drops none.
-    half = np.abs(all_struts.direction) * all_struts.half_length[:, None]
-    radius = all_struts.radius[:, None]
-    keep = (all_struts.middle + half + radius > low).all(1)
-    keep &= (all_struts.middle - half - radius < high).all(1)
     radius = all_joints.radius[:, None]
     keep_joints = (all_joints.middle + radius > low).all(1)
     keep_joints &= (all_joints.middle - radius < high).all(1)

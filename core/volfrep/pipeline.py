@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from .cells import UnitCell
 from .clean import remove_slivers, separate_vertices, shortest_edge
+from .dangling import Thinned, thinned
 from .errors import VolfrepError
 from .frep import Floats
 from .graded import (
@@ -25,9 +26,10 @@ from .graded import (
     setting,
     vertices_of,
 )
-from .lattice import Layout, facets, lay_out, octant_grid
+from .incidence import without_struts
+from .lattice import Layout, facets, lay_out, octant_grid, used_kinds
 from .limits import BYTES_PER_CELL, expected_triangles, refuse_memory, refuse_too_large
-from .mesh import TriangleMesh, concatenate
+from .mesh import TriangleMesh, compact, concatenate
 from .octant import OctantKey
 from .progress import Monitor, ProgressCallback, peak_memory_mb
 from .quality import Quality, combined, inspect, measure
@@ -37,9 +39,9 @@ from .sizes import mapped_volume, sizes
 from .spec import LatticeSpec
 from .survey import survey
 from .tile import Octant, TileSpec, mesh_octants
-from .trim import Cleared, Kept, clear, keep, octant_roles, trim
+from .trim import Cleared, Kept, clear, keep, keep_all, octant_roles, trim
 from .voxels import CellGrid, active_cells, make_grid, mapped_grid
-from .wireframe import Wireframe, cell_graph
+from .wireframe import CellGraph, Wireframe, cell_graph
 
 Bools = NDArray[np.bool_]
 T = TypeVar("T")
@@ -49,6 +51,8 @@ T = TypeVar("T")
 #: their edges. Where they do, they are looked for so many times as far as the last ones reached.
 FIRST_MARGIN = 0.05
 SPARE_MARGIN = 1.05
+#: Less of a domain than this is no lattice.
+NO_LATTICE = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -144,21 +148,34 @@ def fill(
             "voxels", voxel_key, lambda: _voxels(solid, domain, cell, spec, where, monitor)
         )
     if not active.any():
+        where_not = "has its centre" if spec.activation == "centre" else "lies wholly"
         raise VolfrepError(
-            f"No cell of {spec.cell_size:g} mm has its centre inside the domain: reduce the cell "
+            f"No cell of {spec.cell_size:g} mm {where_not} inside the domain: reduce the cell "
             "size or choose the activation 'touching'."
         )
-    graph = cell_graph(cell, active, spec.cell_size, floor.cells.origin, floor.cells.periodic)
-    frame = graded_wireframe(graph, spec, where)
+    thin = None
+    if spec.removes_struts:
+        thin = thinned(floor, cell, active, spec, where, domain)
+        frame = thin.frame
+    else:
+        graph = cell_graph(cell, active, spec.cell_size, floor.cells.origin, floor.cells.periodic)
+        frame = graded_wireframe(graph, spec, where)
+    if not len(frame.struts):
+        raise VolfrepError(
+            "Every strut has a free end, so that none is left: keep dangling struts, reduce the "
+            "cell size or choose the activation 'touching'."
+        )
 
     if spec.output == "domain":
         precision = shortest_edge(solid)
         clean = separate_vertices(remove_slivers(domain, precision), precision)
         cleared, measured = Cleared(clean, 0, 0), measure(clean)
     else:
-        trimming = _Trimming(solid, domain, cell, spec, where, floor, active, voxel_key)
+        trimming = _Trimming(solid, domain, cell, spec, where, floor, active, thin, voxel_key)
         with monitor.stage("tile", 0.4, 0.5):
             margin = 0.0 if keeps_places(spec, where) else FIRST_MARGIN
+            if not spec.is_cut:
+                margin = np.inf  # no wall that an octant could reach
             kept, octants = trimming.octants(margin, cache, monitor)
         with monitor.stage("lattice", 0.5, 0.6):
             kept, layout, points = trimming.lay(kept, octants, margin, cache, monitor)
@@ -167,7 +184,7 @@ def fill(
     skin_volume = solid.volume - domain.volume if spec.output == "part" else 0.0
     return _result(
         cleared, measured, frame, floor.cells, active, where, domain.volume, spec, monitor,
-        skin_volume, warnings,
+        skin_volume, warnings, thin,
     )  # fmt: skip
 
 
@@ -277,6 +294,7 @@ class _Trimming:
     where: Setting
     floor: Ground
     active: Bools
+    thin: Thinned | None
     key: object
 
     def octants(
@@ -284,13 +302,23 @@ class _Trimming:
     ) -> tuple[Kept, dict[OctantKey, Octant]]:
         """Which octants there are, and their meshes."""
         spec, cells = self.spec, self.floor.cells
-        roles = cache.get(
-            "octants",
-            (self.key, margin),
-            lambda: octant_roles(self.domain, cells, monitor, self.where.chart, margin),
-        )
-        kept = keep(self.floor.octants(self.cell, self.active, spec.activation), roles)
         tile = tile_spec(spec)
+        grid = self.floor.octants(self.cell, self.active, spec.is_endless)
+        if spec.is_cut:
+            roles = cache.get(
+                "octants",
+                (self.key, margin),
+                lambda: octant_roles(self.domain, cells, monitor, self.where.chart, margin),
+            )
+            kept = keep(grid, roles)
+        else:
+            kept = keep_all(grid)
+        if self.thin is not None:
+            fewer = without_struts(
+                kept.grid, self.cell, self.thin.graph, self.thin.left.kept, tile.influence,
+                joined=not keeps_places(spec, self.where),
+            )  # fmt: skip
+            kept = replace(kept, grid=used_kinds(fewer))
         keys = kept.grid.keys
         octants = cache.get(
             "tile",
@@ -313,8 +341,7 @@ class _Trimming:
         while True:
             layout = kept.lay_out(octants)
             placed = vertices_of(
-                layout,
-                lambda: self.floor.graph(self.cell, self.active, self.spec.activation),
+                layout, self._graph,
                 self.cell, self.spec, tile_spec(self.spec), self.where, monitor,
             )  # fmt: skip
             if placed.excess <= margin + 1e-9:
@@ -322,10 +349,18 @@ class _Trimming:
             margin = SPARE_MARGIN * placed.excess
             kept, octants = self.octants(margin, cache, monitor)
 
+    def _graph(self) -> CellGraph:
+        """The nodes and struts that the octants hang on."""
+        if self.thin is not None:
+            return self.thin.left_graph
+        return self.floor.graph(self.cell, self.active, self.spec.is_endless)
+
     def output(
         self, kept: Kept, layout: Layout, points: Floats, monitor: Monitor
     ) -> tuple[Cleared, Quality]:
         """The part or the lattice, without loose pieces and slivers, and its quality."""
+        if not self.spec.is_cut:
+            return self._uncut(layout, points, monitor)
         spec, solid, domain = self.spec, self.solid, self.domain
         with_skin = spec.output == "part" and spec.shell > 0
         trimmed = trim(domain, kept, layout, points, cavity=with_skin, monitor=monitor)
@@ -335,6 +370,8 @@ class _Trimming:
             on_wall = np.flatnonzero(trimmed.on_wall)
             held = clear(mesh, inspect(mesh, monitor), smallest, keep=on_wall)
             mesh, cut, removed = held.mesh, len(held.mesh.triangles), held.pieces_removed
+            if removed and not len(mesh.triangles):
+                raise _nothing_holds()
         mesh = separate_vertices(remove_slivers(mesh, precision, cut), precision)
         found = inspect(mesh, monitor)
         bodies = 0
@@ -350,12 +387,25 @@ class _Trimming:
         measured = found.quality
         if cleared.mesh is not mesh:
             measured = measure(cleared.mesh, monitor)
+            # The cavity's surface counts as negative: what is left is its wall only.
+            if with_skin and domain.volume + measured.volume < NO_LATTICE * domain.volume:
+                raise _nothing_holds()
         cleared = replace(cleared, pieces_removed=cleared.pieces_removed + removed)
         if not with_skin:
             return cleared, measured
         return replace(cleared, mesh=concatenate(solid, cleared.mesh)), combined(
             measure(solid), measured
         )
+
+    def _uncut(self, layout: Layout, points: Floats, monitor: Monitor) -> tuple[Cleared, Quality]:
+        """The lattice of whole cells as it is, without loose pieces, and its quality."""
+        mesh = compact(TriangleMesh(points, facets(layout, monitor)))
+        found = inspect(mesh, monitor)
+        bodies = max(1, inspect(self.solid).quality.bodies)
+        cleared = clear(mesh, found, _smallest_shell(self.spec), bodies=bodies)
+        if cleared.mesh is mesh:
+            return cleared, found.quality
+        return cleared, measure(cleared.mesh, monitor)
 
 
 def tile_spec(spec: LatticeSpec) -> TileSpec:
@@ -380,6 +430,7 @@ def _result(
     monitor: Monitor,
     skin_volume: float = 0.0,
     warnings: tuple[str, ...] = (),
+    thin: Thinned | None = None,
 ) -> Result:
     size = sizes(cells, active, where.chart, graph)
     report = Report(
@@ -402,6 +453,8 @@ def _result(
         relative_density=(measured.volume - skin_volume) / domain_volume,
         mass_g=measured.volume * spec.density / 1000.0,
         watertight=measured.watertight,
+        struts_dangling_removed=thin.left.dangling if thin is not None else 0,
+        stubs_removed=thin.left.stubs if thin is not None else 0,
         pieces_removed=cleared.pieces_removed,
         specks_removed=cleared.specks_removed,
         stages=dict(monitor.stages),
@@ -416,6 +469,13 @@ def _result(
 def _refuse_solid_cells(octants: dict[OctantKey, Octant], spec: LatticeSpec) -> None:
     if not any(len(octant.triangles) for octant in octants.values()):
         raise _cells_are_full(spec)
+
+
+def _nothing_holds() -> VolfrepError:
+    return VolfrepError(
+        "No strut reaches the skin, so that nothing would hold the lattice: reduce the cell size "
+        "or choose the activation 'touching'."
+    )
 
 
 def _cells_are_full(spec: LatticeSpec) -> VolfrepError:

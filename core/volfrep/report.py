@@ -16,7 +16,8 @@ class Report:
         cells_total: cells in the grid.
         cells_active: cells that hold a lattice.
         grid: cells along x, y, z.
-        nodes, struts: of the unique wireframe of the active cells (before trimming).
+        nodes, struts: of the unique wireframe of the active cells (before trimming, without what
+            was removed).
         cell_edges_mm: the shortest and the longest edge of an active cell.
         strut_lengths_mm: the shortest and the longest strut, from node to node (before trimming).
         strut_radii_mm: the smallest and the largest radius of a strut.
@@ -29,6 +30,8 @@ class Report:
         relative_density: volume of the lattice over the volume of its domain.
         mass_g: of the mesh at the given density.
         watertight: every edge shared by exactly two triangles, oriented oppositely.
+        struts_dangling_removed: struts that were taken away because they had a free end.
+        stubs_removed: struts that were taken away because they were short and had a free end.
         pieces_removed: lattice fragments that hung on nothing and were dropped.
         specks_removed: shells smaller than a facet that were dropped.
         stages: seconds by stage.
@@ -57,6 +60,8 @@ class Report:
     relative_density: float
     mass_g: float
     watertight: bool
+    struts_dangling_removed: int
+    stubs_removed: int
     pieces_removed: int
     specks_removed: int
     stages: dict[str, float]

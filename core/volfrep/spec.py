@@ -12,7 +12,8 @@ from .errors import VolfrepError
 from .frep import joint_radius
 from .grading import CellMap, Orientation, RadiusGrading, SizeGrading, as_plain
 
-ACTIVATIONS = ("touching", "centre")
+ACTIVATIONS = ("touching", "centre", "inside")
+BOUNDARIES = ("trim", "whole")
 OUTPUTS = ("part", "lattice", "domain")
 
 #: Deviation from the exact surface in units of the strut radius, where the user says nothing.
@@ -35,8 +36,15 @@ class LatticeSpec:
         resolution: facets along L; or
         deviation: largest distance in mm between a facet and the exact strut. With neither,
             the deviation is `DEFAULT_RELATIVE_DEVIATION` r.
-        activation: ``touching`` (every cell that touches the domain) or ``centre`` (cells whose
-            centre lies inside it: the rule of the paper).
+        activation: ``touching`` (every cell that touches the domain), ``centre`` (cells whose
+            centre lies inside it: the rule of the paper) or ``inside`` (cells that lie wholly
+            inside it).
+        boundary: ``trim`` (the lattice is cut at the wall of its domain) or ``whole`` (active
+            cells stay whole, with full round struts; a skin joins what reaches into it, and its
+            outside still cuts).
+        remove_dangling: take away struts with a free end, again and again until there are none.
+        shortest_stub: struts with a free end that are shorter than this are taken away; 0 for
+            none, mm.
         output: ``part`` (skin and lattice), ``lattice`` (trimmed) or ``domain`` (what it fills).
         fillet: radius of the round between struts at a joint; 0 for none.
         origin: a point that is to be a cell's corner; None puts the grid at the part's box.
@@ -59,6 +67,9 @@ class LatticeSpec:
     resolution: int | None = None
     deviation: float | None = None
     activation: str = "touching"
+    boundary: str = "trim"
+    remove_dangling: bool = False
+    shortest_stub: float = 0.0
     output: str = "part"
     fillet: float = 0.0
     origin: tuple[float, float, float] | None = None
@@ -101,8 +112,14 @@ class LatticeSpec:
                 )
         if self.activation not in ACTIVATIONS:
             raise VolfrepError(
-                f"There is no activation '{self.activation}': choose {' or '.join(ACTIVATIONS)}."
+                f"There is no activation '{self.activation}': choose one of "
+                f"{', '.join(ACTIVATIONS)}."
             )
+        if self.boundary not in BOUNDARIES:
+            raise VolfrepError(
+                f"There is no boundary '{self.boundary}': choose {' or '.join(BOUNDARIES)}."
+            )
+        _number("shortest stub", self.shortest_stub, "mm", positive=False)
         if self.output not in OUTPUTS:
             raise VolfrepError(
                 f"There is no output '{self.output}': choose one of {', '.join(OUTPUTS)}."
@@ -119,6 +136,25 @@ class LatticeSpec:
     def joint_radius(self) -> float:
         """Radius of the joint spheres, r (1 + r / L) (Eq. 8 of the paper)."""
         return joint_radius(self.strut_radius, self.cell_size)
+
+    @property
+    def is_endless(self) -> bool:
+        """Whether the octants are those of a lattice without end, of which the wall cuts a piece.
+
+        What lies outside is cut off anyway. Otherwise they are those of the active cells, whose
+        struts end round.
+        """
+        return self.activation == "touching" and self.boundary == "trim"
+
+    @property
+    def is_cut(self) -> bool:
+        """Whether a wall cuts the lattice."""
+        return self.boundary == "trim" or (self.output == "part" and self.shell > 0)
+
+    @property
+    def removes_struts(self) -> bool:
+        """Whether struts with a free end are looked for."""
+        return self.remove_dangling or self.shortest_stub > 0
 
     @property
     def is_graded(self) -> bool:

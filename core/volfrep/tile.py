@@ -30,6 +30,8 @@ COARSEST_STEP = 0.75
 #: Primitives are kept near a vertex up to this distance beyond the nearest, in wanted edges:
 #: vertices move by one edge, and a facet reaches another one further, in both distances.
 NEAR_EDGES = 3.0
+#: An octant's mesh does not depend on struts farther from it than this, in wanted edges.
+INFLUENCE_EDGES = 2.0
 #: Pieces are meshed together up to about this many vertices.
 BATCH_VERTICES = 150_000
 
@@ -54,6 +56,13 @@ class TileSpec:
     def edge(self) -> float:
         """Wanted edge length, mm."""
         return self.cell_size / self.facets
+
+    @property
+    def influence(self) -> float:
+        """Struts whose axes are farther than this from an octant do not show in it, mm."""
+        step = max(self.edge, 0.5 * self.cell_size / self.steps)
+        joint = frep.joint_radius(self.strut_radius, self.cell_size)
+        return float(joint + INFLUENCE_EDGES * step + 2.0 * self.fillet)
 
     @property
     def steps(self) -> int:

@@ -131,6 +131,11 @@ def keep(grid: OctantGrid, roles: OctantRoles) -> Kept:
     return Kept(used_kinds(replace(grid, kind=kind)), border, inside)
 
 
+def keep_all(grid: OctantGrid) -> Kept:
+    """A lattice that nothing cuts."""
+    return Kept(used_kinds(grid), np.zeros(grid.kind.shape, bool), grid.kind >= 0)
+
+
 def trim(
     domain: TriangleMesh,
     kept: Kept,

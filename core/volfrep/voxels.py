@@ -128,7 +128,8 @@ def active_cells(
         domain: closed mesh of what the lattice fills.
         rule: ``touching``: every cell that shares volume with the domain. ``centre``: cells
             whose centre lies inside it, less those without an active cell among their 26
-            neighbours (Appendix A.1 of the VOLFREP paper).
+            neighbours (Appendix A.1 of the VOLFREP paper). ``inside``: cells that share all
+            their volume with it.
         monitor: for progress and cancel.
         chart: from lattice space to the part, where they differ.
         usable: (nx, ny, nz) bool, cells that may hold a lattice; None: all.
@@ -146,9 +147,11 @@ def active_cells(
         for axis, mode in enumerate(modes):
             around = ndimage.convolve1d(around, np.ones(3, int), axis=axis, mode=mode)
         return np.asarray(active & (around > 1), np.bool_)
-    if rule != "touching":
-        raise VolfrepError(f"There is no activation '{rule}': choose touching or centre.")
+    if rule not in ("touching", "inside"):
+        raise VolfrepError(f"There is no activation '{rule}': choose touching, centre or inside.")
     crossed = crossed_cells(grid, wall_corners(domain, chart), monitor)
+    if rule == "inside":
+        return active & ~crossed
     return active | (crossed if usable is None else crossed & usable)
 
 

@@ -108,6 +108,26 @@ def cell_graph(
     )
 
 
+def struts_of(graph: CellGraph, cell: UnitCell, cells: NDArray[np.int32]) -> Bools:
+    """(m,) which struts of a graph belong to one of some cells, given by their rows."""
+    count = len(graph.nodes)
+    ends = np.sort(graph.node_of[cells][:, cell.struts].reshape(-1, 2).astype(np.int64), axis=1)
+    own = np.sort(graph.struts.astype(np.int64), axis=1)
+    result: Bools = np.isin(own[:, 0] * count + own[:, 1], ends[:, 0] * count + ends[:, 1])
+    return result
+
+
+def chosen(lattice: Wireframe, struts: Bools) -> Wireframe:
+    """Some of the struts of a wireframe, (m,) bool, and their nodes."""
+    used, rows = np.unique(lattice.struts[struts], return_inverse=True)
+    return Wireframe(
+        lattice.nodes[used],
+        rows.reshape(-1, 2).astype(np.int32),
+        lattice.radii[struts],
+        lattice.joint_radii[used],
+    )
+
+
 def wireframe(graph: CellGraph, points: Floats, radius: Floats, cell_size: float) -> Wireframe:
     """The struts and joints of a graph in the part.
 

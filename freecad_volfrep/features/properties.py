@@ -11,7 +11,7 @@ import FreeCAD as App
 from .grading import CARTESIAN, CHOICES, OFF, show_applicable
 
 #: Raised with every change that an older file's objects must be brought up to.
-SCHEMA_VERSION = 2
+SCHEMA_VERSION = 3
 
 #: The entry of `CellType` that stands for a cell of the user's own, read from `CellFile`.
 CUSTOM_CELL = "Custom"
@@ -94,8 +94,31 @@ PROPERTIES = (
         "App::PropertyEnumeration",
         "Activation",
         "Lattice",
-        "Which cells hold a lattice: those that touch the inside, or whose centre lies inside",
+        "Which cells hold a lattice: those that touch the inside, whose centre lies inside, or "
+        "that lie wholly inside",
         "touching",
+    ),
+    Property(
+        "App::PropertyEnumeration",
+        "Boundary",
+        "Lattice",
+        "trim: the lattice is cut at the wall; whole: cells stay whole, and a skin joins what "
+        "reaches it",
+        "trim",
+    ),
+    Property(
+        "App::PropertyBool",
+        "RemoveDangling",
+        "Lattice",
+        "Take away struts with a free end, again and again until there are none",
+        False,
+    ),
+    Property(
+        "App::PropertyLength",
+        "ShortestStub",
+        "Lattice",
+        "Take away struts with a free end that are shorter than this; 0 for none",
+        0.0,
     ),
     _grading(
         "App::PropertyEnumeration",
@@ -240,6 +263,10 @@ PROPERTIES = (
     result("App::PropertyVolume", "Volume", "Volume of material"),
     result("App::PropertyFloat", "RelativeDensity", "Volume of the lattice over what it fills"),
     result("App::PropertyFloat", "Mass", "Mass in g at the given density"),
+    result(
+        "App::PropertyInteger", "DanglingRemoved", "Struts with a free end that were taken away"
+    ),
+    result("App::PropertyInteger", "StubsRemoved", "Short struts with a free end, taken away"),
     result("App::PropertyInteger", "PiecesRemoved", "Loose fragments that were dropped"),
     result("App::PropertyBool", "Watertight", "Every edge is shared by exactly two triangles"),
     result("App::PropertyFloat", "Seconds", "Computing time of the last update"),
@@ -255,11 +282,12 @@ INPUTS = tuple(prop.name for prop in PROPERTIES if not prop.flags)
 def ensure_properties(obj: App.DocumentObject) -> None:
     """Give `obj` every property of the table that it lacks; safe to call again at any time."""
     from volfrep.cells import LIBRARY
-    from volfrep.spec import ACTIVATIONS, OUTPUTS
+    from volfrep.spec import ACTIVATIONS, BOUNDARIES, OUTPUTS
 
     choices = {
         "CellType": [*LIBRARY, CUSTOM_CELL],
         "Activation": list(ACTIVATIONS),
+        "Boundary": list(BOUNDARIES),
         "Output": list(OUTPUTS),
         **CHOICES,
     }

@@ -137,6 +137,7 @@ def test_resolution_or_deviation(capsys: pytest.CaptureFixture[str]) -> None:
         (["--strut-radius", "7"], "too thick for a cell"),
         (["--shell", "-1"], "shell thickness must not be negative"),
         (["--activation", "near"], "There is no activation 'near'"),
+        (["--boundary", "cut"], "There is no boundary 'cut'"),
         (["--output", "skin"], "There is no output 'skin'"),
         (["--origin", "0", "0", "inf"], "origin must be a finite number"),
         (["--resolution", "1"], "resolution must be a whole number"),

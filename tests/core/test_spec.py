@@ -45,7 +45,12 @@ def test_the_defaults_are_valid() -> None:
         ({"resolution": 0}, "resolution must be above 0"),
         ({"deviation": 0}, "deviation must be above 0 mm"),
         ({"deviation": 1e-9}, "needs .* facets along a cell: the limit is 400"),
-        ({"activation": "nearby"}, "There is no activation 'nearby': choose touching or centre"),
+        (
+            {"activation": "nearby"},
+            "There is no activation 'nearby': choose one of touching, centre, inside",
+        ),
+        ({"boundary": "cut"}, "There is no boundary 'cut': choose trim or whole"),
+        ({"shortest_stub": -1}, "shortest stub must not be negative"),
         ({"output": "mesh"}, "There is no output 'mesh': choose one of part, lattice, domain"),
         ({"origin": (0, 0)}, "origin must be three coordinates"),
         ({"origin": (0, 0, math.nan)}, "origin must be a finite number"),

@@ -11,7 +11,7 @@ from freecad_volfrep import make_lattice_infill
 from freecad_volfrep.features import LatticeInfill, lattice_infill
 from freecad_volfrep.features.factory import suggested_sizes
 from freecad_volfrep.features.lattice_infill import CANCELLED, OUT_OF_DATE, UP_TO_DATE
-from freecad_volfrep.features.properties import PROPERTIES, ensure_properties
+from freecad_volfrep.features.properties import PROPERTIES, SCHEMA_VERSION, ensure_properties
 from volfrep.cells import LIBRARY
 from volfrep.errors import Cancelled, VolfrepError
 
@@ -113,6 +113,22 @@ def test_activation_by_centre(doc, box):
     doc.recompute()
     assert obj.isValid(), obj.getStatusString()
     assert 0 < obj.CellsActive < max(obj.CellsTotal, touching)
+
+
+def test_whole_cells_without_free_ends(doc, box):
+    obj = make_lattice_infill(
+        doc, box, **{**SMALL, "CellType": "CVC", "ShellThickness": 0, "Boundary": "whole"}
+    )
+    doc.recompute()
+    assert obj.isValid(), obj.getStatusString()
+    struts, loops = obj.Struts, obj.Struts - obj.Nodes + 1
+    assert (obj.Genus, obj.DanglingRemoved) == (loops, 0)
+    obj.RemoveDangling = True
+    doc.recompute()
+    assert obj.isValid(), obj.getStatusString()
+    assert obj.DanglingRemoved > 0
+    assert obj.Struts == struts - obj.DanglingRemoved
+    assert obj.Genus == loops == obj.Struts - obj.Nodes + 1
 
 
 def test_density_changes_the_mass_alone(doc, infill, runs):
@@ -284,7 +300,7 @@ def test_an_older_object_gets_what_it_lacks(doc, infill):
     infill.Proxy.onDocumentRestored(infill)
     assert sorted(infill.PropertiesList) == sorted(names)
     assert infill.JointFillet.Value == 0
-    assert infill.SchemaVersion == 2
+    assert infill.SchemaVersion == SCHEMA_VERSION
     ensure_properties(infill)
     assert sorted(infill.PropertiesList) == sorted(names)
     doc.recompute()

@@ -190,6 +190,8 @@ def _fill(options: argparse.Namespace) -> None:
         both = options.threemf == "both"
         beams = beam_model(solid, spec, progress=progress, cache=cache) if both else None
         result = fill(solid, spec, progress=progress, cache=cache)
+        if options.compact is not None:
+            result = cli_printing.compacted(result, options, progress)
     domain = None
     if options.print_report is not None:
         domain = fill(solid, dataclasses.replace(spec, output="domain"), cache=cache).mesh
@@ -210,6 +212,8 @@ def _block(options: argparse.Namespace) -> None:
     beams = block_beams(spec, options.count) if options.threemf == "both" else None
     with _Progress(options.quiet) as progress:
         result = block(spec, tuple(options.count), progress=progress)
+        if options.compact is not None:
+            result = cli_printing.compacted(result, options, progress)
     _finish(result, options, {}, beams)
 
 

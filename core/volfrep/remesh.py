@@ -82,7 +82,8 @@ def normals(points: Floats) -> Floats:
     return np.cross(points[:, 1] - points[:, 0], points[:, 2] - points[:, 0])
 
 
-def _csr(rows: Ints, values: Ints, count: int) -> tuple[Ints, Ints]:
+def grouped(rows: Ints, values: Ints, count: int) -> tuple[Ints, Ints]:
+    """The values of each of `count` rows laid end to end: (count + 1,) offsets, values."""
     order = np.argsort(rows, kind="stable")
     start = np.concatenate([[0], np.cumsum(np.bincount(rows, minlength=count))])
     return start.astype(np.int64), values[order]
@@ -101,12 +102,16 @@ class Rules:
             vertices of one border would be made again by the piece beyond the border.)
         stays_good: called with the (k, 3, 3) corners of triangles before and after; whether
             they may change like that.
+        merge: called with (k,) from and to vertices of edges: the cost of merging them, and the
+            place of what they become. The cheapest go first, those of infinite cost stay. None:
+            the shortest first, into the middle of two free ends or else where the second one is.
     """
 
     rank: Ints
     may_slide: Callable[[Ints, Ints], Bools]
     forbidden: Callable[[Ints, Ints], Bools]
     stays_good: Callable[[Floats, Floats], Bools]
+    merge: Callable[[Ints, Ints], tuple[Floats, Floats]] | None = None
 
 
 def collapse(
@@ -118,8 +123,8 @@ def collapse(
     rank. No edge longer than `longest` and no turned or degenerate triangle is made.
 
     Returns:
-        vertices, triangles, and (n,) the new index of every old vertex (-1: gone). Vertices that
-        stay keep their order.
+        vertices, triangles, and (n,) the new index of every old vertex. Vertices that stay keep
+        their order; one that is gone has ~k, k the new index of what it was merged into.
     """
     count = len(vertices)
     table = edges(triangles, count)
@@ -131,15 +136,25 @@ def collapse(
     gone, kept = from_to[candidate, 0], from_to[candidate, 1]
     allowed = rules.may_slide(gone, kept)
     candidate, gone, kept = candidate[allowed], gone[allowed], kept[allowed]
+    if rules.merge is None:
+        cost = length[candidate]
+        free = (rules.rank[gone] == 0) & (rules.rank[kept] == 0)
+        target = np.where(free[:, None], 0.5 * (vertices[gone] + vertices[kept]), vertices[kept])
+    else:
+        cost, target = rules.merge(gone, kept)
+        free = np.ones(len(gone), bool)
+    worth = cost < np.inf
+    gone, kept, free = gone[worth], kept[worth], free[worth]
+    cost, target = cost[worth], target[worth]
     identity = np.arange(count)
-    if not len(candidate):
+    if not len(gone):
         return vertices, triangles, identity
 
-    corner_start, corner_triangle = _csr(
+    corner_start, corner_triangle = grouped(
         triangles.ravel(), np.repeat(np.arange(len(triangles)), 3), count
     )
     both = np.concatenate([ends, ends[:, ::-1]])
-    near_start, near = _csr(both[:, 0], both[:, 1], count)
+    near_start, near = grouped(both[:, 0], both[:, 1], count)
     edge_keys = np.sort(both[:, 0] * np.int64(count) + both[:, 1])
 
     # Link condition: the ends share exactly the two corners opposite to the edge.
@@ -151,9 +166,6 @@ def collapse(
     outlawed = rules.forbidden(kept[new], other) & (kept[new] != other)
     good &= np.bincount(new[outlawed], minlength=len(gone)) == 0
 
-    free = rules.rank[gone] == rules.rank[kept]
-    free &= rules.rank[kept] == 0
-    target = np.where(free[:, None], 0.5 * (vertices[gone] + vertices[kept]), vertices[kept])
     for side, other, moves in ((gone, kept, np.ones(len(gone), bool)), (kept, gone, free)):
         rows, owner = rows_of(corner_start, side)
         corners = triangles[corner_triangle[rows]]
@@ -167,11 +179,9 @@ def collapse(
         span = np.linalg.norm(after - np.roll(after, 1, axis=1), axis=2).max(axis=1)
         bad |= span > longest
         good &= np.bincount(owner[bad], minlength=len(gone)) == 0
-    candidate, gone, kept, target = candidate[good], gone[good], kept[good], target[good]
+    gone, kept, target, cost = gone[good], kept[good], target[good], cost[good]
 
-    chosen = _independent(
-        np.stack([gone, kept], axis=1), length[candidate], near_start, near, count
-    )
+    chosen = _independent(np.stack([gone, kept], axis=1), cost, near_start, near, count)
     gone, kept, target = gone[chosen], kept[chosen], target[chosen]
     moved = vertices.copy()
     moved[kept] = target
@@ -184,7 +194,8 @@ def collapse(
     )
     stay = np.ones(count, bool)
     stay[gone] = False
-    renumber = np.where(stay, np.cumsum(stay) - 1, -1)
+    renumber = np.cumsum(stay) - 1
+    renumber[gone] = ~renumber[kept]
     return moved[stay], renumber[merged[~degenerate]], renumber
 
 

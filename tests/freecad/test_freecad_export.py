@@ -131,12 +131,25 @@ def test_what_cannot_be_exported_as_beams(doc, infill, tmp_path):
 def test_the_formats_on_offer(doc, box, infill):
     copy = doc.addObject("Mesh::Feature", "Copy")
     assert [form.filter for form in formats_of(copy)] == [
-        "STL (*.stl)", "3MF (*.3mf)", "PLY (*.ply)", "OBJ (*.obj)", "STEP, faceted (*.step)",
+        "STL (*.stl)", "STL, fewer triangles (*.stl)", "3MF (*.3mf)",
+        "3MF, fewer triangles (*.3mf)", "PLY (*.ply)", "OBJ (*.obj)", "STEP, faceted (*.step)",
     ]  # fmt: skip
     offered = formats_of(infill)
-    assert {form.content for form in offered} == {"mesh", "beams", "both"}
+    assert {form.content for form in offered} == {"mesh", "compact", "beams", "both"}
     assert {form.suffix for form in offered} == MESH_WRITERS.keys() - {".stp"}
     assert len({form.filter for form in offered}) == len(offered)
+
+
+def test_fewer_triangles_of_the_same_body(infill, tmp_path):
+    infill.Resolution = 30
+    infill.Document.recompute()
+    export_mesh(infill, tmp_path / "part.stl", "compact")
+    read = Mesh.Mesh(str(tmp_path / "part.stl"))
+    assert read.isSolid()
+    assert read.CountFacets < 0.9 * infill.Triangles
+    assert read.Volume == pytest.approx(infill.Volume.Value, rel=2e-3)
+    with pytest.raises(VolfrepError, match="extension"):
+        export_mesh(infill, tmp_path / "part.xyz", "compact")
 
 
 def test_export_refuses(doc, box, infill, tmp_path):

@@ -141,12 +141,12 @@ def test_the_formats_on_offer(doc, box, infill):
 
 
 def test_fewer_triangles_of_the_same_body(infill, tmp_path):
-    infill.Resolution = 30
+    infill.Resolution = 20
     infill.Document.recompute()
     export_mesh(infill, tmp_path / "part.stl", "compact")
     read = Mesh.Mesh(str(tmp_path / "part.stl"))
     assert read.isSolid()
-    assert read.CountFacets < 0.9 * infill.Triangles
+    assert read.CountFacets < infill.Triangles
     assert read.Volume == pytest.approx(infill.Volume.Value, rel=2e-3)
     with pytest.raises(VolfrepError, match="extension"):
         export_mesh(infill, tmp_path / "part.xyz", "compact")

@@ -68,8 +68,8 @@ def beam_model(
 
     Args:
         wireframe: the struts, mm.
-        on_wall: (n,) bool, nodes where struts end in a wall and not in a joint: they get no
-            stiff end there. None: all are joints.
+        on_wall: (n,) bool, nodes on a wall: a strut that ends there alone, not in a joint, gets
+            no stiff end there. None: all are joints.
         joint_length: of the stiff ends, in units of the radius there; 0 for bare beams.
         elements_per_strut: of the flexible middle.
         radius_tolerance: sections whose radii differ by less than this fraction to either side
@@ -92,7 +92,8 @@ def beam_model(
     length = np.linalg.norm(end - start, axis=1)
     stiff = np.minimum(joint_length * wireframe.radii, LONGEST_JOINT * length[:, None])
     if on_wall is not None:
-        stiff[on_wall[wireframe.struts]] = 0.0
+        alone = np.bincount(wireframe.struts.ravel(), minlength=len(wireframe.nodes)) == 1
+        stiff[(on_wall & alone)[wireframe.struts]] = 0.0
     flexible = length - stiff.sum(axis=1)
     shortest = SHORTEST_ELEMENT * wireframe.radii.max(axis=1)
     middle = np.clip(np.floor(flexible / shortest), 1, elements_per_strut).astype(np.int64)

@@ -63,13 +63,13 @@ def beam_model(
         )
     filled = fill(solid, replace(spec, output="domain"), progress=progress, cache=cache)
     if not spec.is_cut:
-        return BeamModel(filled.wireframe, warnings=filled.report.warnings + _warnings(spec))
+        return BeamModel(filled.wireframe, warnings=filled.report.warnings + deformed_struts(spec))
     domain = filled.mesh
     clip = domain if spec.output == "lattice" else solid
     with_skin = spec.output == "part" and spec.shell > 0
     skin = concatenate(solid, domain.reversed()) if with_skin else None
     lattice = _reaching_into(filled.wireframe, clip)
-    return BeamModel(lattice, clip, skin, filled.report.warnings + _warnings(spec))
+    return BeamModel(lattice, clip, skin, filled.report.warnings + deformed_struts(spec))
 
 
 def block_beams(spec: LatticeSpec, count: Sequence[int]) -> BeamModel:
@@ -83,7 +83,7 @@ def block_beams(spec: LatticeSpec, count: Sequence[int]) -> BeamModel:
         VolfrepError: the counts make no sense, or there are fillets.
     """
     _refuse_fillets(spec)
-    return BeamModel(block_wireframe(spec, count), warnings=_warnings(spec))
+    return BeamModel(block_wireframe(spec, count), warnings=deformed_struts(spec))
 
 
 def _refuse_fillets(spec: LatticeSpec) -> None:
@@ -93,12 +93,12 @@ def _refuse_fillets(spec: LatticeSpec) -> None:
         )
 
 
-def _warnings(spec: LatticeSpec) -> tuple[str, ...]:
-    """What the beams do not show of the struts."""
+def deformed_struts(spec: LatticeSpec, what: str = "Beams") -> tuple[str, ...]:
+    """A sentence where struts are not the straight and round ones that are written of them."""
     if spec.keep_radius or (spec.size_grading is None and spec.cell_map is None):
         return ()
     return (
-        "Beams are straight and round, and these struts are deformed with their cells: write the "
+        f"{what} are straight and round, and these struts are deformed with their cells: write the "
         "mesh, or let them keep their radius.",
     )
 

@@ -19,13 +19,14 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
-from . import cli_domain, cli_printing
+from . import cli_domain, cli_printing, cli_solver
 from .cli_grading import add_grading_options, gradings
 from .cli_printing import print_rows, print_warnings
 from .errors import VolfrepError
 
 if TYPE_CHECKING:
     from .beam_lattice import BeamModel
+    from .cli_solver import Writer
     from .mesh import TriangleMesh
     from .pipeline import Result
     from .progress import ProgressCallback
@@ -153,7 +154,7 @@ def _parser() -> argparse.ArgumentParser:
 
 def _add_lattice_options(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
-    add("-o", dest="out", required=True, metavar="OUT", help=".stl, .3mf, .ply, .obj or .step")
+    add("-o", dest="out", required=True, metavar="OUT", help=".stl, .3mf, .ply, .obj, .step, .inp")
     add("--cell", required=True, help="a library cell (see 'volfrep cells') or a cell's .json file")
     add("--cell-size", type=float, required=True, metavar="MM", help="edge L of a cell")
     add("--strut-radius", type=float, required=True, metavar="MM", help="radius r of the struts")
@@ -166,6 +167,7 @@ def _add_lattice_options(parser: argparse.ArgumentParser) -> None:
     add("--density", type=float, metavar="G_PER_CM3", help="of the material (default 1)")
     add("--report", metavar="FILE.json", help="write the figures of the run as JSON")
     cli_printing.add_options(parser)
+    cli_solver.add_options(parser)
     add("--quiet", action="store_true", help="print nothing but errors")
     add_grading_options(parser)
 
@@ -184,6 +186,8 @@ def _fill(options: argparse.Namespace) -> None:
     read_seconds = time.perf_counter() - start
     cache = StageCache()
     with _Progress(options.quiet) as progress:
+        if cli_solver.fill_axes(solid, spec, options, progress, start):
+            return
         if options.threemf == "beams":
             cli_printing.finish_beams(beam_model(solid, spec, progress=progress), options, start)
             return
@@ -192,10 +196,11 @@ def _fill(options: argparse.Namespace) -> None:
         result = fill(solid, spec, progress=progress, cache=cache)
         if options.compact is not None:
             result = cli_printing.compacted(result, options, progress)
-    domain = None
-    if options.print_report is not None:
-        domain = fill(solid, dataclasses.replace(spec, output="domain"), cache=cache).mesh
-    _finish(result, options, {"read": read_seconds}, beams, domain)
+        domain = None
+        if options.print_report is not None:
+            domain = fill(solid, dataclasses.replace(spec, output="domain"), cache=cache).mesh
+        write = cli_solver.writer(options, spec, solid, cache, progress)
+        _finish(result, options, {"read": read_seconds}, beams, domain, write)
 
 
 def _block(options: argparse.Namespace) -> None:
@@ -206,6 +211,8 @@ def _block(options: argparse.Namespace) -> None:
     from .pipeline import block
 
     start = time.perf_counter()
+    if cli_solver.block_axes(spec, options, start):
+        return
     if options.threemf == "beams":
         cli_printing.finish_beams(block_beams(spec, options.count), options, start)
         return
@@ -214,7 +221,8 @@ def _block(options: argparse.Namespace) -> None:
         result = block(spec, tuple(options.count), progress=progress)
         if options.compact is not None:
             result = cli_printing.compacted(result, options, progress)
-    _finish(result, options, {}, beams)
+        write = cli_solver.writer(options, spec, None, None, progress)
+        _finish(result, options, {}, beams, write=write)
 
 
 def _check_targets(options: argparse.Namespace, part: Path | None = None) -> None:
@@ -223,8 +231,10 @@ def _check_targets(options: argparse.Namespace, part: Path | None = None) -> Non
     from .export.files import check_writable
 
     out = check_writable(options.out)
-    mesh_writer(out)
+    if not cli_solver.is_deck(out):
+        mesh_writer(out)
     cli_printing.check(options, out)
+    cli_solver.check(options, out)
     if part is not None and out.exists() and part.exists() and out.samefile(part):
         raise VolfrepError(f"The output '{out}' is the part itself: give another name.")
     if options.report is not None:
@@ -250,10 +260,12 @@ def _finish(
     before: dict[str, float],
     beams: BeamModel | None,
     domain: TriangleMesh | None = None,
+    write: Writer | None = None,
 ) -> None:
     """Write the mesh, with its beams if there are any, and the report; say what was made.
 
-    `domain` is what the lattice fills, for the print report.
+    `domain` is what the lattice fills, for the print report; `write` writes the file where it is
+    not a mesh.
     """
     from .export import write_mesh
     from .export.files import replacing
@@ -261,7 +273,10 @@ def _finish(
     from .progress import peak_memory_mb
 
     start = time.perf_counter()
-    if beams is None:
+    warnings = result.report.warnings if beams is None else beams.warnings
+    if write is not None:
+        warnings += write(result)
+    elif beams is None:
         write_mesh(result.mesh, options.out)
     else:
         write_3mf_beams(beams, options.out, result.mesh)
@@ -279,7 +294,7 @@ def _finish(
             figures["print_report"] = printing.as_dict()
         with replacing(options.report) as file:
             file.write(json.dumps(figures, indent=2).encode() + b"\n")
-    print_warnings(report.warnings if beams is None else beams.warnings)
+    print_warnings(warnings)
     if options.quiet:
         return
     size = Path(options.out).stat().st_size / 1e6

@@ -12,6 +12,7 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
 from .crossings import boxes_in_bins
+from .distance import closest_points
 from .errors import VolfrepError
 from .mesh import TriangleMesh
 from .ragged import spread
@@ -33,6 +34,8 @@ PAIRS_PER_STEP = 1_000_000
 MOST_BINS = 64
 #: Pieces shorter than this, in units of their radius, are dropped: no beam is that short.
 SHORTEST_PIECE = 0.5
+#: A wall this near to a node, in units of the radius, goes through it: nothing is cut there.
+AT_WALL = 0.05
 #: The direction of the line that tells whether a point is inside: along nothing that parts are.
 _LINE = np.array([0.123, 0.456, 0.881])
 
@@ -89,7 +92,8 @@ def clip(wireframe: Wireframe, domain: TriangleMesh) -> Clipped:
     """Keep what of the struts' axes lies inside a closed mesh.
 
     Pieces shorter than half their radius are dropped; a node that loses such a piece to the
-    wall counts as on it.
+    wall counts as on it. So does a node that the wall goes through (`AT_WALL`): its struts
+    still meet there.
 
     Args:
         wireframe: mm.
@@ -98,10 +102,15 @@ def clip(wireframe: Wireframe, domain: TriangleMesh) -> Clipped:
     inside = pieces_inside(wireframe, domain)
     owner, low, high = inside.owner, inside.low, inside.high
     radius = _between(wireframe.radii[owner], 0.5 * (low + high))
+    ends = wireframe.nodes[wireframe.struts[owner]]
+    length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    reach = AT_WALL * wireframe.radii[owner]
+    low = np.where(low * length < reach[:, 0], 0.0, low)
+    high = np.where((1.0 - high) * length < reach[:, 1], 1.0, high)
     whole = (low == 0.0) & (high == 1.0)
-    kept = whole | (inside.lengths(wireframe) > SHORTEST_PIECE * radius)
+    kept = whole | ((high - low) * length > SHORTEST_PIECE * radius)
 
-    on_wall = np.zeros(len(wireframe.nodes), bool)
+    on_wall = closest_points(domain, wireframe.nodes)[1] < AT_WALL * wireframe.joint_radii
     for side, at_end in ((0, low == 0.0), (1, high == 1.0)):
         on_wall[wireframe.struts[owner[~kept & at_end], side]] = True
     return _assemble(wireframe, on_wall, owner[kept], low[kept], high[kept])

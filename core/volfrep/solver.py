@@ -6,7 +6,6 @@ from __future__ import annotations
 import os
 import re
 import shutil
-import subprocess
 import tempfile
 from pathlib import Path
 
@@ -14,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .errors import VolfrepError
+from .programs import run_program
 from .progress import Monitor
 
 _RESULT = re.compile(r"^ displacements .*?\n\n((?: +\d+(?: +\S+){3}\n)*)", re.MULTILINE)
@@ -41,19 +41,8 @@ def solve(deck: str | os.PathLike[str], monitor: Monitor | None = None) -> NDArr
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         shutil.copyfile(deck, folder / "job.inp")
-        threads = {"OMP_NUM_THREADS": str(os.cpu_count() or 1)}
-
-        def run() -> subprocess.CompletedProcess[str]:
-            return subprocess.run(
-                [program, "-i", "job"],
-                cwd=folder,
-                env={**os.environ, **threads},
-                capture_output=True,
-                text=True,
-                check=False,
-            )
-
-        said = run() if monitor is None else monitor.call(run)
+        environment = {**os.environ, "OMP_NUM_THREADS": str(os.cpu_count() or 1)}
+        said = run_program([program, "-i", "job"], folder, monitor, environment)
         printed = folder / "job.dat"
         blocks = _RESULT.findall(printed.read_text()) if printed.is_file() else []
         if said.returncode or not blocks:

@@ -117,14 +117,14 @@ def joint_solid(joint: Joint) -> Part.Shape:
 def joint_step(joint: Joint) -> tuple[str, float]:
     """One joint at the origin as a STEP file's text, and its volume in mm3."""
     solid = joint_solid(joint)
-    with tempfile.TemporaryDirectory() as folder, plain_curves(), _silence():
+    with tempfile.TemporaryDirectory() as folder, plain_curves(), silence():
         path = Path(folder) / "joint.step"
         solid.exportStep(str(path))
         return path.read_text(encoding="ascii"), float(solid.Volume)
 
 
 @contextmanager
-def _silence() -> Iterator[None]:
+def silence() -> Iterator[None]:
     """Keep OpenCASCADE's account of every file from the standard output."""
     sys.stdout.flush()
     kept = os.dup(1)

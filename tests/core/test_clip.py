@@ -123,6 +123,17 @@ def test_an_infill_is_cut_at_its_inner_wall():
     assert np.array_equal(off < 1e-5, clipped.on_wall)
 
 
+def test_struts_still_meet_where_the_wall_goes_through_their_joint():
+    spec = LatticeSpec(cell="CVC", cell_size=20, strut_radius=2, shell=0, resolution=8)
+    clipped = clipped_infill(samples.box((60.0, 40.0, 20.0)), spec)
+    frame = clipped.wireframe
+    whole = block(spec, (3, 2, 1)).wireframe
+    assert len(frame.nodes) == len(whole.nodes)
+    assert len(frame.struts) == len(whole.struts)
+    # The corners of the cells lie in the box's surface, the middles inside.
+    assert np.array_equal(clipped.on_wall, np.bincount(frame.struts.ravel()) < 8)
+
+
 def test_nothing_inside():
     spec = LatticeSpec(cell="Box", cell_size=10, strut_radius=1, shell=2, resolution=8)
     with pytest.raises(VolfrepError, match="No strut's axis"):

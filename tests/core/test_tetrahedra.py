@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 import samples
-from volfrep import LatticeSpec, block
+from volfrep import LatticeSpec, block, fill
 from volfrep.errors import Cancelled, VolfrepError
 from volfrep.export.calculix import Material, StaticStep, sides, write_tetrahedra
-from volfrep.mesh import TriangleMesh
+from volfrep.mesh import TriangleMesh, concatenate
 from volfrep.progress import Monitor
 from volfrep.solver import solve
-from volfrep.tetrahedra import MAX_TRIANGLES, tetrahedra
+from volfrep.tetrahedra import MAX_TRIANGLES, nodes_on, tetrahedra
 
 needs_gmsh = pytest.mark.skipif(shutil.which("gmsh") is None, reason="Gmsh is not installed")
 needs_both = pytest.mark.skipif(
@@ -70,8 +70,32 @@ def test_a_stretched_bar(tmp_path: Path):
 @needs_gmsh
 def test_what_gmsh_cannot_fill():
     box = samples.box((10.0, 10.0, 10.0))
-    with pytest.raises(VolfrepError, match="Gmsh cannot fill"):
+    with pytest.raises(VolfrepError, match="not closed"):
         tetrahedra(TriangleMesh(box.vertices, box.triangles[1:]))
+    crossing = samples.sphere(10.0, 2)
+    crossing.vertices[0] *= -1.5  # out at the other side
+    with pytest.raises(VolfrepError, match="Gmsh cannot fill"):
+        tetrahedra(crossing)
+
+
+@needs_gmsh
+def test_a_part_has_its_cavity_and_knows_its_outside():
+    """Also where the wall's Boolean left needles."""
+    solid = samples.box((30.0, 20.0, 20.0))
+    mesh = fill(solid, LatticeSpec(cell="CVC", shell=2, resolution=8)).mesh
+    filled = tetrahedra(mesh)
+    assert filled.volumes().sum() == pytest.approx(mesh.volume, rel=1e-9)
+    outside = filled.nodes[nodes_on(filled, solid)]
+    low, high = solid.bounds
+    assert (np.minimum(outside - low, high - outside).min(axis=1) < 1e-4).all()
+    # The twelve triangles of the box as they are: their corners and the middles of their edges.
+    assert len(outside) == 8 + 18
+
+
+@needs_gmsh
+def test_bodies_that_do_not_touch():
+    one, two = samples.box((4.0, 4.0, 4.0)), samples.box((4.0, 4.0, 4.0), (9.0, 0.0, 0.0))
+    assert tetrahedra(concatenate(one, two)).volumes().sum() == pytest.approx(128)
 
 
 def test_limits(tmp_path: Path, monkeypatch):

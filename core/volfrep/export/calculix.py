@@ -26,6 +26,11 @@ SQUARE = (3.0 * np.pi) ** 0.25
 #: Nodes this near to the outermost one along an axis, in mm, are on that side.
 SIDE_TOLERANCE = 1e-6
 SIDES = ("XMIN", "XMAX", "YMIN", "YMAX", "ZMIN", "ZMAX")
+#: Of a deck of beams, per beam: bytes, seconds to write it, seconds to solve it; measured on
+#: blocks of 500 to 50,000 beams.
+BYTES_PER_BEAM = 57
+WRITE_SECONDS_PER_BEAM = 1e-6
+SOLVE_SECONDS_PER_BEAM = 4e-4
 _PER_LINE = 10
 
 

@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A lattice with exact surfaces cut at a wall, alone or joined to its skin.
+
+OpenCASCADE's Booleans may lose pieces and call the rest valid, so every result is held against
+the volume of the same part as a mesh.
+"""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import Part
+
+from volfrep.errors import VolfrepError
+from volfrep.export.files import replacing
+from volfrep.mesh import TriangleMesh
+from volfrep.progress import Monitor
+from volfrep.wireframe import Wireframe
+
+from .exact import exact_lattice, plain_curves, silence
+from .faceted import faceted_solid
+
+#: A wall of more triangles is not handed to OpenCASCADE's Booleans.
+MOST_WALL_TRIANGLES = 3_000
+#: An exact part may differ in volume by this fraction from its mesh: coarse ones, of 8 facets a
+#: cell, are 0.6 % off. So may an offset wall from the mesh's wall.
+VOLUME_TOLERANCE = 1e-2
+#: Of an offset by OpenCASCADE, mm; its mode "skin", joined by intersection.
+_OFFSET_TOLERANCE = 1e-4
+_SKIN, _INTERSECTION = 0, 2
+
+
+def offset_wall(shape: Part.Shape, shell: float, domain: TriangleMesh) -> Part.Shape | None:
+    """A solid's inner wall by OpenCASCADE, where that agrees with the mesh's; None elsewhere."""
+    try:
+        if shell > 0:
+            wall = shape.makeOffsetShape(
+                -shell, _OFFSET_TOLERANCE, False, False, _SKIN, _INTERSECTION
+            )
+        else:
+            wall = shape
+        solid = _one_solid(wall)
+    except (Part.OCCError, RuntimeError, ValueError):  # what OpenCASCADE cannot offset
+        return None
+    near = abs(solid.Volume / domain.volume - 1.0) < VOLUME_TOLERANCE
+    return solid if near and solid.isValid() else None
+
+
+def plane_wall(mesh: TriangleMesh) -> Part.Shape:
+    """A mesh as a solid, its coplanar triangles joined to faces.
+
+    Raises:
+        VolfrepError: it has more than `MOST_WALL_TRIANGLES` triangles, or is not closed.
+    """
+    if len(mesh.triangles) > MOST_WALL_TRIANGLES:
+        raise VolfrepError(
+            f"OpenCASCADE does not cut at a wall of {len(mesh.triangles):,} triangles (the limit "
+            f"is {MOST_WALL_TRIANGLES:,})."
+        )
+    return faceted_solid(mesh).removeSplitter()
+
+
+def exact_part(
+    lattice: Wireframe,
+    inner: Part.Shape,
+    outer: Part.Shape | None,
+    expected: float | None,
+    monitor: Monitor | None = None,
+) -> Part.Shape:
+    """The lattice inside a wall, with its skin if there is one.
+
+    Args:
+        lattice: struts that reach into the wall, mm.
+        inner: solid that the lattice fills.
+        outer: solid around it, for lattice and skin in one; None for the lattice alone.
+        expected: volume of the same part as a mesh, mm3; None where the two differ on purpose.
+        monitor: told the progress, asked for a cancel.
+
+    Raises:
+        VolfrepError: OpenCASCADE does not make it, or something of another volume.
+        Cancelled: when the monitor says so.
+    """
+    whole = exact_lattice(lattice, monitor)
+    try:
+        # The cavity less the lattice touches the outside nowhere: a simple Boolean.
+        part = whole.common(inner) if outer is None else outer.cut(inner.cut(whole))
+        solids = part.Solids
+        valid = bool(solids) and all(solid.isValid() and solid.isClosed() for solid in solids)
+    except (Part.OCCError, RuntimeError) as error:
+        raise VolfrepError(
+            f"OpenCASCADE does not cut the lattice at its wall ({error})."
+        ) from error
+    volume = float(sum(solid.Volume for solid in solids))
+    if not valid:
+        raise VolfrepError("OpenCASCADE does not cut the lattice at its wall to a valid solid.")
+    if expected is not None:
+        check_volume(volume, expected)
+    return solids[0] if len(solids) == 1 else Part.makeCompound(solids)
+
+
+def check_volume(volume: float, expected: float) -> None:
+    """Refuse an exact part whose volume is not its mesh's.
+
+    Raises:
+        VolfrepError: with both volumes.
+    """
+    if abs(volume / expected - 1.0) > VOLUME_TOLERANCE:
+        raise VolfrepError(
+            f"OpenCASCADE makes {volume:,.1f} mm3 of what measures {expected:,.1f} mm3 as a mesh."
+        )
+
+
+def write_shape(shape: Part.Shape, path: str | os.PathLike[str]) -> None:
+    """Write a shape as STEP without curves in the surfaces' parameters.
+
+    Raises:
+        VolfrepError: the path cannot be written.
+    """
+    with replacing(path) as file:
+        unfinished = Path(file.name).with_suffix(".step")
+        try:
+            with plain_curves(), silence():
+                shape.exportStep(str(unfinished))
+            file.write(unfinished.read_bytes())
+        finally:
+            unfinished.unlink(missing_ok=True)
+
+
+def _one_solid(shape: Part.Shape) -> Part.Shape:
+    """The solid of a shape of one shell, its inside where material is."""
+    solids = shape.Solids or [Part.Solid(shell) for shell in shape.Shells]
+    if len(solids) != 1:
+        raise ValueError("not one solid")
+    solid = solids[0]
+    if solid.Volume < 0:
+        solid.reverse()
+    return solid

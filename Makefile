@@ -9,7 +9,7 @@ export FREECAD_USER_HOME := $(CURDIR)/.cache/fchome
 SCREEN := xvfb-run -a -s "-screen 0 1600x1200x24 -dpi 96"
 
 .NOTPARALLEL:
-.PHONY: help setup demo test test-all lint format test-core test-freecad test-gui bench clean
+.PHONY: help setup demo test test-all lint format test-core test-freecad test-gui torture bench clean
 
 help: ## show this list
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 22
@@ -49,6 +49,9 @@ test-freecad: setup ## the workbench's tests in the real freecadcmd
 
 test-gui: setup ## the real FreeCAD window on a virtual screen
 	@set -e; for script in tests/gui/drive_*.py; do tools/run_gui.sh "$$script" < /dev/null; done
+
+torture: setup ## every broken, odd and real file beside what it must get
+	@$(PYTHON) tests/core/torture.py
 
 bench: setup ## the benchmarks beside their bars
 	@$(PYTHON) bench/run.py

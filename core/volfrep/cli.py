@@ -119,8 +119,13 @@ def _parser() -> argparse.ArgumentParser:
         sub.set_defaults(command=command)
         return sub
 
-    fill = add("fill", _fill, "Fill a solid (an STL file) with a lattice under a closed skin.")
-    fill.add_argument("part", metavar="PART", help="the closed solid, an STL file")
+    fill = add("fill", _fill, "Fill a solid with a lattice under a closed skin.")
+    fill.add_argument(
+        "part",
+        metavar="PART",
+        help="the closed solid: STL, OBJ, PLY or 3MF, or with FreeCAD at hand STEP, IGES or BREP",
+    )
+    _add_unit(fill)
     _add_lattice_options(fill)
     fill.add_argument(
         "--shell", type=float, required=True, metavar="MM", help="thickness of the skin, 0 for none"
@@ -147,9 +152,18 @@ def _parser() -> argparse.ArgumentParser:
 
     add("cells", _cells, "List the library of unit cells.")
 
-    check = add("check", _check, "Tell what a reader sees in a mesh file (STL, OBJ, PLY).")
+    check = add("check", _check, "Tell what a reader sees in a mesh file (STL, OBJ, PLY, 3MF).")
     check.add_argument("file", metavar="FILE")
+    _add_unit(check)
     return parser
+
+
+def _add_unit(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--unit",
+        help="of the file's lengths: mm, cm, m, inch, ft or um (default: what the file says, else "
+        "mm)",
+    )
 
 
 def _add_lattice_options(parser: argparse.ArgumentParser) -> None:
@@ -179,10 +193,13 @@ def _fill(options: argparse.Namespace) -> None:
 
     from .beam_lattice import beam_model
     from .pipeline import StageCache, fill
+    from .reading.units import refuse_scale
     from .solid import read_solid
 
     start = time.perf_counter()
-    solid = read_solid(part)
+    solid = read_solid(part, options.unit)
+    if not solid.states_unit:
+        refuse_scale(solid.bounds, spec.cell_size, part.name)
     read_seconds = time.perf_counter() - start
     cache = StageCache()
     with _Progress(options.quiet) as progress:
@@ -346,7 +363,7 @@ def _check(options: argparse.Namespace) -> None:
     from .quality import measure, pinched_vertices, shape_statistics
     from .solid import read_triangles
 
-    mesh = as_read(read_triangles(options.file))
+    mesh = as_read(read_triangles(options.file, options.unit))
     quality = measure(mesh)
     pinched = pinched_vertices(mesh)
     closed = quality.open_edges == 0

@@ -36,6 +36,7 @@ from .quality import Quality, combined, inspect, measure
 from .report import Report
 from .shell import TOLERANCE, inner_wall
 from .sizes import mapped_volume, sizes
+from .solid import Solid
 from .spec import LatticeSpec
 from .survey import survey
 from .tile import Octant, TileSpec, mesh_octants
@@ -101,7 +102,8 @@ def fill(
     """Fill a solid with a lattice.
 
     Args:
-        solid: checked closed mesh (from `volfrep.solid.read_solid` or `check_solid`), mm.
+        solid: checked closed mesh (from `volfrep.solid.read_solid` or `check_solid`), mm;
+            what they repaired goes into the report's warnings.
         spec: what to make.
         progress: called with the fraction done and the stage; returning False cancels.
         cache: keeps the stages' results between runs.
@@ -117,11 +119,12 @@ def fill(
     if spec.cell_size > size.max():
         raise VolfrepError(
             f"Cells of {spec.cell_size:g} mm are larger than the part, which measures "
-            f"{size[0]:.4g} x {size[1]:.4g} x {size[2]:.4g} mm: reduce the cell size."
+            f"{size[0]:.4g} x {size[1]:.4g} x {size[2]:.4g} mm: reduce the cell size, "
+            "or see whether the part is in another unit."
         )
     solid_key = _fingerprint(solid)
     wall_key = (solid_key, spec.shell)
-    warnings: tuple[str, ...] = ()
+    warnings = solid.notes if isinstance(solid, Solid) else ()
     domain = solid
     with monitor.stage("shell", 0.0, 0.3):
         if spec.shell > 0:
@@ -129,7 +132,7 @@ def fill(
             domain = wall.mesh
             if wall.worst > TOLERANCE:
                 x, y, z = wall.place
-                warnings = (
+                warnings += (
                     f"The skin is up to {wall.worst:.0%} off its thickness near ({x:.4g}, {y:.4g}, "
                     f"{z:.4g}), where the room between two skins is narrow.",
                 )

@@ -9,14 +9,9 @@ import Part
 
 from volfrep.errors import VolfrepError
 from volfrep.mesh import TriangleMesh, concatenate
+from volfrep.tessellation import ANGULAR_DEVIATION, MAX_DEVIATION, RELATIVE_DEVIATION
 
 from .meshes import from_freecad
-
-#: Largest distance between a facet and the shape: this part of the diagonal of the shape's box...
-RELATIVE_DEVIATION = 1.0 / 4000.0
-#: ...but no more than this, in mm; and the largest angle between neighbours on a curve, radians.
-MAX_DEVIATION = 0.1
-ANGULAR_DEVIATION = 0.2
 
 
 def resolve_base(obj: App.DocumentObject) -> App.DocumentObject:

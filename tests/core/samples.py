@@ -96,3 +96,21 @@ def naca2412(chord=1000.0, span=1000.0, points=200) -> TriangleMesh:
     return _mesh(
         manifold3d.CrossSection([outline[::-1]], manifold3d.FillRule.NonZero).extrude(span)
     )
+
+
+def ring() -> TriangleMesh:
+    """A tube 30 long, 20 across outside and 12 inside, of 24 flat sides."""
+    tube = manifold3d.Manifold.cylinder(30.0, 10.0, 10.0, 24)
+    return _mesh(tube - manifold3d.Manifold.cylinder(40.0, 6.0, 6.0, 24).translate((0, 0, -5)))
+
+
+def knot() -> TriangleMesh:
+    """A square bar, 3 thick, bent in a circle of radius 20 by a turn and a bit: it meets itself."""
+    bar = manifold3d.Manifold.cube((140.0, 3.0, 3.0)).refine_to_length(2.0)
+
+    def bend(points):
+        angle = points[:, 0] / 20.0
+        radius, height = 20.0 - points[:, 1], points[:, 2] + 0.15 * angle
+        return np.stack([radius * np.cos(angle), radius * np.sin(angle), height], axis=1)
+
+    return _mesh(bar.warp_batch(bend))

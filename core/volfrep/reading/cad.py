@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""STEP, IGES and BREP, by way of FreeCAD in a process of its own."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import tempfile
+from pathlib import Path
+
+from ..errors import VolfrepError
+from ..tessellation import ANGULAR_DEVIATION, MAX_DEVIATION, RELATIVE_DEVIATION
+from .contents import Contents
+from .ply import read_ply
+
+PROGRAMS = ("freecadcmd", "FreeCADCmd", "freecad.cmd")
+MACRO = Path(__file__).with_name("tessellate.FCMacro")
+MAX_SECONDS = 1800
+
+
+def read_cad(file: Path) -> Contents:
+    """The solids of a CAD file, tessellated as FreeCAD's Lattice Infill does, in mm.
+
+    FreeCAD runs with an empty profile and opens no document: nothing in the file is executed.
+
+    Raises:
+        VolfrepError: FreeCAD is not there, or cannot make solids of the file.
+    """
+    program = next(filter(None, map(shutil.which, PROGRAMS)), None)
+    if program is None:
+        raise VolfrepError(
+            f"Reading '{file.name}' needs FreeCAD, and there is no '{PROGRAMS[0]}' on the PATH: "
+            "install FreeCAD, or convert the file to STL or 3MF first."
+        )
+    with tempfile.TemporaryDirectory(prefix="volfrep-") as folder:
+        mesh = Path(folder) / "mesh.ply"
+        # FreeCAD takes the kind of the file from its extension; arguments it would open itself.
+        given = {
+            "VOLFREP_SOURCE": str(file.resolve()),
+            "VOLFREP_MESH": str(mesh),
+            "VOLFREP_DEVIATIONS": f"{RELATIVE_DEVIATION} {MAX_DEVIATION} {ANGULAR_DEVIATION}",
+            "FREECAD_USER_HOME": folder,
+        }
+        try:
+            subprocess.run(
+                [program, str(MACRO)],
+                env={**os.environ, **given},
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+                timeout=MAX_SECONDS,
+                check=False,
+            )
+        except subprocess.TimeoutExpired as error:
+            raise VolfrepError(
+                f"FreeCAD has not read '{file.name}' in {MAX_SECONDS / 60:.0f} minutes: export a "
+                "simpler solid."
+            ) from error
+        except OSError as error:
+            raise VolfrepError(f"'{program}' cannot be started: {error.strerror}.") from error
+        said = mesh.with_name(mesh.name + ".txt")
+        if said.is_file():
+            text = said.read_text(encoding="utf-8").rstrip(".")
+            raise VolfrepError(f"FreeCAD cannot make a solid of '{file.name}': {text}.")
+        if not mesh.is_file():
+            raise VolfrepError(
+                f"FreeCAD failed while it read '{file.name}': open it in FreeCAD to see why."
+            )
+        contents = read_ply(mesh.read_bytes(), file.name)
+    return Contents(contents.mesh, "mm")

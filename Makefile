@@ -9,7 +9,8 @@ export FREECAD_USER_HOME := $(CURDIR)/.cache/fchome
 SCREEN := xvfb-run -a -s "-screen 0 1600x1200x24 -dpi 96"
 
 .NOTPARALLEL:
-.PHONY: help setup demo test test-all lint format test-core test-freecad test-gui torture bench clean
+.PHONY: help setup demo test test-all lint format test-core test-freecad test-gui \
+	test-freecad-1 test-newest torture bench clean
 
 help: ## show this list
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 22
@@ -52,6 +53,12 @@ test-gui: setup ## the real FreeCAD window on a virtual screen
 
 torture: setup ## every broken, odd and real file beside what it must get
 	@$(PYTHON) tests/core/torture.py
+
+test-freecad-1: ## the workbench's tests in FreeCAD 1.0, in a Debian 13 of its own (as root)
+	@tools/freecad_1.sh
+
+test-newest: ## the engine's tests on the newest numpy, scipy and scikit-image
+	@tools/newest.sh
 
 bench: setup ## the benchmarks beside their bars
 	@$(PYTHON) bench/run.py

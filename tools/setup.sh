@@ -9,17 +9,20 @@ root=$PWD
 system_python=/usr/bin/python3
 debian_packages=(
   freecad python3 python3-venv python3-pip python3-numpy python3-scipy python3-vtk9
-  xvfb xauth xdotool imagemagick libgl1-mesa-dri admesh prusa-slicer cura-engine gmsh
-  ca-certificates
+  xvfb xauth xdotool imagemagick libgl1-mesa-dri ca-certificates
 )
-# Debian 13 has no CalculiX: what needs it says so, and its tests are skipped.
-grep -qs '^VERSION_ID="13"' /etc/os-release || debian_packages+=(calculix-ccx)
+# Programs that only tests open our files with: without them those tests are skipped and say so.
+tools=(admesh prusa-slicer cura-engine gmsh)
+# Debian 13 has no CalculiX.
+grep -qs '^VERSION_ID="13"' /etc/os-release || tools+=(calculix-ccx)
+with_tools=$([ -z "${SETUP_WITHOUT_TOOLS:-}" ] && echo yes || echo no)
+[ "$with_tools" = no ] || debian_packages+=("${tools[@]}")
 
 say() { printf 'setup: %s\n' "$*"; }
 refuse() { printf 'setup: %s\n' "$*" >&2; exit 1; }
 
 inputs() {
-  printf '%s\n' "$root"
+  printf '%s\n' "$root" "$with_tools"
   cat tools/setup.sh tools/requirements-dev.txt pyproject.toml
 }
 fingerprint=$(inputs | sha256sum)
@@ -53,7 +56,7 @@ fi
 # CuraEngine's printer definitions are in Debian's package of the whole Cura, which brings fifty
 # others: only its own files are unpacked.
 mkdir -p .cache
-if [ ! -d .cache/cura ]; then
+if [ "$with_tools" = yes ] && [ ! -d .cache/cura ]; then
   say "Cura's printer definitions"
   archive=$(mktemp -d)
   (cd "$archive" && apt-get download -qq cura) || refuse "apt-get could not download 'cura'."

@@ -192,6 +192,7 @@ def _fill(options: argparse.Namespace) -> None:
     spec = _spec(options, "shell", "output", "origin", *cli_domain.FIELDS)
 
     from .beam_lattice import beam_model
+    from .forecast import forecast_fill
     from .pipeline import StageCache, fill
     from .reading.units import refuse_scale
     from .solid import read_solid
@@ -201,6 +202,8 @@ def _fill(options: argparse.Namespace) -> None:
     if not solid.states_unit:
         refuse_scale(solid.bounds, spec.cell_size, part.name)
     read_seconds = time.perf_counter() - start
+    if not options.quiet:
+        print(f"Expected: {forecast_fill(solid, spec)}.", flush=True)
     cache = StageCache()
     with _Progress(options.quiet) as progress:
         if cli_solver.fill_axes(solid, spec, options, progress, start):
@@ -225,6 +228,7 @@ def _block(options: argparse.Namespace) -> None:
     spec = _spec(options)
 
     from .beam_lattice import block_beams
+    from .forecast import forecast_block
     from .pipeline import block
 
     start = time.perf_counter()
@@ -233,6 +237,8 @@ def _block(options: argparse.Namespace) -> None:
     if options.threemf == "beams":
         cli_printing.finish_beams(block_beams(spec, options.count), options, start)
         return
+    if not options.quiet:
+        print(f"Expected: {forecast_block(spec, options.count)}.", flush=True)
     beams = block_beams(spec, options.count) if options.threemf == "both" else None
     with _Progress(options.quiet) as progress:
         result = block(spec, tuple(options.count), progress=progress)

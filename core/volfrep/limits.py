@@ -3,33 +3,40 @@
 
 from __future__ import annotations
 
+import math
 import os
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .cells import UnitCell
 from .errors import VolfrepError
+from .forecast import expected_triangles
 from .lattice import OctantGrid
 from .octant import OctantKey
-from .spec import LatticeSpec
-from .tile import Octant
+from .spec import MIN_RESOLUTION, LatticeSpec
+from .tile import COARSEST_STEP, Octant
 
 #: Bytes that a triangle takes at the peak: laid out and checked, or in the Boolean as well.
 BYTES_PER_TRIANGLE = 150
 BYTES_PER_BOOLEAN_TRIANGLE = 900
 #: Bytes that a cell of the grid takes while cells and octants are told apart.
 BYTES_PER_CELL = 500
+#: The estimate of triangles is good to a third: so much of it will be there.
+CERTAIN_SHARE = 0.6
 #: Taken for free memory where the system does not tell.
 ASSUMED_MEMORY = 8e9
 
 
 def refuse_too_large(
-    grid: OctantGrid, octants: dict[OctantKey, Octant], border: NDArray[np.bool_] | None
+    spec: LatticeSpec,
+    grid: OctantGrid,
+    octants: dict[OctantKey, Octant],
+    border: NDArray[np.bool_] | None,
 ) -> None:
     """Refuse a lattice that would not fit.
 
     Args:
+        spec: what to make.
         grid: which octant lies where.
         octants: their meshes.
         border: octants that go through the Boolean; None for none.
@@ -41,32 +48,64 @@ def refuse_too_large(
     present = grid.kind >= 0
     triangles = int(per_kind[grid.kind[present]].sum())
     in_boolean = 0 if border is None else int(per_kind[grid.kind[present & border]].sum())
-    refuse_memory(triangles, in_boolean)
+    refuse_memory(spec, triangles, in_boolean)
 
 
-def expected_triangles(cell: UnitCell, spec: LatticeSpec, volume: float) -> float:
-    """Triangles of the lattice in a volume, rather too few: known before any work starts.
+def refuse_expected(spec: LatticeSpec, volume: float) -> None:
+    """Refuse a lattice in a volume of mm3 that surely would not fit, before any work starts.
 
-    A strut on a cell's edge is shared by four cells; facets are equilateral triangles; about
-    half of the struts' surface is lost to one another at the joints at the worst.
+    Raises:
+        VolfrepError: it needs more memory than is free.
     """
-    ends = cell.nodes[cell.struts]
-    length = float(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).sum()) / 4.0
-    surface = 0.5 * length * spec.cell_size * 2.0 * np.pi * spec.template_radius
-    facet = np.sqrt(3.0) / 4.0 * (spec.cell_size / spec.facets_along_cell) ** 2
-    return float(volume / spec.cell_size**3 * surface / facet)
+    refuse_memory(spec, CERTAIN_SHARE * expected_triangles(spec, volume))
 
 
-def refuse_memory(triangles: float, in_boolean: float, other: float = 0.0) -> None:
-    """Refuse a job of so many triangles, some of them in the Boolean, and other bytes."""
+def refuse_memory(
+    spec: LatticeSpec, triangles: float, in_boolean: float = 0.0, other: float = 0.0
+) -> None:
+    """Refuse a job of so many triangles, some of them in the Boolean, and other bytes.
+
+    Raises:
+        VolfrepError: it needs more memory than is free; with the nearest settings that would fit.
+    """
     needed = triangles * BYTES_PER_TRIANGLE + in_boolean * BYTES_PER_BOOLEAN_TRIANGLE + other
     free = _free_memory()
-    if needed > free or triangles > np.iinfo(np.int32).max // 3:
-        what = f"have about {triangles / 1e6:.3g} million triangles and " if triangles else ""
-        raise VolfrepError(
-            f"This lattice would {what}take {needed / 1e9:.3g} GB of the {free / 1e9:.3g} GB of "
-            "free memory: enlarge the cells, or choose a coarser resolution or fewer cells."
-        )
+    most = np.iinfo(np.int32).max // 3
+    if needed <= free and triangles <= most:
+        return
+    excess = 1.2 * max(needed / free, triangles / most)
+    what = f"have about {triangles / 1e6:.3g} million triangles and " if triangles else ""
+    raise VolfrepError(
+        f"This lattice would {what}take {needed / 1e9:.3g} GB of the {free / 1e9:.3g} GB of "
+        f"free memory: {_what_fits(spec, excess, bool(triangles))}."
+    )
+
+
+def _what_fits(spec: LatticeSpec, excess: float, has_triangles: bool) -> str:
+    """Settings that take so many times less.
+
+    Facets go with the square of their edge, struts in a volume with the square of the cell.
+    """
+    if not has_triangles:
+        return f"cells of {_rounded_up(spec.cell_size * excess ** (1 / 3))} mm would fit"
+    cells = f"cells of {_rounded_up(spec.cell_size * excess**0.5)} mm or larger"
+    facets = int(spec.facets_along_cell / excess**0.5)
+    # Coarser facets than this do not make fewer: thin struts are sampled finely all the same.
+    if facets < max(MIN_RESOLUTION, spec.cell_size / (COARSEST_STEP * spec.template_radius)):
+        return f"{cells} would fit, or fewer cells"
+    if spec.resolution is not None:
+        return f"a resolution of {facets}, or {cells}, would fit"
+    edge = spec.cell_size / facets
+    return (
+        f"a deviation of {_rounded_up(edge**2 / (16 * spec.template_radius))} mm, or {cells}, "
+        "would fit"
+    )
+
+
+def _rounded_up(value: float) -> str:
+    """Two significant figures, not below the value."""
+    step = 10.0 ** (math.floor(math.log10(value)) - 1)
+    return f"{math.ceil(value / step - 1e-9) * step:.6g}"
 
 
 def _free_memory() -> float:

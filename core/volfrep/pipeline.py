@@ -28,7 +28,7 @@ from .graded import (
 )
 from .incidence import without_struts
 from .lattice import Layout, facets, lay_out, octant_grid, used_kinds
-from .limits import BYTES_PER_CELL, expected_triangles, refuse_memory, refuse_too_large
+from .limits import BYTES_PER_CELL, refuse_expected, refuse_memory, refuse_too_large
 from .mesh import TriangleMesh, compact, concatenate
 from .octant import OctantKey
 from .progress import Monitor, ProgressCallback, peak_memory_mb
@@ -143,7 +143,7 @@ def fill(
         )
 
     if spec.output != "domain":
-        refuse_memory(expected_triangles(cell, spec, domain.volume), 0)
+        refuse_expected(spec, domain.volume)
     where = setting(solid, spec, monitor)
     voxel_key = (wall_key, *_cells_key(cell, spec))
     with monitor.stage("voxels", 0.3, 0.4):
@@ -212,7 +212,7 @@ def block(
     monitor = Monitor(progress)
     cell = spec.unit_cell()
     volume = float(np.prod(cells.shape, dtype=float)) * spec.cell_size**3
-    refuse_memory(expected_triangles(cell, spec, volume), 0)
+    refuse_expected(spec, volume)
     if where.chart is not None and not where.chart.is_rigid:
         volume = mapped_volume(cells, where.chart)
     active = np.ones(cells.shape, bool)
@@ -221,7 +221,7 @@ def block(
         grid = octant_grid(cell, active, spec.cell_size, cells.origin, cells.periodic)
         octants = mesh_octants(cell, tile, grid.keys, monitor)
     _refuse_solid_cells(octants, spec)
-    refuse_too_large(grid, octants, None)
+    refuse_too_large(spec, grid, octants, None)
     graph = cell_graph(cell, active, spec.cell_size, cells.origin, cells.periodic)
     with monitor.stage("lattice", 0.4, 0.8):
         layout = lay_out(grid, octants)
@@ -269,7 +269,7 @@ def _voxels(
         cells = make_grid(solid.bounds, spec.cell_size, spec.origin)
     else:
         cells = mapped_grid(solid, where.chart, spec.cell_size, spec.origin, monitor)
-    refuse_memory(0, 0, cells.cells * BYTES_PER_CELL)
+    refuse_memory(spec, 0, other=cells.cells * BYTES_PER_CELL)
     floor = ground(cells, cell, spec, where)
     usable = floor.inner_usable
     return floor, active_cells(cells, domain, spec.activation, monitor, where.chart, usable)
@@ -329,7 +329,7 @@ class _Trimming:
             lambda: mesh_octants(self.cell, tile, keys, monitor),
         )
         _refuse_solid_cells(octants, spec)
-        refuse_too_large(kept.grid, octants, kept.border)
+        refuse_too_large(spec, kept.grid, octants, kept.border)
         return kept, octants
 
     def lay(

@@ -10,6 +10,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
+import FreeCAD as App
 import Part
 
 from volfrep.errors import VolfrepError
@@ -20,6 +21,7 @@ from volfrep.wireframe import Wireframe
 
 from .exact import exact_lattice, plain_curves, silence
 from .faceted import faceted_solid
+from .solids import parent_placement, resolve_base
 
 #: A wall of more triangles is not handed to OpenCASCADE's Booleans.
 MOST_WALL_TRIANGLES = 3_000
@@ -29,6 +31,23 @@ VOLUME_TOLERANCE = 1e-2
 #: Of an offset by OpenCASCADE, mm; its mode "skin", joined by intersection.
 _OFFSET_TOLERANCE = 1e-4
 _SKIN, _INTERSECTION = 0, 2
+
+
+def base_solid(
+    base: App.DocumentObject, infill: App.DocumentObject, mesh: TriangleMesh
+) -> Part.Shape | None:
+    """The one solid that was filled, in the infill's coordinates; None where it is not one.
+
+    `mesh` is what was filled, against which its volume is held.
+    """
+    base = resolve_base(base)
+    shape = Part.getShape(base)
+    if shape.isNull() or len(shape.Solids) != 1:
+        return None
+    solid = shape.Solids[0].copy()
+    to_frame = parent_placement(infill).inverse().multiply(parent_placement(base))
+    solid.Placement = to_frame.multiply(solid.Placement)
+    return solid if abs(solid.Volume / mesh.volume - 1.0) < VOLUME_TOLERANCE else None
 
 
 def offset_wall(shape: Part.Shape, shell: float, domain: TriangleMesh) -> Part.Shape | None:

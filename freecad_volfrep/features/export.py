@@ -14,6 +14,7 @@ from volfrep.errors import VolfrepError
 
 from .lattice_infill import LatticeInfill
 from .progress import progress_of
+from .solver_files import CONTENTS, write_solver_file
 
 
 @dataclass(frozen=True)
@@ -24,7 +25,7 @@ class Format:
         title: for the file dialog.
         suffix: of the file.
         content: ``mesh``; ``compact``, the mesh with fewer triangles; ``beams`` or ``both``, which
-            are for lattice infills.
+            are for lattice infills, as are those of `solver_files.CONTENTS`.
     """
 
     title: str
@@ -47,7 +48,12 @@ FORMATS = (
     Format("3MF, beams only", ".3mf", "beams"),
     Format("PLY", ".ply"),
     Format("OBJ", ".obj"),
-    Format("STEP, faceted", ".step"),
+    Format("STEP, plane faces", ".step"),
+    Format("STEP, exact surfaces", ".step", "exact"),
+    Format("STEP, axes of the struts", ".step", "wireframe"),
+    Format("STEP, instances of joints", ".step", "instances"),
+    Format("CalculiX, beams", ".inp", "beam deck"),
+    Format("CalculiX, tetrahedra", ".inp", "tetrahedra"),
 )
 
 
@@ -66,7 +72,8 @@ def export_mesh(
         obj: a lattice infill, or any mesh object.
         path: the file to write; one that exists is replaced only when the new one is complete.
         content: ``mesh``; ``compact`` for fewer triangles, moved by up to 0.02 mm; and in a 3MF
-            file of a lattice infill ``beams`` (of the beam lattice extension) or ``both``.
+            file of a lattice infill ``beams`` (of the beam lattice extension) or ``both``. Of a
+            lattice infill in .step or .inp, too: one of `solver_files.CONTENTS`.
 
     Raises:
         VolfrepError: there is no mesh, the file cannot be written or cannot hold that content.
@@ -83,6 +90,9 @@ def export_mesh(
         raise VolfrepError(f"'{obj.Label}' has no mesh to export: update it first.")
     if content == "mesh":
         write_mesh(mesh_in_document(obj), path)
+        return
+    if content in CONTENTS:
+        write_solver_file(obj, path, content)
         return
     if content == "compact":
         mesh_writer(path)  # refuses a path that no mesh can be written to before the work

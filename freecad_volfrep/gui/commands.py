@@ -10,8 +10,9 @@ import FreeCADGui as Gui
 
 from freecad_volfrep import ICONS
 from freecad_volfrep.deps import explain_missing, missing_packages
+from volfrep.errors import VolfrepError
 
-from .messages import ask, errors_shown, show_error
+from .messages import ask, choose, errors_shown, show_error
 from .qt import QtWidgets
 
 
@@ -133,8 +134,8 @@ class ExportCommand:
         return _resources(
             "export.svg",
             "Export Lattice",
-            "Write the selected lattice infill for the printer: STL, 3MF with or without beams, "
-            "PLY or OBJ",
+            "Write the selected lattice infill for the printer (STL, 3MF with or without beams, "
+            "PLY, OBJ), for CAD (STEP) or for CalculiX",
         )
 
     def IsActive(self) -> bool:  # noqa: N802
@@ -148,6 +149,7 @@ class ExportCommand:
         if not _packages_present():
             return
         from freecad_volfrep.features.export import export_mesh, formats_of
+        from freecad_volfrep.features.solver_files import CONTENTS, estimate_file
 
         from .selection import selected_mesh
 
@@ -168,6 +170,10 @@ class ExportCommand:
         elif not Path(path).suffix:
             path += form.suffix
         with errors_shown():
+            if form.content in CONTENTS and not ask(
+                f"{Path(path).name}: {estimate_file(obj, form.content)}. Write it?"
+            ):
+                return
             export_mesh(obj, path, form.content)
             App.Console.PrintMessage(f"VOLFREP: {path} written\n")
 
@@ -180,7 +186,8 @@ class ToSolidCommand:
         return _resources(
             "to_solid.svg",
             "Lattice To Solid",
-            "Make a Part solid with a plane face for every triangle: for STEP and solid tools",
+            "Make a Part solid of exact surfaces or of plane faces, links to its joints, or the "
+            "struts' axes",
         )
 
     def IsActive(self) -> bool:  # noqa: N802
@@ -193,25 +200,28 @@ class ToSolidCommand:
         """Predict, ask, make."""
         if not _packages_present():
             return
-        from freecad_volfrep.features.faceted_solid import (
-            DEFAULT_LIMIT,
-            make_solid,
-            predict_solid,
-        )
+        from freecad_volfrep.features.solids import kinds_of, make_kind
 
         from .selection import selected_mesh
 
         obj = selected_mesh()
         doc = obj.Document
-        prediction = predict_solid(obj)
-        if prediction.triangles <= DEFAULT_LIMIT and not ask(
-            f"The solid of '{obj.Label}' will have {prediction}. Make it?"
-        ):
+        offered, refused = {}, []
+        for kind in kinds_of(obj):
+            try:
+                offered[f"{kind.title}: {kind.predict(obj)}"] = kind.name
+            except VolfrepError as error:
+                refused.append(f"{kind.title}: {error}")
+        if not offered:
+            show_error("\n".join(refused))
+            return
+        chosen = choose(f"Make of '{obj.Label}':", list(offered), refused)
+        if chosen is None:
             return
         doc.openTransaction("Lattice To Solid")
         try:
             with errors_shown():
-                make_solid(doc, obj)
+                make_kind(doc, obj, offered[chosen])
                 obj.Visibility = False
         finally:
             doc.commitTransaction()

@@ -25,6 +25,18 @@ def ask(sentence: str) -> bool:
     return bool(answer == box.Yes)
 
 
+def choose(label: str, items: list[str], refused: list[str]) -> str | None:
+    """The item that the user picks from a list; None if she does not.
+
+    `refused` are sentences about what is not in the list.
+    """
+    text = "\n".join([label, *refused])
+    item, taken = QtWidgets.QInputDialog.getItem(
+        Gui.getMainWindow(), "VOLFREP", text, items, 0, False
+    )
+    return str(item) if taken else None
+
+
 @contextmanager
 def errors_shown() -> Iterator[None]:
     """Run a block whose bad-input errors are shown in a window."""

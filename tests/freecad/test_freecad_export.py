@@ -13,6 +13,7 @@ from freecad_volfrep.bridge.faceted import faceted_solid
 from freecad_volfrep.bridge.meshes import from_freecad, to_freecad
 from freecad_volfrep.features.export import formats_of
 from freecad_volfrep.features.faceted_solid import export_step, predict_solid
+from freecad_volfrep.features.solver_files import CONTENTS
 from volfrep.errors import VolfrepError
 from volfrep.export import MESH_WRITERS
 from volfrep.mesh import TriangleMesh, concatenate
@@ -132,11 +133,13 @@ def test_the_formats_on_offer(doc, box, infill):
     copy = doc.addObject("Mesh::Feature", "Copy")
     assert [form.filter for form in formats_of(copy)] == [
         "STL (*.stl)", "STL, fewer triangles (*.stl)", "3MF (*.3mf)",
-        "3MF, fewer triangles (*.3mf)", "PLY (*.ply)", "OBJ (*.obj)", "STEP, faceted (*.step)",
+        "3MF, fewer triangles (*.3mf)", "PLY (*.ply)", "OBJ (*.obj)", "STEP, plane faces (*.step)",
     ]  # fmt: skip
     offered = formats_of(infill)
-    assert {form.content for form in offered} == {"mesh", "compact", "beams", "both"}
-    assert {form.suffix for form in offered} == MESH_WRITERS.keys() - {".stp"}
+    assert {form.content for form in offered} == {
+        "mesh", "compact", "beams", "both", *CONTENTS,
+    }  # fmt: skip
+    assert {form.suffix for form in offered} == MESH_WRITERS.keys() - {".stp"} | {".inp"}
     assert len({form.filter for form in offered}) == len(offered)
 
 

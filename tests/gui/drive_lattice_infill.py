@@ -262,16 +262,17 @@ def make_a_solid(doc, obj):
 
     def answer():
         box = QtGui.QApplication.activeModalWidget()
-        if isinstance(box, QtGui.QMessageBox):
-            asked.append(box.text())
+        if isinstance(box, QtGui.QInputDialog):
+            asked.append(box.comboBoxItems())
             subprocess.run(["import", "-window", "root", str(OUT / "6_to_solid.png")])
-            box.button(QtGui.QMessageBox.Yes).click()
+            box.accept()
 
     select(obj)
     QtCore.QTimer.singleShot(2500, answer)
     click(toolbar_button("Lattice To Solid"))
     wait_until(lambda: any(o.Name.endswith("Solid") for o in doc.Objects), 60)
-    check("it shows the predicted size first", asked and "plane faces" in asked[0], asked)
+    check("it shows the predicted size first", asked and "plane faces: about" in asked[0][0], asked)
+    check("it offers every kind", asked and len(asked[0]) == 4, asked)
     made = [o for o in doc.Objects if o.TypeId == "Part::Feature" and o.Name.endswith("Solid")]
     check("it makes a solid", len(made) == 1 and made[0].Shape.ShapeType == "Solid")
     picture("7_solid")

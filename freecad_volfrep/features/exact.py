@@ -1,0 +1,159 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A lattice infill with exact surfaces: what it is made of, what it will take, its shape."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import FreeCAD as App
+
+from freecad_volfrep.engine import require_engine
+from volfrep.errors import VolfrepError
+
+from .lattice_infill import LatticeInfill
+from .progress import progress_of
+
+if TYPE_CHECKING:
+    from volfrep.estimate import Estimate
+    from volfrep.mesh import TriangleMesh
+    from volfrep.pipeline import StageCache
+    from volfrep.spec import LatticeSpec
+    from volfrep.wireframe import Wireframe
+
+
+@dataclass(frozen=True, eq=False)
+class Ingredients:
+    """What an exact infill is made of, in the infill's coordinates, mm.
+
+    Attributes:
+        spec: the specification.
+        lattice: struts that reach into what the lattice fills.
+        solid: the base as a mesh.
+        domain: what the lattice fills, as a mesh; None where no wall cuts it.
+        warnings: sentences for the user.
+    """
+
+    spec: LatticeSpec
+    lattice: Wireframe
+    solid: TriangleMesh
+    domain: TriangleMesh | None
+    warnings: tuple[str, ...]
+
+    @property
+    def with_skin(self) -> bool:
+        """Whether skin and lattice are one part."""
+        return self.domain is not None and self.spec.output == "part" and self.spec.shell > 0
+
+
+def inputs_of(obj: App.DocumentObject) -> tuple[TriangleMesh, LatticeSpec, StageCache]:
+    """An infill's solid, specification and cache, for files that are made of its struts.
+
+    Raises:
+        VolfrepError: that is no lattice infill, it is out of date, or holds no bare struts.
+    """
+    require_engine()
+    if not isinstance(getattr(obj, "Proxy", None), LatticeInfill):
+        raise VolfrepError(f"'{obj.Label}' is a mesh without struts: choose a lattice infill.")
+    solid, spec, cache = obj.Proxy.inputs(obj)
+    if spec.output == "domain":
+        raise VolfrepError(f"'{obj.Label}' holds no lattice: set its Output to part or lattice.")
+    if spec.fillet > 0:
+        raise VolfrepError(
+            f"Struts alone have no fillets between them: set the JointFillet of '{obj.Label}' to "
+            "0, or take its mesh."
+        )
+    return solid, spec, cache
+
+
+def ingredients_of(obj: App.DocumentObject, progress: Any = None) -> Ingredients:
+    """What an infill with exact surfaces is made of.
+
+    Raises:
+        VolfrepError: as `inputs_of`.
+        Cancelled: in the window, by the user.
+    """
+    solid, spec, cache = inputs_of(obj)
+    from volfrep.beam_lattice import beam_model, deformed_struts
+    from volfrep.pipeline import fill
+
+    bare = replace(spec, output="lattice")
+    lattice = beam_model(solid, bare, progress=progress, cache=cache).lattice
+    domain = None
+    if spec.is_cut:
+        domain = fill(solid, replace(spec, output="domain"), progress=progress, cache=cache).mesh
+    return Ingredients(spec, lattice, solid, domain, deformed_struts(spec, "Exact struts"))
+
+
+def estimate_of(made_of: Ingredients) -> Estimate:
+    """What the exact infill will take.
+
+    Raises:
+        VolfrepError: absurdly much; the text names the nearest cell size that fits.
+    """
+    from volfrep.estimate import Asked, estimate_exact
+
+    cut = made_of.domain is not None
+    return estimate_exact(made_of.lattice, Asked(made_of.spec), trimmed=cut)
+
+
+def exact_shape(obj: App.DocumentObject) -> Any:
+    """The infill as a solid, or a compound of solids, where it lies in the document.
+
+    Raises:
+        VolfrepError: as `inputs_of`; or OpenCASCADE does not manage it, or makes something of
+            another volume than the mesh's.
+        Cancelled: in the window, by the user.
+    """
+    from freecad_volfrep.bridge.beams import place_in_document
+
+    with progress_of(f"Exact surfaces of {obj.Label}") as progress:
+        made_of = ingredients_of(obj, progress)
+        estimate_of(made_of)
+        shape = _shape(obj, made_of, progress)
+    warn(obj, made_of.warnings)
+    shape.Placement = place_in_document(obj).multiply(shape.Placement)
+    return shape
+
+
+def walls_of(obj: App.DocumentObject, made_of: Ingredients) -> tuple[Any, Any]:
+    """The inner and the outer wall as solids; None for the outer one where there is no skin.
+
+    Raises:
+        VolfrepError: OpenCASCADE's offset does not agree with the mesh's wall, and that has too
+            many triangles.
+    """
+    from freecad_volfrep.bridge.trimmed import base_solid, offset_wall, plane_wall
+
+    assert made_of.domain is not None
+    base = base_solid(obj.Base, obj, made_of.solid)
+    inner = None
+    if base is not None:
+        inner = offset_wall(base, made_of.spec.shell, made_of.domain)
+    if inner is None:
+        inner = plane_wall(made_of.domain)
+    if not made_of.with_skin:
+        return inner, None
+    return inner, plane_wall(made_of.solid) if base is None else base
+
+
+def warn(obj: App.DocumentObject, sentences: tuple[str, ...]) -> None:
+    """Say something about an object in the report view."""
+    for sentence in sentences:
+        App.Console.PrintWarning(f"VOLFREP, {obj.Label}: {sentence}\n")
+
+
+def _shape(obj: App.DocumentObject, made_of: Ingredients, progress: Any) -> Any:
+    from freecad_volfrep.bridge.exact import exact_lattice
+    from freecad_volfrep.bridge.trimmed import check_volume, exact_part
+    from volfrep.progress import Monitor
+
+    # Deformed struts measure something else as a mesh.
+    expected = None if made_of.warnings else obj.Volume.Value
+    monitor = Monitor(progress)
+    if made_of.domain is not None:
+        return exact_part(made_of.lattice, *walls_of(obj, made_of), expected, monitor)
+    shape = exact_lattice(made_of.lattice, monitor)
+    if expected is not None:
+        check_volume(shape.Volume, expected)
+    return shape

@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A lattice infill as a file for CAD or for a solver, where it lies in the document."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import FreeCAD as App
+
+from volfrep.errors import VolfrepError
+
+from .exact import estimate_of, exact_shape, ingredients_of, inputs_of, warn
+from .instances import write_instances
+from .progress import progress_of
+
+if TYPE_CHECKING:
+    from volfrep.clip import Clipped
+
+STEP_SUFFIXES = (".step", ".stp")
+DECK_SUFFIXES = (".inp",)
+
+
+def axes_of(obj: App.DocumentObject) -> Clipped:
+    """The infill's struts cut at its wall, in the document's coordinates.
+
+    Raises:
+        VolfrepError: as `inputs_of`, or no strut lies inside.
+        Cancelled: in the window, by the user.
+    """
+    solid, spec, cache = inputs_of(obj)
+    from freecad_volfrep.bridge.beams import place_in_document, placed_lattice
+    from volfrep.clip import clipped_infill
+
+    with progress_of(f"Struts of {obj.Label}") as progress:
+        clipped = clipped_infill(solid, spec, progress=progress, cache=cache)
+    return replace(clipped, wireframe=placed_lattice(clipped.wireframe, place_in_document(obj)))
+
+
+def estimate_file(obj: App.DocumentObject, content: str) -> str:
+    """What a file of that content will take, as a sentence without its full stop.
+
+    Raises:
+        VolfrepError: there is no such content, or it would be absurdly much; the text names the
+            nearest setting that fits.
+    """
+    if content not in CONTENTS:
+        raise VolfrepError(f"There is no content '{content}': choose {' or '.join(CONTENTS)}.")
+    _, spec, _ = inputs_of(obj)
+    from volfrep.beam_elements import beam_model
+    from volfrep.estimate import Asked, estimate_axes, estimate_beams, estimate_tetrahedra
+
+    asked = Asked(spec)
+    if content == "tetrahedra":
+        return str(estimate_tetrahedra(obj.Mesh.CountFacets, asked))
+    if content in ("exact", "instances"):
+        with progress_of(f"Struts of {obj.Label}") as progress:
+            return str(estimate_of(ingredients_of(obj, progress)))
+    clipped = axes_of(obj)
+    if content == "wireframe":
+        return str(estimate_axes(len(clipped.wireframe.struts), asked))
+    return str(estimate_beams(beam_model(clipped.wireframe, clipped.on_wall), asked))
+
+
+def write_solver_file(obj: App.DocumentObject, path: str | os.PathLike[str], content: str) -> None:
+    """Write a lattice infill for CAD or for CalculiX.
+
+    Where OpenCASCADE does not manage the exact form, the file holds plane faces, and the report
+    view says why.
+
+    Args:
+        obj: the infill.
+        path: of the file, .step or .inp.
+        content: one of `CONTENTS`.
+
+    Raises:
+        VolfrepError: the infill does not have it, the path cannot hold it or cannot be written,
+            or it would be absurdly large.
+        Cancelled: in the window, by the user; no file is left behind.
+    """
+    suffixes, write = CONTENTS[content]
+    if Path(path).suffix.lower() not in suffixes:
+        raise VolfrepError(f"'{path}' cannot hold {content}: give it the extension {suffixes[0]}.")
+    write(obj, path)
+
+
+def _write_exact(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
+    from freecad_volfrep.bridge.beams import place_in_document, placed_lattice
+    from freecad_volfrep.bridge.exact import write_exact
+    from freecad_volfrep.bridge.solids import mesh_in_document
+    from freecad_volfrep.bridge.trimmed import write_shape
+    from volfrep.estimate import estimate_faceted
+    from volfrep.export.files import check_writable
+    from volfrep.export.step_faceted import write_step_faceted
+    from volfrep.progress import Monitor
+
+    check_writable(path)
+    with progress_of(f"Struts of {obj.Label}") as progress:
+        made_of = ingredients_of(obj, progress)
+    estimate_of(made_of)
+    try:
+        if made_of.domain is None:
+            # Never built as a shape: its text is laid at every place.
+            lattice = placed_lattice(made_of.lattice, place_in_document(obj))
+            with progress_of(f"Exact surfaces of {obj.Label}") as progress:
+                write_exact(lattice, path, Monitor(progress))
+            warn(obj, made_of.warnings)
+            return
+        shape = exact_shape(obj)
+    except VolfrepError as error:
+        mesh = mesh_in_document(obj)
+        estimate_faceted(len(mesh.triangles))
+        write_step_faceted(mesh, path)
+        warn(obj, (f"{error} The file holds plane faces instead of exact surfaces.",))
+        return
+    write_shape(shape, path)
+
+
+def _write_axes(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
+    from volfrep.export.step_wireframe import write_step_wireframe
+
+    write_step_wireframe(axes_of(obj).wireframe, path)
+
+
+def _write_beams(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
+    from volfrep.beam_elements import beam_model
+    from volfrep.beam_lattice import deformed_struts
+    from volfrep.estimate import estimate_beams
+    from volfrep.export.calculix import Material, write_beams
+
+    clipped = axes_of(obj)
+    model = beam_model(clipped.wireframe, clipped.on_wall)
+    estimate_beams(model)
+    write_beams(model, path, Material(density=obj.Density), on_wall=clipped.on_wall)
+    warn(obj, deformed_struts(inputs_of(obj)[1]))
+
+
+def _write_tetrahedra(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
+    from freecad_volfrep.bridge.beams import place_in_document
+    from freecad_volfrep.bridge.solids import mesh_in_document, placed
+    from volfrep.export.calculix import Material, write_tetrahedra
+    from volfrep.progress import Monitor
+    from volfrep.tetrahedra import nodes_on, tetrahedra
+
+    solid = placed(inputs_of(obj)[0], place_in_document(obj))
+    with progress_of(f"Tetrahedra of {obj.Label}") as progress:
+        filled = tetrahedra(mesh_in_document(obj), Monitor(progress))
+    sets = {"SKIN": nodes_on(filled, solid)}
+    write_tetrahedra(filled, path, Material(density=obj.Density), sets=sets)
+
+
+#: By content: the extensions that can hold it, and what writes it.
+CONTENTS: dict[
+    str, tuple[tuple[str, ...], Callable[[App.DocumentObject, str | os.PathLike[str]], None]]
+] = {
+    "exact": (STEP_SUFFIXES, _write_exact),
+    "wireframe": (STEP_SUFFIXES, _write_axes),
+    "instances": (STEP_SUFFIXES, write_instances),
+    "beam deck": (DECK_SUFFIXES, _write_beams),
+    "tetrahedra": (DECK_SUFFIXES, _write_tetrahedra),
+}

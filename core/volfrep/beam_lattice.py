@@ -8,7 +8,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from .booleans import difference
 from .distance import closest_points
+from .drains import drain
 from .errors import VolfrepError
 from .mesh import TriangleMesh, concatenate
 from .pipeline import StageCache, block_wireframe, fill
@@ -67,9 +69,17 @@ def beam_model(
     domain = filled.mesh
     clip = domain if spec.output == "lattice" else solid
     with_skin = spec.output == "part" and spec.shell > 0
-    skin = concatenate(solid, domain.reversed()) if with_skin else None
     lattice = _reaching_into(filled.wireframe, clip)
-    return BeamModel(lattice, clip, skin, filled.report.warnings + deformed_struts(spec))
+    warnings = filled.report.warnings + deformed_struts(spec)
+    if not with_skin:
+        return BeamModel(lattice, clip, None, warnings)
+    skin = concatenate(solid, domain.reversed())
+    if spec.open_faces:
+        skin = difference(solid, domain)
+    if spec.drains is not None:
+        drained = drain(skin, solid, domain, lattice, spec, Monitor(progress))
+        return BeamModel(lattice, clip, drained.mesh, warnings + drained.warnings)
+    return BeamModel(lattice, clip, skin, warnings)
 
 
 def block_beams(spec: LatticeSpec, count: Sequence[int]) -> BeamModel:

@@ -17,7 +17,7 @@ import sys
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from . import cli_domain, cli_printing, cli_solver
 from .cli_grading import add_grading_options, gradings
@@ -189,7 +189,9 @@ def _add_lattice_options(parser: argparse.ArgumentParser) -> None:
 def _fill(options: argparse.Namespace) -> None:
     part = Path(options.part)
     _check_targets(options, part)
-    spec = _spec(options, "shell", "output", "origin", *cli_domain.FIELDS)
+    spec = _spec(
+        options, "shell", "output", "origin", *cli_domain.FIELDS, **cli_domain.openings(options)
+    )
 
     from .beam_lattice import beam_model
     from .forecast import forecast_fill
@@ -266,7 +268,7 @@ def _check_targets(options: argparse.Namespace, part: Path | None = None) -> Non
             raise VolfrepError(f"The report and the mesh cannot both be written to '{out}'.")
 
 
-def _spec(options: argparse.Namespace, *more: str) -> LatticeSpec:
+def _spec(options: argparse.Namespace, *more: str, **further: Any) -> LatticeSpec:
     from .spec import LatticeSpec
 
     names = ("cell", "cell_size", "strut_radius", "resolution", "deviation", "fillet", "density")
@@ -274,7 +276,7 @@ def _spec(options: argparse.Namespace, *more: str) -> LatticeSpec:
     if given.get("origin") is not None:
         given["origin"] = tuple(given["origin"])
     given = {name: value for name, value in given.items() if value is not None}
-    return LatticeSpec(**given, **gradings(options))
+    return LatticeSpec(**given, **further, **gradings(options))
 
 
 def _finish(

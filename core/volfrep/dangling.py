@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from .cells import UnitCell
 from .clip import Pieces, pieces_inside
 from .distance import closest_points
+from .domain import Domain
 from .graded import Ground, Setting, graded_wireframe
 from .mesh import TriangleMesh
 from .spec import LatticeSpec
@@ -29,6 +30,8 @@ Bools = NDArray[np.bool_]
 #: A node this far outside a wall without skin, in units of its joint's radius, still holds its
 #: struts together: a wall through the cells' corners leaves half of every joint there.
 NODE_REACH = 0.5
+#: Struts are cut at an open face where they are this near to it, in units of its size.
+ON_OPENING = 1e-7
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,7 +75,7 @@ def thinned(
     active: Bools,
     spec: LatticeSpec,
     where: Setting,
-    domain: TriangleMesh,
+    domain: Domain,
 ) -> Thinned:
     """The lattice of the active cells without the struts that the specification has taken away.
 
@@ -82,7 +85,7 @@ def thinned(
         active: (nx, ny, nz) bool.
         spec: what is wanted.
         where: the setting.
-        domain: closed mesh of what the lattice fills.
+        domain: what the lattice fills.
     """
     graph = ground.graph(cell, active, spec.is_endless)
     placed = graded_wireframe(graph, spec, where)
@@ -91,8 +94,9 @@ def thinned(
         nudged = replace(placed, nodes=placed.nodes + NUDGE * spec.cell_size)
     left = remaining(
         nudged,
-        domain if spec.shell > 0 or spec.boundary == "trim" else None,
+        domain.mesh if spec.shell > 0 or spec.boundary == "trim" else None,
         held=spec.shell > 0,
+        openings=domain.openings,
         shortest=spec.shortest_stub,
         dangling=spec.remove_dangling,
     )
@@ -108,6 +112,7 @@ def remaining(
     held: bool,
     shortest: float,
     dangling: bool,
+    openings: TriangleMesh | None = None,
 ) -> Remaining:
     """The struts that stay when those with free ends go.
 
@@ -120,6 +125,7 @@ def remaining(
         held: whether there is a skin behind the wall, which holds what it cuts.
         shortest: struts with a free end that are shorter than this go, mm.
         dangling: all struts with a free end go.
+        openings: faces of the wall that have no skin; None for none.
     """
     count = len(lattice.struts)
     if wall is None:
@@ -130,7 +136,7 @@ def remaining(
         if not held:
             pieces = _to_near_nodes(pieces, lattice, wall)
     length = pieces.lengths(lattice)
-    ends, fixed = _ends(pieces, lattice, held)
+    ends, fixed = _ends(pieces, lattice, held, openings)
     alive = np.ones(len(ends), bool)
     owners = np.bincount(pieces.owner, minlength=count) > 0
 
@@ -176,15 +182,27 @@ def _to_near_nodes(pieces: Pieces, lattice: Wireframe, wall: TriangleMesh) -> Pi
     )
 
 
-def _ends(pieces: Pieces, lattice: Wireframe, held: bool) -> tuple[Ints, Bools]:
+def _ends(
+    pieces: Pieces, lattice: Wireframe, held: bool, openings: TriangleMesh | None
+) -> tuple[Ints, Bools]:
     """(p, 2) numbers of the pieces' ends: of the node, or one of its own; and which are held."""
     ends = lattice.struts[pieces.owner].astype(np.int64)
     count = len(lattice.nodes)
-    for side, cut in ((0, pieces.low > 0.0), (1, pieces.high < 1.0)):
+    points = []
+    for side, share, cut in (
+        (0, pieces.low, pieces.low > 0.0),
+        (1, pieces.high, pieces.high < 1.0),
+    ):
+        start, end = lattice.nodes[lattice.struts[pieces.owner[cut]]].swapaxes(0, 1)
+        points.append(start + share[cut, None] * (end - start))
         ends[cut, side] = count + np.arange(int(cut.sum()))
         count += int(cut.sum())
     fixed = np.zeros(count, bool)
     fixed[len(lattice.nodes) :] = held
+    if held and openings is not None and count > len(lattice.nodes):
+        distance = closest_points(openings, np.concatenate(points))[1]
+        size = float(np.ptp(openings.bounds, axis=0).max())
+        fixed[len(lattice.nodes) :] = distance > ON_OPENING * size
     return ends, fixed
 
 

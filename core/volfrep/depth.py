@@ -12,6 +12,7 @@ from .distance import SurfaceIndex
 from .progress import Monitor
 
 Floats = NDArray[np.float64]
+Bools = NDArray[np.bool_]
 
 #: Points of one step between two looks at the cancel button.
 POINTS_PER_STEP = 40_000
@@ -41,6 +42,31 @@ class Depth:
             return np.zeros((0, 3)), np.zeros(0)
         closest, distance = (np.concatenate(values) for values in zip(*parts, strict=True))
         return closest, distance
+
+    @property
+    def inset(self) -> float:
+        """The wall lies so far inside the box of the solid, at least, mm."""
+        return self.thickness
+
+    @property
+    def error(self) -> float:
+        """By so much the depth of a point inside, about as deep as the wall, may be too large.
+
+        See `SurfaceIndex.near`; mm.
+        """
+        spacing = self.index.spacing
+        return 0.1 * spacing + 0.3 * spacing**2 / self.thickness
+
+    def values(self, points: Floats, inside: Bools | None = None) -> tuple[Floats, Floats]:
+        """Thickness less depth at points (n, 3), mm, and its gradients (n, 3).
+
+        Below 0 inside the inner wall. `inside` (n,) tells which points are inside the solid;
+        None: all.
+        """
+        closest, distance = self.nearest(points)
+        sign = np.ones(len(points)) if inside is None else np.where(inside, 1.0, -1.0)
+        gradient = (closest - points) * (sign / np.maximum(distance, 1e-300))[:, None]
+        return self.thickness - sign * distance, gradient
 
     def planes(self, points: Floats) -> tuple[Floats, Floats]:
         """Tangent planes of the wall near points inside: a point at exact depth, and the normal."""

@@ -174,7 +174,7 @@ def _dot(a: Floats, b: Floats) -> Floats:
 
 @dataclass(frozen=True, eq=False)
 class SurfaceIndex:
-    """A closed surface prepared for many fast distance queries.
+    """A surface prepared for many fast distance queries.
 
     Attributes:
         corners: (m, 3, 3) triangle corners.
@@ -189,6 +189,23 @@ class SurfaceIndex:
     tree: Any
     triangle_of_sample: NDArray[np.int32]
     spacing: float
+
+    def without(self, gone: NDArray[np.bool_]) -> SurfaceIndex:
+        """The index of the surface less some triangles, (m,) bool: it is open then."""
+        triangle, edge = np.nonzero(gone[self.across] & ~gone[:, None])
+        across = self.across.copy()
+        across[triangle, edge] = triangle  # the walk ends at the border
+        # The border may be nearest to points that the samples on the faces recede from.
+        start, end = self.corners[triangle, edge], self.corners[triangle, (edge + 1) % 3]
+        length = np.linalg.norm(end - start, axis=1)
+        pieces = np.maximum(np.ceil(length / self.spacing), 1).astype(np.int64)
+        owner, place = spread(pieces + 1)
+        border = start[owner] + (place / pieces[owner])[:, None] * (end - start)[owner]
+        stay = ~gone[self.triangle_of_sample]
+        samples = np.concatenate([self.tree.data[stay], border])
+        owners = np.concatenate([self.triangle_of_sample[stay], triangle[owner].astype(np.int32)])
+        tree = cKDTree(samples, balanced_tree=False, compact_nodes=False, leafsize=32)
+        return SurfaceIndex(self.corners, across, tree, owners, self.spacing)
 
     def near(self, points: Floats) -> tuple[Floats, Floats]:
         """The closest surface points, and their distances, by sample and edge walk.

@@ -39,8 +39,8 @@ class DepthField:
         self.unit = cube / COARSEST
         low, high = solid.bounds
         # The first and last nodes lie outside the wall, at no special place of the part.
-        self._start = low + depth.thickness - 0.3660254 * cube
-        cubes = np.ceil((high - depth.thickness - self._start) / cube).astype(np.int64) + 1
+        self._start = low + depth.inset - 0.3660254 * cube
+        cubes = np.ceil((high - depth.inset - self._start) / cube).astype(np.int64) + 1
         self._top = 1
         while (cubes / self._top).prod() > FIRST_CUBES:
             self._top *= 2
@@ -93,11 +93,7 @@ class DepthField:
         new = call(lambda: np.unique(wanted[find(self._names, wanted) < 0]))
         if len(new):
             fresh = named(new)
-            point = self.point(fresh)
-            closest, distance = self.depth.nearest(point)
-            sign = np.where(self._inside(fresh), 1.0, -1.0)
-            value = self.depth.thickness - sign * distance
-            gradient = (closest - point) * (sign / np.maximum(distance, 1e-300))[:, None]
+            value, gradient = self.depth.values(self.point(fresh), self._inside(fresh))
             place = np.searchsorted(self._names, new)
             self._names = np.insert(self._names, place, new)
             self._value = np.insert(self._value, place, value)
@@ -121,13 +117,12 @@ class DepthField:
         cube = np.indices(self._cubes // top).reshape(3, -1).T * top
         while top > 1:
             middle = (cube + top // 2) * COARSEST
-            distance = depth.nearest(self.point(middle))[1]
             inside = self._inside(middle)
+            value = depth.values(self.point(middle), inside)[0]
             reach = 0.5 * np.sqrt(3.0) * top * COARSEST * self.unit
             # By so much the distance may be too long (`SurfaceIndex.near`).
-            error = np.where(inside, 0.1 * spacing + 0.3 * spacing**2 / depth.thickness, spacing)
-            signed = np.where(inside, distance, -distance)
-            cube = cube[np.abs(signed - depth.thickness) <= reach + error]
+            error = np.where(inside, depth.error, spacing)
+            cube = cube[np.abs(value) <= reach + error]
             top //= 2
             cube = (cube[:, None] + top * CORNERS).reshape(-1, 3)
         return Leaves(cube * COARSEST, np.full(len(cube), COARSEST))

@@ -269,6 +269,8 @@ def as_plain(value: Any) -> Any:
         return value.as_dict()
     if isinstance(value, PointField):
         return f"{len(value.values)} points" + f" of {value.source}" * bool(value.source)
+    if hasattr(value, "as_plain"):
+        return value.as_plain()
     if hasattr(value, "__dataclass_fields__"):
         return {name: as_plain(getattr(value, name)) for name in value.__dataclass_fields__}
     if isinstance(value, tuple):

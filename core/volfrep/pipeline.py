@@ -4,18 +4,18 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
-from typing import Any, TypeVar
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .cache import StageCache
 from .cells import UnitCell
 from .clean import remove_slivers, separate_vertices, shortest_edge
 from .dangling import Thinned, thinned
+from .domain import Domain, find_domain
 from .errors import VolfrepError
-from .frep import Floats
 from .graded import (
     Ground,
     Setting,
@@ -26,34 +26,33 @@ from .graded import (
     setting,
     vertices_of,
 )
-from .incidence import without_struts
-from .lattice import Layout, facets, lay_out, octant_grid, used_kinds
+from .lattice import facets, lay_out, octant_grid
 from .limits import BYTES_PER_CELL, refuse_expected, refuse_memory, refuse_too_large
-from .mesh import TriangleMesh, compact, concatenate
-from .octant import OctantKey
+from .mesh import TriangleMesh, box_of, concatenate
 from .progress import Monitor, ProgressCallback, peak_memory_mb
-from .quality import Quality, combined, inspect, measure
+from .quality import inspect, measure
 from .report import Report
-from .shell import TOLERANCE, inner_wall
 from .sizes import mapped_volume, sizes
 from .solid import Solid
 from .spec import LatticeSpec
 from .survey import survey
-from .tile import Octant, TileSpec, mesh_octants
-from .trim import Cleared, Kept, clear, keep, keep_all, octant_roles, trim
+from .tile import mesh_octants
+from .trim import Cleared, clear
+from .trimming import (
+    FIRST_MARGIN,
+    Output,
+    Trimming,
+    cell_key,
+    refuse_solid_cells,
+    smallest_shell,
+    tile_spec,
+)
 from .voxels import CellGrid, active_cells, make_grid, mapped_grid
-from .wireframe import CellGraph, Wireframe, cell_graph
+from .wireframe import Wireframe, cell_graph
+
+__all__ = ["Result", "StageCache", "block", "block_wireframe", "fill"]
 
 Bools = NDArray[np.bool_]
-T = TypeVar("T")
-
-
-#: Octants on moved struts mostly reach no farther out of their places than this, in units of
-#: their edges. Where they do, they are looked for so many times as far as the last ones reached.
-FIRST_MARGIN = 0.05
-SPARE_MARGIN = 1.05
-#: Less of a domain than this is no lattice.
-NO_LATTICE = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,27 +68,6 @@ class Result:
     mesh: TriangleMesh
     wireframe: Wireframe
     report: Report
-
-
-@dataclass
-class StageCache:
-    """The last result of every stage, reused as long as what went into it is the same.
-
-    Give the same cache to run after run: a new strut radius then repeats neither the shelling
-    nor the voxelisation. It holds meshes; drop it to free them.
-    """
-
-    _entries: dict[str, tuple[Any, Any]] = field(default_factory=dict)
-
-    def get(self, stage: str, key: object, compute: Callable[[], T]) -> T:
-        """The stage's last value if it was made for an equal key, else a new one."""
-        entry = self._entries.get(stage)
-        if entry is not None and entry[0] == key:
-            value: T = entry[1]
-            return value
-        value = compute()
-        self._entries[stage] = (key, value)
-        return value
 
 
 def fill(
@@ -123,27 +101,19 @@ def fill(
             "or see whether the part is in another unit."
         )
     solid_key = _fingerprint(solid)
-    wall_key = (solid_key, spec.shell)
-    warnings = solid.notes if isinstance(solid, Solid) else ()
-    domain = solid
     with monitor.stage("shell", 0.0, 0.3):
-        if spec.shell > 0:
-            wall = cache.get("shell", wall_key, lambda: inner_wall(solid, spec.shell, monitor))
-            domain = wall.mesh
-            if wall.worst > TOLERANCE:
-                x, y, z = wall.place
-                warnings += (
-                    f"The skin is up to {wall.worst:.0%} off its thickness near ({x:.4g}, {y:.4g}, "
-                    f"{z:.4g}), where the room between two skins is narrow.",
-                )
-    if not len(domain.triangles):
+        domain, warnings, wall_key = find_domain(solid, solid_key, spec, cache, monitor)
+    if isinstance(solid, Solid):
+        warnings = solid.notes + warnings
+    room = domain.mesh
+    if not len(room.triangles):
         raise VolfrepError(
             f"The part is nowhere thicker than two walls of {spec.shell:g} mm, so that nothing "
             "is left to fill: reduce the shell thickness."
         )
 
     if spec.output != "domain":
-        refuse_expected(spec, domain.volume)
+        refuse_expected(spec, room.volume)
     where = setting(solid, spec, monitor)
     voxel_key = (wall_key, *_cells_key(cell, spec))
     with monitor.stage("voxels", 0.3, 0.4):
@@ -171,10 +141,10 @@ def fill(
 
     if spec.output == "domain":
         precision = shortest_edge(solid)
-        clean = separate_vertices(remove_slivers(domain, precision), precision)
-        cleared, measured = Cleared(clean, 0, 0), measure(clean)
+        clean = separate_vertices(remove_slivers(room, precision), precision)
+        made = Output(Cleared(clean, 0, 0), measure(clean), None)
     else:
-        trimming = _Trimming(solid, domain, cell, spec, where, floor, active, thin, voxel_key)
+        trimming = Trimming(solid, domain, cell, spec, where, floor, active, thin, voxel_key)
         with monitor.stage("tile", 0.4, 0.5):
             margin = 0.0 if keeps_places(spec, where) else FIRST_MARGIN
             if not spec.is_cut:
@@ -183,10 +153,10 @@ def fill(
         with monitor.stage("lattice", 0.5, 0.6):
             kept, layout, points = trimming.lay(kept, octants, margin, cache, monitor)
         with monitor.stage("trim", 0.6, 1.0):
-            cleared, measured = trimming.output(kept, layout, points, monitor)
-    skin_volume = solid.volume - domain.volume if spec.output == "part" else 0.0
+            made = trimming.output(kept, layout, points, frame, monitor)
+    skin_volume = solid.volume - room.volume if spec.output == "part" else 0.0
     return _result(
-        cleared, measured, frame, floor.cells, active, where, domain.volume, spec, monitor,
+        made, frame, floor.cells, active, where, room.volume, spec, monitor,
         skin_volume, warnings, thin,
     )  # fmt: skip
 
@@ -220,7 +190,7 @@ def block(
     with monitor.stage("tile", 0.0, 0.4):
         grid = octant_grid(cell, active, spec.cell_size, cells.origin, cells.periodic)
         octants = mesh_octants(cell, tile, grid.keys, monitor)
-    _refuse_solid_cells(octants, spec)
+    refuse_solid_cells(octants, spec)
     refuse_too_large(spec, grid, octants, None)
     graph = cell_graph(cell, active, spec.cell_size, cells.origin, cells.periodic)
     with monitor.stage("lattice", 0.4, 0.8):
@@ -232,9 +202,10 @@ def block(
         measured = measure(mesh, monitor) if spec.is_graded else survey(layout, mesh.vertices)
         cleared = Cleared(mesh, 0, 0)
         if measured.shells > 1:
-            cleared = clear(mesh, inspect(mesh, monitor), _smallest_shell(spec))
+            cleared = clear(mesh, inspect(mesh, monitor), smallest_shell(spec))
             measured = measure(cleared.mesh, monitor)
-    return _result(cleared, measured, frame, cells, active, where, volume, spec, monitor)
+    made = Output(cleared, measured, None)
+    return _result(made, frame, cells, active, where, volume, spec, monitor)
 
 
 def block_wireframe(spec: LatticeSpec, count: Sequence[int]) -> Wireframe:
@@ -259,171 +230,40 @@ def _block_setting(spec: LatticeSpec, count: Sequence[int]) -> tuple[CellGrid, S
 
 def _voxels(
     solid: TriangleMesh,
-    domain: TriangleMesh,
+    domain: Domain,
     cell: UnitCell,
     spec: LatticeSpec,
     where: Setting,
     monitor: Monitor,
 ) -> tuple[Ground, Bools]:
+    whole, origin = solid, spec.origin
+    if domain.is_open:  # octants are wanted beyond the part, too; the cells still begin at it
+        whole = concatenate(solid, domain.wall)
+        x, y, z = solid.bounds[0]
+        origin = origin or (float(x), float(y), float(z))
     if where.chart is None:
-        cells = make_grid(solid.bounds, spec.cell_size, spec.origin)
+        cells = make_grid(box_of(whole.vertices), spec.cell_size, origin)
     else:
-        cells = mapped_grid(solid, where.chart, spec.cell_size, spec.origin, monitor)
+        cells = mapped_grid(whole, where.chart, spec.cell_size, spec.origin, monitor)
     refuse_memory(spec, 0, other=cells.cells * BYTES_PER_CELL)
     floor = ground(cells, cell, spec, where)
     usable = floor.inner_usable
-    return floor, active_cells(cells, domain, spec.activation, monitor, where.chart, usable)
+    return floor, active_cells(cells, domain.mesh, spec.activation, monitor, where.chart, usable)
 
 
 def _cells_key(cell: UnitCell, spec: LatticeSpec) -> tuple[object, ...]:
     """What the cells of the grid, and which of them are active, depend on besides the wall."""
     width: tuple[object, ...] = ()
     if spec.cell_map is not None:
-        width = (_cell_key(cell), spec.keep_radius, spec.radius_extremes[1])
+        width = (cell_key(cell), spec.keep_radius, spec.radius_extremes[1])
     return (
         spec.cell_size, spec.origin, spec.activation,
         spec.size_grading, spec.cell_map, spec.orientation, *width,
     )  # fmt: skip
 
 
-@dataclass(frozen=True, eq=False)
-class _Trimming:
-    """From active cells to the trimmed lattice."""
-
-    solid: TriangleMesh
-    domain: TriangleMesh
-    cell: UnitCell
-    spec: LatticeSpec
-    where: Setting
-    floor: Ground
-    active: Bools
-    thin: Thinned | None
-    key: object
-
-    def octants(
-        self, margin: float, cache: StageCache, monitor: Monitor
-    ) -> tuple[Kept, dict[OctantKey, Octant]]:
-        """Which octants there are, and their meshes."""
-        spec, cells = self.spec, self.floor.cells
-        tile = tile_spec(spec)
-        grid = self.floor.octants(self.cell, self.active, spec.is_endless)
-        if spec.is_cut:
-            roles = cache.get(
-                "octants",
-                (self.key, margin),
-                lambda: octant_roles(self.domain, cells, monitor, self.where.chart, margin),
-            )
-            kept = keep(grid, roles)
-        else:
-            kept = keep_all(grid)
-        if self.thin is not None:
-            fewer = without_struts(
-                kept.grid, self.cell, self.thin.graph, self.thin.left.kept, tile.influence,
-                joined=not keeps_places(spec, self.where),
-            )  # fmt: skip
-            kept = replace(kept, grid=used_kinds(fewer))
-        keys = kept.grid.keys
-        octants = cache.get(
-            "tile",
-            (_cell_key(self.cell), tile, tuple(keys)),
-            lambda: mesh_octants(self.cell, tile, keys, monitor),
-        )
-        _refuse_solid_cells(octants, spec)
-        refuse_too_large(spec, kept.grid, octants, kept.border)
-        return kept, octants
-
-    def lay(
-        self,
-        kept: Kept,
-        octants: dict[OctantKey, Octant],
-        margin: float,
-        cache: StageCache,
-        monitor: Monitor,
-    ) -> tuple[Kept, Layout, Floats]:
-        """The octants laid where the struts are; with more of them, where struts reach far out."""
-        while True:
-            layout = kept.lay_out(octants)
-            placed = vertices_of(
-                layout, self._graph,
-                self.cell, self.spec, tile_spec(self.spec), self.where, monitor,
-            )  # fmt: skip
-            if placed.excess <= margin + 1e-9:
-                return kept, layout, placed.vertices
-            margin = SPARE_MARGIN * placed.excess
-            kept, octants = self.octants(margin, cache, monitor)
-
-    def _graph(self) -> CellGraph:
-        """The nodes and struts that the octants hang on."""
-        if self.thin is not None:
-            return self.thin.left_graph
-        return self.floor.graph(self.cell, self.active, self.spec.is_endless)
-
-    def output(
-        self, kept: Kept, layout: Layout, points: Floats, monitor: Monitor
-    ) -> tuple[Cleared, Quality]:
-        """The part or the lattice, without loose pieces and slivers, and its quality."""
-        if not self.spec.is_cut:
-            return self._uncut(layout, points, monitor)
-        spec, solid, domain = self.spec, self.solid, self.domain
-        with_skin = spec.output == "part" and spec.shell > 0
-        trimmed = trim(domain, kept, layout, points, cavity=with_skin, monitor=monitor)
-        mesh, cut, removed = trimmed.mesh, trimmed.cut, 0
-        smallest, precision = _smallest_shell(spec), shortest_edge(solid)
-        if spec.output == "lattice" and spec.shell > 0:
-            on_wall = np.flatnonzero(trimmed.on_wall)
-            held = clear(mesh, inspect(mesh, monitor), smallest, keep=on_wall)
-            mesh, cut, removed = held.mesh, len(held.mesh.triangles), held.pieces_removed
-            if removed and not len(mesh.triangles):
-                raise _nothing_holds()
-        mesh = separate_vertices(remove_slivers(mesh, precision, cut), precision)
-        found = inspect(mesh, monitor)
-        bodies = 0
-        if spec.shell == 0:
-            bodies = max(1, inspect(solid).quality.bodies)
-        cleared = clear(mesh, found, smallest, floating=with_skin, bodies=bodies)
-        if not len(cleared.mesh.triangles):
-            if with_skin:
-                raise _cells_are_full(spec)
-            raise VolfrepError(
-                "No strut lies inside the part: reduce the cell size or move the origin."
-            )
-        measured = found.quality
-        if cleared.mesh is not mesh:
-            measured = measure(cleared.mesh, monitor)
-            # The cavity's surface counts as negative: what is left is its wall only.
-            if with_skin and domain.volume + measured.volume < NO_LATTICE * domain.volume:
-                raise _nothing_holds()
-        cleared = replace(cleared, pieces_removed=cleared.pieces_removed + removed)
-        if not with_skin:
-            return cleared, measured
-        return replace(cleared, mesh=concatenate(solid, cleared.mesh)), combined(
-            measure(solid), measured
-        )
-
-    def _uncut(self, layout: Layout, points: Floats, monitor: Monitor) -> tuple[Cleared, Quality]:
-        """The lattice of whole cells as it is, without loose pieces, and its quality."""
-        mesh = compact(TriangleMesh(points, facets(layout, monitor)))
-        found = inspect(mesh, monitor)
-        bodies = max(1, inspect(self.solid).quality.bodies)
-        cleared = clear(mesh, found, _smallest_shell(self.spec), bodies=bodies)
-        if cleared.mesh is mesh:
-            return cleared, found.quality
-        return cleared, measure(cleared.mesh, monitor)
-
-
-def tile_spec(spec: LatticeSpec) -> TileSpec:
-    """What the octants of a lattice are meshed for."""
-    return TileSpec(spec.cell_size, spec.template_radius, spec.fillet, spec.facets_along_cell)
-
-
-def _smallest_shell(spec: LatticeSpec) -> float:
-    """Volume of half a facet's edge cubed, mm3: no shell smaller than that is meant."""
-    return (0.5 * spec.cell_size / spec.facets_along_cell) ** 3
-
-
 def _result(
-    cleared: Cleared,
-    measured: Quality,
+    made: Output,
     graph: Wireframe,
     cells: CellGrid,
     active: NDArray[np.bool_],
@@ -435,6 +275,10 @@ def _result(
     warnings: tuple[str, ...] = (),
     thin: Thinned | None = None,
 ) -> Result:
+    cleared, measured, drained = made.cleared, made.measured, made.drained
+    if drained is not None:
+        warnings += drained.warnings
+        skin_volume -= drained.volume
     size = sizes(cells, active, where.chart, graph)
     report = Report(
         cells_total=cells.cells,
@@ -460,6 +304,7 @@ def _result(
         stubs_removed=thin.left.stubs if thin is not None else 0,
         pieces_removed=cleared.pieces_removed,
         specks_removed=cleared.specks_removed,
+        drain_holes=drained.places if drained is not None else (),
         stages=dict(monitor.stages),
         stage_memory_mb=dict(monitor.memory_mb),
         peak_memory_mb=peak_memory_mb(),
@@ -469,31 +314,8 @@ def _result(
     return Result(cleared.mesh, graph, report)
 
 
-def _refuse_solid_cells(octants: dict[OctantKey, Octant], spec: LatticeSpec) -> None:
-    if not any(len(octant.triangles) for octant in octants.values()):
-        raise _cells_are_full(spec)
-
-
-def _nothing_holds() -> VolfrepError:
-    return VolfrepError(
-        "No strut reaches the skin, so that nothing would hold the lattice: reduce the cell size "
-        "or choose the activation 'touching'."
-    )
-
-
-def _cells_are_full(spec: LatticeSpec) -> VolfrepError:
-    return VolfrepError(
-        f"Struts of radius {spec.strut_radius:g} mm fill cells of {spec.cell_size:g} mm "
-        "completely: reduce the radius or enlarge the cells."
-    )
-
-
 def _fingerprint(mesh: TriangleMesh) -> str:
     digest = hashlib.blake2b(digest_size=16)
     digest.update(mesh.vertices.tobytes())
     digest.update(mesh.triangles.tobytes())
     return digest.hexdigest()
-
-
-def _cell_key(cell: UnitCell) -> tuple[bytes, bytes]:
-    return cell.nodes.tobytes(), cell.struts.tobytes()

@@ -34,6 +34,7 @@ class Report:
         stubs_removed: struts that were taken away because they were short and had a free end.
         pieces_removed: lattice fragments that hung on nothing and were dropped.
         specks_removed: shells smaller than a facet that were dropped.
+        drain_holes: where holes go through the skin, on the part's surface, mm.
         stages: seconds by stage.
         stage_memory_mb: peak resident memory at the end of each stage, MB.
         peak_memory_mb: of the process.
@@ -64,6 +65,7 @@ class Report:
     stubs_removed: int
     pieces_removed: int
     specks_removed: int
+    drain_holes: tuple[tuple[float, float, float], ...]
     stages: dict[str, float]
     stage_memory_mb: dict[str, float]
     peak_memory_mb: float

@@ -21,11 +21,13 @@ from .distance import index_surface
 from .errors import VolfrepError
 from .field import DepthField
 from .mesh import TriangleMesh, compact, empty_mesh
+from .open_depth import open_depth
 from .progress import Monitor
 from .refine import find_wall
 from .simplify import simplified
 
 Floats = NDArray[np.float64]
+Bools = NDArray[np.bool_]
 
 #: Edge of the coarsest cubes in units of the thickness; and the least number of them along the
 #: part's diagonal.
@@ -59,26 +61,30 @@ class InnerWall:
     place: Floats
 
 
-def inner_wall(solid: TriangleMesh, thickness: float, monitor: Monitor) -> InnerWall:
+def inner_wall(
+    solid: TriangleMesh, thickness: float, monitor: Monitor, is_open: Bools | None = None
+) -> InnerWall:
     """The closed surface at depth `thickness` below the surface of a solid.
 
     Args:
         solid: checked closed solid (`volfrep.solid.check_solid`), mm.
         thickness: wall thickness, above 0, mm.
         monitor: for progress and cancel.
+        is_open: (m,) triangles of the solid that have no skin below them; None for none.
 
     Returns:
         The boundary of the points of the solid that lie deeper than the thickness, strictly
-        inside it. The wall is within `TOLERANCE` of its thickness, as long as that does not take
-        too many cubes (`refine.MOST_EDGES`). Where the room between two walls gets narrower than
-        a tenth of the thickness the cavity may end, and where it is hardly wider a few facets
-        may cross.
+        inside it; but beyond open triangles, which do not count for the depth, it reaches out of
+        the solid (`volfrep.open_depth`). The wall is within `TOLERANCE` of its thickness, as long
+        as that does not take too many cubes (`refine.MOST_EDGES`). Where the room between two
+        walls gets narrower than a tenth of the thickness the cavity may end, and where it is
+        hardly wider a few facets may cross.
 
     Raises:
         VolfrepError: the wall is so thin that its cubes would not fit into memory.
     """
     low, high = solid.bounds
-    if np.min(high - low) <= 2.0 * thickness:
+    if is_open is None and np.min(high - low) <= 2.0 * thickness:
         return InnerWall(empty_mesh(), 0.0, np.zeros(3))
     diagonal = float(np.linalg.norm(high - low))
     cube = min(CUBE * thickness, diagonal / CUBES_ALONG_DIAGONAL)
@@ -90,8 +96,11 @@ def inner_wall(solid: TriangleMesh, thickness: float, monitor: Monitor) -> Inner
             f"take more than {MEMORY_LIMIT / 1e9:g} GB; make it at least {least:.3g} mm."
         )
     monitor.tick(0.0)
-    index = monitor.call(lambda: index_surface(solid, SAMPLE_SPACING * thickness))
-    depth = Depth(index, thickness, monitor)
+    spacing = SAMPLE_SPACING * thickness
+    if is_open is None:
+        depth = Depth(monitor.call(lambda: index_surface(solid, spacing)), thickness, monitor)
+    else:
+        depth = open_depth(solid, is_open, thickness, spacing, monitor)
     field = DepthField(solid, depth, cube)
     monitor.tick(0.1)
     wall = find_wall(field)

@@ -97,7 +97,7 @@ def _with_fans(wall: Wall, cut: Bools, field: DepthField) -> Facets:
     for _ in range(SECANTS):
         share = np.clip(a / (a - b), 0.05, 0.95)[:, None]
         nodes = low + share * (high - low)
-        value = field.depth.thickness - field.depth.nearest(field.point(nodes))[1]
+        value = field.depth.values(field.point(nodes))[0]
         as_low = (value < 0) == (a < 0)
         low, a = np.where(as_low[:, None], nodes, low), np.where(as_low, value, a)
         high, b = np.where(as_low[:, None], high, nodes), np.where(as_low, b, value)

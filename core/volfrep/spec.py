@@ -11,6 +11,7 @@ from .cells import UnitCell, find_cell
 from .errors import VolfrepError
 from .frep import joint_radius
 from .grading import CellMap, Orientation, RadiusGrading, SizeGrading, as_plain
+from .openings import DrainHoles, OpenFace
 
 ACTIVATIONS = ("touching", "centre", "inside")
 BOUNDARIES = ("trim", "whole")
@@ -42,6 +43,9 @@ class LatticeSpec:
         boundary: ``trim`` (the lattice is cut at the wall of its domain) or ``whole`` (active
             cells stay whole, with full round struts; a skin joins what reaches into it, and its
             outside still cuts).
+        open_faces: faces of the part that have no skin (`volfrep.openings`); the cavity opens
+            there, and struts are cut flush.
+        drains: holes through the skin (`volfrep.openings`); None for none.
         remove_dangling: take away struts with a free end, again and again until there are none.
         shortest_stub: struts with a free end that are shorter than this are taken away; 0 for
             none, mm.
@@ -68,6 +72,8 @@ class LatticeSpec:
     deviation: float | None = None
     activation: str = "touching"
     boundary: str = "trim"
+    open_faces: tuple[OpenFace, ...] = ()
+    drains: DrainHoles | None = None
     remove_dangling: bool = False
     shortest_stub: float = 0.0
     output: str = "part"
@@ -124,6 +130,12 @@ class LatticeSpec:
             raise VolfrepError(
                 f"There is no output '{self.output}': choose one of {', '.join(OUTPUTS)}."
             )
+        if self.shell == 0 and (self.open_faces or self.drains is not None):
+            raise VolfrepError(
+                "Open faces and drain holes need a skin: give a shell thickness above 0."
+            )
+        if self.drains is not None and self.output == "lattice":
+            raise VolfrepError("Drain holes go through the skin of a part: choose the output part.")
         if self.origin is not None:
             if len(self.origin) != 3:
                 raise VolfrepError("The origin must be three coordinates.")

@@ -6,6 +6,7 @@ from __future__ import annotations
 import FreeCAD as App
 import numpy as np
 import Part
+from numpy.typing import NDArray
 
 from volfrep.errors import VolfrepError
 from volfrep.mesh import TriangleMesh, concatenate
@@ -104,6 +105,50 @@ def mesh_of_shape(shape: Part.Shape, label: str) -> TriangleMesh:
     if not mesh.CountFacets:
         raise VolfrepError(f"'{label}' cannot be meshed: check its geometry (Part > Check).")
     return from_freecad(mesh)
+
+
+def face_facets(owner: App.DocumentObject, name: str, frame: App.Placement) -> NDArray[np.float64]:
+    """(k, 3, 3) corners of the facets of a face, in mm, in the coordinates of `frame`.
+
+    Args:
+        owner: the object that has it.
+        name: such as Face6.
+        frame: a placement in the document.
+
+    Raises:
+        VolfrepError: there is no such face.
+    """
+    face = _face(owner, name)
+    size = Part.getShape(owner).BoundBox.DiagonalLength
+    points, facets = face.tessellate(min(size * RELATIVE_DEVIATION, MAX_DEVIATION))
+    mesh = TriangleMesh(
+        np.array([tuple(point) for point in points], np.float64), np.array(facets, np.int32)
+    )
+    return np.stack(placed(mesh, _to_frame(owner, frame)).corners(), axis=1)
+
+
+def face_middle(
+    owner: App.DocumentObject, name: str, frame: App.Placement
+) -> tuple[float, float, float]:
+    """The middle of a face, as `face_facets` finds it; on the face where that is convex.
+
+    Raises:
+        VolfrepError: there is no such face.
+    """
+    middle = _to_frame(owner, frame).multVec(_face(owner, name).CenterOfMass)
+    return middle.x, middle.y, middle.z
+
+
+def _face(owner: App.DocumentObject, name: str) -> Part.Face:
+    """A face of an object, where the object is placed."""
+    shape = Part.getShape(owner, name, needSubElement=True)
+    if shape.isNull() or shape.ShapeType != "Face":
+        raise VolfrepError(f"'{owner.Label}' has no face '{name}' any more: choose a face again.")
+    return shape
+
+
+def _to_frame(owner: App.DocumentObject, frame: App.Placement) -> App.Placement:
+    return frame.inverse().multiply(parent_placement(resolve_base(owner)))
 
 
 def _linked(obj: App.DocumentObject) -> App.DocumentObject | None:

@@ -11,6 +11,7 @@ import FreeCAD as App
 from freecad_volfrep.engine import require_engine
 
 from .grading import CONTROLS, gradings_of, show_applicable
+from .openings import openings_of
 from .progress import progress_of
 from .properties import CUSTOM_CELL, PROPERTIES, ensure_properties
 
@@ -191,6 +192,7 @@ def spec_of(obj: App.DocumentObject) -> LatticeSpec:
         fillet=obj.JointFillet.Value,
         origin=tuple(obj.Origin) if obj.UseOrigin else None,
         density=obj.Density,
+        **openings_of(obj),
         **gradings_of(obj),
     )
 
@@ -231,6 +233,8 @@ def _write_results(obj: App.DocumentObject, result: Result) -> None:
         "StrutRadii": report.strut_radii_mm,
         "Triangles": report.triangles,
         "Bodies": report.bodies,
+        "Voids": report.voids,
+        "DrainHoles": [App.Vector(*hole) for hole in report.drain_holes],
         "Genus": report.genus,
         "Volume": report.volume_mm3,
         "RelativeDensity": report.relative_density,

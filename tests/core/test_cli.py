@@ -456,3 +456,42 @@ def test_ctrl_c_leaves_nothing(tmp_path: Path) -> None:
     assert said == b"volfrep: Interrupted, no file was left half-written.\n"
     assert os.listdir(tmp_path) == ["block.stl"]
     assert (tmp_path / "block.stl").read_bytes() == b"old"
+
+
+def test_open_planes_and_drain_holes(
+    part: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    report = tmp_path / "report.json"
+    common = ["fill", str(part), *LATTICE, "--shell", "1", "-o", str(tmp_path / "x.stl")]
+    common += ["--report", str(report)]
+    assert cli.run([*common, "--open-plane", "0,0,-15,0,0,-1"]) == 0
+    assert json.loads(report.read_text())["voids"] == 0
+    holes = ["--drain-count", "1", "--drain-diameter", "1.5", "--build-direction", "-1,0,0"]
+    assert cli.run([*common, *holes]) == 0
+    figures = json.loads(report.read_text())
+    assert figures["voids"] == 0
+    ((x, _, _),) = figures["drain_holes"]
+    assert f"1 at ({x:.4g}," in capsys.readouterr().out
+    assert figures["spec"]["drains"]["build_direction"] == [-1.0, 0.0, 0.0]
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["--open-plane", "0,0,0,0,0"], "--open-plane takes 6 numbers"),
+        (["--open-plane", "a,0,0,0,0,1"], "is not numbers between commas"),
+        (["--drain", "0,0", "--drain-diameter", "2"], "--drain takes 3 or 6 numbers"),
+        (["--drain", "0,0,0"], "need a diameter"),
+        (["--drain-diameter", "2"], "needs --drain places or a --drain-count"),
+    ],
+)
+def test_openings_that_make_no_sense(
+    part: Path,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    options: list[str],
+    message: str,
+) -> None:
+    command = ["fill", str(part), *LATTICE, "--shell", "1", "-o", str(tmp_path / "x.stl")]
+    assert cli.run([*command, *options]) == 2
+    assert message in capsys.readouterr().err

@@ -117,13 +117,17 @@ def test_a_block_reports_what_it_is():
 
 
 def test_only_the_stages_that_a_change_affects_run_again(monkeypatch):
-    from volfrep import pipeline
+    from volfrep import domain, pipeline, trimming
 
     runs = []
-    for name in ("inner_wall", "active_cells", "mesh_octants"):
-        original = getattr(pipeline, name)
+    for module, name in (
+        (domain, "inner_wall"),
+        (pipeline, "active_cells"),
+        (trimming, "mesh_octants"),
+    ):
+        original = getattr(module, name)
         monkeypatch.setattr(
-            pipeline,
+            module,
             name,
             lambda *a, _name=name, _original=original: runs.append(_name) or _original(*a),
         )
@@ -184,11 +188,11 @@ def test_a_block_larger_than_memory_is_refused_before_it_is_made():
 
 
 def test_a_skin_that_strays_is_said_in_the_report(monkeypatch):
-    from volfrep import pipeline
+    from volfrep import domain
 
-    original = pipeline.inner_wall
+    original = domain.inner_wall
     monkeypatch.setattr(
-        pipeline, "inner_wall", lambda *a: replace(original(*a), worst=0.2, place=np.ones(3))
+        domain, "inner_wall", lambda *a: replace(original(*a), worst=0.2, place=np.ones(3))
     )
     (warning,) = fill(samples.box(), SMALL).report.warnings
     assert "20% off its thickness near (1, 1, 1)" in warning

@@ -1,0 +1,270 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""From active cells to the lattice in its part: octants meshed, laid, cut, cleared."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .booleans import difference, intersection
+from .cache import StageCache
+from .cells import UnitCell
+from .clean import remove_slivers, separate_vertices, shortest_edge
+from .dangling import Thinned
+from .distance import closest_points
+from .domain import Domain
+from .drains import Drained, drain
+from .errors import VolfrepError
+from .frep import Floats
+from .graded import Ground, Setting, keeps_places, vertices_of
+from .incidence import without_struts
+from .lattice import Layout, facets, used_kinds
+from .limits import refuse_too_large
+from .mesh import TriangleMesh, compact, concatenate
+from .octant import OctantKey
+from .progress import Monitor
+from .quality import Quality, combined, inspect, measure
+from .spec import LatticeSpec
+from .tile import Octant, TileSpec, mesh_octants
+from .trim import Cleared, Kept, clear, keep, keep_all, octant_roles, trim
+from .wireframe import CellGraph, Wireframe
+
+Bools = NDArray[np.bool_]
+
+#: Octants on moved struts mostly reach no farther out of their places than this, in units of
+#: their edges. Where they do, they are looked for so many times as far as the last ones reached.
+FIRST_MARGIN = 0.05
+SPARE_MARGIN = 1.05
+#: Less of a domain than this is no lattice.
+NO_LATTICE = 1e-6
+
+
+@dataclass(frozen=True, eq=False)
+class Output:
+    """What comes out of a trimming.
+
+    Attributes:
+        cleared: the mesh, and what was removed from it.
+        measured: its quality.
+        drained: its drain holes; None where none were asked for.
+    """
+
+    cleared: Cleared
+    measured: Quality
+    drained: Drained | None
+
+
+@dataclass(frozen=True, eq=False)
+class Trimming:
+    """From active cells to the trimmed lattice.
+
+    Attributes:
+        solid: the part.
+        domain: what the lattice fills.
+        cell: the unit cell.
+        spec: what is wanted.
+        where: the setting of a graded lattice.
+        floor: the cells that the lattice may be laid on.
+        active: (nx, ny, nz) bool, those that hold one.
+        thin: what is left when struts are taken away; None where none is.
+        key: of all that the active cells depend on.
+    """
+
+    solid: TriangleMesh
+    domain: Domain
+    cell: UnitCell
+    spec: LatticeSpec
+    where: Setting
+    floor: Ground
+    active: Bools
+    thin: Thinned | None
+    key: object
+
+    def octants(
+        self, margin: float, cache: StageCache, monitor: Monitor
+    ) -> tuple[Kept, dict[OctantKey, Octant]]:
+        """Which octants there are, and their meshes."""
+        spec, cells = self.spec, self.floor.cells
+        tile = tile_spec(spec)
+        grid = self.floor.octants(self.cell, self.active, spec.is_endless)
+        if spec.is_cut:
+            roles = cache.get(
+                "octants",
+                (self.key, margin),
+                lambda: octant_roles(self.domain.wall, cells, monitor, self.where.chart, margin),
+            )
+            kept = keep(grid, roles)
+        else:
+            kept = keep_all(grid)
+        if self.thin is not None:
+            fewer = without_struts(
+                kept.grid, self.cell, self.thin.graph, self.thin.left.kept, tile.influence,
+                joined=not keeps_places(spec, self.where),
+            )  # fmt: skip
+            kept = replace(kept, grid=used_kinds(fewer))
+        keys = kept.grid.keys
+        octants = cache.get(
+            "tile",
+            (cell_key(self.cell), tile, tuple(keys)),
+            lambda: mesh_octants(self.cell, tile, keys, monitor),
+        )
+        refuse_solid_cells(octants, spec)
+        refuse_too_large(spec, kept.grid, octants, kept.border)
+        return kept, octants
+
+    def lay(
+        self,
+        kept: Kept,
+        octants: dict[OctantKey, Octant],
+        margin: float,
+        cache: StageCache,
+        monitor: Monitor,
+    ) -> tuple[Kept, Layout, Floats]:
+        """The octants laid where the struts are; with more of them, where struts reach far out."""
+        while True:
+            layout = kept.lay_out(octants)
+            placed = vertices_of(
+                layout, self._graph,
+                self.cell, self.spec, tile_spec(self.spec), self.where, monitor,
+            )  # fmt: skip
+            if placed.excess <= margin + 1e-9:
+                return kept, layout, placed.vertices
+            margin = SPARE_MARGIN * placed.excess
+            kept, octants = self.octants(margin, cache, monitor)
+
+    def _graph(self) -> CellGraph:
+        """The nodes and struts that the octants hang on."""
+        if self.thin is not None:
+            return self.thin.left_graph
+        return self.floor.graph(self.cell, self.active, self.spec.is_endless)
+
+    def output(
+        self, kept: Kept, layout: Layout, points: Floats, frame: Wireframe, monitor: Monitor
+    ) -> Output:
+        """The part or the lattice, without loose pieces and slivers, and its quality."""
+        spec, solid = self.spec, self.solid
+        if not spec.is_cut:
+            return self._uncut(layout, points, monitor)
+        with_skin = spec.output == "part" and spec.shell > 0
+        wall = self.domain.wall
+        trimmed = trim(wall, kept, layout, points, cavity=with_skin, monitor=monitor)
+        mesh, cut, removed = trimmed.mesh, trimmed.cut, 0
+        smallest, precision = smallest_shell(spec), shortest_edge(solid)
+        if spec.output == "lattice" and spec.shell > 0:
+            on_wall = np.flatnonzero(trimmed.on_wall)
+            held = clear(mesh, inspect(mesh, monitor), smallest, keep=on_wall)
+            mesh, cut, removed = held.mesh, len(held.mesh.triangles), held.pieces_removed
+            if removed and not len(mesh.triangles):
+                raise _nothing_holds()
+        mesh = separate_vertices(remove_slivers(mesh, precision, cut), precision)
+        found = inspect(mesh, monitor)
+        bodies = 0
+        if spec.shell == 0:
+            bodies = max(1, inspect(solid).quality.bodies)
+        cleared = clear(mesh, found, smallest, floating=with_skin, bodies=bodies)
+        if not len(cleared.mesh.triangles):
+            if with_skin:
+                raise _cells_are_full(spec)
+            raise VolfrepError(
+                "No strut lies inside the part: reduce the cell size or move the origin."
+            )
+        measured = found.quality
+        if cleared.mesh is not mesh:
+            measured = measure(cleared.mesh, monitor)
+            # The cavity's surface counts as negative: what is left is its wall only.
+            if with_skin and wall.volume + measured.volume < NO_LATTICE * wall.volume:
+                raise _nothing_holds()
+        cleared = replace(cleared, pieces_removed=cleared.pieces_removed + removed)
+        if self.domain.is_open:
+            cleared, measured = self._opened(cleared, with_skin, monitor)
+        elif with_skin:
+            measured = combined(measure(solid), measured)
+            cleared = replace(cleared, mesh=concatenate(solid, cleared.mesh))
+        if spec.drains is None:
+            return Output(cleared, measured, None)
+        drained = drain(cleared.mesh, solid, self.domain.mesh, frame, spec, monitor)
+        clean = separate_vertices(remove_slivers(drained.mesh, precision), precision)
+        return Output(
+            replace(cleared, mesh=clean), measure(clean, monitor), replace(drained, mesh=clean)
+        )
+
+    def _opened(
+        self, cleared: Cleared, with_skin: bool, monitor: Monitor
+    ) -> tuple[Cleared, Quality]:
+        """The part, or its lattice, cut at its open faces, beyond which the cavity reaches."""
+        solid, mesh = self.solid, cleared.mesh
+        precision = shortest_edge(solid)
+        if with_skin:
+            void = mesh.reversed()
+            mesh = monitor.call(lambda: difference(solid, void))
+        else:
+            lattice = mesh
+            mesh = monitor.call(lambda: intersection(lattice, solid))
+        mesh = separate_vertices(remove_slivers(mesh, precision), precision)
+        found, smallest = inspect(mesh, monitor), smallest_shell(self.spec)
+        if with_skin:
+            rest = clear(mesh, found, smallest, bodies=inspect(solid).quality.bodies)
+        else:
+            rest = clear(mesh, found, smallest, keep=self._on_skin(mesh, precision))
+        if not len(rest.mesh.triangles):
+            raise _nothing_holds()
+        counted = replace(
+            rest,
+            pieces_removed=cleared.pieces_removed + rest.pieces_removed,
+            specks_removed=cleared.specks_removed + rest.specks_removed,
+        )
+        return counted, measure(rest.mesh, monitor)
+
+    def _on_skin(self, mesh: TriangleMesh, precision: float) -> NDArray[np.int64]:
+        """The triangles of a lattice that lie on the wall, and not in an open face."""
+        assert self.domain.openings is not None
+        middle = mesh.vertices[mesh.triangles].mean(axis=1)
+        near = np.flatnonzero(closest_points(self.domain.mesh, middle)[1] < precision)
+        beyond = closest_points(self.domain.openings, middle[near])[1] > precision
+        return near[beyond]
+
+    def _uncut(self, layout: Layout, points: Floats, monitor: Monitor) -> Output:
+        """The lattice of whole cells as it is, without loose pieces, and its quality."""
+        mesh = compact(TriangleMesh(points, facets(layout, monitor)))
+        found = inspect(mesh, monitor)
+        bodies = max(1, inspect(self.solid).quality.bodies)
+        cleared = clear(mesh, found, smallest_shell(self.spec), bodies=bodies)
+        same = cleared.mesh is mesh
+        return Output(cleared, found.quality if same else measure(cleared.mesh, monitor), None)
+
+
+def tile_spec(spec: LatticeSpec) -> TileSpec:
+    """What the octants of a lattice are meshed for."""
+    return TileSpec(spec.cell_size, spec.template_radius, spec.fillet, spec.facets_along_cell)
+
+
+def smallest_shell(spec: LatticeSpec) -> float:
+    """Volume of half a facet's edge cubed, mm3: no shell smaller than that is meant."""
+    return (0.5 * spec.cell_size / spec.facets_along_cell) ** 3
+
+
+def refuse_solid_cells(octants: dict[OctantKey, Octant], spec: LatticeSpec) -> None:
+    """Raise a `VolfrepError` where no octant has a surface: struts fill everything."""
+    if not any(len(octant.triangles) for octant in octants.values()):
+        raise _cells_are_full(spec)
+
+
+def _nothing_holds() -> VolfrepError:
+    return VolfrepError(
+        "No strut reaches the skin, so that nothing would hold the lattice: reduce the cell size "
+        "or choose the activation 'touching'."
+    )
+
+
+def _cells_are_full(spec: LatticeSpec) -> VolfrepError:
+    return VolfrepError(
+        f"Struts of radius {spec.strut_radius:g} mm fill cells of {spec.cell_size:g} mm "
+        "completely: reduce the radius or enlarge the cells."
+    )
+
+
+def cell_key(cell: UnitCell) -> tuple[bytes, bytes]:
+    """Tells a unit cell from any other."""
+    return cell.nodes.tobytes(), cell.struts.tobytes()

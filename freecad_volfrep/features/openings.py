@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What is to be open in the skin of a lattice infill, from its properties."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import FreeCAD as App
+
+
+def openings_of(obj: App.DocumentObject) -> dict[str, Any]:
+    """The fields of the specification for open faces and drain holes.
+
+    Raises:
+        VolfrepError: a property makes no sense, or a face is no more.
+    """
+    from freecad_volfrep.bridge.solids import face_facets, face_middle, parent_placement
+    from volfrep.openings import DrainHoles, DrainPlace, OpenPatch
+
+    frame = parent_placement(obj)
+    result: dict[str, Any] = {}
+    if obj.OpenFaces:
+        result["open_faces"] = tuple(
+            OpenPatch(face_facets(owner, name, frame)) for owner, name in _each(obj.OpenFaces)
+        )
+    if obj.DrainDiameter.Value > 0:
+        points = [tuple(point) for point in obj.DrainPoints]
+        points += [face_middle(owner, name, frame) for owner, name in _each(obj.DrainFaces)]
+        result["drains"] = DrainHoles(
+            obj.DrainDiameter.Value,
+            tuple(DrainPlace(point) for point in points),
+            obj.DrainCount,
+            tuple(obj.BuildDirection),
+        )
+    return result
+
+
+def _each(links: list[Any]) -> list[tuple[App.DocumentObject, str]]:
+    """The objects and their elements of a property that links to elements of several objects."""
+    return [(owner, name) for owner, names in links for name in names]

@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 from .cells import UnitCell
 from .mesh import TriangleMesh
 from .spec import LatticeSpec
-from .tile import COARSEST_STEP
 
 Floats = NDArray[np.float64]
 
@@ -24,6 +23,8 @@ Floats = NDArray[np.float64]
 BURIED = 1.4
 #: The least share of the solid that is left within a skin, where twice the skin exceeds it.
 LEAST_INSIDE = 0.05
+#: Facets are no longer than this, in radii: thin struts are sampled finely, so that none is lost.
+LONGEST_EDGE = 0.85
 #: Triangles that the cut leaves on each area of a facet's edge squared of the wall.
 WALL_TRIANGLES = 1.1
 #: Seconds of every job; for each thickness squared of the wall; for each triangle of a part and of
@@ -83,6 +84,8 @@ def forecast_fill(solid: TriangleMesh, spec: LatticeSpec) -> Forecast:
     wall = SECONDS_PER_WALL * area / spec.shell**2 if spec.shell > 0 else 0.0
     # A cell that the wall merely touches is active too: half a cell on either side of it.
     cells = (inside + 0.5 * area * spec.cell_size) / cell_volume
+    grid = np.ceil(np.ptp(solid.bounds, axis=0) / spec.cell_size - 1e-6).prod()
+    cells = min(cells, float(grid) * spec.cell_size**3 / cell_volume)
     seconds = SECONDS + wall + SECONDS_PER_TRIANGLE * triangles
     return _forecast(cells, _shares(spec.unit_cell()), triangles, BYTES_PER_TRIANGLE, seconds)
 
@@ -110,8 +113,7 @@ def _facets(spec: LatticeSpec) -> Floats:
     ends = cell.nodes[cell.struts]
     length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1) * spec.cell_size
     bare = np.maximum(length - 2.0 * BURIED * radius, 0.3 * length)
-    # Thin struts are sampled more finely than was asked for, so that none is lost.
-    edge = min(spec.cell_size / spec.facets_along_cell, COARSEST_STEP * radius)
+    edge = min(spec.cell_size / spec.facets_along_cell, LONGEST_EDGE * radius)
     facets: Floats = bare * (2.0 * np.pi * radius / (np.sqrt(3.0) / 4.0 * edge**2))
     return facets
 

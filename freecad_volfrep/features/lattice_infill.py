@@ -4,11 +4,13 @@
 from __future__ import annotations
 
 import hashlib
+import traceback
 from typing import TYPE_CHECKING, Any
 
 import FreeCAD as App
 
 from freecad_volfrep.engine import require_engine
+from freecad_volfrep.preferences import largest_automatic
 
 from .grading import CONTROLS, gradings_of, show_applicable
 from .openings import openings_of
@@ -22,6 +24,7 @@ if TYPE_CHECKING:
 
 UP_TO_DATE = "Up to date"
 OUT_OF_DATE = "Out of date: AutoUpdate is off, use Update Lattice Infill"
+LARGE = "Out of date: a large job, use Update Lattice Infill"
 FAILED = "Failed: see the report view"
 CANCELLED = (
     "Cancelled: the mesh is that of the last finished update; recompute to try again, or switch "
@@ -61,6 +64,12 @@ class LatticeInfill:
             self.was_cancelled = True
         except MemoryError:
             message = "Not enough memory: choose larger cells or a coarser deviation."
+        except Exception as error:  # whatever it is, the user gets a sentence and keeps the mesh
+            App.Console.PrintLog(f"VOLFREP, {obj.Label}:\n{traceback.format_exc()}\n")
+            message = (
+                f"The engine failed with a {type(error).__name__} ({error}), which is a defect of "
+                "VOLFREP: please report it with the traceback in the report view's log messages."
+            )
         else:
             return
         obj.Status = message
@@ -120,6 +129,7 @@ class LatticeInfill:
     def _run(self, obj: App.DocumentObject, forced: bool) -> None:
         require_engine()
         from freecad_volfrep.bridge.meshes import to_freecad
+        from volfrep.forecast import forecast_fill
         from volfrep.pipeline import fill
         from volfrep.solid import check_solid
 
@@ -129,8 +139,14 @@ class LatticeInfill:
             obj.Mass = obj.Volume.Value * spec.density / 1000.0
             obj.Status = UP_TO_DATE
             return
+        forecast = forecast_fill(solid, spec)
+        obj.Expected = str(forecast)
         if not obj.AutoUpdate and not forced:
             obj.Status = OUT_OF_DATE
+            return
+        if forecast.triangles > largest_automatic() and not forced:
+            obj.Status = LARGE
+            App.Console.PrintMessage(f"VOLFREP, {obj.Label}: {LARGE}; {forecast}\n")
             return
         solid = check_solid(solid, obj.Base.Label)
         with progress_of(f"Filling {obj.Base.Label}") as progress:
@@ -247,7 +263,7 @@ def _write_results(obj: App.DocumentObject, result: Result) -> None:
         "Report": report.to_json(),
         "Warnings": list(report.warnings),
     }
-    results = {prop.name for prop in PROPERTIES if prop.group == "Result"} - {"Status"}
+    results = {prop.name for prop in PROPERTIES if prop.group == "Result"} - {"Status", "Expected"}
     assert values.keys() == results, "the table of properties and the report have drifted apart"
     for name, value in values.items():
         setattr(obj, name, value)

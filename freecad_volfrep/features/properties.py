@@ -283,6 +283,7 @@ PROPERTIES = (
     ),
     Property("App::PropertyFloat", "Density", "Material", "Density of the material in g/cm3", 1.0),
     result("App::PropertyString", "Status", "Whether the mesh fits the properties, or why not"),
+    result("App::PropertyString", "Expected", "What an update of these properties comes to"),
     result("App::PropertyStringList", "Warnings", "What to know about this result"),
     result("App::PropertyInteger", "CellsTotal", "Cells in the grid"),
     result("App::PropertyInteger", "CellsActive", "Cells that hold a lattice"),

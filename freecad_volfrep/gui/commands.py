@@ -81,7 +81,7 @@ def fill_selected(doc: App.Document, bases: list[App.DocumentObject]) -> bool:
         for base in bases:
             low, high = SolidReader().read(base, parent_placement(base)).bounds
             obj = make_lattice_infill(doc, base, **suggested_sizes(tuple(high - low)))
-            doc.recompute()
+            obj.Proxy.update(obj)  # a large job too: whoever clicks wants it
             if obj.Proxy.was_cancelled:
                 return False
             if obj.isValid():

@@ -7,6 +7,8 @@ from typing import Any
 
 from freecad_volfrep import ICONS
 
+from .coarse_view import COARSE, FINE
+
 #: Of a new infill, in percent: the lattice shows through the skin.
 TRANSPARENCY = 60
 #: Of facets that hang over: red, green, blue.
@@ -14,7 +16,11 @@ OVERHANG = (0.85, 0.16, 0.12)
 
 
 class LatticeInfillView:
-    """View provider of a lattice infill: its icon, and Update in the context menu."""
+    """View provider of a lattice infill: its icon, Update in the context menu, and a coarse mesh.
+
+    A mesh of more triangles than the preference allows is shown by a coarse likeness of it, as the
+    display mode Coarse; whoever chooses another mode sees all of it.
+    """
 
     def __init__(self, view: Any) -> None:
         view.Proxy = self
@@ -22,7 +28,30 @@ class LatticeInfillView:
 
     def attach(self, view: Any) -> None:
         """Called by FreeCAD for a new object and for one from a file."""
+        from pivy import coin
+
         self.object = view.Object
+        self._coarse = coin.SoSeparator()
+        view.addDisplayMode(self._coarse, COARSE)
+
+    def getDisplayModes(self, view: Any) -> list[str]:  # noqa: N802
+        """The modes beside those of every mesh."""
+        return [COARSE]
+
+    def getDefaultDisplayMode(self) -> str:  # noqa: N802
+        """The mode of a new object."""
+        return FINE
+
+    def setDisplayMode(self, mode: str) -> str:  # noqa: N802
+        """Every mode of the list is one of the view's own."""
+        return mode
+
+    def updateData(self, obj: Any, name: str) -> None:  # noqa: N802
+        """A new mesh: shown coarsely if it is too large, else as it is."""
+        if name == "Mesh":
+            from .coarse_view import show_mesh
+
+            show_mesh(obj, self._coarse)
 
     def getIcon(self) -> str:  # noqa: N802
         """Path of the tree's icon."""

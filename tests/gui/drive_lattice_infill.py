@@ -162,8 +162,26 @@ def drive():
     cancel_an_edit(doc, obj)
     cancel_a_creation(doc, box, fill)
     check_the_print(doc, obj)
+    show_coarsely(doc, obj)
     make_a_solid(doc, obj)
     save_and_reopen(doc, obj)
+
+
+def show_coarsely(doc, obj):
+    """A mesh above the preference is shown by fewer triangles, and stays what it is."""
+    group = App.ParamGet("User parameter:BaseApp/Preferences/Mod/VOLFREP")
+    facets = obj.Mesh.CountFacets
+    group.SetInt("LargestShownTriangles", facets // 2)
+    doc.Block.Visibility = False
+    obj.StrutRadius = 0.49
+    doc.recompute()
+    check("a large mesh is shown coarsely", obj.ViewObject.DisplayMode == "Coarse")
+    check("and is not coarse itself", obj.Mesh.CountFacets > 0.9 * facets and obj.Mesh.isSolid())
+    picture("6_coarse")
+    group.RemInt("LargestShownTriangles")
+    obj.StrutRadius = 0.5
+    doc.recompute()
+    check("a small one as it is", obj.ViewObject.DisplayMode == "Shaded")
 
 
 def press_escape_soon(pressed):
@@ -197,6 +215,9 @@ def cancel_an_edit(doc, obj):
     obj.CellSize = 2.5
     obj.StrutRadius = 0.25
     doc.recompute()
+    check("a large edit waits for the command", not seen and "large job" in obj.Status, obj.Status)
+    check("and says what it comes to", "triangles" in obj.Expected, obj.Expected)
+    obj.Proxy.update(obj)
     timer.stop()
     check("a long edit shows its progress", seen)
     if seen:
@@ -264,7 +285,7 @@ def make_a_solid(doc, obj):
         box = QtGui.QApplication.activeModalWidget()
         if isinstance(box, QtGui.QInputDialog):
             asked.append(box.comboBoxItems())
-            subprocess.run(["import", "-window", "root", str(OUT / "6_to_solid.png")])
+            subprocess.run(["import", "-window", "root", str(OUT / "7_to_solid.png")])
             box.accept()
 
     select(obj)
@@ -275,7 +296,7 @@ def make_a_solid(doc, obj):
     check("it offers every kind", asked and len(asked[0]) == 4, asked)
     made = [o for o in doc.Objects if o.TypeId == "Part::Feature" and o.Name.endswith("Solid")]
     check("it makes a solid", len(made) == 1 and made[0].Shape.ShapeType == "Solid")
-    picture("7_solid")
+    picture("8_solid")
     for solid in made:
         doc.removeObject(solid.Name)
     obj.Visibility = True
@@ -294,7 +315,7 @@ def save_and_reopen(doc, obj):
     check("reopened without a recompute", found and found[0].State == ["Up-to-date"])
     view = found[0].ViewObject.Proxy if found else None
     check("reopened with its icon", view is not None and view.getIcon().endswith(".svg"))
-    picture("8_reopened")
+    picture("9_reopened")
 
 
 class UnexpectedMessages(QtCore.QObject):

@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A mesh for the screen: few triangles that lie where the many do."""
+
+import numpy as np
+import pytest
+
+import samples
+from volfrep.coarse import coarse_likeness
+from volfrep.distance import closest_points
+from volfrep.pipeline import block
+from volfrep.spec import LatticeSpec
+
+
+@pytest.mark.parametrize("most", [500, 2000, 10_000])
+def test_it_has_no_more_triangles_than_allowed_and_not_far_fewer(most):
+    mesh = block(LatticeSpec(cell="BCC", cell_size=10.0, strut_radius=1.0), (2, 2, 2)).mesh
+    coarse = coarse_likeness(mesh, most)
+    assert most / 4 < len(coarse.triangles) <= most
+
+
+def test_it_lies_where_the_mesh_does():
+    mesh = samples.sphere(20.0, 5)
+    coarse = coarse_likeness(mesh, 2000)
+    spacing = np.sqrt(4 * np.pi * 20.0**2 / 800)
+    assert np.abs(coarse.bounds - mesh.bounds).max() < spacing
+    assert closest_points(mesh, coarse.vertices)[1].max() < 0.2 * spacing
+    assert closest_points(coarse, mesh.vertices)[1].max() < spacing
+
+
+def test_a_small_mesh_stays_itself():
+    mesh = samples.box()
+    assert coarse_likeness(mesh, 12) is mesh

@@ -1,0 +1,254 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Documents with lattice infills: saved, reopened, copied, undone, broken, of older releases."""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import FreeCAD as App
+import pytest
+
+from freecad_volfrep import make_lattice_infill, preferences
+from freecad_volfrep.features import LatticeInfill, lattice_infill
+from freecad_volfrep.features.lattice_infill import LARGE, UP_TO_DATE
+from freecad_volfrep.features.properties import PROPERTIES, SCHEMA_VERSION
+
+ROOT = Path(__file__).resolve().parents[2]
+FIXTURES = sorted((ROOT / "tests" / "freecad" / "fixtures").glob("*.FCStd"))
+
+
+def digest(obj):
+    """What tells one mesh from another."""
+    return obj.Mesh.CountFacets, round(obj.Mesh.Volume, 3), round(obj.Mesh.Area, 3)
+
+
+@pytest.fixture
+def reopened(tmp_path):
+    """Opens a copy of a file or of a document, and closes it again."""
+    opened = []
+
+    def reopen(source):
+        path = tmp_path / f"{len(opened)}.FCStd"
+        if isinstance(source, Path):
+            shutil.copy(source, path)
+        else:
+            source.saveCopy(str(path))
+        opened.append(App.openDocument(str(path)).Name)
+        return App.getDocument(opened[-1])
+
+    yield reopen
+    for name in opened:
+        App.closeDocument(name)
+
+
+def test_there_is_a_document_of_every_release():
+    import volfrep
+
+    assert [path.stem for path in FIXTURES][-1] == f"infill-{volfrep.__version__}"
+
+
+@pytest.mark.parametrize("path", FIXTURES, ids=lambda path: path.stem)
+def test_documents_of_older_releases(path, reopened, runs):
+    doc = reopened(path)
+    plain, graded = doc.getObjectsByLabel("Plain")[0], doc.getObjectsByLabel("Graded")[0]
+    for obj in (plain, graded):
+        assert isinstance(obj.Proxy, LatticeInfill)
+        assert obj.Mesh.isSolid()
+        assert obj.SchemaVersion == SCHEMA_VERSION
+        assert {prop.name for prop in PROPERTIES} <= set(obj.PropertiesList)
+    before = digest(plain)
+    plain.touch()
+    doc.recompute()
+    assert plain.isValid(), plain.getStatusString()
+    # A release may mesh anew what it holds to be different, but not another lattice.
+    assert plain.Mesh.Volume == pytest.approx(before[1], rel=0.01)
+    doc.Solid.Length = 30
+    doc.recompute()
+    assert plain.isValid(), plain.getStatusString()
+    assert graded.isValid(), graded.getStatusString()
+    assert plain.StrutRadius.Value == pytest.approx(1.5), "the expression is still there"
+    assert plain.Mesh.BoundBox.XMax == pytest.approx(30)
+    assert graded.StrutRadii == pytest.approx([0.8, 1.2], abs=0.01)
+    assert runs
+
+
+def test_a_copy_in_another_document_brings_its_solid(infill):
+    other = App.newDocument("Other")
+    try:
+        copy = other.copyObject(infill, True)
+        other.recompute()
+        assert copy.Document is other
+        assert copy.Base.Document is other
+        assert copy.isValid(), copy.getStatusString()
+        assert digest(copy) == digest(infill)
+        copy.Base.Length = 20
+        other.recompute()
+        assert copy.Mesh.BoundBox.XMax == pytest.approx(20)
+        assert infill.Mesh.BoundBox.XMax == pytest.approx(30)
+    finally:
+        App.closeDocument(other.Name)
+
+
+def test_ten_edits_undone_and_redone(doc, infill, runs):
+    radii = [0.62 + 0.07 * k for k in range(10)]
+    seen = [digest(infill)]
+    for radius in radii:
+        doc.openTransaction("Radius")
+        infill.StrutRadius = radius
+        doc.recompute()
+        doc.commitTransaction()
+        assert infill.isValid(), infill.getStatusString()
+        seen.append(digest(infill))
+    assert len(set(seen)) == 11
+    count = len(runs)
+    for expected in reversed(seen[:-1]):
+        doc.undo()
+        doc.recompute()
+        assert digest(infill) == expected
+        assert infill.Status == UP_TO_DATE
+    for expected in seen[1:]:
+        doc.redo()
+        doc.recompute()
+        assert digest(infill) == expected
+    assert infill.StrutRadius.Value == pytest.approx(radii[-1])
+    assert len(runs) == count, "undo and redo bring meshes back, they do not make them"
+
+
+def test_a_renamed_base_is_the_same_base(doc, box, infill, runs, reopened):
+    box.Label = "Renamed"
+    doc.recompute()
+    assert infill.isValid()
+    assert runs == []
+    again = reopened(doc).getObject(infill.Name)
+    assert again.Base.Label == "Renamed"
+    again.touch()
+    again.Document.recompute()
+    assert again.isValid(), again.getStatusString()
+    assert runs == []
+
+
+def test_without_its_base_a_document_opens_with_the_last_mesh(doc, box, infill, reopened):
+    before = digest(infill)
+    doc.removeObject(box.Name)
+    again = reopened(doc).getObject(infill.Name)
+    assert digest(again) == before
+    again.touch()
+    again.Document.recompute()
+    assert not again.isValid()
+    assert "Base" in again.getStatusString()
+    assert digest(again) == before
+
+
+def test_without_the_packages_a_document_opens_with_its_mesh(doc, infill, tmp_path):
+    """In a FreeCAD whose profile has no packages: open, look, touch, save."""
+    (tmp_path / "Mod").mkdir()
+    (tmp_path / "Mod" / "VOLFREP").symlink_to(ROOT)
+    file = tmp_path / "part.FCStd"
+    doc.saveCopy(str(file))
+    script = tmp_path / "script.py"
+    script.write_text(
+        "import os, sys, FreeCAD as App\n"
+        "from freecad_volfrep.deps import missing_packages\n"
+        f"doc = App.openDocument({str(file)!r})\n"
+        f"obj = doc.getObject({infill.Name!r})\n"
+        "print('MISSING', missing_packages())\n"
+        "print('OPENED', obj.Mesh.CountFacets, obj.StrutRadius.Value)\n"
+        "obj.StrutRadius = 0.7\n"
+        "doc.recompute()\n"
+        "print('STATUS', obj.isValid(), obj.getStatusString())\n"
+        "print('KEPT', obj.Mesh.CountFacets)\n"
+        "doc.save()\n"
+        "sys.stdout.flush()\n"
+        "os._exit(0)\n"
+    )
+    environment = dict(os.environ, FREECAD_USER_HOME=str(tmp_path), PYTHONPATH="")
+    done = subprocess.run(
+        [sys.executable, str(script)], env=environment, capture_output=True, text=True, timeout=120
+    )
+    lines = {line.split(" ", 1)[0]: line for line in done.stdout.splitlines()}
+    assert "KEPT" in lines, done.stdout + done.stderr
+    if lines["MISSING"] == "MISSING []":
+        pytest.skip("this FreeCAD has the engine's packages installed system-wide")
+    assert lines["OPENED"] == f"OPENED {infill.Triangles} 1.0"
+    assert lines["STATUS"].startswith("STATUS False VOLFREP needs the Python packages")
+    assert lines["KEPT"] == f"KEPT {infill.Triangles}"
+    again = App.openDocument(str(file))
+    try:
+        obj = again.getObject(infill.Name)
+        obj.touch()
+        again.recompute()
+        assert obj.isValid(), obj.getStatusString()
+        assert obj.StrutRadius.Value == pytest.approx(0.7)
+    finally:
+        App.closeDocument(again.Name)
+
+
+def test_what_a_change_comes_to_is_said_before_it_is_made(doc, infill):
+    infill.AutoUpdate = False
+    said = infill.Expected
+    infill.Resolution = 40
+    doc.recompute()
+    assert infill.Expected != said
+    assert infill.Expected.startswith("about 12 cells, ")
+
+
+def test_a_large_job_waits_for_the_command(doc, infill, runs, monkeypatch):
+    before = digest(infill)
+    monkeypatch.setattr(lattice_infill, "largest_automatic", lambda: 1000.0)
+    infill.StrutRadius = 0.8
+    doc.recompute()
+    assert infill.isValid()
+    assert infill.Status == LARGE
+    assert digest(infill) == before
+    assert runs == []
+    assert infill.Proxy.update(infill)
+    assert infill.Status == UP_TO_DATE
+    assert digest(infill) != before
+
+
+def test_without_a_window_no_job_is_too_large_to_be_made():
+    assert not App.GuiUp
+    assert preferences.largest_automatic() == float("inf")
+
+
+def test_a_defect_of_the_engine_is_a_sentence_and_loses_nothing(doc, infill, monkeypatch):
+    import volfrep.pipeline
+
+    before = digest(infill)
+
+    def broken(*_, **__):
+        raise ZeroDivisionError("by accident")
+
+    with monkeypatch.context() as patch:
+        patch.setattr(volfrep.pipeline, "fill", broken)
+        infill.StrutRadius = 0.8
+        doc.recompute()
+    assert not infill.isValid()
+    assert "ZeroDivisionError (by accident)" in infill.Status
+    assert "report" in infill.getStatusString()
+    assert digest(infill) == before
+    doc.recompute()
+    assert infill.isValid(), infill.getStatusString()
+
+
+def test_strings_from_strangers_are_not_run(doc, box, tmp_path):
+    """Every text a document can hold, with code in it: refused, and nothing happens."""
+    trap = tmp_path / "trap"
+    code = f"__import__('pathlib').Path({str(trap)!r}).touch()"
+    settings = [
+        {"SizeGrading": "formula", "LambdaFormula": code},
+        {"RadiusGrading": "direction", "RadiusLaw": "formula", "RadiusFormula": code},
+        {"CellType": "Custom", "CellFile": f"{code}.json"},
+        {"RadiusGrading": "field", "RadiusField": f"{code}.csv", "RadiusColumn": code},
+    ]
+    for values in settings:
+        obj = make_lattice_infill(doc, box, CellSize=10, StrutRadius=1, ShellThickness=2)
+        for name, value in values.items():
+            choices = obj.getEnumerationsOfProperty(name) or []
+            match = [choice for choice in choices if choice.lower() == value.lower()]
+            setattr(obj, name, match[0] if match else value)
+        doc.recompute()
+        assert not obj.isValid(), values
+        assert not trap.exists()

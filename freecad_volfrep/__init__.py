@@ -27,11 +27,13 @@ _EXPORTS = {
     "make_solid": "freecad_volfrep.features.faceted_solid",
     "export_mesh": "freecad_volfrep.features.export",
     "make_print_check": "freecad_volfrep.features.print_check",
+    "make_fem_analysis": "freecad_volfrep.features.fem_analysis",
 }
 __all__ = [
     "ICONS",
     "ROOT",
     "export_mesh",
+    "make_fem_analysis",
     "make_lattice_infill",
     "make_print_check",
     "make_solid",

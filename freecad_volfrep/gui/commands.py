@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import FreeCAD as App
@@ -206,22 +207,16 @@ class ToSolidCommand:
 
         obj = selected_mesh()
         doc = obj.Document
-        offered, refused = {}, []
-        for kind in kinds_of(obj):
-            try:
-                offered[f"{kind.title}: {kind.predict(obj)}"] = kind.name
-            except VolfrepError as error:
-                refused.append(f"{kind.title}: {error}")
-        if not offered:
-            show_error("\n".join(refused))
-            return
-        chosen = choose(f"Make of '{obj.Label}':", list(offered), refused)
+        kinds = {
+            kind.name: (kind.title, lambda kind=kind: kind.predict(obj)) for kind in kinds_of(obj)
+        }
+        chosen = _chosen(f"Make of '{obj.Label}':", kinds)
         if chosen is None:
             return
         doc.openTransaction("Lattice To Solid")
         try:
             with errors_shown():
-                make_kind(doc, obj, offered[chosen])
+                make_kind(doc, obj, chosen)
                 obj.Visibility = False
         finally:
             doc.commitTransaction()
@@ -265,6 +260,71 @@ class PrintCheckCommand:
             App.Console.PrintMessage(f"VOLFREP, {check.Label}:\n{check.Text}\n")
 
 
+class FemAnalysisCommand:
+    """Make a finite-element analysis of the selected lattice infill."""
+
+    def GetResources(self) -> dict[str, str]:  # noqa: N802
+        """Icon and texts."""
+        return _resources(
+            "fem_analysis.svg",
+            "FEM Analysis",
+            "Make an analysis of the selected lattice infill for the FEM workbench, of beams or "
+            "of tetrahedra, ready for constraints",
+        )
+
+    def IsActive(self) -> bool:  # noqa: N802
+        """Active when one lattice infill is selected."""
+        from .selection import selected_infill
+
+        return selected_infill() is not None
+
+    def Activated(self) -> None:  # noqa: N802
+        """Predict, ask, make, in one undo step."""
+        if not _packages_present():
+            return
+        from freecad_volfrep.features.fem_analysis import (
+            MODELS,
+            estimate_analysis,
+            make_fem_analysis,
+        )
+
+        from .selection import selected_infill
+
+        infill = selected_infill()
+        chosen = _chosen(
+            f"Analyse '{infill.Label}' with:",
+            {model: (model, lambda m=model: estimate_analysis(infill, m)) for model in MODELS},
+        )
+        if chosen is None:
+            return
+        doc = infill.Document
+        doc.openTransaction("FEM Analysis")
+        try:
+            with errors_shown():
+                make_fem_analysis(doc, infill, chosen)
+        finally:
+            doc.commitTransaction()
+
+
+def _chosen(label: str, kinds: dict[str, tuple[str, Callable[[], str]]]) -> str | None:
+    """The kind that the user picks by its title and what it will take; None for none.
+
+    `kinds` gives, by name, the title and what predicts; kinds that are refused are named above
+    the list, and alone they are an error.
+    """
+    offered, refused = {}, []
+    for name, (title, predict) in kinds.items():
+        try:
+            offered[f"{title}: {predict()}"] = name
+        except VolfrepError as error:
+            refused.append(f"{title}: {error}")
+    if not offered:
+        show_error("\n".join(refused))
+        return None
+    item = choose(label, list(offered), refused)
+    return None if item is None else offered[item]
+
+
 #: In the order of the toolbar.
 COMMANDS = {
     "VOLFREP_LatticeInfill": LatticeInfillCommand,
@@ -272,6 +332,7 @@ COMMANDS = {
     "VOLFREP_PrintCheck": PrintCheckCommand,
     "VOLFREP_Export": ExportCommand,
     "VOLFREP_ToSolid": ToSolidCommand,
+    "VOLFREP_FemAnalysis": FemAnalysisCommand,
 }
 
 

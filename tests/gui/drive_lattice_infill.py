@@ -164,6 +164,7 @@ def drive():
     check_the_print(doc, obj)
     show_coarsely(doc, obj)
     make_a_solid(doc, obj)
+    make_an_analysis(doc, obj)
     save_and_reopen(doc, obj)
 
 
@@ -300,6 +301,28 @@ def make_a_solid(doc, obj):
     for solid in made:
         doc.removeObject(solid.Name)
     obj.Visibility = True
+
+
+def make_an_analysis(doc, obj):
+    """FEM Analysis asks for the model, with figures, and makes an analysis."""
+    asked = []
+
+    def answer():
+        box = QtGui.QApplication.activeModalWidget()
+        if isinstance(box, QtGui.QInputDialog):
+            asked.append(box.comboBoxItems())
+            box.accept()
+
+    select(obj)
+    before = len(doc.Objects)
+    QtCore.QTimer.singleShot(2500, answer)
+    click(toolbar_button("FEM Analysis"))
+    wait_until(lambda: any(o.TypeId == "Fem::FemMeshObject" for o in doc.Objects), 60)
+    check("it offers beams", asked and asked[0][0].startswith("beams: "), asked)
+    analyses = [o for o in doc.Objects if o.isDerivedFrom("Fem::FemAnalysis")]
+    check("it makes an analysis", len(analyses) == 1 and len(analyses[0].Group) == 5)
+    doc.undo()
+    check("undo takes it away", len(doc.Objects) == before, len(doc.Objects))
 
 
 def save_and_reopen(doc, obj):

@@ -6,6 +6,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
 
 from .mesh import TriangleMesh, compact
 
@@ -32,6 +34,22 @@ def coarse_likeness(mesh: TriangleMesh, most: int) -> TriangleMesh:
         if len(result.triangles) <= most:
             return result
         step *= COARSER
+
+
+def outside_and_cavities(mesh: TriangleMesh) -> tuple[TriangleMesh, TriangleMesh]:
+    """The shells of a closed mesh that bound it from outside, and those that bound cavities."""
+    triangles, count = mesh.triangles, len(mesh.vertices)
+    rows = np.concatenate([triangles[:, 0], triangles[:, 1]])
+    columns = np.concatenate([triangles[:, 1], triangles[:, 2]])
+    graph = coo_matrix((np.ones(len(rows), np.int8), (rows, columns)), shape=(count, count))
+    shells, shell = connected_components(graph, directed=False)
+    shell = shell[triangles[:, 0]]
+    volume = np.bincount(shell, weights=mesh.signed_volumes(), minlength=shells)
+    is_outside = volume[shell] > 0
+    outside, cavities = (
+        compact(TriangleMesh(mesh.vertices, triangles[rows])) for rows in (is_outside, ~is_outside)
+    )
+    return outside, cavities
 
 
 def _clustered(mesh: TriangleMesh, step: float) -> TriangleMesh:

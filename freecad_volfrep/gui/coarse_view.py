@@ -17,7 +17,9 @@ CREASE_ANGLE = 0.6
 def show_mesh(obj: Any, node: Any) -> None:
     """Fill the node with a likeness of the object's mesh, and show it, where the mesh is large.
 
-    Where it is not, the node is emptied and FreeCAD's own display takes over again.
+    Where it is not, the node is emptied and FreeCAD's own display takes over again. The cavity is
+    shown opaque without the walls that face away, and the skin round it transparent: so the
+    lattice is seen, and nothing has to be sorted when the view turns.
     """
     node.removeAllChildren()
     view, most = obj.ViewObject, largest_shown()
@@ -27,28 +29,37 @@ def show_mesh(obj: Any, node: Any) -> None:
         return
     from freecad_volfrep.bridge.meshes import from_freecad
     from freecad_volfrep.bridge.solids import placed
-    from volfrep.coarse import coarse_likeness
+    from volfrep.coarse import coarse_likeness, outside_and_cavities
 
     # The view moves its nodes by the object's Placement, which the mesh has in it already.
     mesh = placed(from_freecad(obj.Mesh), obj.Placement.inverse())
-    likeness = coarse_likeness(mesh, int(SHARE * most))
-    _fill(node, likeness.vertices.tolist(), likeness.triangles.tolist(), view)
+    outside, cavities = outside_and_cavities(mesh)
+    limit = int(SHARE * most)
+    if len(cavities.triangles):
+        _add(node, coarse_likeness(cavities, limit), view, 0.0)
+        _add(node, coarse_likeness(outside, limit), view, view.Transparency / 100.0)
+    else:
+        _add(node, coarse_likeness(outside, limit), view, 0.0)
     view.DisplayMode = COARSE
 
 
-def _fill(node: Any, points: list[Any], triangles: list[Any], view: Any) -> None:
+def _add(node: Any, mesh: Any, view: Any, transparency: float) -> None:
+    """A mesh under the node, without the triangles that are seen from behind."""
     from pivy import coin
 
     material = coin.SoMaterial()
     material.diffuseColor = view.ShapeColor[:3]
-    material.transparency = view.Transparency / 100.0
+    material.transparency = transparency
     hints = coin.SoShapeHints()
     hints.vertexOrdering = coin.SoShapeHints.COUNTERCLOCKWISE
+    hints.shapeType = coin.SoShapeHints.SOLID
     hints.creaseAngle = CREASE_ANGLE
     coordinates = coin.SoCoordinate3()
-    coordinates.point.setValues(0, len(points), points)
+    coordinates.point.setValues(0, len(mesh.vertices), mesh.vertices.tolist())
     faces = coin.SoIndexedFaceSet()
-    index = [number for triangle in triangles for number in (*triangle, -1)]
+    index = [number for triangle in mesh.triangles.tolist() for number in (*triangle, -1)]
     faces.coordIndex.setValues(0, len(index), index)
+    group = coin.SoSeparator()
     for part in (material, hints, coordinates, faces):
-        node.addChild(part)
+        group.addChild(part)
+    node.addChild(group)

@@ -14,7 +14,9 @@ import json
 import os
 import re
 import sys
+import tempfile
 import time
+import traceback
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
@@ -33,6 +35,7 @@ if TYPE_CHECKING:
     from .report import Report
     from .spec import LatticeSpec
 
+EXIT_DEFECT = 1
 EXIT_BAD_INPUT = 2
 EXIT_INTERRUPTED = 130
 
@@ -74,7 +77,25 @@ def run(arguments: Sequence[str]) -> int:
     except KeyboardInterrupt:
         print("volfrep: Interrupted, no file was left half-written.", file=sys.stderr)
         return EXIT_INTERRUPTED
+    except BrokenPipeError:
+        raise
+    except Exception as error:  # whatever it is, the user gets a sentence
+        print(
+            f"volfrep: The engine failed with a {type(error).__name__} ({error}), which is a "
+            f"defect of VOLFREP: please report it with the traceback in '{_logged()}'.",
+            file=sys.stderr,
+        )
+        return EXIT_DEFECT
     return 0
+
+
+def _logged() -> str:
+    """The traceback of the running exception as a new file; its path."""
+    with tempfile.NamedTemporaryFile(
+        "w", prefix="volfrep-", suffix=".log", delete=False, encoding="utf-8"
+    ) as file:
+        traceback.print_exc(file=file)
+    return file.name
 
 
 class _Parser(argparse.ArgumentParser):

@@ -495,3 +495,27 @@ def test_openings_that_make_no_sense(
     command = ["fill", str(part), *LATTICE, "--shell", "1", "-o", str(tmp_path / "x.stl")]
     assert cli.run([*command, *options]) == 2
     assert message in capsys.readouterr().err
+
+
+def test_a_defect_is_one_sentence_and_its_traceback_a_file(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    import volfrep.pipeline
+
+    def broken(*_: object, **__: object) -> None:
+        raise ZeroDivisionError("by accident")
+
+    monkeypatch.setattr(volfrep.pipeline, "block", broken)
+    monkeypatch.setenv("TMPDIR", str(tmp_path))
+    monkeypatch.setattr("tempfile.tempdir", None)
+    out = tmp_path / "block.stl"
+    out.write_bytes(b"the old file")
+    arguments = ["block", "-o", str(out), *LATTICE, "--count", "1", "1", "1", "--quiet"]
+    assert cli.run(arguments) == 1
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert "ZeroDivisionError (by accident)" in said
+    log = Path(said.split("'")[-2])
+    assert log.parent == tmp_path
+    assert "in broken" in log.read_text()
+    assert out.read_bytes() == b"the old file"

@@ -44,8 +44,9 @@ Ints = NDArray[np.int64]
 MOST_ODD = 1e-3
 #: Along the same lines the solid before and after a union measures the same, to rounding.
 SAME_VOLUME = 1e-6
-#: Lines find the volume to about this; a worse difference means that the mesh is not what it says.
-VOLUME_TOLERANCE = 0.05
+#: Lines find the volume to about 1 / sqrt(lines) of it; a difference this many times as large
+#: means that the mesh is not what it says.
+VOLUME_ERRORS = 5.0
 #: Coordinates so large beside the part that single precision is coarser than this part of it.
 COARSE_STEP = 1e-5
 
@@ -253,7 +254,8 @@ def _enclosed_once(
         )
     volume = mesh.volume
     same = abs(met.solid - before.solid) <= SAME_VOLUME * before.solid + before.odd
-    if volume <= 0.0 or not same or abs(met.solid - volume) > VOLUME_TOLERANCE * volume + met.odd:
+    error = VOLUME_ERRORS / max(met.lines, 1) ** 0.5
+    if volume <= 0.0 or not same or abs(met.solid - volume) > error * volume + met.odd:
         raise VolfrepError(
             f"'{name}' has bodies that could not be united to one solid: unite them before export."
         )

@@ -194,7 +194,8 @@ def _row_type(
 def _coordinates(columns: Columns, name: str) -> NDArray[np.float64]:
     if not {"x", "y", "z"} <= columns.keys():
         raise damaged(name, "its vertices have no x, y and z")
-    return np.stack([columns[axis][0].astype(np.float64) for axis in "xyz"], axis=1)
+    with np.errstate(invalid="ignore"):  # numbers that are none are refused later
+        return np.stack([columns[axis][0].astype(np.float64) for axis in "xyz"], axis=1)
 
 
 def _polygons(columns: Columns, name: str) -> tuple[Ints, Ints]:

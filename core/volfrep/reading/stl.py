@@ -71,7 +71,9 @@ def read_stl(data: bytes, name: str) -> Contents:
 
 def _read_binary(data: bytes, count: int, name: str) -> Contents:
     rows = np.frombuffer(data, FACET, count, HEADER_BYTES)
-    mesh = triangle_soup(rows["corners"].astype(np.float64).reshape(-1, 3))
+    with np.errstate(invalid="ignore"):  # numbers that are none are refused later
+        corners = rows["corners"].astype(np.float64).reshape(-1, 3)
+    mesh = triangle_soup(corners)
     spare = len(data) - HEADER_BYTES - rows.nbytes
     surplus = plural(spare, "byte")
     warnings = (f"{surplus} after the last triangle of '{name}' passed over.",)

@@ -10,8 +10,10 @@ entities) is accepted, and no part is unpacked to more than its size in the zip 
 from __future__ import annotations
 
 import io
+import lzma
 import posixpath
 import re
+import struct
 import zipfile
 import zlib
 from dataclasses import dataclass
@@ -32,6 +34,7 @@ Floats = NDArray[np.float64]
 MOST_GROWTH = 200
 SMALL_PART = 1_000_000
 LARGEST_PART = 500_000_000
+DAMAGE = (ValueError, OSError, EOFError, NotImplementedError, RuntimeError, struct.error)
 #: An assembly may repeat its objects to no more triangles than this.
 MAX_TRIANGLES = 20_000_000
 MAX_DEPTH = 32
@@ -75,7 +78,10 @@ def read_3mf(data: bytes, name: str) -> Contents:
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as package:
             return _read_package(package, name)
-    except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError) as error:
+    except VolfrepError:
+        raise
+    # What zipfile raises at damage, beside its own error: it checks few of a directory's numbers.
+    except (zipfile.BadZipFile, zlib.error, lzma.LZMAError, *DAMAGE) as error:
         raise damaged(name, "it is no zip file that can be unpacked") from error
 
 

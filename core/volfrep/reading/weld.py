@@ -19,7 +19,7 @@ ROUNDING = 1e-6
 #: Wider cracks are closed only where that closes all of them; 1e-4 is 0.01 mm on 100 mm.
 WIDEST_CRACK = 1.28e-4
 #: Pairs of near vertices; more are no cracks.
-MOST_PAIRS = 50_000_000
+MOST_PAIRS = 3_000_000
 
 
 def weld_equal(mesh: TriangleMesh) -> TriangleMesh:
@@ -43,9 +43,12 @@ def weld_near(mesh: TriangleMesh, tolerance: float) -> TriangleMesh | None:
     """
     edges = edges_of(mesh)
     loose = np.unique(edges.sides[edges.open_sides])
-    tree = cKDTree(mesh.vertices[loose])
-    if tree.count_neighbors(tree, tolerance) > MOST_PAIRS:
+    cells = np.floor((mesh.vertices[loose] - mesh.bounds[0]) / tolerance).astype(np.int64)
+    # Vertices in one cell of this size are near each other: their number bounds that of pairs.
+    crowd = np.unique(cells @ np.array([1, 1 << 20, 1 << 40]), return_counts=True)[1]
+    if float((crowd.astype(np.float64) ** 2).sum()) > MOST_PAIRS:
         return None
+    tree = cKDTree(mesh.vertices[loose])
     pairs = loose[tree.query_pairs(tolerance, output_type="ndarray")]
     _, index = pieces_of(pairs[:, 0], pairs[:, 1], len(mesh.vertices))
     number = np.bincount(index)
@@ -74,7 +77,7 @@ def close_cracks(mesh: TriangleMesh, size: float) -> tuple[TriangleMesh, list[st
         if after < before:
             text = f"Cracks of up to {ROUNDING * size:.2g} mm along {before - after} edges closed"
             return welded, [text]
-    tolerance = 2.0 * ROUNDING
+    tolerance = _widest_gap(mesh, WIDEST_CRACK * size) / size
     while tolerance <= WIDEST_CRACK:
         wider = weld_near(mesh, tolerance * size)
         if wider is not None:
@@ -85,6 +88,17 @@ def close_cracks(mesh: TriangleMesh, size: float) -> tuple[TriangleMesh, list[st
                 ]
         tolerance *= 2.0
     return mesh, []
+
+
+def _widest_gap(mesh: TriangleMesh, most: float) -> float:
+    """How far the vertices of open edges have to reach until each has found another, mm.
+
+    Infinite where one finds none within `most`.
+    """
+    edges = edges_of(mesh)
+    loose = mesh.vertices[np.unique(edges.sides[edges.open_sides])]
+    found = cKDTree(loose).query(loose, k=2, distance_upper_bound=most)[0]
+    return float(found[:, 1].max())
 
 
 def without_repeats(mesh: TriangleMesh) -> tuple[TriangleMesh, list[str]]:

@@ -139,12 +139,16 @@ def load_cell(path: str | os.PathLike[str]) -> UnitCell:
     """
     file = Path(path)
     try:
-        if file.stat().st_size > MAX_FILE_BYTES:
+        if file.exists() and not file.is_file():
+            raise VolfrepError(f"Cannot read the cell file '{file}': it is not a file.")
+        with file.open("rb") as opened:
+            text = opened.read(MAX_FILE_BYTES + 1)
+        if len(text) > MAX_FILE_BYTES:
             raise VolfrepError(
                 f"The cell file '{file}' is larger than {MAX_FILE_BYTES // 1000} kB: "
                 "a unit cell is a short list of nodes and struts."
             )
-        data = json.loads(file.read_text(encoding="utf-8"))
+        data = json.loads(text.decode("utf-8"))
     except OSError as error:
         raise VolfrepError(f"Cannot read the cell file '{file}': {error.strerror}.") from error
     except (ValueError, RecursionError) as error:
@@ -173,7 +177,8 @@ def make_cell(name: str, nodes: object, struts: object, where: str = "unit cell"
             f"In the {where}, node {bad[0]} lies outside the cell: give coordinates in units "
             "of L, from 0 to 1."
         )
-    pairs = index.astype(np.int64)
+    with np.errstate(invalid="ignore"):  # a number too large for an index is none of the nodes
+        pairs = index.astype(np.int64)
     bad = np.flatnonzero(
         (pairs != index).any(axis=1) | ((pairs < 0) | (pairs >= len(points))).any(1)
     )
@@ -204,7 +209,7 @@ def make_cell(name: str, nodes: object, struts: object, where: str = "unit cell"
 def _rows(value: object, width: int, most: int, noun: str, where: str) -> NDArray[np.float64]:
     try:
         rows = np.array(value, float)
-    except (TypeError, ValueError) as error:
+    except (TypeError, ValueError, OverflowError) as error:
         raise VolfrepError(
             f"In the {where}, every {noun} must be a list of {width} numbers."
         ) from error

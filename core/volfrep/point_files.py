@@ -322,6 +322,8 @@ def _load_vtk(file: Path) -> tuple[Floats, dict[str, NDArray[Any]], list[str]]:
     legacy = file.suffix.lower() == ".vtk"
     if legacy:
         _refuse_empty_promises(file)
+    else:
+        _refuse_document_type(file)
     # Not meshio.read: it ends the program when a file is damaged.
     read = meshio.vtk.read if legacy else meshio.vtu.read
     try:
@@ -337,6 +339,15 @@ def _load_vtk(file: Path) -> tuple[Floats, dict[str, NDArray[Any]], list[str]]:
     if points.shape[1:] != (3,) or not len(points):
         raise VolfrepError(f"'{file.name}' holds no points in space.")
     return points, data, list(mesh.cell_data)
+
+
+def _refuse_document_type(file: Path) -> None:
+    """Refuse an XML file that could define entities, which may grow without bound."""
+    if re.search(rb"<!(DOCTYPE|ENTITY)", file.read_bytes(), re.IGNORECASE):
+        raise VolfrepError(
+            f"'{file.name}' declares an XML document type, which VTK files do not have: save it "
+            "again, for instance with ParaView."
+        )
 
 
 def _refuse_empty_promises(file: Path) -> None:

@@ -26,7 +26,7 @@ from .reading.junctions import mend_junctions
 from .reading.lines import Windings, windings
 from .reading.orient import orient, separate
 from .reading.overlaps import CLEAN, unite, unite_with_itself
-from .reading.shells import empty_shells, face_outward
+from .reading.shells import empty_shells, face_outward, shells_of
 from .reading.units import UNITS, find_unit
 from .reading.weld import (
     ROUNDING,
@@ -139,18 +139,20 @@ def check_solid(mesh: TriangleMesh, name: str) -> Solid:
     repairs += done
     if not len(mesh.triangles):
         raise VolfrepError(f"'{name}' has no triangle with an area: give a solid, not a surface.")
-    mesh, turned, done, why = _closed(mesh, size, name)
+    mesh, edges, turned, done, why = _closed(mesh, size, name)
     repairs += done
-    _refuse_defects(mesh, edges_of(mesh), why, name)
-    mesh, done = separate(mesh)
+    _refuse_defects(mesh, edges, why, name)
+    mesh, done = separate(mesh, edges)
     repairs += done
-    empty, done = empty_shells(mesh)
+    shell = shells_of(mesh, edges_of(mesh) if done else edges)
+    empty, done = empty_shells(mesh, shell)
     if empty.all():
         raise VolfrepError(f"'{name}' encloses no volume: give a solid, not a surface.")
     if empty.any():
         repairs += done
         mesh, turned = compact(TriangleMesh(mesh.vertices, mesh.triangles[~empty])), turned[~empty]
-    mesh, done, body = face_outward(mesh, turned, name)
+        shell = np.unique(shell[~empty], return_inverse=True)[1].ravel()
+    mesh, done, body = face_outward(mesh, shell, turned, name)
     repairs += done
     mesh, done, warnings = _enclosed_once(mesh, body, name)
     repairs += done
@@ -165,11 +167,11 @@ def check_solid(mesh: TriangleMesh, name: str) -> Solid:
 
 def _closed(
     mesh: TriangleMesh, size: float, name: str
-) -> tuple[TriangleMesh, Bools, list[str], str]:
+) -> tuple[TriangleMesh, Edges, Bools, list[str], str]:
     """Neighbours wound alike and, as far as that is certain, no open edges.
 
     Returns:
-        The mesh, which of its triangles were turned, what was done, and why holes were left.
+        The mesh, its edges, which triangles were turned, what was done, and why holes were left.
     """
     repairs: list[str] = []
     mends: tuple[Callable[[TriangleMesh], tuple[TriangleMesh, list[str]]], ...] = (
@@ -179,22 +181,23 @@ def _closed(
         cut_off_sheets,
         without_double_faces,
     )
+    edges = edges_of(mesh)
     for mend in mends:
-        edges = edges_of(mesh)
         if edges.is_closed or edges.is_manifold:
             break
         mended, done = mend(mesh)
         if done and len(mended.triangles):
             mesh, more = without_repeats(mended)
             repairs += done + more
+            edges = edges_of(mesh)
     turned = np.zeros(len(mesh.triangles), bool)
-    if edges_of(mesh).is_closed:
-        return mesh, turned, repairs, ""
-    mesh, turned = orient(mesh, name)
+    if edges.is_closed:
+        return mesh, edges, turned, repairs, ""
+    mesh, turned = orient(mesh, edges, name)
     mesh, done, why = close_holes(mesh)
     repairs += done
     turned = np.concatenate([turned, np.zeros(len(mesh.triangles) - len(turned), bool)])
-    return mesh, turned, repairs, why
+    return mesh, edges_of(mesh), turned, repairs, why
 
 
 def _refuse_defects(mesh: TriangleMesh, edges: Edges, why: str, name: str) -> None:
@@ -232,7 +235,7 @@ def _enclosed_once(
     box = mesh.bounds
     before = windings(mesh, box)
     mesh, done = unite(mesh, body, name)
-    met = windings(mesh, box)
+    met = windings(mesh, box) if done else before
     if met.odd > CLEAN * met.solid:
         united = unite_with_itself(mesh, met, name)
         if united is not None and windings(united, box).odd <= CLEAN * met.solid:
@@ -253,7 +256,7 @@ def _enclosed_once(
             f"most near {_place_of(met)}; mend it there and export it again."
         )
     volume = mesh.volume
-    same = abs(met.solid - before.solid) <= SAME_VOLUME * before.solid + before.odd
+    same = abs(met.solid - before.solid) <= SAME_VOLUME * before.solid
     error = VOLUME_ERRORS / max(met.lines, 1) ** 0.5
     if volume <= 0.0 or not same or abs(met.solid - volume) > error * volume + met.odd:
         raise VolfrepError(

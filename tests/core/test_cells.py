@@ -2,6 +2,7 @@
 """The library of unit cells, and cells from a file."""
 
 import json
+import os
 from pathlib import Path
 
 import numpy as np
@@ -137,3 +138,16 @@ def test_files_that_cannot_be_read(tmp_path: Path) -> None:
     (tmp_path / "binary.json").write_bytes(b"\xff\xfe\x00\x80")
     with pytest.raises(VolfrepError, match="not valid JSON"):
         load_cell(tmp_path / "binary.json")
+    # A pipe would be waited for, and a device never ends.
+    os.mkfifo(tmp_path / "pipe.json")
+    (tmp_path / "device.json").symlink_to("/dev/zero")
+    for name in ("pipe.json", "device.json"):
+        with pytest.raises(VolfrepError, match="is not a file"):
+            load_cell(tmp_path / name)
+
+
+def test_numbers_beyond_all_bounds_are_refused() -> None:
+    with pytest.raises(VolfrepError, match="every node must be a list of 3 numbers"):
+        make_cell("huge", [[10**400, 0, 0], [1, 1, 1]], [[0, 1]])
+    with pytest.raises(VolfrepError, match="strut 0 must name two nodes"):
+        make_cell("huge", [[0, 0, 0], [1, 1, 1]], [[0, 1e300]])

@@ -403,6 +403,13 @@ def test_an_array_that_cannot_be_taken_is_refused(
         read_point_field(tmp_path / "a.vtu", column)
 
 
+def test_a_vtk_file_that_defines_entities_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "a.vtu"
+    path.write_text('<?xml version="1.0"?><!DOCTYPE x [<!ENTITY a "aaaa">]><VTKFile>&a;</VTKFile>')
+    with pytest.raises(VolfrepError, match=r"'a.vtu' declares an XML document type"):
+        read_point_field(path)
+
+
 def test_values_that_are_not_finite_are_refused_with_their_point(tmp_path: Path) -> None:
     values = np.arange(40.0)
     values[7] = np.nan

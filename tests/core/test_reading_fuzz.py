@@ -219,8 +219,9 @@ def check(first, count):
     good = ("refused", "as before", "as given")
     assert {seed: said for seed, said in results.items() if said not in good} == {}
     counts = {word: sum(said == word for said in results.values()) for word in good}
-    assert min(counts.values()) > 0, counts
-    return counts
+    # Not everything is refused, and not everything is read.
+    assert counts["refused"] > count / 10
+    assert counts["as before"] > count / 20
 
 
 def test_a_hundred_mutated_files_give_a_sentence_or_a_right_solid():

@@ -8,13 +8,13 @@ from numpy.typing import NDArray
 
 from ..errors import VolfrepError
 from ..mesh import TriangleMesh
-from .edges import areas_of, edges_of, pieces_of, place_text, plural
+from .edges import Edges, areas_of, pieces_of, place_text, plural
 
 Ints = NDArray[np.int64]
 Bools = NDArray[np.bool_]
 
 
-def orient(mesh: TriangleMesh, name: str) -> tuple[TriangleMesh, Bools]:
+def orient(mesh: TriangleMesh, edges: Edges, name: str) -> tuple[TriangleMesh, Bools]:
     """Neighbours over edges of two triangles wound alike, each piece as most of its area was.
 
     Returns:
@@ -23,7 +23,6 @@ def orient(mesh: TriangleMesh, name: str) -> tuple[TriangleMesh, Bools]:
     Raises:
         VolfrepError: a piece has one side only.
     """
-    edges = edges_of(mesh)
     one, other = edges.pairs()
     disagree = edges.sides[one, 0] == edges.sides[other, 0]
     count = len(mesh.triangles)
@@ -47,7 +46,7 @@ def orient(mesh: TriangleMesh, name: str) -> tuple[TriangleMesh, Bools]:
     return TriangleMesh(mesh.vertices, np.ascontiguousarray(triangles)), turned
 
 
-def separate(mesh: TriangleMesh) -> tuple[TriangleMesh, list[str]]:
+def separate(mesh: TriangleMesh, edges: Edges) -> tuple[TriangleMesh, list[str]]:
     """Bodies that touch along an edge or at a vertex, taken apart there.
 
     Round an edge of four triangles or more, those that bound the same wedge of material are
@@ -55,8 +54,8 @@ def separate(mesh: TriangleMesh) -> tuple[TriangleMesh, list[str]]:
 
     Args:
         mesh: with as many triangles along each edge one way as the other.
+        edges: of the mesh.
     """
-    edges = edges_of(mesh)
     one, other = edges.pairs()
     many = np.flatnonzero((edges.count > 2)[edges.number])
     if len(many):

@@ -35,6 +35,8 @@ def unite(mesh: TriangleMesh, body: Ints, name: str) -> tuple[TriangleMesh, list
     Raises:
         VolfrepError: the Boolean library does not take one of them.
     """
+    if (body == body[0]).all():
+        return mesh, []
     order = np.argsort(body, kind="stable")
     names, begin = np.unique(body[order], return_index=True)
     rows_of = dict(zip(names.tolist(), np.split(order, begin[1:]), strict=True))

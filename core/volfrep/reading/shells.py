@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from ..errors import VolfrepError
 from ..mesh import TriangleMesh
 from ..ragged import spread
-from .edges import areas_of, edges_of, pieces_of, place_text, plural
+from .edges import Edges, areas_of, pieces_of, place_text, plural
 from .lines import winding_by_shell
 
 Floats = NDArray[np.float64]
@@ -22,15 +22,15 @@ SAMPLES = 16
 NO_VOLUME = 1e-7
 
 
-def shells_of(mesh: TriangleMesh) -> tuple[int, Ints]:
-    """How many shells a closed manifold mesh has, and the shell of each triangle."""
-    one, other = edges_of(mesh).pairs()
-    return pieces_of(one // 3, other // 3, len(mesh.triangles))
+def shells_of(mesh: TriangleMesh, edges: Edges) -> Ints:
+    """(m,) the shell of each triangle of a closed manifold mesh, counted from 0."""
+    one, other = edges.pairs()
+    return pieces_of(one // 3, other // 3, len(mesh.triangles))[1]
 
 
-def empty_shells(mesh: TriangleMesh) -> tuple[Bools, list[str]]:
+def empty_shells(mesh: TriangleMesh, shell: Ints) -> tuple[Bools, list[str]]:
     """(m,) the triangles of shells that enclose no volume: sheets with two sides, slivers."""
-    shells, shell = shells_of(mesh)
+    shells = int(shell.max()) + 1
     volume = np.abs(np.bincount(shell, weights=mesh.signed_volumes(), minlength=shells))
     area = np.bincount(shell, weights=areas_of(mesh), minlength=shells)
     empty = volume <= NO_VOLUME * area**1.5
@@ -43,7 +43,7 @@ def empty_shells(mesh: TriangleMesh) -> tuple[Bools, list[str]]:
 
 
 def face_outward(
-    mesh: TriangleMesh, turned: Bools, name: str
+    mesh: TriangleMesh, shell: Ints, turned: Bools, name: str
 ) -> tuple[TriangleMesh, list[str], Ints]:
     """Shells that bound bodies look outward, those that bound voids inward.
 
@@ -52,6 +52,7 @@ def face_outward(
 
     Args:
         mesh: closed, manifold.
+        shell: (m,) the shell of each triangle, counted from 0.
         turned: (m,) triangles that had to be turned to agree with their neighbours.
         name: of the part.
 
@@ -61,7 +62,7 @@ def face_outward(
     Raises:
         VolfrepError: a shell lies in another that is wound the same way.
     """
-    shells, shell = shells_of(mesh)
+    shells = int(shell.max()) + 1
     volume = np.bincount(shell, mesh.signed_volumes(), shells).astype(np.float64)
     sign: Ints = np.where(volume > 0.0, 1, np.where(volume < 0.0, -1, 0))
     mixed = np.bincount(shell[turned], minlength=shells) > 0

@@ -4,16 +4,19 @@
     xvfb-run python demo/render.py cutaway PART.stl SOLID.stl SHELL PICTURE.png
     xvfb-run python demo/render.py cells PICTURE.png
     xvfb-run python demo/render.py graded PICTURE.png
+    xvfb-run python demo/render.py deformed PICTURE.png
 
 The first cuts a corner out of a filled part so that its skin, its lattice and the cut faces are
 seen, each in a colour of its own; the second shows the library's unit cells with their names; the
-third blocks whose cells or struts vary.
+third blocks whose cells or struts vary; the fourth the paper's sample, pulled (see docs/solver.md).
 """
 
 from __future__ import annotations
 
 import sys
+import tempfile
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
 import manifold3d
@@ -27,9 +30,14 @@ from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to
 
 from volfrep import LatticeSpec, block
 from volfrep.cells import LIBRARY
+from volfrep.export.calculix import write_tetrahedra
 from volfrep.grading import CellMap, Orientation, RadiusGrading, SizeGrading
+from volfrep.joint_loads import balls_of, joint_step
 from volfrep.law import Law
 from volfrep.mesh import TriangleMesh
+from volfrep.pipeline import block_wireframe
+from volfrep.solver import solve
+from volfrep.tetrahedra import tetrahedra
 
 Colour = tuple[float, float, float]
 SKIN: Colour = (0.72, 0.76, 0.82)
@@ -126,6 +134,33 @@ def graded(picture: str) -> None:
     scene.save(picture)
 
 
+def deformed(picture: str) -> None:
+    """Picture the paper's sample under 200 N: its displacement, five times enlarged.
+
+    Gmsh and CalculiX must be installed; about half a minute.
+    """
+    spec = LatticeSpec(cell="CVC", cell_size=20.0, strut_radius=2.0, resolution=20)
+    count, force = (3, 2, 1), (200.0, 0.0, 0.0)
+    mesh, frame = block(spec, count).mesh, block_wireframe(spec, count)
+    filled = tetrahedra(mesh)
+    x = frame.nodes[:, 0]
+    fixed = balls_of(filled, frame, np.flatnonzero(x < 1e-6))
+    loaded = balls_of(filled, frame, np.flatnonzero(x > 60.0 - 1e-6))
+    with tempfile.TemporaryDirectory() as folder:
+        deck = Path(folder) / "sample.inp"
+        write_tetrahedra(filled, deck, step=joint_step(fixed, loaded, force))
+        moved = solve(deck)
+    own = moved[cKDTree(filled.nodes).query(mesh.vertices)[1]]
+    size = np.linalg.norm(own, axis=1)
+    scene = _Scene((1200, 560))
+    scene.add(mesh, None, (0.86, 0.88, 0.90), opacity=0.35)
+    enlarged = TriangleMesh(mesh.vertices + 5.0 * own, mesh.triangles)
+    scene.add(enlarged, None, CELL, values=size)
+    scene.look(direction=(0.35, -1.0, 0.75), up=(0.0, 0.0, 1.0), zoom=1.5)
+    scene.scale("displacement, mm", float(size.max()))
+    scene.save(picture)
+
+
 class _Scene:
     """A white stage, lit from above the viewer's shoulder, seen without perspective."""
 
@@ -164,6 +199,8 @@ class _Scene:
         selected: NDArray[np.bool_] | None,
         colour: Colour,
         ambient: float = 0.25,
+        opacity: float = 1.0,
+        values: NDArray[np.float64] | None = None,
     ) -> None:
         triangles = mesh.triangles if selected is None else mesh.triangles[selected]
         data = vtk.vtkPolyData()
@@ -180,6 +217,12 @@ class _Scene:
         normals.ConsistencyOff()
         mapper = vtk.vtkPolyDataMapper()
         mapper.SetInputConnection(normals.GetOutputPort())
+        if values is None:
+            mapper.ScalarVisibilityOff()
+        else:
+            data.GetPointData().SetScalars(numpy_to_vtk(values, deep=True))
+            mapper.SetLookupTable(_rainbow())
+            mapper.SetScalarRange(0.0, float(values.max()))
         actor = vtk.vtkActor()
         actor.SetMapper(mapper)
         look = actor.GetProperty()
@@ -188,6 +231,7 @@ class _Scene:
         look.SetDiffuse(1.0 - ambient)
         look.SetSpecular(0.12)
         look.SetSpecularPower(25)
+        look.SetOpacity(opacity)
         self.renderer.AddActor(actor)
 
     def label(self, text: str, place: NDArray[np.float64]) -> None:
@@ -199,6 +243,27 @@ class _Scene:
         style.SetColor(0.2, 0.22, 0.26)
         style.SetJustificationToCentered()
         self.renderer.AddActor(label)
+
+    def scale(self, title: str, most: float) -> None:
+        """A bar of the colours of the values from 0 to `most`."""
+        table = _rainbow()
+        table.SetTableRange(0.0, most)
+        bar = vtk.vtkScalarBarActor()
+        bar.SetLookupTable(table)
+        bar.SetTitle(title)
+        bar.SetNumberOfLabels(5)
+        bar.SetLabelFormat("%.1f")
+        bar.UnconstrainedFontSizeOn()
+        bar.SetPosition(0.86, 0.12)
+        bar.SetWidth(0.08)
+        bar.SetHeight(0.76)
+        for style, points in ((bar.GetTitleTextProperty(), 20), (bar.GetLabelTextProperty(), 20)):
+            style.SetFontSize(points * OVERSAMPLING)
+            style.SetColor(0.2, 0.22, 0.26)
+            style.ItalicOff()
+            style.BoldOff()
+            style.ShadowOff()
+        self.renderer.AddViewProp(bar)
 
     def look(
         self, direction: Sequence[float], up: Sequence[float], zoom: float, raised: float = 0.0
@@ -231,6 +296,15 @@ class _Scene:
         )
 
 
+def _rainbow() -> Any:
+    """Blue for nothing, red for the most."""
+    table = vtk.vtkLookupTable()
+    table.SetHueRange(0.62, 0.0)
+    table.SetSaturationRange(0.75, 0.85)
+    table.Build()
+    return table
+
+
 def _read(path: str) -> TriangleMesh:
     mesh = trimesh.load(path, process=True)
     return TriangleMesh(np.asarray(mesh.vertices, float), np.asarray(mesh.faces, np.int32))
@@ -261,7 +335,7 @@ def _turn(about_y: float, about_x: float) -> NDArray[np.float64]:
     return rotation
 
 
-PICTURES = {"cells": cells, "graded": graded}
+PICTURES = {"cells": cells, "graded": graded, "deformed": deformed}
 
 
 def main(arguments: list[str]) -> None:
@@ -273,7 +347,7 @@ def main(arguments: list[str]) -> None:
     elif kind in PICTURES:
         PICTURES[kind](*rest)
     else:
-        raise SystemExit(f"There is no picture '{kind}': choose cutaway, cells or graded.")
+        raise SystemExit(f"There is no picture '{kind}': choose cutaway, {', '.join(PICTURES)}.")
 
 
 if __name__ == "__main__":

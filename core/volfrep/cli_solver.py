@@ -224,16 +224,15 @@ def _write_exact(
 ) -> tuple[str, ...]:
     """Exact surfaces, or plane faces where OpenCASCADE does not manage them."""
     from .beam_lattice import beam_model, deformed_struts
-    from .estimate import estimate_exact
+    from .estimate import estimate_exact, refuse_inexact
     from .freecad_process import write_exact_step
     from .pipeline import fill
     from .progress import Monitor
 
     lattice, inner, outer = result.wireframe, None, None
     if solid is not None:
-        lattice = beam_model(
-            solid, dataclasses.replace(spec, output="lattice"), cache=cache
-        ).lattice
+        bare = dataclasses.replace(spec, output="lattice", drains=None)
+        lattice = beam_model(solid, bare, cache=cache).lattice
         if spec.is_cut:
             inner = fill(solid, dataclasses.replace(spec, output="domain"), cache=cache).mesh
             outer = solid if spec.output == "part" and spec.shell > 0 else None
@@ -243,6 +242,7 @@ def _write_exact(
     measured = result.report.volume_mm3
     expected = None if warnings else measured
     try:
+        refuse_inexact(spec)
         volume = write_exact_step(
             lattice, options.out, expected, inner=inner, outer=outer, monitor=Monitor(progress)
         )

@@ -160,6 +160,16 @@ def estimate_exact(
     return Estimate(what, seconds, found.megabytes, reading)
 
 
+def refuse_inexact(spec: LatticeSpec) -> None:
+    """Refuse what exact surfaces are not made for.
+
+    Raises:
+        VolfrepError: there are drain holes.
+    """
+    if spec.drains is not None:
+        raise VolfrepError("Exact surfaces have no drain holes.")
+
+
 def estimate_beams(model: BeamModel, asked: Asked | None = None) -> Estimate:
     """Beams for CalculiX.
 

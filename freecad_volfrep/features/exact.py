@@ -77,7 +77,7 @@ def ingredients_of(obj: App.DocumentObject, progress: Any = None) -> Ingredients
     from volfrep.beam_lattice import beam_model, deformed_struts
     from volfrep.pipeline import fill
 
-    bare = replace(spec, output="lattice")
+    bare = replace(spec, output="lattice", drains=None)
     lattice = beam_model(solid, bare, progress=progress, cache=cache).lattice
     domain = None
     if spec.is_cut:
@@ -146,8 +146,10 @@ def warn(obj: App.DocumentObject, sentences: tuple[str, ...]) -> None:
 def _shape(obj: App.DocumentObject, made_of: Ingredients, progress: Any) -> Any:
     from freecad_volfrep.bridge.exact import exact_lattice
     from freecad_volfrep.bridge.trimmed import check_volume, exact_part
+    from volfrep.estimate import refuse_inexact
     from volfrep.progress import Monitor
 
+    refuse_inexact(made_of.spec)
     # Deformed struts measure something else as a mesh.
     expected = None if made_of.warnings else obj.Volume.Value
     monitor = Monitor(progress)

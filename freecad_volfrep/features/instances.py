@@ -43,10 +43,12 @@ def make_instances(doc: App.Document, obj: App.DocumentObject) -> App.DocumentOb
     """
     from freecad_volfrep.bridge.beams import place_in_document
     from freecad_volfrep.bridge.trimmed import check_volume
+    from volfrep.estimate import refuse_inexact
     from volfrep.progress import Monitor
 
     with progress_of(f"Instances of {obj.Label}") as progress:
         made_of = ingredients_of(obj, progress)
+        refuse_inexact(made_of.spec)
         copies, single, volume = _solids(obj, made_of, Monitor(progress))
     if not made_of.warnings:
         check_volume(volume, obj.Volume.Value)

@@ -165,6 +165,21 @@ def test_plane_faces_with_a_message_where_opencascade_does_not_manage(
 
 
 @needs_freecad
+def test_openings_of_the_skin_are_there_or_missed_with_a_message(
+    tmp_path: Path, part: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """An open face is exact too; drain holes are in the mesh only."""
+    exact = ["--step", "exact"]
+    assert fill(part, tmp_path / "a.step", *exact, "--open-plane", "12,12,14,0,0,1") == 0
+    assert capsys.readouterr().err == ""
+    assert "CYLINDRICAL_SURFACE(" in (tmp_path / "a.step").read_text()
+    drains = ["--drain", "12,12,14", "--drain-diameter", 3]
+    assert fill(part, tmp_path / "b.step", *exact, *drains) == 0
+    assert "have no drain holes. The file holds plane faces" in capsys.readouterr().err
+    assert "CYLINDRICAL_SURFACE(" not in (tmp_path / "b.step").read_text()
+
+
+@needs_freecad
 def test_struts_deformed_with_their_cells_are_warned_about(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

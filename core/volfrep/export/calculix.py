@@ -60,17 +60,19 @@ class Material:
 
 @dataclass(frozen=True, eq=False)
 class StaticStep:
-    """One linear static step: some nodes held, a force shared equally by others.
+    """One linear static step: some nodes held, a force shared by others.
 
     Attributes:
         fixed: rows of the nodes that neither move nor turn.
         loaded: rows of the nodes that carry the force.
         force: (3,) the whole force, N.
+        shares: (loaded,) what part of it each loaded node carries; None for equal parts.
     """
 
     fixed: Ints
     loaded: Ints
     force: tuple[float, float, float]
+    shares: Floats | None = None
 
 
 def sides(nodes: Floats) -> dict[str, Ints]:
@@ -223,7 +225,9 @@ def _step(step: StaticStep, *, rotations: bool) -> Iterator[bytes]:
     yield from _numbers(step.loaded)
     yield f"*BOUNDARY\nFIXED,1,{6 if rotations else 3}\n*STEP\n*STATIC\n*CLOAD\n".encode()
     for axis, force in enumerate(step.force, 1):
-        if force:
+        if force and step.shares is not None:
+            yield from rows(f"%d,{axis},%.12g\n", step.loaded + 1, force * step.shares)
+        elif force:
             yield f"LOADED,{axis},{force / len(step.loaded):.12g}\n".encode()
     forces = b"*NODE FILE,OUTPUT=2D\nU\n*EL FILE,SECTION FORCES\nS\n"
     yield b"*NODE PRINT,NSET=NALL\nU\n"

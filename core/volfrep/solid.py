@@ -17,6 +17,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from .clean import remove_slivers, separate_vertices, shortest_edge
 from .errors import VolfrepError
 from .mesh import TriangleMesh, compact
 from .reading import read_file
@@ -27,7 +28,7 @@ from .reading.lines import Windings, windings
 from .reading.orient import orient, separate
 from .reading.overlaps import CLEAN, unite, unite_with_itself
 from .reading.shells import empty_shells, face_outward, shells_of
-from .reading.units import UNITS, find_unit
+from .reading.units import UNITS, find_unit, size_text
 from .reading.weld import (
     ROUNDING,
     close_cracks,
@@ -47,8 +48,13 @@ SAME_VOLUME = 1e-6
 #: Lines find the volume to about 1 / sqrt(lines) of it; a difference this many times as large
 #: means that the mesh is not what it says.
 VOLUME_ERRORS = 5.0
-#: Coordinates so large beside the part that single precision is coarser than this part of it.
+#: Surfaces that touched are kept apart by a few steps of single precision, if these are no more
+#: than this part of the part.
+FINE_STEP = 1e-4
+#: Coordinates so large that single precision is coarser than this part of the part get a warning,
+#: and a refusal: no lattice of a thousandth of it could be written to a file.
 COARSE_STEP = 1e-5
+COARSEST_STEP = 1e-4
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,6 +140,13 @@ def check_solid(mesh: TriangleMesh, name: str) -> Solid:
             f"'{name}' is {size:.3g} mm large, up to {farthest:.3g} mm from the origin, which is "
             "no sensible part: is it in another unit?"
         )
+    step = float(np.spacing(np.float32(farthest)))
+    if step > COARSEST_STEP * size:
+        raise VolfrepError(
+            f"'{name}' measures {size_text(np.ptp(mesh.bounds, axis=0))} and lies {farthest:.3g} "
+            f"mm from the origin, where single precision rounds to {step:.2g} mm: move it to the "
+            "origin before export, or is it in another unit?"
+        )
     repairs: list[str] = []
     mesh, done = without_repeats(weld_equal(mesh))
     repairs += done
@@ -144,6 +157,7 @@ def check_solid(mesh: TriangleMesh, name: str) -> Solid:
     _refuse_defects(mesh, edges, why, name)
     mesh, done = separate(mesh, edges)
     repairs += done
+    touched = bool(done)
     shell = shells_of(mesh, edges_of(mesh) if done else edges)
     empty, done = empty_shells(mesh, shell)
     if empty.all():
@@ -154,9 +168,8 @@ def check_solid(mesh: TriangleMesh, name: str) -> Solid:
         shell = np.unique(shell[~empty], return_inverse=True)[1].ravel()
     mesh, done, body = face_outward(mesh, shell, turned, name)
     repairs += done
-    mesh, done, warnings = _enclosed_once(mesh, body, name)
+    mesh, done, warnings = _enclosed_once(mesh, body, touched, name)
     repairs += done
-    step = float(np.spacing(np.float32(farthest)))
     if step > COARSE_STEP * size:
         warnings += (
             f"'{name}' lies {farthest:.3g} mm from the origin, where files in single precision "
@@ -222,9 +235,15 @@ def _refuse_defects(mesh: TriangleMesh, edges: Edges, why: str, name: str) -> No
 
 
 def _enclosed_once(
-    mesh: TriangleMesh, body: Ints, name: str
+    mesh: TriangleMesh, body: Ints, touched: bool, name: str
 ) -> tuple[TriangleMesh, list[str], tuple[str, ...]]:
     """Overlaps united, and the proof that the result is a solid, the one that was meant.
+
+    Args:
+        mesh: closed, oriented.
+        body: (m,) the body each triangle belongs to.
+        touched: whether surfaces that touch were taken apart.
+        name: of the part.
 
     Returns:
         The mesh, what was done, and warnings.
@@ -241,14 +260,15 @@ def _enclosed_once(
         if united is not None and windings(united, box).odd <= CLEAN * met.solid:
             done.append(f"Overlaps of the surface with itself near {_place_of(met)} united")
             mesh, met = united, windings(united, box)
-    edges = edges_of(mesh)
-    if not (edges.is_manifold and edges.is_closed):
-        odd = np.flatnonzero(((edges.count != 2) | (edges.balance != 0))[edges.number])
-        place = place_text(mesh.vertices[edges.sides[odd[0]]].mean(axis=0))
+    if abs(met.solid - before.solid) > SAME_VOLUME * before.solid:
         raise VolfrepError(
-            f"'{name}' has surfaces that touch near {place} in a way that cannot be taken apart: "
-            "mend it there and export it again."
+            f"'{name}' has bodies that could not be united to one solid: unite them before export."
         )
+    _refuse_contact(mesh, name)
+    precision = shortest_edge(mesh)
+    if (touched or done) and precision < FINE_STEP * float(np.ptp(box, axis=0).max()):
+        mesh = separate_vertices(remove_slivers(mesh, precision), precision)
+        met = windings(mesh, box)
     if met.odd > MOST_ODD * met.solid:
         what = "inside out" if met.least < 0 else "enclosed more than once"
         raise VolfrepError(
@@ -256,12 +276,9 @@ def _enclosed_once(
             f"most near {_place_of(met)}; mend it there and export it again."
         )
     volume = mesh.volume
-    same = abs(met.solid - before.solid) <= SAME_VOLUME * before.solid
     error = VOLUME_ERRORS / max(met.lines, 1) ** 0.5
-    if volume <= 0.0 or not same or abs(met.solid - volume) > error * volume + met.odd:
-        raise VolfrepError(
-            f"'{name}' has bodies that could not be united to one solid: unite them before export."
-        )
+    if volume <= 0.0 or abs(met.solid - volume) > error * volume + met.odd:
+        raise VolfrepError(f"'{name}' encloses no volume: give a solid, not a surface.")
     if met.odd <= CLEAN * met.solid:
         return mesh, done, ()
     share = 100.0 * met.odd / volume
@@ -273,6 +290,17 @@ def _enclosed_once(
             "the volume is concerned.",
         ),
     )
+
+
+def _refuse_contact(mesh: TriangleMesh, name: str) -> None:
+    edges = edges_of(mesh)
+    odd = np.flatnonzero(((edges.count != 2) | (edges.balance != 0))[edges.number])
+    if len(odd):
+        place = place_text(mesh.vertices[edges.sides[odd[0]]].mean(axis=0))
+        raise VolfrepError(
+            f"'{name}' has surfaces that touch near {place} in a way that cannot be taken apart: "
+            "mend it there and export it again."
+        )
 
 
 def _place_of(met: Windings) -> str:

@@ -6,6 +6,7 @@ import pytest
 
 import samples
 from volfrep.errors import VolfrepError
+from volfrep.export.stl import as_read
 from volfrep.mesh import TriangleMesh, concatenate
 from volfrep.quality import measure
 from volfrep.reading.lines import windings
@@ -145,8 +146,23 @@ def test_one_of_two_bodies_that_is_inside_out_is_turned():
 @pytest.mark.parametrize("corner", [(1.0, 1.0, 0.0), (1.0, 1.0, 1.0)])
 def test_bodies_that_touch_along_an_edge_or_at_a_vertex_are_taken_apart(corner):
     cube = samples.box((1.0, 1.0, 1.0))
-    solid = mended(concatenate(cube, samples.box((1.0, 1.0, 1.0), corner)), 2.0, "touch")
-    assert measure(solid).bodies == 2
+    two = concatenate(cube, samples.box((1.0, 1.0, 1.0), corner))
+    # What touched is kept apart by some 16 steps of single precision, 1e-7 each.
+    solid = mended(two, 2.0, "touch", rel=4e-6)
+    # Also to a reader that merges equal corners.
+    for mesh in (solid, as_read(solid)):
+        assert measure(mesh).watertight
+        assert measure(mesh).bodies == 2
+
+
+def test_a_part_far_from_the_origin_is_warned_about_and_then_refused():
+    def at(distance):
+        return samples.box(corner=(distance, 0.0, 0.0))
+
+    assert check_solid(at(1e3), "part").notes == ()
+    assert "move it to the origin" in check_solid(at(1e4), "part").notes[0]
+    with pytest.raises(VolfrepError, match=r"measures 40 x 30 x 20 mm .* another unit\?"):
+        check_solid(at(1e5), "part")
 
 
 @pytest.mark.parametrize("side", [10.0, 6.0])

@@ -77,7 +77,7 @@ def beam_model(
     if spec.open_faces:
         skin = difference(solid, domain)
     if spec.drains is not None:
-        drained = drain(skin, solid, domain, lattice, spec, Monitor(progress))
+        drained = drain(skin, solid, domain, lattice, spec.shell, spec.drains, Monitor(progress))
         return BeamModel(lattice, clip, drained.mesh, warnings + drained.warnings)
     return BeamModel(lattice, clip, skin, warnings)
 

@@ -17,7 +17,6 @@ from .mesh import TriangleMesh, compact
 from .openings import DrainHoles
 from .progress import Monitor
 from .quality import inspect
-from .spec import LatticeSpec
 from .wireframe import Wireframe
 
 Floats = NDArray[np.float64]
@@ -68,10 +67,11 @@ def drain(
     solid: TriangleMesh,
     room: TriangleMesh,
     lattice: Wireframe,
-    spec: LatticeSpec,
+    thickness: float,
+    wanted: DrainHoles,
     monitor: Monitor,
 ) -> Drained:
-    """A part with the holes that its specification asks for.
+    """A part with holes through its skin.
 
     Given places come first; then each void that is still closed gets the automatic ones, at the
     lowest places of its wall where there is room.
@@ -81,15 +81,14 @@ def drain(
         solid: its outside.
         room: closed mesh of what the lattice fills.
         lattice: its struts.
-        spec: with drain holes.
+        thickness: of the skin, mm.
+        wanted: the holes.
         monitor: for progress and cancel.
 
     Raises:
         VolfrepError: a given hole does not reach the cavity; the text says which.
     """
-    assert spec.drains is not None
-    wanted = spec.drains
-    site = _Site(solid, room, spec.shell, 0.5 * wanted.diameter)
+    site = _Site(solid, room, thickness, 0.5 * wanted.diameter)
     holes = _given(site, wanted)
     before = part.volume
     mesh = part

@@ -177,21 +177,23 @@ class Trimming:
             if with_skin and wall.volume + measured.volume < NO_LATTICE * wall.volume:
                 raise _nothing_holds()
         cleared = replace(cleared, pieces_removed=cleared.pieces_removed + removed)
-        if self.domain.is_open:
-            cleared, measured = self._opened(cleared, with_skin, monitor)
+        if self.domain.openings is not None:
+            cleared, measured = self._opened(cleared, self.domain.openings, with_skin, monitor)
         elif with_skin:
             measured = combined(measure(solid), measured)
             cleared = replace(cleared, mesh=concatenate(solid, cleared.mesh))
         if spec.drains is None:
             return Output(cleared, measured, None)
-        drained = drain(cleared.mesh, solid, self.domain.mesh, frame, spec, monitor)
+        drained = drain(
+            cleared.mesh, solid, self.domain.mesh, frame, spec.shell, spec.drains, monitor
+        )
         clean = separate_vertices(remove_slivers(drained.mesh, precision), precision)
         return Output(
             replace(cleared, mesh=clean), measure(clean, monitor), replace(drained, mesh=clean)
         )
 
     def _opened(
-        self, cleared: Cleared, with_skin: bool, monitor: Monitor
+        self, cleared: Cleared, openings: TriangleMesh, with_skin: bool, monitor: Monitor
     ) -> tuple[Cleared, Quality]:
         """The part, or its lattice, cut at its open faces, beyond which the cavity reaches."""
         solid, mesh = self.solid, cleared.mesh
@@ -207,7 +209,7 @@ class Trimming:
         if with_skin:
             rest = clear(mesh, found, smallest, bodies=inspect(solid).quality.bodies)
         else:
-            rest = clear(mesh, found, smallest, keep=self._on_skin(mesh, precision))
+            rest = clear(mesh, found, smallest, keep=self._on_skin(mesh, openings, precision))
         if not len(rest.mesh.triangles):
             raise _nothing_holds()
         counted = replace(
@@ -217,12 +219,13 @@ class Trimming:
         )
         return counted, measure(rest.mesh, monitor)
 
-    def _on_skin(self, mesh: TriangleMesh, precision: float) -> NDArray[np.int64]:
+    def _on_skin(
+        self, mesh: TriangleMesh, openings: TriangleMesh, precision: float
+    ) -> NDArray[np.int64]:
         """The triangles of a lattice that lie on the wall, and not in an open face."""
-        assert self.domain.openings is not None
         middle = mesh.vertices[mesh.triangles].mean(axis=1)
         near = np.flatnonzero(closest_points(self.domain.mesh, middle)[1] < precision)
-        beyond = closest_points(self.domain.openings, middle[near])[1] > precision
+        beyond = closest_points(openings, middle[near])[1] > precision
         return near[beyond]
 
     def _uncut(self, layout: Layout, points: Floats, monitor: Monitor) -> Output:

@@ -111,7 +111,7 @@ def face_facets(owner: App.DocumentObject, name: str, frame: App.Placement) -> N
     """(k, 3, 3) corners of the facets of a face, in mm, in the coordinates of `frame`.
 
     Args:
-        owner: the object that has it.
+        owner: the object that has it; the feature at the tip of a Body stands for the Body.
         name: such as Face6.
         frame: a placement in the document.
 
@@ -141,7 +141,7 @@ def face_middle(
 
 def _face(owner: App.DocumentObject, name: str) -> Part.Face:
     """A face of an object, where the object is placed."""
-    shape = Part.getShape(owner, name, needSubElement=True)
+    shape = Part.getShape(resolve_base(owner), name, needSubElement=True)
     if shape.isNull() or shape.ShapeType != "Face":
         raise VolfrepError(f"'{owner.Label}' has no face '{name}' any more: choose a face again.")
     return shape

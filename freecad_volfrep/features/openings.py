@@ -35,6 +35,22 @@ def openings_of(obj: App.DocumentObject) -> dict[str, Any]:
     return result
 
 
+def open_faces(
+    infill: App.DocumentObject, picked: list[tuple[App.DocumentObject, tuple[str, ...]]]
+) -> None:
+    """Leave faces without a skin, beside those that are open already.
+
+    Args:
+        infill: a lattice infill; it is recomputed with the document.
+        picked: objects and the names of their faces.
+    """
+    faces = {owner: list(names) for owner, names in infill.OpenFaces}
+    for owner, names in picked:
+        known = faces.setdefault(owner, [])
+        known += [name for name in names if name not in known]
+    infill.OpenFaces = [(owner, tuple(names)) for owner, names in faces.items()]
+
+
 def _each(links: list[Any]) -> list[tuple[App.DocumentObject, str]]:
     """The objects and their elements of a property that links to elements of several objects."""
     return [(owner, name) for owner, names in links for name in names]

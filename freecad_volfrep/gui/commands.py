@@ -223,6 +223,39 @@ class ToSolidCommand:
         doc.recompute()
 
 
+class OpenFacesCommand:
+    """Leave the selected faces of a solid without a skin."""
+
+    def GetResources(self) -> dict[str, str]:  # noqa: N802
+        """Icon and texts."""
+        return _resources(
+            "open_faces.svg",
+            "Open Faces",
+            "Select a lattice infill and faces of its solid: they get no skin",
+        )
+
+    def IsActive(self) -> bool:  # noqa: N802
+        """Active when one lattice infill and faces are selected."""
+        from .selection import selected_infill_and_faces
+
+        return selected_infill_and_faces() is not None
+
+    def Activated(self) -> None:  # noqa: N802
+        """Add them to the infill's open faces, in one undo step."""
+        if not _packages_present():
+            return
+        from freecad_volfrep.features.openings import open_faces
+
+        from .selection import selected_infill_and_faces
+
+        infill, faces = selected_infill_and_faces()
+        doc = infill.Document
+        doc.openTransaction("Open Faces")
+        open_faces(infill, faces)
+        doc.recompute()
+        doc.commitTransaction()
+
+
 class PrintCheckCommand:
     """Hold the selected lattice infill against a printing process."""
 
@@ -329,6 +362,7 @@ def _chosen(label: str, kinds: dict[str, tuple[str, Callable[[], str]]]) -> str 
 COMMANDS = {
     "VOLFREP_LatticeInfill": LatticeInfillCommand,
     "VOLFREP_Update": UpdateCommand,
+    "VOLFREP_OpenFaces": OpenFacesCommand,
     "VOLFREP_PrintCheck": PrintCheckCommand,
     "VOLFREP_Export": ExportCommand,
     "VOLFREP_ToSolid": ToSolidCommand,

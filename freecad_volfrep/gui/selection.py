@@ -25,6 +25,23 @@ def selected_mesh() -> App.DocumentObject | None:
     return selected[0] if selected[0].Mesh.CountFacets else None
 
 
+def selected_infill_and_faces() -> (
+    tuple[App.DocumentObject, list[tuple[App.DocumentObject, tuple[str, ...]]]] | None
+):
+    """One lattice infill and the faces of other objects, if nothing else is selected."""
+    from freecad_volfrep.features import LatticeInfill
+
+    infills, faces = [], []
+    for item in Gui.Selection.getSelectionEx():
+        if isinstance(getattr(item.Object, "Proxy", None), LatticeInfill):
+            infills.append(item.Object)
+        elif item.SubElementNames and all(n.startswith("Face") for n in item.SubElementNames):
+            faces.append((item.Object, tuple(item.SubElementNames)))
+        else:
+            return None
+    return (infills[0], faces) if len(infills) == 1 and faces else None
+
+
 def selected_infill() -> App.DocumentObject | None:
     """The selected lattice infill, if it is the only selection."""
     from freecad_volfrep.features import LatticeInfill

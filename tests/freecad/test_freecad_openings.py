@@ -6,6 +6,7 @@ import pytest
 from conftest import SMALL
 
 from freecad_volfrep import make_lattice_infill
+from freecad_volfrep.features.openings import open_faces
 
 
 @pytest.fixture
@@ -81,6 +82,31 @@ def test_a_face_that_is_no_more_is_named(doc, box, infill):
     doc.recompute()
     assert not infill.isValid()
     assert "has no face 'Edge1'" in infill.Status
+
+
+def test_picked_faces_are_added_to_those_that_are_open(doc, box, infill):
+    top = top_of(box)
+    open_faces(infill, [(box, (top,))])
+    open_faces(infill, [(box, (top, "Face1"))])
+    assert [(owner.Name, names) for owner, names in infill.OpenFaces] == [
+        (box.Name, (top, "Face1"))
+    ]
+    doc.recompute()
+    assert infill.isValid(), infill.getStatusString()
+
+
+def test_a_feature_of_a_body_stands_for_it(doc):
+    body = doc.addObject("PartDesign::Body", "Body")
+    block = doc.addObject("PartDesign::AdditiveBox", "Block")
+    body.addObject(block)
+    block.Length, block.Width, block.Height = 30, 20, 20
+    body.Placement = App.Placement(App.Vector(3, 4, 5), App.Rotation(App.Vector(1, 1, 0), 30))
+    doc.recompute()
+    obj = make_lattice_infill(doc, body, **SMALL)
+    open_faces(obj, [(block, ("Face6",))])
+    doc.recompute()
+    assert obj.isValid(), obj.getStatusString()
+    assert obj.Voids == 0
 
 
 def test_faces_survive_saving(doc, box, infill, tmp_path):

@@ -161,6 +161,7 @@ def drive():
 
     cancel_an_edit(doc, obj)
     cancel_a_creation(doc, box, fill)
+    open_a_face(doc, obj)
     check_the_print(doc, obj)
     show_coarsely(doc, obj)
     make_a_solid(doc, obj)
@@ -272,6 +273,26 @@ def check_the_print(doc, obj):
     check("it has figures", "thinnest strut" in made.Text)
     picture("5_print_check")
     doc.removeObject(made.Name)
+
+
+def open_a_face(doc, obj):
+    """Open Faces leaves a picked face of the solid without a skin, in one undo step."""
+    Gui.Selection.clearSelection()
+    Gui.Selection.addSelection(obj)
+    Gui.Selection.addSelection(obj.Base, "Face6")
+    button = toolbar_button("Open Faces")
+    wait_until(button.isEnabled, 5)
+    check("an infill and a face can be opened", button.isEnabled())
+    closed, undo = obj.Volume.Value, doc.UndoCount
+    click(button)
+    wait_until(lambda: obj.Volume.Value != closed, 60)
+    check("the face is open", [tuple(n) for _, n in obj.OpenFaces] == [("Face6",)], obj.Status)
+    check("there is less skin", obj.Volume.Value < closed)
+    check("the void is open", obj.Voids == 0)
+    check("it is one step", doc.UndoCount == undo + 1, doc.UndoNames)
+    doc.undo()
+    doc.recompute()
+    check("and can be undone", obj.Volume.Value == closed, obj.Status)
 
 
 def make_a_solid(doc, obj):

@@ -27,7 +27,7 @@ NEAR_PATCH = 1e-3
 #: A facet lies along a plane or a patch when the cosine of the angle between them is above this.
 ALONG_PLANE = 0.999
 ALONG_PATCH = 0.9
-#: More automatic holes than this for one void are a mistake.
+#: More places than this, or automatic holes for one void, are a mistake.
 MOST_HOLES = 100
 
 
@@ -140,6 +140,10 @@ class DrainHoles:
             raise VolfrepError(
                 f"The number of drain holes must be a whole number from 0 to {MOST_HOLES}, not "
                 f"{self.count}."
+            )
+        if len(self.places) > MOST_HOLES:
+            raise VolfrepError(
+                f"There are {len(self.places)} places for drain holes: give at most {MOST_HOLES}."
             )
         if not self.places and not self.count:
             raise VolfrepError("Drain holes need places, or a count of how many to place.")

@@ -161,8 +161,10 @@ def trim(
     """
     points = points + NUDGE * layout.grid.cell_size
     monitor.tick(0.1)
-    surface = facets(layout, monitor, kept.border)
-    caps = _caps(layout, kept.border, monitor)
+    # Caps towards octants inside are taken off again where these are put back. Those on the
+    # outside lie beyond the wall; what a wall that grazes them leaves belongs to the surface.
+    caps, ends = _caps(layout, kept, monitor)
+    surface = np.concatenate([facets(layout, monitor, kept.border), ends])
     inner = facets(layout, monitor, kept.inside)
     monitor.tick(0.2)
 
@@ -226,18 +228,18 @@ def _without_pinches(
         current = grown
 
 
-def _caps(layout: Layout, border: NDArray[np.bool_], monitor: Monitor) -> NDArray[np.int32]:
-    parts = [
-        facets(
-            layout,
-            monitor,
-            neighbour_missing(layout.grid, border, axis, high),
-            (axis, high),
-        )
-        for axis in range(3)
-        for high in (False, True)
-    ]
-    return np.concatenate(parts)
+def _caps(
+    layout: Layout, kept: Kept, monitor: Monitor
+) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """What closes the border's octants towards those inside, and towards nothing."""
+    inward, outward = [], []
+    for axis in range(3):
+        for high in (False, True):
+            every = neighbour_missing(layout.grid, kept.border, axis, high)
+            last = neighbour_missing(layout.grid, kept.border | kept.inside, axis, high)
+            inward.append(facets(layout, monitor, every & ~last, (axis, high)))
+            outward.append(facets(layout, monitor, every & last, (axis, high)))
+    return np.concatenate(inward), np.concatenate(outward)
 
 
 def _solid(

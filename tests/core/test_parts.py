@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Real parts, read where they lie; skipped where they are not at hand."""
 
+import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -9,9 +11,13 @@ import pytest
 from volfrep import LatticeSpec, StageCache, fill, quality, read_solid
 from volfrep.cells import LIBRARY
 from volfrep.export.stl import as_read
+from walls import wall_errors
 
 PARTS = Path(__file__).resolve().parents[3] / "shared" / "parts"
 needs_parts = pytest.mark.skipif(not PARTS.is_dir(), reason="the folder of real parts is not here")
+needs_freecad = pytest.mark.skipif(
+    shutil.which("freecadcmd") is None, reason="freecadcmd, which reads STEP files, is not there"
+)
 
 #: Cell size, strut radius, shell for each part, in the part's own unit.
 SETTINGS = {
@@ -33,6 +39,18 @@ STEP = {
     "nist_ftc_06_asme1_rd.stp", "nist_ftc_10_asme1_rb.stp", "ge_bracket.step", "piston_rod.step",
     "trimesh_featuretype.STEP",
 }  # fmt: skip
+
+#: Of parts to be filled with the wall measured: cell size, strut radius, shell, mm.
+MEASURED = [
+    *(("ge_bracket.stl", 10.0, 1.0, shell) for shell in (1.0, 2.0, 3.0, 5.0, 8.0)),
+    ("nist_ctc_01_asme1_rd.stp", 40.0, 3.0, 8.0),
+    ("nist_ctc_02_asme1_rc.stp", 40.0, 3.0, 8.0),
+    ("nist_ctc_03_asme1_rc.stp", 6.0, 0.4, 0.8),
+    ("nist_ftc_06_asme1_rd.stp", 15.0, 1.5, 3.0),
+    ("nist_ftc_10_asme1_rb.stp", 8.0, 0.8, 2.0),
+]
+#: A sheet hardly thicker than two skins: so many of its wall's points are off by more than 5 %.
+SHEETS = {"nist_ctc_03_asme1_rc.stp": 0.025}
 
 _caches: dict[str, StageCache] = {}
 
@@ -75,3 +93,19 @@ def test_every_cell_fills_the_bracket(cell):
     result = check("ge_bracket.stl", spec)
     assert result.report.bodies == 1
     assert result.report.grid == (18, 7, 11)
+
+
+@pytest.mark.slow
+@needs_parts
+@needs_freecad
+@pytest.mark.parametrize(("name", "size", "radius", "shell"), MEASURED)
+def test_a_real_part_has_the_skin_that_was_asked_for(name, size, radius, shell):
+    spec = LatticeSpec(cell="CVC", cell_size=size, strut_radius=radius, shell=shell, resolution=12)
+    result = check(name, spec)
+    assert result.report.bodies == 1
+    solid = read_solid(PARTS / name)
+    domain = fill(solid, replace(spec, output="domain"), cache=_caches[name]).mesh
+    errors = np.abs(wall_errors(solid, domain, shell, 20_000))
+    assert np.mean(errors > 0.05) <= SHEETS.get(name, 0.0)
+    # What is more than that off is said.
+    assert (errors.max() <= 0.05) or "off its thickness" in result.report.warnings[0]

@@ -9,24 +9,17 @@ import trimesh
 
 import samples
 from volfrep.crossings import crossing_triangles
-from volfrep.distance import closest_points
 from volfrep.errors import Cancelled, VolfrepError
 from volfrep.mesh import concatenate
 from volfrep.progress import Monitor
 from volfrep.shell import inner_wall
 from volfrep.solid import read_solid
+from walls import wall_errors
 
 PARTS = Path(__file__).resolve().parents[3] / "shared" / "parts"
 needs_parts = pytest.mark.skipif(
     not PARTS.is_dir(), reason="the folder of real parts is not beside the project"
 )
-
-
-def wall_errors(solid, wall, thickness, points=10_000):
-    """Relative error of the wall's thickness at random points of the inner wall."""
-    inner = trimesh.Trimesh(wall.vertices, wall.triangles, process=False)
-    sampled = trimesh.sample.sample_surface(inner, points, seed=8)[0]
-    return closest_points(solid, np.asarray(sampled))[1] / thickness - 1.0
 
 
 def check_closed(wall, thickness, crossing_share=0.0):

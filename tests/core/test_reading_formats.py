@@ -366,12 +366,45 @@ def test_step_is_read_by_freecad(tmp_path):
     solid = read_solid(tmp_path / "box.step")
     assert solid.volume == pytest.approx(24_000.0)
     assert solid.states_unit
-    refused(written(tmp_path, "no.step", b"ISO-10303-21;\nnonsense"), "FreeCAD")
+    refused(written(tmp_path, "no.brep", b"DBRep_DrawableShape\nnonsense"), "FreeCAD")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("ISO-10303-21;", "ISO-9999;", "header is missing"),
+        ("END-ISO-10303-21;", "", "cut short"),
+        (
+            "\nENDSEC;\nEND-ISO",
+            "\n#77777=CARTESIAN_POINT('',(0.,#88888));\nENDSEC;\nEND-ISO",
+            "#88888",
+        ),
+        (
+            "\nENDSEC;\nEND-ISO",
+            "\n77777=PLANE('');\nENDSEC;\nEND-ISO",
+            "no statement where .*77777",
+        ),
+    ],
+)
+def test_damaged_step_is_refused_before_a_kernel_reads_it(tmp_path, old, new, words):
+    write_mesh(samples.box(), tmp_path / "box.step")
+    text = (tmp_path / "box.step").read_text()
+    assert old in text
+    refused(written(tmp_path, "part.step", text.replace(old, new)), words)
+
+
+def test_an_instance_that_is_lost_or_doubled_in_step_is_refused(tmp_path):
+    write_mesh(samples.box(), tmp_path / "box.step")
+    lines = (tmp_path / "box.step").read_text().splitlines(keepends=True)
+    at = next(k for k, line in enumerate(lines) if "CARTESIAN_POINT" in line)
+    lost, doubled = lines[:at] + lines[at + 1 :], lines[:at] + lines[at : at + 1] + lines[at:]
+    refused(written(tmp_path, "lost.step", "".join(lost)), "names an instance #")
+    refused(written(tmp_path, "doubled.step", "".join(doubled)), "there twice")
 
 
 def test_without_freecad_a_sentence_says_what_to_do(tmp_path, monkeypatch):
     monkeypatch.setenv("PATH", str(tmp_path))
-    refused(written(tmp_path, "part.step", b"ISO-10303-21;"), "install FreeCAD, or convert")
+    refused(written(tmp_path, "part.brep", b"DBRep"), "install FreeCAD, or convert")
 
 
 # --- units --------------------------------------------------------------------------------------

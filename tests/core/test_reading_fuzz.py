@@ -9,6 +9,7 @@ mutated triangles enclose by solid angles, which know nothing of edges and repai
 
 import json
 import resource
+import shutil
 import signal
 import subprocess
 import sys
@@ -58,11 +59,11 @@ def encoded(which, kind):
     """The file of a solid, and its extension."""
     mesh = solids()[which]
     shape = trimesh.Trimesh(mesh.vertices, mesh.triangles, process=False)
-    if kind == "3mf":
+    if kind in ("3mf", "step"):
         with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder) / "x.3mf"
+            path = Path(folder) / f"x.{kind}"
             write_mesh(mesh, path)
-            return path.read_bytes(), ".3mf"
+            return path.read_bytes(), path.suffix
     data = {
         "stl": lambda: shape.export(file_type="stl"),
         "ascii": lambda: shape.export(file_type="stl_ascii"),
@@ -74,6 +75,8 @@ def encoded(which, kind):
     return data if isinstance(data, bytes) else data.encode(), suffix
 
 
+#: From here on seeds mutate STEP files, each of which takes FreeCAD a second.
+STEP_SEEDS = 1_000_000
 KINDS = ("stl", "stl", "ascii", "obj", "ply", "text", "3mf")
 
 
@@ -81,7 +84,7 @@ def mutated(seed):
     """A file's bytes, its extension, and which solid it was."""
     rng = np.random.default_rng(seed)
     which = int(rng.integers(len(solids())))
-    kind = KINDS[rng.integers(len(KINDS))]
+    kind = KINDS[rng.integers(len(KINDS))] if seed < STEP_SEEDS else "step"
     data, suffix = encoded(which, kind)
     if kind == "3mf" and rng.random() < 0.7:  # most of the time what is in the zip
         return _in_zip(data, rng), suffix, which
@@ -231,6 +234,12 @@ def test_a_hundred_mutated_files_give_a_sentence_or_a_right_solid():
 @pytest.mark.slow
 def test_two_thousand_mutated_files_give_a_sentence_or_a_right_solid():
     check(100, 2000)
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(shutil.which("freecadcmd") is None, reason="freecadcmd is not on the PATH")
+def test_mutated_step_files_are_refused_or_read_rightly():
+    check(STEP_SEEDS, 100)
 
 
 if __name__ == "__main__":

@@ -40,7 +40,7 @@ def read_file(path: str | os.PathLike[str]) -> Contents:
             "STEP, IGES or BREP file."
         )
     data = read_bytes(file)
-    contents = read_cad(file) if suffix in CAD_SUFFIXES else READERS[suffix](data, file.name)
+    contents = read_cad(data, file) if suffix in CAD_SUFFIXES else READERS[suffix](data, file.name)
     mesh = contents.mesh
     if not len(mesh.triangles):
         raise VolfrepError(f"'{file.name}' holds no triangles: export the solid again.")

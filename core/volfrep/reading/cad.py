@@ -12,21 +12,31 @@ from pathlib import Path
 from ..errors import VolfrepError
 from ..tessellation import ANGULAR_DEVIATION, MAX_DEVIATION, RELATIVE_DEVIATION
 from .contents import Contents
+from .edges import edges_of
 from .ply import read_ply
+from .step_text import refuse_damaged_step
+from .weld import weld_equal
 
+STEP_SUFFIXES = (".step", ".stp")
 PROGRAMS = ("freecadcmd", "FreeCADCmd", "freecad.cmd")
 MACRO = Path(__file__).with_name("tessellate.FCMacro")
 MAX_SECONDS = 1800
 
 
-def read_cad(file: Path) -> Contents:
+def read_cad(data: bytes, file: Path) -> Contents:
     """The solids of a CAD file, tessellated as FreeCAD's Lattice Infill does, in mm.
 
     FreeCAD runs with an empty profile and opens no document: nothing in the file is executed.
 
+    Args:
+        data: the whole file.
+        file: where it is, for FreeCAD.
+
     Raises:
         VolfrepError: FreeCAD is not there, or cannot make solids of the file.
     """
+    if file.suffix.lower() in STEP_SUFFIXES:
+        refuse_damaged_step(data, file.name)
     program = next(filter(None, map(shutil.which, PROGRAMS)), None)
     if program is None:
         raise VolfrepError(
@@ -68,4 +78,13 @@ def read_cad(file: Path) -> Contents:
                 f"FreeCAD failed while it read '{file.name}': open it in FreeCAD to see why."
             )
         contents = read_ply(mesh.read_bytes(), file.name)
-    return Contents(contents.mesh, "mm")
+        warned = mesh.with_name(mesh.name + ".invalid").is_file()
+    if warned:
+        edges = edges_of(weld_equal(contents.mesh))
+        if not (edges.is_manifold and edges.is_closed):
+            raise VolfrepError(
+                f"FreeCAD finds faults in the geometry of '{file.name}', and its facets do not "
+                "close: mend it there (Part > Check geometry) and export it again."
+            )
+    warning = f"FreeCAD finds faults in the geometry of '{file.name}' (Part > Check geometry)."
+    return Contents(contents.mesh, "mm", (warning,) if warned else ())

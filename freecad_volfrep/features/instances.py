@@ -12,7 +12,7 @@ import numpy as np
 
 from volfrep.errors import VolfrepError
 
-from .exact import Ingredients, expected_volume, ingredients_of, walls_of, warn
+from .exact import Ingredients, ingredients_of, walls_of, warn
 from .progress import progress_of
 
 if TYPE_CHECKING:
@@ -50,9 +50,8 @@ def make_instances(doc: App.Document, obj: App.DocumentObject) -> App.DocumentOb
         made_of = ingredients_of(obj, progress)
         refuse_inexact(made_of.spec)
         copies, single, volume = _solids(obj, made_of, Monitor(progress))
-    expected = expected_volume(obj, made_of)
-    if expected is not None:
-        check_volume(volume, expected)
+    if not made_of.warnings:
+        check_volume(volume, obj.Volume.Value)
     warn(obj, made_of.warnings)
     group = doc.addObject("App::Part", f"{obj.Name}Instances")
     group.Label = f"{obj.Label} instances"

@@ -101,7 +101,7 @@ class LatticeInfill:
         from volfrep.solid import check_solid
 
         require_engine()
-        spec, solid = self._read(obj)
+        spec, solid = self.read(obj)
         if obj.Fingerprint != fingerprint_of(spec, solid):
             raise VolfrepError(f"'{obj.Label}' is out of date: update it first.")
         return check_solid(solid, obj.Base.Label), spec, self._cache
@@ -133,7 +133,7 @@ class LatticeInfill:
         from volfrep.pipeline import fill
         from volfrep.solid import check_solid
 
-        spec, solid = self._read(obj)
+        spec, solid = self.read(obj)
         fingerprint = fingerprint_of(spec, solid)
         if obj.Fingerprint == fingerprint and obj.Mesh.CountFacets == obj.Triangles:
             obj.Mass = obj.Volume.Value * spec.density / 1000.0
@@ -159,8 +159,12 @@ class LatticeInfill:
         obj.Fingerprint = fingerprint
         obj.Status = UP_TO_DATE
 
-    def _read(self, obj: App.DocumentObject) -> tuple[LatticeSpec, TriangleMesh]:
-        """The specification and the solid of the present properties, not checked."""
+    def read(self, obj: App.DocumentObject) -> tuple[LatticeSpec, TriangleMesh]:
+        """The specification and the solid of the present properties, not checked.
+
+        Raises:
+            VolfrepError: a property makes no sense, or there is no solid.
+        """
         from freecad_volfrep.bridge.solids import SolidReader, parent_placement
         from volfrep.errors import VolfrepError
         from volfrep.pipeline import StageCache

@@ -13,15 +13,7 @@ import FreeCAD as App
 
 from volfrep.errors import VolfrepError
 
-from .exact import (
-    checked_ingredients,
-    estimate_of,
-    exact_shape,
-    expected_volume,
-    ingredients_of,
-    inputs_of,
-    warn,
-)
+from .exact import estimate_of, exact_shape, ingredients_of, inputs_of, warn
 from .instances import write_instances
 from .progress import progress_of
 
@@ -99,26 +91,25 @@ def _write_exact(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
     from freecad_volfrep.bridge.beams import place_in_document, placed_lattice
     from freecad_volfrep.bridge.exact import write_exact
     from freecad_volfrep.bridge.solids import mesh_in_document
-    from freecad_volfrep.bridge.trimmed import check_volume, write_shape
+    from freecad_volfrep.bridge.trimmed import write_shape
     from volfrep.estimate import estimate_faceted
     from volfrep.export.files import check_writable
     from volfrep.export.step_faceted import write_step_faceted
     from volfrep.progress import Monitor
 
     check_writable(path)
-    made_of = checked_ingredients(obj)
-    expected = expected_volume(obj, made_of)
+    with progress_of(f"Struts of {obj.Label}") as progress:
+        made_of = ingredients_of(obj, progress)
+    estimate_of(made_of)
     try:
         if made_of.domain is None:
             # Never built as a shape: its text is laid at every place.
             lattice = placed_lattice(made_of.lattice, place_in_document(obj))
             with progress_of(f"Exact surfaces of {obj.Label}") as progress:
-                volume = write_exact(lattice, path, Monitor(progress))
-            if expected is not None:
-                check_volume(volume, expected)
+                write_exact(lattice, path, Monitor(progress))
             warn(obj, made_of.warnings)
             return
-        shape = exact_shape(obj, made_of)
+        shape = exact_shape(obj)
     except VolfrepError as error:
         mesh = mesh_in_document(obj)
         estimate_faceted(len(mesh.triangles))

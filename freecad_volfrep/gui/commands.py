@@ -31,7 +31,7 @@ def _packages_present() -> bool:
 
 
 class LatticeInfillCommand:
-    """Fill each selected solid with a lattice, in one undo step."""
+    """Fill the selected solid by way of its task panel; several at once without. One undo step."""
 
     def GetResources(self) -> dict[str, str]:  # noqa: N802
         """Icon and texts."""
@@ -42,7 +42,9 @@ class LatticeInfillCommand:
         )
 
     def IsActive(self) -> bool:  # noqa: N802
-        """Active when a usable solid is selected."""
+        """Active when a usable solid is selected and no task panel is open."""
+        if Gui.Control.activeDialog():
+            return False
         if missing_packages():
             return bool(Gui.Selection.getSelection())  # so that a click says what to install
         from .selection import selected_solids
@@ -50,7 +52,7 @@ class LatticeInfillCommand:
         return bool(selected_solids())
 
     def Activated(self) -> None:  # noqa: N802
-        """Make the objects and compute them; nothing remains of a cancelled job."""
+        """Make the objects and open the panel or compute them; of a cancelled job nothing stays."""
         if not _packages_present():
             return
         from .selection import selected_solids
@@ -59,6 +61,9 @@ class LatticeInfillCommand:
         bases = selected_solids()
         doc.openTransaction("Lattice Infill")
         try:
+            if len(bases) == 1:
+                open_panel(doc, bases[0])
+                return  # the panel's OK or Cancel ends the transaction
             kept = fill_selected(doc, bases)
         except BaseException:
             doc.abortTransaction()
@@ -69,19 +74,35 @@ class LatticeInfillCommand:
         doc.commitTransaction()
 
 
+def open_panel(doc: App.Document, base: App.DocumentObject) -> None:
+    """Make an infill with sizes that suit the base, not computed yet, and open its task panel."""
+    from .task_panel import TaskPanel
+
+    with errors_shown():
+        obj = make_suitable_infill(doc, base)
+        Gui.Control.showDialog(TaskPanel(obj))
+        return
+    doc.abortTransaction()
+
+
+def make_suitable_infill(doc: App.Document, base: App.DocumentObject) -> App.DocumentObject:
+    """An infill with sizes that suit the base."""
+    from freecad_volfrep.bridge.solids import SolidReader, parent_placement
+    from freecad_volfrep.features.factory import make_lattice_infill, suggested_sizes
+
+    low, high = SolidReader().read(base, parent_placement(base)).bounds
+    return make_lattice_infill(doc, base, **suggested_sizes(tuple(high - low)))
+
+
 def fill_selected(doc: App.Document, bases: list[App.DocumentObject]) -> bool:
     """Fill every base with sizes that suit it and show the results; False if cancelled.
 
     An infill that cannot be computed stays, marked, so that its sizes can be corrected.
     """
-    from freecad_volfrep.bridge.solids import SolidReader, parent_placement
-    from freecad_volfrep.features.factory import make_lattice_infill, suggested_sizes
-
     failures = []
     with errors_shown():
         for base in bases:
-            low, high = SolidReader().read(base, parent_placement(base)).bounds
-            obj = make_lattice_infill(doc, base, **suggested_sizes(tuple(high - low)))
+            obj = make_suitable_infill(doc, base)
             obj.Proxy.update(obj)  # a large job too: whoever clicks wants it
             if obj.Proxy.was_cancelled:
                 return False

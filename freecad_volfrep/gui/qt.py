@@ -9,4 +9,12 @@ from PySide import QtCore, QtGui
 
 QtWidgets = QtGui
 
-__all__ = ["QtCore", "QtGui", "QtWidgets"]
+#: OK and Cancel, as a task panel names them to FreeCAD.
+_BUTTON = QtWidgets.QDialogButtonBox
+OK_CANCEL = (
+    int(_BUTTON.Ok.value | _BUTTON.Cancel.value)
+    if hasattr(_BUTTON.Ok, "value")
+    else int(_BUTTON.Ok | _BUTTON.Cancel)
+)
+
+__all__ = ["OK_CANCEL", "QtCore", "QtGui", "QtWidgets"]

@@ -5,6 +5,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import FreeCADGui as Gui
+
 from freecad_volfrep import ICONS
 
 from .coarse_view import COARSE, FINE
@@ -56,6 +58,22 @@ class LatticeInfillView:
     def getIcon(self) -> str:  # noqa: N802
         """Path of the tree's icon."""
         return str(ICONS / "lattice_infill.svg")
+
+    def doubleClicked(self, view: Any) -> bool:  # noqa: N802
+        """Edit the infill in its task panel."""
+        view.Document.setEdit(view.Object.Name)
+        return True
+
+    def setEdit(self, view: Any, mode: int = 0) -> bool:  # noqa: N802
+        """Open the task panel."""
+        from .task_panel import TaskPanel
+
+        Gui.Control.showDialog(TaskPanel(view.Object, f"Edit {view.Object.Label}"))
+        return True
+
+    def unsetEdit(self, view: Any, mode: int = 0) -> bool:  # noqa: N802
+        """Leave the panel to its own buttons."""
+        return False
 
     def setupContextMenu(self, view: Any, menu: Any) -> None:  # noqa: N802
         """Offer Update, which works with AutoUpdate off too."""

@@ -124,9 +124,7 @@ def drive():
     check("icon", not fill.icon().isNull())
     undo_before = doc.UndoCount
 
-    click(fill)
-    check("one object appears", wait_until(lambda: len(infills(doc)) == 1, 60))
-    wait_until(lambda: infills(doc)[0].Mesh.CountFacets > 0, 60)
+    use_the_panel(doc, box, fill)
     obj = infills(doc)[0]
     check("valid", obj.isValid(), obj.getStatusString())
     check("a closed mesh", obj.Mesh.isSolid())
@@ -159,6 +157,7 @@ def drive():
     picture("3_redone")
     obj = infills(doc)[0]
 
+    edit_in_the_panel(doc, obj)
     cancel_an_edit(doc, obj)
     cancel_a_creation(doc, box, fill)
     open_a_face(doc, obj)
@@ -184,6 +183,109 @@ def show_coarsely(doc, obj):
     obj.StrutRadius = 0.5
     doc.recompute()
     check("a small one as it is", obj.ViewObject.DisplayMode == "Shaded")
+
+
+def panel():
+    """The open task panel, or None."""
+    found = Gui.getMainWindow().findChildren(QtGui.QWidget, "VolfrepTaskPanel")
+    return next((widget for widget in found if widget.isVisible()), None)
+
+
+def previews():
+    """How many previews are in the 3D view."""
+    scene = Gui.activeDocument().activeView().getSceneGraph()
+    names = [scene.getChild(k).getName().getString() for k in range(scene.getNumChildren())]
+    return names.count("VolfrepPreview")
+
+
+def open_panel(fill):
+    """A real click on the command's button, until the panel is there to be typed into."""
+    click(fill)
+    there = wait_until(lambda: panel() is not None, 20)
+    wait(1000)
+    return there
+
+
+def panel_part(name, kind=QtGui.QWidget):
+    """A widget of the task panel by the name of its property."""
+    return panel().findChild(kind, name)
+
+
+def answer_panel(text):
+    """Really click OK or Cancel of the task panel."""
+    for button in Gui.getMainWindow().findChildren(QtGui.QPushButton):
+        if button.isVisible() and button.text().replace("&", "") == text:
+            click(button)
+            return
+    raise LookupError(f"no button {text}")
+
+
+def type_length(name, text):
+    """Really type a length over what is in one of the panel's fields."""
+    field = panel_part(name)
+    click(field)
+    xdotool("key", "ctrl+a")
+    xdotool("type", text)
+    xdotool("key", "Tab")
+    wait(700)
+
+
+def use_the_panel(doc, box, fill):
+    """The command opens the panel; Cancel leaves nothing; typing moves the preview; OK computes."""
+    undo_before, names = doc.UndoCount, [obj.Name for obj in doc.Objects]
+    check("the panel opens", open_panel(fill))
+    check("one object appears", len(infills(doc)) == 1)
+    check("nothing is computed yet", infills(doc)[0].Mesh.CountFacets == 0)
+    check("figures are shown", "active cells" in panel_part("Figures").text())
+    check("the preview is in the view", previews() == 1, previews())
+    picture("panel_1_open")
+    answer_panel("Cancel")
+    check("the panel closes", wait_until(lambda: panel() is None, 10))
+    check("Cancel leaves nothing behind", [obj.Name for obj in doc.Objects] == names, doc.Objects)
+    check("Cancel leaves no undo step", doc.UndoCount == undo_before, doc.UndoNames)
+    check("Cancel shows the solid again", box.ViewObject.isVisible())
+    check("and no preview", previews() == 0, previews())
+
+    select(box)
+    open_panel(fill)
+    obj = infills(doc)[0]
+    figures_before = panel_part("Figures").text()
+    type_length("CellSize", "10 mm")
+    check("a typed length is set", abs(obj.CellSize.Value - 10) < 1e-9, obj.CellSize)
+    type_length("StrutRadius", "1 mm")
+    check("so is the next one", abs(obj.StrutRadius.Value - 1) < 1e-9, obj.StrutRadius)
+    check("the figures follow", panel_part("Figures").text() != figures_before)
+    click(panel_part("Cells"))
+    wait(700)
+    picture("panel_2_typed")
+    type_length("ShellThickness", "12 mm")
+    check("what does not fit is said", "inside the skin" in panel_part("Figures").text(),
+          panel_part("Figures").text())  # fmt: skip
+    picture("panel_3_refused")
+    for name, length in (("ShellThickness", "1"), ("CellSize", "5"), ("StrutRadius", "0.5")):
+        type_length(name, f"{length} mm")
+    click(panel_part("Compute"))
+    check("Compute makes the mesh", wait_until(lambda: obj.Mesh.CountFacets > 0, 60))
+    check("and stays in the panel", panel() is not None)
+    picture("panel_4_computed")
+    answer_panel("OK")
+    check("OK closes the panel", wait_until(lambda: panel() is None, 60))
+    check("and leaves no preview", previews() == 0, previews())
+
+
+def edit_in_the_panel(doc, obj):
+    """A double click opens the panel of an infill; Cancel takes everything back."""
+    radius, facets, steps = obj.StrutRadius.Value, obj.Mesh.CountFacets, doc.UndoCount
+    Gui.activeDocument().setEdit(obj.Name)
+    check("editing opens the panel", wait_until(lambda: panel() is not None, 20))
+    wait(1000)
+    type_length("StrutRadius", "0.6 mm")
+    check("editing sets the value", abs(obj.StrutRadius.Value - 0.6) < 1e-9)
+    answer_panel("Cancel")
+    wait(500)
+    check("Cancel takes the value back", abs(obj.StrutRadius.Value - radius) < 1e-9)
+    check("and the mesh stays", obj.Mesh.CountFacets == facets)
+    check("without an undo step", doc.UndoCount == steps, doc.UndoNames)
 
 
 def press_escape_soon(pressed):
@@ -249,11 +351,15 @@ def cancel_a_creation(doc, box, fill):
     undo_before = doc.UndoCount
     seen = []
     timer = press_escape_soon(seen)
-    click(fill)
+    open_panel(fill)
+    answer_panel("OK")
     wait_until(lambda: seen, 30)
     wait(3000)
     timer.stop()
     check("a long command shows its progress", seen)
+    check("the panel stays when it is cancelled", panel() is not None)
+    answer_panel("Cancel")
+    wait_until(lambda: panel() is None, 10)
     check("nothing remains of it", sorted(o.Name for o in doc.Objects) == names, doc.Objects)
     check("the undo stack is as before", doc.UndoCount == undo_before, doc.UndoNames)
     check("its solid still shows", big.ViewObject.isVisible())

@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Pictures of unit cells, drawn from their nodes and struts."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .qt import QtCore, QtGui
+
+if TYPE_CHECKING:
+    from volfrep.cells import UnitCell
+
+#: Rows: to the right, up, and towards whoever looks, of x, y and z.
+_VIEW = np.array([[0.87, -0.5, 0.0], [0.22, 0.37, 0.9], [0.45, 0.78, -0.43]])
+_CUBE = [(a, b) for a in range(8) for b in range(a) if (a ^ b) in (1, 2, 4)]
+
+
+def cell_icon(cell: UnitCell, size: int = 72) -> QtGui.QIcon:
+    """The cell seen from a corner, in its cube: nearer struts darker and thicker."""
+    corners = np.array([[k & 1, k >> 1 & 1, k >> 2 & 1] for k in range(8)], float)
+    placed = (corners - 0.5) @ _VIEW.T
+    scale = 0.92 * size / np.ptp(placed[:, :2], axis=0).max()
+    pixmap = QtGui.QPixmap(size, size)
+    pixmap.fill(QtCore.Qt.transparent)
+    painter = QtGui.QPainter(pixmap)
+    painter.setRenderHint(QtGui.QPainter.Antialiasing)
+    painter.translate(size / 2, size / 2)
+
+    def line(a: np.ndarray, b: np.ndarray) -> None:
+        painter.drawLine(
+            QtCore.QPointF(a[0] * scale, -a[1] * scale), QtCore.QPointF(b[0] * scale, -b[1] * scale)
+        )
+
+    painter.setPen(QtGui.QPen(QtGui.QColor(150, 150, 150), size / 72.0))
+    for a, b in _CUBE:
+        line(placed[a], placed[b])
+    nodes = (cell.nodes - 0.5) @ _VIEW.T
+    depth = nodes[cell.struts, 2].mean(axis=1)
+    for strut in cell.struts[np.argsort(depth)]:
+        near = float(np.clip(nodes[strut, 2].mean() + 0.5, 0.0, 1.0))
+        pen = QtGui.QPen(QtGui.QColor.fromHsv(210, 200, int(230 - 110 * near)))
+        pen.setWidthF(size / 72.0 * (2.0 + 2.5 * near))
+        pen.setCapStyle(QtCore.Qt.RoundCap)
+        painter.setPen(pen)
+        line(nodes[strut[0]], nodes[strut[1]])
+    painter.end()
+    return QtGui.QIcon(pixmap)

@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The preview in the 3D view: struts with their radii, or as lines, in the transparent solid."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import FreeCAD as App
+import FreeCADGui as Gui
+import numpy as np
+
+if TYPE_CHECKING:
+    from freecad_volfrep.features.live_preview import Shown
+
+#: Name of what is added to the view's scene.
+NODE = "VolfrepPreview"
+#: Up to so many struts are drawn as prisms of so many sides, more of them as lines.
+MOST_PRISMS = 6000
+SIDES = 6
+STRUTS, SOLID, GRID = (0.13, 0.42, 0.72), (0.75, 0.75, 0.78), (0.55, 0.55, 0.55)
+SOLID_TRANSPARENCY = 0.8
+
+
+class PreviewView:
+    """What is drawn beside the document's objects, until it is removed."""
+
+    def __init__(self, placement: App.Placement) -> None:
+        from pivy import coin
+
+        self._root = coin.SoSeparator()
+        self._root.setName(NODE)
+        turn = coin.SoMatrixTransform()
+        a = placement.toMatrix().A
+        turn.matrix.setValue(*[a[4 * column + row] for row in range(4) for column in range(4)])
+        self._struts, self._grid, self._solid = (coin.SoSeparator() for _ in range(3))
+        for part in (turn, self._struts, self._grid, self._solid):
+            self._root.addChild(part)
+        self._shown_solid: Any = None
+        self._scene = Gui.activeDocument().activeView().getSceneGraph()
+        self._scene.addChild(self._root)
+
+    def show(self, shown: Shown, with_grid: bool) -> None:
+        """Draw a preview in the place of the last one."""
+        p = shown.preview
+        self._struts.removeAllChildren()
+        self._grid.removeAllChildren()
+        if len(p.start) <= MOST_PRISMS:
+            _add_faces(self._struts, *prisms(p.start, p.end, p.radii), STRUTS, 0.0, crease=1.2)
+        else:
+            _add_lines(self._struts, p.start, p.end, STRUTS)
+        if with_grid:
+            _add_lines(self._grid, *shown.preview.grid_lines, GRID)
+        if self._shown_solid is not shown.solid:
+            self._solid.removeAllChildren()
+            mesh = shown.solid
+            _add_faces(
+                self._solid, mesh.vertices, mesh.triangles, SOLID, SOLID_TRANSPARENCY, crease=0.6
+            )
+            self._shown_solid = shown.solid
+
+    def clear(self) -> None:
+        """Draw nothing."""
+        for part in (self._struts, self._grid, self._solid):
+            part.removeAllChildren()
+        self._shown_solid = None
+
+    def remove(self) -> None:
+        """Leave nothing in the view."""
+        self._scene.removeChild(self._root)
+
+
+def prisms(start: np.ndarray, end: np.ndarray, radii: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Vertices and triangles of the sides of struts, (k, 3) starts and ends, (k, 2) radii."""
+    axis = end - start
+    axis /= np.maximum(np.linalg.norm(axis, axis=1), 1e-12)[:, None]
+    helper = np.where(np.abs(axis[:, :1]) < 0.7, [[1.0, 0.0, 0.0]], [[0.0, 1.0, 0.0]])
+    one = np.cross(axis, helper)
+    one /= np.linalg.norm(one, axis=1)[:, None]
+    two = np.cross(axis, one)
+    angle = 2.0 * np.pi * np.arange(SIDES) / SIDES
+    out = np.cos(angle)[:, None] * one[:, None] + np.sin(angle)[:, None] * two[:, None]
+    rings = [
+        middle[:, None] + radius[:, None, None] * out
+        for middle, radius in ((start, radii[:, 0]), (end, radii[:, 1]))
+    ]
+    vertices = np.concatenate(rings, axis=1).reshape(-1, 3)
+    k = np.arange(SIDES)
+    following = (k + 1) % SIDES
+    sides = np.concatenate(
+        [
+            np.stack([k, following, following + SIDES], 1),
+            np.stack([k, following + SIDES, k + SIDES], 1),
+        ]
+    )
+    first = 2 * SIDES * np.arange(len(start))
+    return vertices, (first[:, None, None] + sides).reshape(-1, 3)
+
+
+def _add_faces(
+    node: Any, vertices: np.ndarray, triangles: np.ndarray, colour: Any, transparency: float,
+    crease: float,
+) -> None:  # fmt: skip
+    from pivy import coin
+
+    hints = coin.SoShapeHints()
+    hints.vertexOrdering = coin.SoShapeHints.COUNTERCLOCKWISE
+    hints.shapeType = coin.SoShapeHints.SOLID
+    hints.creaseAngle = crease
+    faces = coin.SoIndexedFaceSet()
+    index = np.full((len(triangles), 4), -1)
+    index[:, :3] = triangles
+    faces.coordIndex.setValues(0, index.size, index.ravel().tolist())
+    _add(node, vertices, colour, transparency, hints, faces)
+
+
+def _add_lines(node: Any, start: np.ndarray, end: np.ndarray, colour: Any) -> None:
+    from pivy import coin
+
+    lines = coin.SoLineSet()
+    lines.numVertices.setValues(0, len(start), [2] * len(start))
+    style = coin.SoDrawStyle()
+    style.lineWidth = 2
+    _add(node, np.stack([start, end], axis=1).reshape(-1, 3), colour, 0.0, style, lines)
+
+
+def _add(
+    node: Any, points: np.ndarray, colour: Any, transparency: float, style: Any, shape: Any
+) -> None:
+    from pivy import coin
+
+    material = coin.SoMaterial()
+    material.diffuseColor = colour
+    material.transparency = transparency
+    pick = coin.SoPickStyle()
+    pick.style = coin.SoPickStyle.UNPICKABLE
+    coordinates = coin.SoCoordinate3()
+    coordinates.point.setValues(0, len(points), points.tolist())
+    group = coin.SoSeparator()
+    for part in (pick, material, style, coordinates, shape):
+        group.addChild(part)
+    node.addChild(group)

@@ -1,0 +1,255 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The task panel of a lattice infill: its values, a preview while they change, OK and Cancel."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import FreeCAD as App
+import FreeCADGui as Gui
+
+from freecad_volfrep.features.live_preview import LivePreview
+from volfrep.errors import VolfrepError
+
+from .cell_picture import cell_icon
+from .preview_view import PreviewView
+from .qt import OK_CANCEL, QtCore, QtWidgets
+
+#: The preview waits until no value has changed for so long, ms.
+SETTLED = 120
+PICTURE = 48
+#: What the panel shows, by group: properties of the object. Those that do not apply are hidden.
+GROUPS = {
+    "Lattice": ("CellSize", "StrutRadius", "ShellThickness", "JointFillet"),
+    "Boundary": ("Activation", "Boundary", "RemoveDangling", "ShortestStub"),
+    "Cell size": ("SizeGrading", "LambdaMin", "LambdaMax", "LambdaFormula"),
+    "Strut radius": (
+        "RadiusGrading", "RadiusLaw", "RadiusMin", "RadiusMax", "RadiusFormula", "RadiusReach",
+    ),
+}  # fmt: skip
+#: Above this group are the figures: what is used most is seen without scrolling.
+SECOND = "Boundary"
+#: Least width of a field, px: the panel must fit beside FreeCAD's tree.
+FIELD = 70
+_HIDDEN = "Hidden"
+
+
+class TaskPanel:
+    """Edits an infill inside one transaction, which Cancel takes back as a whole.
+
+    Args:
+        obj: the infill.
+        transaction: name of the undo step; opened by whoever made the object, or here.
+    """
+
+    def __init__(self, obj: App.DocumentObject, transaction: str | None = None) -> None:
+        from freecad_volfrep.bridge.solids import parent_placement
+
+        self._obj, self._doc = obj, obj.Document
+        if transaction is not None:
+            self._doc.openTransaction(transaction)
+        self._live = LivePreview(obj)
+        self._view = PreviewView(parent_placement(obj))
+        self._was_visible = {
+            shown: shown.ViewObject.Visibility for shown in (obj, obj.Base) if shown is not None
+        }
+        for shown in self._was_visible:
+            shown.ViewObject.Visibility = False
+        self._bindings: list[Any] = []
+        self._rows: dict[str, tuple[Any, Any]] = {}
+        self.form = self._build()
+        self._timer = QtCore.QTimer(self.form)
+        self._timer.setSingleShot(True)
+        self._timer.timeout.connect(self.refresh)
+        self._show_rows()
+        self.refresh()
+
+    def getStandardButtons(self) -> int:  # noqa: N802
+        """OK and Cancel."""
+        return OK_CANCEL
+
+    def accept(self) -> bool:
+        """Compute and close; stays open where that fails or is cancelled."""
+        if not self.compute():
+            return False
+        self._doc.commitTransaction()
+        self._close()
+        self._obj.ViewObject.Visibility = True
+        if self._obj.Base is not None:
+            self._obj.Base.ViewObject.Visibility = False
+        Gui.Selection.clearSelection()
+        Gui.Selection.addSelection(self._obj)
+        return True
+
+    def reject(self) -> bool:
+        """Close and take back every change; an infill that was made for this panel is gone."""
+        for shown, visible in self._was_visible.items():
+            shown.ViewObject.Visibility = visible
+        self._doc.abortTransaction()  # to end the editing would commit it
+        self._close()
+        self._doc.recompute()
+        return True
+
+    def compute(self) -> bool:
+        """Make the mesh of the present values; says in the panel what is wrong with them."""
+        self._timer.stop()
+        if not self._obj.Proxy.update(self._obj):
+            self._say(self._obj.Status, wrong=True)
+            return False
+        self._say(self._obj.Status)
+        return True
+
+    def refresh(self) -> None:
+        """Bring the preview and the figures up to the present values."""
+        try:
+            shown = self._live.show()
+        except VolfrepError as error:
+            self._view.clear()
+            self._say(str(error), wrong=True)
+            return
+        if self._preview.isChecked():
+            self._view.show(shown, self._grid.isChecked())
+        else:
+            self._view.clear()
+        self._say(shown.text)
+
+    def _build(self) -> Any:
+        form = QtWidgets.QWidget()
+        form.setObjectName("VolfrepTaskPanel")
+        form.setWindowTitle(self._obj.Label)
+        column = QtWidgets.QVBoxLayout(form)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.addWidget(self._cell_picker())
+        for title, names in GROUPS.items():
+            if title == SECOND:
+                self._add_figures(column)
+            box = QtWidgets.QGroupBox(title)
+            rows = QtWidgets.QFormLayout(box)
+            for name in names:
+                label, widget = QtWidgets.QLabel(_words(name)), self._editor(name)
+                widget.setObjectName(name)
+                widget.setMinimumWidth(FIELD)
+                widget.setToolTip(self._obj.getDocumentationOfProperty(name))
+                rows.addRow(label, widget)
+                self._rows[name] = label, widget
+            column.addWidget(box)
+        return form
+
+    def _add_figures(self, column: Any) -> None:
+        self._figures = QtWidgets.QLabel()
+        self._figures.setObjectName("Figures")
+        self._figures.setWordWrap(True)
+        column.addWidget(self._figures)
+        line = QtWidgets.QHBoxLayout()
+        self._preview = self._check_box("Preview", True, line)
+        self._grid = self._check_box("Cells", False, line)
+        button = QtWidgets.QPushButton("Compute")
+        button.setObjectName("Compute")
+        button.setToolTip("Make the mesh of these values now and stay in this panel")
+        button.clicked.connect(self._compute_and_show)
+        line.addWidget(button)
+        column.addLayout(line)
+
+    def _check_box(self, text: str, checked: bool, line: Any) -> Any:
+        box = QtWidgets.QCheckBox(text)
+        box.setObjectName(text)
+        box.setChecked(checked)
+        box.toggled.connect(lambda _: self._timer.start(0))
+        line.addWidget(box)
+        return box
+
+    def _compute_and_show(self) -> None:
+        self._obj.ViewObject.Visibility = self.compute()
+        self._view.clear()
+
+    def _cell_picker(self) -> Any:
+        from volfrep.cells import LIBRARY
+
+        picker = QtWidgets.QListWidget()
+        picker.setObjectName("CellType")
+        picker.setViewMode(QtWidgets.QListView.IconMode)
+        picker.setIconSize(QtCore.QSize(PICTURE, PICTURE))
+        picker.setMovement(QtWidgets.QListView.Static)
+        picker.setResizeMode(QtWidgets.QListView.Adjust)
+        picker.setFixedHeight(2 * PICTURE + 60)
+        picker.setMinimumWidth(3 * FIELD)
+        for name in self._obj.getEnumerationsOfProperty("CellType"):
+            item = QtWidgets.QListWidgetItem(name, picker)
+            if name in LIBRARY:
+                item.setIcon(cell_icon(LIBRARY[name], PICTURE))
+            if name == self._obj.CellType:
+                picker.setCurrentItem(item)
+        picker.currentTextChanged.connect(self._setter("CellType"))
+        return picker
+
+    def _editor(self, name: str) -> Any:
+        """A widget for a property, by the property's type."""
+        kind = self._obj.getTypeIdOfProperty(name)
+        if kind == "App::PropertyEnumeration":
+            choice = QtWidgets.QComboBox()
+            choice.setMinimumContentsLength(4)
+            choice.setSizeAdjustPolicy(QtWidgets.QComboBox.AdjustToMinimumContentsLengthWithIcon)
+            choice.addItems(self._obj.getEnumerationsOfProperty(name))
+            choice.setCurrentText(getattr(self._obj, name))
+            choice.currentTextChanged.connect(self._setter(name))
+            return choice
+        if kind == "App::PropertyBool":
+            box = QtWidgets.QCheckBox()
+            box.setChecked(getattr(self._obj, name))
+            box.toggled.connect(self._setter(name))
+            return box
+        if kind == "App::PropertyString":
+            line = QtWidgets.QLineEdit(getattr(self._obj, name))
+            line.editingFinished.connect(lambda: self._setter(name)(line.text()))
+            return line
+        spin = Gui.UiLoader().createWidget("Gui::QuantitySpinBox")
+        spin.setProperty("unit", "mm" if kind == "App::PropertyLength" else "")
+        spin.setProperty("minimum", 0.0)
+        present = getattr(self._obj, name)
+        spin.setProperty("rawValue", getattr(present, "Value", present))
+        # Its own signal has a type that Python's Qt does not know.
+        spin.findChild(QtWidgets.QLineEdit).textChanged.connect(
+            lambda _: self._setter(name)(spin.property("rawValue"))
+        )
+        binding = Gui.ExpressionBinding(spin)
+        binding.bind(self._obj, name)
+        self._bindings.append(binding)
+        return spin
+
+    def _setter(self, name: str) -> Callable[[Any], None]:
+        """Sets a property that the user has changed, and asks for a new preview."""
+
+        def set_value(value: Any) -> None:
+            driven = any(path.strip(".") == name for path, _ in self._obj.ExpressionEngine)
+            present = getattr(self._obj, name)
+            if driven or value == getattr(present, "Value", present):
+                return
+            setattr(self._obj, name, value)
+            self._show_rows()
+            self._timer.start(SETTLED)
+
+        return set_value
+
+    def _show_rows(self) -> None:
+        """Hide what does not apply, as the property editor does."""
+        for name, row in self._rows.items():
+            for widget in row:
+                widget.setVisible(_HIDDEN not in self._obj.getEditorMode(name))
+
+    def _say(self, text: str, wrong: bool = False) -> None:
+        self._figures.setStyleSheet("color: #c03020" if wrong else "")
+        self._figures.setText(text)
+
+    def _close(self) -> None:
+        self._timer.stop()
+        self._view.remove()
+        Gui.Control.closeDialog()
+        if Gui.ActiveDocument is not None:
+            Gui.ActiveDocument.resetEdit()
+
+
+def _words(name: str) -> str:
+    """RadiusMin as 'Radius min'."""
+    text = "".join(f" {letter.lower()}" if letter.isupper() else letter for letter in name)
+    return text.strip().capitalize()

@@ -163,7 +163,7 @@ def test_cancel_is_honoured():
 
 def test_an_unknown_rule_is_refused():
     grid = make_grid(samples.box().bounds, 5.0)
-    with pytest.raises(VolfrepError, match="choose touching or centre"):
+    with pytest.raises(VolfrepError, match="choose touching, centre or inside"):
         active_cells(grid, samples.box(), "some", Monitor())
 
 

@@ -15,6 +15,7 @@ from .crossings import boxes_in_bins
 from .distance import closest_points
 from .errors import VolfrepError
 from .mesh import TriangleMesh
+from .openings import lie_on, open_surface, open_triangles
 from .ragged import spread
 from .trim import NUDGE
 from .wireframe import Wireframe
@@ -81,6 +82,11 @@ def clipped_infill(
         return Clipped(result.wireframe, np.zeros(len(result.wireframe.nodes), bool))
     nudged = result.wireframe.nodes + NUDGE * spec.cell_size
     clipped = clip(replace(result.wireframe, nodes=nudged), result.mesh)
+    if spec.open_faces:
+        openings = open_surface(solid, open_triangles(solid, spec.open_faces))
+        frame = clipped.wireframe
+        free = lie_on(openings, frame.nodes, AT_WALL * frame.joint_radii)
+        clipped = replace(clipped, on_wall=clipped.on_wall & ~free)
     if not len(clipped.wireframe.struts):
         raise VolfrepError(
             "No strut's axis lies inside the part: reduce the cell size or move the origin."

@@ -19,6 +19,7 @@ from .distance import closest_points
 from .domain import Domain
 from .graded import Ground, Setting, graded_wireframe
 from .mesh import TriangleMesh
+from .openings import lie_on
 from .spec import LatticeSpec
 from .trim import NUDGE
 from .wireframe import CellGraph, Wireframe, chosen, struts_of
@@ -30,8 +31,6 @@ Bools = NDArray[np.bool_]
 #: A node this far outside a wall without skin, in units of its joint's radius, still holds its
 #: struts together: a wall through the cells' corners leaves half of every joint there.
 NODE_REACH = 0.5
-#: Struts are cut at an open face where they are this near to it, in units of its size.
-ON_OPENING = 1e-7
 
 
 @dataclass(frozen=True, eq=False)
@@ -199,10 +198,8 @@ def _ends(
         count += int(cut.sum())
     fixed = np.zeros(count, bool)
     fixed[len(lattice.nodes) :] = held
-    if held and openings is not None and count > len(lattice.nodes):
-        distance = closest_points(openings, np.concatenate(points))[1]
-        size = float(np.ptp(openings.bounds, axis=0).max())
-        fixed[len(lattice.nodes) :] = distance > ON_OPENING * size
+    if held and openings is not None:
+        fixed[len(lattice.nodes) :] = ~lie_on(openings, np.concatenate(points))
     return ends, fixed
 
 

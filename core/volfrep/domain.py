@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 from .booleans import intersection
 from .cache import StageCache
-from .mesh import TriangleMesh, compact
-from .openings import open_triangles
+from .mesh import TriangleMesh
+from .openings import open_surface, open_triangles
 from .progress import Monitor
 from .shell import TOLERANCE, inner_wall
 from .spec import LatticeSpec
@@ -67,8 +67,7 @@ def find_domain(
         if is_open is None or not len(found.mesh.triangles):
             return Domain(found.mesh, found.mesh), warnings
         room = monitor.call(lambda: intersection(found.mesh, solid))
-        openings = compact(TriangleMesh(solid.vertices, solid.triangles[is_open]))
-        return Domain(room, found.mesh, openings), warnings
+        return Domain(room, found.mesh, open_surface(solid, is_open)), warnings
 
     domain, warnings = cache.get("shell", key, compute)
     return domain, warnings, key

@@ -29,13 +29,14 @@ RAYS = 12
 #: A hole goes on into the cavity by this part of its diameter, and so far out of the part.
 OVERLAP = 0.05
 #: The skin under a hole is looked for up to so many of its thicknesses and diameters deep.
-DEEPEST = (4.0, 2.0)
+DEEPEST = (2.0, 1.0)
 #: A given point may lie this far off the surface, in units of the diagonal of the part's box.
 OFF_SURFACE = 0.02
 #: Cosine of the angle between a slanting hole and the surface's normal: no hole is steeper.
 STEEPEST = 0.3
-#: Candidates for holes in each void, and how many are looked at closely at a time.
-CANDIDATES = 10_000
+#: Candidates for holes in each void, and how many of them are looked at closely at first; then
+#: twice as many, and so on.
+CANDIDATES = 4000
 LOOKED_AT = 200
 #: Of places that differ in height by less than this, in diameters, that with most room is taken.
 SAME_HEIGHT = 0.1
@@ -313,8 +314,10 @@ def _lowest(
     points = _on_wall(site, void)
     points = points[np.argsort(points @ up, kind="stable")]
     chosen = _Holes.none()
-    for begin in range(0, len(points), LOOKED_AT):
-        inside = points[begin : begin + LOOKED_AT]
+    begin, size = 0, LOOKED_AT
+    while len(chosen.start) < wanted.count and begin < len(points):
+        inside = points[begin : begin + size]
+        begin, size = begin + size, 2 * size
         start = closest_points(site.solid, inside)[0]
         axis = inside - start
         length = np.linalg.norm(axis, axis=1)
@@ -334,8 +337,6 @@ def _lowest(
             low = free & (height <= height[free].min() + SAME_HEIGHT * 2.0 * site.radius)
             best = int(np.argmax(np.where(low, room, -np.inf)))
             chosen = chosen.joined(holes.chosen(np.array([best])))
-        if len(chosen.start) == wanted.count:
-            break
     return chosen
 
 

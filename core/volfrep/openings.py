@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from .distance import closest_points
 from .errors import VolfrepError
-from .mesh import TriangleMesh
+from .mesh import TriangleMesh, compact
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -24,6 +24,8 @@ Vector = tuple[float, float, float]
 #: solid's box, and a facet belongs to a patch when its corners are nearer to that than this.
 IN_PLANE = 1e-4
 NEAR_PATCH = 1e-3
+#: Points lie in open faces when they are this near to them, in units of their size.
+ON_OPENING = 1e-7
 #: A facet lies along a plane or a patch when the cosine of the angle between them is above this.
 ALONG_PLANE = 0.999
 ALONG_PATCH = 0.9
@@ -155,6 +157,19 @@ def _check(name: str, vector: Sequence[float], not_zero: bool = False) -> None:
         raise VolfrepError(f"The {name} must be three finite numbers.")
     if not_zero and not any(vector):
         raise VolfrepError(f"The {name} must not be zero.")
+
+
+def open_surface(solid: TriangleMesh, is_open: Bools) -> TriangleMesh:
+    """The open faces of a solid, (m,) of its triangles, as a mesh."""
+    return compact(TriangleMesh(solid.vertices, solid.triangles[is_open]))
+
+
+def lie_on(openings: TriangleMesh, points: Floats, reach: Floats | float = 0.0) -> Bools:
+    """(n,) which points lie in open faces, or as near to them as the reach, mm."""
+    if not len(points):
+        return np.zeros(0, bool)
+    size = float(np.ptp(openings.bounds, axis=0).max())
+    return np.asarray(closest_points(openings, points)[1] <= np.maximum(reach, ON_OPENING * size))
 
 
 def _normals(mesh: TriangleMesh) -> Floats:

@@ -10,6 +10,7 @@ import samples
 from exact import in_lattice
 from volfrep import LatticeSpec, VolfrepError, fill, quality
 from volfrep.cells import LIBRARY
+from volfrep.clip import clipped_infill
 from volfrep.distance import closest_points
 from volfrep.export.stl import as_read
 from volfrep.mesh import TriangleMesh, compact
@@ -111,6 +112,17 @@ def test_struts_that_end_in_an_open_face_have_a_free_end():
     report = fill(solid, replace(closed, open_faces=(TOP,))).report
     assert report.struts_dangling_removed > 0
     assert (report.bodies, report.watertight) == (1, True)
+
+
+def test_beams_are_not_held_in_an_open_face():
+    clipped = clipped_infill(samples.box(), replace(SPEC, origin=(0.0, 0.0, 1.0)))
+    nodes, on_wall = clipped.wireframe.nodes, clipped.on_wall
+    flush = np.abs(nodes[:, 2] - 20.0) < 1e-9
+    low = np.abs(nodes[:, 2] - 2.0) < 1e-3
+    assert flush.sum() > 10
+    assert low.sum() > 10
+    assert not on_wall[flush].any()
+    assert on_wall[low].all()
 
 
 def test_a_patch_of_facets_finds_the_face_it_was_taken_from():

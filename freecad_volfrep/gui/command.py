@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What a command of the workbench is: an icon, its texts, what must be selected, what it does."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any
+
+import FreeCAD as App
+import FreeCADGui as Gui
+
+from freecad_volfrep import ICONS
+from freecad_volfrep.deps import explain_missing, missing_packages
+
+from .messages import show_error
+
+
+@dataclass(frozen=True)
+class Command:
+    """A command as FreeCAD wants it; active while its selection is there and no panel is open.
+
+    Attributes:
+        icon: file name.
+        text: of the menu.
+        tip: of the button.
+        selected: what of the selection the command works on, or None.
+        act: is called with that.
+    """
+
+    icon: str
+    text: str
+    tip: str
+    selected: Callable[[], Any]
+    act: Callable[[Any], None]
+
+    def GetResources(self) -> dict[str, str]:  # noqa: N802
+        """Icon and texts."""
+        return {"Pixmap": str(ICONS / self.icon), "MenuText": self.text, "ToolTip": self.tip}
+
+    def IsActive(self) -> bool:  # noqa: N802
+        """Whether it can be used now."""
+        return not Gui.Control.activeDialog() and self.selected() is not None
+
+    def Activated(self) -> None:  # noqa: N802
+        """Do it; where packages are missing, say which."""
+        missing = missing_packages()
+        if missing:
+            App.Console.PrintError(explain_missing(missing) + "\n")
+            show_error(explain_missing(missing))
+            return
+        self.act(self.selected())
+
+
+@contextmanager
+def undo_step(doc: App.Document, name: str) -> Iterator[None]:
+    """What is changed inside is one step of the document's undo."""
+    doc.openTransaction(name)
+    try:
+        yield
+    finally:
+        doc.commitTransaction()

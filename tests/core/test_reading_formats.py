@@ -16,7 +16,6 @@ from volfrep import cli
 from volfrep.errors import VolfrepError
 from volfrep.export import write_mesh
 from volfrep.mesh import TriangleMesh
-from volfrep.reading import threemf
 from volfrep.reading.units import refuse_scale
 from volfrep.solid import read_solid, read_triangles
 
@@ -58,7 +57,7 @@ def ascii_stl(mesh, name="part"):
         lambda text: text.replace("\n", "\r"),
         lambda text: "\ufeff" + text,
         lambda text: text.replace("solid part", "solid facet normal vertex of 3 endsolid"),
-        lambda text: text + text.replace("part", "") * 0 + "\n\n",
+        lambda text: text + "\n\n",
     ],
 )
 def test_ascii_stl_in_any_dress(tmp_path, dress):
@@ -301,8 +300,7 @@ def test_3mf_supports_are_left_out(tmp_path):
 
 
 DEEP = "".join(
-    object_xml(k + 1, f'<components><component objectid="{k}"/>{ITEM * 0}</components>')
-    for k in range(1, 60)
+    object_xml(k + 1, f'<components><component objectid="{k}"/></components>') for k in range(1, 60)
 )
 WIDE = "".join(
     object_xml(k + 1, "<components>" + f'<component objectid="{k}"/>' * 2 + "</components>")
@@ -353,7 +351,6 @@ def test_3mf_text_in_utf_16_is_read(tmp_path):
     model = model_xml(BOX, ITEM).encode("utf-16")
     path = written(tmp_path, "part.3mf", package(model))
     assert read_solid(path).volume == pytest.approx(24_000.0)
-    assert threemf.MOST_GROWTH > 100
 
 
 # --- CAD ----------------------------------------------------------------------------------------

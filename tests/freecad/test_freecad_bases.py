@@ -206,3 +206,15 @@ def test_what_the_command_accepts(doc, part, body, box):
         assert is_fillable(obj), obj.Label
     for obj in (sketch, empty, null, face, hollow):
         assert not is_fillable(obj), obj.Label
+
+
+def test_repairs_of_a_mesh_are_told(doc):
+    mesh = Mesh.createBox(*SIZE)
+    facets = [[tuple(p) for p in facet.Points] for facet in mesh.Facets]
+    facets[3] = facets[3][::-1]
+    obj = doc.addObject("Mesh::Feature", "Loose")
+    obj.Mesh = Mesh.Mesh([corner for facet in facets for corner in facet])
+    infill = make_lattice_infill(doc, obj, **SMALL)
+    doc.recompute()
+    assert infill.isValid(), infill.Status
+    assert any("Repaired: " in sentence for sentence in infill.Warnings), infill.Warnings

@@ -17,8 +17,6 @@ Floats = NDArray[np.float64]
 Words = NDArray[np.bytes_]
 
 MAX_FILE_BYTES = 4_000_000_000
-#: Vertices are numbered with 32 bits.
-MAX_TRIANGLES = 500_000_000
 #: The longest word that can be a number: more would only be a way to ask for memory.
 LONGEST_WORD = 64
 _GIT_LFS = b"version https://git-lfs"

@@ -67,27 +67,33 @@ def close_cracks(mesh: TriangleMesh, size: float) -> tuple[TriangleMesh, list[st
     Rounding is mended wherever it is met; wider cracks only with the least tolerance that leaves
     no open edge at all.
     """
-    before = len(edges_of(mesh).open_sides)
-    if not before:
+    left = len(edges_of(mesh).open_sides)
+    if not left:
         return mesh, []
-    welded = weld_near(mesh, ROUNDING * size)
-    if welded is not None:
-        welded = without_repeats(welded)[0]
-        after = len(edges_of(welded).open_sides)
-        if after < before:
-            text = f"Cracks of up to {ROUNDING * size:.2g} mm along {before - after} edges closed"
-            return welded, [text]
-    tolerance = _widest_gap(mesh, WIDEST_CRACK * size) / size
-    while tolerance <= WIDEST_CRACK:
-        wider = weld_near(mesh, tolerance * size)
-        if wider is not None:
-            wider = without_repeats(wider)[0]
-            if len(wider.triangles) and not len(edges_of(wider).open_sides):
-                return wider, [
-                    f"Cracks of up to {tolerance * size:.2g} mm along {before} edges closed"
-                ]
+    done: list[str] = []
+    welded, after = _welded(mesh, ROUNDING * size)
+    if after < left:
+        done.append(_closed_text(ROUNDING * size, left - after))
+        mesh, left = welded, after
+    tolerance = max(2.0 * ROUNDING * size, _widest_gap(mesh, WIDEST_CRACK * size))
+    while left and tolerance <= WIDEST_CRACK * size:
+        welded, after = _welded(mesh, tolerance)
+        if not after:
+            return welded, [*done, _closed_text(tolerance, left)]
         tolerance *= 2.0
-    return mesh, []
+    return mesh, done
+
+
+def _welded(mesh: TriangleMesh, tolerance: float) -> tuple[TriangleMesh, int]:
+    """The mesh welded, and how many open sides it has then; as it was where that cannot be."""
+    welded = weld_near(mesh, tolerance)
+    welded = mesh if welded is None else without_repeats(welded)[0]
+    welded = welded if len(welded.triangles) else mesh
+    return welded, len(edges_of(welded).open_sides)
+
+
+def _closed_text(tolerance: float, sides: int) -> str:
+    return f"Cracks of up to {tolerance:.2g} mm along {plural(sides, 'edge')} closed"
 
 
 def _widest_gap(mesh: TriangleMesh, most: float) -> float:
@@ -96,6 +102,8 @@ def _widest_gap(mesh: TriangleMesh, most: float) -> float:
     Infinite where one finds none within `most`.
     """
     edges = edges_of(mesh)
+    if not len(edges.open_sides):
+        return 0.0
     loose = mesh.vertices[np.unique(edges.sides[edges.open_sides])]
     found = cKDTree(loose).query(loose, k=2, distance_upper_bound=most)[0]
     return float(found[:, 1].max())
@@ -123,7 +131,6 @@ def without_repeats(mesh: TriangleMesh) -> tuple[TriangleMesh, list[str]]:
     keep &= np.where(up, 1, -1) * np.sign(net)[face] >= 0
     if all_double:
         keep &= up
-    if all_double:
         done.append("One of the two sides of the surface removed, as all of it was double")
     elif not keep.all():
         copies = plural(int(np.count_nonzero(~keep)), "repeated triangle")

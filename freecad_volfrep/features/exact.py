@@ -97,23 +97,39 @@ def estimate_of(made_of: Ingredients) -> Estimate:
     return estimate_exact(made_of.lattice, Asked(made_of.spec), trimmed=cut)
 
 
-def exact_shape(obj: App.DocumentObject) -> Any:
+def checked_ingredients(obj: App.DocumentObject) -> Ingredients:
+    """What an exact infill is made of, if that is not absurdly much.
+
+    Raises:
+        VolfrepError: as `inputs_of` and `estimate_of`.
+        Cancelled: in the window, by the user.
+    """
+    with progress_of(f"Struts of {obj.Label}") as progress:
+        made_of = ingredients_of(obj, progress)
+    estimate_of(made_of)
+    return made_of
+
+
+def exact_shape(obj: App.DocumentObject, made_of: Ingredients) -> Any:
     """The infill as a solid, or a compound of solids, where it lies in the document.
 
     Raises:
-        VolfrepError: as `inputs_of`; or OpenCASCADE does not manage it, or makes something of
-            another volume than the mesh's.
+        VolfrepError: OpenCASCADE does not manage it, or makes something of another volume than
+            the mesh's.
         Cancelled: in the window, by the user.
     """
     from freecad_volfrep.bridge.beams import place_in_document
 
     with progress_of(f"Exact surfaces of {obj.Label}") as progress:
-        made_of = ingredients_of(obj, progress)
-        estimate_of(made_of)
         shape = _shape(obj, made_of, progress)
     warn(obj, made_of.warnings)
     shape.Placement = place_in_document(obj).multiply(shape.Placement)
     return shape
+
+
+def expected_volume(obj: App.DocumentObject, made_of: Ingredients) -> float | None:
+    """The mesh's, mm3; None where deformed struts measure something else as a mesh."""
+    return None if made_of.warnings else float(obj.Volume.Value)
 
 
 def walls_of(obj: App.DocumentObject, made_of: Ingredients) -> tuple[Any, Any]:
@@ -150,8 +166,7 @@ def _shape(obj: App.DocumentObject, made_of: Ingredients, progress: Any) -> Any:
     from volfrep.progress import Monitor
 
     refuse_inexact(made_of.spec)
-    # Deformed struts measure something else as a mesh.
-    expected = None if made_of.warnings else obj.Volume.Value
+    expected = expected_volume(obj, made_of)
     monitor = Monitor(progress)
     if made_of.domain is not None:
         return exact_part(made_of.lattice, *walls_of(obj, made_of), expected, monitor)

@@ -58,6 +58,22 @@ def predict_solid(obj: App.DocumentObject) -> Prediction:
     )
 
 
+def acceptable_solid(obj: App.DocumentObject, limit: int = DEFAULT_LIMIT) -> Prediction:
+    """As `predict_solid`, of no more triangles than the limit.
+
+    Raises:
+        VolfrepError: the object has no mesh, or more triangles.
+    """
+    prediction = predict_solid(obj)
+    if prediction.triangles > limit:
+        raise VolfrepError(
+            f"'{obj.Label}' would be a solid of {prediction}; the limit is {limit:,} faces, above "
+            "which solid tools hardly move: choose larger cells or a coarser deviation, or export "
+            "the mesh itself."
+        )
+    return prediction
+
+
 def make_solid(
     doc: App.Document, obj: App.DocumentObject, *, limit: int = DEFAULT_LIMIT
 ) -> App.DocumentObject:
@@ -77,13 +93,7 @@ def make_solid(
     from freecad_volfrep.bridge.faceted import faceted_solid
     from freecad_volfrep.bridge.solids import mesh_in_document
 
-    prediction = predict_solid(obj)
-    if prediction.triangles > limit:
-        raise VolfrepError(
-            f"'{obj.Label}' would be a solid of {prediction}; the limit is {limit:,} faces, above "
-            "which solid tools hardly move: choose larger cells or a coarser deviation, or export "
-            "the mesh itself."
-        )
+    acceptable_solid(obj, limit)
     shape = faceted_solid(mesh_in_document(obj))
     solid = doc.addObject("Part::Feature", f"{obj.Name}Solid")
     solid.Label = f"{obj.Label} solid"

@@ -10,8 +10,8 @@ import FreeCAD as App
 
 from volfrep.errors import VolfrepError
 
-from .exact import exact_shape, warn
-from .faceted_solid import make_solid, predict_solid
+from .exact import checked_ingredients, exact_shape, warn
+from .faceted_solid import acceptable_solid, make_solid
 from .instances import make_instances
 from .lattice_infill import LatticeInfill
 from .solver_files import axes_of, estimate_file
@@ -42,11 +42,13 @@ def make_exact_solid(doc: App.Document, obj: App.DocumentObject) -> App.Document
     Where OpenCASCADE does not manage it, the solid has plane faces and the report view says why.
 
     Raises:
-        VolfrepError: it can be neither exact nor faceted.
+        VolfrepError: it is no lattice infill with bare struts, or too large; or it can be neither
+            exact nor faceted.
         Cancelled: in the window, by the user.
     """
+    made_of = checked_ingredients(obj)
     try:
-        shape = exact_shape(obj)
+        shape = exact_shape(obj, made_of)
     except VolfrepError as error:
         solid = make_solid(doc, obj)
         warn(obj, (f"{error} The solid has plane faces instead of exact surfaces.",))
@@ -77,7 +79,11 @@ def make_axes(doc: App.Document, obj: App.DocumentObject) -> App.DocumentObject:
 #: In the order of the dialog's list.
 KINDS = (
     Kind(
-        "faceted", "One solid of plane faces", lambda obj: str(predict_solid(obj)), make_solid, True
+        "faceted",
+        "One solid of plane faces",
+        lambda obj: str(acceptable_solid(obj)),
+        make_solid,
+        True,
     ),
     Kind(
         "exact",

@@ -13,8 +13,16 @@ import FreeCAD as App
 
 from volfrep.errors import VolfrepError
 
-from .exact import estimate_of, exact_shape, ingredients_of, inputs_of, warn
-from .instances import write_instances
+from .exact import (
+    checked_ingredients,
+    estimate_of,
+    exact_shape,
+    expected_volume,
+    ingredients_of,
+    inputs_of,
+    warn,
+)
+from .instances import estimate_instances, write_instances
 from .progress import progress_of
 
 if TYPE_CHECKING:
@@ -56,7 +64,9 @@ def estimate_file(obj: App.DocumentObject, content: str) -> str:
     asked = Asked(spec)
     if content == "tetrahedra":
         return str(estimate_tetrahedra(obj.Mesh.CountFacets, asked))
-    if content in ("exact", "instances"):
+    if content == "instances":
+        return str(estimate_instances(obj))
+    if content == "exact":
         with progress_of(f"Struts of {obj.Label}") as progress:
             return str(estimate_of(ingredients_of(obj, progress)))
     clipped = axes_of(obj)
@@ -91,25 +101,26 @@ def _write_exact(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
     from freecad_volfrep.bridge.beams import place_in_document, placed_lattice
     from freecad_volfrep.bridge.exact import write_exact
     from freecad_volfrep.bridge.solids import mesh_in_document
-    from freecad_volfrep.bridge.trimmed import write_shape
+    from freecad_volfrep.bridge.trimmed import check_volume, write_shape
     from volfrep.estimate import estimate_faceted
     from volfrep.export.files import check_writable
     from volfrep.export.step_faceted import write_step_faceted
     from volfrep.progress import Monitor
 
     check_writable(path)
-    with progress_of(f"Struts of {obj.Label}") as progress:
-        made_of = ingredients_of(obj, progress)
-    estimate_of(made_of)
+    made_of = checked_ingredients(obj)
+    expected = expected_volume(obj, made_of)
     try:
         if made_of.domain is None:
             # Never built as a shape: its text is laid at every place.
             lattice = placed_lattice(made_of.lattice, place_in_document(obj))
             with progress_of(f"Exact surfaces of {obj.Label}") as progress:
-                write_exact(lattice, path, Monitor(progress))
+                volume = write_exact(lattice, path, Monitor(progress))
+            if expected is not None:
+                check_volume(volume, expected)
             warn(obj, made_of.warnings)
             return
-        shape = exact_shape(obj)
+        shape = exact_shape(obj, made_of)
     except VolfrepError as error:
         mesh = mesh_in_document(obj)
         estimate_faceted(len(mesh.triangles))

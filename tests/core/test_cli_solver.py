@@ -140,6 +140,7 @@ def test_an_exact_part_is_cut_at_its_inner_wall(
 
 
 @needs_freecad
+@pytest.mark.slow
 def test_whole_cells_are_not_cut(
     tmp_path: Path, part: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -165,6 +166,7 @@ def test_plane_faces_with_a_message_where_opencascade_does_not_manage(
 
 
 @needs_freecad
+@pytest.mark.slow
 def test_openings_of_the_skin_are_there_or_missed_with_a_message(
     tmp_path: Path, part: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -180,6 +182,7 @@ def test_openings_of_the_skin_are_there_or_missed_with_a_message(
 
 
 @needs_freecad
+@pytest.mark.slow
 def test_struts_deformed_with_their_cells_are_warned_about(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -159,6 +159,7 @@ def test_the_skin_holds_the_lattice(doc, infill, tmp_path):
 
 @needs_calculix
 @needs_gmsh
+@pytest.mark.slow
 def test_tetrahedra_solved_by_freecad_and_by_our_own_deck(doc, tmp_path):
     from freecad_volfrep.bridge.solids import mesh_in_document
     from volfrep.export.calculix import Material, StaticStep, sides, write_tetrahedra

@@ -61,6 +61,7 @@ def test_an_exact_part_of_a_box(doc, infill):
     assert (box.XMax, box.YMax, box.ZMax) == pytest.approx((7, 30, 20), abs=1e-3)
 
 
+@pytest.mark.slow
 def test_the_wall_of_a_round_part_is_round(doc):
     infill = infill_of(doc, cylinder(doc), Output="lattice")
     shape = make_kind(doc, infill, "exact").Shape
@@ -111,6 +112,7 @@ def test_instances_are_solids_that_are_there_once(doc, box, tmp_path):
     assert len(shape.Solids) > written
 
 
+@pytest.mark.slow
 def test_instances_are_read_again_as_links(doc, box, tmp_path):
     import Import
 
@@ -156,6 +158,7 @@ def test_exact_and_wireframe_files(doc, infill, tmp_path):
     assert read(tmp_path / "axes.step").BoundBox.XMin == pytest.approx(-11, abs=1e-2)
 
 
+@pytest.mark.slow
 def test_a_lattice_of_whole_cells_is_never_built_as_a_shape(doc, box, tmp_path, monkeypatch):
     infill = infill_of(
         doc, box, Output="lattice", ShellThickness=0, Activation="inside", Boundary="whole"
@@ -204,6 +207,8 @@ def test_what_is_not_on_offer(doc, box, infill, tmp_path):
         estimate_file(infill, "lines")
     infill.JointFillet = 0.3
     doc.recompute()
+    with pytest.raises(VolfrepError, match="set the JointFillet"):
+        make_kind(doc, infill, "exact")
     with pytest.raises(VolfrepError, match="set the JointFillet"):
         export_mesh(infill, tmp_path / "a.step", "exact")
     infill.JointFillet, infill.Output = 0, "domain"

@@ -116,14 +116,17 @@ def drain(
         added = [cylinder for own in chosen for cylinder in site.cylinders(own)]
         if added:
             mesh = monitor.call(lambda: difference(drilled, *added))
-    voids = inspect(mesh, monitor).quality.voids
-    if voids:
-        warnings.append(
-            f"{voids} closed {'void is' if voids == 1 else 'voids are'} left, which would trap "
-            "powder or resin."
-        )
+    warnings += trapped(inspect(mesh, monitor).quality.voids)
     places = tuple((float(x), float(y), float(z)) for x, y, z in holes.start)
     return Drained(mesh, places, before - mesh.volume, tuple(warnings))
+
+
+def trapped(voids: int) -> tuple[str, ...]:
+    """A sentence about closed voids, if there are any."""
+    if not voids:
+        return ()
+    what = "void is" if voids == 1 else "voids are"
+    return (f"{voids} closed {what} left, which would trap powder or resin.",)
 
 
 @dataclass(frozen=True, eq=False)

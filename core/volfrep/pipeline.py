@@ -15,6 +15,7 @@ from .cells import UnitCell
 from .clean import remove_slivers, separate_vertices, shortest_edge
 from .dangling import Thinned, thinned
 from .domain import Domain, find_domain
+from .drains import trapped
 from .errors import VolfrepError
 from .graded import (
     Ground,
@@ -279,6 +280,8 @@ def _result(
     if drained is not None:
         warnings += drained.warnings
         skin_volume -= drained.volume
+    elif spec.open_faces:
+        warnings += trapped(measured.voids)
     size = sizes(cells, active, where.chart, graph)
     report = Report(
         cells_total=cells.cells,

@@ -12,7 +12,7 @@ from volfrep import LatticeSpec, VolfrepError, fill, quality
 from volfrep.beam_lattice import beam_model
 from volfrep.export.stl import as_read
 from volfrep.mesh import TriangleMesh
-from volfrep.openings import DrainHoles, DrainPlace
+from volfrep.openings import DrainHoles, DrainPlace, OpenPlane
 from volfrep.progress import Monitor
 from volfrep.voxels import inside_points
 
@@ -116,6 +116,13 @@ def test_a_void_that_stays_closed_is_said():
     report = drained(solid, ((10.0, 10.0, 20.0),), count=1).report
     assert (report.voids, len(report.drain_holes)) == (0, 2)
     assert report.drain_holes[1][0] > 25.0
+
+
+def test_a_void_behind_no_open_face_is_said():
+    spec = replace(SPEC, open_faces=(OpenPlane((0.0, 0.0, 0.0), (1.0, 0.0, 0.0)),))
+    report = fill(dumbbell(), spec).report
+    assert report.voids == 1
+    assert "1 closed void is left" in report.warnings[0]
 
 
 def test_holes_that_find_no_room_are_said():

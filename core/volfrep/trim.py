@@ -159,7 +159,7 @@ def trim(
     Raises:
         VolfrepError: the domain's mesh is not a solid that can be cut.
     """
-    points = points + NUDGE * layout.grid.cell_size
+    given, points = points, points + NUDGE * layout.grid.cell_size
     monitor.tick(0.1)
     # Caps towards octants inside are taken off again where these are put back. Those on the
     # outside lie beyond the wall; what a wall that grazes them leaves belongs to the surface.
@@ -185,7 +185,12 @@ def trim(
     monitor.tick(0.9)
     mesh, origin = _read(result)
     is_cap = origin == ids + 1
-    joined, from_inner = _put_back(mesh, is_cap, points, inner, cavity)
+    put_back = _put_back(mesh, is_cap, points, inner, cavity)
+    if put_back is None:
+        # Nothing to weld to: let all the octants go through the Boolean, which takes longer.
+        every = Kept(kept.grid, kept.border | kept.inside, np.zeros_like(kept.inside))
+        return trim(domain, every, layout, given, cavity=cavity, monitor=monitor)
+    joined, from_inner = put_back
     on_wall = np.concatenate([~np.isin(origin[~is_cap], (ids, ids + 1)), from_inner])
     return Trimmed(
         joined, on_wall, int((~is_cap).sum()), len(capped.triangles) + len(domain.triangles)
@@ -281,8 +286,11 @@ def _put_back(
     points: NDArray[np.float64],
     inner: NDArray[np.int32],
     cavity: bool,
-) -> tuple[TriangleMesh, NDArray[np.bool_]]:
-    """The cut border without its caps, and the octants inside, welded where the caps were."""
+) -> tuple[TriangleMesh, NDArray[np.bool_]] | None:
+    """The cut border without its caps, and the octants inside, welded where the caps were.
+
+    None where the Boolean has taken out vertices there, as it may do between tiny triangles.
+    """
     rest = cut.triangles[~is_cap]
     if cavity:
         rest = rest[:, ::-1]
@@ -296,7 +304,7 @@ def _put_back(
     wanted, have = points[seam_new], cut.vertices[seam_cut]
     order_new, order_cut = np.lexsort(wanted.T), np.lexsort(have.T)
     if len(wanted) != len(have) or not np.array_equal(wanted[order_new], have[order_cut]):
-        raise RuntimeError("the Boolean moved vertices where octants are to be put back")
+        return None
     number = np.arange(len(points), dtype=np.int64) + len(cut.vertices)
     number[seam_new[order_new]] = seam_cut[order_cut]
     joined = TriangleMesh(

@@ -43,7 +43,7 @@ format: setup ## let ruff rewrite the sources
 
 QUICK := -m "not slow"
 test-core: setup ## the engine's tests on plain Python
-	@$(PYTHON) -m pytest tests/core $(QUICK)
+	@$(PYTHON) -m pytest tests/core $(QUICK) -n auto --dist loadfile
 
 test-freecad: setup ## the workbench's tests in the real freecadcmd
 	@PYTEST_ARGS='tests/freecad $(QUICK)' freecadcmd tools/run_in_freecad.py < /dev/null

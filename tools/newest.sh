@@ -10,4 +10,4 @@ python=.cache/newest/bin/python
   --upgrade-strategy eager -r tools/requirements-dev.txt -e .
 "$python" -m pip list --disable-pip-version-check 2>/dev/null |
   grep -E '^(numpy|scipy|scikit-image|trimesh|manifold3d) ' | sed 's/^/newest: /'
-eval "exec $python -m pytest ${PYTEST_ARGS:-tests/core -m 'not slow'}"
+eval "exec $python -m pytest ${PYTEST_ARGS:-tests/core -m 'not slow' -n auto --dist loadfile}"

@@ -4,12 +4,13 @@
 import json
 import re
 import zipfile
+from functools import partial
 from pathlib import Path
 
 import pytest
 
+import command
 import samples
-from volfrep import cli
 from volfrep.export.stl import as_read, write_stl
 from volfrep.quality import measure
 from volfrep.solid import read_triangles
@@ -24,16 +25,7 @@ def part(tmp_path: Path) -> Path:
     return path
 
 
-def run(*arguments: object) -> int:
-    return cli.run([str(argument) for argument in arguments])
-
-
-def fill(part: Path, out: Path, *more: object) -> int:
-    return run("fill", part, "-o", out, *LATTICE, "--shell", 2, *more)
-
-
-def block(out: Path, *more: object) -> int:
-    return run("block", "-o", out, *LATTICE, "--count", 2, 1, 1, *more)
+fill, block = partial(command.fill, LATTICE), partial(command.block, LATTICE)
 
 
 def model(path: Path) -> str:

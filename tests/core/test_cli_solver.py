@@ -3,13 +3,14 @@
 
 import re
 import shutil
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+import command
 import samples
-from volfrep import cli
 from volfrep.export.stl import write_stl
 from volfrep.solver import solve
 
@@ -30,16 +31,7 @@ def part(tmp_path: Path) -> Path:
     return path
 
 
-def run(*arguments: object) -> int:
-    return cli.run([str(argument) for argument in arguments])
-
-
-def fill(part: Path, out: Path, *more: object) -> int:
-    return run("fill", part, "-o", out, *LATTICE, "--shell", 2, *more)
-
-
-def block(out: Path, *more: object) -> int:
-    return run("block", "-o", out, *LATTICE, "--count", 2, 1, 1, *more)
+fill, block = partial(command.fill, LATTICE), partial(command.block, LATTICE)
 
 
 def sets_of(deck: Path) -> dict[str, list[int]]:
@@ -146,7 +138,7 @@ def test_whole_cells_are_not_cut(
 ) -> None:
     whole = ["--step", "exact", "--activation", "inside", "--boundary", "whole"]
     lattice = [*whole, "--output", "lattice", "--shell", 0]
-    assert run("fill", part, "-o", tmp_path / "a.step", *LATTICE, *lattice) == 0
+    assert command.run("fill", part, "-o", tmp_path / "a.step", *LATTICE, *lattice) == 0
     captured = capsys.readouterr()
     assert "kinds of joints" in captured.out
     assert captured.err == ""
@@ -243,7 +235,7 @@ def test_absurd_sizes_name_what_would_fit(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     out = tmp_path / "x.inp"
-    assert run("block", "-o", out, *LATTICE, "--count", 24, 24, 24) == 2
+    assert command.run("block", "-o", out, *LATTICE, "--count", 24, 24, 24) == 2
     said = capsys.readouterr().err
     assert "choose a block of 17 x 17 x 17 cells" in said
     assert not out.exists()

@@ -1,14 +1,44 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What the tests inside FreeCAD share: a document, a box in it, and small quick lattices."""
 
+import os
+import subprocess
+import sys
+from pathlib import Path
+
 import FreeCAD as App
 import pytest
 
 from freecad_volfrep import make_lattice_infill
 from freecad_volfrep.engine import require_engine
 
+ROOT = Path(__file__).resolve().parents[2]
 #: A lattice that is quick to compute.
 SMALL = {"CellSize": 10, "StrutRadius": 1, "ShellThickness": 2, "Resolution": 10}
+
+
+def said_without_packages(folder, body):
+    """The lines that a script prints, by their first words, in a FreeCAD without our packages.
+
+    `folder` becomes its profile. The test is skipped where they are installed for everybody.
+    """
+    (folder / "Mod").mkdir()
+    (folder / "Mod" / "VOLFREP").symlink_to(ROOT)
+    script = folder / "script.py"
+    script.write_text(
+        "import os, sys, FreeCAD as App\n"
+        "from freecad_volfrep.deps import missing_packages\n"
+        "print('MISSING', missing_packages())\n" + body + "sys.stdout.flush()\nos._exit(0)\n"
+    )
+    environment = dict(os.environ, FREECAD_USER_HOME=str(folder), PYTHONPATH="")
+    done = subprocess.run(
+        [sys.executable, str(script)], env=environment, capture_output=True, text=True, timeout=120
+    )
+    lines = {line.split(" ", 1)[0]: line for line in done.stdout.splitlines()}
+    assert "MISSING" in lines, done.stdout + done.stderr
+    if lines["MISSING"] == "MISSING []":
+        pytest.skip("this FreeCAD has the engine's packages installed system-wide")
+    return lines
 
 
 @pytest.fixture

@@ -1,14 +1,12 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Documents with lattice infills: saved, reopened, copied, undone, broken, of older releases."""
 
-import os
 import shutil
-import subprocess
-import sys
 from pathlib import Path
 
 import FreeCAD as App
 import pytest
+from conftest import said_without_packages
 
 from freecad_volfrep import make_lattice_infill, preferences
 from freecad_volfrep.features import LatticeInfill, lattice_infill
@@ -143,34 +141,19 @@ def test_without_its_base_a_document_opens_with_the_last_mesh(doc, box, infill, 
 
 def test_without_the_packages_a_document_opens_with_its_mesh(doc, infill, tmp_path):
     """In a FreeCAD whose profile has no packages: open, look, touch, save."""
-    (tmp_path / "Mod").mkdir()
-    (tmp_path / "Mod" / "VOLFREP").symlink_to(ROOT)
     file = tmp_path / "part.FCStd"
     doc.saveCopy(str(file))
-    script = tmp_path / "script.py"
-    script.write_text(
-        "import os, sys, FreeCAD as App\n"
-        "from freecad_volfrep.deps import missing_packages\n"
+    lines = said_without_packages(
+        tmp_path,
         f"doc = App.openDocument({str(file)!r})\n"
         f"obj = doc.getObject({infill.Name!r})\n"
-        "print('MISSING', missing_packages())\n"
         "print('OPENED', obj.Mesh.CountFacets, obj.StrutRadius.Value)\n"
         "obj.StrutRadius = 0.7\n"
         "doc.recompute()\n"
         "print('STATUS', obj.isValid(), obj.getStatusString())\n"
         "print('KEPT', obj.Mesh.CountFacets)\n"
-        "doc.save()\n"
-        "sys.stdout.flush()\n"
-        "os._exit(0)\n"
+        "doc.save()\n",
     )
-    environment = dict(os.environ, FREECAD_USER_HOME=str(tmp_path), PYTHONPATH="")
-    done = subprocess.run(
-        [sys.executable, str(script)], env=environment, capture_output=True, text=True, timeout=120
-    )
-    lines = {line.split(" ", 1)[0]: line for line in done.stdout.splitlines()}
-    assert "KEPT" in lines, done.stdout + done.stderr
-    if lines["MISSING"] == "MISSING []":
-        pytest.skip("this FreeCAD has the engine's packages installed system-wide")
     assert lines["OPENED"] == f"OPENED {infill.Triangles} 1.0"
     assert lines["STATUS"].startswith("STATUS False VOLFREP needs the Python packages")
     assert lines["KEPT"] == f"KEPT {infill.Triangles}"

@@ -9,6 +9,7 @@ import manifold3d
 import numpy as np
 from numpy.typing import NDArray
 
+from ..booleans import as_manifold
 from ..errors import VolfrepError
 from ..mesh import TriangleMesh, compact, concatenate
 from ..ragged import spread
@@ -126,15 +127,10 @@ def _from_manifold(solid: Any) -> TriangleMesh:
 
 def _to_manifold(mesh: TriangleMesh, rows: Ints, name: str) -> Any:
     part = compact(TriangleMesh(mesh.vertices, mesh.triangles[rows]))
-    solid = manifold3d.Manifold(
-        manifold3d.Mesh64(
-            np.ascontiguousarray(part.vertices),
-            np.ascontiguousarray(part.triangles, dtype=np.uint64),
-        )
-    )
-    if solid.status() != manifold3d.Error.NoError:
+    try:
+        return as_manifold(part)
+    except VolfrepError as error:
         raise VolfrepError(
             f"'{name}' has overlapping bodies near {place_text(part.vertices.mean(axis=0))} that "
             "cannot be united: unite them before export."
-        )
-    return solid
+        ) from error

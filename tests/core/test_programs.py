@@ -13,7 +13,7 @@ from volfrep.progress import Monitor
 
 
 def test_what_it_says_is_kept(tmp_path: Path):
-    script = "import os, sys; print(os.getcwd()); sys.exit('bad')"
+    script = "import os, sys; print(os.getcwd(), flush=True); sys.exit('bad')"
     done = run_program([sys.executable, "-c", script], tmp_path)
     assert done.returncode == 1
     assert done.stdout.split() == [str(tmp_path), "bad"]

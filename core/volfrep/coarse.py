@@ -26,9 +26,7 @@ def coarse_likeness(mesh: TriangleMesh, most: int) -> TriangleMesh:
     """
     if len(mesh.triangles) <= most:
         return mesh
-    a, b, c = mesh.corners()
-    area = 0.5 * float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum())
-    step = math.sqrt(TRIANGLES_PER_SQUARE * area / most)
+    step = math.sqrt(TRIANGLES_PER_SQUARE * mesh.area / most)
     while True:
         result = _clustered(mesh, step)
         if len(result.triangles) <= most:

@@ -18,6 +18,7 @@ from .export.step_exact import predicted_exact
 from .export.step_faceted import MAX_TRIANGLES as MAX_PLANE_FACES
 from .export.step_faceted import predicted_faceted
 from .export.step_wireframe import predicted_wireframe
+from .limits import rounded_up
 from .spec import MIN_RESOLUTION, LatticeSpec
 from .tetrahedra import (
     BYTES_PER_TRIANGLE,
@@ -85,7 +86,7 @@ class Asked:
         """The setting with so many times fewer struts."""
         side = excess ** (1.0 / 3.0)
         if self.count is None:
-            return f"cells of {_rounded_up(self.spec.cell_size * side):g} mm"
+            return f"cells of {rounded_up(self.spec.cell_size * side):g} mm"
         fits = " x ".join(str(max(1, int(n / side))) for n in self.count)
         return f"a block of {fits} cells"
 
@@ -218,12 +219,6 @@ def _coarser(asked: Asked | None, excess: float) -> str:
 
 def _fewer(asked: Asked | None, excess: float) -> str:
     return "larger cells" if asked is None else asked.fewer(excess)
-
-
-def _rounded_up(value: float) -> float:
-    """The next number of two digits."""
-    step = 10.0 ** (np.floor(np.log10(value)) - 1.0)
-    return float(np.ceil(value / step - 1e-9) * step)
 
 
 def _seconds(value: float) -> str:

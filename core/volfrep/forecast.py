@@ -72,9 +72,7 @@ class Forecast:
 def forecast_fill(solid: TriangleMesh, spec: LatticeSpec) -> Forecast:
     """What `pipeline.fill` will come to; takes no longer than to add up the solid's triangles."""
     volume = abs(solid.volume)
-    corners = solid.vertices[solid.triangles]
-    cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    area = 0.5 * float(np.linalg.norm(cross, axis=1).sum())
+    area = solid.area
     inside = max(volume - area * spec.shell, LEAST_INSIDE * volume)
     cell_volume, edge = _cell_volume(spec), spec.cell_size / spec.facets_along_cell
     triangles = expected_triangles(spec, inside) + WALL_TRIANGLES * area / edge**2
@@ -87,7 +85,7 @@ def forecast_fill(solid: TriangleMesh, spec: LatticeSpec) -> Forecast:
     grid = np.ceil(np.ptp(solid.bounds, axis=0) / spec.cell_size - 1e-6).prod()
     cells = min(cells, float(grid) * spec.cell_size**3 / cell_volume)
     seconds = SECONDS + wall + SECONDS_PER_TRIANGLE * triangles
-    return _forecast(cells, _shares(spec.unit_cell()), triangles, BYTES_PER_TRIANGLE, seconds)
+    return _forecast(cells, strut_shares(spec.unit_cell()), triangles, BYTES_PER_TRIANGLE, seconds)
 
 
 def forecast_block(spec: LatticeSpec, count: Sequence[int]) -> Forecast:
@@ -95,7 +93,7 @@ def forecast_block(spec: LatticeSpec, count: Sequence[int]) -> Forecast:
     layers = np.asarray(count, np.float64)
     cells = float(layers.prod())
     # Outside the block there is nobody to share a strut with.
-    shares = _shares(spec.unit_cell(), 0.5 * (1.0 + 1.0 / layers))
+    shares = strut_shares(spec.unit_cell(), 0.5 * (1.0 + 1.0 / layers))
     triangles = cells * float(_facets(spec) @ shares)
     seconds = SECONDS + SECONDS_PER_BLOCK_TRIANGLE * triangles
     return _forecast(cells, shares, triangles, BYTES_PER_BLOCK_TRIANGLE, seconds)
@@ -103,7 +101,7 @@ def forecast_block(spec: LatticeSpec, count: Sequence[int]) -> Forecast:
 
 def expected_triangles(spec: LatticeSpec, volume: float) -> float:
     """Triangles of the lattice in a volume of mm3, about."""
-    per_cell = float(_facets(spec) @ _shares(spec.unit_cell()))
+    per_cell = float(_facets(spec) @ strut_shares(spec.unit_cell()))
     return volume / _cell_volume(spec) * per_cell
 
 
@@ -118,7 +116,7 @@ def _facets(spec: LatticeSpec) -> Floats:
     return facets
 
 
-def _shares(cell: UnitCell, on_face: Floats | float = 0.5) -> Floats:
+def strut_shares(cell: UnitCell, on_face: Floats | float = 0.5) -> Floats:
     """(m,) how much of each strut belongs to one cell: others share it on a face or an edge.
 
     `on_face` is the share of what lies on a face across x, y and z.

@@ -87,8 +87,8 @@ def _what_fits(spec: LatticeSpec, excess: float, has_triangles: bool) -> str:
     Facets go with the square of their edge, struts in a volume with the square of the cell.
     """
     if not has_triangles:
-        return f"cells of {_rounded_up(spec.cell_size * excess ** (1 / 3))} mm would fit"
-    cells = f"cells of {_rounded_up(spec.cell_size * excess**0.5)} mm or larger"
+        return f"cells of {rounded_up(spec.cell_size * excess ** (1 / 3)):g} mm would fit"
+    cells = f"cells of {rounded_up(spec.cell_size * excess**0.5):g} mm or larger"
     facets = int(spec.facets_along_cell / excess**0.5)
     # Coarser facets than this do not make fewer: thin struts are sampled finely all the same.
     if facets < max(MIN_RESOLUTION, spec.cell_size / (LONGEST_EDGE * spec.template_radius)):
@@ -97,15 +97,15 @@ def _what_fits(spec: LatticeSpec, excess: float, has_triangles: bool) -> str:
         return f"a resolution of {facets}, or {cells}, would fit"
     edge = spec.cell_size / facets
     return (
-        f"a deviation of {_rounded_up(edge**2 / (16 * spec.template_radius))} mm, or {cells}, "
+        f"a deviation of {rounded_up(edge**2 / (16 * spec.template_radius)):g} mm, or {cells}, "
         "would fit"
     )
 
 
-def _rounded_up(value: float) -> str:
-    """Two significant figures, not below the value."""
+def rounded_up(value: float) -> float:
+    """The next number of two significant figures, not below the value."""
     step = 10.0 ** (math.floor(math.log10(value)) - 1)
-    return f"{math.ceil(value / step - 1e-9) * step:.6g}"
+    return math.ceil(value / step - 1e-9) * step
 
 
 def _free_memory() -> float:

@@ -19,6 +19,7 @@ from . import frep
 from .cells import LIBRARY, UnitCell
 from .distance import index_surface
 from .errors import VolfrepError
+from .forecast import strut_shares
 from .graded import graded_wireframe, ground, setting
 from .limits import BYTES_PER_CELL, refuse_memory
 from .mapping import LatticeMap
@@ -257,6 +258,4 @@ def _joints_share(cell: UnitCell, radius: float, fillet: float) -> float:
         filled.append(float((values < 0.0).mean()))
     ends = cell.nodes[cell.struts]
     length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
-    lies = (np.abs(ends - np.round(ends)) < 1e-9).all(axis=1) & (ends[:, 0] == ends[:, 1])
-    shares = 0.5 ** lies.sum(axis=1)
-    return float(np.mean(filled) / (np.pi * radius**2 * (length * shares).sum()))
+    return float(np.mean(filled) / (np.pi * radius**2 * (length @ strut_shares(cell))))

@@ -10,7 +10,7 @@ SCREEN := xvfb-run -a -s "-screen 0 1600x1200x24 -dpi 96"
 
 .NOTPARALLEL:
 .PHONY: help setup demo test test-all lint format test-core test-freecad test-gui \
-	test-freecad-1 test-newest torture bench clean
+	test-freecad-1 test-newest torture bench bench-quick clean
 
 help: ## show this list
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 22
@@ -60,8 +60,12 @@ test-freecad-1: ## the workbench's tests in FreeCAD 1.0, in a Debian 13 of its o
 test-newest: ## the engine's tests on the newest numpy, scipy and scikit-image
 	@tools/newest.sh
 
-bench: setup ## the benchmarks beside their bars
-	@$(PYTHON) bench/run.py
+bench: setup ## the paper's evaluation beside it and other tools, into docs/benchmarks.md (25 min)
+	@tools/bench_tools.sh
+	@$(PYTHON) -m bench $(BENCH_ARGS)
+
+bench-quick: BENCH_ARGS := --quick
+bench-quick: bench ## a small part of it, into build/bench-quick (5 min)
 
 clean: ## remove what was made; the installed Debian packages stay
 	rm -rf .venv .cache build .pytest_cache .mypy_cache .ruff_cache .hypothesis core/*.egg-info

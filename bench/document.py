@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The results of all experiments as one Markdown document."""
+
+from __future__ import annotations
+
+import traceback
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from .tables import bars_table
+
+INTRODUCTION = """# Benchmarks
+
+The evaluation of the paper that the method comes from (A. Bacciaglia, A. Liverani, A. Ceruti: Voxelization and one-dimensional lattice structures for industrial components using function representation), repeated on this engine by `make bench`, beside the printed figures and beside other tools in the same run. `make bench-quick` does a small part of it in a few minutes, into `build/bench-quick`.
+
+**Only ratios within one run mean something.** Seconds of another machine, or of a busy one, are others; the paper's are from an Intel i9-14900F with 96 GB and MATLAB 2024b. Every job is a process of its own, timed from its start to its end with the file on disk, so that the start of Python and the imports are in it; memory is the process's largest. Files are judged as a reader sees them: in float32, corners merged by equality alone.
+
+**What differs from the paper's input.** The blocks and the wing are the same. The GE bracket is a public tessellation of the same part. The piston rod is a stand-in of the same box. Figures that the paper only plots are not repeated here: none is read off a plot.
+"""
+
+
+def document(
+    results: dict[str, dict[str, Any]], experiments: dict[str, ModuleType], images: Path
+) -> tuple[str, list[str]]:
+    """The text, and the names of the experiments that could not be shown.
+
+    Args:
+        results: by experiment, each with "machine" (at its start), "seconds" and its result, or
+            with "error".
+        experiments: in the order of the document.
+        images: folder of the plots.
+    """
+    chapters, broken, bars = [], [], []
+    for name, module in experiments.items():
+        result = results.get(name)
+        if result is None:
+            chapters.append(f"## {name}\n\nNot measured in this run.")
+            continue
+        if "error" in result:
+            chapters.append(f"## {name}\n\nThis experiment failed: {result['error']}")
+            continue
+        try:
+            chapters.append(module.render(result, images).strip())
+        except Exception as error:  # the other chapters are still worth having
+            traceback.print_exc()
+            broken.append(name)
+            chapters.append(f"## {name}\n\nThis chapter could not be written: {error!r}")
+        bars += result["bars"]
+    missed = sum(row["met"] is False for row in bars)
+    unknown = sum(row["met"] is None for row in bars)
+    count = f"{sum(row['met'] is True for row in bars)} of {len(bars)} met, {missed} missed"
+    count += f", {unknown} not measured" if unknown else ""
+    parts = [INTRODUCTION.strip(), _machines(results), f"## Bars: {count}", bars_table(bars)]
+    return "\n\n".join([*parts, *chapters]) + "\n", broken
+
+
+def _machines(results: dict[str, dict[str, Any]]) -> str:
+    found = {name: result["machine"] for name, result in results.items()}
+    if not found:
+        return "Nothing has been measured."
+    last = max(found.values(), key=lambda machine: machine["date"])
+    packages = ", ".join(f"{name} {number}" for name, number in last["packages"].items())
+    lines = [
+        f"- Machine: {last['processor']}, {last['cores']} cores, {last['memory_gb']} GB; "
+        f"{last['system']}; Python {last['python']}.",
+        f"- This engine: commit {last['commit']}; {packages}.",
+    ]
+    if last["peer_packages"]:
+        others = ", ".join(f"{name} {number}" for name, number in last["peer_packages"].items())
+        lines.append(f"- Other tools, in an environment of their own: {others}.")
+    lines.append(
+        "- Start of each experiment, load of the machine just before it (of "
+        f"{last['cores']} cores), and its length: "
+        + "; ".join(
+            f"{name} {machine['date']}, {machine['load']:g}, {results[name]['seconds']:.0f} s"
+            for name, machine in found.items()
+        )
+        + "."
+    )
+    commits = {machine["commit"] for machine in found.values()}
+    if len(commits) > 1:
+        lines.append(f"- Measured at different states of the code: {', '.join(sorted(commits))}.")
+    return "\n".join(lines)

@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What is measured inside one process of its own; each job prints one line of JSON.
+
+python -m bench.in_process changes PART CELL OUT.stl
+python -m bench.in_process unvoxelised PART CELL OUT.stl
+python -m bench.in_process profile CELL OUT.stl [PART]
+"""
+
+from __future__ import annotations
+
+import cProfile
+import json
+import pstats
+import sys
+import time
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .published import RADIUS, SIZE
+
+SHELL = 3.0
+#: Strut radii that one after the other are asked for; the first is from cold.
+RADII = (1.0, 1.1, 0.9)
+TOP_FUNCTIONS = 12
+
+
+def changes(part: str, cell: str, out: str) -> dict[str, Any]:
+    """A part filled again and again with another strut radius, the stages' results kept.
+
+    Reading the part is not in it, writing the file is.
+    """
+    from volfrep import LatticeSpec, StageCache, fill, read_solid
+    from volfrep.export import write_mesh
+
+    solid, cache = read_solid(part), StageCache()
+    runs = []
+    for radius in RADII:
+        start = time.perf_counter()
+        spec = LatticeSpec(cell=cell, cell_size=SIZE, strut_radius=radius, shell=SHELL)
+        result = fill(solid, spec, cache=cache)
+        written = time.perf_counter()
+        write_mesh(result.mesh, out)
+        end = time.perf_counter()
+        stages = {**result.report.stages, "write": end - written}
+        runs.append({"radius": radius, "seconds": end - start, "stages": stages})
+    return {"runs": runs}
+
+
+def unvoxelised(part: str, cell: str, out: str) -> dict[str, Any]:
+    """The same part without looking for active cells: every cell of its box is meshed and cut.
+
+    The whole box's mesh goes through the Boolean, solid - (cavity - lattice). Nothing is cleaned
+    or proved afterwards, which favours this way.
+    """
+    from volfrep import LatticeSpec, StageCache, block, fill, read_solid
+    from volfrep.booleans import difference
+    from volfrep.export import write_mesh
+    from volfrep.mesh import TriangleMesh
+    from volfrep.trim import NUDGE
+    from volfrep.voxels import make_grid
+
+    stages: dict[str, float] = {}
+    start = time.perf_counter()
+
+    def lap(name: str) -> None:
+        nonlocal start
+        now = time.perf_counter()
+        stages[name] = now - start
+        start = now
+
+    solid = read_solid(part)
+    lap("read")
+    grid = make_grid(solid.bounds, SIZE)
+    low = tuple(float(x) for x in grid.origin)
+    spec = LatticeSpec(cell=cell, cell_size=SIZE, strut_radius=RADIUS, shell=SHELL, origin=low)
+    cavity = fill(solid, replace(spec, output="domain"), cache=StageCache()).mesh
+    lap("shell")
+    lattice = block(spec, grid.shape).mesh
+    lattice = TriangleMesh(lattice.vertices + NUDGE * SIZE, lattice.triangles)
+    lap("replication")
+    whole = difference(solid, difference(cavity, lattice))
+    lap("Boolean")
+    write_mesh(whole, out)
+    lap("write")
+    return {"stages": stages, "cells": grid.cells, "lattice_triangles": len(lattice.triangles)}
+
+
+def profile(cell: str, out: str, part: str | None = None) -> dict[str, Any]:
+    """A part, or a block of 10 x 10 x 10 cells where there is none: where the time is spent.
+
+    By the functions' own time, without those that they call.
+    """
+    from volfrep import LatticeSpec, block, fill, read_solid
+    from volfrep.export import write_mesh
+
+    profiler = cProfile.Profile()
+    profiler.enable()
+    spec = LatticeSpec(cell=cell, cell_size=SIZE, strut_radius=RADIUS, shell=SHELL)
+    result = block(spec, (10, 10, 10)) if part is None else fill(read_solid(part), spec)
+    start = time.perf_counter()
+    write_mesh(result.mesh, out)
+    stages = {**result.report.stages, "write": time.perf_counter() - start}
+    profiler.disable()
+    table: Any = pstats.Stats(profiler)
+    entries = sorted(table.stats.items(), key=lambda item: -item[1][2])
+    top = [
+        {"function": _name(where), "calls": calls, "seconds": own, "with_callees": whole}
+        for where, (_, calls, own, whole, _) in entries[:TOP_FUNCTIONS]
+    ]
+    return {"seconds": table.total_tt, "stages": stages, "functions": top}
+
+
+def _name(where: tuple[str, int, str]) -> str:
+    file, line, function = where
+    if file == "~":
+        return function.strip("<>")
+    path = Path(file)
+    package = path.parent.name
+    return f"{package}/{path.name}:{line} {function}"
+
+
+def main() -> None:
+    """Do the job that the arguments say."""
+    job, *given = sys.argv[1:]
+    found = {"changes": changes, "unvoxelised": unvoxelised, "profile": profile}[job](*given)
+    plain = json.dumps(found, default=lambda value: np.asarray(value).tolist())
+    print(plain)
+
+
+if __name__ == "__main__":
+    main()

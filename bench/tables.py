@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Rows of figures as Markdown, and the power law through them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+#: One measurement by column; with a "note" it has that instead of the figures it lacks.
+Row = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of a table.
+
+    Attributes:
+        title: as it is shown.
+        key: of the value in a row.
+        form: what makes a text of the value: a format such as ``.2f``, or a function.
+    """
+
+    title: str
+    key: str
+    form: str | Callable[[Any], str] = ""
+
+    def text(self, row: Row) -> str:
+        """The value of a row, empty where it has none."""
+        value = row.get(self.key)
+        if value is None:
+            return ""
+        if callable(self.form):
+            return self.form(value)
+        return format(value, self.form)
+
+
+def table(columns: Sequence[Column], rows: Sequence[Row]) -> str:
+    """The rows as a Markdown table, columns without any value left out.
+
+    Notes come in a last column of their own, if there is one.
+    """
+    shown = [column for column in columns if any(column.text(row) for row in rows)]
+    if any(row.get("note") for row in rows):
+        shown.append(Column("", "note"))
+    lines = [[column.title for column in shown], ["---"] * len(shown)]
+    lines += [[column.text(row).replace("|", "/") for column in shown] for row in rows]
+    return "\n".join(f"| {' | '.join(line)} |" for line in lines)
+
+
+def measured(rows: Sequence[Row], *keys: str) -> list[Row]:
+    """The rows that have all of these values."""
+    return [row for row in rows if all(row.get(key) is not None for key in keys)]
+
+
+@dataclass(frozen=True)
+class PowerLaw:
+    """y = factor x^exponent, least squares of the logarithms; r2 of the logarithms."""
+
+    exponent: float
+    factor: float
+    r2: float
+
+    def inverse(self, y: float) -> float:
+        """The x at which the law reaches y."""
+        return float((y / self.factor) ** (1.0 / self.exponent))
+
+
+def power_law(x: Sequence[float], y: Sequence[float]) -> PowerLaw:
+    """The power law through two points or more, all above 0.
+
+    Raises:
+        ValueError: there are fewer than two different x, or a value is not above 0.
+    """
+    if len(set(x)) < 2 or min(*x, *y) <= 0:
+        raise ValueError("a power law needs two different points, all above 0")
+    u, v = np.log(np.array(x, float)), np.log(np.array(y, float))
+    slope, offset = np.polyfit(u, v, 1)
+    spread = float(((v - v.mean()) ** 2).sum())
+    left = float(((v - slope * u - offset) ** 2).sum())
+    return PowerLaw(float(slope), math.exp(offset), 1.0 if spread == 0 else 1 - left / spread)
+
+
+def bar(text: str, value: float | None, limit: float, unit: str, form: str = ".2f") -> Row:
+    """A promise beside its figure: met where the value is not above the limit."""
+    if value is None:
+        return {"text": text, "bar": f"{limit:g} {unit}".strip(), "met": None}
+    figure = f"{value:{form}} {unit}".strip()
+    return {"text": text, "bar": f"{limit:g} {unit}".strip(), "measured": figure,
+            "met": value <= limit}  # fmt: skip
+
+
+def verdict(met: bool | None) -> str:
+    """What a bar came to, in a word."""
+    return {True: "met", False: "**missed**", None: "not measured"}[met]
+
+
+def bars_table(bars: Sequence[Row]) -> str:
+    """Promises beside their figures; one that was not measured says so."""
+    lines = ["| promise | bar | measured | |", "| --- | --- | --- | --- |"]
+    lines += [
+        f"| {row['text']} | {row['bar']} | {row.get('measured', '')} | {verdict(row['met'])} |"
+        for row in bars
+    ]
+    return "\n".join(lines)

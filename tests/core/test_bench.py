@@ -1,0 +1,166 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The harness of the benchmark: tables, fits, failures kept, the published method as a peer."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from volfrep.cells import LIBRARY
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+sys.path.append(str(ROOT))
+
+from bench import __main__ as bench  # noqa: E402
+from bench import measuring, plots, published, published_method  # noqa: E402
+from bench.document import document  # noqa: E402
+from bench.exact import block_volume  # noqa: E402
+from bench.experiments import EXPERIMENTS  # noqa: E402
+from bench.tables import Column, bar, bars_table, power_law, table  # noqa: E402
+
+
+def test_a_table_shows_figures_and_leaves_empty_columns_out():
+    columns = (Column("cell", "cell"), Column("s", "seconds", ".2f"), Column("genus", "genus"))
+    rows = [{"cell": "CVC", "seconds": 1.234}, {"cell": "a|b", "note": "ended after 40 s"}]
+    assert table(columns, rows).splitlines() == [
+        "| cell | s |  |",
+        "| --- | --- | --- |",
+        "| CVC | 1.23 |  |",
+        "| a/b |  | ended after 40 s |",
+    ]
+
+
+def test_bars_say_met_missed_and_not_measured():
+    rows = [bar("fast", 0.9, 1.0, "s"), bar("slow", 1.1, 1.0, "s"), bar("gone", None, 1.0, "s")]
+    fast, slow, gone = bars_table(rows).splitlines()[2:]
+    assert fast == "| fast | 1 s | 0.90 s | met |"
+    assert slow.endswith("| 1.10 s | **missed** |")
+    assert gone.endswith("|  | not measured |")
+
+
+def test_the_exponent_of_a_power_law():
+    x = [1e3, 8e3, 27e3, 125e3]
+    law = power_law(x, [2e-3 * value**1.07 for value in x])
+    assert law.exponent == pytest.approx(1.07)
+    assert law.factor == pytest.approx(2e-3)
+    assert law.r2 == pytest.approx(1.0)
+    assert law.inverse(2e-3 * 5e4**1.07) == pytest.approx(5e4)
+    assert power_law([1, 2, 4], [1, 3, 2]).r2 < 0.8
+    with pytest.raises(ValueError, match="two different points"):
+        power_law([5, 5], [1, 2])
+
+
+@pytest.mark.parametrize("cell", ["Box", "CVC"])
+def test_one_cell_of_the_published_method_is_the_cell(cell):
+    unit, size, radius = LIBRARY[cell], published.SIZE, published.RADIUS
+    vertices, triangles = published_method.mesh_cell(
+        unit.nodes * size, unit.struts, size, radius, 60
+    )
+    a, b, c = vertices[triangles].swapaxes(0, 1)
+    volume = np.einsum("ij,ij->", a, np.cross(b, c)) / 6
+    expected = block_volume(unit, 1, size, radius, samples=32)
+    assert volume == pytest.approx(expected, rel=0.02)
+
+
+def test_the_published_method_stacks_overlapping_copies():
+    unit, size = LIBRARY["Box"], published.SIZE
+    vertices, triangles = published_method.mesh_cell(
+        unit.nodes * size, unit.struts, size, published.RADIUS, 30
+    )
+    active = np.array([[[True, False]], [[True, True]]])
+    stacked, faces = published_method.replicate(vertices, triangles, active, size, np.zeros(3))
+    assert len(stacked) == 3 * len(vertices)
+    assert faces.shape == (3 * len(triangles), 3)
+    assert faces.max() == len(stacked) - 1
+    reach = published_method.sphere_radius(size, published.RADIUS)
+    assert stacked.max() == pytest.approx(2 * size + reach, abs=0.05)
+    bad = np.vstack([faces[:2], [[0, 1, 1]]])
+    assert len(published_method.valid(bad)) == 2
+
+
+def test_a_job_of_ours_is_timed_looked_at_and_removed(tmp_path):
+    context = measuring.Context(
+        quick=True, folder=tmp_path, seconds_for_peers=10, most_triangles=10**6
+    )
+    row = measuring.our_block(context, "CVC", 1)
+    assert row["one_solid"]
+    assert abs(row["volume_error"]) < 5e-3
+    assert row["rms"] < 0.03
+    assert row["cpu"] > 0
+    assert row["triangles"] * 50 + 84 == round(row["mb"] * 1e6)
+    assert not list(tmp_path.iterdir())
+    failed = measuring.our_block(context, "CVC", 0)
+    assert failed["failed"]
+    assert "above 0" in failed["note"]
+
+
+def test_a_process_is_ended_at_its_limit():
+    done = measuring.run([sys.executable, "-c", "import time; time.sleep(60)"], limit=0.2)
+    assert done.timed_out
+    assert done.failure is not None
+    assert "the time limit" in done.failure
+    assert done.seconds < 10
+
+
+class Broken:
+    """An experiment that cannot be done."""
+
+    @staticmethod
+    def measure(context):
+        raise RuntimeError("no such part")
+
+
+class Works:
+    """One that can, of which a job of ours failed."""
+
+    @staticmethod
+    def measure(context):
+        return {"rows": [{"failed": True, "note": "exit code 2"}], "bars": [bar("x", 1, 2, "s")]}
+
+    @staticmethod
+    def render(result, images):
+        return "## It works"
+
+
+def test_an_experiment_that_fails_stays_alone(tmp_path, monkeypatch, capsys):
+    experiments = {"broken": Broken, "works": Works}
+    monkeypatch.setattr(bench, "EXPERIMENTS", experiments)
+    bench.measure(["broken", "works"], quick=True, results=tmp_path)
+    assert "no such part" in capsys.readouterr().err
+    results = {name: json.loads((tmp_path / f"{name}.json").read_text()) for name in experiments}
+    assert bench.failures(results["broken"]) == ["RuntimeError: no such part"]
+    assert bench.failures(results["works"]) == ["exit code 2"]
+    text, broken = document(results, experiments, tmp_path)
+    assert "This experiment failed: RuntimeError: no such part" in text
+    assert "## It works" in text
+    assert "Bars: 1 of 1 met" in text
+    assert not broken
+    assert "Not measured in this run" in document({}, experiments, tmp_path)[0]
+
+
+def test_every_experiment_measures_and_renders():
+    for module in EXPERIMENTS.values():
+        assert callable(module.measure)
+        assert callable(module.render)
+
+
+def test_plots_are_small_files(tmp_path):
+    pytest.importorskip("matplotlib", reason="matplotlib is not installed (FreeCAD brings it)")
+    line = plots.Line("ours", [1, 10, 100], [1, 12, 110])
+    said = plots.lines(tmp_path / "a" / "plot.png", "cells", "seconds", [line], title="growth")
+    assert said == "![growth](images/benchmarks/plot.png)"
+    assert 1000 < (tmp_path / "a" / "plot.png").stat().st_size < 60_000
+    plots.stacks(tmp_path / "bars.png", "s", ["CVC", "Box"], [{"a": 1.0}, {"a": 2.0, "b": 1.0}])
+    assert (tmp_path / "bars.png").stat().st_size > 1000
+
+
+def test_the_command_names_its_experiments():
+    done = subprocess.run(
+        [sys.executable, "-m", "bench", "--only", "everything"],
+        cwd=ROOT, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert done.returncode == 2
+    assert "accuracy" in done.stderr

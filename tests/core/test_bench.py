@@ -164,3 +164,35 @@ def test_the_command_names_its_experiments():
     )  # fmt: skip
     assert done.returncode == 2
     assert "accuracy" in done.stderr
+
+
+@pytest.mark.parametrize("quick", [True, False])
+def test_when_every_job_fails_every_chapter_says_so(quick, tmp_path, monkeypatch):
+    def fail(arguments, **options):
+        return measuring.Run(0.1, 0.1, 2, "volfrep: no such luck", False)
+
+    def fail_often(arguments, times):
+        return fail(arguments), [0.1] * times
+
+    for module in (measuring, *EXPERIMENTS.values()):
+        for name, stand_in in (("run", fail), ("run_often", fail_often)):
+            if hasattr(module, name):
+                monkeypatch.setattr(module, name, stand_in)
+    monkeypatch.setattr(measuring, "BENCH_PYTHON", Path(sys.executable))
+    monkeypatch.setattr(plots, "lines", lambda *_, **__: "a plot")
+    monkeypatch.setattr(plots, "stacks", lambda *_, **__: "a plot")
+    monkeypatch.setattr(bench, "machine", lambda: dict(MACHINE))
+    bench.measure(list(EXPERIMENTS), quick=quick, results=tmp_path)
+    results = {name: json.loads((tmp_path / f"{name}.json").read_text()) for name in EXPERIMENTS}
+    for name in EXPERIMENTS:
+        assert name == "wing" or bench.failures(results[name]), name
+    text, broken = document(results, EXPERIMENTS, tmp_path)
+    assert not broken
+    assert text.count("no such luck") >= len(EXPERIMENTS) - 2
+    assert "not measured" in text
+
+
+MACHINE = {
+    "processor": "a", "cores": 2, "memory_gb": 4, "system": "b", "python": "3", "packages": {},
+    "peer_packages": {}, "commit": "c", "date": "2026-01-01 00:00", "load": 0.0,
+}  # fmt: skip

@@ -22,10 +22,10 @@ import numpy as np
 
 from volfrep import LatticeSpec, block
 from volfrep.beam_elements import JOINT_LENGTH, beam_model
+from volfrep.blocks import block_wireframe
 from volfrep.cells import LIBRARY
 from volfrep.export.calculix import StaticStep, write_beams, write_tetrahedra
 from volfrep.joint_loads import balls_of, joint_displacements, joint_step
-from volfrep.pipeline import block_wireframe
 from volfrep.solver import solve
 from volfrep.tetrahedra import TetrahedralMesh, tetrahedra
 from volfrep.wireframe import Wireframe

@@ -29,13 +29,13 @@ from scipy.spatial import cKDTree
 from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 
 from volfrep import LatticeSpec, block
+from volfrep.blocks import block_wireframe
 from volfrep.cells import LIBRARY
 from volfrep.export.calculix import write_tetrahedra
 from volfrep.grading import CellMap, Orientation, RadiusGrading, SizeGrading
 from volfrep.joint_loads import balls_of, joint_step
 from volfrep.law import Law
 from volfrep.mesh import TriangleMesh
-from volfrep.pipeline import block_wireframe
 from volfrep.solver import solve
 from volfrep.tetrahedra import tetrahedra
 

@@ -10,10 +10,13 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from .blocks import block, write_block_stl
+    from .cache import StageCache
     from .errors import Cancelled, VolfrepError
     from .mesh import TriangleMesh
-    from .pipeline import Result, StageCache, block, fill
+    from .pipeline import fill
     from .report import Report
+    from .result import Result
     from .solid import read_solid
     from .spec import LatticeSpec
 
@@ -23,13 +26,14 @@ _HOMES = {
     "Cancelled": "errors",
     "VolfrepError": "errors",
     "TriangleMesh": "mesh",
-    "Result": "pipeline",
-    "StageCache": "pipeline",
-    "block": "pipeline",
+    "Result": "result",
+    "StageCache": "cache",
+    "block": "blocks",
     "fill": "pipeline",
     "Report": "report",
     "read_solid": "solid",
     "LatticeSpec": "spec",
+    "write_block_stl": "blocks",
 }
 
 __all__ = [
@@ -43,6 +47,7 @@ __all__ = [
     "block",
     "fill",
     "read_solid",
+    "write_block_stl",
 ]
 
 

@@ -8,12 +8,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from .blocks import block_wireframe
 from .booleans import difference
+from .cache import StageCache
 from .distance import closest_points
 from .drains import drain
 from .errors import VolfrepError
 from .mesh import TriangleMesh, concatenate
-from .pipeline import StageCache, block_wireframe, fill
+from .pipeline import fill
 from .progress import Monitor, ProgressCallback
 from .spec import LatticeSpec
 from .voxels import inside_points

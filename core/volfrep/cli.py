@@ -30,9 +30,10 @@ if TYPE_CHECKING:
     from .beam_lattice import BeamModel
     from .cli_solver import Writer
     from .mesh import TriangleMesh
-    from .pipeline import Result
+    from .printability import PrintReport
     from .progress import ProgressCallback
     from .report import Report
+    from .result import Result
     from .spec import LatticeSpec
 
 EXIT_DEFECT = 1
@@ -215,8 +216,9 @@ def _fill(options: argparse.Namespace) -> None:
     )
 
     from .beam_lattice import beam_model
+    from .cache import StageCache
     from .forecast import forecast_fill
-    from .pipeline import StageCache, fill
+    from .pipeline import fill
     from .reading.units import refuse_scale
     from .solid import read_solid
 
@@ -251,8 +253,8 @@ def _block(options: argparse.Namespace) -> None:
     spec = _spec(options)
 
     from .beam_lattice import block_beams
+    from .blocks import block, write_block_stl
     from .forecast import forecast_block
-    from .pipeline import block
 
     start = time.perf_counter()
     if cli_solver.block_axes(spec, options, start):
@@ -261,14 +263,24 @@ def _block(options: argparse.Namespace) -> None:
         cli_printing.finish_beams(block_beams(spec, options.count), options, start)
         return
     if not options.quiet:
-        print(f"Expected: {forecast_block(spec, options.count)}.", flush=True)
+        expected = forecast_block(spec, options.count, streamed=_writes_stl(options))
+        print(f"Expected: {expected}.", flush=True)
     beams = block_beams(spec, options.count) if options.threemf == "both" else None
     with _Progress(options.quiet) as progress:
+        if _writes_stl(options):
+            _tell(write_block_stl(spec, options.count, options.out, progress=progress), options)
+            return
         result = block(spec, tuple(options.count), progress=progress)
         if options.compact is not None:
             result = cli_printing.compacted(result, options, progress)
         write = cli_solver.writer(options, spec, None, None, progress)
         _finish(result, options, {}, beams, write=write)
+
+
+def _writes_stl(options: argparse.Namespace) -> bool:
+    """Whether nothing but an STL file of the mesh as it is was asked for."""
+    plain = options.compact is None and options.print_report is None
+    return plain and Path(options.out).suffix.lower() == ".stl"
 
 
 def _check_targets(options: argparse.Namespace, part: Path | None = None) -> None:
@@ -308,13 +320,12 @@ def _finish(
     domain: TriangleMesh | None = None,
     write: Writer | None = None,
 ) -> None:
-    """Write the mesh, with its beams if there are any, and the report; say what was made.
+    """Write the mesh, with its beams if there are any; tell what was made.
 
     `domain` is what the lattice fills, for the print report; `write` writes the file where it is
     not a mesh.
     """
     from .export import write_mesh
-    from .export.files import replacing
     from .export.threemf import write_3mf_beams
     from .progress import peak_memory_mb
 
@@ -334,13 +345,20 @@ def _finish(
     printing = None
     if options.print_report is not None:
         printing = cli_printing.report_of(result, options, domain)
+    _tell(dataclasses.replace(report, warnings=warnings), options, printing)
+
+
+def _tell(report: Report, options: argparse.Namespace, printing: PrintReport | None = None) -> None:
+    """Write the report, and say what was made."""
+    from .export.files import replacing
+
     if options.report is not None:
         figures = report.as_dict()
         if printing is not None:
             figures["print_report"] = printing.as_dict()
         with replacing(options.report) as file:
             file.write(json.dumps(figures, indent=2).encode() + b"\n")
-    print_warnings(warnings)
+    print_warnings(report.warnings)
     if options.quiet:
         return
     size = Path(options.out).stat().st_size / 1e6

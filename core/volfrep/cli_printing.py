@@ -20,9 +20,9 @@ from .errors import VolfrepError
 if TYPE_CHECKING:
     from .beam_lattice import BeamModel
     from .mesh import TriangleMesh
-    from .pipeline import Result
     from .printability import PrintReport
     from .progress import ProgressCallback
+    from .result import Result
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -63,8 +63,6 @@ def check(options: argparse.Namespace, out: Path) -> None:
     Raises:
         VolfrepError: naming them.
     """
-    from .printability import find_process, unit_direction
-
     if options.threemf is not None and out.suffix.lower() != ".3mf":
         raise VolfrepError(f"'{out}' cannot hold what --3mf asks for: give it the extension .3mf.")
     if options.compact is not None and not 0.0 < options.compact < math.inf:
@@ -78,6 +76,8 @@ def check(options: argparse.Namespace, out: Path) -> None:
             "A report is made of the mesh, which --3mf beams does without: use both."
         )
     if options.print_report is not None:
+        from .printability import find_process, unit_direction
+
         find_process(options.print_report)
         unit_direction(options.build_direction)
 

@@ -21,11 +21,12 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from .cache import StageCache
     from .estimate import Asked, Estimate
     from .export.calculix import Material
     from .mesh import TriangleMesh
-    from .pipeline import Result, StageCache
     from .progress import ProgressCallback
+    from .result import Result
     from .spec import LatticeSpec
     from .wireframe import Wireframe
 
@@ -135,7 +136,7 @@ def block_axes(spec: LatticeSpec, options: argparse.Namespace, start: float) -> 
     """As `fill_axes`, of a block of whole cells."""
     if not _needs_axes(options):
         return False
-    from .pipeline import block_wireframe
+    from .blocks import block_wireframe
 
     _write_axes(block_wireframe(spec, options.count), None, spec, options, start)
     return True

@@ -21,7 +21,7 @@ from .trim import NUDGE
 from .wireframe import Wireframe
 
 if TYPE_CHECKING:
-    from .pipeline import StageCache
+    from .cache import StageCache
     from .progress import ProgressCallback
     from .spec import LatticeSpec
 

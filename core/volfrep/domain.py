@@ -56,6 +56,7 @@ def find_domain(
     key = (solid_key, spec.shell, None if is_open is None else is_open.tobytes())
 
     def compute() -> tuple[Domain, tuple[str, ...]]:
+        monitor.count("walls found", 1)
         found = inner_wall(solid, spec.shell, monitor, is_open)
         warnings: tuple[str, ...] = ()
         if found.worst > TOLERANCE:

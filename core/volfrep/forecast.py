@@ -37,6 +37,8 @@ SECONDS_PER_BLOCK_TRIANGLE = 4e-7
 BYTES = 1.5e8
 BYTES_PER_TRIANGLE = 800.0
 BYTES_PER_BLOCK_TRIANGLE = 150.0
+#: Bytes that a cell of a block takes whose octants are written as they are laid.
+BYTES_PER_STREAMED_CELL = 5000
 #: Bytes of a triangle in a binary STL file.
 STL_BYTES = 50.0
 
@@ -88,15 +90,23 @@ def forecast_fill(solid: TriangleMesh, spec: LatticeSpec) -> Forecast:
     return _forecast(cells, strut_shares(spec.unit_cell()), triangles, BYTES_PER_TRIANGLE, seconds)
 
 
-def forecast_block(spec: LatticeSpec, count: Sequence[int]) -> Forecast:
-    """What `pipeline.block` will come to, for so many cells along x, y, z."""
+def forecast_block(spec: LatticeSpec, count: Sequence[int], *, streamed: bool = False) -> Forecast:
+    """What `blocks.block` will come to, for so many cells along x, y, z.
+
+    `streamed`: what `blocks.write_block_stl` will.
+    """
     layers = np.asarray(count, np.float64)
     cells = float(layers.prod())
     # Outside the block there is nobody to share a strut with.
     shares = strut_shares(spec.unit_cell(), 0.5 * (1.0 + 1.0 / layers))
     triangles = cells * float(_facets(spec) @ shares)
-    seconds = SECONDS + SECONDS_PER_BLOCK_TRIANGLE * triangles
-    return _forecast(cells, shares, triangles, BYTES_PER_BLOCK_TRIANGLE, seconds)
+    in_pieces = streamed and not spec.is_graded
+    seconds = SECONDS + SECONDS_PER_BLOCK_TRIANGLE * triangles * (0.5 if in_pieces else 1.0)
+    if in_pieces:
+        per_triangle = BYTES_PER_STREAMED_CELL * cells / triangles
+    else:
+        per_triangle = BYTES_PER_BLOCK_TRIANGLE
+    return _forecast(cells, shares, triangles, per_triangle, seconds)
 
 
 def expected_triangles(spec: LatticeSpec, volume: float) -> float:

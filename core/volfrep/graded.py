@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage
 
 from .anchors import anchor, crease
 from .cells import UnitCell
@@ -275,6 +274,8 @@ class Ground:
             pad = [width if k == axis else (0, 0) for k in range(3)]
             wide = np.pad(wide, pad, mode="constant" if self.first[axis] else "wrap")
         if endless:
+            from scipy import ndimage  # slow to import
+
             wide = ndimage.binary_dilation(wide, np.ones((3, 3, 3), bool), SUPPORT)
         wide = wide[tuple(slice(None) if n else slice(SUPPORT, -SUPPORT) for n in self.first)]
         if endless and self.usable is not None:

@@ -16,10 +16,10 @@ from numpy.typing import NDArray
 from . import caps
 from .cells import UnitCell
 from .frep import Floats
-from .mesh import TriangleMesh
+from .mesh import TriangleMesh, box_of
 from .octant import OPEN, OctantKey, Periodic, corner_patterns, octant_mirrors
 from .progress import Monitor
-from .tile import Octant
+from .tile import STEPS, Octant
 
 #: Octants are laid in groups of about so many vertices or triangles: a cancel is soon seen.
 CHUNK_VERTICES = 200_000
@@ -106,6 +106,12 @@ class Layout:
     base: NDArray[np.int32]
     count: int
 
+    @property
+    def triangles(self) -> int:
+        """How many there are on all the octants."""
+        pairs = zip(self.grid.keys, self.places, strict=True)
+        return sum(len(place) * len(self.octants[key].triangles) for key, place in pairs)
+
 
 _STEPS = np.stack(np.unravel_index(np.arange(27), (3, 3, 3)), axis=1)
 
@@ -142,14 +148,48 @@ def coordinates(layout: Layout, monitor: Monitor) -> Floats:
         octant = layout.octants[key]
         if not len(octant.vertices):
             continue
+        steps = in_steps(grid, octant)
         size = max(1, CHUNK_VERTICES // len(octant.vertices))
         for begin in range(0, len(place), size):
             part = place[begin : begin + size]
             corner, sign = frames(part)
-            position = (corner * grid.cell_size + grid.origin)[:, None, :]
-            vertices[numbers(layout, octant, part)] = position + sign[:, None, :] * octant.vertices
+            vertices[numbers(layout, octant, part)] = placed(
+                grid, corner[:, None, :], sign[:, None, :] * steps
+            )
             monitor.tick()
     return vertices
+
+
+def in_steps(grid: OctantGrid, octant: Octant) -> Floats:
+    """(n, 3) the vertices of an octant in its own frame, in whole steps."""
+    steps: Floats = np.rint(octant.vertices / (0.5 * grid.cell_size / STEPS))
+    return steps
+
+
+def placed(grid: OctantGrid, corner: NDArray[np.int64], steps: Floats) -> Floats:
+    """Coordinates in mm of what lies so many steps from corners of the grid.
+
+    The sum in steps is exact, so that equal places have equal coordinates.
+    """
+    result = corner * (2.0 * STEPS) + steps
+    result *= 0.5 * grid.cell_size / STEPS
+    result += grid.origin
+    return result
+
+
+def box(layout: Layout) -> Floats:
+    """(2, 3) lowest and highest coordinate of all the vertices, mm; zeros where there are none."""
+    grid, boxes = layout.grid, []
+    for key, place in zip(grid.keys, layout.places, strict=True):
+        octant = layout.octants[key]
+        if not len(octant.vertices) or not len(place):
+            continue
+        steps = in_steps(grid, octant)
+        extremes = np.stack([steps.min(axis=0), steps.max(axis=0)])
+        corner, sign = frames(place)
+        ends = placed(grid, corner[:, None, :], sign[:, None, :] * extremes)
+        boxes.append(box_of(ends.reshape(-1, 3)))
+    return box_of(np.concatenate(boxes)) if boxes else np.zeros((2, 3))
 
 
 def facets(
@@ -179,6 +219,8 @@ def facets(
         groups.append((octant, place[~turned], pattern))
         groups.append((octant, place[turned], pattern[:, ::-1]))
     total = sum(len(place) * len(pattern) for _, place, pattern in groups)
+    if cap is None:
+        monitor.count("triangles laid", total)
     triangles = np.empty((total, 3), np.int32)
     filled = 0
     for octant, place, pattern in groups:

@@ -51,6 +51,20 @@ def refuse_too_large(
     refuse_memory(spec, triangles, in_boolean)
 
 
+def refuse_solid_cells(octants: dict[OctantKey, Octant], spec: LatticeSpec) -> None:
+    """Raise a `VolfrepError` where no octant has a surface: struts fill everything."""
+    if not any(len(octant.triangles) for octant in octants.values()):
+        raise cells_are_full(spec)
+
+
+def cells_are_full(spec: LatticeSpec) -> VolfrepError:
+    """What is wrong where struts leave no room between them."""
+    return VolfrepError(
+        f"Struts of radius {spec.strut_radius:g} mm fill cells of {spec.cell_size:g} mm "
+        "completely: reduce the radius or enlarge the cells."
+    )
+
+
 def refuse_expected(spec: LatticeSpec, volume: float) -> None:
     """Refuse a lattice in a volume of mm3 that surely would not fit, before any work starts.
 

@@ -12,7 +12,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .distance import closest_points
 from .errors import VolfrepError
 from .mesh import TriangleMesh, compact
 
@@ -80,6 +79,8 @@ class OpenPatch:
         size = float(np.linalg.norm(np.ptp(solid.bounds, axis=0)))
         corners = np.stack(solid.corners(), axis=1)
         points = np.concatenate([corners, corners.mean(axis=1)[:, None]], axis=1)
+        from .distance import closest_points  # slow to import, and most jobs open no face
+
         _, distance, facet = closest_points(patch, points.reshape(-1, 3))
         near = (distance.reshape(-1, 4) < NEAR_PATCH * size).all(axis=1)
         towards = _normals(patch)[facet.reshape(-1, 4)[:, 3]]
@@ -169,6 +170,8 @@ def lie_on(openings: TriangleMesh, points: Floats, reach: Floats | float = 0.0) 
     if not len(points):
         return np.zeros(0, bool)
     size = float(np.ptp(openings.bounds, axis=0).max())
+    from .distance import closest_points
+
     return np.asarray(closest_points(openings, points)[1] <= np.maximum(reach, ON_OPENING * size))
 
 

@@ -4,8 +4,6 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,62 +11,24 @@ from numpy.typing import NDArray
 from .cache import StageCache
 from .cells import UnitCell
 from .clean import remove_slivers, separate_vertices, shortest_edge
-from .dangling import Thinned, thinned
+from .dangling import thinned
 from .domain import Domain, find_domain
 from .drains import trapped
 from .errors import VolfrepError
-from .graded import (
-    Ground,
-    Setting,
-    block_setting,
-    graded_wireframe,
-    ground,
-    keeps_places,
-    setting,
-    vertices_of,
-)
-from .lattice import facets, lay_out, octant_grid
-from .limits import BYTES_PER_CELL, refuse_expected, refuse_memory, refuse_too_large
+from .graded import Ground, Setting, graded_wireframe, ground, keeps_places, setting
+from .limits import BYTES_PER_CELL, refuse_expected, refuse_memory
 from .mesh import TriangleMesh, box_of, concatenate
-from .progress import Monitor, ProgressCallback, peak_memory_mb
-from .quality import inspect, measure
-from .report import Report
-from .sizes import mapped_volume, sizes
+from .progress import Monitor, ProgressCallback
+from .quality import measure
+from .result import Result, report_of
 from .solid import Solid
 from .spec import LatticeSpec
-from .survey import survey
-from .tile import mesh_octants
-from .trim import Cleared, clear
-from .trimming import (
-    FIRST_MARGIN,
-    Output,
-    Trimming,
-    cell_key,
-    refuse_solid_cells,
-    smallest_shell,
-    tile_spec,
-)
-from .voxels import CellGrid, active_cells, make_grid, mapped_grid
-from .wireframe import Wireframe, cell_graph
-
-__all__ = ["Result", "StageCache", "block", "block_wireframe", "fill"]
+from .trim import Cleared
+from .trimming import FIRST_MARGIN, Output, Trimming, cell_key
+from .voxels import active_cells, make_grid, mapped_grid
+from .wireframe import cell_graph
 
 Bools = NDArray[np.bool_]
-
-
-@dataclass(frozen=True, eq=False)
-class Result:
-    """What a run made.
-
-    Attributes:
-        mesh: the part, the lattice or the domain, as asked for.
-        wireframe: the unique nodes and struts of the active cells.
-        report: the figures.
-    """
-
-    mesh: TriangleMesh
-    wireframe: Wireframe
-    report: Report
 
 
 def fill(
@@ -155,78 +115,25 @@ def fill(
             kept, layout, points = trimming.lay(kept, octants, margin, cache, monitor)
         with monitor.stage("trim", 0.6, 1.0):
             made = trimming.output(kept, layout, points, frame, monitor)
+    cleared, drained = made.cleared, made.drained
     skin_volume = solid.volume - room.volume if spec.output == "part" else 0.0
-    return _result(
-        made, frame, floor.cells, active, where, room.volume, spec, monitor,
-        skin_volume, warnings, thin,
+    if drained is not None:
+        warnings += drained.warnings
+        skin_volume -= drained.volume
+    elif spec.open_faces:
+        warnings += trapped(made.measured.voids)
+    removed = {
+        "struts_dangling_removed": thin.left.dangling if thin is not None else 0,
+        "stubs_removed": thin.left.stubs if thin is not None else 0,
+        "pieces_removed": cleared.pieces_removed,
+        "specks_removed": cleared.specks_removed,
+        "drain_holes": drained.places if drained is not None else (),
+    }
+    report = report_of(
+        made.measured, frame, floor.cells, active, where, spec, monitor,
+        domain_volume=room.volume, skin_volume=skin_volume, warnings=warnings, removed=removed,
     )  # fmt: skip
-
-
-def block(
-    spec: LatticeSpec,
-    count: Sequence[int],
-    *,
-    progress: ProgressCallback | None = None,
-) -> Result:
-    """A free-standing block of whole cells, with full round struts on its outside.
-
-    Args:
-        spec: what to make; only cell, sizes, fillet, resolution, origin and density count.
-        count: cells along x, y, z.
-        progress: called with the fraction done and the stage; returning False cancels.
-
-    Raises:
-        VolfrepError: the counts make no sense or the block would not fit into memory.
-        Cancelled: the callback said so.
-    """
-    cells, where = _block_setting(spec, count)
-    monitor = Monitor(progress)
-    cell = spec.unit_cell()
-    volume = float(np.prod(cells.shape, dtype=float)) * spec.cell_size**3
-    refuse_expected(spec, volume)
-    if where.chart is not None and not where.chart.is_rigid:
-        volume = mapped_volume(cells, where.chart)
-    active = np.ones(cells.shape, bool)
-    tile = tile_spec(spec)
-    with monitor.stage("tile", 0.0, 0.4):
-        grid = octant_grid(cell, active, spec.cell_size, cells.origin, cells.periodic)
-        octants = mesh_octants(cell, tile, grid.keys, monitor)
-    refuse_solid_cells(octants, spec)
-    refuse_too_large(spec, grid, octants, None)
-    graph = cell_graph(cell, active, spec.cell_size, cells.origin, cells.periodic)
-    with monitor.stage("lattice", 0.4, 0.8):
-        layout = lay_out(grid, octants)
-        placed = vertices_of(layout, lambda: graph, cell, spec, tile, where, monitor)
-        mesh = TriangleMesh(placed.vertices, facets(layout, monitor))
-    frame = graded_wireframe(graph, spec, where)
-    with monitor.stage("check", 0.8, 1.0):
-        measured = measure(mesh, monitor) if spec.is_graded else survey(layout, mesh.vertices)
-        cleared = Cleared(mesh, 0, 0)
-        if measured.shells > 1:
-            cleared = clear(mesh, inspect(mesh, monitor), smallest_shell(spec))
-            measured = measure(cleared.mesh, monitor)
-    made = Output(cleared, measured, None)
-    return _result(made, frame, cells, active, where, volume, spec, monitor)
-
-
-def block_wireframe(spec: LatticeSpec, count: Sequence[int]) -> Wireframe:
-    """The nodes and struts of a free-standing block.
-
-    Raises:
-        VolfrepError: the counts make no sense.
-    """
-    cells, where = _block_setting(spec, count)
-    active = np.ones(cells.shape, bool)
-    graph = cell_graph(spec.unit_cell(), active, spec.cell_size, cells.origin, cells.periodic)
-    return graded_wireframe(graph, spec, where)
-
-
-def _block_setting(spec: LatticeSpec, count: Sequence[int]) -> tuple[CellGrid, Setting]:
-    """The grid and the setting of a free-standing block, with its counts checked."""
-    shape = tuple(int(n) for n in count)
-    if len(shape) != 3 or min(shape) < 1 or any(n != m for n, m in zip(shape, count, strict=True)):
-        raise VolfrepError(f"The count must be three whole numbers above 0, not {list(count)}.")
-    return block_setting(spec, (shape[0], shape[1], shape[2]))
+    return Result(cleared.mesh, frame, report)
 
 
 def _voxels(
@@ -261,60 +168,6 @@ def _cells_key(cell: UnitCell, spec: LatticeSpec) -> tuple[object, ...]:
         spec.cell_size, spec.origin, spec.activation,
         spec.size_grading, spec.cell_map, spec.orientation, *width,
     )  # fmt: skip
-
-
-def _result(
-    made: Output,
-    graph: Wireframe,
-    cells: CellGrid,
-    active: NDArray[np.bool_],
-    where: Setting,
-    domain_volume: float,
-    spec: LatticeSpec,
-    monitor: Monitor,
-    skin_volume: float = 0.0,
-    warnings: tuple[str, ...] = (),
-    thin: Thinned | None = None,
-) -> Result:
-    cleared, measured, drained = made.cleared, made.measured, made.drained
-    if drained is not None:
-        warnings += drained.warnings
-        skin_volume -= drained.volume
-    elif spec.open_faces:
-        warnings += trapped(measured.voids)
-    size = sizes(cells, active, where.chart, graph)
-    report = Report(
-        cells_total=cells.cells,
-        cells_active=int(active.sum()),
-        grid=cells.shape,
-        nodes=len(graph.nodes),
-        struts=len(graph.struts),
-        cell_edges_mm=size.cell_edges,
-        strut_lengths_mm=size.strut_lengths,
-        strut_radii_mm=size.strut_radii,
-        triangles=measured.triangles,
-        vertices=measured.vertices,
-        bodies=measured.bodies,
-        voids=measured.voids,
-        genus=measured.genus,
-        volume_mm3=measured.volume,
-        area_mm2=measured.area,
-        domain_volume_mm3=domain_volume,
-        relative_density=(measured.volume - skin_volume) / domain_volume,
-        mass_g=measured.volume * spec.density / 1000.0,
-        watertight=measured.watertight,
-        struts_dangling_removed=thin.left.dangling if thin is not None else 0,
-        stubs_removed=thin.left.stubs if thin is not None else 0,
-        pieces_removed=cleared.pieces_removed,
-        specks_removed=cleared.specks_removed,
-        drain_holes=drained.places if drained is not None else (),
-        stages=dict(monitor.stages),
-        stage_memory_mb=dict(monitor.memory_mb),
-        peak_memory_mb=peak_memory_mb(),
-        spec=spec.as_dict(),
-        warnings=warnings,
-    )
-    return Result(cleared.mesh, graph, report)
 
 
 def _fingerprint(mesh: TriangleMesh) -> str:

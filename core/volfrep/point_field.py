@@ -5,13 +5,16 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.spatial import cKDTree
 
 from .errors import VolfrepError
 from .point_files import read_points
+
+if TYPE_CHECKING:
+    from scipy.spatial import cKDTree
 
 Floats = NDArray[np.float64]
 
@@ -54,19 +57,22 @@ class PointField:
                 f"A field needs points (n, 3) and a value for each, not arrays of shapes "
                 f"{points.shape} and {values.shape}."
             )
+        name = f"The field '{self.source}'" if self.source else "The field"
         if not len(points):
-            raise VolfrepError("The field has no points: give at least one.")
+            raise VolfrepError(f"{name} has no points: give at least one.")
         bad = np.flatnonzero(~np.isfinite(points).all(axis=1) | ~np.isfinite(values))
         if len(bad):
-            raise VolfrepError(f"Point {bad[0]} of the field holds a number that is not finite.")
+            raise VolfrepError(f"{name} holds a number that is not finite, at point {bad[0]}.")
         if np.abs(points).max() > FARTHEST:
             raise VolfrepError(
-                f"The field's points lie up to {np.abs(points).max():.3g} mm from the origin: "
+                f"{name} has points up to {np.abs(points).max():.3g} mm from the origin: "
                 f"the limit is {FARTHEST:g} mm."
             )
         points, values = _merge(points, values)
         object.__setattr__(self, "points", points)
         object.__setattr__(self, "values", values)
+        from scipy.spatial import cKDTree  # slow to import, and most jobs have no field
+
         object.__setattr__(self, "_tree", cKDTree(points))
 
     @property

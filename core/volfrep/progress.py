@@ -26,7 +26,7 @@ class Monitor:
     """One run's progress: forwards to the callback, raises on cancel, times every stage.
 
     ``stages`` maps a stage's name to its seconds, ``memory_mb`` to the process's peak resident
-    memory in MB at its end.
+    memory in MB at its end, ``work`` what was done, by its name, to how often.
     """
 
     def __init__(self, callback: ProgressCallback | None = None) -> None:
@@ -37,6 +37,7 @@ class Monitor:
         self._fraction = 0.0
         self.stages: dict[str, float] = {}
         self.memory_mb: dict[str, float] = {}
+        self.work: dict[str, int] = {}
 
     @contextmanager
     def stage(self, name: str, low: float, high: float) -> Iterator[Monitor]:
@@ -49,6 +50,10 @@ class Monitor:
         finally:
             self.stages[name] = self.stages.get(name, 0.0) + time.perf_counter() - start
             self.memory_mb[name] = peak_memory_mb()
+
+    def count(self, name: str, amount: int) -> None:
+        """Note that so much more of something was done: a figure that no busy machine blurs."""
+        self.work[name] = self.work.get(name, 0) + amount
 
     def tick(self, fraction: float | None = None) -> None:
         """Say how far the running stage is (0 to 1); raises `Cancelled` when asked to stop."""

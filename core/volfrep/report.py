@@ -37,6 +37,8 @@ class Report:
         drain_holes: where holes go through the skin, on the part's surface, mm.
         stages: seconds by stage.
         stage_memory_mb: peak resident memory at the end of each stage, MB.
+        work: what was done, counted: walls found, kinds of octants meshed, triangles laid,
+            triangles into the Boolean, bytes written; what was not done is not there.
         peak_memory_mb: of the process.
         spec: the specification, as plain values.
         warnings: sentences for the user.
@@ -68,6 +70,7 @@ class Report:
     drain_holes: tuple[tuple[float, float, float], ...]
     stages: dict[str, float]
     stage_memory_mb: dict[str, float]
+    work: dict[str, int]
     peak_memory_mb: float
     spec: dict[str, Any] = field(default_factory=dict)
     warnings: tuple[str, ...] = ()

@@ -18,8 +18,7 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
-from .lattice import Layout, frames
-from .mesh import box_of
+from .lattice import Layout, box, frames
 from .quality import Quality
 from .tile import Octant
 
@@ -52,12 +51,11 @@ class _Kind:
     sound: bool
 
 
-def survey(layout: Layout, vertices: Floats) -> Quality:
+def survey(layout: Layout) -> Quality:
     """Topology, volume and size of the surface of a whole layout.
 
     Args:
         layout: the numbered octants, all of whose facets are the surface.
-        vertices: their coordinates, mm.
 
     Raises:
         RuntimeError: the surface is not closed; the octants do not fit together.
@@ -74,7 +72,7 @@ def survey(layout: Layout, vertices: Floats) -> Quality:
     links = _fit_together(layout, kinds, first)
     if not all(kind.sound for kind in kinds):
         raise RuntimeError("an octant of the lattice is not a proper piece of surface")
-    bounds = box_of(vertices)
+    bounds = box(layout)
     graph = coo_matrix((np.ones(len(links), bool), links.T), shape=(total, total))
     shells, label = connected_components(graph, directed=False)
     volume = np.zeros(shells)

@@ -23,6 +23,7 @@ from .octant import (
     sample_octant,
 )
 from .progress import Monitor
+from .spec import LatticeSpec
 from .surface import Surface
 
 #: The sampling step is at most this, in units of r: no strut slips between the samples.
@@ -32,6 +33,9 @@ COARSEST_STEP = 0.75
 NEAR_EDGES = 3.0
 #: An octant's mesh does not depend on struts farther from it than this, in wanted edges.
 INFLUENCE_EDGES = 2.0
+#: Vertices lie at whole steps of an octant's edge over this, so that octants which share a vertex
+#: can give it the very same coordinates.
+STEPS = float(1 << 26)
 #: Pieces are meshed together up to about this many vertices.
 BATCH_VERTICES = 150_000
 
@@ -71,12 +75,17 @@ class TileSpec:
         return math.ceil(0.5 * max(self.facets, finest))
 
 
+def tile_spec(spec: LatticeSpec) -> TileSpec:
+    """What the octants of a lattice are meshed for."""
+    return TileSpec(spec.cell_size, spec.template_radius, spec.fillet, spec.facets_along_cell)
+
+
 @dataclass(frozen=True, eq=False)
 class Octant:
     """The finished surface inside one octant, in the octant's frame.
 
     Attributes:
-        vertices: (n, 3) float64, mm.
+        vertices: (n, 3) float64, mm, in whole steps (`STEPS`).
         triangles: (m, 3) int32, counter-clockwise seen from outside.
         entity: (n,) int8, 9 px + 3 py + pz with p 0 on the low face, 1 between, 2 on the high
             face: which face or edge of the octant the vertex is shared on; 13 inside.
@@ -103,6 +112,7 @@ def mesh_octants(
     """Mesh the octants of the given keys."""
     result: dict[OctantKey, Octant] = {}
     todo = list(dict.fromkeys(keys))
+    monitor.count("kinds of octants meshed", len(todo))
     done = 0
     while todo:
         batch = _Batch.of(cell, spec, todo)
@@ -117,12 +127,13 @@ def mesh_octants(
 
 @dataclass(frozen=True, eq=False)
 class _Batch:
-    """Raw octants laid into one surface; `piece` tells whose each vertex is."""
+    """Raw octants laid into one surface, and the step that their vertices are rounded to."""
 
     keys: list[OctantKey]
     raw: list[RawOctant]
     solid_corners: list[NDArray[np.bool_]]
     surface: Surface
+    step: float
 
     @staticmethod
     def of(cell: UnitCell, spec: TileSpec, keys: Sequence[OctantKey]) -> _Batch:
@@ -169,7 +180,7 @@ class _Batch:
             spec.edge,
             0.5 * spec.cell_size / spec.steps,
         )
-        return _Batch(used, raw, solid, whole)
+        return _Batch(used, raw, solid, whole, 0.5 * spec.cell_size / STEPS)
 
     def piece_of(self, vertices: Ints) -> Ints:
         """Which of the octants each of the raw surface's vertices belongs to."""
@@ -189,7 +200,7 @@ class _Batch:
             part = slice(begin[k], begin[k + 1])
             source = origin[part] - first[k]
             entity = piece.place[source].astype(np.int64) @ np.array([9, 3, 1])
-            vertices = refined.vertices[part]
+            vertices = np.rint(refined.vertices[part] / self.step) * self.step
             triangles = refined.triangles[order[cuts[k] : cuts[k + 1]]] - begin[k]
             result[key] = Octant(
                 vertices,

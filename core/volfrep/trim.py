@@ -24,6 +24,7 @@ from .mesh import TriangleMesh, compact
 from .octant import OctantKey, Periodic, wrapped
 from .progress import Monitor
 from .quality import Inspection
+from .spec import LatticeSpec
 from .tile import Octant
 from .voxels import CellGrid, crossed_cells, inside_cells, inside_points, wall_corners
 
@@ -176,6 +177,7 @@ def trim(
             f"The domain's surface cannot be cut ({wall.status().name}): repair the part's mesh."
         )
     capped = compact(TriangleMesh(points, np.concatenate([surface, caps])))
+    monitor.count("triangles into the Boolean", len(capped.triangles) + len(domain.triangles))
     ids = manifold3d.Manifold.reserve_ids(2)
     cutter = _solid(capped, [len(surface), len(caps)], monitor, ids)
     if cutter.status() != manifold3d.Error.NoError:
@@ -343,6 +345,11 @@ class Cleared:
     mesh: TriangleMesh
     pieces_removed: int
     specks_removed: int
+
+
+def smallest_shell(spec: LatticeSpec) -> float:
+    """Volume of half a facet's edge cubed, mm3: no shell smaller than that is meant."""
+    return (0.5 * spec.cell_size / spec.facets_along_cell) ** 3
 
 
 def clear(

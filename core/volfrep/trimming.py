@@ -21,14 +21,14 @@ from .frep import Floats
 from .graded import Ground, Setting, keeps_places, vertices_of
 from .incidence import without_struts
 from .lattice import Layout, facets, used_kinds
-from .limits import refuse_too_large
+from .limits import cells_are_full, refuse_solid_cells, refuse_too_large
 from .mesh import TriangleMesh, compact, concatenate
 from .octant import OctantKey
 from .progress import Monitor
 from .quality import Quality, combined, inspect, measure
 from .spec import LatticeSpec
-from .tile import Octant, TileSpec, mesh_octants
-from .trim import Cleared, Kept, clear, keep, keep_all, octant_roles, trim
+from .tile import Octant, mesh_octants, tile_spec
+from .trim import Cleared, Kept, clear, keep, keep_all, octant_roles, smallest_shell, trim
 from .wireframe import CellGraph, Wireframe
 
 Bools = NDArray[np.bool_]
@@ -166,7 +166,7 @@ class Trimming:
         cleared = clear(mesh, found, smallest, floating=with_skin, bodies=bodies)
         if not len(cleared.mesh.triangles):
             if with_skin:
-                raise _cells_are_full(spec)
+                raise cells_are_full(spec)
             raise VolfrepError(
                 "No strut lies inside the part: reduce the cell size or move the origin."
             )
@@ -238,33 +238,10 @@ class Trimming:
         return Output(cleared, found.quality if same else measure(cleared.mesh, monitor), None)
 
 
-def tile_spec(spec: LatticeSpec) -> TileSpec:
-    """What the octants of a lattice are meshed for."""
-    return TileSpec(spec.cell_size, spec.template_radius, spec.fillet, spec.facets_along_cell)
-
-
-def smallest_shell(spec: LatticeSpec) -> float:
-    """Volume of half a facet's edge cubed, mm3: no shell smaller than that is meant."""
-    return (0.5 * spec.cell_size / spec.facets_along_cell) ** 3
-
-
-def refuse_solid_cells(octants: dict[OctantKey, Octant], spec: LatticeSpec) -> None:
-    """Raise a `VolfrepError` where no octant has a surface: struts fill everything."""
-    if not any(len(octant.triangles) for octant in octants.values()):
-        raise _cells_are_full(spec)
-
-
 def _nothing_holds() -> VolfrepError:
     return VolfrepError(
         "No strut reaches the skin, so that nothing would hold the lattice: reduce the cell size "
         "or choose the activation 'touching'."
-    )
-
-
-def _cells_are_full(spec: LatticeSpec) -> VolfrepError:
-    return VolfrepError(
-        f"Struts of radius {spec.strut_radius:g} mm fill cells of {spec.cell_size:g} mm "
-        "completely: reduce the radius or enlarge the cells."
     )
 
 

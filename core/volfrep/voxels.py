@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage
 
 from .errors import VolfrepError
 from .mapping import LatticeMap, triangles_in_lattice
@@ -142,6 +141,8 @@ def active_cells(
     if usable is not None:
         active &= usable
     if rule == "centre":
+        from scipy import ndimage  # slow to import
+
         modes = ["wrap" if closed else "constant" for closed in grid.periodic]
         around = active.astype(np.int32)
         for axis, mode in enumerate(modes):

@@ -15,9 +15,9 @@ from .lattice_infill import LatticeInfill
 from .progress import progress_of
 
 if TYPE_CHECKING:
+    from volfrep.cache import StageCache
     from volfrep.estimate import Estimate
     from volfrep.mesh import TriangleMesh
-    from volfrep.pipeline import StageCache
     from volfrep.spec import LatticeSpec
     from volfrep.wireframe import Wireframe
 

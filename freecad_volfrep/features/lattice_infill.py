@@ -19,8 +19,9 @@ from .properties import CUSTOM_CELL, PROPERTIES, ensure_properties
 
 if TYPE_CHECKING:
     from volfrep import LatticeSpec
+    from volfrep.cache import StageCache
     from volfrep.mesh import TriangleMesh
-    from volfrep.pipeline import Result, StageCache
+    from volfrep.result import Result
 
 UP_TO_DATE = "Up to date"
 OUT_OF_DATE = "Out of date: AutoUpdate is off, use Update Lattice Infill"
@@ -166,8 +167,8 @@ class LatticeInfill:
             VolfrepError: a property makes no sense, or there is no solid.
         """
         from freecad_volfrep.bridge.solids import SolidReader, parent_placement
+        from volfrep.cache import StageCache
         from volfrep.errors import VolfrepError
-        from volfrep.pipeline import StageCache
 
         spec = spec_of(obj)
         if obj.Base is None:

@@ -437,7 +437,7 @@ def test_not_enough_memory(
     def greedy(*_: Any, **__: Any) -> None:
         raise MemoryError
 
-    monkeypatch.setattr("volfrep.pipeline.block", greedy)
+    monkeypatch.setattr("volfrep.blocks.write_block_stl", greedy)
     arguments = ["block", "-o", tmp_path / "x.stl", *LATTICE, "--count", "1", "1", "1"]
     assert "not enough memory" in refused(capsys, *arguments)
 
@@ -500,12 +500,12 @@ def test_openings_that_make_no_sense(
 def test_a_defect_is_one_sentence_and_its_traceback_a_file(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    import volfrep.pipeline
+    import volfrep.blocks
 
     def broken(*_: object, **__: object) -> None:
         raise ZeroDivisionError("by accident")
 
-    monkeypatch.setattr(volfrep.pipeline, "block", broken)
+    monkeypatch.setattr(volfrep.blocks, "write_block_stl", broken)
     monkeypatch.setenv("TMPDIR", str(tmp_path))
     monkeypatch.setattr("tempfile.tempdir", None)
     out = tmp_path / "block.stl"

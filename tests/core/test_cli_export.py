@@ -56,7 +56,7 @@ def test_beams_take_no_mesh(
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    monkeypatch.setattr("volfrep.pipeline.mesh_octants", None)
+    monkeypatch.setattr("volfrep.blocks.mesh_octants", None)
     monkeypatch.setattr("volfrep.trimming.mesh_octants", None)
     assert block(tmp_path / "block.3mf", "--3mf", "beams") == 0
     assert re.search(r"struts +20 between 12 nodes, as beams", capsys.readouterr().out)

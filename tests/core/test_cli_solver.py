@@ -61,7 +61,7 @@ def test_axes_take_no_mesh(
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    monkeypatch.setattr("volfrep.pipeline.mesh_octants", None)
+    monkeypatch.setattr("volfrep.blocks.mesh_octants", None)
     monkeypatch.setattr("volfrep.trimming.mesh_octants", None)
     assert block(tmp_path / "axes.step", "--step", "wireframe") == 0
     assert (tmp_path / "axes.step").read_text().count("POLYLINE(") == 16

@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 
 import samples
+from volfrep import block, fill
 from volfrep.coarse import coarse_likeness, outside_and_cavities
 from volfrep.distance import closest_points
-from volfrep.pipeline import block, fill
 from volfrep.spec import LatticeSpec
 
 

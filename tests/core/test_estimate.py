@@ -9,6 +9,7 @@ import pytest
 
 from volfrep import LatticeSpec
 from volfrep.beam_elements import beam_model
+from volfrep.blocks import block_wireframe
 from volfrep.errors import VolfrepError
 from volfrep.estimate import (
     MOST_BEAMS,
@@ -19,7 +20,6 @@ from volfrep.estimate import (
     estimate_faceted,
     estimate_tetrahedra,
 )
-from volfrep.pipeline import block_wireframe
 
 SPEC = LatticeSpec(cell="CVC", cell_size=10, strut_radius=1, resolution=20)
 

@@ -5,11 +5,11 @@ import numpy as np
 import pytest
 
 import samples
+from volfrep import block, fill
 from volfrep.cells import LIBRARY
 from volfrep.forecast import Forecast, expected_triangles, forecast_block, forecast_fill
 from volfrep.grading import SizeGrading
 from volfrep.law import Law
-from volfrep.pipeline import block, fill
 from volfrep.spec import LatticeSpec
 
 #: Promised for triangles, cells and struts: a third to either side, and a little for small parts.

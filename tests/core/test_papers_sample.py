@@ -14,11 +14,11 @@ import pytest
 
 from volfrep import LatticeSpec, block
 from volfrep.beam_elements import beam_model
+from volfrep.blocks import block_wireframe
 from volfrep.errors import VolfrepError
 from volfrep.export.calculix import StaticStep, write_beams, write_tetrahedra
 from volfrep.freecad_process import write_exact_step
 from volfrep.joint_loads import balls_of, joint_displacements, joint_step
-from volfrep.pipeline import block_wireframe
 from volfrep.solver import solve
 from volfrep.tetrahedra import TetrahedralMesh, tetrahedra
 

@@ -8,11 +8,10 @@ import pytest
 from scipy.spatial import cKDTree
 
 import samples
-from volfrep import quality
+from volfrep import block, fill, quality
 from volfrep.errors import VolfrepError
 from volfrep.export.stl import as_read
 from volfrep.mesh import TriangleMesh, concatenate
-from volfrep.pipeline import block, fill
 from volfrep.reduce import reduce_triangles
 from volfrep.spec import LatticeSpec
 

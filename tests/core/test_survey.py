@@ -8,7 +8,7 @@ import pytest
 
 from volfrep import quality
 from volfrep.cells import LIBRARY, make_cell
-from volfrep.lattice import coordinates, lay, lay_out, octant_grid
+from volfrep.lattice import lay, lay_out, octant_grid
 from volfrep.progress import Monitor
 from volfrep.survey import survey
 from volfrep.tile import TileSpec, mesh_octants
@@ -28,7 +28,7 @@ def test_the_survey_agrees_with_the_measure(cell, share):
     active = np.random.default_rng(3).random((3, 4, 2)) <= share
     layout = layout_of(cell, active)
     mesh = lay(layout, Monitor())
-    surveyed, measured = survey(layout, mesh.vertices), quality.measure(mesh)
+    surveyed, measured = survey(layout), quality.measure(mesh)
     for name in ("triangles", "vertices", "watertight", "shells", "bodies", "voids", "genus"):
         assert getattr(surveyed, name) == getattr(measured, name), name
     assert surveyed.volume == pytest.approx(measured.volume, rel=1e-9)
@@ -42,7 +42,7 @@ def test_an_octant_with_a_hole_is_found():
     holed = replace(layout.octants[key], triangles=layout.octants[key].triangles[1:])
     layout = replace(layout, octants={**layout.octants, key: holed})
     with pytest.raises(RuntimeError):
-        survey(layout, coordinates(layout, Monitor()))
+        survey(layout)
 
 
 def test_octants_that_do_not_fit_together_are_found():
@@ -52,4 +52,4 @@ def test_octants_that_do_not_fit_together_are_found():
     grid = replace(layout.grid, kind=kind)
     layout = lay_out(grid, layout.octants)
     with pytest.raises(RuntimeError, match="fit together"):
-        survey(layout, coordinates(layout, Monitor()))
+        survey(layout)

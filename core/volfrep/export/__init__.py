@@ -5,27 +5,26 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
+from importlib import import_module
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from ..errors import VolfrepError
-from ..mesh import TriangleMesh
-from ..progress import Monitor
-from .obj import write_obj
-from .ply import write_ply
-from .step_faceted import write_step_faceted
-from .stl import write_stl
-from .threemf import write_3mf
 
-MeshWriter = Callable[[TriangleMesh, "str | os.PathLike[str]", "Monitor | None"], None]
+if TYPE_CHECKING:
+    from ..mesh import TriangleMesh
+    from ..progress import Monitor
 
-#: Writers by extension. A new format is one more line here.
-MESH_WRITERS: dict[str, MeshWriter] = {
-    ".stl": write_stl,
-    ".3mf": write_3mf,
-    ".ply": write_ply,
-    ".obj": write_obj,
-    ".step": write_step_faceted,
-    ".stp": write_step_faceted,
+MeshWriter = Callable[["TriangleMesh", "str | os.PathLike[str]", "Monitor | None"], None]
+
+#: Modules and functions by extension, imported when used. A new format is one more line here.
+MESH_WRITERS: dict[str, tuple[str, str]] = {
+    ".stl": ("stl", "write_stl"),
+    ".3mf": ("threemf", "write_3mf"),
+    ".ply": ("ply", "write_ply"),
+    ".obj": ("obj", "write_obj"),
+    ".step": ("step_faceted", "write_step_faceted"),
+    ".stp": ("step_faceted", "write_step_faceted"),
 }
 
 
@@ -36,13 +35,15 @@ def mesh_writer(path: str | os.PathLike[str]) -> MeshWriter:
         VolfrepError: listing the known extensions.
     """
     extension = Path(path).suffix
-    writer = MESH_WRITERS.get(extension.lower())
-    if writer is None:
+    home = MESH_WRITERS.get(extension.lower())
+    if home is None:
         named = f"the extension '{extension}'" if extension else "a name without an extension"
         raise VolfrepError(
             f"Cannot write '{path}': {named} is not a known mesh format, "
             f"use {' or '.join(MESH_WRITERS)}."
         )
+    module, function = home
+    writer: MeshWriter = getattr(import_module(f".{module}", __name__), function)
     return writer
 
 

@@ -37,17 +37,28 @@ def check_writable(path: str | os.PathLike[str]) -> Path:
 
 
 @contextmanager
-def replacing(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
+def replacing(path: str | os.PathLike[str], size: int = 0) -> Iterator[BinaryIO]:
     """A binary file to write, which takes the target's place only when the block succeeds.
 
     It is written beside the target (beside what a link points at); after an error or an
     interruption it is removed, and whatever the target held before is untouched.
 
+    Args:
+        path: of the target.
+        size: bytes that will be written at least, where that is known.
+
     Raises:
-        VolfrepError: naming the target and why it cannot be written (a full disk included).
+        VolfrepError: naming the target and why it cannot be written (a full disk included, before
+            anything is written where the size is known).
     """
     target = check_writable(path)
     real = target.resolve()
+    free = shutil.disk_usage(real.parent).free
+    if size > free:
+        raise VolfrepError(
+            f"Cannot write '{target}': it will have {size / 1e9:.3g} GB and the disk has "
+            f"{free / 1e9:.3g} GB left; free some, or use a coarser resolution or fewer cells."
+        )
     part = real.with_name(f".volfrep-{secrets.token_hex(4)}.part")
     try:
         try:

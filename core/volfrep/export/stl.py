@@ -5,13 +5,15 @@ from __future__ import annotations
 
 import os
 from collections import deque
-from collections.abc import Iterator
-from concurrent.futures import Future, ThreadPoolExecutor
+from collections.abc import Callable, Iterable
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from itertools import islice
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..errors import VolfrepError
 from ..mesh import TriangleMesh, compact
 from ..progress import Monitor
 from .files import replacing
@@ -20,6 +22,10 @@ from .precision import refuse_lost_corners, single_precision
 HEADER_BYTES = 80
 #: One facet as it lies in the file.
 FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+#: Facets as they lie in the file: (m,) of `FACET`.
+Facets = NDArray[np.void]
+#: The file counts its facets in 32 bits.
+MOST_FACETS = int(np.iinfo(np.uint32).max)
 #: Facets prepared at once by each thread (bounds the memory).
 BLOCK_FACETS = 1 << 16
 
@@ -40,28 +46,65 @@ def write_stl(
         Cancelled: when the monitor says so; no file is left behind.
     """
     vertices = single_precision(mesh, path)
-    count = len(mesh.triangles)
+    starts = range(0, len(mesh.triangles), BLOCK_FACETS)
+    write_facets(
+        path,
+        len(mesh.triangles),
+        (
+            partial(_facets, vertices, mesh.triangles[start : start + BLOCK_FACETS], path)
+            for start in starts
+        ),
+        monitor,
+    )
+
+
+def write_facets(
+    path: str | os.PathLike[str],
+    count: int,
+    blocks: Iterable[Callable[[], Facets]],
+    monitor: Monitor | None,
+) -> None:
+    """Write a binary STL of blocks of facets, each made when its turn comes near.
+
+    Args:
+        path: of the file; an old file stays if anything goes wrong.
+        count: of all the facets.
+        blocks: called on all cores, a few blocks ahead of what is written.
+        monitor: told the progress, asked for a cancel.
+
+    Raises:
+        VolfrepError: there are more facets than the format can count, or the path cannot be
+            written.
+        Cancelled: when the monitor says so; no file is left behind.
+    """
+    if count > MOST_FACETS:
+        raise VolfrepError(
+            f"Cannot write '{path}': an STL file holds at most {MOST_FACETS:,} triangles, and "
+            f"there are {count:,}; use a coarser resolution or fewer cells."
+        )
     threads = os.cpu_count() or 1
-    starts = iter(range(0, count, BLOCK_FACETS))
-    with replacing(path) as file, ThreadPoolExecutor(max_workers=threads) as pool:
-
-        def prepare() -> Iterator[Future[NDArray[np.void]]]:
-            for start in islice(starts, 1):
-                block = mesh.triangles[start : start + BLOCK_FACETS]
-                yield pool.submit(_facets, vertices, block, path)
-
+    waiting = iter(blocks)
+    with (
+        replacing(path, HEADER_BYTES + 4 + FACET.itemsize * count) as file,
+        ThreadPoolExecutor(max_workers=threads) as pool,
+    ):
         file.write(b"binary STL, mm".ljust(HEADER_BYTES, b" "))
         file.write(np.array(count, "<u4").tobytes())
         # A few blocks ahead, so that the threads work on while a block is written.
-        ahead = deque(future for _ in range(2 * threads) for future in prepare())
+        ahead = deque(pool.submit(block) for block in islice(waiting, 2 * threads))
         written = 0
-        while ahead:
-            facets = ahead.popleft().result()
-            ahead.extend(prepare())
-            file.write(facets.data)
-            written += len(facets)
-            if monitor is not None:
-                monitor.tick(written / count)
+        try:
+            while ahead:
+                facets = ahead.popleft().result()
+                ahead.extend(pool.submit(block) for block in islice(waiting, 1))
+                file.write(facets.data)
+                written += len(facets)
+                if monitor is not None:
+                    monitor.count("bytes written", facets.nbytes)
+                    monitor.tick(written / count)
+        finally:
+            for future in ahead:
+                future.cancel()
 
 
 def merge_corners(corners: NDArray[np.float32]) -> TriangleMesh:
@@ -84,7 +127,7 @@ def as_read(mesh: TriangleMesh) -> TriangleMesh:
 
 def _facets(
     vertices: NDArray[np.float32], triangles: NDArray[np.int32], path: str | os.PathLike[str]
-) -> NDArray[np.void]:
+) -> Facets:
     facets = np.zeros(len(triangles), FACET)
     corners = vertices[triangles]
     facets["corners"] = corners

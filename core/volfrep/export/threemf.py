@@ -11,10 +11,10 @@ from __future__ import annotations
 import os
 import zipfile
 from collections.abc import Iterator
+from html import escape
 from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING
-from xml.sax.saxutils import escape
 
 import numpy as np
 from numpy.typing import NDArray

@@ -1,0 +1,188 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Free-standing blocks of whole cells, with full round struts on their outside."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from .errors import VolfrepError
+from .export.stl import write_stl
+from .export.stl_octants import keeps_corners, write_octants_stl
+from .forecast import BYTES_PER_STREAMED_CELL
+from .graded import Setting, block_setting, graded_wireframe, vertices_of
+from .lattice import Layout, facets, lay_out, octant_grid
+from .limits import (
+    refuse_expected,
+    refuse_memory,
+    refuse_solid_cells,
+    refuse_too_large,
+)
+from .mesh import TriangleMesh
+from .progress import Monitor, ProgressCallback, peak_memory_mb
+from .quality import Quality, inspect, measure
+from .report import Report
+from .result import NOTHING_REMOVED, Result, report_of
+from .sizes import mapped_volume
+from .spec import LatticeSpec
+from .survey import survey
+from .tile import mesh_octants, tile_spec
+from .voxels import CellGrid
+from .wireframe import CellGraph, Wireframe, cell_graph
+
+
+@dataclass(frozen=True, eq=False)
+class _Laid:
+    """The octants of a block, laid, and what they stand on."""
+
+    cells: CellGrid
+    where: Setting
+    layout: Layout
+    graph: CellGraph
+
+
+def block(
+    spec: LatticeSpec,
+    count: Sequence[int],
+    *,
+    progress: ProgressCallback | None = None,
+) -> Result:
+    """A free-standing block of whole cells.
+
+    Args:
+        spec: what to make; only cell, sizes, grading, fillet, resolution, origin and density
+            count.
+        count: cells along x, y, z.
+        progress: called with the fraction done and the stage; returning False cancels.
+
+    Raises:
+        VolfrepError: the counts make no sense or the block would not fit into memory.
+        Cancelled: the callback said so.
+    """
+    monitor = Monitor(progress)
+    cells, where = _block_setting(spec, count)
+    refuse_expected(spec, float(np.prod(cells.shape, dtype=float)) * spec.cell_size**3)
+    laid = _lay(spec, cells, where, monitor, whole=True)
+    cell, layout = spec.unit_cell(), laid.layout
+    with monitor.stage("lattice", 0.4, 0.8):
+        given = vertices_of(layout, lambda: laid.graph, cell, spec, tile_spec(spec), where, monitor)
+        mesh = TriangleMesh(given.vertices, facets(layout, monitor))
+    removed = dict(NOTHING_REMOVED)
+    with monitor.stage("check", 0.8, 1.0):
+        measured = measure(mesh, monitor) if spec.is_graded else survey(layout)
+        if measured.shells > 1:
+            from .trim import clear, smallest_shell  # of no use to most blocks, and slow to import
+
+            cleared = clear(mesh, inspect(mesh, monitor), smallest_shell(spec))
+            mesh = cleared.mesh
+            measured = measure(mesh, monitor)
+            removed["pieces_removed"] = cleared.pieces_removed
+            removed["specks_removed"] = cleared.specks_removed
+    frame = graded_wireframe(laid.graph, spec, where)
+    report = _report(laid, measured, frame, spec, monitor, removed)
+    return Result(mesh, frame, report)
+
+
+def write_block_stl(
+    spec: LatticeSpec,
+    count: Sequence[int],
+    path: str | os.PathLike[str],
+    *,
+    progress: ProgressCallback | None = None,
+) -> Report:
+    """A free-standing block straight into a binary STL.
+
+    Equal cells are written octant by octant, so that the memory does not grow with the triangles;
+    graded ones, whose octants all differ, are meshed as a whole first.
+
+    Args:
+        spec: what to make, as for `block`.
+        count: cells along x, y, z.
+        path: of the file; an old file stays if anything goes wrong.
+        progress: called with the fraction done and the stage; returning False cancels.
+
+    Raises:
+        VolfrepError: the counts make no sense, the block would not fit into memory or onto the
+            disk, or the path cannot be written.
+        Cancelled: the callback said so; no file is left behind.
+    """
+    cells, where = _block_setting(spec, count)
+    if not spec.is_graded:
+        refuse_memory(spec, 0, other=cells.cells * BYTES_PER_STREAMED_CELL)
+        monitor = Monitor(progress)
+        laid = _lay(spec, cells, where, monitor, whole=False)
+        with monitor.stage("check", 0.4, 0.5):
+            measured = survey(laid.layout)
+            streams = measured.shells == 1 and keeps_corners(laid.layout)
+        if streams:
+            monitor.count("triangles laid", laid.layout.triangles)
+            with monitor.stage("write", 0.5, 1.0):
+                write_octants_stl(laid.layout, path, monitor)
+            frame = graded_wireframe(laid.graph, spec, where)
+            return _report(laid, measured, frame, spec, monitor, NOTHING_REMOVED)
+    result = block(spec, count, progress=progress)
+    start = time.perf_counter()
+    write_stl(result.mesh, path)
+    stages = {**result.report.stages, "write": time.perf_counter() - start}
+    return replace(result.report, stages=stages, peak_memory_mb=peak_memory_mb())
+
+
+def block_wireframe(spec: LatticeSpec, count: Sequence[int]) -> Wireframe:
+    """The nodes and struts of a free-standing block.
+
+    Raises:
+        VolfrepError: the counts make no sense.
+    """
+    cells, where = _block_setting(spec, count)
+    active = np.ones(cells.shape, bool)
+    graph = cell_graph(spec.unit_cell(), active, spec.cell_size, cells.origin, cells.periodic)
+    return graded_wireframe(graph, spec, where)
+
+
+def _block_setting(spec: LatticeSpec, count: Sequence[int]) -> tuple[CellGrid, Setting]:
+    """The grid and the setting of a free-standing block, with its counts checked."""
+    shape = tuple(int(n) for n in count)
+    if len(shape) != 3 or min(shape) < 1 or any(n != m for n, m in zip(shape, count, strict=True)):
+        raise VolfrepError(f"The count must be three whole numbers above 0, not {list(count)}.")
+    return block_setting(spec, (shape[0], shape[1], shape[2]))
+
+
+def _lay(
+    spec: LatticeSpec, cells: CellGrid, where: Setting, monitor: Monitor, *, whole: bool
+) -> _Laid:
+    """The octants of a block; `whole`: refuse one whose mesh would not fit into memory."""
+    cell = spec.unit_cell()
+    active = np.ones(cells.shape, bool)
+    with monitor.stage("tile", 0.0, 0.4):
+        grid = octant_grid(cell, active, spec.cell_size, cells.origin, cells.periodic)
+        octants = mesh_octants(cell, tile_spec(spec), grid.keys, monitor)
+        refuse_solid_cells(octants, spec)
+        if whole:
+            refuse_too_large(spec, grid, octants, None)
+        layout = lay_out(grid, octants)
+    graph = cell_graph(cell, active, spec.cell_size, cells.origin, cells.periodic)
+    return _Laid(cells, where, layout, graph)
+
+
+def _report(
+    laid: _Laid,
+    measured: Quality,
+    frame: Wireframe,
+    spec: LatticeSpec,
+    monitor: Monitor,
+    removed: Mapping[str, Any],
+) -> Report:
+    cells, chart = laid.cells, laid.where.chart
+    volume = float(np.prod(cells.shape, dtype=float)) * spec.cell_size**3
+    if chart is not None and not chart.is_rigid:
+        volume = mapped_volume(cells, chart)
+    active = np.ones(cells.shape, bool)
+    return report_of(
+        measured, frame, cells, active, laid.where, spec, monitor,
+        domain_volume=volume, removed=removed,
+    )  # fmt: skip

@@ -23,20 +23,23 @@ class VolfrepWorkbench(Gui.Workbench):
         import FreeCAD as App
 
         from freecad_volfrep.deps import explain_missing, missing_packages
-        from freecad_volfrep.gui.commands import register_commands
+        from freecad_volfrep.gui.commands import EXAMPLES, TOOLBARS, register_commands
 
-        names = register_commands()
-        self.appendToolbar("VOLFREP", names)
-        self.appendMenu("&VOLFREP", names)
+        register_commands()
+        for title, names in TOOLBARS.items():
+            self.appendToolbar(title, names)
+            self.appendMenu("&VOLFREP", [*names, "Separator"])
+        self.appendMenu(["&VOLFREP", "Examples"], EXAMPLES)
+        self.appendMenu("&VOLFREP", ["Separator", "VOLFREP_Help"])
         missing = missing_packages()
         if missing:
             App.Console.PrintError(explain_missing(missing) + "\n")
 
     def ContextMenu(self, recipient):  # noqa: N802
-        """Offer the commands in the context menu of the view and the tree."""
-        from freecad_volfrep.gui.commands import COMMANDS
+        """Offer the commands that apply in the context menu of the view and the tree."""
+        from freecad_volfrep.gui.commands import applicable_commands
 
-        self.appendContextMenu("VOLFREP", list(COMMANDS))
+        self.appendContextMenu("VOLFREP", applicable_commands())
 
     def GetClassName(self):  # noqa: N802
         """Tell FreeCAD that this is a workbench written in Python."""

@@ -406,40 +406,11 @@ def _cells(_: argparse.Namespace) -> None:
 
 
 def _check(options: argparse.Namespace) -> None:
-    from .export.stl import as_read
-    from .quality import measure, pinched_vertices, shape_statistics
+    from .mesh_report import mesh_report
     from .solid import read_triangles
 
-    mesh = as_read(read_triangles(options.file, options.unit))
-    quality = measure(mesh)
-    pinched = pinched_vertices(mesh)
-    closed = quality.open_edges == 0
-    defects = [
-        f"{count:,} {what}"
-        for count, what in (
-            (quality.overused_edges, "edges of more than two triangles"),
-            (quality.misoriented_edges, "edges between triangles of opposite orientation"),
-            (quality.degenerate_triangles, "degenerate triangles"),
-            (pinched, "vertices where surfaces touch"),
-        )
-        if count
-    ]
-    low, high = quality.bounds
-    print_rows(
-        ("file", str(options.file)),
-        ("triangles", f"{quality.triangles:,}"),
-        ("vertices", f"{quality.vertices:,}"),
-        ("closed", _yes(closed) + ("" if closed else f" ({quality.open_edges:,} open edges)")),
-        ("manifold", _yes(closed and not defects) + (f" ({', '.join(defects)})" * bool(defects))),
-        ("bodies", f"{quality.bodies:,}"),
-        ("voids", f"{quality.voids:,}"),
-        *([("genus", str(quality.genus))] if quality.watertight else []),
-        ("volume", f"{quality.volume:,.3f} mm3"),
-        ("area", f"{quality.area:,.3f} mm2"),
-        ("box", " x ".join(f"{side:.3f}" for side in high - low) + " mm"),
-        ("from", ", ".join(f"{value:.3f}" for value in low)),
-        ("smallest angle", f"{shape_statistics(mesh).smallest_angle:.2f} degrees"),
-    )
+    report = mesh_report(read_triangles(options.file, options.unit))
+    print_rows(("file", str(options.file)), *report.rows())
 
 
 def _yes(value: bool) -> str:

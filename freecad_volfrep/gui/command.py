@@ -14,6 +14,7 @@ import FreeCADGui as Gui
 from freecad_volfrep import ICONS
 from freecad_volfrep.deps import explain_missing, missing_packages
 
+from .help_window import page_address
 from .messages import show_error
 
 
@@ -22,22 +23,33 @@ class Command:
     """A command as FreeCAD wants it; active while its selection is there and no panel is open.
 
     Attributes:
+        name: that FreeCAD knows it by; its help page has the same.
         icon: file name.
         text: of the menu.
         tip: of the button.
+        keys: shortcut as FreeCAD writes it, or nothing; none of FreeCAD's own.
         selected: what of the selection the command works on, or None.
         act: is called with that.
     """
 
+    name: str
     icon: str
     text: str
     tip: str
+    keys: str
     selected: Callable[[], Any]
     act: Callable[[Any], None]
 
     def GetResources(self) -> dict[str, str]:  # noqa: N802
-        """Icon and texts."""
-        return {"Pixmap": str(ICONS / self.icon), "MenuText": self.text, "ToolTip": self.tip}
+        """Icon, texts, shortcut, and the address of the help page."""
+        resources = {
+            "Pixmap": str(ICONS / self.icon),
+            "MenuText": self.text,
+            "ToolTip": self.tip,
+            "StatusTip": self.tip,
+            "WhatsThis": page_address(self.name),
+        }
+        return {**resources, "Accel": self.keys} if self.keys else resources
 
     def IsActive(self) -> bool:  # noqa: N802
         """Whether it can be used now."""
@@ -47,7 +59,6 @@ class Command:
         """Do it; where packages are missing, say which."""
         missing = missing_packages()
         if missing:
-            App.Console.PrintError(explain_missing(missing) + "\n")
             show_error(explain_missing(missing))
             return
         self.act(self.selected())

@@ -14,12 +14,14 @@ from freecad_volfrep.deps import missing_packages
 from volfrep.errors import VolfrepError
 
 from .command import Command, undo_step
-from .messages import ask, choose, errors_shown, show_error
+from .messages import ask, choose, errors_shown, tell, tell_error
 from .qt import QtWidgets
 from .selection import (
+    infill_in_view,
     selected_infill,
     selected_infill_and_faces,
     selected_mesh,
+    selected_or_all_infills,
     selected_solids,
 )
 
@@ -91,7 +93,7 @@ def fill_selected(doc: App.Document, bases: list[App.DocumentObject]) -> bool:
             else:
                 failures.append(f"{obj.Label}: {obj.getStatusString()}")
         if failures:
-            show_error("\n".join(failures))
+            tell_error("\n".join(failures))
         return True
     return False
 
@@ -150,13 +152,13 @@ def export(obj: App.DocumentObject) -> None:
         path = str(Path(path).with_suffix(form.suffix))
     elif not Path(path).suffix:
         path += form.suffix
-    with errors_shown():
+    with errors_shown(box=True):
         if form.content in CONTENTS and not ask(
             f"{Path(path).name}: {estimate_file(obj, form.content)}. Write it?"
         ):
             return
         export_mesh(obj, path, form.content)
-        App.Console.PrintMessage(f"VOLFREP: {path} written\n")
+        tell(f"{path} written")
 
 
 def make_solid_of(obj: App.DocumentObject) -> None:
@@ -201,79 +203,249 @@ def _chosen(label: str, kinds: dict[str, tuple[str, Callable[[], str]]]) -> str 
         except VolfrepError as error:
             refused.append(f"{title}: {error}")
     if not offered:
-        show_error("\n".join(refused))
+        tell_error("\n".join(refused))
         return None
     item = choose(label, list(offered), refused)
     return None if item is None else offered[item]
 
 
-#: In the order of the toolbar.
-COMMANDS = {
-    "VOLFREP_LatticeInfill": Command(
+def preview_only(infill: App.DocumentObject) -> None:
+    """Show the struts of the present values without making a mesh, or take them away."""
+    from .preview_only import toggle_preview
+
+    with errors_shown():
+        shown = toggle_preview(infill)
+        tell(f"{infill.Label}: preview {'shown, figures in the report view' if shown else 'off'}")
+
+
+def report_mesh(obj: App.DocumentObject) -> None:
+    """Look at a mesh and show what was found in a window."""
+    from freecad_volfrep.features.mesh_check import check_mesh
+
+    from .report_window import show_report
+
+    with errors_shown():
+        show_report(f"Check Mesh: {obj.Label}", f"{obj.Label} check", check_mesh(obj))
+
+
+def show_statistics(infills: list[App.DocumentObject]) -> None:
+    """Show the figures of infills in a window."""
+    from freecad_volfrep.features.statistics import statistics
+
+    from .report_window import show_report
+
+    name = infills[0].Label if len(infills) == 1 else infills[0].Document.Label
+    with errors_shown():
+        show_report("Statistics", f"{name} statistics", statistics(infills))
+
+
+def browse_cells(_: object) -> None:
+    """Open the window of unit cells."""
+    from .cell_library import show_cell_library
+
+    show_cell_library()
+
+
+def open_help(_: object) -> None:
+    """Open the window of help pages."""
+    from .help_window import show_help
+
+    show_help()
+
+
+def show_example(name: str) -> None:
+    """Model and fill an example in a new document, and look at all of it."""
+    from freecad_volfrep.examples.filled import open_example
+
+    with errors_shown():
+        infill = open_example(name)
+        infill.Base.Visibility = False
+        Gui.activeDocument().activeView().viewIsometric()
+        Gui.SendMsgToActiveView("ViewFit")
+
+
+def always() -> tuple[()]:
+    """For commands that need no selection."""
+    return ()
+
+
+def _example(name: str, icon: str, text: str, tip: str) -> Command:
+    return Command(
+        f"VOLFREP_Example{name}", icon, text, tip, "", always, lambda _: show_example(name)
+    )
+
+
+_TABLE = (
+    Command(
+        "VOLFREP_LatticeInfill",
         "lattice_infill.svg",
         "Lattice Infill",
         "Make the selected solid light: a closed skin and a strut lattice inside",
+        "L, F",
         fillable_selection,
         fill_solids,
     ),
-    "VOLFREP_Edit": Command(
+    Command(
+        "VOLFREP_Edit",
         "edit.svg",
         "Edit Lattice Infill",
         "Change the selected lattice infill in its panel, with a preview",
+        "L, D",
         selected_infill,
         edit_infill,
     ),
-    "VOLFREP_Update": Command(
+    Command(
+        "VOLFREP_PreviewOnly",
+        "preview_only.svg",
+        "Preview Only",
+        "Show the struts of the selected lattice infill and their figures without making a mesh; "
+        "once more takes them away",
+        "L, W",
+        infill_in_view,
+        preview_only,
+    ),
+    Command(
+        "VOLFREP_Update",
         "update.svg",
         "Update Lattice Infill",
         "Compute the selected lattice infill now, also with AutoUpdate off",
+        "L, U",
         selected_infill,
         update_infill,
     ),
-    "VOLFREP_OpenFaces": Command(
+    Command(
+        "VOLFREP_OpenFaces",
         "open_faces.svg",
         "Open Faces",
         "Select a lattice infill and faces of its solid: they get no skin",
+        "L, O",
         selected_infill_and_faces,
         open_faces,
     ),
-    "VOLFREP_PrintCheck": Command(
+    Command(
+        "VOLFREP_CellLibrary",
+        "cell_library.svg",
+        "Cell Library",
+        "Browse the unit cells, load your own, make one of a sketch, and give it to a lattice "
+        "infill",
+        "L, C",
+        always,
+        browse_cells,
+    ),
+    Command(
+        "VOLFREP_CheckMesh",
+        "check_mesh.svg",
+        "Check Mesh",
+        "Report on the selected mesh: closed, bodies, volume, angles, triangles that cross, and "
+        "what a file keeps of it",
+        "L, M",
+        selected_mesh,
+        report_mesh,
+    ),
+    Command(
+        "VOLFREP_PrintCheck",
         "print_check.svg",
         "Print Check",
         "See what hangs over, is too thin or holds powder when the selected lattice infill is "
         "printed",
+        "L, P",
         selected_infill,
         check_print,
     ),
-    "VOLFREP_Export": Command(
+    Command(
+        "VOLFREP_Statistics",
+        "statistics.svg",
+        "Statistics",
+        "Tables of the selected lattice infills, or of all in the document: cells, struts, "
+        "density, mass, times, memory",
+        "L, T",
+        selected_or_all_infills,
+        show_statistics,
+    ),
+    Command(
+        "VOLFREP_Export",
         "export.svg",
         "Export Lattice",
         "Write the selected lattice infill for the printer (STL, 3MF with or without beams, "
         "PLY, OBJ), for CAD (STEP) or for CalculiX",
+        "L, X",
         selected_mesh,
         export,
     ),
-    "VOLFREP_ToSolid": Command(
+    Command(
+        "VOLFREP_ToSolid",
         "to_solid.svg",
         "Lattice To Solid",
         "Make a Part solid of exact surfaces or of plane faces, links to its joints, or the "
         "struts' axes",
+        "L, S",
         selected_mesh,
         make_solid_of,
     ),
-    "VOLFREP_FemAnalysis": Command(
+    Command(
+        "VOLFREP_FemAnalysis",
         "fem_analysis.svg",
         "FEM Analysis",
         "Make an analysis of the selected lattice infill for the FEM workbench, of beams or "
         "of tetrahedra, ready for constraints",
+        "L, A",
         selected_infill,
         analyse,
     ),
+    Command(
+        "VOLFREP_Help",
+        "help.svg",
+        "VOLFREP Help",
+        "Read about every command, and a tutorial of five minutes",
+        "L, H",
+        always,
+        open_help,
+    ),
+    _example(
+        "Bracket",
+        "example_bracket.svg",
+        "Bracket",
+        "Open a bracket on four bolts, filled with a lattice, in a new document",
+    ),
+    _example(
+        "PistonRod",
+        "example_piston_rod.svg",
+        "Piston Rod",
+        "Open a piston rod, filled with a lattice, in a new document",
+    ),
+)
+#: By their names.
+COMMANDS = {command.name: command for command in _TABLE}
+#: The toolbars, by their names.
+TOOLBARS = {
+    "VOLFREP": [
+        "VOLFREP_LatticeInfill",
+        "VOLFREP_Edit",
+        "VOLFREP_PreviewOnly",
+        "VOLFREP_Update",
+        "VOLFREP_OpenFaces",
+        "VOLFREP_CellLibrary",
+    ],
+    "VOLFREP Results": [
+        "VOLFREP_CheckMesh",
+        "VOLFREP_PrintCheck",
+        "VOLFREP_Statistics",
+        "VOLFREP_Export",
+        "VOLFREP_ToSolid",
+        "VOLFREP_FemAnalysis",
+    ],
 }
+#: The submenu of that name.
+EXAMPLES = ["VOLFREP_ExampleBracket", "VOLFREP_ExamplePistonRod"]
 
 
-def register_commands() -> list[str]:
-    """Make the commands known to FreeCAD; returns their names in the order of the toolbar."""
+def register_commands() -> None:
+    """Make the commands known to FreeCAD."""
     for name, command in COMMANDS.items():
         Gui.addCommand(name, command)
-    return list(COMMANDS)
+
+
+def applicable_commands() -> list[str]:
+    """The commands of the toolbars that apply to the selection, for a context menu."""
+    names = [name for names in TOOLBARS.values() for name in names]
+    return [name for name in names if COMMANDS[name].IsActive()]

@@ -1,20 +1,36 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Telling the user in a window what went wrong."""
+"""Telling the user what happened: in the status bar and the report view, seldom in a box.
+
+A box asks for a decision, or says what would be missed otherwise: that packages are missing, or
+that a file that was asked for is not there. Everything else is told without stopping the work.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
 
+import FreeCAD as App
 import FreeCADGui as Gui
 
-from volfrep.errors import VolfrepError
+from volfrep.errors import Cancelled, VolfrepError
 
 from .qt import QtWidgets
 
 
+def tell(sentence: str) -> None:
+    """Say what was done; FreeCAD shows it in the status bar and the report view."""
+    App.Console.PrintMessage(f"VOLFREP: {sentence}\n")
+
+
+def tell_error(sentence: str) -> None:
+    """Say what is wrong; FreeCAD shows it in the status bar and the report view."""
+    App.Console.PrintError(f"VOLFREP: {sentence}\n")
+
+
 def show_error(sentence: str) -> None:
-    """Show one sentence and wait until it is acknowledged."""
+    """Show one sentence in a box and wait until it is acknowledged."""
+    App.Console.PrintError(f"VOLFREP: {sentence}\n")
     QtWidgets.QMessageBox.warning(Gui.getMainWindow(), "VOLFREP", sentence)
 
 
@@ -38,9 +54,11 @@ def choose(label: str, items: list[str], refused: list[str]) -> str | None:
 
 
 @contextmanager
-def errors_shown() -> Iterator[None]:
-    """Run a block whose bad-input errors are shown in a window."""
+def errors_shown(box: bool = False) -> Iterator[None]:
+    """Run a block whose bad-input errors are told to the user, in a box or without."""
     try:
         yield
     except VolfrepError as error:
-        show_error(str(error))
+        (show_error if box else tell_error)(str(error))
+    except Cancelled:
+        tell("Cancelled.")

@@ -50,3 +50,31 @@ def selected_infill() -> App.DocumentObject | None:
     if len(selected) != 1 or not isinstance(getattr(selected[0], "Proxy", None), LatticeInfill):
         return None
     return selected[0]
+
+
+def selected_with_edges() -> list[App.DocumentObject] | None:
+    """The selected sketches, wires and shapes, each once, if every one of them has edges."""
+    from freecad_volfrep.bridge.drawn_lines import has_edges
+
+    selected = list(dict.fromkeys(Gui.Selection.getSelection()))
+    return selected if selected and all(map(has_edges, selected)) else None
+
+
+def selected_or_all_infills() -> list[App.DocumentObject] | None:
+    """The selected lattice infills, or all of the document's where none is selected."""
+    from freecad_volfrep.features.statistics import infills_of
+
+    if App.ActiveDocument is None:
+        return None
+    known = infills_of(App.ActiveDocument)
+    selected = [obj for obj in Gui.Selection.getSelection() if obj in known]
+    return selected or known or None
+
+
+def infill_in_view() -> App.DocumentObject | None:
+    """The selected lattice infill, if a 3D view is in front that it can be shown in."""
+    infill = selected_infill()
+    if infill is None or infill.Base is None:
+        return None
+    view = Gui.activeDocument().activeView()
+    return infill if hasattr(view, "getSceneGraph") else None

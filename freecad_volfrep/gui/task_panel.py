@@ -13,6 +13,7 @@ from freecad_volfrep.features.live_preview import LivePreview
 from volfrep.errors import VolfrepError
 
 from .cell_picture import cell_icon
+from .preview_only import end_preview
 from .preview_view import PreviewView
 from .qt import OK_CANCEL, QtCore, QtWidgets
 
@@ -46,6 +47,7 @@ class TaskPanel:
     def __init__(self, obj: App.DocumentObject, transaction: str | None = None) -> None:
         from freecad_volfrep.bridge.solids import parent_placement
 
+        end_preview(obj)  # the panel shows one of its own
         self._obj, self._doc = obj, obj.Document
         if transaction is not None:
             self._doc.openTransaction(transaction)

@@ -10,6 +10,7 @@ import FreeCADGui as Gui
 from freecad_volfrep import ICONS
 
 from .coarse_view import COARSE, FINE
+from .qt import QtGui
 
 #: Of a new infill, in percent: the lattice shows through the skin.
 TRANSPARENCY = 60
@@ -18,7 +19,7 @@ OVERHANG = (0.85, 0.16, 0.12)
 
 
 class LatticeInfillView:
-    """View provider of a lattice infill: its icon, Update in the context menu, and a coarse mesh.
+    """View provider of a lattice infill: its icon, the commands for it, and a coarse mesh.
 
     A mesh of more triangles than the preference allows is shown by a coarse likeness of it, as the
     display mode Coarse; whoever chooses another mode sees all of it.
@@ -76,9 +77,17 @@ class LatticeInfillView:
         return False
 
     def setupContextMenu(self, view: Any, menu: Any) -> None:  # noqa: N802
-        """Offer Update, which works with AutoUpdate off too."""
-        action = menu.addAction("Update Lattice Infill")
-        action.triggered.connect(lambda: self.object.Proxy.update(self.object))
+        """Offer the commands that apply, where another workbench than ours is in front."""
+        from .commands import COMMANDS, applicable_commands
+
+        if Gui.activeWorkbench().name() == "VolfrepWorkbench":
+            return  # which offers them itself
+        submenu = menu.addMenu("VOLFREP")
+        for name in applicable_commands():
+            command = COMMANDS[name]
+            submenu.addAction(
+                QtGui.QIcon(str(ICONS / command.icon)), command.text
+            ).triggered.connect(lambda _=False, command=command: command.Activated())
 
     def dumps(self) -> None:
         """Nothing to save."""

@@ -56,3 +56,17 @@ def test_follows_its_spreadsheet(example):
     assert part.Shape.isValid()
     assert len(part.Shape.Solids) == 1
     assert box_of(part.Shape) == pytest.approx((box[0] + 10, box[1], box[2]), abs=0.02)
+
+
+@pytest.mark.parametrize("name", ["Bracket", "PistonRod"])
+def test_a_filled_example_is_ready(name):
+    from freecad_volfrep.examples.filled import open_example
+
+    infill = open_example(name)
+    try:
+        assert infill.isValid(), infill.Status
+        assert infill.Mesh.isSolid()
+        assert (infill.Bodies, infill.Watertight) == (1, True)
+        assert [obj.Name for obj in infill.Document.Objects if not obj.isValid()] == []
+    finally:
+        App.closeDocument(infill.Document.Name)

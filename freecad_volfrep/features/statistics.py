@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The figures of lattice infills beside each other."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from typing import Any
+
+import FreeCAD as App
+
+from volfrep.errors import VolfrepError
+
+from .lattice_infill import LatticeInfill
+from .tables import Table
+
+#: Name, and where it stands in the object or in its report.
+_INPUTS: tuple[tuple[str, Callable[[Any], Any]], ...] = (
+    ("cell", lambda obj: obj.CellType),
+    ("cell size, mm", lambda obj: obj.CellSize.Value),
+    ("strut radius, mm", lambda obj: obj.StrutRadius.Value),
+    ("skin, mm", lambda obj: obj.ShellThickness.Value),
+    ("density, g/cm3", lambda obj: obj.Density),
+    ("output", lambda obj: obj.Output),
+    ("status", lambda obj: obj.Status or "Not computed yet"),
+)
+_FIGURES: tuple[tuple[str, str], ...] = (
+    ("active cells", "cells_active"),
+    ("cells of the grid", "cells_total"),
+    ("struts", "struts"),
+    ("joints", "nodes"),
+    ("shortest and longest strut, mm", "strut_lengths_mm"),
+    ("smallest and largest radius, mm", "strut_radii_mm"),
+    ("relative density, %", "relative_density"),
+    ("volume, mm3", "volume_mm3"),
+    ("area, mm2", "area_mm2"),
+    ("mass, g", "mass_g"),
+    ("triangles", "triangles"),
+    ("vertices", "vertices"),
+    ("bodies", "bodies"),
+    ("closed voids", "voids"),
+    ("through-holes", "genus"),
+    ("watertight", "watertight"),
+    ("struts removed, free end", "struts_dangling_removed"),
+    ("short stubs removed", "stubs_removed"),
+    ("loose pieces removed", "pieces_removed"),
+)
+
+
+def infills_of(doc: App.Document) -> list[App.DocumentObject]:
+    """The lattice infills of a document, in the order in which they were made."""
+    return [obj for obj in doc.Objects if isinstance(getattr(obj, "Proxy", None), LatticeInfill)]
+
+
+def statistics(infills: list[App.DocumentObject]) -> list[Table]:
+    """Inputs, figures, times and memory, a column for each infill.
+
+    Figures are those of the last finished update; None where there was none.
+
+    Raises:
+        VolfrepError: there is no infill.
+    """
+    if not infills:
+        raise VolfrepError("There is no lattice infill: make one of a solid first.")
+    reports = [json.loads(obj.Report) if obj.Report else {} for obj in infills]
+    header = ("", *(obj.Label for obj in infills))
+    masses = [obj.Mass if report else None for obj, report in zip(infills, reports, strict=True)]
+    figures = []
+    for name, key in _FIGURES:
+        values = masses if key == "mass_g" else [_plain(key, report.get(key)) for report in reports]
+        figures.append((name, *values))
+    return [
+        Table("Inputs", tuple((name, *map(of, infills)) for name, of in _INPUTS), header),
+        Table("Result of the last update", tuple(figures), header),
+        Table("Seconds by stage", _stages("stages", reports, sum), header),
+        Table("Peak memory at the end of each stage, MB", _stages("stage_memory_mb", reports, max),
+              header),
+    ]  # fmt: skip
+
+
+def _plain(key: str, value: Any) -> Any:
+    if value is None:
+        return None
+    if key == "relative_density":
+        return 100.0 * value
+    if isinstance(value, list):
+        return " to ".join(dict.fromkeys(f"{number:.4g}" for number in value))
+    return value
+
+
+def _stages(key: str, reports: list[dict[str, Any]], whole: Any) -> tuple[tuple[Any, ...], ...]:
+    """A row for each stage that any of the reports has, and one for all of them."""
+    names = list(dict.fromkeys(name for report in reports for name in report.get(key, {})))
+    rows = [(name, *(report.get(key, {}).get(name) for report in reports)) for name in names]
+    total = [whole(report[key].values()) if report.get(key) else None for report in reports]
+    return (*rows, ("all" if whole is sum else "most", *total))

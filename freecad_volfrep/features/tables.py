@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Tables of figures: shown to the user as HTML, saved as CSV."""
+
+from __future__ import annotations
+
+import csv
+import html
+import io
+from dataclasses import dataclass
+from typing import Any
+
+#: Separates columns in a CSV file.
+SEPARATOR = ","
+
+
+@dataclass(frozen=True)
+class Table:
+    """Named rows of figures.
+
+    Attributes:
+        title: above it.
+        rows: the cells of each row; the first of a row says what the others are.
+        header: the columns' names, or nothing.
+    """
+
+    title: str
+    rows: tuple[tuple[Any, ...], ...]
+    header: tuple[str, ...] = ()
+
+
+def shown(value: Any) -> str:
+    """A cell as a person reads it."""
+    if value is None:
+        return "-"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, int):
+        return f"{value:,}"
+    if isinstance(value, float):
+        return f"{value:,.1f}" if abs(value) >= 1000 else f"{value:.4g}"
+    return str(value)
+
+
+def as_html(tables: list[Table]) -> str:
+    """The tables as a document that a window shows and a browser opens."""
+    parts = ['<!DOCTYPE html><html><head><meta charset="utf-8"></head><body>']
+    for table in tables:
+        parts.append(f"<h3>{html.escape(table.title)}</h3>")
+        parts.append('<table cellspacing="0" cellpadding="3">')
+        if table.header:
+            cells = "".join(f'<th align="left">{html.escape(name)}</th>' for name in table.header)
+            parts.append(f"<tr>{cells}</tr>")
+        for first, *others in table.rows:
+            cells = "".join(f"<td>{html.escape(shown(value))}</td>" for value in others)
+            parts.append(f"<tr><td>{html.escape(str(first))}&nbsp;&nbsp;</td>{cells}</tr>")
+        parts.append("</table>")
+    return "\n".join([*parts, "</body></html>"])
+
+
+def as_csv(tables: list[Table]) -> str:
+    """The tables one below the other, an empty line between; numbers as they are."""
+    text = io.StringIO()
+    writer = csv.writer(text, delimiter=SEPARATOR, lineterminator="\n")
+    for k, table in enumerate(tables):
+        if k:
+            writer.writerow(())
+        writer.writerow((table.title,))
+        if table.header:
+            writer.writerow(table.header)
+        writer.writerows(
+            tuple("" if value is None else value for value in row) for row in table.rows
+        )
+    return text.getvalue()

@@ -1,0 +1,274 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The window of unit cells: pictures and figures, cells of one's own, and a cell for an infill."""
+
+from __future__ import annotations
+
+import html
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import FreeCADGui as Gui
+
+from freecad_volfrep.features.properties import CUSTOM_CELL
+from volfrep.cells import LIBRARY, UnitCell, load_cell
+from volfrep.errors import VolfrepError
+
+from .cell_picture import cell_icon
+from .command import undo_step
+from .qt import QtCore, QtWidgets
+from .selection import selected_infill, selected_with_edges
+
+#: Of the list's pictures and of the large one, px.
+SMALL, LARGE = 84, 220
+FILTER = "Unit cell (*.json)"
+_MODES = {"stretch": "stretching", "bending": "bending"}
+_ENTRY = QtCore.Qt.UserRole
+
+
+@dataclass(eq=False)
+class Entry:
+    """A cell of the list.
+
+    Attributes:
+        cell: with its name.
+        path: of its file; None for one of the library, and for one that is not saved yet.
+        notes: what to know about it.
+    """
+
+    cell: UnitCell
+    path: str | None = None
+    notes: tuple[str, ...] = ()
+
+    @property
+    def is_own(self) -> bool:
+        """Whether it is not one of the library's."""
+        return LIBRARY.get(self.cell.name) is not self.cell
+
+
+class CellLibrary(QtWidgets.QDialog):
+    """Browse cells, load one, make one of what is drawn, save it, apply it."""
+
+    def __init__(self) -> None:
+        super().__init__(Gui.getMainWindow())
+        self.setObjectName("VolfrepCellLibrary")
+        self.setWindowTitle("Cell Library")
+        self.setAttribute(QtCore.Qt.WA_DeleteOnClose)
+        self._list = self._picker()
+        self._picture, self._figures, self._note = (QtWidgets.QLabel() for _ in range(3))
+        self._picture.setFixedSize(LARGE, LARGE)
+        self._figures.setObjectName("Figures")
+        self._note.setObjectName("Note")
+        self._note.setWordWrap(True)
+        self._buttons = {
+            name: self._button(name, tip, act)
+            for name, tip, act in (
+                ("Load...", "Read a cell of your own from a JSON file", self._ask_and_load),
+                ("From Selection", "Make a cell of the straight edges of the selected sketches, "
+                 "wires or shapes; the cube about them is the cell", self.make_from_selection),
+                ("Save As...", "Write the picked cell to a JSON file", self._ask_and_save),
+                ("Apply", "Give the picked cell to the selected lattice infill", self.apply),
+                ("Close", "", self.close),
+            )
+        }  # fmt: skip
+        self._lay_out()
+        for cell in LIBRARY.values():
+            self._add(Entry(cell))
+        self._pick_that_of(selected_infill())
+        self._list.currentItemChanged.connect(lambda *_: self._show())
+        self._show()
+        Gui.Selection.addObserver(self)
+
+    # FreeCAD's selection tells its observers by these names.
+    def addSelection(self, *_: Any) -> None:  # noqa: N802
+        """Something more is selected."""
+        self._enable()
+
+    def removeSelection(self, *_: Any) -> None:  # noqa: N802
+        """Something is selected no more."""
+        self._enable()
+
+    def setSelection(self, *_: Any) -> None:  # noqa: N802
+        """Something else is selected."""
+        self._enable()
+
+    def clearSelection(self, *_: Any) -> None:  # noqa: N802
+        """Nothing is selected."""
+        self._enable()
+
+    def done(self, result: int) -> None:
+        """Close, and hear no more of the selection."""
+        Gui.Selection.removeObserver(self)
+        super().done(result)
+
+    def closeEvent(self, event: Any) -> None:  # noqa: N802
+        """The window's own cross closes as the button does."""
+        self.done(0)
+
+    def load(self, path: str) -> None:
+        """Add the cell of a JSON file and pick it; says here what is wrong with it."""
+        try:
+            cell = load_cell(path)
+        except VolfrepError as error:
+            self._say(str(error), wrong=True)
+            return
+        self._add(Entry(cell, str(Path(path).resolve())), pick=True)
+
+    def make_from_selection(self) -> None:
+        """Add the cell that the selected edges draw and pick it; says what cannot be a strut."""
+        from freecad_volfrep.bridge.drawn_lines import drawn_lines
+        from volfrep.drawn_cell import cell_from_lines
+
+        objects = selected_with_edges() or []
+        try:
+            drawn = cell_from_lines(self._free_name(objects), drawn_lines(objects))
+        except VolfrepError as error:
+            self._say(str(error), wrong=True)
+            return
+        size = f"Drawn with L = {drawn.size:g} mm; every L can be given to an infill."
+        self._add(Entry(drawn.cell, notes=(size, *drawn.warnings)), pick=True)
+
+    def save(self, path: str) -> bool:
+        """Write the picked cell; returns whether that was done, says here why not."""
+        from volfrep.drawn_cell import save_cell
+
+        entry = self._entry()
+        try:
+            save_cell(entry.cell, path)
+        except VolfrepError as error:
+            self._say(str(error), wrong=True)
+            return False
+        if entry.is_own:
+            entry.path = str(Path(path).resolve())
+        self._show()
+        self._say(f"{path} written")
+        return True
+
+    def apply(self) -> None:
+        """Give the picked cell to the selected infill; one that has no file yet is saved first."""
+        infill, entry = selected_infill(), self._entry()
+        if infill is None or (entry.is_own and entry.path is None and not self._ask_and_save()):
+            return
+        with undo_step(infill.Document, "Set Unit Cell"):
+            if entry.is_own:
+                infill.CellFile = entry.path
+                infill.CellType = CUSTOM_CELL
+            else:
+                infill.CellType = entry.cell.name
+            infill.Document.recompute()
+        self._say(f"{infill.Label}: {infill.Status}", wrong=not infill.isValid())
+
+    def _picker(self) -> Any:
+        picker = QtWidgets.QListWidget()
+        picker.setObjectName("Cells")
+        picker.setViewMode(QtWidgets.QListView.IconMode)
+        picker.setIconSize(QtCore.QSize(SMALL, SMALL))
+        picker.setMovement(QtWidgets.QListView.Static)
+        picker.setResizeMode(QtWidgets.QListView.Adjust)
+        picker.setMinimumSize(3 * (SMALL + 28), 2 * (SMALL + 44))
+        return picker
+
+    def _button(self, name: str, tip: str, act: Any) -> Any:
+        button = QtWidgets.QPushButton(name)
+        button.setObjectName(name)
+        button.setToolTip(tip)
+        button.setAutoDefault(False)
+        button.clicked.connect(lambda _=False: act())
+        return button
+
+    def _lay_out(self) -> None:
+        right = QtWidgets.QVBoxLayout()
+        right.addWidget(self._picture)
+        right.addWidget(self._figures)
+        right.addStretch()
+        both = QtWidgets.QHBoxLayout()
+        both.addWidget(self._list, 1)
+        both.addLayout(right)
+        line = QtWidgets.QHBoxLayout()
+        for button in self._buttons.values():
+            line.addWidget(button)
+        column = QtWidgets.QVBoxLayout(self)
+        column.addLayout(both, 1)
+        column.addWidget(self._note)
+        column.addLayout(line)
+        self.resize(640, 420)
+
+    def _add(self, entry: Entry, pick: bool = False) -> None:
+        item = QtWidgets.QListWidgetItem(cell_icon(entry.cell, SMALL), entry.cell.name, self._list)
+        item.setData(_ENTRY, entry)
+        if pick:
+            self._list.setCurrentItem(item)
+
+    def _pick_that_of(self, infill: Any) -> None:
+        """Pick the cell that an infill has; one from a file is added."""
+        name = "CVC" if infill is None else infill.CellType
+        if name == CUSTOM_CELL and infill.CellFile:
+            self._list.setCurrentRow(0)
+            self.load(infill.CellFile)
+            return
+        for item in self._list.findItems(name, QtCore.Qt.MatchExactly):
+            self._list.setCurrentItem(item)
+
+    def _entry(self) -> Entry:
+        entry: Entry = self._list.currentItem().data(_ENTRY)
+        return entry
+
+    def _show(self) -> None:
+        entry = self._entry()
+        cell = entry.cell
+        self._picture.setPixmap(cell_icon(cell, LARGE).pixmap(LARGE, LARGE))
+        rows = (
+            ("Nodes", len(cell.nodes)),
+            ("Struts", len(cell.struts)),
+            ("Maxwell number", cell.maxwell_number),
+            ("Carries load by", _MODES[cell.deformation_mode]),
+            ("File", Path(entry.path).name if entry.path else "not saved" * entry.is_own or "-"),
+        )
+        lines = "".join(
+            f"<tr><td>{name}&nbsp;&nbsp;</td><td>{html.escape(str(value))}</td></tr>"
+            for name, value in rows
+        )
+        self._figures.setText(f"<b>{html.escape(cell.name)}</b><table>{lines}</table>")
+        self._say("\n".join(entry.notes))
+        self._enable()
+
+    def _say(self, text: str, wrong: bool = False) -> None:
+        self._note.setStyleSheet("color: #c03020" if wrong else "")
+        self._note.setText(text)
+
+    def _enable(self) -> None:
+        infill = selected_infill()
+        self._buttons["Apply"].setEnabled(infill is not None)
+        self._buttons["Apply"].setText("Apply" if infill is None else f"Apply to {infill.Label}")
+        self._buttons["From Selection"].setEnabled(bool(selected_with_edges()))
+
+    def _free_name(self, objects: list[Any]) -> str:
+        taken = {self._list.item(row).text() for row in range(self._list.count())}
+        name, number = objects[0].Label, 2
+        while name in taken:
+            name, number = f"{objects[0].Label} {number}", number + 1
+        return str(name)
+
+    def _ask_and_load(self) -> None:
+        path, _ = QtWidgets.QFileDialog.getOpenFileName(self, "Load Cell", str(Path.home()), FILTER)
+        if path:
+            self.load(path)
+
+    def _ask_and_save(self) -> bool:
+        proposed = Path.home() / f"{self._entry().cell.name}.json"
+        path, _ = QtWidgets.QFileDialog.getSaveFileName(self, "Save Cell", str(proposed), FILTER)
+        if not path:
+            return False
+        return self.save(path if Path(path).suffix else f"{path}.json")
+
+
+def show_cell_library() -> CellLibrary:
+    """Open the window, or bring the one that is open to the front."""
+    for window in Gui.getMainWindow().findChildren(QtWidgets.QDialog, "VolfrepCellLibrary"):
+        if window.isVisible():
+            window.raise_()
+            window.activateWindow()
+            return window
+    window = CellLibrary()
+    window.show()
+    return window

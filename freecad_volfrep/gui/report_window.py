@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A window of tables that stays open beside the work: to read, copy and save."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import FreeCADGui as Gui
+
+from freecad_volfrep.features.tables import Table, as_csv, as_html
+
+from .messages import errors_shown, tell
+from .qt import QtWidgets
+
+#: Of the window, px.
+SIZE = (560, 620)
+CSV, HTML = "CSV (*.csv)", "HTML (*.html)"
+
+
+class ReportWindow(QtWidgets.QDialog):
+    """Shows tables without keeping FreeCAD waiting.
+
+    Args:
+        title: of the window.
+        name: proposed for the file, without a suffix.
+        tables: what it shows.
+    """
+
+    def __init__(self, title: str, name: str, tables: list[Table]) -> None:
+        super().__init__(Gui.getMainWindow())
+        self.setObjectName("VolfrepReport")
+        self.setWindowTitle(title)
+        self.resize(*SIZE)
+        self._name, self._tables = name, tables
+        self.text = QtWidgets.QTextBrowser()
+        self.text.setHtml(as_html(tables))
+        column = QtWidgets.QVBoxLayout(self)
+        column.addWidget(self.text)
+        line = QtWidgets.QHBoxLayout()
+        line.addStretch()
+        for label, act in (("Copy", self.copy), ("Save...", self.ask_and_save),
+                           ("Close", self.close)):  # fmt: skip
+            button = QtWidgets.QPushButton(label)
+            button.setObjectName(label)
+            button.setAutoDefault(False)
+            button.clicked.connect(lambda _=False, act=act: act())
+            line.addWidget(button)
+        column.addLayout(line)
+
+    def copy(self) -> None:
+        """Put the tables on the clipboard, for a text editor and for a spreadsheet."""
+        cursor = self.text.textCursor()
+        self.text.selectAll()
+        self.text.copy()
+        self.text.setTextCursor(cursor)
+        tell("The tables are on the clipboard.")
+
+    def ask_and_save(self) -> None:
+        """Ask for the file's name and write it."""
+        path, chosen = QtWidgets.QFileDialog.getSaveFileName(
+            self, "Save Report", str(Path.home() / f"{self._name}.csv"), f"{CSV};;{HTML}"
+        )
+        if not path:
+            return
+        if not Path(path).suffix:
+            path += ".html" if chosen == HTML else ".csv"
+        with errors_shown(box=True):
+            self.save(path)
+
+    def save(self, path: str) -> None:
+        """Write the tables as HTML where the name ends in .html, else as CSV.
+
+        Raises:
+            VolfrepError: the file cannot be written; an older one stays.
+        """
+        from volfrep.export.files import replacing
+
+        is_html = Path(path).suffix.lower() in (".html", ".htm")
+        with replacing(path) as file:
+            file.write((as_html if is_html else as_csv)(self._tables).encode())
+        tell(f"{path} written")
+
+
+def show_report(title: str, name: str, tables: list[Table]) -> ReportWindow:
+    """Open a window of tables; it goes when it is closed."""
+    from .qt import QtCore
+
+    window = ReportWindow(title, name, tables)
+    window.setAttribute(QtCore.Qt.WA_DeleteOnClose)
+    window.show()
+    return window

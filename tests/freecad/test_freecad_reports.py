@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The tables of Check Mesh and Statistics, as windows show and files hold them."""
+
+import csv
+import io
+
+import FreeCAD as App
+import Mesh
+import pytest
+from conftest import SMALL
+
+from freecad_volfrep import make_lattice_infill
+from freecad_volfrep.features.mesh_check import check_mesh
+from freecad_volfrep.features.statistics import infills_of, statistics
+from freecad_volfrep.features.tables import Table, as_csv, as_html
+from volfrep.errors import VolfrepError
+
+
+def rows_of(tables):
+    return {row[0]: row[1] for table in tables for row in table.rows}
+
+
+def mesh_object(doc, mesh):
+    obj = doc.addObject("Mesh::Feature", "Surface")
+    obj.Mesh = mesh
+    return obj
+
+
+def test_a_lattice_is_without_defects(infill):
+    tables = check_mesh(infill)
+    rows = rows_of(tables)
+    assert tables[0].title == f"{infill.Label}: closed and without defects"
+    assert rows["triangles"] == f"{infill.Triangles:,}"
+    assert rows["genus"] == str(infill.Genus)
+    assert rows["voids"] == str(infill.Voids)
+    assert rows["along lines through it"] == "every place inside is enclosed once"
+    assert rows["triangles that cross (FreeCAD)"] == "none"
+    assert rows["a solid"] == "yes"
+
+
+def test_any_mesh_is_checked_where_it_lies(doc):
+    obj = mesh_object(doc, Mesh.createBox(10, 10, 10))
+    obj.Placement.Base = App.Vector(100, 0, 0)
+    rows = rows_of(check_mesh(obj))
+    assert rows["volume"] == "1,000.000 mm3"
+    assert rows["from"] == "95.000, -5.000, -5.000"
+
+
+def test_an_open_mesh_is_called_so(doc):
+    mesh = Mesh.createBox(10, 10, 10)
+    mesh.removeFacets([0])
+    tables = check_mesh(mesh_object(doc, mesh))
+    assert tables[0].title.endswith("not closed")
+    assert rows_of(tables)["closed"] == "no (3 open edges)"
+    assert rows_of(tables)["a solid"] == "no"
+
+
+def test_crossing_surfaces_are_found_where_they_are(doc):
+    mesh, other = Mesh.createBox(10, 10, 10), Mesh.createBox(10, 10, 10)
+    other.translate(3, 3, 3)
+    mesh.addMesh(other)
+    obj = mesh_object(doc, mesh)
+    here = rows_of(check_mesh(obj))
+    assert "enclosed more than once" in here["along lines through it"]
+    assert here["triangles that cross (FreeCAD)"].endswith("first near (-2, 5, -2)")
+    obj.Placement.Base = App.Vector(100, 0, 0)
+    there = rows_of(check_mesh(obj))
+    assert there["triangles that cross (FreeCAD)"].endswith("first near (98, 5, -2)")
+
+
+def test_nothing_to_check_is_one_sentence(doc, box):
+    obj = make_lattice_infill(doc, box, **SMALL)
+    with pytest.raises(VolfrepError, match="has no mesh to check"):
+        check_mesh(obj)
+
+
+def test_statistics_stand_beside_each_other(doc, box, infill):
+    waiting = make_lattice_infill(doc, box, **SMALL, Label="Waiting")
+    assert infills_of(doc) == [infill, waiting]
+    inputs, result, seconds, memory = statistics([infill, waiting])
+    assert inputs.header == ("", infill.Label, "Waiting")
+    rows = {row[0]: row[1:] for table in (inputs, result) for row in table.rows}
+    assert rows["cell size, mm"] == (10.0, 10.0)
+    assert rows["struts"] == (infill.Struts, None)
+    assert rows["joints"] == (infill.Nodes, None)
+    assert rows["relative density, %"] == (pytest.approx(100 * infill.RelativeDensity), None)
+    assert rows["mass, g"] == (infill.Mass, None)
+    assert rows["status"] == ("Up to date", "Not computed yet")
+    assert seconds.rows[-1][1] == pytest.approx(infill.Seconds)
+    assert seconds.rows[-1][2] is None
+    assert memory.rows[-1][1] == max(row[1] for row in memory.rows)
+
+
+def test_the_mass_is_that_of_the_present_density(doc, infill):
+    infill.Density = 2.7
+    doc.recompute()
+    rows = {row[0]: row[1] for row in statistics([infill])[1].rows}
+    assert rows["mass, g"] == pytest.approx(2.7 * rows["volume, mm3"] / 1000)
+
+
+def test_no_infill_is_one_sentence():
+    with pytest.raises(VolfrepError, match="There is no lattice infill"):
+        statistics([])
+
+
+def test_tables_as_files():
+    tables = [
+        Table("One & two", (("a, b", 1234567, 0.5), ("c", None, True)), ("", "<x>", "y")),
+        Table("Three", (("d", "e"),)),
+    ]
+    read = list(csv.reader(io.StringIO(as_csv(tables))))
+    assert read == [
+        ["One & two"],
+        ["", "<x>", "y"],
+        ["a, b", "1234567", "0.5"],
+        ["c", "", "True"],
+        [],
+        ["Three"],
+        ["d", "e"],
+    ]
+    html = as_html(tables)
+    for text in ("One &amp; two", "&lt;x&gt;", "1,234,567", "<td>-</td>", "<td>yes</td>"):
+        assert text in html

@@ -1,0 +1,506 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Drives every other command in the real FreeCAD with real clicks and keys; see tools/run_gui.sh.
+
+Writes pictures (among them those of the tutorial) and ``commands.json`` to GUI_OUT and leaves with
+0 when every check held.
+"""
+
+import json
+import sys
+from pathlib import Path
+
+import FreeCAD as App
+import FreeCADGui as Gui
+from PySide import QtCore, QtGui
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from driving import (
+    OUT,
+    answer_panel,
+    check,
+    click,
+    figures,
+    infills,
+    panel,
+    picture,
+    previews,
+    run,
+    select,
+    toolbar_button,
+    wait,
+    wait_until,
+    xdotool,
+)
+
+HOME = "VolfrepWorkbench"
+
+
+def drive():
+    """The whole session."""
+    Gui.activateWorkbench(HOME)
+    wait(800)
+    show_report_view()
+    every_command_is_known()
+    the_commands_without_a_document()
+    doc, box, obj = a_filled_box()
+    preview_without_a_mesh(doc, box, obj)
+    type_a_radius(doc, obj)
+    check_the_mesh(doc, obj)
+    check_a_broken_mesh(doc)
+    read_the_statistics(doc, obj)
+    use_the_cell_library(doc, obj)
+    export_by_typing_a_name(doc, obj)
+    look_at_the_context_menus(doc, box, obj)
+    tell_errors_without_a_box(doc, obj)
+    read_the_help()
+    open_the_examples()
+
+
+def show_report_view():
+    """The report view in front, so that pictures show what is said."""
+    for dock in Gui.getMainWindow().findChildren(QtGui.QDockWidget):
+        if dock.objectName() == "Report view":
+            dock.show()
+            dock.raise_()
+
+
+def said():
+    """All that the report view holds."""
+    view = Gui.getMainWindow().findChild(QtGui.QTextEdit, "Report view")
+    return "" if view is None else view.toPlainText()
+
+
+def window(name):
+    """An open window of ours by its object name, or None."""
+    found = Gui.getMainWindow().findChildren(QtGui.QDialog, name)
+    return next((w for w in found if w.isVisible()), None)
+
+
+def button_of(dialog, name):
+    """A button of a window."""
+    return dialog.findChild(QtGui.QPushButton, name)
+
+
+def close(name):
+    """Really click a window's Close, and see it go."""
+    click(button_of(window(name), "Close"))
+    check(f"{name} closes", wait_until(lambda: window(name) is None, 5))
+
+
+def answer_file_dialog(path, name):
+    """Once a file dialog is there, really type a path into it and press Return."""
+
+    def answer():
+        dialog = QtGui.QApplication.activeModalWidget()
+        if not isinstance(dialog, QtGui.QFileDialog):
+            QtCore.QTimer.singleShot(300, answer)
+            return
+        dialog.findChild(QtGui.QLineEdit, "fileNameEdit").setFocus()
+        xdotool("windowfocus", int(dialog.winId()))
+        wait(300)
+        xdotool("key", "ctrl+a")
+        xdotool("type", str(path))
+        wait(300)
+        picture(name)
+        xdotool("key", "Return")
+
+    QtCore.QTimer.singleShot(1200, answer)
+
+
+def every_command_is_known():
+    """FreeCAD knows each, with icon, texts and a help page; no shortcut of its own is taken."""
+    from freecad_volfrep.gui.commands import COMMANDS
+
+    others = {}
+    for name in Gui.Command.listAll():
+        keys = Gui.Command.get(name).getShortcut()
+        if keys and not name.startswith("VOLFREP_"):
+            others.setdefault(keys, name)
+    figures["shortcuts of FreeCAD's looked at"] = len(others)
+    for name in COMMANDS:
+        info = Gui.Command.get(name).getInfo()
+        keys = Gui.Command.get(name).getShortcut()
+        check(f"{name} has its texts", info["menuText"] and info["toolTip"] and info["statusTip"])
+        check(f"{name} has an icon", Path(info["pixmap"]).is_file(), info["pixmap"])
+        check(f"{name} names its help page", info["whatsThis"].endswith(f"{name}.md"))
+        check(f"{name} has a shortcut of its own", keys not in others, others.get(keys))
+    ours = [Gui.Command.get(name).getShortcut() for name in COMMANDS]
+    ours = [keys for keys in ours if keys]
+    check("no two have the same shortcut", len(set(ours)) == len(ours), ours)
+
+
+def the_commands_without_a_document():
+    """Only what needs no document can be used."""
+    Gui.Selection.clearSelection()
+    wait(600)
+    for name, active in (("Preview Only", False), ("Check Mesh", False), ("Statistics", False),
+                         ("Cell Library", True)):  # fmt: skip
+        check(f"{name} without a document", toolbar_button(name).isEnabled() == active)
+
+
+def a_filled_box():
+    """A box of 40 x 30 x 20 mm with a lattice that is not computed yet."""
+    from freecad_volfrep import make_lattice_infill
+
+    doc = App.newDocument("Commands")
+    doc.UndoMode = 1
+    box = doc.addObject("Part::Box", "Block")
+    box.Length, box.Width, box.Height = 40, 30, 20
+    doc.recompute()
+    obj = make_lattice_infill(doc, box, CellSize=10, StrutRadius=1, ShellThickness=1)
+    Gui.activeDocument().activeView().viewIsometric()
+    Gui.SendMsgToActiveView("ViewFit")
+    return doc, box, obj
+
+
+def preview_without_a_mesh(doc, box, obj):
+    """Preview Only shows struts and figures, follows the values, and goes as it came."""
+    select(obj)
+    button = toolbar_button("Preview Only")
+    check("a preview is offered", button.isEnabled())
+    click(button)
+    check("the preview shows", wait_until(lambda: previews() == 1, 10), previews())
+    check("no mesh was made", obj.Mesh.CountFacets == 0)
+    check("its figures are in the report view", "active cells" in said(), said())
+    check("the solid makes room", not box.ViewObject.isVisible())
+    picture("preview_only")
+    obj.AutoUpdate = False
+    figures_before = said().count("active cells")
+    obj.StrutRadius = 1.5
+    doc.recompute()
+    check(
+        "it follows a value", wait_until(lambda: said().count("active cells") > figures_before, 5)
+    )
+    obj.StrutRadius = 1
+    click(button)
+    check("once more takes it away", wait_until(lambda: previews() == 0, 5), previews())
+    check("the solid is back", box.ViewObject.isVisible())
+    click(button)
+    wait_until(lambda: previews() == 1, 10)
+    click(toolbar_button("Update Lattice Infill"))
+    check("a mesh ends the preview", wait_until(lambda: previews() == 0, 60), previews())
+    check("the mesh is there", obj.Mesh.CountFacets > 0 and obj.ViewObject.isVisible())
+    obj.AutoUpdate = True
+    box.Visibility = False
+    doc.recompute()
+
+
+def property_editor():
+    """FreeCAD's table of data properties."""
+    kind = "Gui::PropertyEditor::PropertyEditor"
+    found = Gui.getMainWindow().findChildren(QtGui.QTreeView)
+    return next(e for e in found if e.metaObject().className() == kind and e.isVisible())
+
+
+def row_of(editor, name):
+    """Where a property's value stands in the editor."""
+    model = editor.model()
+
+    def search(parent):
+        for row in range(model.rowCount(parent)):
+            index = model.index(row, 0, parent)
+            if model.data(index, QtCore.Qt.DisplayRole) == name:
+                return model.index(row, 1, parent)
+            below = search(index)
+            if below is not None:
+                return below
+        return None
+
+    return search(QtCore.QModelIndex())
+
+
+def type_a_radius(doc, obj):
+    """A radius that is typed into the property editor makes a new mesh."""
+    select(obj)
+    facets, volume = obj.Mesh.CountFacets, obj.Volume.Value
+    editor = property_editor()
+    wait_until(lambda: row_of(editor, "Strut Radius") is not None, 5)
+    index = row_of(editor, "Strut Radius")
+    editor.scrollTo(index)
+    wait(300)
+    place = editor.viewport().mapToGlobal(editor.visualRect(index).center())
+    xdotool("mousemove", place.x(), place.y())
+    wait(200)
+    xdotool("click", "--repeat", 2, "--delay", 80, 1)
+    wait(500)
+    xdotool("key", "ctrl+a")
+    xdotool("type", "1.3 mm")
+    picture("property_typed")
+    xdotool("key", "Return")
+    check("a typed radius is set", wait_until(lambda: abs(obj.StrutRadius.Value - 1.3) < 1e-9, 5))
+    wait_until(lambda: obj.Volume.Value != volume, 30)
+    check("and makes a new mesh", obj.Mesh.CountFacets != facets and obj.isValid(), obj.Status)
+    check("with more material", obj.Volume.Value > volume)
+    picture("property_recomputed")
+
+
+def check_the_mesh(doc, obj):
+    """Check Mesh reports on a good mesh; what it says can be copied and saved."""
+    select(obj)
+    click(toolbar_button("Check Mesh"))
+    check("the report opens", wait_until(lambda: window("VolfrepReport") is not None, 30))
+    report = window("VolfrepReport")
+    check("and keeps nobody waiting", not report.isModal())
+    text = report.text.toPlainText()
+    check("the mesh is fine", "closed and without defects" in text, text)
+    for figure in (
+        "genus",
+        "smallest angle",
+        "every place inside is enclosed once",
+        "every triangle keeps its corners",
+        "triangles that cross (FreeCAD)",
+    ):
+        check(f"the report tells: {figure}", figure in text, text)
+    picture("check_mesh")
+    QtGui.QApplication.clipboard().clear()
+    click(button_of(report, "Copy"))
+    check("it is on the clipboard", "genus" in QtGui.QApplication.clipboard().text())
+    path = OUT / "check.csv"
+    path.unlink(missing_ok=True)
+    answer_file_dialog(path, "save_report")
+    click(button_of(report, "Save..."))
+    check("it is saved", wait_until(path.is_file, 10))
+    check("with its figures", path.is_file() and "genus" in path.read_text())
+    close("VolfrepReport")
+
+
+def check_a_broken_mesh(doc):
+    """Check Mesh takes any mesh and says what is wrong with it."""
+    import Mesh
+
+    one, two = Mesh.createBox(10, 10, 10), Mesh.createBox(10, 10, 10)
+    two.translate(3, 3, 3)
+    one.addMesh(two)
+    crossing = doc.addObject("Mesh::Feature", "Crossing")
+    crossing.Mesh = one
+    doc.recompute()
+    select(crossing)
+    click(toolbar_button("Check Mesh"))
+    wait_until(lambda: window("VolfrepReport") is not None, 30)
+    text = window("VolfrepReport").text.toPlainText()
+    check("crossing surfaces are found", "mm3 enclosed more than once" in text, text)
+    check("by FreeCAD, too", "pairs, first near" in text, text)
+    check("it is not called ready", "has defects" in text, text)
+    close("VolfrepReport")
+    doc.removeObject(crossing.Name)
+
+
+def read_the_statistics(doc, obj):
+    """Statistics are those of all infills where none is selected."""
+    select()
+    click(toolbar_button("Statistics"))
+    check("statistics open", wait_until(lambda: window("VolfrepReport") is not None, 10))
+    text = window("VolfrepReport").text.toPlainText()
+    for figure in ("joints", "relative density", "Seconds by stage", "Peak memory"):
+        check(f"statistics tell: {figure}", figure in text, text)
+    check("of this infill", obj.Label in text and f"{obj.Triangles:,}" in text, text)
+    picture("statistics")
+    path = OUT / "statistics.csv"
+    path.unlink(missing_ok=True)
+    answer_file_dialog(path, "save_statistics")
+    click(button_of(window("VolfrepReport"), "Save..."))
+    check("statistics are saved", wait_until(path.is_file, 10))
+    check("as plain numbers", path.is_file() and f"triangles,{obj.Triangles}" in path.read_text())
+    close("VolfrepReport")
+
+
+def draw_a_cell(doc):
+    """A cube's edges and one diagonal of its body, as sketches cannot draw but wires can."""
+    import Part
+
+    cube = doc.addObject("Part::Feature", "Cube")
+    cube.Shape = Part.makeBox(8, 8, 8)
+    diagonal = doc.addObject("Part::Feature", "Diagonal")
+    diagonal.Shape = Part.makeLine((0, 0, 0), (8, 8, 8))
+    arc = doc.addObject("Part::Feature", "Arc")
+    arc.Shape = Part.makeCircle(4)
+    doc.recompute()
+    return cube, diagonal, arc
+
+
+def use_the_cell_library(doc, obj):
+    """The library shows cells, refuses wrong ones, makes one of a drawing, and applies it."""
+    select(obj)
+    click(toolbar_button("Cell Library"))
+    check("the library opens", wait_until(lambda: window("VolfrepCellLibrary") is not None, 10))
+    library = window("VolfrepCellLibrary")
+    cells = library.findChild(QtGui.QListWidget, "Cells")
+    note = library.findChild(QtGui.QLabel, "Note")
+    told = library.findChild(QtGui.QLabel, "Figures")
+    check("with the six cells", cells.count() == 6, cells.count())
+    check("the infill's is picked", cells.currentItem().text() == "CVC")
+    place = cells.visualItemRect(cells.findItems("Octet", QtCore.Qt.MatchExactly)[0]).center()
+    spot = cells.viewport().mapToGlobal(place)
+    xdotool("mousemove", spot.x(), spot.y())
+    wait(200)
+    xdotool("click", 1)
+    check("a click shows its figures", wait_until(lambda: "stretching" in told.text(), 5))
+    picture("cell_library")
+    bad = OUT / "bad.json"
+    bad.write_text(json.dumps({"nodes": [[0, 0, 0], [1, 1, 2]], "struts": [[0, 1]]}))
+    answer_file_dialog(bad, "cell_load")
+    click(button_of(library, "Load..."))
+    check("a wrong cell is refused", wait_until(lambda: "node 1 lies outside" in note.text(), 10),
+          note.text())  # fmt: skip
+    picture("cell_refused")
+    cube, diagonal, arc = draw_a_cell(doc)
+    select(cube, arc)
+    click(button_of(library, "From Selection"))
+    check("an arc is no strut", "Edge1 of 'Arc' cannot be a strut, it is a circle" in note.text(),
+          note.text())  # fmt: skip
+    select(cube, diagonal)
+    click(button_of(library, "From Selection"))
+    check("a drawing is a cell", cells.count() == 7 and cells.currentItem().text() == "Cube")
+    check("its size is told", "L = 8 mm" in note.text(), note.text())
+    check("its struts are counted", "13" in told.text(), told.text())
+    picture("cell_drawn")
+    select(obj)
+    path = OUT / "cube.json"
+    path.unlink(missing_ok=True)
+    answer_file_dialog(path, "cell_save")
+    click(button_of(library, "Apply"))
+    check("to apply it saves it first", wait_until(path.is_file, 10))
+    wait_until(lambda: obj.CellType == "Custom" and obj.isValid(), 30)
+    check("the infill has the cell", obj.CellType == "Custom" and obj.CellFile == str(path))
+    check("and is computed", obj.isValid() and obj.Mesh.isSolid(), obj.Status)
+    check("the library says so", "Up to date" in note.text(), note.text())
+    picture("cell_applied")
+    for item in cells.findItems("CVC", QtCore.Qt.MatchExactly):
+        cells.setCurrentItem(item)
+    click(button_of(library, "Apply"))
+    wait_until(lambda: obj.CellType == "CVC", 30)
+    check("a cell of the library can be applied", obj.CellType == "CVC" and obj.isValid())
+    close("VolfrepCellLibrary")
+    for part in (cube, diagonal, arc):
+        doc.removeObject(part.Name)
+
+
+def export_by_typing_a_name(doc, obj):
+    """A name typed into the dialog is the file's."""
+    path = OUT / "typed.stl"
+    path.unlink(missing_ok=True)
+    select(obj)
+    answer_file_dialog(path.with_suffix(""), "export")
+    click(toolbar_button("Export Lattice"))
+    check("the file is written", wait_until(path.is_file, 20), list(OUT.glob("typed*")))
+    size = path.stat().st_size if path.is_file() else 0
+    check("with every triangle", size == 84 + 50 * obj.Mesh.CountFacets, size)
+    wait(300)
+    shown = Gui.getMainWindow().statusBar().currentMessage()
+    check("the status bar tells", "typed.stl written" in shown, shown)
+
+
+def menu_of(doc, obj):
+    """Texts of the tree's context menu of an object, by a real right click; VOLFREP's apart."""
+    tree = next(t for t in Gui.getMainWindow().findChildren(QtGui.QTreeWidget) if t.isVisible())
+    item = tree.findItems(obj.Label, QtCore.Qt.MatchExactly | QtCore.Qt.MatchRecursive)[0]
+    tree.scrollToItem(item)
+    wait(300)
+    texts, ours = [], []
+
+    def read():
+        menu = QtGui.QApplication.activePopupWidget()
+        if menu is None:
+            return
+        for action in menu.actions():
+            texts.append(action.text().replace("&", ""))
+            if action.menu() is not None and texts[-1] == "VOLFREP":
+                ours.extend(a.text().replace("&", "") for a in action.menu().actions())
+        picture(f"menu_{obj.Name}")
+        menu.close()
+
+    spot = tree.viewport().mapToGlobal(tree.visualItemRect(item).center())
+    xdotool("mousemove", spot.x(), spot.y())
+    wait(200)
+    xdotool("click", 1)
+    wait(500)
+    QtCore.QTimer.singleShot(900, read)
+    xdotool("click", 3)
+    wait(2200)
+    return texts, ours
+
+
+def look_at_the_context_menus(doc, box, obj):
+    """The tree offers what applies, and nothing else, in our workbench and in others."""
+    texts, ours = menu_of(doc, obj)
+    check("the infill's menu has ours", texts.count("VOLFREP") == 1, texts)
+    for name in ("Update Lattice Infill", "Preview Only", "Check Mesh", "Statistics",
+                 "Export Lattice"):  # fmt: skip
+        check(f"it offers {name}", name in ours, ours)
+    check("it does not offer what does not apply", "Open Faces" not in ours, ours)
+    _, ours = menu_of(doc, box)
+    check("the solid's menu offers to fill", "Lattice Infill" in ours, ours)
+    check("and nothing of an infill", "Update Lattice Infill" not in ours, ours)
+    Gui.activateWorkbench("PartWorkbench")
+    wait(800)
+    texts, ours = menu_of(doc, obj)
+    check("in another workbench, too", "Update Lattice Infill" in ours, texts)
+    Gui.activateWorkbench(HOME)
+    wait(800)
+
+
+def tell_errors_without_a_box(doc, obj):
+    """An error that only informs is in the status bar and the report view."""
+    before = obj.ShellThickness.Value
+    obj.AutoUpdate = False
+    obj.ShellThickness = 30
+    select(obj)
+    click(toolbar_button("Preview Only"))
+    wait(600)
+    check("no box asks to be closed", QtGui.QApplication.activeModalWidget() is None)
+    shown = Gui.getMainWindow().statusBar().currentMessage()
+    check("the status bar tells what is wrong", "inside the skin" in shown, shown)
+    check("so does the report view", "inside the skin" in said())
+    check("nothing is previewed", previews() == 0)
+    picture("error_told")
+    obj.ShellThickness = before
+    obj.AutoUpdate = True
+    doc.recompute()
+    Gui.activeDocument().setEdit(obj.Name)
+    check("the panel opens", wait_until(lambda: panel() is not None, 20))
+    wait(600)
+    check("no command while it is open", not toolbar_button("Check Mesh").isEnabled())
+    answer_panel("Cancel")
+    wait_until(lambda: panel() is None, 10)
+
+
+def menu_action(*texts):
+    """An entry of FreeCAD's menu bar by the texts on the way to it."""
+    actions = Gui.getMainWindow().menuBar().actions()
+    for text in texts:
+        action = next(a for a in actions if a.text().replace("&", "") == text)
+        actions = action.menu().actions() if action.menu() is not None else []
+    return action
+
+
+def read_the_help():
+    """The help window shows the index, and a link leads to a command's page."""
+    menu_action("VOLFREP", "VOLFREP Help").trigger()
+    check("the help opens", wait_until(lambda: window("VolfrepHelp") is not None, 10))
+    wait(500)
+    text = window("VolfrepHelp").findChild(QtGui.QTextBrowser)
+    check("with its index", "Preview Only" in text.toPlainText(), text.toPlainText()[:200])
+    picture("help")
+    window("VolfrepHelp").close()
+
+
+def open_the_examples():
+    """Each entry of Examples opens a document with a part and its lattice, computed."""
+    for name, entry in (("bracket", "Bracket"), ("piston_rod", "Piston Rod")):
+        known = set(App.listDocuments())
+        menu_action("VOLFREP", "Examples", entry).trigger()
+        new = set(App.listDocuments()) - known
+        check(f"{entry} opens a document", len(new) == 1, new)
+        doc = App.getDocument(new.pop())
+        found = infills(doc)
+        check(f"{entry} has one infill", len(found) == 1)
+        check(f"{entry} is computed", found and found[0].isValid() and found[0].Mesh.isSolid())
+        check(f"{entry} is what shows", found and not found[0].Base.ViewObject.isVisible())
+        figures[f"{entry}: seconds"] = round(found[0].Seconds, 2)
+        figures[f"{entry}: triangles"] = found[0].Triangles
+        wait(500)
+        picture(f"example_{name}")
+        App.closeDocument(doc.Name)
+
+
+run(drive, "commands")

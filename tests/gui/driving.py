@@ -1,0 +1,178 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What the scripts share that drive the workbench in the real FreeCAD; see tools/run_gui.sh.
+
+A script notes checks, figures and failures here, and `run` leaves FreeCAD with 0 when every check
+held.
+"""
+
+import json
+import os
+import subprocess
+import sys
+import time
+import traceback
+from pathlib import Path
+
+import FreeCADGui as Gui
+from PySide import QtCore, QtGui
+
+OUT = Path(os.environ["GUI_OUT"])
+figures = {}
+failures = []
+
+
+def check(name, holds, detail=""):
+    """Note a check; go on to the others whatever it says."""
+    figures[name] = bool(holds)
+    if not holds:
+        failures.append(f"{name} {detail}".strip())
+
+
+def wait(milliseconds):
+    """Let Qt run, so that what xdotool sends arrives."""
+    loop = QtCore.QEventLoop()
+    QtCore.QTimer.singleShot(milliseconds, loop.quit)
+    (loop.exec if hasattr(loop, "exec") else loop.exec_)()
+
+
+def wait_until(condition, seconds):
+    """Wait for a condition; returns whether it came true."""
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        if condition():
+            return True
+        wait(50)
+    return bool(condition())
+
+
+def xdotool(*arguments):
+    """One call of the tool that sends real mouse and key events to the X server."""
+    subprocess.run(["xdotool", *map(str, arguments)], check=True)
+
+
+def click(widget):
+    """A real click in the middle of a widget."""
+    point = widget.mapToGlobal(widget.rect().center())
+    xdotool("mousemove", point.x(), point.y())
+    wait(300)
+    xdotool("click", 1)
+    wait(300)
+
+
+def picture(name):
+    """The whole screen as a file."""
+    Gui.updateGui()
+    wait(300)
+    subprocess.run(["import", "-window", "root", str(OUT / f"{name}.png")], check=True)
+
+
+def toolbar_button(name):
+    """The button of a command in the workbench's toolbars."""
+    for bar in Gui.getMainWindow().findChildren(QtGui.QToolBar):
+        if bar.windowTitle().startswith("VOLFREP"):
+            for action in bar.actions():
+                if action.text().replace("&", "") == name:
+                    return bar.widgetForAction(action)
+    raise LookupError(f"no button {name}")
+
+
+def tree_texts():
+    """Labels of all the items of the model tree."""
+    texts = set()
+    for tree in Gui.getMainWindow().findChildren(QtGui.QTreeWidget):
+        iterator = QtGui.QTreeWidgetItemIterator(tree)
+        while iterator.value():
+            texts.add(iterator.value().text(0))
+            iterator += 1
+    return texts
+
+
+def infills(doc):
+    """The document's lattice infills."""
+    return [obj for obj in doc.Objects if obj.TypeId == "Mesh::FeaturePython"]
+
+
+def select(*objects):
+    """Select these objects only, and let the toolbar notice."""
+    Gui.Selection.clearSelection()
+    for obj in objects:
+        Gui.Selection.addSelection(obj)
+    wait(900)
+
+
+def panel():
+    """The open task panel, or None."""
+    found = Gui.getMainWindow().findChildren(QtGui.QWidget, "VolfrepTaskPanel")
+    return next((widget for widget in found if widget.isVisible()), None)
+
+
+def previews():
+    """How many previews are in the 3D view."""
+    scene = Gui.activeDocument().activeView().getSceneGraph()
+    names = [scene.getChild(k).getName().getString() for k in range(scene.getNumChildren())]
+    return names.count("VolfrepPreview")
+
+
+def panel_part(name, kind=QtGui.QWidget):
+    """A widget of the task panel by the name of its property."""
+    return panel().findChild(kind, name)
+
+
+def answer_panel(text):
+    """Really click OK or Cancel of the task panel."""
+    for button in Gui.getMainWindow().findChildren(QtGui.QPushButton):
+        if button.isVisible() and button.text().replace("&", "") == text:
+            click(button)
+            return
+    raise LookupError(f"no button {text}")
+
+
+def type_length(name, text):
+    """Really type a length over what is in one of the panel's fields."""
+    field = panel_part(name)
+    click(field)
+    xdotool("key", "ctrl+a")
+    xdotool("type", text)
+    xdotool("key", "Tab")
+    wait(700)
+
+
+class UnexpectedMessages(QtCore.QObject):
+    """Closes message boxes that nobody answers within seconds, and notes what they say."""
+
+    def __init__(self):
+        super().__init__()
+        self.box = None
+        timer = QtCore.QTimer(self)
+        timer.timeout.connect(self.look)
+        timer.start(5000)
+
+    def look(self):
+        """Every five seconds: close what was there the last time too."""
+        box = QtGui.QApplication.activeModalWidget()
+        box = box if isinstance(box, QtGui.QMessageBox) else None
+        if box is not None and box is self.box:
+            failures.append(f"unexpected message: {box.text()}")
+            box.reject()
+        self.box = box
+
+
+def run(drive, name):
+    """Once FreeCAD is up: drive, write down to ``name.json`` in GUI_OUT, leave."""
+
+    def main():
+        code = 1
+        watch = UnexpectedMessages()
+        try:
+            drive()
+            code = 1 if failures else 0
+        except Exception:
+            failures.append(traceback.format_exc())
+        watch.deleteLater()
+        figures["failures"] = failures
+        (OUT / f"{name}.json").write_text(json.dumps(figures, indent=1), encoding="utf-8")
+        print("\n".join(failures) or "every check held")
+        sys.stdout.flush()
+        os._exit(code)
+
+    QtCore.QTimer.singleShot(2500, main)

@@ -19,6 +19,7 @@ from driving import (
     answer_panel,
     check,
     click,
+    drawn_share,
     figures,
     infills,
     panel,
@@ -26,6 +27,8 @@ from driving import (
     previews,
     run,
     select,
+    shades,
+    step,
     toolbar_button,
     wait,
     wait_until,
@@ -40,20 +43,20 @@ def drive():
     Gui.activateWorkbench(HOME)
     wait(800)
     show_report_view()
-    every_command_is_known()
-    the_commands_without_a_document()
+    step(every_command_is_known)
+    step(the_commands_without_a_document)
     doc, box, obj = a_filled_box()
-    preview_without_a_mesh(doc, box, obj)
-    type_a_radius(doc, obj)
-    check_the_mesh(doc, obj)
-    check_a_broken_mesh(doc)
-    read_the_statistics(doc, obj)
-    use_the_cell_library(doc, obj)
-    export_by_typing_a_name(doc, obj)
-    look_at_the_context_menus(doc, box, obj)
-    tell_errors_without_a_box(doc, obj)
-    read_the_help()
-    open_the_examples()
+    step(preview_without_a_mesh, doc, box, obj)
+    step(type_a_radius, doc, obj)
+    step(check_the_mesh, doc, obj)
+    step(check_a_broken_mesh, doc)
+    step(read_the_statistics, doc, obj)
+    step(use_the_cell_library, doc, obj)
+    step(export_by_typing_a_name, doc, obj)
+    step(look_at_the_context_menus, doc, box, obj)
+    step(tell_errors_without_a_box, doc, obj)
+    step(read_the_help)
+    step(open_the_examples)
 
 
 def show_report_view():
@@ -104,7 +107,7 @@ def answer_file_dialog(path, name):
         picture(name)
         xdotool("key", "Return")
 
-    QtCore.QTimer.singleShot(1200, answer)
+    QtCore.QTimer.singleShot(800, answer)
 
 
 def every_command_is_known():
@@ -148,7 +151,9 @@ def a_filled_box():
     box.Length, box.Width, box.Height = 40, 30, 20
     doc.recompute()
     obj = make_lattice_infill(doc, box, CellSize=10, StrutRadius=1, ShellThickness=1)
-    Gui.activeDocument().activeView().viewIsometric()
+    # Not along the diagonals of the cells, where one strut hides the next.
+    view = Gui.activeDocument().activeView()
+    view.setCameraOrientation(App.Rotation(25, 0, 62).Q)
     Gui.SendMsgToActiveView("ViewFit")
     return doc, box, obj
 
@@ -164,6 +169,11 @@ def preview_without_a_mesh(doc, box, obj):
     check("its figures are in the report view", "active cells" in said(), said())
     check("the solid makes room", not box.ViewObject.isVisible())
     picture("preview_only")
+    check(
+        "the picture shows the lattice: preview_only",
+        drawn_share("preview_only") > 0.1,
+        drawn_share("preview_only"),
+    )
     obj.AutoUpdate = False
     figures_before = said().count("active cells")
     obj.StrutRadius = 1.5
@@ -232,6 +242,11 @@ def type_a_radius(doc, obj):
     check("and makes a new mesh", obj.Mesh.CountFacets != facets and obj.isValid(), obj.Status)
     check("with more material", obj.Volume.Value > volume)
     picture("property_recomputed")
+    check(
+        "the picture shows the lattice: property_recomputed",
+        drawn_share("property_recomputed") > 0.1,
+        drawn_share("property_recomputed"),
+    )
 
 
 def check_the_mesh(doc, obj):
@@ -252,6 +267,11 @@ def check_the_mesh(doc, obj):
     ):
         check(f"the report tells: {figure}", figure in text, text)
     picture("check_mesh")
+    check(
+        "the picture shows the window: check_mesh",
+        shades("check_mesh", report) > 20,
+        shades("check_mesh", report),
+    )
     QtGui.QApplication.clipboard().clear()
     click(button_of(report, "Copy"))
     check("it is on the clipboard", "genus" in QtGui.QApplication.clipboard().text())
@@ -295,6 +315,11 @@ def read_the_statistics(doc, obj):
         check(f"statistics tell: {figure}", figure in text, text)
     check("of this infill", obj.Label in text and f"{obj.Triangles:,}" in text, text)
     picture("statistics")
+    check(
+        "the picture shows the window: statistics",
+        shades("statistics", window("VolfrepReport")) > 20,
+        shades("statistics", window("VolfrepReport")),
+    )
     path = OUT / "statistics.csv"
     path.unlink(missing_ok=True)
     answer_file_dialog(path, "save_statistics")
@@ -336,6 +361,11 @@ def use_the_cell_library(doc, obj):
     xdotool("click", 1)
     check("a click shows its figures", wait_until(lambda: "stretching" in told.text(), 5))
     picture("cell_library")
+    check(
+        "the picture shows the window: cell_library",
+        shades("cell_library", library) > 20,
+        shades("cell_library", library),
+    )
     bad = OUT / "bad.json"
     bad.write_text(json.dumps({"nodes": [[0, 0, 0], [1, 1, 2]], "struts": [[0, 1]]}))
     answer_file_dialog(bad, "cell_load")
@@ -343,6 +373,11 @@ def use_the_cell_library(doc, obj):
     check("a wrong cell is refused", wait_until(lambda: "node 1 lies outside" in note.text(), 10),
           note.text())  # fmt: skip
     picture("cell_refused")
+    check(
+        "the picture shows the window: cell_refused",
+        shades("cell_refused", library) > 20,
+        shades("cell_refused", library),
+    )
     cube, diagonal, arc = draw_a_cell(doc)
     select(cube, arc)
     click(button_of(library, "From Selection"))
@@ -354,6 +389,11 @@ def use_the_cell_library(doc, obj):
     check("its size is told", "L = 8 mm" in note.text(), note.text())
     check("its struts are counted", "13" in told.text(), told.text())
     picture("cell_drawn")
+    check(
+        "the picture shows the window: cell_drawn",
+        shades("cell_drawn", library) > 20,
+        shades("cell_drawn", library),
+    )
     select(obj)
     path = OUT / "cube.json"
     path.unlink(missing_ok=True)
@@ -365,6 +405,11 @@ def use_the_cell_library(doc, obj):
     check("and is computed", obj.isValid() and obj.Mesh.isSolid(), obj.Status)
     check("the library says so", "Up to date" in note.text(), note.text())
     picture("cell_applied")
+    check(
+        "the picture shows the window: cell_applied",
+        shades("cell_applied", library) > 20,
+        shades("cell_applied", library),
+    )
     for item in cells.findItems("CVC", QtCore.Qt.MatchExactly):
         cells.setCurrentItem(item)
     click(button_of(library, "Apply"))
@@ -414,9 +459,9 @@ def menu_of(doc, obj):
     wait(200)
     xdotool("click", 1)
     wait(500)
-    QtCore.QTimer.singleShot(900, read)
+    QtCore.QTimer.singleShot(700, read)
     xdotool("click", 3)
-    wait(2200)
+    wait(1600)
     return texts, ours
 
 
@@ -481,6 +526,11 @@ def read_the_help():
     text = window("VolfrepHelp").findChild(QtGui.QTextBrowser)
     check("with its index", "Preview Only" in text.toPlainText(), text.toPlainText()[:200])
     picture("help")
+    check(
+        "the picture shows the window: help",
+        shades("help", window("VolfrepHelp")) > 20,
+        shades("help", window("VolfrepHelp")),
+    )
     window("VolfrepHelp").close()
 
 
@@ -500,6 +550,8 @@ def open_the_examples():
         figures[f"{entry}: triangles"] = found[0].Triangles
         wait(500)
         picture(f"example_{name}")
+        share = drawn_share(f"example_{name}")
+        check(f"the picture shows the lattice: {name}", share > 0.05, share)
         App.closeDocument(doc.Name)
 
 

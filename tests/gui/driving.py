@@ -28,6 +28,14 @@ def check(name, holds, detail=""):
         failures.append(f"{name} {detail}".strip())
 
 
+def step(function, *arguments):
+    """One step of a script: note its seconds; returns what it returns."""
+    start = time.monotonic()
+    result = function(*arguments)
+    figures[f"seconds: {function.__name__}"] = round(time.monotonic() - start, 1)
+    return result
+
+
 def wait(milliseconds):
     """Let Qt run, so that what xdotool sends arrives."""
     loop = QtCore.QEventLoop()
@@ -64,6 +72,47 @@ def picture(name):
     Gui.updateGui()
     wait(300)
     subprocess.run(["import", "-window", "root", str(OUT / f"{name}.png")], check=True)
+
+
+def view_3d():
+    """The window of the 3D view in front."""
+    return Gui.getMainWindow().findChild(QtGui.QMdiArea).currentSubWindow().widget()
+
+
+def shades(name, widget):
+    """How many colours a picture has where a widget is; a blank one has one or two."""
+    return len(set(_sampled(name, widget, 0.0).values()))
+
+
+def drawn_share(name):
+    """Share of the middle of the 3D view, in a picture, that is not background.
+
+    FreeCAD's background changes from row to row only, and nothing is drawn at its left border.
+    """
+    pixels = _sampled(name, view_3d(), 0.2)
+    border = _sampled(name, view_3d(), 0.0)
+    background = {y: colour for (x, y), colour in sorted(border.items(), reverse=True)}
+    differs = [_distance(colour, background[y]) > 24 for (_, y), colour in pixels.items()]
+    return sum(differs) / len(differs)
+
+
+def _sampled(name, widget, margin, step=4):
+    """Colours by place on the screen, within a widget without a margin of its size."""
+    image = QtGui.QImage(str(OUT / f"{name}.png"))
+    corner = widget.mapToGlobal(QtCore.QPoint(0, 0))
+    places = []
+    for low, size, most in (
+        (corner.x(), widget.width(), image.width()),
+        (corner.y(), widget.height(), image.height()),
+    ):
+        first, last = low + int(margin * size), low + int((1.0 - margin) * size)
+        places.append([k for k in range(low + 2, low + size, step) if first <= k < min(last, most)])
+    return {(x, y): image.pixel(x, y) & 0xFFFFFF for x in places[0] for y in places[1]}
+
+
+def _distance(one, two):
+    """Sum of the differences of red, green and blue."""
+    return sum(abs((one >> k & 255) - (two >> k & 255)) for k in (0, 8, 16))
 
 
 def toolbar_button(name):

@@ -39,7 +39,13 @@ EXAMPLES = {
     "PistonRod": Example(
         "Piston rod",
         make_piston_rod,
-        {"CellType": "BCC", "CellSize": 4, "StrutRadius": 0.4, "ShellThickness": 1},
+        {
+            "CellType": "BCC",
+            "CellSize": 4,
+            "StrutRadius": 0.4,
+            "ShellThickness": 1,
+            "Deviation": 0.02,
+        },
     ),
 }
 

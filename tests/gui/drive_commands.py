@@ -6,7 +6,9 @@ Writes pictures (among them those of the tutorial) and ``commands.json`` to GUI_
 """
 
 import json
+import shutil
 import sys
+import tempfile
 from pathlib import Path
 
 import FreeCAD as App
@@ -15,13 +17,13 @@ from PySide import QtCore, QtGui
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from driving import (
-    OUT,
     answer_panel,
     check,
     click,
     drawn_share,
     figures,
     infills,
+    look_at_all,
     panel,
     picture,
     previews,
@@ -30,12 +32,15 @@ from driving import (
     shades,
     step,
     toolbar_button,
+    type_length,
     wait,
     wait_until,
     xdotool,
 )
 
 HOME = "VolfrepWorkbench"
+#: Of the files that are typed into dialogs: pictures of it go into the documentation.
+FOLDER = Path(tempfile.mkdtemp(prefix="volfrep-"))
 
 
 def drive():
@@ -45,7 +50,7 @@ def drive():
     show_report_view()
     step(every_command_is_known)
     step(the_commands_without_a_document)
-    doc, box, obj = a_filled_box()
+    doc, box, obj = step(fill_a_box)
     step(preview_without_a_mesh, doc, box, obj)
     step(type_a_radius, doc, obj)
     step(check_the_mesh, doc, obj)
@@ -57,14 +62,16 @@ def drive():
     step(tell_errors_without_a_box, doc, obj)
     step(read_the_help)
     step(open_the_examples)
+    shutil.rmtree(FOLDER)
 
 
 def show_report_view():
-    """The report view in front, so that pictures show what is said."""
+    """The report view in front and empty, so that pictures show what is said."""
     for dock in Gui.getMainWindow().findChildren(QtGui.QDockWidget):
         if dock.objectName() == "Report view":
             dock.show()
             dock.raise_()
+    Gui.getMainWindow().findChild(QtGui.QTextEdit, "Report view").clear()
 
 
 def said():
@@ -141,58 +148,64 @@ def the_commands_without_a_document():
         check(f"{name} without a document", toolbar_button(name).isEnabled() == active)
 
 
-def a_filled_box():
-    """A box of 40 x 30 x 20 mm with a lattice that is not computed yet."""
-    from freecad_volfrep import make_lattice_infill
-
-    doc = App.newDocument("Commands")
+def fill_a_box():
+    """The tutorial's first steps: select a box, fill it by way of the panel."""
+    doc = App.newDocument("Tutorial")
     doc.UndoMode = 1
     box = doc.addObject("Part::Box", "Block")
     box.Length, box.Width, box.Height = 40, 30, 20
     doc.recompute()
-    obj = make_lattice_infill(doc, box, CellSize=10, StrutRadius=1, ShellThickness=1)
-    # Not along the diagonals of the cells, where one strut hides the next.
-    view = Gui.activeDocument().activeView()
-    view.setCameraOrientation(App.Rotation(25, 0, 62).Q)
-    Gui.SendMsgToActiveView("ViewFit")
+    look_at_all()
+    select(box)
+    picture("tutorial_1_select")
+    click(toolbar_button("Lattice Infill"))
+    check("the panel opens", wait_until(lambda: panel() is not None, 20))
+    wait(1000)
+    type_length("CellSize", "10 mm")
+    type_length("StrutRadius", "1 mm")
+    picture("tutorial_2_panel")
+    check("the panel's preview is in the picture", drawn_share("tutorial_2_panel") > 0.1)
+    answer_panel("OK")
+    check("the panel closes", wait_until(lambda: panel() is None, 60))
+    obj = infills(doc)[0]
+    check("the box is filled", obj.isValid() and obj.Mesh.isSolid(), obj.Status)
+    select()
+    picture("tutorial_4_computed")
     return doc, box, obj
 
 
 def preview_without_a_mesh(doc, box, obj):
     """Preview Only shows struts and figures, follows the values, and goes as it came."""
+    obj.AutoUpdate = False
+    obj.StrutRadius = 0.8
+    doc.recompute()
     select(obj)
+    triangles = obj.Mesh.CountFacets
     button = toolbar_button("Preview Only")
     check("a preview is offered", button.isEnabled())
     click(button)
     check("the preview shows", wait_until(lambda: previews() == 1, 10), previews())
-    check("no mesh was made", obj.Mesh.CountFacets == 0)
+    check("no mesh was made", obj.Mesh.CountFacets == triangles and "Out of date" in obj.Status)
     check("its figures are in the report view", "active cells" in said(), said())
-    check("the solid makes room", not box.ViewObject.isVisible())
+    check("the mesh makes room", not obj.ViewObject.isVisible())
     picture("preview_only")
-    check(
-        "the picture shows the lattice: preview_only",
-        drawn_share("preview_only") > 0.1,
-        drawn_share("preview_only"),
-    )
-    obj.AutoUpdate = False
+    share = drawn_share("preview_only")
+    check("the picture shows the struts", share > 0.1, share)
     figures_before = said().count("active cells")
-    obj.StrutRadius = 1.5
-    doc.recompute()
+    obj.StrutRadius = 1
     check(
         "it follows a value", wait_until(lambda: said().count("active cells") > figures_before, 5)
     )
-    obj.StrutRadius = 1
     click(button)
     check("once more takes it away", wait_until(lambda: previews() == 0, 5), previews())
-    check("the solid is back", box.ViewObject.isVisible())
+    check("the mesh is back", obj.ViewObject.isVisible() and not box.ViewObject.isVisible())
     click(button)
     wait_until(lambda: previews() == 1, 10)
+    obj.StrutRadius = 1.1
     click(toolbar_button("Update Lattice Infill"))
     check("a mesh ends the preview", wait_until(lambda: previews() == 0, 60), previews())
-    check("the mesh is there", obj.Mesh.CountFacets > 0 and obj.ViewObject.isVisible())
+    check("the new mesh shows", obj.Mesh.CountFacets != triangles and obj.ViewObject.isVisible())
     obj.AutoUpdate = True
-    box.Visibility = False
-    doc.recompute()
 
 
 def property_editor():
@@ -275,8 +288,7 @@ def check_the_mesh(doc, obj):
     QtGui.QApplication.clipboard().clear()
     click(button_of(report, "Copy"))
     check("it is on the clipboard", "genus" in QtGui.QApplication.clipboard().text())
-    path = OUT / "check.csv"
-    path.unlink(missing_ok=True)
+    path = FOLDER / "check.csv"
     answer_file_dialog(path, "save_report")
     click(button_of(report, "Save..."))
     check("it is saved", wait_until(path.is_file, 10))
@@ -320,8 +332,7 @@ def read_the_statistics(doc, obj):
         shades("statistics", window("VolfrepReport")) > 20,
         shades("statistics", window("VolfrepReport")),
     )
-    path = OUT / "statistics.csv"
-    path.unlink(missing_ok=True)
+    path = FOLDER / "statistics.csv"
     answer_file_dialog(path, "save_statistics")
     click(button_of(window("VolfrepReport"), "Save..."))
     check("statistics are saved", wait_until(path.is_file, 10))
@@ -366,7 +377,7 @@ def use_the_cell_library(doc, obj):
         shades("cell_library", library) > 20,
         shades("cell_library", library),
     )
-    bad = OUT / "bad.json"
+    bad = FOLDER / "bad.json"
     bad.write_text(json.dumps({"nodes": [[0, 0, 0], [1, 1, 2]], "struts": [[0, 1]]}))
     answer_file_dialog(bad, "cell_load")
     click(button_of(library, "Load..."))
@@ -395,8 +406,7 @@ def use_the_cell_library(doc, obj):
         shades("cell_drawn", library),
     )
     select(obj)
-    path = OUT / "cube.json"
-    path.unlink(missing_ok=True)
+    path = FOLDER / "cube.json"
     answer_file_dialog(path, "cell_save")
     click(button_of(library, "Apply"))
     check("to apply it saves it first", wait_until(path.is_file, 10))
@@ -422,12 +432,11 @@ def use_the_cell_library(doc, obj):
 
 def export_by_typing_a_name(doc, obj):
     """A name typed into the dialog is the file's."""
-    path = OUT / "typed.stl"
-    path.unlink(missing_ok=True)
+    path = FOLDER / "typed.stl"
     select(obj)
     answer_file_dialog(path.with_suffix(""), "export")
     click(toolbar_button("Export Lattice"))
-    check("the file is written", wait_until(path.is_file, 20), list(OUT.glob("typed*")))
+    check("the file is written", wait_until(path.is_file, 20), list(FOLDER.iterdir()))
     size = path.stat().st_size if path.is_file() else 0
     check("with every triangle", size == 84 + 50 * obj.Mesh.CountFacets, size)
     wait(300)

@@ -22,6 +22,7 @@ from driving import (
     click,
     figures,
     infills,
+    look_at_all,
     panel,
     panel_part,
     picture,
@@ -50,8 +51,7 @@ def drive():
     box = doc.addObject("Part::Box", "Block")
     box.Length, box.Width, box.Height = 40, 30, 20
     doc.recompute()
-    Gui.activeDocument().activeView().viewIsometric()
-    Gui.SendMsgToActiveView("ViewFit")
+    look_at_all()
     fill = toolbar_button("Lattice Infill")
     select()
     check("inactive without a selection", not fill.isEnabled())

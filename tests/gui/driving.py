@@ -13,6 +13,7 @@ import time
 import traceback
 from pathlib import Path
 
+import FreeCAD as App
 import FreeCADGui as Gui
 from PySide import QtCore, QtGui
 
@@ -72,6 +73,15 @@ def picture(name):
     Gui.updateGui()
     wait(300)
     subprocess.run(["import", "-window", "root", str(OUT / f"{name}.png")], check=True)
+
+
+def look_at_all():
+    """All of the document from above and the side; cells of struts along their diagonals would
+    hide each other in FreeCAD's isometric view.
+    """
+    Gui.activeDocument().activeView().setCameraOrientation(App.Rotation(25, 0, 62).Q)
+    Gui.SendMsgToActiveView("ViewFit")
+    wait(300)
 
 
 def view_3d():

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The commands of the workbench and their help: every one has its page and icon, no link is dead.
+
+The table of commands is read as text: it can be imported inside FreeCAD only.
+"""
+
+import ast
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+DOCS = ROOT / "docs"
+PAGES = DOCS / "commands"
+ICONS = ROOT / "freecad_volfrep" / "resources" / "icons"
+SECTIONS = ("## Description", "## Usage")
+
+
+def table() -> dict[str, tuple[str, str, str]]:
+    """Icon, menu text and shortcut of each command, by its name."""
+    source = (ROOT / "freecad_volfrep" / "gui" / "commands.py").read_text(encoding="utf-8")
+    found = {}
+    for call in ast.walk(ast.parse(source)):
+        if not isinstance(call, ast.Call) or not isinstance(call.func, ast.Name):
+            continue
+        texts = [a.value for a in call.args if isinstance(a, ast.Constant)]
+        if call.func.id == "Command" and len(texts) == 5:
+            name, icon, text, _, keys = texts
+            found[name] = icon, text, keys
+        elif call.func.id == "_example":
+            name, icon, text, _ = texts
+            found[f"VOLFREP_Example{name}"] = icon, text, ""
+    return found
+
+
+COMMANDS = table()
+
+
+def test_the_table_was_read() -> None:
+    names = {"VOLFREP_LatticeInfill", "VOLFREP_CellLibrary", "VOLFREP_ExampleBracket"}
+    assert names <= set(COMMANDS)
+    assert len(COMMANDS) >= 15
+
+
+@pytest.mark.parametrize("name", sorted(COMMANDS))
+def test_a_command_has_its_icon_and_its_page(name: str) -> None:
+    icon, text, keys = COMMANDS[name]
+    assert (ICONS / icon).is_file()
+    page = (PAGES / f"{name}.md").read_text(encoding="utf-8")
+    title = page.splitlines()[0]
+    assert text in title
+    assert f"icons/{icon})" in title
+    shortcut = " ".join(f"`{key}`" for key in keys.split(", ")) if keys else "none"
+    assert f"| **Default shortcut** | {shortcut} |" in page
+    assert all(section in page for section in SECTIONS)
+    assert f"({name}.md)" in (PAGES / "README.md").read_text(encoding="utf-8")
+
+
+def test_no_page_is_without_a_command() -> None:
+    pages = {path.stem for path in PAGES.glob("VOLFREP_*.md")}
+    assert pages == set(COMMANDS)
+
+
+@pytest.mark.parametrize(
+    "page", [*sorted(DOCS.rglob("*.md")), ROOT / "README.md"], ids=lambda p: p.name
+)
+def test_every_link_leads_to_a_file(page: Path) -> None:
+    links = re.findall(r"\]\(([^)#\s]+)", page.read_text(encoding="utf-8"))
+    local = [link for link in links if "://" not in link]
+    assert [link for link in local if not (page.parent / link).exists()] == []
+
+
+def test_the_tutorials_pictures_are_small_and_used() -> None:
+    pictures = sorted((DOCS / "images" / "tutorial").glob("*.png"))
+    texts = "".join(path.read_text(encoding="utf-8") for path in DOCS.rglob("*.md"))
+    assert [path.name for path in pictures if path.stat().st_size >= 150_000] == []
+    assert [path.name for path in pictures if f"tutorial/{path.name}" not in texts] == []

@@ -7,6 +7,8 @@ below, which import what they need, when they need it.
 
 import FreeCADGui as Gui
 
+from freecad_volfrep.gui.preferences_page import register_pages
+
 
 class VolfrepWorkbench(Gui.Workbench):
     """The VOLFREP workbench: fill a solid with a strut lattice."""
@@ -47,3 +49,5 @@ class VolfrepWorkbench(Gui.Workbench):
 
 
 Gui.addWorkbench(VolfrepWorkbench())
+# From the start, whether or not the workbench is ever opened.
+register_pages()

@@ -7,10 +7,11 @@ from volfrep.errors import VolfrepError
 
 from .compat import repair_lazy_loader
 from .deps import explain_missing, missing_packages
+from .preferences import THREADS, read
 
 
 def require_engine() -> None:
-    """Make sure that the engine can be imported.
+    """Make sure that the engine can be imported, and uses as many threads as preferred.
 
     Raises:
         VolfrepError: Python packages are missing; the text says which command installs them.
@@ -19,3 +20,6 @@ def require_engine() -> None:
     if missing:
         raise VolfrepError(explain_missing(missing))
     repair_lazy_loader()
+    from volfrep.threads import use_threads
+
+    use_threads(read(THREADS))

@@ -1,13 +1,121 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What a user sets once for all documents, in FreeCAD's parameters (Tools > Edit parameters)."""
+"""What a user sets once for all documents: keys, defaults and limits, in one place.
+
+The values lie in FreeCAD's parameters (Edit > Preferences > VOLFREP, or Tools > Edit parameters).
+Whatever was typed there by hand, what is read here makes sense.
+"""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
 
 import FreeCAD as App
 
 GROUP = "User parameter:BaseApp/Preferences/Mod/VOLFREP"
+
+
+@dataclass(frozen=True)
+class Preference:
+    """One value in FreeCAD's parameters, of the type of its default.
+
+    Attributes:
+        key: its name there.
+        default: what holds where nothing is stored.
+        low: the least number.
+        high: the largest number.
+        automatic: whether 0 is allowed as well, and leaves the choice to VOLFREP.
+        choices: of a text: called for the texts that are allowed.
+    """
+
+    key: str
+    default: bool | int | float | str
+    low: float = 0.0
+    high: float = math.inf
+    automatic: bool = False
+    choices: Callable[[], Sequence[str]] | None = None
+
+
+@dataclass(frozen=True)
+class Colour(Preference):
+    """A colour, as FreeCAD stores it: 0xRRGGBBAA."""
+
+    high: float = 0xFFFFFFFF
+
+
+def _cells() -> list[str]:
+    from volfrep.cells import LIBRARY
+
+    return list(LIBRARY)
+
+
+CELL_TYPE = Preference("NewCellType", "CVC", choices=_cells)
+CELL_SIZE = Preference("NewCellSize", 0.0, 0.01, 1000.0, automatic=True)
+STRUT_SHARE = Preference("NewStrutRadiusShare", 0.1, 0.01, 0.4)
+SKIN = Preference("NewShellThickness", 0.0, 0.01, 1000.0, automatic=True)
+RESOLUTION = Preference("NewResolution", 0, 4, 400, automatic=True)
+DEVIATION = Preference("NewDeviation", 0.0, 0.0001, 10.0, automatic=True)
+AUTO_UPDATE = Preference("NewAutoUpdate", True)
+DENSITY = Preference("NewDensity", 1.0, 0.001, 25.0)
+LARGEST_AUTOMATIC = Preference("LargestAutomaticTriangles", 3_000_000, 0, 2_000_000_000)
+LARGEST_SHOWN = Preference("LargestShownTriangles", 1_000_000, 1_000, 2_000_000_000)
+TRANSPARENCY = Preference("Transparency", 60, 0, 100)
+MOST_PRISMS = Preference("LargestShownStruts", 6_000, 0, 1_000_000)
+STRUT_COLOUR = Colour("StrutColour", 0x216BB8FF)
+OVERHANG_COLOUR = Colour("OverhangColour", 0xD9291FFF)
+THREADS = Preference("Threads", 0, 1, 256, automatic=True)
+
+#: All of them, as the tests and the page see them.
+PREFERENCES = (
+    CELL_TYPE, CELL_SIZE, STRUT_SHARE, SKIN, RESOLUTION, DEVIATION, AUTO_UPDATE, DENSITY,
+    LARGEST_AUTOMATIC, LARGEST_SHOWN, TRANSPARENCY, MOST_PRISMS, STRUT_COLOUR, OVERHANG_COLOUR,
+    THREADS,
+)  # fmt: skip
+
+#: What has been said about stored values, so that it is said once.
+_said: set[tuple[str, str]] = set()
+
+
+def read(preference: Preference) -> Any:
+    """The stored value, or the default; what is not allowed is brought to what is, and told."""
+    stored = _call("Get", preference, preference.default)
+    value = allowed(preference, stored)
+    if value != stored and (preference.key, repr(stored)) not in _said:
+        _said.add((preference.key, repr(stored)))
+        App.Console.PrintWarning(
+            f"VOLFREP: the preference {preference.key} is {stored!r}, which is not possible: "
+            f"{value!r} is used. Correct it in Edit > Preferences > VOLFREP.\n"
+        )
+    return value
+
+
+def write(preference: Preference, value: Any) -> None:
+    """Store a value, made an allowed one; the default is stored by storing nothing."""
+    value = allowed(preference, value)
+    if value == preference.default:
+        _call("Rem", preference)
+    else:
+        _call("Set", preference, value)
+
+
+def allowed(preference: Preference, value: Any) -> Any:
+    """The nearest value that the preference may have."""
+    if preference.choices is not None:
+        return value if value in preference.choices() else preference.default
+    if isinstance(preference.default, bool) or (preference.automatic and value == 0):
+        return value
+    if math.isnan(value):
+        return preference.default
+    return type(preference.default)(min(max(value, preference.low), preference.high))
+
+
+def colour(preference: Colour) -> tuple[float, float, float]:
+    """A colour as red, green and blue from 0 to 1."""
+    stored = read(preference)
+    red, green, blue = (((stored >> shift) & 0xFF) / 255.0 for shift in (24, 16, 8))
+    return red, green, blue
 
 
 def largest_automatic() -> float:
@@ -15,11 +123,18 @@ def largest_automatic() -> float:
 
     Without a window nobody waits: a recompute computes.
     """
-    if not App.GuiUp:
-        return math.inf
-    return float(App.ParamGet(GROUP).GetInt("LargestAutomaticTriangles", 3_000_000))
+    return float(read(LARGEST_AUTOMATIC)) if App.GuiUp else math.inf
 
 
 def largest_shown() -> int:
     """Triangles above which a mesh is coarsened for the screen."""
-    return int(App.ParamGet(GROUP).GetInt("LargestShownTriangles", 1_000_000))
+    return int(read(LARGEST_SHOWN))
+
+
+def _call(verb: str, preference: Preference, *value: Any) -> Any:
+    """Get, Set or Rem of FreeCAD's parameters, of the kind that the preference is."""
+    if isinstance(preference, Colour):
+        kind = "Unsigned"
+    else:
+        kind = {bool: "Bool", int: "Int", float: "Float", str: "String"}[type(preference.default)]
+    return getattr(App.ParamGet(GROUP), verb + kind)(preference.key, *value)

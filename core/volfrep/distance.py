@@ -17,6 +17,7 @@ from scipy.spatial import cKDTree
 from .errors import VolfrepError
 from .mesh import TriangleMesh
 from .ragged import spread
+from .threads import threads
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -62,7 +63,7 @@ def closest_points(mesh: TriangleMesh, points: Floats) -> tuple[Floats, Floats, 
     ]
     while pending:
         part = pending.pop()
-        seed = seeds.query(points[part], workers=-1)[1]
+        seed = seeds.query(points[part], workers=threads())[1]
         found = _descend(corners, boxes, order, points[part], seed)
         if found is None:  # too many triangles are equally near for one step
             pending.extend(np.array_split(part, 2))
@@ -215,7 +216,8 @@ class SurfaceIndex:
         inside the solid it is too large by at most ``(0.75 spacing)**2 / (2 d) + spacing / 10``,
         and nearly always exact; outside, by at most the spacing.
         """
-        triangle = self.triangle_of_sample[self.tree.query(points, workers=-1)[1]].astype(np.int64)
+        nearest = self.tree.query(points, workers=threads())[1]
+        triangle = self.triangle_of_sample[nearest].astype(np.int64)
         closest, edge = closest_on_triangles(self.corners[triangle], points)
         squared = ((points - closest) ** 2).sum(axis=1)
         rows = np.flatnonzero(edge >= 0)

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .errors import VolfrepError
 from .point_files import read_points
+from .threads import threads
 
 if TYPE_CHECKING:
     from scipy.spatial import cKDTree
@@ -96,7 +97,7 @@ class PointField:
     def _interpolate(self, places: Floats) -> Floats:
         count = min(NEIGHBOURS, len(self.points))
         wanted = min(count + 1, len(self.points))
-        distance, index = self._tree.query(places, k=list(range(1, wanted + 1)), workers=-1)
+        distance, index = self._tree.query(places, k=list(range(1, wanted + 1)), workers=threads())
         near = distance[:, :count]
         # Relative to the nearest point, so that nothing overflows; on a point, it alone counts.
         ratio = np.where(near > 0.0, near[:, :1] / np.where(near > 0.0, near, 1.0), 1.0)

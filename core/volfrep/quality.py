@@ -8,7 +8,6 @@ the triangles' shapes and `pinched_vertices` at the vertices (both on demand).
 from __future__ import annotations
 
 import itertools
-import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -21,6 +20,7 @@ from scipy.sparse.csgraph import connected_components
 
 from .mesh import TriangleMesh
 from .progress import Monitor
+from .threads import threads
 
 T = TypeVar("T")
 
@@ -226,7 +226,7 @@ def pinched_vertices(mesh: TriangleMesh) -> int:
     at = mesh.triangles.ravel()[order]
     cuts = np.searchsorted(at, np.arange(0, len(mesh.vertices) + BLOCK_VERTICES, BLOCK_VERTICES))
     spans = [slice(start, stop) for start, stop in itertools.pairwise(cuts.tolist())]
-    with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
+    with ThreadPoolExecutor(max_workers=threads()) as pool:
         return sum(pool.map(lambda span: _pinched_in(mesh, order[span], at[span]), spans))
 
 
@@ -263,7 +263,7 @@ def _edges(mesh: TriangleMesh) -> tuple[Any, Any]:
     Two sparse matrices (lower index, higher index) -> count. Building one is a counting sort,
     in compiled code that lets the other thread run.
     """
-    with ThreadPoolExecutor(max_workers=2) as pool:
+    with ThreadPoolExecutor(max_workers=min(2, threads())) as pool:
         forward, backward = pool.map(lambda way: _directed_edges(mesh, way), (True, False))
     return forward, backward
 
@@ -368,7 +368,7 @@ def _block_shapes(
 def _in_blocks(work: Callable[[int, int], T], count: int) -> list[T]:
     """`work(start, stop)` for consecutive blocks of triangles, on every core."""
     starts = range(0, count, BLOCK_TRIANGLES)
-    with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
+    with ThreadPoolExecutor(max_workers=threads()) as pool:
         return list(pool.map(lambda s: work(s, min(s + BLOCK_TRIANGLES, count)), starts))
 
 

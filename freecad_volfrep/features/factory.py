@@ -8,6 +8,7 @@ from typing import Any
 
 import FreeCAD as App
 
+from freecad_volfrep import preferences
 from volfrep.errors import VolfrepError
 
 from .lattice_infill import LatticeInfill
@@ -62,15 +63,36 @@ def make_lattice_infill(
     return obj
 
 
-def suggested_sizes(extent: tuple[float, float, float]) -> dict[str, float]:
-    """Sizes to start from for a part of that extent in mm.
+def preferred_values(extent: tuple[float, float, float]) -> dict[str, Any]:
+    """What the user wants a new infill of a part of that extent in mm to start with.
+
+    Sizes that are left to us are the suggested ones. Scripts make infills without this: what they
+    make must not hang on who runs them.
+    """
+    sizes = suggested_sizes(extent, preferences.read(preferences.CELL_SIZE))
+    sizes["StrutRadius"] = preferences.read(preferences.STRUT_SHARE) * sizes["CellSize"]
+    sizes["ShellThickness"] = preferences.read(preferences.SKIN) or sizes["ShellThickness"]
+    resolution = preferences.read(preferences.RESOLUTION)
+    return {
+        **sizes,
+        "CellType": preferences.read(preferences.CELL_TYPE),
+        "Resolution": resolution,
+        "Deviation": 0.0 if resolution else preferences.read(preferences.DEVIATION),
+        "AutoUpdate": preferences.read(preferences.AUTO_UPDATE),
+        "Density": preferences.read(preferences.DENSITY),
+    }
+
+
+def suggested_sizes(extent: tuple[float, float, float], cell_size: float = 0.0) -> dict[str, float]:
+    """Sizes to start from for a part of that extent in mm, with cells of that size unless it is 0.
 
     About four cells across its thinnest side, but not many more than fill its box quickly. The
     cell is a round number (1, 2 or 5 times a power of ten), the strut a tenth of it, and the
     skin a fifth, or more where a part is so large that its skin could not be resolved.
     """
     quick = math.prod(extent) / _QUICK_CELLS
-    cell = max(_round_number(min(extent) / 4.0), _round_number(2.5 * quick ** (1.0 / 3.0)))
+    suitable = max(_round_number(min(extent) / 4.0), _round_number(2.5 * quick ** (1.0 / 3.0)))
+    cell = cell_size or suitable
     thinnest_skin = float(f"{math.hypot(*extent) / 400.0:.2g}")
     return {
         "CellSize": cell,

@@ -66,12 +66,12 @@ def open_panel(doc: App.Document, base: App.DocumentObject) -> None:
 
 
 def make_suitable_infill(doc: App.Document, base: App.DocumentObject) -> App.DocumentObject:
-    """An infill with sizes that suit the base."""
+    """An infill with the preferred values, and sizes that suit the base."""
     from freecad_volfrep.bridge.solids import SolidReader, parent_placement
-    from freecad_volfrep.features.factory import make_lattice_infill, suggested_sizes
+    from freecad_volfrep.features.factory import make_lattice_infill, preferred_values
 
     low, high = SolidReader().read(base, parent_placement(base)).bounds
-    return make_lattice_infill(doc, base, **suggested_sizes(tuple(high - low)))
+    return make_lattice_infill(doc, base, **preferred_values(tuple(high - low)))
 
 
 def fill_selected(doc: App.Document, bases: list[App.DocumentObject]) -> bool:

@@ -9,15 +9,16 @@ import FreeCAD as App
 import FreeCADGui as Gui
 import numpy as np
 
+from freecad_volfrep import preferences
+
 if TYPE_CHECKING:
     from freecad_volfrep.features.live_preview import Shown
 
 #: Name of what is added to the view's scene.
 NODE = "VolfrepPreview"
-#: Up to so many struts are drawn as prisms of so many sides, more of them as lines.
-MOST_PRISMS = 6000
+#: Struts are drawn as prisms of so many sides, or as lines where there are very many.
 SIDES = 6
-STRUTS, SOLID, GRID = (0.13, 0.42, 0.72), (0.75, 0.75, 0.78), (0.55, 0.55, 0.55)
+SOLID, GRID = (0.75, 0.75, 0.78), (0.55, 0.55, 0.55)
 SOLID_TRANSPARENCY = 0.8
 
 
@@ -44,10 +45,7 @@ class PreviewView:
         p = shown.preview
         self._struts.removeAllChildren()
         self._grid.removeAllChildren()
-        if len(p.start) <= MOST_PRISMS:
-            _add_faces(self._struts, *prisms(p.start, p.end, p.radii), STRUTS, 0.0, crease=1.2)
-        else:
-            _add_lines(self._struts, p.start, p.end, STRUTS)
+        add_struts(self._struts, p.start, p.end, p.radii)
         if with_grid:
             _add_lines(self._grid, *shown.preview.grid_lines, GRID)
         if self._shown_solid is not shown.solid:
@@ -67,6 +65,18 @@ class PreviewView:
     def remove(self) -> None:
         """Leave nothing in the view."""
         self._scene.removeChild(self._root)
+
+
+def add_struts(node: Any, start: np.ndarray, end: np.ndarray, radii: np.ndarray) -> None:
+    """Draw struts, (k, 3) starts and ends and (k, 2) radii, in the preferred colour.
+
+    They are prisms as long as there are not more than the preference allows, else lines.
+    """
+    colour = preferences.colour(preferences.STRUT_COLOUR)
+    if len(start) <= preferences.read(preferences.MOST_PRISMS):
+        _add_faces(node, *prisms(start, end, radii), colour, 0.0, crease=1.2)
+    else:
+        _add_lines(node, start, end, colour)
 
 
 def prisms(start: np.ndarray, end: np.ndarray, radii: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -7,15 +7,10 @@ from typing import Any
 
 import FreeCADGui as Gui
 
-from freecad_volfrep import ICONS
+from freecad_volfrep import ICONS, preferences
 
 from .coarse_view import COARSE, FINE
 from .qt import QtGui
-
-#: Of a new infill, in percent: the lattice shows through the skin.
-TRANSPARENCY = 60
-#: Of facets that hang over: red, green, blue.
-OVERHANG = (0.85, 0.16, 0.12)
 
 
 class LatticeInfillView:
@@ -27,7 +22,7 @@ class LatticeInfillView:
 
     def __init__(self, view: Any) -> None:
         view.Proxy = self
-        view.Transparency = TRANSPARENCY
+        view.Transparency = preferences.read(preferences.TRANSPARENCY)
 
     def attach(self, view: Any) -> None:
         """Called by FreeCAD for a new object and for one from a file."""
@@ -104,7 +99,7 @@ class PrintCheckView:
 
     def __init__(self, view: Any) -> None:
         view.Proxy = self
-        view.ShapeColor = OVERHANG
+        view.ShapeColor = preferences.colour(preferences.OVERHANG_COLOUR)
 
     def getIcon(self) -> str:  # noqa: N802
         """Path of the tree's icon."""

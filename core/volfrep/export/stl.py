@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from ..errors import VolfrepError
 from ..mesh import TriangleMesh, compact
 from ..progress import Monitor
+from ..threads import threads
 from .files import replacing
 from .precision import refuse_lost_corners, single_precision
 
@@ -82,16 +83,16 @@ def write_facets(
             f"Cannot write '{path}': an STL file holds at most {MOST_FACETS:,} triangles, and "
             f"there are {count:,}; use a coarser resolution or fewer cells."
         )
-    threads = os.cpu_count() or 1
+    workers = threads()
     waiting = iter(blocks)
     with (
         replacing(path, HEADER_BYTES + 4 + FACET.itemsize * count) as file,
-        ThreadPoolExecutor(max_workers=threads) as pool,
+        ThreadPoolExecutor(max_workers=workers) as pool,
     ):
         file.write(b"binary STL, mm".ljust(HEADER_BYTES, b" "))
         file.write(np.array(count, "<u4").tobytes())
         # A few blocks ahead, so that the threads work on while a block is written.
-        ahead = deque(pool.submit(block) for block in islice(waiting, 2 * threads))
+        ahead = deque(pool.submit(block) for block in islice(waiting, 2 * workers))
         written = 0
         try:
             while ahead:

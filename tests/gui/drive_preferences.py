@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Opens FreeCAD's preferences at VOLFREP's pages, types, and looks at what comes of it."""
+
+import json
+import os
+import subprocess
+import sys
+import traceback
+from pathlib import Path
+
+import FreeCAD as App
+import FreeCADGui as Gui
+from PySide import QtCore, QtGui
+
+OUT = Path(os.environ["GUI_OUT"])
+GROUP = "User parameter:BaseApp/Preferences/Mod/VOLFREP"
+figures = {}
+failures = []
+
+
+def check(name, holds, detail=""):
+    """Note a check; go on to the others whatever it says."""
+    figures[name] = bool(holds)
+    if not holds:
+        failures.append(f"{name} {detail}".strip())
+
+
+def wait(milliseconds):
+    """Let Qt run."""
+    loop = QtCore.QEventLoop()
+    QtCore.QTimer.singleShot(milliseconds, loop.quit)
+    (loop.exec if hasattr(loop, "exec") else loop.exec_)()
+
+
+def picture(name):
+    """The whole screen as a file."""
+    wait(300)
+    subprocess.run(["import", "-window", "root", str(OUT / f"{name}.png")], check=True)
+
+
+def preferences_open(visit):
+    """Open the preferences at VOLFREP, let `visit` do its work in them, and close them by OK."""
+
+    def look():
+        dialog = QtGui.QApplication.activeModalWidget()
+        try:
+            visit(dialog)
+        except Exception:
+            failures.append(traceback.format_exc())
+        dialog.accept()
+
+    QtCore.QTimer.singleShot(2500, look)
+    Gui.showPreferences("VOLFREP", 0)
+
+
+def editor(dialog, key):
+    """The widget of a preference."""
+    return dialog.findChild(QtGui.QWidget, key)
+
+
+def fill_in(dialog):
+    """Look at both pages and set values of every kind."""
+    check("the preferences open", dialog is not None)
+    first = dialog.findChild(QtGui.QWidget, "NewInfillPage")
+    second = dialog.findChild(QtGui.QWidget, "DisplayPage")
+    check("both pages are there", first is not None and second is not None)
+    check("the first is shown", first.isVisible())
+    check("they show the defaults", editor(dialog, "NewCellType").currentText() == "CVC")
+    check("0 is automatic", editor(dialog, "NewCellSize").text() == "automatic")
+    picture("preferences_1_new_infill")
+    editor(dialog, "NewCellType").setCurrentText("Octet")
+    editor(dialog, "NewCellSize").setValue(5)
+    editor(dialog, "NewAutoUpdate").setChecked(False)
+    show_second(dialog, second)
+    picture("preferences_2_display")
+    editor(dialog, "Transparency").setValue(30)
+    editor(dialog, "StrutColour").setProperty("color", QtGui.QColor(200, 80, 20))
+
+
+def show_second(dialog, second):
+    """Turn to the second page, whether it is behind a tab (0.20) or in a tree (1.0)."""
+    for kind in (QtGui.QTabWidget, QtGui.QStackedWidget):
+        for holder in dialog.findChildren(kind):
+            for number in range(holder.count()):
+                if holder.widget(number).isAncestorOf(second):
+                    holder.setCurrentIndex(number)
+    wait(300)
+    check("the second is shown", second.isVisible())
+
+
+def read_back(dialog):
+    """What was set is shown again; Defaults shows the defaults."""
+    check("a choice is kept", editor(dialog, "NewCellType").currentText() == "Octet")
+    check("a number is kept", editor(dialog, "NewCellSize").value() == 5)
+    check("a switch is kept", not editor(dialog, "NewAutoUpdate").isChecked())
+    shown = editor(dialog, "StrutColour").property("color")
+    check("a colour is kept", shown.red() == 200, shown)
+    page = dialog.findChild(QtGui.QWidget, "NewInfillPage")
+    page.findChild(QtGui.QPushButton, "Defaults").click()
+    check("Defaults shows them", editor(dialog, "NewCellType").currentText() == "CVC")
+
+
+def drive():
+    """Set, use, read back."""
+    group = App.ParamGet(GROUP)
+    group.Clear()
+    preferences_open(fill_in)
+    check("a choice is stored", group.GetString("NewCellType") == "Octet", group.GetContents())
+    check("a number is stored", group.GetFloat("NewCellSize") == 5.0)
+    check("a colour is stored", group.GetUnsigned("StrutColour") == 0xC85014FF)
+    check("defaults are not", len(group.GetContents()) == 5, group.GetContents())
+    use()
+    preferences_open(read_back)
+    stored = {name for _, name, _ in group.GetContents() or ()}
+    check("OK then forgets them", stored == {"Transparency", "StrutColour"}, stored)
+    group.Clear()
+
+
+def use():
+    """The command makes an infill of what was set."""
+    from freecad_volfrep.gui.commands import make_suitable_infill
+
+    doc = App.newDocument("Drive")
+    box = doc.addObject("Part::Box", "Block")
+    box.Length, box.Width, box.Height = 40, 30, 20
+    doc.recompute()
+    obj = make_suitable_infill(doc, box)
+    check("the infill has the cell", obj.CellType == "Octet")
+    check("and its size", obj.CellSize.Value == 5)
+    check("and does not update", not obj.AutoUpdate)
+    check("and is as transparent", obj.ViewObject.Transparency == 30)
+    App.closeDocument(doc.Name)
+
+
+def main():
+    """Drive, write down, leave."""
+    code = 1
+    try:
+        drive()
+        code = 1 if failures else 0
+    except Exception:
+        failures.append(traceback.format_exc())
+    figures["failures"] = failures
+    (OUT / "preferences.json").write_text(json.dumps(figures, indent=1), encoding="utf-8")
+    print("\n".join(failures) or "every check held")
+    sys.stdout.flush()
+    os._exit(code)
+
+
+QtCore.QTimer.singleShot(2500, main)

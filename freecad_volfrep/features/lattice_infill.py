@@ -108,8 +108,15 @@ class LatticeInfill:
         return check_solid(solid, obj.Base.Label), spec, self._cache
 
     def onDocumentRestored(self, obj: App.DocumentObject) -> None:  # noqa: N802
-        """Bring an object of an older file up to the present table of properties."""
+        """Bring an object of an older file up to the present table of properties.
+
+        A file that was written without windows has no view: it gets one where there are windows.
+        """
         ensure_properties(obj)
+        if App.GuiUp and obj.ViewObject.Proxy is None:
+            from freecad_volfrep.gui.view_provider import LatticeInfillView
+
+            LatticeInfillView(obj.ViewObject)
 
     def dumps(self) -> None:
         """Nothing to save beside the properties."""

@@ -14,33 +14,26 @@ SHARE = 0.25
 CREASE_ANGLE = 0.6
 
 
-def show_mesh(obj: Any, node: Any) -> None:
-    """Fill the node with a likeness of the object's mesh, and show it, where the mesh is large.
+def show_likeness(obj: Any, node: Any) -> None:
+    """Fill the node with a likeness of the object's mesh.
 
-    Where it is not, the node is emptied and FreeCAD's own display takes over again. The cavity is
-    shown opaque without the walls that face away, and the skin round it transparent: so the
-    lattice is seen, and nothing has to be sorted when the view turns.
+    The cavity is shown opaque without the walls that face away, and the skin round it transparent:
+    so the lattice is seen, and nothing has to be sorted when the view turns.
     """
-    node.removeAllChildren()
-    view, most = obj.ViewObject, largest_shown()
-    if obj.Mesh.CountFacets <= most:
-        if view.DisplayMode == COARSE:
-            view.DisplayMode = FINE
-        return
     from freecad_volfrep.bridge.meshes import from_freecad
     from freecad_volfrep.bridge.solids import placed
     from volfrep.coarse import coarse_likeness, outside_and_cavities
 
     # The view moves its nodes by the object's Placement, which the mesh has in it already.
+    view = obj.ViewObject
     mesh = placed(from_freecad(obj.Mesh), obj.Placement.inverse())
     outside, cavities = outside_and_cavities(mesh)
-    limit = int(SHARE * most)
+    limit = int(SHARE * largest_shown())
     if len(cavities.triangles):
         _add(node, coarse_likeness(cavities, limit), view, 0.0)
         _add(node, coarse_likeness(outside, limit), view, view.Transparency / 100.0)
     else:
         _add(node, coarse_likeness(outside, limit), view, 0.0)
-    view.DisplayMode = COARSE
 
 
 def _add(node: Any, mesh: Any, view: Any, transparency: float) -> None:

@@ -132,6 +132,13 @@ def check_print(infill: App.DocumentObject) -> None:
         App.Console.PrintMessage(f"VOLFREP, {check.Label}:\n{check.Text}\n")
 
 
+def show_section(obj: App.DocumentObject) -> None:
+    """Cut the object open on the screen."""
+    from .section_view import open_section
+
+    open_section(obj)
+
+
 def export(obj: App.DocumentObject) -> None:
     """Ask for the file's name and write it."""
     from freecad_volfrep.features.export import export_mesh, formats_of
@@ -351,6 +358,16 @@ _TABLE = (
         "L, P",
         selected_infill,
         check_print,
+    ),
+    Command(
+        "VOLFREP_SectionView",
+        "section_view.svg",
+        "Section View",
+        "Cut the selected lattice open on the screen, along a plane that can be moved; the "
+        "lattice itself stays whole",
+        "L, V",
+        selected_mesh,
+        show_section,
     ),
     Command(
         "VOLFREP_Statistics",

@@ -13,6 +13,7 @@ from freecad_volfrep import preferences
 
 if TYPE_CHECKING:
     from freecad_volfrep.features.live_preview import Shown
+    from volfrep.mesh import TriangleMesh
 
 #: Name of what is added to the view's scene.
 NODE = "VolfrepPreview"
@@ -50,10 +51,7 @@ class PreviewView:
             _add_lines(self._grid, *shown.preview.grid_lines, GRID)
         if self._shown_solid is not shown.solid:
             self._solid.removeAllChildren()
-            mesh = shown.solid
-            _add_faces(
-                self._solid, mesh.vertices, mesh.triangles, SOLID, SOLID_TRANSPARENCY, crease=0.6
-            )
+            add_solid(self._solid, shown.solid)
             self._shown_solid = shown.solid
 
     def clear(self) -> None:
@@ -67,16 +65,24 @@ class PreviewView:
         self._scene.removeChild(self._root)
 
 
-def add_struts(node: Any, start: np.ndarray, end: np.ndarray, radii: np.ndarray) -> None:
+def add_solid(node: Any, mesh: TriangleMesh, pickable: bool = False) -> None:
+    """Draw a solid that can be seen through."""
+    faces = mesh.vertices, mesh.triangles
+    _add_faces(node, *faces, SOLID, SOLID_TRANSPARENCY, crease=0.6, pickable=pickable)
+
+
+def add_struts(
+    node: Any, start: np.ndarray, end: np.ndarray, radii: np.ndarray, pickable: bool = False
+) -> None:
     """Draw struts, (k, 3) starts and ends and (k, 2) radii, in the preferred colour.
 
     They are prisms as long as there are not more than the preference allows, else lines.
     """
     colour = preferences.colour(preferences.STRUT_COLOUR)
     if len(start) <= preferences.read(preferences.MOST_PRISMS):
-        _add_faces(node, *prisms(start, end, radii), colour, 0.0, crease=1.2)
+        _add_faces(node, *prisms(start, end, radii), colour, 0.0, crease=1.2, pickable=pickable)
     else:
-        _add_lines(node, start, end, colour)
+        _add_lines(node, start, end, colour, pickable)
 
 
 def prisms(start: np.ndarray, end: np.ndarray, radii: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -108,7 +114,7 @@ def prisms(start: np.ndarray, end: np.ndarray, radii: np.ndarray) -> tuple[np.nd
 
 def _add_faces(
     node: Any, vertices: np.ndarray, triangles: np.ndarray, colour: Any, transparency: float,
-    crease: float,
+    crease: float, pickable: bool = False,
 ) -> None:  # fmt: skip
     from pivy import coin
 
@@ -120,29 +126,31 @@ def _add_faces(
     index = np.full((len(triangles), 4), -1)
     index[:, :3] = triangles
     faces.coordIndex.setValues(0, index.size, index.ravel().tolist())
-    _add(node, vertices, colour, transparency, hints, faces)
+    _add(node, vertices, (colour, transparency), hints, faces, pickable)
 
 
-def _add_lines(node: Any, start: np.ndarray, end: np.ndarray, colour: Any) -> None:
+def _add_lines(
+    node: Any, start: np.ndarray, end: np.ndarray, colour: Any, pickable: bool = False
+) -> None:
     from pivy import coin
 
     lines = coin.SoLineSet()
     lines.numVertices.setValues(0, len(start), [2] * len(start))
     style = coin.SoDrawStyle()
     style.lineWidth = 2
-    _add(node, np.stack([start, end], axis=1).reshape(-1, 3), colour, 0.0, style, lines)
+    points = np.stack([start, end], axis=1).reshape(-1, 3)
+    _add(node, points, (colour, 0.0), style, lines, pickable)
 
 
 def _add(
-    node: Any, points: np.ndarray, colour: Any, transparency: float, style: Any, shape: Any
+    node: Any, points: np.ndarray, look: tuple[Any, float], style: Any, shape: Any, pickable: bool
 ) -> None:
     from pivy import coin
 
     material = coin.SoMaterial()
-    material.diffuseColor = colour
-    material.transparency = transparency
+    material.diffuseColor, material.transparency = look
     pick = coin.SoPickStyle()
-    pick.style = coin.SoPickStyle.UNPICKABLE
+    pick.style = coin.SoPickStyle.SHAPE if pickable else coin.SoPickStyle.UNPICKABLE
     coordinates = coin.SoCoordinate3()
     coordinates.point.setValues(0, len(points), points.tolist())
     group = coin.SoSeparator()

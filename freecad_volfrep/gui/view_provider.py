@@ -3,21 +3,30 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from typing import Any
 
+import FreeCAD as App
 import FreeCADGui as Gui
 
 from freecad_volfrep import ICONS, preferences
+from volfrep.errors import VolfrepError
 
-from .coarse_view import COARSE, FINE
-from .qt import QtGui
+from .coarse_view import COARSE, FINE, show_likeness
+from .qt import QtCore, QtGui
+from .simplified_view import SIMPLIFIED, show_struts
+
+#: The modes beside those of every mesh, and what fills a node for each.
+_MODES = {COARSE: show_likeness, SIMPLIFIED: show_struts}
 
 
 class LatticeInfillView:
-    """View provider of a lattice infill: its icon, the commands for it, and a coarse mesh.
+    """View provider of a lattice infill: its icon, the commands for it, display modes.
 
-    A mesh of more triangles than the preference allows is shown by a coarse likeness of it, as the
-    display mode Coarse; whoever chooses another mode sees all of it.
+    Beside FreeCAD's own modes for meshes there are Coarse, a likeness of fewer triangles, and
+    Simplified, the struts without any. Each is made when it is shown first and dropped with a new
+    mesh. A mesh of more triangles than the preference allows is shown coarsely, unless it is
+    shown simplified already; whoever then chooses another mode sees all of it.
     """
 
     def __init__(self, view: Any) -> None:
@@ -29,27 +38,37 @@ class LatticeInfillView:
         from pivy import coin
 
         self.object = view.Object
-        self._coarse = coin.SoSeparator()
-        view.addDisplayMode(self._coarse, COARSE)
+        self._modes = {mode: (coin.SoSeparator(), show) for mode, show in _MODES.items()}
+        for mode, (node, _) in self._modes.items():
+            view.addDisplayMode(node, mode)
 
     def getDisplayModes(self, view: Any) -> list[str]:  # noqa: N802
         """The modes beside those of every mesh."""
-        return [COARSE]
+        return list(_MODES)
 
     def getDefaultDisplayMode(self) -> str:  # noqa: N802
         """The mode of a new object."""
         return FINE
 
     def setDisplayMode(self, mode: str) -> str:  # noqa: N802
-        """Every mode of the list is one of the view's own."""
+        """Every mode of the list is one of the view's own; ours are made now."""
+        self._make(mode)
         return mode
 
     def updateData(self, obj: Any, name: str) -> None:  # noqa: N802
-        """A new mesh: shown coarsely if it is too large, else as it is."""
-        if name == "Mesh":
-            from .coarse_view import show_mesh
-
-            show_mesh(obj, self._coarse)
+        """A new mesh: what was made of the old one goes."""
+        if name != "Mesh":
+            return
+        for node, _ in self._modes.values():
+            node.removeAllChildren()
+        view = obj.ViewObject
+        large = obj.Mesh.CountFacets > preferences.largest_shown()
+        if view.DisplayMode == COARSE and not large:
+            view.DisplayMode = FINE
+        elif view.DisplayMode not in _MODES and large:
+            view.DisplayMode = COARSE
+        else:
+            self._make(view.DisplayMode)
 
     def getIcon(self) -> str:  # noqa: N802
         """Path of the tree's icon."""
@@ -83,6 +102,25 @@ class LatticeInfillView:
             submenu.addAction(
                 QtGui.QIcon(str(ICONS / command.icon)), command.text
             ).triggered.connect(lambda _=False, command=command: command.Activated())
+
+    def _make(self, mode: str) -> None:
+        """Fill the node of a mode of ours that is still empty; nothing for FreeCAD's own modes."""
+        node, show = self._modes.get(mode, (None, None))
+        if node is None or node.getNumChildren() or not self.object.Mesh.CountFacets:
+            return
+        if self.object.Document.Restoring:  # the solid may not be there yet
+            QtCore.QTimer.singleShot(0, self._make_shown)
+            return
+        try:
+            show(self.object, node)
+        except VolfrepError as error:
+            node.removeAllChildren()
+            App.Console.PrintError(f"VOLFREP, {self.object.Label}: not shown {mode}. {error}\n")
+
+    def _make_shown(self) -> None:
+        """Fill the mode that is shown, once a file is read."""
+        with suppress(ReferenceError):  # the document was closed meanwhile
+            self._make(self.object.ViewObject.DisplayMode)
 
     def dumps(self) -> None:
         """Nothing to save."""

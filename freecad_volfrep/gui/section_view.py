@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Section View: a lattice infill cut open on the screen by a plane, and not in the document.
+
+FreeCAD's own clipping plane cuts the whole view. This one hangs in the infill's own scene, so that
+what lies beside it stays whole, and it can be moved.
+"""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from typing import Any
+
+import FreeCAD as App
+import FreeCADGui as Gui
+
+from .qt import QtCore, QtWidgets
+from .translation import translate
+
+#: Name of the plane in the infill's scene, and of the dock.
+NODE = "VolfrepSection"
+DOCK = "VolfrepSectionView"
+AXES = "XYZ"
+#: The slider's steps from one side of the infill to the other.
+STEPS = 1000
+
+
+class Section:
+    """A clipping plane in the scene of one mesh object, until it is removed.
+
+    Args:
+        obj: a mesh object, shown or not.
+    """
+
+    def __init__(self, obj: App.DocumentObject) -> None:
+        from pivy import coin
+
+        self._plane = coin.SoClipPlane()
+        self._plane.setName(NODE)
+        self._root = obj.ViewObject.RootNode
+        # In front of the transform of the object's Placement: in the coordinates of its group,
+        # where its Mesh has its bounding box.
+        self._root.insertChild(self._plane, 0)
+
+    def cut(self, axis: int, offset: float, keep_far: bool) -> None:
+        """Show what lies before the offset in mm along the axis, or what lies beyond it."""
+        from pivy import coin
+
+        side = 1.0 if keep_far else -1.0
+        normal = [0.0, 0.0, 0.0]
+        normal[axis] = side
+        self._plane.plane = coin.SbPlane(coin.SbVec3f(*normal), side * offset)
+
+    def remove(self) -> None:
+        """Show all of it again."""
+        self._root.removeChild(self._plane)
+
+
+class SectionDock(QtWidgets.QDockWidget):
+    """The plane's axis, place and side; closing it removes the plane."""
+
+    def __init__(self, obj: App.DocumentObject) -> None:
+        super().__init__(Gui.getMainWindow())
+        self.setObjectName(DOCK)
+        self.setAttribute(QtCore.Qt.WA_DeleteOnClose)
+        self.setWindowTitle(
+            translate("VolfrepSectionView", "Section of {}").replace("{}", obj.Label)
+        )
+        self._obj, self._doc = obj, obj.Document
+        self._section: Section | None = Section(obj)
+        self._axis = QtWidgets.QComboBox()
+        self._axis.setObjectName("Axis")
+        self._axis.addItems(AXES)
+        self._offset = QtWidgets.QDoubleSpinBox()
+        self._offset.setObjectName("Offset")
+        self._offset.setSuffix(" mm")
+        self._offset.setKeyboardTracking(False)
+        self._slider = QtWidgets.QSlider(QtCore.Qt.Horizontal)
+        self._slider.setObjectName("Slider")
+        self._slider.setRange(0, STEPS)
+        self._flip = QtWidgets.QCheckBox(translate("VolfrepSectionView", "Other side"))
+        self._flip.setObjectName("Flip")
+        self._lay_out()
+        direction = _view_direction()
+        self._axis.setCurrentIndex(max(range(3), key=lambda k: abs(direction[k])))
+        self._axis.currentIndexChanged.connect(lambda _: self.centre())
+        self._slider.valueChanged.connect(lambda step: self._offset.setValue(self._at(step)))
+        self._offset.valueChanged.connect(lambda _: self._cut())
+        self._flip.toggled.connect(lambda _: self._cut())
+        self.centre()
+        App.addDocumentObserver(self)
+
+    def centre(self) -> None:
+        """Put the plane in the middle of the mesh along the axis, and open it to the user."""
+        self._flip.setChecked(_view_direction()[self._axis.currentIndex()] > 0)
+        low, high = self._extent()
+        self._offset.setRange(low, high)
+        self._offset.setSingleStep((high - low) / 50.0)
+        self._offset.setValue(0.5 * (low + high))
+        self._cut()
+
+    def closeEvent(self, event: Any) -> None:  # noqa: N802
+        """Show all of the infill again."""
+        App.removeDocumentObserver(self)
+        self._release()
+        super().closeEvent(event)
+
+    def slotChangedObject(self, obj: App.DocumentObject, name: str) -> None:  # noqa: N802
+        """Called by FreeCAD: the plane stays where it is while a new mesh may be larger."""
+        if obj == self._obj and name == "Mesh":
+            self._offset.setRange(*self._extent())
+            self._cut()
+
+    def slotDeletedObject(self, obj: App.DocumentObject) -> None:  # noqa: N802
+        """Called by FreeCAD: there is nothing to cut any more."""
+        if obj == self._obj:
+            self._close_later()
+
+    def slotDeletedDocument(self, doc: App.Document) -> None:  # noqa: N802
+        """Called by FreeCAD as well."""
+        if doc == self._doc:
+            self._close_later()
+
+    def _close_later(self) -> None:
+        """Closing takes the observer away that FreeCAD is calling just now."""
+        self._section = None
+        QtCore.QTimer.singleShot(0, self.close)
+
+    def _release(self) -> None:
+        if self._section is not None:
+            self._section.remove()
+            self._section = None
+
+    def _lay_out(self) -> None:
+        panel = QtWidgets.QWidget()
+        column = QtWidgets.QVBoxLayout(panel)
+        line = QtWidgets.QHBoxLayout()
+        label = QtWidgets.QLabel(translate("VolfrepSectionView", "Across"))
+        label.setToolTip(translate("VolfrepSectionView", "The axis that the plane lies across"))
+        for widget in (label, self._axis, self._offset, self._flip):
+            line.addWidget(widget)
+        line.addStretch()
+        column.addLayout(line)
+        column.addWidget(self._slider)
+        column.addStretch()
+        self.setWidget(panel)
+
+    def _extent(self) -> tuple[float, float]:
+        """Of the mesh along the axis, mm."""
+        box = self._obj.Mesh.BoundBox
+        name = AXES[self._axis.currentIndex()]
+        return getattr(box, f"{name}Min"), getattr(box, f"{name}Max")
+
+    def _at(self, step: int) -> float:
+        low, high = self._extent()
+        return low + (high - low) * step / STEPS
+
+    def _cut(self) -> None:
+        low, high = self._extent()
+        offset = self._offset.value()
+        self._slider.blockSignals(True)
+        self._slider.setValue(round(STEPS * (offset - low) / max(high - low, 1e-9)))
+        self._slider.blockSignals(False)
+        if self._section is not None:
+            self._section.cut(self._axis.currentIndex(), offset, self._flip.isChecked())
+
+
+def _view_direction() -> tuple[float, float, float]:
+    """Where the user looks; down, where the active view is a spreadsheet or the like."""
+    view = Gui.ActiveDocument.ActiveView
+    x, y, z = view.getViewDirection() if hasattr(view, "getViewDirection") else (0.0, 0.0, -1.0)
+    return x, y, z
+
+
+def open_section(obj: App.DocumentObject) -> SectionDock:
+    """Cut the object open on the screen, in the place of a section that is shown already."""
+    window = Gui.getMainWindow()
+    for old in window.findChildren(QtWidgets.QDockWidget, DOCK):
+        with suppress(RuntimeError):  # closed, and Qt has deleted it meanwhile
+            old.close()
+    dock = SectionDock(obj)
+    window.addDockWidget(QtCore.Qt.BottomDockWidgetArea, dock)
+    return dock

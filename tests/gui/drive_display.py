@@ -1,0 +1,268 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Display modes and the section view in the real FreeCAD window; see tools/run_gui.sh."""
+
+import json
+import os
+import subprocess
+import sys
+import time
+import traceback
+from pathlib import Path
+
+import FreeCAD as App
+import FreeCADGui as Gui
+from PySide import QtCore, QtGui
+
+OUT = Path(os.environ["GUI_OUT"])
+FIXTURE = Path(__file__).resolve().parents[1] / "freecad" / "fixtures" / "infill-0.1.0.FCStd"
+GROUP = "User parameter:BaseApp/Preferences/Mod/VOLFREP"
+figures = {}
+failures = []
+
+
+def check(name, holds, detail=""):
+    """Note a check; go on to the others whatever it says."""
+    figures[name] = bool(holds)
+    if not holds:
+        failures.append(f"{name} {detail}".strip())
+
+
+def wait(milliseconds):
+    """Let Qt run."""
+    loop = QtCore.QEventLoop()
+    QtCore.QTimer.singleShot(milliseconds, loop.quit)
+    (loop.exec if hasattr(loop, "exec") else loop.exec_)()
+
+
+def picture(name):
+    """The whole screen as a file."""
+    Gui.updateGui()
+    wait(300)
+    subprocess.run(["import", "-window", "root", str(OUT / f"{name}.png")], check=True)
+
+
+def node_of(obj, mode):
+    """The scene of one of our display modes."""
+    return obj.ViewObject.Proxy._modes[mode][0]
+
+
+def seconds_a_frame(obj, mode):
+    """How long the view takes to draw once in a mode."""
+    obj.ViewObject.DisplayMode = mode
+    view = Gui.activeDocument().activeView()
+    wait(500)
+    start = time.perf_counter()
+    for _ in range(3):
+        view.redraw()
+        Gui.updateGui()
+    return (time.perf_counter() - start) / 3
+
+
+def make(doc):
+    """An infill of a box, shown from a corner."""
+    from freecad_volfrep import make_lattice_infill
+
+    box = doc.addObject("Part::Box", "Block")
+    box.Length, box.Width, box.Height = 40, 30, 20
+    obj = make_lattice_infill(doc, box, CellSize=5, StrutRadius=0.5, ShellThickness=1)
+    doc.recompute()
+    box.Visibility = False
+    Gui.activeDocument().activeView().viewIsometric()
+    Gui.SendMsgToActiveView("ViewFit")
+    return obj
+
+
+def display_modes(obj):
+    """Every mode is there; Simplified is made when it is chosen and dropped with the mesh."""
+    view = obj.ViewObject
+    modes = view.listDisplayModes()
+    for mode in ("Shaded", "Flat Lines", "Wireframe", "Points", "Coarse", "Simplified"):
+        check(f"there is the mode {mode}", mode in modes, modes)
+        view.DisplayMode = mode
+        check(f"{mode} can be shown", view.DisplayMode == mode)
+        if mode == "Points":
+            made = node_of(obj, "Simplified").getNumChildren()
+            check("nothing is made before it is chosen", made == 0, made)
+    check("Simplified has struts and solid", node_of(obj, "Simplified").getNumChildren() == 2)
+    picture("display_1_simplified")
+    shown = node_of(obj, "Simplified").getChild(0)
+    obj.CellSize = 10
+    obj.StrutRadius = 1
+    obj.Document.recompute()
+    again = node_of(obj, "Simplified")
+    check("a new mesh has new struts", again.getNumChildren() == 2 and again.getChild(0) != shown)
+    check("and stays simplified", view.DisplayMode == "Simplified")
+    view.DisplayMode = "Shaded"
+    obj.StrutRadius = 0.9
+    obj.Document.recompute()
+    check("what is not shown is dropped", node_of(obj, "Simplified").getNumChildren() == 0)
+    obj.CellSize = 5
+    obj.StrutRadius = 0.5
+    obj.Document.recompute()
+
+
+def many_struts(obj):
+    """Above the preference struts are lines, and a large mesh that is simplified stays so."""
+    group = App.ParamGet(GROUP)
+    group.SetInt("LargestShownStruts", 10)
+    group.SetInt("LargestShownTriangles", 1000)
+    obj.ViewObject.DisplayMode = "Simplified"
+    obj.StrutRadius = 0.45
+    obj.Document.recompute()
+    check("a large mesh stays simplified", obj.ViewObject.DisplayMode == "Simplified")
+    check("nothing coarse is made for it", node_of(obj, "Coarse").getNumChildren() == 0)
+    picture("display_2_lines")
+    obj.ViewObject.DisplayMode = "Coarse"
+    check("Coarse is made when it is chosen", node_of(obj, "Coarse").getNumChildren() > 0)
+    group.RemInt("LargestShownStruts")
+    group.RemInt("LargestShownTriangles")
+    obj.ViewObject.DisplayMode = "Shaded"
+
+
+def saved_modes(obj):
+    """A document that was saved simplified opens so; one of 0.1.0 as it was."""
+    obj.ViewObject.DisplayMode = "Simplified"
+    path = OUT / "simplified.FCStd"
+    doc = obj.Document
+    doc.saveAs(str(path))
+    App.closeDocument(doc.Name)
+    again = App.openDocument(str(path))
+    wait(1000)
+    found = again.getObject("LatticeInfill")
+    check("opened simplified", found.ViewObject.DisplayMode == "Simplified")
+    check("with its struts", node_of(found, "Simplified").getNumChildren() == 2)
+    check("without computing", found.State == ["Up-to-date"], found.State)
+    old = App.openDocument(str(FIXTURE))
+    wait(1000)
+    before = [o for o in old.Objects if o.TypeId == "Mesh::FeaturePython"]
+    check("0.1.0 opens", before and all(o.Mesh.CountFacets for o in before))
+    for infill in before:
+        check("with a mode of its own", infill.ViewObject.DisplayMode in ("Shaded", "Coarse"))
+        infill.ViewObject.DisplayMode = "Simplified"
+        check("and can be simplified", node_of(infill, "Simplified").getNumChildren() > 0)
+    App.closeDocument(old.Name)
+    App.setActiveDocument(again.Name)
+    return found
+
+
+def dock():
+    """The section's dock, or None."""
+    found = Gui.getMainWindow().findChildren(QtGui.QDockWidget, "VolfrepSectionView")
+    return next((widget for widget in found if widget.isVisible()), None)
+
+
+def planes(obj):
+    """How many clipping planes hang in the object's scene."""
+    root = obj.ViewObject.RootNode
+    names = [root.getChild(k).getName().getString() for k in range(root.getNumChildren())]
+    return names.count("VolfrepSection")
+
+
+def section(obj):
+    """The plane appears in the middle, moves, turns, and goes without a trace."""
+    doc = obj.Document
+    obj.ViewObject.DisplayMode = "Shaded"
+    obj.ViewObject.Transparency = 0
+    steps, touched = doc.UndoCount, doc.isTouched()
+    facets = obj.Mesh.CountFacets
+    Gui.activeDocument().activeView().viewIsometric()
+    Gui.SendMsgToActiveView("ViewFit")
+    Gui.Selection.clearSelection()
+    Gui.Selection.addSelection(obj)
+    wait(500)
+    Gui.runCommand("VOLFREP_SectionView", 0)
+    wait(500)
+    check("the section opens", dock() is not None)
+    check("one plane is in the scene", planes(obj) == 1, planes(obj))
+    axis = dock().findChild(QtGui.QComboBox, "Axis")
+    offset = dock().findChild(QtGui.QDoubleSpinBox, "Offset")
+    slider = dock().findChild(QtGui.QSlider, "Slider")
+    Gui.Selection.clearSelection()
+    axis.setCurrentText("Y")
+    check("it is in the middle", abs(offset.value() - 15) < 0.01, offset.value())
+    picture("section_1_middle")
+    slider.setValue(800)
+    check("the slider moves it", abs(offset.value() - 24) < 0.1, offset.value())
+    flip = dock().findChild(QtGui.QCheckBox, "Flip")
+    check("it is open to the user", flip.isChecked())
+    flip.click()
+    check("and can be turned", not flip.isChecked() and planes(obj) == 1)
+    flip.click()
+    picture("section_2_moved")
+    obj.ViewObject.DisplayMode = "Simplified"
+    axis.setCurrentText("X")
+    picture("section_3_simplified")
+    obj.ViewObject.DisplayMode = "Shaded"
+    Gui.Selection.addSelection(obj)
+    Gui.runCommand("VOLFREP_SectionView", 0)
+    wait(500)
+    check("a second call takes its place", planes(obj) == 1, planes(obj))
+    dock().close()
+    wait(300)
+    check("closing removes it", planes(obj) == 0 and dock() is None)
+    check("the document is as before", (doc.UndoCount, doc.isTouched()) == (steps, touched))
+    check("and so is the mesh", obj.Mesh.CountFacets == facets)
+    Gui.runCommand("VOLFREP_SectionView", 0)
+    wait(300)
+    doc.removeObject(obj.Name)
+    wait(500)
+    check("it closes with its object", dock() is None)
+
+
+def frames():
+    """What a frame of a mesh of a million triangles costs, and of its struts."""
+    from freecad_volfrep import make_lattice_infill
+
+    doc = App.newDocument("Frames")
+    box = doc.addObject("Part::Box", "Block")
+    box.Length, box.Width, box.Height = 60, 60, 30
+    obj = make_lattice_infill(doc, box, CellSize=5, StrutRadius=0.5, ShellThickness=1)
+    doc.recompute()
+    box.Visibility = False
+    Gui.activeDocument().activeView().viewIsometric()
+    Gui.SendMsgToActiveView("ViewFit")
+    figures["triangles"], figures["struts"] = obj.Mesh.CountFacets, obj.Struts
+    start = time.perf_counter()
+    obj.ViewObject.DisplayMode = "Simplified"
+    figures["seconds to simplify"] = round(time.perf_counter() - start, 2)
+    for mode in ("Shaded", "Coarse", "Simplified"):
+        figures[f"seconds a frame, {mode}"] = round(seconds_a_frame(obj, mode), 3)
+    check(
+        "simplified is drawn faster",
+        figures["seconds a frame, Simplified"] < figures["seconds a frame, Shaded"],
+        figures,
+    )
+    picture("display_3_many")
+    App.closeDocument(doc.Name)
+
+
+def drive():
+    """The whole session."""
+    App.ParamGet(GROUP).Clear()
+    doc = App.newDocument("Drive")
+    doc.UndoMode = 1
+    Gui.activateWorkbench("VolfrepWorkbench")
+    wait(800)
+    obj = make(doc)
+    display_modes(obj)
+    many_struts(obj)
+    section(saved_modes(obj))
+    frames()
+
+
+def main():
+    """Drive, write down, leave."""
+    code = 1
+    try:
+        drive()
+        code = 1 if failures else 0
+    except Exception:
+        failures.append(traceback.format_exc())
+    figures["failures"] = failures
+    (OUT / "display.json").write_text(json.dumps(figures, indent=1), encoding="utf-8")
+    print("\n".join(failures) or "every check held")
+    sys.stdout.flush()
+    os._exit(code)
+
+
+QtCore.QTimer.singleShot(2500, main)

@@ -13,7 +13,7 @@ from freecad_volfrep.engine import require_engine
 from volfrep.errors import VolfrepError
 
 from .lattice_infill import LatticeInfill
-from .progress import progress_of
+from .progress import run_job
 from .solver_files import CONTENTS, write_solver_file
 
 
@@ -96,8 +96,11 @@ def export_mesh(
         return
     if content == "compact":
         mesh_writer(path)  # refuses a path that no mesh can be written to before the work
-        with progress_of(f"Fewer triangles for {obj.Label}") as progress:
-            reduced = reduce_triangles(mesh_in_document(obj), monitor=Monitor(progress))
+        mesh = mesh_in_document(obj)
+        reduced = run_job(
+            f"Fewer triangles for {obj.Label}",
+            lambda progress: reduce_triangles(mesh, monitor=Monitor(progress)),
+        )
         write_mesh(reduced.mesh, path)
         App.Console.PrintMessage(
             f"VOLFREP, {obj.Label}: {reduced.quality.triangles} of {reduced.triangles_before} "
@@ -112,8 +115,10 @@ def export_mesh(
     if not isinstance(getattr(obj, "Proxy", None), LatticeInfill):
         raise VolfrepError(f"'{obj.Label}' is a mesh without beams: export its mesh.")
     solid, spec, cache = obj.Proxy.inputs(obj)
-    with progress_of(f"Beams of {obj.Label}") as progress:
-        model = beam_model(solid, spec, progress=progress, cache=cache)
+    model = run_job(
+        f"Beams of {obj.Label}",
+        lambda progress: beam_model(solid, spec, progress=progress, cache=cache),
+    )
     for sentence in model.warnings:
         App.Console.PrintWarning(f"VOLFREP, {obj.Label}: {sentence}\n")
     model = placed_beams(model, place_in_document(obj))

@@ -14,7 +14,7 @@ from freecad_volfrep.preferences import largest_automatic
 
 from .grading import CONTROLS, gradings_of, show_applicable
 from .openings import openings_of
-from .progress import progress_of
+from .progress import run_job
 from .properties import CUSTOM_CELL, PROPERTIES, ensure_properties
 
 if TYPE_CHECKING:
@@ -157,8 +157,10 @@ class LatticeInfill:
             App.Console.PrintMessage(f"VOLFREP, {obj.Label}: {LARGE}; {forecast}\n")
             return
         solid = check_solid(solid, obj.Base.Label)
-        with progress_of(f"Filling {obj.Base.Label}") as progress:
-            result = fill(solid, spec, progress=progress, cache=self._cache)
+        result = run_job(
+            f"Filling {obj.Base.Label}",
+            lambda progress: fill(solid, spec, progress=progress, cache=self._cache),
+        )
         mesh = to_freecad(result.mesh)
         placement = obj.Placement
         obj.Mesh = mesh

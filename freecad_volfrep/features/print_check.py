@@ -12,7 +12,7 @@ from freecad_volfrep.engine import require_engine
 from volfrep.errors import VolfrepError
 
 from .lattice_infill import LatticeInfill
-from .progress import progress_of
+from .progress import run_job
 from .properties import Property, add_missing, result
 
 if TYPE_CHECKING:
@@ -108,8 +108,11 @@ class PrintCheck:
         solid, spec, cache = infill.Proxy.inputs(infill)
         if spec.output == "domain":
             raise VolfrepError(f"'{infill.Label}' holds no lattice: set its Output to part.")
-        with progress_of(f"Print check of {infill.Label}") as progress:
-            filled = fill(solid, replace(spec, output="domain"), progress=progress, cache=cache)
+        domain = replace(spec, output="domain")
+        filled = run_job(
+            f"Print check of {infill.Label}",
+            lambda progress: fill(solid, domain, progress=progress, cache=cache),
+        )
         place = place_in_document(infill)
         mesh = mesh_in_document(infill)
         process = find_process(obj.Process)

@@ -1,23 +1,39 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Where a running job's progress goes: a window with Cancel, or nowhere without a screen."""
+"""How a job of the engine is run: with its progress in the window, or at once without a screen."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from typing import TypeVar
 
 import FreeCAD as App
 
 from volfrep.progress import ProgressCallback
 
+T = TypeVar("T")
+
+
+def run_job(title: str, work: Callable[[ProgressCallback | None], T]) -> T:
+    """What `work` returns or raises, called with a callback for its progress.
+
+    In the window it runs on a thread of its own, so that the window lives meanwhile: it must
+    touch nothing of FreeCAD. Without a screen it is simply called, with None.
+    """
+    if not App.GuiUp:
+        return work(None)
+    from freecad_volfrep.gui.progress import run_on_thread
+
+    return run_on_thread(title, work)
+
 
 @contextmanager
 def progress_of(title: str) -> Iterator[ProgressCallback | None]:
-    """A callback for one job of that title; None in a FreeCAD without windows."""
+    """A callback for a job that touches FreeCAD, and stays on its thread; None without a screen."""
     if not App.GuiUp:
         yield None
         return
-    from freecad_volfrep.gui.progress import progress_dialog
+    from freecad_volfrep.gui.progress import progress_bar
 
-    with progress_dialog(title) as callback:
+    with progress_bar(title) as callback:
         yield callback

@@ -23,7 +23,7 @@ from .exact import (
     warn,
 )
 from .instances import estimate_instances, write_instances
-from .progress import progress_of
+from .progress import progress_of, run_job
 
 if TYPE_CHECKING:
     from volfrep.clip import Clipped
@@ -43,8 +43,10 @@ def axes_of(obj: App.DocumentObject) -> Clipped:
     from freecad_volfrep.bridge.beams import place_in_document, placed_lattice
     from volfrep.clip import clipped_infill
 
-    with progress_of(f"Struts of {obj.Label}") as progress:
-        clipped = clipped_infill(solid, spec, progress=progress, cache=cache)
+    clipped = run_job(
+        f"Struts of {obj.Label}",
+        lambda progress: clipped_infill(solid, spec, progress=progress, cache=cache),
+    )
     return replace(clipped, wireframe=placed_lattice(clipped.wireframe, place_in_document(obj)))
 
 

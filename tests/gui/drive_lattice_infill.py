@@ -95,6 +95,7 @@ def drive():
     obj = infills(doc)[0]
 
     edit_in_the_panel(doc, obj)
+    run_a_job()
     cancel_an_edit(doc, obj)
     cancel_a_creation(doc, box, fill)
     open_a_face(doc, obj)
@@ -188,21 +189,65 @@ def edit_in_the_panel(doc, obj):
     check("without an undo step", doc.UndoCount == steps, doc.UndoNames)
 
 
-def press_escape_soon(pressed):
-    """Press Escape, really, once the progress window is there; `pressed` gets the time."""
+def run_a_job():
+    """A job has a thread of its own, is alone, and what it raises arrives."""
+    import threading
+
+    from freecad_volfrep.features.progress import run_job
+    from volfrep.errors import VolfrepError
+
+    refusals, beats = [], []
+
+    def nested():
+        beats.append(time.monotonic())
+        if len(beats) != 1:
+            return
+        try:
+            run_job("Another job", lambda progress: None)
+        except VolfrepError as error:
+            refusals.append(str(error))
+
+    def work(progress):
+        time.sleep(1.0)
+        return threading.current_thread()
+
+    timer = QtCore.QTimer(Gui.getMainWindow())
+    timer.timeout.connect(nested)
+    timer.start(20)
+    thread = run_job("A job", work)
+    timer.stop()
+    check("a job has a thread of its own", thread is not threading.current_thread())
+    check("the window lives meanwhile", len(beats) > 15, len(beats))
+    check("a second job is refused", refusals and "wait for its end" in refusals[0], refusals)
+
+    def fail(progress):
+        raise VolfrepError("This job fails.")
+
+    try:
+        run_job("A job", fail)
+        check("what it raises arrives", False)
+    except VolfrepError as error:
+        check("what it raises arrives", str(error) == "This job fails.")
+
+
+def cancel_soon(pressed, by_click=False):
+    """Press Escape or click Cancel, really, once there is a bar; `pressed` gets the time."""
     timer = QtCore.QTimer(Gui.getMainWindow())
     looks = []
 
     def look():
-        dialog = QtGui.QApplication.activeModalWidget()
-        if dialog is not None and dialog.objectName() == "VolfrepProgress":
-            looks.append((int(dialog.winId()), dialog.labelText()))
+        bar = Gui.getMainWindow().findChild(QtGui.QWidget, "VolfrepProgress")
+        if bar is not None and bar.isVisible():
+            looks.append(bar.text.text())
         if len(looks) == 3:  # by now it is drawn
             subprocess.run(["import", "-window", "root", str(OUT / "4_progress.png")], check=True)
-            window, figures["progress text"] = looks[-1]
-            # Without a window manager nobody gives a new window the keyboard.
-            xdotool("windowfocus", window)
+            figures["progress text"] = looks[-1]
+            point = bar.button.mapToGlobal(bar.button.rect().center())
             pressed.append(time.monotonic())
+            if by_click:
+                xdotool("mousemove", point.x(), point.y(), "click", 1)
+                return
+            xdotool("key", "a", "ctrl+n")  # which nothing may see
             xdotool("key", "Escape")
 
     timer.timeout.connect(look)
@@ -212,9 +257,9 @@ def press_escape_soon(pressed):
 
 def cancel_an_edit(doc, obj):
     """Escape during a recompute keeps the last mesh and says so."""
-    before = obj.Mesh.CountFacets
+    before, documents = obj.Mesh.CountFacets, len(App.listDocuments())
     seen = []
-    timer = press_escape_soon(seen)
+    timer = cancel_soon(seen)
     obj.Deviation = 0.002
     obj.CellSize = 2.5
     obj.StrutRadius = 0.25
@@ -230,6 +275,8 @@ def cancel_an_edit(doc, obj):
     check("a cancelled edit is invalid", not obj.isValid())
     check("and says so", "Cancelled" in obj.getStatusString(), obj.getStatusString())
     check("and keeps the last mesh", obj.Mesh.CountFacets == before)
+    check("no key reached FreeCAD", len(App.listDocuments()) == documents)
+    check("no bar stays", Gui.getMainWindow().findChild(QtGui.QWidget, "VolfrepCancel") is None)
     check("no wait cursor stays", QtGui.QApplication.overrideCursor() is None)
     obj.Deviation = 0
     obj.CellSize = 5
@@ -239,7 +286,7 @@ def cancel_an_edit(doc, obj):
 
 
 def cancel_a_creation(doc, box, fill):
-    """Escape during the command leaves nothing behind."""
+    """A click on Cancel during the command leaves nothing behind."""
     box.Visibility = True
     big = doc.addObject("Part::Feature", "Big")
     import Part
@@ -250,7 +297,7 @@ def cancel_a_creation(doc, box, fill):
     names = sorted(o.Name for o in doc.Objects)
     undo_before = doc.UndoCount
     seen = []
-    timer = press_escape_soon(seen)
+    timer = cancel_soon(seen, by_click=True)
     open_panel(fill)
     answer_panel("OK")
     wait_until(lambda: seen, 30)

@@ -114,6 +114,7 @@ def drive():
     stored = {name for _, name, _ in group.GetContents() or ()}
     check("OK then forgets them", stored == {"Transparency", "StrutColour"}, stored)
     group.Clear()
+    App.saveParameter()  # OK has written them to the profile
 
 
 def use():

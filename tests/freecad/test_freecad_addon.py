@@ -2,10 +2,12 @@
 """What FreeCAD and the Addon Manager find in this folder."""
 
 import ast
+import re
 import shlex
 import subprocess
 import sys
 from pathlib import Path
+from xml.etree import ElementTree
 
 import FreeCAD as App
 import pytest
@@ -46,13 +48,52 @@ def test_package_xml_agrees_with_the_engine(metadata):
     assert listed == wanted == set(deps.PACKAGES.values())
 
 
-def test_icons_are_drawings():
-    from xml.etree import ElementTree
+def test_package_xml_says_where_the_addon_lives(metadata):
+    places = {url["type"]: url for url in metadata.Urls}
+    assert places.keys() == {"repository", "bugtracker", "readme", "documentation"}
+    assert places["repository"]["branch"] == "main"
+    home = places["repository"]["location"]
+    for kind, place in places.items():
+        assert place["location"].startswith(home), kind
+    for kind in ("readme", "documentation"):
+        _, _, file = places[kind]["location"].partition("/blob/main/")
+        assert (ROOT / file).is_file()
+    assert all(person["name"] for person in [*metadata.Maintainer, *metadata.Author])
+    assert "lattice" in metadata.Content["workbench"][0].Tag
 
-    icons = sorted(freecad_volfrep.ICONS.glob("*.svg"))
-    assert len(icons) >= 5
-    for icon in icons:
-        assert ElementTree.parse(icon).getroot().get("viewBox") == "0 0 64 64"
+
+ICONS = sorted(freecad_volfrep.ICONS.glob("*.svg"))
+
+
+@pytest.mark.parametrize("icon", ICONS, ids=lambda icon: icon.stem)
+def test_icons_are_drawings_that_show_on_light_and_dark(icon):
+    root = ElementTree.parse(icon).getroot()
+    assert root.get("viewBox") == "0 0 64 64"
+    for part in root.iter():
+        # Lines stand on the background itself; what is filled is seen by its filling.
+        if part.get("stroke") and part.get("fill") in (None, "none"):
+            for background in ("#f0f0f0", "#2b2b2b"):
+                assert contrast(part.get("stroke"), background) > 2, part.attrib
+
+
+def test_every_icon_is_used_and_every_used_one_is_there():
+    sources = [*(ROOT / "freecad_volfrep").rglob("*.py"), ROOT / "InitGui.py"]
+    named = set()
+    for source in sources:
+        named |= set(re.findall(r"([\w-]+)\.svg", source.read_text(encoding="utf-8")))
+    assert named == {icon.stem for icon in ICONS}
+
+
+def contrast(one, two):
+    """Of two colours as #rrggbb, as the WCAG defines it: from 1 to 21."""
+    dark, light = sorted((luminance(one), luminance(two)))
+    return (light + 0.05) / (dark + 0.05)
+
+
+def luminance(colour):
+    values = [int(colour[k : k + 2], 16) / 255 for k in (1, 3, 5)]
+    linear = [v / 12.92 if v <= 0.04045 else ((v + 0.055) / 1.055) ** 2.4 for v in values]
+    return sum(w * v for w, v in zip((0.2126, 0.7152, 0.0722), linear, strict=True))
 
 
 def test_the_start_of_freecad_imports_nothing_heavy():

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
-# The pictures of the tutorial and the help pages, from those that tests/gui/drive_commands.py
+# The pictures of the tutorial and the help pages, from those that the scripts of tests/gui
 # left in build/gui: smaller, with few colours, so that each has less than 150 kB.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
@@ -9,6 +9,7 @@ declare -A PICTURES=(
   [1_select]=tutorial_1_select [2_panel]=tutorial_2_panel [3_preview]=preview_only
   [4_computed]=tutorial_4_computed [5_radius]=property_recomputed [6_check]=check_mesh
   [7_export]=export [cell_library]=cell_library [statistics]=statistics
+  [section_view]=section_2_moved
   [example_bracket]=example_bracket [example_piston_rod]=example_piston_rod
 )
 mkdir -p "$OUT"

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from .errors import VolfrepError
 from .programs import run_program
 from .progress import Monitor
+from .threads import threads
 
 _RESULT = re.compile(r"^ displacements .*?\n\n((?: +\d+(?: +\S+){3}\n)*)", re.MULTILINE)
 
@@ -41,7 +42,7 @@ def solve(deck: str | os.PathLike[str], monitor: Monitor | None = None) -> NDArr
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         shutil.copyfile(deck, folder / "job.inp")
-        environment = {**os.environ, "OMP_NUM_THREADS": str(os.cpu_count() or 1)}
+        environment = {**os.environ, "OMP_NUM_THREADS": str(threads())}
         said = run_program([program, "-i", "job"], folder, monitor, environment)
         printed = folder / "job.dat"
         blocks = _RESULT.findall(printed.read_text()) if printed.is_file() else []

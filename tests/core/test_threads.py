@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from volfrep import distance, point_field, quality, threads
+from volfrep.blocks import block
 from volfrep.errors import VolfrepError
 from volfrep.export import stl
 from volfrep.mesh import TriangleMesh
-from volfrep.pipeline import block
 from volfrep.quality import measure
 from volfrep.spec import LatticeSpec
 from volfrep.threads import use_threads

@@ -1,44 +1,19 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Display modes and the section view in the real FreeCAD window; see tools/run_gui.sh."""
 
-import json
-import os
-import subprocess
 import sys
 import time
-import traceback
 from pathlib import Path
 
 import FreeCAD as App
 import FreeCADGui as Gui
-from PySide import QtCore, QtGui
+from PySide import QtGui
 
-OUT = Path(os.environ["GUI_OUT"])
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from driving import OUT, check, figures, picture, run, wait
+
 FIXTURE = Path(__file__).resolve().parents[1] / "freecad" / "fixtures" / "infill-0.1.0.FCStd"
 GROUP = "User parameter:BaseApp/Preferences/Mod/VOLFREP"
-figures = {}
-failures = []
-
-
-def check(name, holds, detail=""):
-    """Note a check; go on to the others whatever it says."""
-    figures[name] = bool(holds)
-    if not holds:
-        failures.append(f"{name} {detail}".strip())
-
-
-def wait(milliseconds):
-    """Let Qt run."""
-    loop = QtCore.QEventLoop()
-    QtCore.QTimer.singleShot(milliseconds, loop.quit)
-    (loop.exec if hasattr(loop, "exec") else loop.exec_)()
-
-
-def picture(name):
-    """The whole screen as a file."""
-    Gui.updateGui()
-    wait(300)
-    subprocess.run(["import", "-window", "root", str(OUT / f"{name}.png")], check=True)
 
 
 def node_of(obj, mode):
@@ -250,19 +225,4 @@ def drive():
     frames()
 
 
-def main():
-    """Drive, write down, leave."""
-    code = 1
-    try:
-        drive()
-        code = 1 if failures else 0
-    except Exception:
-        failures.append(traceback.format_exc())
-    figures["failures"] = failures
-    (OUT / "display.json").write_text(json.dumps(figures, indent=1), encoding="utf-8")
-    print("\n".join(failures) or "every check held")
-    sys.stdout.flush()
-    os._exit(code)
-
-
-QtCore.QTimer.singleShot(2500, main)
+run(drive, "display")

@@ -263,6 +263,7 @@ def cancel_an_edit(doc, obj):
     obj.Deviation = 0.002
     obj.CellSize = 2.5
     obj.StrutRadius = 0.25
+    obj.ShellThickness = 0.4  # the wall then takes seconds, and can be cancelled at any moment
     doc.recompute()
     check("a large edit waits for the command", not seen and "large job" in obj.Status, obj.Status)
     check("and says what it comes to", "triangles" in obj.Expected, obj.Expected)
@@ -281,6 +282,7 @@ def cancel_an_edit(doc, obj):
     obj.Deviation = 0
     obj.CellSize = 5
     obj.StrutRadius = 0.5
+    obj.ShellThickness = 1
     doc.recompute()
     check("corrected, it is valid", obj.isValid(), obj.getStatusString())
 

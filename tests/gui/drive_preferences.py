@@ -1,9 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Opens FreeCAD's preferences at VOLFREP's pages, types, and looks at what comes of it."""
 
-import json
-import os
-import subprocess
 import sys
 import traceback
 from pathlib import Path
@@ -12,30 +9,10 @@ import FreeCAD as App
 import FreeCADGui as Gui
 from PySide import QtCore, QtGui
 
-OUT = Path(os.environ["GUI_OUT"])
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from driving import check, failures, picture, run, wait
+
 GROUP = "User parameter:BaseApp/Preferences/Mod/VOLFREP"
-figures = {}
-failures = []
-
-
-def check(name, holds, detail=""):
-    """Note a check; go on to the others whatever it says."""
-    figures[name] = bool(holds)
-    if not holds:
-        failures.append(f"{name} {detail}".strip())
-
-
-def wait(milliseconds):
-    """Let Qt run."""
-    loop = QtCore.QEventLoop()
-    QtCore.QTimer.singleShot(milliseconds, loop.quit)
-    (loop.exec if hasattr(loop, "exec") else loop.exec_)()
-
-
-def picture(name):
-    """The whole screen as a file."""
-    wait(300)
-    subprocess.run(["import", "-window", "root", str(OUT / f"{name}.png")], check=True)
 
 
 def preferences_open(visit):
@@ -133,19 +110,4 @@ def use():
     App.closeDocument(doc.Name)
 
 
-def main():
-    """Drive, write down, leave."""
-    code = 1
-    try:
-        drive()
-        code = 1 if failures else 0
-    except Exception:
-        failures.append(traceback.format_exc())
-    figures["failures"] = failures
-    (OUT / "preferences.json").write_text(json.dumps(figures, indent=1), encoding="utf-8")
-    print("\n".join(failures) or "every check held")
-    sys.stdout.flush()
-    os._exit(code)
-
-
-QtCore.QTimer.singleShot(2500, main)
+run(drive, "preferences")

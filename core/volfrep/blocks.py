@@ -30,7 +30,7 @@ from .report import Report
 from .result import NOTHING_REMOVED, Result, report_of
 from .sizes import mapped_volume
 from .spec import LatticeSpec
-from .survey import survey
+from .survey import agree_on_faces, survey
 from .tile import mesh_octants, tile_spec
 from .voxels import CellGrid
 from .wireframe import CellGraph, Wireframe, cell_graph
@@ -75,7 +75,7 @@ def block(
     removed = dict(NOTHING_REMOVED)
     with monitor.stage("check", 0.8, 1.0):
         measured = measure(mesh, monitor) if spec.is_graded else survey(layout)
-        if measured.shells > 1:
+        if measured.shells > 1 or measured.degenerate_triangles:
             from .trim import clear, smallest_shell  # of no use to most blocks, and slow to import
 
             cleared = clear(mesh, inspect(mesh, monitor), smallest_shell(spec))
@@ -119,6 +119,7 @@ def write_block_stl(
         with monitor.stage("check", 0.4, 0.5):
             measured = survey(laid.layout)
             streams = measured.shells == 1 and keeps_corners(laid.layout)
+            streams = streams and agree_on_faces(laid.layout)
         if streams:
             monitor.count("triangles laid", laid.layout.triangles)
             with monitor.stage("write", 0.5, 1.0):

@@ -252,7 +252,6 @@ def _block(options: argparse.Namespace) -> None:
     _check_targets(options)
     spec = _spec(options)
 
-    from .beam_lattice import block_beams
     from .blocks import block, write_block_stl
     from .forecast import forecast_block
 
@@ -260,12 +259,18 @@ def _block(options: argparse.Namespace) -> None:
     if cli_solver.block_axes(spec, options, start):
         return
     if options.threemf == "beams":
+        from .beam_lattice import block_beams
+
         cli_printing.finish_beams(block_beams(spec, options.count), options, start)
         return
     if not options.quiet:
         expected = forecast_block(spec, options.count, streamed=_writes_stl(options))
         print(f"Expected: {expected}.", flush=True)
-    beams = block_beams(spec, options.count) if options.threemf == "both" else None
+    beams = None
+    if options.threemf == "both":
+        from .beam_lattice import block_beams
+
+        beams = block_beams(spec, options.count)
     with _Progress(options.quiet) as progress:
         if _writes_stl(options):
             _tell(write_block_stl(spec, options.count, options.out, progress=progress), options)

@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from .anchors import anchor, crease
 from .cells import UnitCell
 from .conform import Conformed, conform
-from .distance import closest_points
 from .errors import VolfrepError
 from .frep import Floats, joint_radius
 from .grading import lattice_map
@@ -61,6 +60,8 @@ def setting(solid: TriangleMesh, spec: LatticeSpec, monitor: Monitor) -> Setting
     def depth(points: Floats) -> Floats:
         inside = inside_points(solid, points, monitor)
         result = np.zeros(len(points))
+        from .distance import closest_points  # slow to import
+
         result[inside] = monitor.call(lambda: closest_points(solid, points[inside])[1])
         return result
 

@@ -10,6 +10,7 @@ copies. `volfrep.quality.measure` finds the same on the triangles, in time that 
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -18,7 +19,7 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
-from .lattice import Layout, box, frames
+from .lattice import Layout, OctantGrid, box, frames
 from .quality import Quality
 from .tile import Octant
 
@@ -38,8 +39,9 @@ class _Kind:
         normal: (pieces, 3) integral of the normal over each, mm2.
         area: of all, mm2.
         open: by (axis, side): sorted (k, 4) open edges as entity and rank of start and end.
+        degenerate: triangles without an area, as specks have that no sample could follow.
         sound: every other edge is shared by two triangles, none of them joins two vertices of a
-            face, and no triangle is degenerate.
+            face.
     """
 
     pieces: int
@@ -48,6 +50,7 @@ class _Kind:
     normal: Floats
     area: float
     open: dict[tuple[int, int], Ints]
+    degenerate: int
     sound: bool
 
 
@@ -76,7 +79,7 @@ def survey(layout: Layout) -> Quality:
     graph = coo_matrix((np.ones(len(links), bool), links.T), shape=(total, total))
     shells, label = connected_components(graph, directed=False)
     volume = np.zeros(shells)
-    triangles, area = 0, 0.0
+    triangles, degenerate, area = 0, 0, 0.0
     for kind, key, place in zip(kinds, grid.keys, layout.places, strict=True):
         corner, sign = frames(place)
         offset = corner * grid.cell_size + grid.origin - bounds.mean(axis=0)
@@ -84,6 +87,7 @@ def survey(layout: Layout) -> Quality:
         index = first[tuple(place.T)][:, None] + np.arange(kind.pieces)
         volume += np.bincount(label[index.ravel()], own.ravel(), minlength=shells)
         triangles += len(place) * len(layout.octants[key].triangles)
+        degenerate += len(place) * kind.degenerate
         area += len(place) * kind.area
     euler = layout.count - triangles // 2
     return Quality(
@@ -93,7 +97,7 @@ def survey(layout: Layout) -> Quality:
         open_edges=0,
         overused_edges=0,
         misoriented_edges=0,
-        degenerate_triangles=0,
+        degenerate_triangles=degenerate,
         shells=int(shells),
         bodies=int((volume > 0).sum()),
         voids=int((volume < 0).sum()),
@@ -115,7 +119,7 @@ def _look_at(octant: Octant) -> _Kind:
     twice = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     # An open edge lies on exactly one face, every other one on none.
     sound = len(np.unique(forward)) == len(forward) and bool((on_one_face == is_open).all())
-    sound &= bool(twice.any(axis=1).all()) and len(np.unique(triangles)) == count
+    sound &= len(np.unique(triangles)) == count
     open_edges = {}
     name = np.stack([octant.entity.astype(np.int64), octant.rank.astype(np.int64)], axis=1)
     for axis in range(3):
@@ -138,56 +142,93 @@ def _look_at(octant: Octant) -> _Kind:
         normal.astype(np.float64),
         float(0.5 * np.linalg.norm(twice, axis=1).sum()),
         open_edges,
+        int((~twice.any(axis=1)).sum()),
         sound,
     )
 
 
-def _fit_together(layout: Layout, kinds: list[_Kind], first: Ints) -> Ints:
-    """(k, 2) links between the pieces of neighbouring octants, after a look at every pair."""
-    kind, octants = layout.grid.kind, layout.octants
-    keys = layout.grid.keys
-    links = [np.stack([np.arange(0), np.arange(0)], axis=1)]
+@dataclass(frozen=True, eq=False)
+class _Meeting:
+    """Everywhere that an octant of one kind is followed by one of another kind along an axis.
+
+    Attributes:
+        axis: of the common face.
+        side: 0 where it is the low face of both octants' frames, 2 where it is the high one.
+        kinds: of the octants on its low and high side; -1 for none.
+        where: bool on the pairs along the axis.
+    """
+
+    axis: int
+    side: int
+    kinds: tuple[int, int]
+    where: NDArray[np.bool_]
+
+
+def _pairs(values: Ints, axis: int, closed: bool, none: int) -> tuple[Ints, Ints]:
+    """Values of octants and of those that follow along an axis.
+
+    There is one octant of emptiness about all, so that the outermost faces are looked at too; or
+    the last one before the first.
+    """
+    width = [(1, not closed) if k == axis else (0, 0) for k in range(3)]
+    fill: dict[str, Any] = {"mode": "wrap"} if closed else {"constant_values": none}
+    padded = np.moveaxis(np.pad(values, width, **fill), axis, 0)
+    return np.moveaxis(padded[:-1], 0, axis), np.moveaxis(padded[1:], 0, axis)
+
+
+def _meetings(grid: OctantGrid) -> Iterator[_Meeting]:
+    count = len(grid.keys) + 1
     for axis in range(3):
-        # One octant of emptiness about all, so that the outermost faces are looked at too; or the
-        # last one before the first.
-        closed = layout.grid.periodic[axis]
-        width = [(1, not closed) if k == axis else (0, 0) for k in range(3)]
-        fill: dict[str, Any] = {"mode": "wrap"} if closed else {"constant_values": -1}
-        own, number = np.pad(kind, width, **fill), np.pad(first, width, **fill)
-        low = [slice(None)] * 3
-        high = [slice(None)] * 3
-        low[axis], high[axis] = slice(None, -1), slice(1, None)
-        one, two = own[tuple(low)], own[tuple(high)]
+        one, two = _pairs(grid.kind.astype(np.int64), axis, grid.periodic[axis], -1)
         # Frames run backwards at even places: a pair shares its high or its low faces in turn.
         index = np.arange(one.shape[axis]).reshape([-1 if k == axis else 1 for k in range(3)])
         side = np.broadcast_to(np.where(index % 2 == 0, 2, 0), one.shape)
-        code = ((one.astype(np.int64) + 1) * (len(keys) + 1) + two + 1) * 3 + side
+        code = ((one + 1) * count + two + 1) * 3 + side
         for value in np.unique(code):
-            at, face = int(value) // 3, int(value) % 3
-            a, b = at // (len(keys) + 1) - 1, at % (len(keys) + 1) - 1
-            edges = [kinds[k].open[axis, face] if k >= 0 else _NO_EDGES for k in (a, b)]
-            if not np.array_equal(edges[0], edges[1]):
-                raise RuntimeError("two octants of the lattice do not fit together")
-            if a < 0 or b < 0 or not len(edges[0]):
-                continue
-            pairs = np.unique(
-                np.stack(
-                    [_pieces_on(octants[keys[k]], kinds[k], axis, face) for k in (a, b)],
-                    axis=1,
-                ),
-                axis=0,
-            )
-            where = code == value
-            start = number[tuple(low)][where][:, None] + pairs[:, 0]
-            end = number[tuple(high)][where][:, None] + pairs[:, 1]
-            links.append(np.stack([start.ravel(), end.ravel()], axis=1))
+            pair, face = int(value) // 3, int(value) % 3
+            yield _Meeting(axis, face, (pair // count - 1, pair % count - 1), code == value)
+
+
+def _fit_together(layout: Layout, kinds: list[_Kind], first: Ints) -> Ints:
+    """(k, 2) links between the pieces of neighbouring octants, after a look at every pair."""
+    grid = layout.grid
+    links = [np.zeros((0, 2), np.int64)]
+    numbers = [_pairs(first, axis, grid.periodic[axis], -1) for axis in range(3)]
+    for meeting in _meetings(grid):
+        axis, side = meeting.axis, meeting.side
+        edges = [kinds[k].open[axis, side] if k >= 0 else _NO_EDGES for k in meeting.kinds]
+        if not np.array_equal(edges[0], edges[1]):
+            raise RuntimeError("two octants of the lattice do not fit together")
+        if min(meeting.kinds) < 0 or not len(edges[0]):
+            continue
+        on_face = [_on_face(layout.octants[grid.keys[k]], axis, side) for k in meeting.kinds]
+        pieces = [kinds[k].piece[own] for k, own in zip(meeting.kinds, on_face, strict=True)]
+        pairs = np.unique(np.stack(pieces, axis=1), axis=0)
+        low, high = (number[meeting.where][:, None] for number in numbers[axis])
+        links.append(np.stack([(low + pairs[:, 0]).ravel(), (high + pairs[:, 1]).ravel()], axis=1))
     return np.concatenate(links)
 
 
-def _pieces_on(octant: Octant, kind: _Kind, axis: int, side: int) -> Ints:
-    """The piece of every vertex on a face, in the order that both its octants give them."""
-    place = octant.places
-    on_face = np.flatnonzero(place[:, axis] == side)
-    order = np.lexsort((octant.rank[on_face], octant.entity[on_face]))
-    result: Ints = kind.piece[on_face[order]]
+def agree_on_faces(layout: Layout) -> bool:
+    """Whether octants give the vertices that they share the very same places.
+
+    A mesh has each of them once, whoever placed it; octants that are written one by one must
+    agree.
+    """
+    for meeting in _meetings(layout.grid):
+        if min(meeting.kinds) < 0:
+            continue
+        places = []
+        for k in meeting.kinds:
+            octant = layout.octants[layout.grid.keys[k]]
+            places.append(octant.vertices[_on_face(octant, meeting.axis, meeting.side)])
+        if not np.array_equal(places[0], places[1]):
+            return False
+    return True
+
+
+def _on_face(octant: Octant, axis: int, side: int) -> Ints:
+    """The vertices on a face, in the order that both its octants give them."""
+    on_face = np.flatnonzero(octant.places[:, axis] == side)
+    result: Ints = on_face[np.lexsort((octant.rank[on_face], octant.entity[on_face]))]
     return result

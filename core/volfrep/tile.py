@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -36,6 +37,8 @@ INFLUENCE_EDGES = 2.0
 #: Vertices lie at whole steps of an octant's edge over this, so that octants which share a vertex
 #: can give it the very same coordinates.
 STEPS = float(1 << 26)
+#: Samples farther from the surface than so many steps say no more than on which side they are.
+SEEN_STEPS = 2.0
 #: Pieces are meshed together up to about this many vertices.
 BATCH_VERTICES = 150_000
 
@@ -64,9 +67,18 @@ class TileSpec:
     @property
     def influence(self) -> float:
         """Struts whose axes are farther than this from an octant do not show in it, mm."""
-        step = max(self.edge, 0.5 * self.cell_size / self.steps)
         joint = frep.joint_radius(self.strut_radius, self.cell_size)
-        return float(joint + INFLUENCE_EDGES * step + 2.0 * self.fillet)
+        return float(joint + INFLUENCE_EDGES * max(self.edge, self.step) + 2.0 * self.fillet)
+
+    @property
+    def reach(self) -> float:
+        """Struts whose surfaces are farther than this from a vertex do not matter to it, mm."""
+        return NEAR_EDGES * self.edge + 2.0 * self.fillet
+
+    @property
+    def step(self) -> float:
+        """Between the samples, mm."""
+        return 0.5 * self.cell_size / self.steps
 
     @property
     def steps(self) -> int:
@@ -109,20 +121,70 @@ class Octant:
 def mesh_octants(
     cell: UnitCell, spec: TileSpec, keys: Sequence[OctantKey], monitor: Monitor
 ) -> dict[OctantKey, Octant]:
-    """Mesh the octants of the given keys."""
+    """Mesh the octants of the given keys.
+
+    Struts that an octant has and another one lacks are often hidden in its joints: octants whose
+    surfaces are the same are meshed once.
+    """
+    groups: dict[bytes, list[OctantKey]] = {}
+    for key in dict.fromkeys(keys):
+        own = _primitives(cell, key, spec)
+        samples = sample_octant(own, spec.cell_size, spec.steps, spec.fillet)
+        seen = np.clip(samples, -SEEN_STEPS * spec.step, SEEN_STEPS * spec.step)
+        groups.setdefault(hashlib.blake2b(seen.tobytes()).digest(), []).append(key)
+        monitor.tick()
     result: dict[OctantKey, Octant] = {}
-    todo = list(dict.fromkeys(keys))
+    todo = [group[0] for group in groups.values()]
+    _mesh(cell, spec, todo, result, monitor)
+    others = [(group[0], _alike(cell, spec, result, group)) for group in groups.values()]
+    for key, alike in others:
+        result.update(dict.fromkeys(alike, result[key]))
+    _mesh(cell, spec, [key for key in dict.fromkeys(keys) if key not in result], result, monitor)
+    return result
+
+
+def _mesh(
+    cell: UnitCell,
+    spec: TileSpec,
+    todo: Sequence[OctantKey],
+    result: dict[OctantKey, Octant],
+    monitor: Monitor,
+) -> None:
+    """Mesh octants, each by itself, and put them to the others."""
     monitor.count("kinds of octants meshed", len(todo))
     done = 0
-    while todo:
-        batch = _Batch.of(cell, spec, todo)
+    while done < len(todo):
+        batch = _Batch.of(cell, spec, todo[done:])
         even, origin = even_out(batch.surface)
         fitted = fit(even, batch.piece_of(origin))
         result.update(batch.split(fitted, origin))
         done += len(batch.keys)
-        todo = todo[len(batch.keys) :]
-        monitor.tick(done / (done + len(todo)))
-    return result
+        monitor.tick(done / len(todo))
+
+
+def _alike(
+    cell: UnitCell, spec: TileSpec, meshed: dict[OctantKey, Octant], group: list[OctantKey]
+) -> list[OctantKey]:
+    """Which octants have the surface of their group's first one, by the field at its facets.
+
+    The samples said so already; a strut that shows between them only is found here.
+    """
+    octant = meshed[group[0]]
+    middles = octant.vertices[octant.triangles].mean(axis=1)
+    points = np.concatenate([octant.vertices, middles])[:, None]
+
+    def values(key: OctantKey) -> Floats:
+        return frep.union(frep.distances(points, _primitives(cell, key, spec)), spec.fillet)
+
+    if not len(octant.triangles) or len(group) == 1:
+        return group[1:]
+    wanted = values(group[0])
+    return [key for key in group[1:] if np.array_equal(values(key), wanted)]
+
+
+def _primitives(cell: UnitCell, key: OctantKey, spec: TileSpec) -> Primitives:
+    """What an octant's surface may consist of, as far as its vertices may move."""
+    return octant_primitives(cell, key, spec.cell_size, spec.strut_radius, spec.reach)
 
 
 @dataclass(frozen=True, eq=False)
@@ -138,7 +200,6 @@ class _Batch:
     @staticmethod
     def of(cell: UnitCell, spec: TileSpec, keys: Sequence[OctantKey]) -> _Batch:
         """As many of the keys, from the first, as fit in a batch."""
-        reach = NEAR_EDGES * spec.edge + 2.0 * spec.fillet
         used: list[OctantKey] = []
         raw: list[RawOctant] = []
         solid: list[NDArray[np.bool_]] = []
@@ -147,7 +208,7 @@ class _Batch:
         near: list[Ints] = []
         total = offset = 0
         for key in keys:
-            own = octant_primitives(cell, key, spec.cell_size, spec.strut_radius, reach)
+            own = _primitives(cell, key, spec)
             samples = sample_octant(own, spec.cell_size, spec.steps, spec.fillet)
             piece = raw_octant(samples, spec.cell_size)
             if used and total + len(piece.vertices) > BATCH_VERTICES:
@@ -157,7 +218,7 @@ class _Batch:
             solid.append(samples[:: spec.steps, :: spec.steps, :: spec.steps] < 0.0)
             primitives.append(own)
             if len(piece.vertices):
-                count, index = _near(piece.vertices, own, reach)
+                count, index = _near(piece.vertices, own, spec.reach)
                 counts.append(count)
                 near.append(index + offset)
             total += len(piece.vertices)
@@ -178,7 +239,7 @@ class _Batch:
             np.full(place.shape, -1, np.int64),
             field,
             spec.edge,
-            0.5 * spec.cell_size / spec.steps,
+            spec.step,
         )
         return _Batch(used, raw, solid, whole, 0.5 * spec.cell_size / STEPS)
 

@@ -56,6 +56,16 @@ def test_the_streamed_file_holds_the_facets_of_the_mesh(cell, tmp_path):
     assert "write" in report.stages
 
 
+def test_specks_of_nearly_closed_windows_are_removed(tmp_path):
+    """Octet of r = L / 5: its windows close, but for specks that no facet can follow."""
+    report = write_block_stl(LatticeSpec("Octet", 10.0, 2.0), (2, 2, 2), tmp_path / "a.stl")
+    quality = measure(as_read(read_triangles(tmp_path / "a.stl")))
+    assert report.specks_removed > 0
+    assert quality.watertight
+    assert quality.degenerate_triangles == 0
+    assert quality.bodies == report.bodies == 1
+
+
 def test_the_normals_point_out_of_the_material(tmp_path):
     write_block_stl(SPEC, (2, 2, 1), tmp_path / "a.stl")
     facets = facets_of(tmp_path / "a.stl")

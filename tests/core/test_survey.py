@@ -10,7 +10,7 @@ from volfrep import quality
 from volfrep.cells import LIBRARY, make_cell
 from volfrep.lattice import lay, lay_out, octant_grid
 from volfrep.progress import Monitor
-from volfrep.survey import survey
+from volfrep.survey import agree_on_faces, survey
 from volfrep.tile import TileSpec, mesh_octants
 
 SKEW = make_cell("skew", [[0, 0, 0], [1, 1, 1], [0.3, 0.6, 0.45]], [[0, 2], [2, 1]])
@@ -43,6 +43,18 @@ def test_an_octant_with_a_hole_is_found():
     layout = replace(layout, octants={**layout.octants, key: holed})
     with pytest.raises(RuntimeError):
         survey(layout)
+
+
+def test_an_octant_that_puts_a_shared_vertex_elsewhere_is_found():
+    layout = layout_of(LIBRARY["CVC"], np.ones((2, 2, 2), bool))
+    assert agree_on_faces(layout)
+    key = layout.grid.keys[3]
+    octant = layout.octants[key]
+    vertices = octant.vertices.copy()
+    vertices[np.flatnonzero((octant.places != 1).any(axis=1))[0]] += 1e-9
+    moved = replace(octant, vertices=vertices)
+    layout = replace(layout, octants={**layout.octants, key: moved})
+    assert not agree_on_faces(layout)
 
 
 def test_octants_that_do_not_fit_together_are_found():

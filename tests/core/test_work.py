@@ -19,11 +19,12 @@ def work(cells):
 
 
 @pytest.mark.parametrize("cell", LIBRARY)
-def test_a_block_takes_27_kinds_of_octants_however_large_it_is(cell):
+def test_a_block_takes_eight_kinds_of_octants_however_large_it_is(cell):
+    """Of 27 patterns of neighbours: struts that end in a joint do not show beyond it."""
     spec = LatticeSpec(cell, 10.0, 1.0, resolution=8)
     for count in (3, 5):
         report = block(spec, (count,) * 3).report
-        assert report.work["kinds of octants meshed"] == 27
+        assert report.work["kinds of octants meshed"] <= 8
         assert report.work["triangles laid"] == report.triangles
 
 

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import platform
 import signal
@@ -53,12 +54,14 @@ class Context:
         folder: for files, emptied afterwards.
         seconds_for_peers: the time limit of one job of another tool.
         most_triangles: of a file that is read back.
+        peers_until: of `time.monotonic`; other tools are left out from then on.
     """
 
     quick: bool
     folder: Path
     seconds_for_peers: float
     most_triangles: int
+    peers_until: float = math.inf
 
     def say(self, row: Row) -> Row:
         """Print a row as it comes in."""
@@ -216,6 +219,8 @@ def peer_job(context: Context, tool: str, command: Sequence[str], out: Path, **g
     row: Row = {"tool": tool, **given}
     if not BENCH_PYTHON.exists():
         return {**row, "note": "left out: `make bench` has not made .cache/bench"}
+    if time.monotonic() > context.peers_until:
+        return {**row, "note": "left out: the time for other tools was spent"}
     done = run(command, limit=context.seconds_for_peers, env={"PYTHONPATH": str(ROOT / "core")})
     if done.failure:
         out.unlink(missing_ok=True)

@@ -123,12 +123,14 @@ def manifold_block(graph: Graph, count: int, samples: int, out: Path) -> None:
 
 def microgen_block(graph: Graph, count: int, samples: int, out: Path) -> None:
     """One cell fused by OpenCASCADE and repeated, as microgen's examples do; copies stay apart."""
+    import cadquery
     import microgen
 
     cell = first_cell(graph)
-    shapes = [microgen.Sphere(center=tuple(node), radius=JOINT).generate() for node in cell.nodes]
+    nodes = cell.nodes - SIZE / 2  # the grid of copies is laid about the origin
+    shapes = [microgen.Sphere(center=tuple(node), radius=JOINT).generate() for node in nodes]
     for a, b in cell.struts:
-        start, along = cell.nodes[a], cell.nodes[b] - cell.nodes[a]
+        start, along = nodes[a], nodes[b] - nodes[a]
         length = float(np.linalg.norm(along))
         d = along / length
         turn = (math.degrees(math.atan2(d[1], d[0])), 90.0, math.degrees(math.asin(d[2])))
@@ -138,8 +140,8 @@ def microgen_block(graph: Graph, count: int, samples: int, out: Path) -> None:
             ).generate()
         )
     fused = microgen.fuse_shapes(shapes, retain_edges=False)
-    rve = microgen.Rve(dim=(SIZE, SIZE, SIZE), center=(SIZE / 2,) * 3)
-    whole = microgen.repeat_shape(fused, rve, grid=(count,) * 3)
+    whole = microgen.repeat_shape(fused, microgen.Rve(dim=(SIZE,) * 3), grid=(count,) * 3)
+    whole = whole.translate(cadquery.Vector(*[SIZE * count / 2] * 3))
     whole.exportStl(str(out), tolerance=DEFLECTION, angularTolerance=0.5, ascii=False)
 
 

@@ -38,10 +38,13 @@ def lines(
     if log:
         axes.set_xscale("log")
         axes.set_yscale("log")
+        ticks = sorted({x for line in data for x in line.x})
+        axes.set_xticks(ticks, [f"{x:,.0f}" for x in ticks], fontsize=7, rotation=40)
+        axes.minorticks_off()
     axes.set_xlabel(across)
     axes.set_ylabel(up)
     axes.grid(True, which="major", alpha=0.3)
-    axes.legend(fontsize=7)
+    axes.legend(fontsize=7, loc="upper left", bbox_to_anchor=(1.01, 1.0))
     return _save(figure, path, title)
 
 
@@ -63,7 +66,7 @@ def stacks(
     axes.set_ylabel(up)
     axes.tick_params(axis="x", labelsize=7)
     axes.grid(True, axis="y", alpha=0.3)
-    axes.legend(fontsize=7)
+    axes.legend(fontsize=7, loc="upper left", bbox_to_anchor=(1.01, 1.0))
     return _save(figure, path, title)
 
 
@@ -73,7 +76,7 @@ def _figure():
     matplotlib.use("Agg")
     from matplotlib import pyplot
 
-    return pyplot.subplots(figsize=(6.2, 3.6), dpi=100)
+    return pyplot.subplots(figsize=(7.2, 3.6), dpi=100)
 
 
 def _colours(count: int) -> list[str]:

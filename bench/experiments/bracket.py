@@ -34,6 +34,7 @@ from ..published import (
 from ..published import (
     BRACKET_ACTIVE,
     BRACKET_GRID,
+    COARSE,
     POINTS,
     SIZE,
     WITH_VOXELS,
@@ -43,7 +44,6 @@ from ..tables import Column, Row, bar, table
 
 COLD_BAR, CHANGE_BAR = 6.0, 4.0
 #: The published method's cells and points along a cell, and which voxels it replicates.
-COARSE = POINTS // 2
 QUICK_JOBS = (("CVC", COARSE, "voxels"), ("CVC", COARSE, "all"))
 JOBS = (
     *((cell, COARSE, "voxels") for cell in PUBLISHED),
@@ -171,7 +171,7 @@ Seconds by stage, from cold:
 
 {_stage_table(rows)}
 
-The published method on the same files, with the cavity and the voxels that our engine found (the time for the cavity is not in it), cut and joined by trimesh with manifold3d. At the {POINTS} points a cell that the text names, and at {COARSE}, whose files come near the printed sizes:
+The published method on the same files, with the cavity and the voxels that our engine found (the time for the cavity is not in it), cut and joined by trimesh with manifold3d. At the {POINTS} points a cell that the text names, and at {COARSE}, whose files come nearer to the printed sizes:
 
 {_peers(result["peers"])}
 

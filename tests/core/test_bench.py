@@ -105,6 +105,14 @@ def test_a_process_is_ended_at_its_limit():
     assert done.seconds < 10
 
 
+def test_other_tools_are_left_out_when_their_time_is_spent(tmp_path, monkeypatch):
+    monkeypatch.setattr(measuring, "BENCH_PYTHON", Path(sys.executable))
+    context = measuring.Context(True, tmp_path, 10, 10**6, peers_until=0.0)
+    row = measuring.peer_job(context, "a tool", ["false"], tmp_path / "x.stl", cell="Box")
+    assert row["note"] == "left out: the time for other tools was spent"
+    assert row["cell"] == "Box"
+
+
 class Broken:
     """An experiment that cannot be done."""
 

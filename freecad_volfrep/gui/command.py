@@ -30,6 +30,7 @@ class Command:
         keys: shortcut as FreeCAD writes it, or nothing; none of FreeCAD's own.
         selected: what of the selection the command works on, or None.
         act: is called with that.
+        computes: whether it needs the engine's packages.
     """
 
     name: str
@@ -39,6 +40,7 @@ class Command:
     keys: str
     selected: Callable[[], Any]
     act: Callable[[Any], None]
+    computes: bool = True
 
     def GetResources(self) -> dict[str, str]:  # noqa: N802
         """Icon, texts, shortcut, and the address of the help page."""
@@ -58,7 +60,7 @@ class Command:
     def Activated(self) -> None:  # noqa: N802
         """Do it; where packages are missing, say which."""
         missing = missing_packages()
-        if missing:
+        if missing and self.computes:
             show_error(explain_missing(missing))
             return
         self.act(self.selected())

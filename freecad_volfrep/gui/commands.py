@@ -417,6 +417,7 @@ _TABLE = (
         "L, H",
         always,
         open_help,
+        computes=False,
     ),
     _example(
         "Bracket",

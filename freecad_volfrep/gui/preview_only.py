@@ -65,9 +65,10 @@ class _Preview:
         shown = self._live.show()
         self._view = PreviewView(parent_placement(obj))
         self._view.show(shown, with_grid=False)
-        self._was_visible = {part: part.ViewObject.Visibility for part in (obj, obj.Base)}
-        for part in self._was_visible:
-            part.ViewObject.Visibility = False
+        self._doc = obj.Document
+        self._was_visible = {part.Name: part.Visibility for part in (obj, obj.Base)}
+        for part in (obj, obj.Base):
+            part.Visibility = False
         self._timer = QtCore.QTimer()
         self._timer.setSingleShot(True)
         self._timer.timeout.connect(self._refresh)
@@ -77,14 +78,16 @@ class _Preview:
         """Show the new values once no other has changed for a moment."""
         self._timer.start(SETTLED)
 
-    def end(self) -> None:
-        """Show again what was shown before."""
+    def end(self, but: str = "") -> None:
+        """Show again what was shown before, but for an object that is being deleted."""
         self.forget()
-        for part, visible in self._was_visible.items():
-            part.ViewObject.Visibility = visible
+        for name, visible in self._was_visible.items():
+            part = self._doc.getObject(name)
+            if part is not None and name != but:
+                part.Visibility = visible
 
     def forget(self) -> None:
-        """Take the struts away; the objects may be gone."""
+        """Take the struts away; the document may be gone."""
         self._timer.stop()
         self._view.remove()
 
@@ -120,7 +123,7 @@ class _Observer:
         """The infill goes, and so does its preview."""
         preview = _previews.pop(_key(obj), None)
         if preview is not None:
-            preview.forget()
+            preview.end(but=obj.Name)
 
     def slotDeletedDocument(self, doc: Any) -> None:  # noqa: N802
         """The 3D view goes, and its previews with it."""

@@ -60,7 +60,9 @@ def drive():
     step(export_by_typing_a_name, doc, obj)
     step(look_at_the_context_menus, doc, box, obj)
     step(tell_errors_without_a_box, doc, obj)
+    step(ask_whats_this)
     step(read_the_help)
+    step(take_away_what_is_previewed, doc, obj)
     step(open_the_examples)
     shutil.rmtree(FOLDER)
 
@@ -525,6 +527,53 @@ def menu_action(*texts):
         action = next(a for a in actions if a.text().replace("&", "") == text)
         actions = action.menu().actions() if action.menu() is not None else []
     return action
+
+
+class Opened(QtCore.QObject):
+    """Takes the addresses that FreeCAD asks the desktop to open."""
+
+    def __init__(self):
+        super().__init__()
+        self.addresses = []
+
+    @QtCore.Slot("QUrl")
+    def take(self, address):
+        """Note one."""
+        self.addresses.append(address.toString())
+
+
+def ask_whats_this():
+    """FreeCAD's What's This on a button opens the command's page."""
+    opened = Opened()
+    QtGui.QDesktopServices.setUrlHandler("file", opened, "take")
+    QtGui.QWhatsThis.enterWhatsThisMode()
+    wait(300)
+    click(toolbar_button("Cell Library"))
+    wait_until(lambda: opened.addresses, 3)
+    QtGui.QDesktopServices.unsetUrlHandler("file")
+    page = opened.addresses and Path(QtCore.QUrl(opened.addresses[0]).toLocalFile())
+    check("What's This opens a page", page and page.name == "VOLFREP_CellLibrary.md", page)
+    check("that is there", page and page.is_file(), page)
+
+
+def take_away_what_is_previewed(doc, obj):
+    """A preview goes with its infill and with its document, and shows the solid again."""
+    from freecad_volfrep.gui.preview_only import toggle_preview
+
+    base = obj.Base
+    base.Visibility = True
+    toggle_preview(obj)
+    check("the solid is hidden", not base.ViewObject.isVisible())
+    doc.removeObject(obj.Name)
+    check("an infill that goes takes its preview along", previews() == 0, previews())
+    check("and its solid shows", base.ViewObject.isVisible())
+    doc.undo()
+    again = infills(doc)[0]
+    toggle_preview(again)
+    check("it can be previewed again", previews() == 1, previews())
+    App.closeDocument(doc.Name)
+    wait(500)
+    check("a document that is closed raises nothing", "Traceback" not in said(), said())
 
 
 def read_the_help():

@@ -63,9 +63,9 @@ def click(widget):
     """A real click in the middle of a widget."""
     point = widget.mapToGlobal(widget.rect().center())
     xdotool("mousemove", point.x(), point.y())
-    wait(300)
+    wait(200)
     xdotool("click", 1)
-    wait(300)
+    wait(200)
 
 
 def picture(name):

@@ -365,7 +365,7 @@ _TABLE = (
         "Section View",
         "Cut the selected lattice open on the screen, along a plane that can be moved; the "
         "lattice itself stays whole",
-        "L, V",
+        "L, N",
         selected_mesh,
         show_section,
     ),

@@ -14,6 +14,8 @@ ROOT = Path(__file__).resolve().parents[2]
 DOCS = ROOT / "docs"
 PAGES = DOCS / "commands"
 ICONS = ROOT / "freecad_volfrep" / "resources" / "icons"
+#: Of FreeCAD 0.20 and 1.0 after the key L: Draft's line, Arch's level, BIM's leader.
+TAKEN = {"L, I", "L, V", "L, E"}
 SECTIONS = ("## Description", "## Usage")
 
 
@@ -55,6 +57,13 @@ def test_a_command_has_its_icon_and_its_page(name: str) -> None:
     assert f"| **Default shortcut** | {shortcut} |" in page
     assert all(section in page for section in SECTIONS)
     assert f"({name}.md)" in (PAGES / "README.md").read_text(encoding="utf-8")
+
+
+def test_every_shortcut_is_of_one_command() -> None:
+    keys = [keys for _, _, keys in COMMANDS.values() if keys]
+    assert len(keys) == len(set(keys))
+    assert not TAKEN & set(keys)
+    assert all(key.startswith("L, ") for key in keys), "TAKEN knows these only"
 
 
 def test_no_page_is_without_a_command() -> None:

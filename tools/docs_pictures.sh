@@ -14,7 +14,7 @@ declare -A PICTURES=(
 )
 mkdir -p "$OUT"
 for name in "${!PICTURES[@]}"; do
-  convert "build/gui/${PICTURES[$name]}.png" -resize 1000x -dither None -colors 128 -strip \
+  convert "build/gui/${PICTURES[$name]}.png" -resize 800x -dither None -colors 128 -strip \
     "PNG8:$OUT/$name.png"
   bytes=$(stat -c %s "$OUT/$name.png")
   if ((bytes >= 150000)); then

@@ -14,7 +14,8 @@ from .qt import QtCore, QtWidgets
 #: A page for each command, by the command's name, and one that lists them.
 PAGES = ROOT / "docs" / "commands"
 INDEX = PAGES / "README.md"
-SIZE = (820, 760)
+#: Of the window, px: as wide as the pages' pictures and their margins.
+SIZE = (860, 780)
 
 
 def page_address(command: str) -> str:

@@ -50,9 +50,9 @@ def test_a_command_has_its_icon_and_its_page(name: str) -> None:
     icon, text, keys = COMMANDS[name]
     assert (ICONS / icon).is_file()
     page = (PAGES / f"{name}.md").read_text(encoding="utf-8")
-    title = page.splitlines()[0]
-    assert text in title
-    assert f"icons/{icon})" in title
+    title, _, picture = page.splitlines()[:3]
+    assert title.startswith(f"# {text}")
+    assert picture.endswith(f"icons/{icon})")
     shortcut = " ".join(f"`{key}`" for key in keys.split(", ")) if keys else "none"
     assert f"| **Default shortcut** | {shortcut} |" in page
     assert all(section in page for section in SECTIONS)

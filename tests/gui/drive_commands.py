@@ -235,7 +235,10 @@ def row_of(editor, name):
 
 
 def type_a_radius(doc, obj):
-    """A radius that is typed into the property editor makes a new mesh."""
+    """A radius that is typed into the property editor makes a new mesh, once."""
+    from freecad_volfrep.gui import progress
+
+    progress.SHOW_AFTER, quick = 0, progress.SHOW_AFTER  # the bar must not take the editor's focus
     select(obj)
     facets, volume = obj.Mesh.CountFacets, obj.Volume.Value
     editor = property_editor()
@@ -256,6 +259,8 @@ def type_a_radius(doc, obj):
     wait_until(lambda: obj.Volume.Value != volume, 30)
     check("and makes a new mesh", obj.Mesh.CountFacets != facets and obj.isValid(), obj.Status)
     check("with more material", obj.Volume.Value > volume)
+    check("no recompute ran inside another", "Recursive" not in said(), said())
+    progress.SHOW_AFTER = quick
     picture("property_recomputed")
     check(
         "the picture shows the lattice: property_recomputed",

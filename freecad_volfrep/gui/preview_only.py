@@ -95,7 +95,7 @@ class _Preview:
         try:
             shown = self._live.show()
         except VolfrepError as error:
-            self._view.clear()
+            self._view.show_solid_only()
             tell_error(str(error))
             return
         self._view.show(shown, with_grid=False)

@@ -54,6 +54,14 @@ class PreviewView:
             add_solid(self._solid, shown.solid)
             self._shown_solid = shown.solid
 
+    def show_solid_only(self) -> None:
+        """Leave the solid that was drawn last: its values have no struts to show.
+
+        Coin draws a transparent shape opaque where nothing else is drawn, which serves well here.
+        """
+        self._struts.removeAllChildren()
+        self._grid.removeAllChildren()
+
     def clear(self) -> None:
         """Draw nothing."""
         for part in (self._struts, self._grid, self._solid):

@@ -107,7 +107,7 @@ class TaskPanel:
         try:
             shown = self._live.show()
         except VolfrepError as error:
-            self._view.clear()
+            self._view.show_solid_only()
             self._say(str(error), wrong=True)
             return
         if self._preview.isChecked():

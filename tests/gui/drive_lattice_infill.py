@@ -20,6 +20,7 @@ from driving import (
     answer_panel,
     check,
     click,
+    drawn_share,
     figures,
     infills,
     look_at_all,
@@ -27,6 +28,7 @@ from driving import (
     panel_part,
     picture,
     previews,
+    red_share,
     run,
     select,
     toolbar_button,
@@ -163,6 +165,8 @@ def use_the_panel(doc, box, fill):
     check("what does not fit is said", "inside the skin" in panel_part("Figures").text(),
           panel_part("Figures").text())  # fmt: skip
     picture("panel_3_refused")
+    share = drawn_share("panel_3_refused")
+    check("and the solid stays to be seen", share > 0.1, share)
     for name, length in (("ShellThickness", "1"), ("CellSize", "5"), ("StrutRadius", "0.5")):
         type_length(name, f"{length} mm")
     click(panel_part("Compute"))
@@ -317,6 +321,7 @@ def cancel_a_creation(doc, box, fill):
 
 def check_the_print(doc, obj):
     """Print Check shows in red, on the infill, what hangs over."""
+    obj.Base.Visibility = False
     select(obj)
     click(toolbar_button("Print Check"))
     wait_until(lambda: doc.getObject("PrintCheck") is not None, 30)
@@ -326,7 +331,10 @@ def check_the_print(doc, obj):
     check("in red", made.ViewObject.ShapeColor[0] > 2 * made.ViewObject.ShapeColor[1])
     check("the infill stays to be seen", obj.ViewObject.isVisible())
     check("it has figures", "thinnest strut" in made.Text)
+    look_at_all(from_below=True)
     picture("5_print_check")
+    check("red is seen from below", red_share("5_print_check") > 0.02, red_share("5_print_check"))
+    look_at_all()
     doc.removeObject(made.Name)
 
 

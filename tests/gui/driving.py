@@ -75,11 +75,13 @@ def picture(name):
     subprocess.run(["import", "-window", "root", str(OUT / f"{name}.png")], check=True)
 
 
-def look_at_all():
-    """All of the document from above and the side; cells of struts along their diagonals would
-    hide each other in FreeCAD's isometric view.
+def look_at_all(from_below=False):
+    """All of the document from above (or below) and the side.
+
+    In FreeCAD's isometric view the struts along the diagonals of cells would hide each other.
     """
-    Gui.activeDocument().activeView().setCameraOrientation(App.Rotation(25, 0, 62).Q)
+    turn = App.Rotation(25, 0, 118 if from_below else 62)
+    Gui.activeDocument().activeView().setCameraOrientation(turn.Q)
     Gui.SendMsgToActiveView("ViewFit")
     wait(300)
 
@@ -106,6 +108,17 @@ def drawn_share(name):
     return sum(differs) / len(differs)
 
 
+def red_share(name):
+    """Share of the middle of the 3D view, in a picture, that is more red than anything else."""
+    pixels = [_channels(colour) for colour in _sampled(name, view_3d(), 0.2).values()]
+    return sum(red > 1.2 * max(green, blue) for red, green, blue in pixels) / len(pixels)
+
+
+def _channels(colour):
+    """Red, green and blue from 0 to 255."""
+    return colour >> 16 & 255, colour >> 8 & 255, colour & 255
+
+
 def _sampled(name, widget, margin, step=4):
     """Colours by place on the screen, within a widget without a margin of its size."""
     image = QtGui.QImage(str(OUT / f"{name}.png"))
@@ -122,7 +135,7 @@ def _sampled(name, widget, margin, step=4):
 
 def _distance(one, two):
     """Sum of the differences of red, green and blue."""
-    return sum(abs((one >> k & 255) - (two >> k & 255)) for k in (0, 8, 16))
+    return sum(abs(a - b) for a, b in zip(_channels(one), _channels(two), strict=True))
 
 
 def toolbar_button(name):

@@ -8,6 +8,11 @@ below, which import what they need, when they need it.
 import FreeCADGui as Gui
 
 from freecad_volfrep.gui.preferences_page import register_pages
+from freecad_volfrep.translation import TRANSLATIONS
+
+# First: what follows is said in the user's language.
+Gui.addLanguagePath(str(TRANSLATIONS))
+Gui.updateLocale()
 
 
 class VolfrepWorkbench(Gui.Workbench):
@@ -15,9 +20,12 @@ class VolfrepWorkbench(Gui.Workbench):
 
     def __init__(self):
         from freecad_volfrep import ICONS
+        from freecad_volfrep.translation import translate
 
         self.__class__.MenuText = "VOLFREP"
-        self.__class__.ToolTip = "Fill a solid with a strut lattice, ready for the printer"
+        self.__class__.ToolTip = translate(
+            "VolfrepWorkbench", "Fill a solid with a strut lattice, ready for the printer"
+        )
         self.__class__.Icon = str(ICONS / "volfrep.svg")
 
     def Initialize(self):  # noqa: N802
@@ -26,12 +34,13 @@ class VolfrepWorkbench(Gui.Workbench):
 
         from freecad_volfrep.deps import explain_missing, missing_packages
         from freecad_volfrep.gui.commands import EXAMPLES, TOOLBARS, register_commands
+        from freecad_volfrep.translation import QT_TRANSLATE_NOOP
 
         register_commands()
         for title, names in TOOLBARS.items():
             self.appendToolbar(title, names)
             self.appendMenu("&VOLFREP", [*names, "Separator"])
-        self.appendMenu(["&VOLFREP", "Examples"], EXAMPLES)
+        self.appendMenu(["&VOLFREP", QT_TRANSLATE_NOOP("Workbench", "Examples")], EXAMPLES)
         self.appendMenu("&VOLFREP", ["Separator", "VOLFREP_Help"])
         missing = missing_packages()
         if missing:

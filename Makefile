@@ -10,7 +10,7 @@ SCREEN := xvfb-run -a -s "-screen 0 1600x1200x24 -dpi 96"
 
 .NOTPARALLEL:
 .PHONY: help setup demo test test-all lint format test-core test-freecad test-gui \
-	test-freecad-1 test-newest docs-pictures torture bench bench-quick clean
+	test-freecad-1 translations test-newest docs-pictures torture bench bench-quick clean
 
 help: ## show this list
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 22
@@ -53,6 +53,9 @@ test-gui: setup ## the real FreeCAD window on a virtual screen
 
 docs-pictures: ## the tutorial's pictures anew, from those of the last make test-gui
 	@tools/docs_pictures.sh
+
+translations: setup ## refresh the .ts files from the sources, and compile them (lrelease)
+	@$(PYTHON) tools/translations.py
 
 torture: setup ## every broken, odd and real file beside what it must get
 	@$(PYTHON) tests/core/torture.py

@@ -12,7 +12,7 @@ from freecad_volfrep.engine import require_engine
 from volfrep.errors import VolfrepError
 
 from .lattice_infill import LatticeInfill
-from .progress import progress_of
+from .progress import job_title, progress_of
 
 if TYPE_CHECKING:
     from volfrep.cache import StageCache
@@ -104,7 +104,7 @@ def checked_ingredients(obj: App.DocumentObject) -> Ingredients:
         VolfrepError: as `inputs_of` and `estimate_of`.
         Cancelled: in the window, by the user.
     """
-    with progress_of(f"Struts of {obj.Label}") as progress:
+    with progress_of(job_title("Struts of {label}", obj)) as progress:
         made_of = ingredients_of(obj, progress)
     estimate_of(made_of)
     return made_of
@@ -120,7 +120,7 @@ def exact_shape(obj: App.DocumentObject, made_of: Ingredients) -> Any:
     """
     from freecad_volfrep.bridge.beams import place_in_document
 
-    with progress_of(f"Exact surfaces of {obj.Label}") as progress:
+    with progress_of(job_title("Exact surfaces of {label}", obj)) as progress:
         shape = _shape(obj, made_of, progress)
     warn(obj, made_of.warnings)
     shape.Placement = place_in_document(obj).multiply(shape.Placement)

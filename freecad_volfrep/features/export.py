@@ -10,10 +10,11 @@ from pathlib import Path
 import FreeCAD as App
 
 from freecad_volfrep.engine import require_engine
+from freecad_volfrep.translation import translate
 from volfrep.errors import VolfrepError
 
 from .lattice_infill import LatticeInfill
-from .progress import run_job
+from .progress import job_title, run_job
 from .solver_files import CONTENTS, write_solver_file
 
 
@@ -35,7 +36,7 @@ class Format:
     @property
     def filter(self) -> str:
         """The entry of the file dialog's list."""
-        return f"{self.title} (*{self.suffix})"
+        return f"{translate('VolfrepFormats', self.title)} (*{self.suffix})"
 
 
 #: In the order of the file dialog's list.
@@ -98,7 +99,7 @@ def export_mesh(
         mesh_writer(path)  # refuses a path that no mesh can be written to before the work
         mesh = mesh_in_document(obj)
         reduced = run_job(
-            f"Fewer triangles for {obj.Label}",
+            job_title("Fewer triangles for {label}", obj),
             lambda progress: reduce_triangles(mesh, monitor=Monitor(progress)),
         )
         write_mesh(reduced.mesh, path)
@@ -116,7 +117,7 @@ def export_mesh(
         raise VolfrepError(f"'{obj.Label}' is a mesh without beams: export its mesh.")
     solid, spec, cache = obj.Proxy.inputs(obj)
     model = run_job(
-        f"Beams of {obj.Label}",
+        job_title("Beams of {label}", obj),
         lambda progress: beam_model(solid, spec, progress=progress, cache=cache),
     )
     for sentence in model.warnings:

@@ -16,7 +16,7 @@ import numpy as np
 from volfrep.errors import VolfrepError
 
 from .exact import inputs_of, warn
-from .progress import progress_of
+from .progress import job_title, progress_of
 from .solver_files import axes_of
 
 if TYPE_CHECKING:
@@ -142,7 +142,7 @@ def _tetrahedra(
 
     solid, spec, _ = inputs_of(obj)
     solid = placed(solid, place_in_document(obj))
-    with progress_of(f"Tetrahedra of {obj.Label}") as progress:
+    with progress_of(job_title("Tetrahedra of {label}", obj)) as progress:
         filled = tetrahedra(mesh_in_document(obj), Monitor(progress))
     mesh = tetrahedral_mesh(filled, {"SKIN": nodes_on(filled, solid), **sides(filled.nodes)})
     base = resolve_base(obj.Base)

@@ -13,7 +13,7 @@ import numpy as np
 from volfrep.errors import VolfrepError
 
 from .exact import Ingredients, expected_volume, ingredients_of, walls_of, warn
-from .progress import progress_of
+from .progress import job_title, progress_of
 
 if TYPE_CHECKING:
     from volfrep.estimate import Estimate
@@ -51,7 +51,7 @@ def make_instances(doc: App.Document, obj: App.DocumentObject) -> App.DocumentOb
     from volfrep.estimate import refuse_inexact
     from volfrep.progress import Monitor
 
-    with progress_of(f"Instances of {obj.Label}") as progress:
+    with progress_of(job_title("Instances of {label}", obj)) as progress:
         made_of = ingredients_of(obj, progress)
         refuse_inexact(made_of.spec)
         copies, single, volume = _solids(obj, made_of, Monitor(progress))
@@ -88,7 +88,7 @@ def estimate_instances(obj: App.DocumentObject) -> Estimate:
     from volfrep.export.step_exact import predicted_exact
     from volfrep.joint_kinds import distinct_joints
 
-    with progress_of(f"Struts of {obj.Label}") as progress:
+    with progress_of(job_title("Struts of {label}", obj)) as progress:
         made_of = ingredients_of(obj, progress)
     joints = distinct_joints(made_of.lattice)
     whole, cut = (int(np.count_nonzero(side)) for side in _sides(made_of, joints))

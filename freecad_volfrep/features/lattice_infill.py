@@ -14,7 +14,7 @@ from freecad_volfrep.preferences import largest_automatic
 
 from .grading import CONTROLS, gradings_of, show_applicable
 from .openings import openings_of
-from .progress import run_job
+from .progress import job_title, run_job
 from .properties import CUSTOM_CELL, PROPERTIES, ensure_properties
 
 if TYPE_CHECKING:
@@ -158,7 +158,7 @@ class LatticeInfill:
             return
         solid = check_solid(solid, obj.Base.Label)
         result = run_job(
-            f"Filling {obj.Base.Label}",
+            job_title("Filling {label}", obj.Base),
             lambda progress: fill(solid, spec, progress=progress, cache=self._cache),
         )
         mesh = to_freecad(result.mesh)

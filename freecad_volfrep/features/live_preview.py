@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import FreeCAD as App
 
+from freecad_volfrep.translation import translate
+
 if TYPE_CHECKING:
     from volfrep.forecast import Forecast
     from volfrep.mesh import TriangleMesh
@@ -33,13 +35,20 @@ class Shown:
     def text(self) -> str:
         """The figures as lines for a user."""
         p, f = self.preview, self.forecast
-        return "\n".join(
-            (
-                f"{p.cells:,} active cells, {p.struts:,} struts",
-                f"relative density {100 * p.relative_density:.3g} %, mass {p.mass:.4g} g",
-                f"about {f.triangles / 1e6:.2g} million triangles, {f.stl_mb:.2g} MB as STL, "
-                f"{max(1.0, f.seconds):.2g} s to compute",
-            )
+        return translate(
+            "VolfrepFigures",
+            "{cells:,} active cells, {struts:,} struts\n"
+            "relative density {density:.3g} %, mass {mass:.4g} g\n"
+            "about {triangles:.2g} million triangles, {size:.2g} MB as STL, "
+            "{seconds:.2g} s to compute",
+        ).format(
+            cells=p.cells,
+            struts=p.struts,
+            density=100 * p.relative_density,
+            mass=p.mass,
+            triangles=f.triangles / 1e6,
+            size=f.stl_mb,
+            seconds=max(1.0, f.seconds),
         )
 
 

@@ -10,7 +10,7 @@ import FreeCAD as App
 from freecad_volfrep.engine import require_engine
 from volfrep.errors import VolfrepError
 
-from .progress import progress_of
+from .progress import job_title, progress_of
 from .tables import Table
 
 if TYPE_CHECKING:
@@ -35,7 +35,7 @@ def check_mesh(obj: App.DocumentObject) -> list[Table]:
 
     if not obj.isDerivedFrom("Mesh::Feature") or not obj.Mesh.CountFacets:
         raise VolfrepError(f"'{obj.Label}' has no mesh to check: update it first.")
-    with progress_of(f"Checking {obj.Label}") as progress:
+    with progress_of(job_title("Checking {label}", obj)) as progress:
         monitor = Monitor(progress)
         report = mesh_report(mesh_in_document(obj), monitor, look_for_overlaps=True)
         own = _freecads_own(obj)

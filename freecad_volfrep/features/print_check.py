@@ -12,7 +12,7 @@ from freecad_volfrep.engine import require_engine
 from volfrep.errors import VolfrepError
 
 from .lattice_infill import LatticeInfill
-from .progress import run_job
+from .progress import job_title, run_job
 from .properties import Property, add_missing, result
 
 if TYPE_CHECKING:
@@ -110,7 +110,7 @@ class PrintCheck:
             raise VolfrepError(f"'{infill.Label}' holds no lattice: set its Output to part.")
         domain = replace(spec, output="domain")
         filled = run_job(
-            f"Print check of {infill.Label}",
+            job_title("Print check of {label}", infill),
             lambda progress: fill(solid, domain, progress=progress, cache=cache),
         )
         place = place_in_document(infill)

@@ -9,9 +9,18 @@ from typing import TypeVar
 
 import FreeCAD as App
 
+from freecad_volfrep.translation import translate
 from volfrep.progress import ProgressCallback
 
 T = TypeVar("T")
+
+
+def job_title(text: str, obj: App.DocumentObject) -> str:
+    """What a job is called in the window: `text` in the user's language, with the object's label.
+
+    ``make translations`` looks for calls of this too: `text` must be literal.
+    """
+    return str(translate("VolfrepJobs", text)).format(label=obj.Label)
 
 
 def run_job(title: str, work: Callable[[ProgressCallback | None], T]) -> T:

@@ -23,7 +23,7 @@ from .exact import (
     warn,
 )
 from .instances import estimate_instances, write_instances
-from .progress import progress_of, run_job
+from .progress import job_title, progress_of, run_job
 
 if TYPE_CHECKING:
     from volfrep.clip import Clipped
@@ -44,7 +44,7 @@ def axes_of(obj: App.DocumentObject) -> Clipped:
     from volfrep.clip import clipped_infill
 
     clipped = run_job(
-        f"Struts of {obj.Label}",
+        job_title("Struts of {label}", obj),
         lambda progress: clipped_infill(solid, spec, progress=progress, cache=cache),
     )
     return replace(clipped, wireframe=placed_lattice(clipped.wireframe, place_in_document(obj)))
@@ -69,7 +69,7 @@ def estimate_file(obj: App.DocumentObject, content: str) -> str:
     if content == "instances":
         return str(estimate_instances(obj))
     if content == "exact":
-        with progress_of(f"Struts of {obj.Label}") as progress:
+        with progress_of(job_title("Struts of {label}", obj)) as progress:
             return str(estimate_of(ingredients_of(obj, progress)))
     clipped = axes_of(obj)
     if content == "wireframe":
@@ -116,7 +116,7 @@ def _write_exact(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
         if made_of.domain is None:
             # Never built as a shape: its text is laid at every place.
             lattice = placed_lattice(made_of.lattice, place_in_document(obj))
-            with progress_of(f"Exact surfaces of {obj.Label}") as progress:
+            with progress_of(job_title("Exact surfaces of {label}", obj)) as progress:
                 volume = write_exact(lattice, path, Monitor(progress))
             if expected is not None:
                 check_volume(volume, expected)
@@ -159,7 +159,7 @@ def _write_tetrahedra(obj: App.DocumentObject, path: str | os.PathLike[str]) -> 
     from volfrep.tetrahedra import nodes_on, tetrahedra
 
     solid = placed(inputs_of(obj)[0], place_in_document(obj))
-    with progress_of(f"Tetrahedra of {obj.Label}") as progress:
+    with progress_of(job_title("Tetrahedra of {label}", obj)) as progress:
         filled = tetrahedra(mesh_in_document(obj), Monitor(progress))
     sets = {"SKIN": nodes_on(filled, solid)}
     write_tetrahedra(filled, path, Material(density=obj.Density), sets=sets)

@@ -11,18 +11,24 @@ from typing import Any
 import FreeCADGui as Gui
 
 from freecad_volfrep.features.properties import CUSTOM_CELL
+from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 from volfrep.cells import LIBRARY, UnitCell, load_cell
 from volfrep.errors import VolfrepError
 
 from .cell_picture import cell_icon
 from .command import undo_step
+from .messages import WRONG
 from .qt import QtCore, QtWidgets
 from .selection import selected_infill, selected_with_edges
 
 #: Of the list's pictures and of the large one, px.
 SMALL, LARGE = 84, 220
-FILTER = "Unit cell (*.json)"
-_MODES = {"stretch": "stretching", "bending": "bending"}
+_CONTEXT = "VolfrepCells"
+FILTER = QT_TRANSLATE_NOOP("VolfrepCells", "Unit cell (*.json)")
+_MODES = {
+    "stretch": QT_TRANSLATE_NOOP("VolfrepCells", "stretching"),
+    "bending": QT_TRANSLATE_NOOP("VolfrepCells", "bending"),
+}
 _ENTRY = QtCore.Qt.UserRole
 
 
@@ -52,7 +58,7 @@ class CellLibrary(QtWidgets.QDialog):
     def __init__(self) -> None:
         super().__init__(Gui.getMainWindow())
         self.setObjectName("VolfrepCellLibrary")
-        self.setWindowTitle("Cell Library")
+        self.setWindowTitle(translate("VOLFREP_CellLibrary", "Cell Library"))
         self.setAttribute(QtCore.Qt.WA_DeleteOnClose)
         self._list = self._picker()
         self._picture, self._figures, self._note = (QtWidgets.QLabel() for _ in range(3))
@@ -63,14 +69,35 @@ class CellLibrary(QtWidgets.QDialog):
         self._buttons = {
             name: self._button(name, tip, act)
             for name, tip, act in (
-                ("Load...", "Read a cell of your own from a JSON file", self._ask_and_load),
-                ("From Selection", "Make a cell of the straight edges of the selected sketches, "
-                 "wires or shapes; the cube about them is the cell", self.make_from_selection),
-                ("Save As...", "Write the picked cell to a JSON file", self._ask_and_save),
-                ("Apply", "Give the picked cell to the selected lattice infill", self.apply),
-                ("Close", "", self.close),
+                (
+                    QT_TRANSLATE_NOOP("VolfrepCells", "Load..."),
+                    QT_TRANSLATE_NOOP("VolfrepCells", "Read a cell of your own from a JSON file"),
+                    self._ask_and_load,
+                ),
+                (
+                    QT_TRANSLATE_NOOP("VolfrepCells", "From Selection"),
+                    QT_TRANSLATE_NOOP(
+                        "VolfrepCells",
+                        "Make a cell of the straight edges of the selected sketches, wires or "
+                        "shapes; the cube about them is the cell",
+                    ),
+                    self.make_from_selection,
+                ),
+                (
+                    QT_TRANSLATE_NOOP("VolfrepCells", "Save As..."),
+                    QT_TRANSLATE_NOOP("VolfrepCells", "Write the picked cell to a JSON file"),
+                    self._ask_and_save,
+                ),
+                (
+                    QT_TRANSLATE_NOOP("VolfrepCells", "Apply"),
+                    QT_TRANSLATE_NOOP(
+                        "VolfrepCells", "Give the picked cell to the selected lattice infill"
+                    ),
+                    self.apply,
+                ),
+                (QT_TRANSLATE_NOOP("VolfrepCells", "Close"), "", self.close),
             )
-        }  # fmt: skip
+        }
         self._lay_out()
         for cell in LIBRARY.values():
             self._add(Entry(cell))
@@ -125,7 +152,9 @@ class CellLibrary(QtWidgets.QDialog):
         except VolfrepError as error:
             self._say(str(error), wrong=True)
             return
-        size = f"Drawn with L = {drawn.size:g} mm; every L can be given to an infill."
+        size = translate(
+            _CONTEXT, "Drawn with L = {size:g} mm; every L can be given to an infill."
+        ).format(size=drawn.size)
         self._add(Entry(drawn.cell, notes=(size, *drawn.warnings)), pick=True)
 
     def save(self, path: str) -> bool:
@@ -141,7 +170,7 @@ class CellLibrary(QtWidgets.QDialog):
         if entry.is_own:
             entry.path = str(Path(path).resolve())
         self._show()
-        self._say(f"{path} written")
+        self._say(translate("VolfrepMessages", "{path} written").format(path=path))
         return True
 
     def apply(self) -> None:
@@ -149,7 +178,7 @@ class CellLibrary(QtWidgets.QDialog):
         infill, entry = selected_infill(), self._entry()
         if infill is None or (entry.is_own and entry.path is None and not self._ask_and_save()):
             return
-        with undo_step(infill.Document, "Set Unit Cell"):
+        with undo_step(infill.Document, translate(_CONTEXT, "Set Unit Cell")):
             if entry.is_own:
                 infill.CellFile = entry.path
                 infill.CellType = CUSTOM_CELL
@@ -169,9 +198,9 @@ class CellLibrary(QtWidgets.QDialog):
         return picker
 
     def _button(self, name: str, tip: str, act: Any) -> Any:
-        button = QtWidgets.QPushButton(name)
+        button = QtWidgets.QPushButton(translate(_CONTEXT, name))
         button.setObjectName(name)
-        button.setToolTip(tip)
+        button.setToolTip(translate(_CONTEXT, tip))
         button.setAutoDefault(False)
         button.clicked.connect(lambda _=False: act())
         return button
@@ -218,11 +247,19 @@ class CellLibrary(QtWidgets.QDialog):
         cell = entry.cell
         self._picture.setPixmap(cell_icon(cell, LARGE).pixmap(LARGE, LARGE))
         rows = (
-            ("Nodes", len(cell.nodes)),
-            ("Struts", len(cell.struts)),
-            ("Maxwell number", cell.maxwell_number),
-            ("Carries load by", _MODES[cell.deformation_mode]),
-            ("File", Path(entry.path).name if entry.path else "not saved" * entry.is_own or "-"),
+            (translate(_CONTEXT, "Nodes"), len(cell.nodes)),
+            (translate(_CONTEXT, "Struts"), len(cell.struts)),
+            (translate(_CONTEXT, "Maxwell number"), cell.maxwell_number),
+            (
+                translate(_CONTEXT, "Carries load by"),
+                translate(_CONTEXT, _MODES[cell.deformation_mode]),
+            ),
+            (
+                translate(_CONTEXT, "File"),
+                Path(entry.path).name
+                if entry.path
+                else translate(_CONTEXT, "not saved") * entry.is_own or "-",
+            ),
         )
         lines = "".join(
             f"<tr><td>{name}&nbsp;&nbsp;</td><td>{html.escape(str(value))}</td></tr>"
@@ -233,13 +270,16 @@ class CellLibrary(QtWidgets.QDialog):
         self._enable()
 
     def _say(self, text: str, wrong: bool = False) -> None:
-        self._note.setStyleSheet("color: #c03020" if wrong else "")
+        self._note.setStyleSheet(WRONG if wrong else "")
         self._note.setText(text)
 
     def _enable(self) -> None:
         infill = selected_infill()
         self._buttons["Apply"].setEnabled(infill is not None)
-        self._buttons["Apply"].setText("Apply" if infill is None else f"Apply to {infill.Label}")
+        text = translate(_CONTEXT, "Apply")
+        if infill is not None:
+            text = translate(_CONTEXT, "Apply to {label}").format(label=infill.Label)
+        self._buttons["Apply"].setText(text)
         self._buttons["From Selection"].setEnabled(bool(selected_with_edges()))
 
     def _free_name(self, objects: list[Any]) -> str:
@@ -250,13 +290,20 @@ class CellLibrary(QtWidgets.QDialog):
         return str(name)
 
     def _ask_and_load(self) -> None:
-        path, _ = QtWidgets.QFileDialog.getOpenFileName(self, "Load Cell", str(Path.home()), FILTER)
+        path, _ = QtWidgets.QFileDialog.getOpenFileName(
+            self,
+            translate(_CONTEXT, "Load Cell"),
+            str(Path.home()),
+            translate(_CONTEXT, FILTER),
+        )
         if path:
             self.load(path)
 
     def _ask_and_save(self) -> bool:
         proposed = Path.home() / f"{self._entry().cell.name}.json"
-        path, _ = QtWidgets.QFileDialog.getSaveFileName(self, "Save Cell", str(proposed), FILTER)
+        path, _ = QtWidgets.QFileDialog.getSaveFileName(
+            self, translate(_CONTEXT, "Save Cell"), str(proposed), translate(_CONTEXT, FILTER)
+        )
         if not path:
             return False
         return self.save(path if Path(path).suffix else f"{path}.json")

@@ -11,10 +11,11 @@ import FreeCAD as App
 import FreeCADGui as Gui
 
 from freecad_volfrep.deps import missing_packages
+from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 from volfrep.errors import VolfrepError
 
 from .command import Command, undo_step
-from .messages import ask, choose, errors_shown, tell, tell_error
+from .messages import ask, choose, errors_shown, tell, tell_error, tell_written
 from .qt import QtWidgets
 from .selection import (
     infill_in_view,
@@ -23,6 +24,12 @@ from .selection import (
     selected_mesh,
     selected_or_all_infills,
     selected_solids,
+)
+
+#: Names of FEM models, marked for translation.
+MODEL_NAMES = (
+    QT_TRANSLATE_NOOP("VolfrepCommands", "beams"),
+    QT_TRANSLATE_NOOP("VolfrepCommands", "tetrahedra"),
 )
 
 
@@ -39,7 +46,7 @@ def fillable_selection() -> list[App.DocumentObject] | None:
 def fill_solids(bases: list[App.DocumentObject]) -> None:
     """Fill one solid by way of its task panel, several at once; a cancelled job leaves nothing."""
     doc = App.ActiveDocument
-    doc.openTransaction("Lattice Infill")
+    doc.openTransaction(translate("VOLFREP_LatticeInfill", "Lattice Infill"))
     try:
         if len(bases) == 1:
             open_panel(doc, bases[0])
@@ -105,7 +112,7 @@ def edit_infill(obj: App.DocumentObject) -> None:
 
 def update_infill(obj: App.DocumentObject) -> None:
     """Compute now, AutoUpdate or not."""
-    with undo_step(obj.Document, "Update Lattice Infill"):
+    with undo_step(obj.Document, translate("VOLFREP_Update", "Update Lattice Infill")):
         obj.Proxy.update(obj)
 
 
@@ -114,7 +121,7 @@ def open_faces(selected: tuple[App.DocumentObject, Any]) -> None:
     from freecad_volfrep.features.openings import open_faces
 
     infill, faces = selected
-    with undo_step(infill.Document, "Open Faces"):
+    with undo_step(infill.Document, translate("VOLFREP_OpenFaces", "Open Faces")):
         open_faces(infill, faces)
         infill.Document.recompute()
 
@@ -124,7 +131,7 @@ def check_print(infill: App.DocumentObject) -> None:
     from freecad_volfrep.features.print_check import make_print_check
 
     doc = infill.Document
-    with undo_step(doc, "Print Check"):
+    with undo_step(doc, translate("VOLFREP_PrintCheck", "Print Check")):
         check = make_print_check(doc, infill)
         doc.recompute()
     if check.isValid():
@@ -148,7 +155,7 @@ def export(obj: App.DocumentObject) -> None:
     formats = {form.filter: form for form in formats_of(obj)}
     path, chosen = QtWidgets.QFileDialog.getSaveFileName(
         Gui.getMainWindow(),
-        "Export Lattice",
+        translate("VOLFREP_Export", "Export Lattice"),
         str(folder / f"{obj.Label}.stl"),
         ";;".join(formats),
     )
@@ -161,11 +168,13 @@ def export(obj: App.DocumentObject) -> None:
         path += form.suffix
     with errors_shown(box=True):
         if form.content in CONTENTS and not ask(
-            f"{Path(path).name}: {estimate_file(obj, form.content)}. Write it?"
+            translate("VolfrepCommands", "{file}: {estimate}. Write it?").format(
+                file=Path(path).name, estimate=estimate_file(obj, form.content)
+            )
         ):
             return
         export_mesh(obj, path, form.content)
-        tell(f"{path} written")
+        tell_written(path)
 
 
 def make_solid_of(obj: App.DocumentObject) -> None:
@@ -173,11 +182,15 @@ def make_solid_of(obj: App.DocumentObject) -> None:
     from freecad_volfrep.features.solids import kinds_of, make_kind
 
     doc = obj.Document
-    kinds = {kind.name: (kind.title, lambda kind=kind: kind.predict(obj)) for kind in kinds_of(obj)}
-    chosen = _chosen(f"Make of '{obj.Label}':", kinds)
+    kinds = {
+        kind.name: (translate("VolfrepSolids", kind.title), lambda kind=kind: kind.predict(obj))
+        for kind in kinds_of(obj)
+    }
+    question = translate("VolfrepCommands", "Make of '{label}':").format(label=obj.Label)
+    chosen = _chosen(question, kinds)
     if chosen is None:
         return
-    with undo_step(doc, "Lattice To Solid"), errors_shown():
+    with undo_step(doc, translate("VOLFREP_ToSolid", "Lattice To Solid")), errors_shown():
         make_kind(doc, obj, chosen)
         obj.Visibility = False
     doc.recompute()
@@ -188,12 +201,19 @@ def analyse(infill: App.DocumentObject) -> None:
     from freecad_volfrep.features.fem_analysis import MODELS, estimate_analysis, make_fem_analysis
 
     chosen = _chosen(
-        f"Analyse '{infill.Label}' with:",
-        {model: (model, lambda m=model: estimate_analysis(infill, m)) for model in MODELS},
+        translate("VolfrepCommands", "Analyse '{label}' with:").format(label=infill.Label),
+        {
+            model: (
+                translate("VolfrepCommands", model),
+                lambda m=model: estimate_analysis(infill, m),
+            )
+            for model in MODELS
+        },
     )
     if chosen is None:
         return
-    with undo_step(infill.Document, "FEM Analysis"), errors_shown():
+    step = translate("VOLFREP_FemAnalysis", "FEM Analysis")
+    with undo_step(infill.Document, step), errors_shown():
         make_fem_analysis(infill.Document, infill, chosen)
 
 
@@ -221,8 +241,13 @@ def preview_only(infill: App.DocumentObject) -> None:
     from .preview_only import toggle_preview
 
     with errors_shown():
-        shown = toggle_preview(infill)
-        tell(f"{infill.Label}: preview {'shown, figures in the report view' if shown else 'off'}")
+        if toggle_preview(infill):
+            said = translate(
+                "VolfrepCommands", "{label}: preview shown, figures in the report view"
+            )
+        else:
+            said = translate("VolfrepCommands", "{label}: preview off")
+        tell(said.format(label=infill.Label))
 
 
 def report_mesh(obj: App.DocumentObject) -> None:
@@ -232,7 +257,9 @@ def report_mesh(obj: App.DocumentObject) -> None:
     from .report_window import show_report
 
     with errors_shown():
-        show_report(f"Check Mesh: {obj.Label}", f"{obj.Label} check", check_mesh(obj))
+        tables = check_mesh(obj)
+        title = translate("VolfrepCommands", "Check Mesh: {label}").format(label=obj.Label)
+        show_report(title, f"{obj.Label} check", tables)
 
 
 def show_statistics(infills: list[App.DocumentObject]) -> None:
@@ -243,7 +270,8 @@ def show_statistics(infills: list[App.DocumentObject]) -> None:
 
     name = infills[0].Label if len(infills) == 1 else infills[0].Document.Label
     with errors_shown():
-        show_report("Statistics", f"{name} statistics", statistics(infills))
+        title = translate("VOLFREP_Statistics", "Statistics")
+        show_report(title, f"{name} statistics", statistics(infills))
 
 
 def browse_cells(_: object) -> None:
@@ -444,7 +472,7 @@ TOOLBARS = {
         "VOLFREP_OpenFaces",
         "VOLFREP_CellLibrary",
     ],
-    "VOLFREP Results": [
+    QT_TRANSLATE_NOOP("Workbench", "VOLFREP Results"): [
         "VOLFREP_CheckMesh",
         "VOLFREP_PrintCheck",
         "VOLFREP_Statistics",

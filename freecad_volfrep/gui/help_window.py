@@ -8,6 +8,7 @@ from pathlib import Path
 import FreeCADGui as Gui
 
 from freecad_volfrep import ROOT
+from freecad_volfrep.translation import translate
 
 from .qt import QtCore, QtWidgets
 
@@ -27,7 +28,7 @@ def show_help(page: Path = INDEX) -> QtWidgets.QDialog:
     """Open a window that shows a page; links lead to the others."""
     window = QtWidgets.QDialog(Gui.getMainWindow())
     window.setObjectName("VolfrepHelp")
-    window.setWindowTitle("VOLFREP Help")
+    window.setWindowTitle(translate("VOLFREP_Help", "VOLFREP Help"))
     window.setAttribute(QtCore.Qt.WA_DeleteOnClose)
     window.resize(*SIZE)
     text = QtWidgets.QTextBrowser()
@@ -35,9 +36,12 @@ def show_help(page: Path = INDEX) -> QtWidgets.QDialog:
     text.setSource(QtCore.QUrl.fromLocalFile(str(page)))
     column = QtWidgets.QVBoxLayout(window)
     line = QtWidgets.QHBoxLayout()
-    for label, act in (("Back", text.backward), ("Contents", text.home)):
+    for name, label, act in (
+        ("Back", translate("VolfrepHelp", "Back"), text.backward),
+        ("Contents", translate("VolfrepHelp", "Contents"), text.home),
+    ):
         button = QtWidgets.QPushButton(label)
-        button.setObjectName(label)
+        button.setObjectName(name)
         button.setAutoDefault(False)
         button.clicked.connect(lambda _=False, act=act: act())
         line.addWidget(button)

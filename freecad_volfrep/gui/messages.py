@@ -13,14 +13,23 @@ from contextlib import contextmanager
 import FreeCAD as App
 import FreeCADGui as Gui
 
+from freecad_volfrep.translation import translate
 from volfrep.errors import Cancelled, VolfrepError
 
 from .qt import QtWidgets
+
+#: Style of a sentence about what is wrong: a red that light and dark themes leave readable.
+WRONG = "color: #e04838"
 
 
 def tell(sentence: str) -> None:
     """Say what was done; FreeCAD shows it in the status bar and the report view."""
     App.Console.PrintMessage(f"VOLFREP: {sentence}\n")
+
+
+def tell_written(path: str) -> None:
+    """Say that a file is there."""
+    tell(translate("VolfrepMessages", "{path} written").format(path=path))
 
 
 def tell_error(sentence: str) -> None:
@@ -61,4 +70,4 @@ def errors_shown(box: bool = False) -> Iterator[None]:
     except VolfrepError as error:
         (show_error if box else tell_error)(str(error))
     except Cancelled:
-        tell("Cancelled.")
+        tell(translate("VolfrepMessages", "Cancelled."))

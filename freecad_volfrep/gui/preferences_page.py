@@ -14,9 +14,9 @@ import FreeCADGui as Gui
 
 from freecad_volfrep import ICONS
 from freecad_volfrep import preferences as prefs
+from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 
 from .qt import QtCore, QtGui, QtWidgets
-from .translation import QT_TRANSLATE_NOOP, translate
 
 #: Of FreeCAD's list of pages; its icon is preferences-volfrep.svg.
 PAGE_GROUP = "VOLFREP"

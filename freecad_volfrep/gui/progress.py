@@ -18,17 +18,28 @@ from typing import TypeVar
 
 import FreeCADGui as Gui
 
+from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 from volfrep.errors import VolfrepError
 from volfrep.progress import ProgressCallback
 
 from .qt import QtCore, QtGui, QtWidgets
-from .translation import translate
 
 #: Quicker jobs show nothing, in ms.
 SHOW_AFTER = 700
 #: How often the window lives while a job runs on its thread, in s.
 BREATH = 0.02
 _STEPS = 1000
+#: The engine's names of its stages, marked for translation.
+STAGES = (
+    QT_TRANSLATE_NOOP("VolfrepProgress", "shell"),
+    QT_TRANSLATE_NOOP("VolfrepProgress", "voxels"),
+    QT_TRANSLATE_NOOP("VolfrepProgress", "tile"),
+    QT_TRANSLATE_NOOP("VolfrepProgress", "lattice"),
+    QT_TRANSLATE_NOOP("VolfrepProgress", "trim"),
+    QT_TRANSLATE_NOOP("VolfrepProgress", "check"),
+    QT_TRANSLATE_NOOP("VolfrepProgress", "compact"),
+    QT_TRANSLATE_NOOP("VolfrepProgress", "write"),
+)
 _EVENT = QtCore.QEvent
 #: What a user does, none of which may reach FreeCAD while a job runs.
 _INPUT = (
@@ -63,7 +74,7 @@ class _Bar(QtWidgets.QWidget):
 
     def show_state(self, fraction: float, stage: str) -> None:
         """Show how far the job is, and what it does."""
-        self.text.setText(f"{self._title}: {stage}")
+        self.text.setText(f"{self._title}: {translate('VolfrepProgress', stage)}")
         self._bar.setValue(int(fraction * _STEPS))
 
     def under_pointer(self) -> bool:

@@ -8,13 +8,20 @@ from pathlib import Path
 import FreeCADGui as Gui
 
 from freecad_volfrep.features.tables import Table, as_csv, as_html
+from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 
-from .messages import errors_shown, tell
+from .messages import errors_shown, tell, tell_written
 from .qt import QtWidgets
 
 #: Of the window, px.
 SIZE = (560, 620)
 CSV, HTML = "CSV (*.csv)", "HTML (*.html)"
+#: The buttons, in their order.
+COPY, SAVE, CLOSE = (
+    QT_TRANSLATE_NOOP("VolfrepReport", "Copy"),
+    QT_TRANSLATE_NOOP("VolfrepReport", "Save..."),
+    QT_TRANSLATE_NOOP("VolfrepReport", "Close"),
+)
 
 
 class ReportWindow(QtWidgets.QDialog):
@@ -38,9 +45,8 @@ class ReportWindow(QtWidgets.QDialog):
         column.addWidget(self.text)
         line = QtWidgets.QHBoxLayout()
         line.addStretch()
-        for label, act in (("Copy", self.copy), ("Save...", self.ask_and_save),
-                           ("Close", self.close)):  # fmt: skip
-            button = QtWidgets.QPushButton(label)
+        for label, act in ((COPY, self.copy), (SAVE, self.ask_and_save), (CLOSE, self.close)):
+            button = QtWidgets.QPushButton(translate("VolfrepReport", label))
             button.setObjectName(label)
             button.setAutoDefault(False)
             button.clicked.connect(lambda _=False, act=act: act())
@@ -53,12 +59,15 @@ class ReportWindow(QtWidgets.QDialog):
         self.text.selectAll()
         self.text.copy()
         self.text.setTextCursor(cursor)
-        tell("The tables are on the clipboard.")
+        tell(translate("VolfrepReport", "The tables are on the clipboard."))
 
     def ask_and_save(self) -> None:
         """Ask for the file's name and write it."""
         path, chosen = QtWidgets.QFileDialog.getSaveFileName(
-            self, "Save Report", str(Path.home() / f"{self._name}.csv"), f"{CSV};;{HTML}"
+            self,
+            translate("VolfrepReport", "Save Report"),
+            str(Path.home() / f"{self._name}.csv"),
+            f"{CSV};;{HTML}",
         )
         if not path:
             return
@@ -78,7 +87,7 @@ class ReportWindow(QtWidgets.QDialog):
         is_html = Path(path).suffix.lower() in (".html", ".htm")
         with replacing(path) as file:
             file.write((as_html if is_html else as_csv)(self._tables).encode())
-        tell(f"{path} written")
+        tell_written(path)
 
 
 def show_report(title: str, name: str, tables: list[Table]) -> ReportWindow:

@@ -13,8 +13,9 @@ from typing import Any
 import FreeCAD as App
 import FreeCADGui as Gui
 
+from freecad_volfrep.translation import translate
+
 from .qt import QtCore, QtWidgets
-from .translation import translate
 
 #: Name of the plane in the infill's scene, and of the dock.
 NODE = "VolfrepSection"
@@ -63,7 +64,7 @@ class SectionDock(QtWidgets.QDockWidget):
         self.setObjectName(DOCK)
         self.setAttribute(QtCore.Qt.WA_DeleteOnClose)
         self.setWindowTitle(
-            translate("VolfrepSectionView", "Section of {}").replace("{}", obj.Label)
+            translate("VolfrepSectionView", "Section of {label}").format(label=obj.Label)
         )
         self._obj, self._doc = obj, obj.Document
         self._section: Section | None = Section(obj)

@@ -10,9 +10,11 @@ import FreeCAD as App
 import FreeCADGui as Gui
 
 from freecad_volfrep.features.live_preview import LivePreview
+from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate, words
 from volfrep.errors import VolfrepError
 
 from .cell_picture import cell_icon
+from .messages import WRONG
 from .preview_only import end_preview
 from .preview_view import PreviewView
 from .qt import OK_CANCEL, QtCore, QtWidgets
@@ -22,17 +24,44 @@ SETTLED = 120
 PICTURE = 48
 #: What the panel shows, by group: properties of the object. Those that do not apply are hidden.
 GROUPS = {
-    "Lattice": ("CellSize", "StrutRadius", "ShellThickness", "JointFillet"),
-    "Boundary": ("Activation", "Boundary", "RemoveDangling", "ShortestStub"),
-    "Cell size": ("SizeGrading", "LambdaMin", "LambdaMax", "LambdaFormula"),
-    "Strut radius": (
+    QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Lattice"): (
+        "CellSize", "StrutRadius", "ShellThickness", "JointFillet",
+    ),
+    QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Boundary"): (
+        "Activation", "Boundary", "RemoveDangling", "ShortestStub",
+    ),
+    QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Cell size"): (
+        "SizeGrading", "LambdaMin", "LambdaMax", "LambdaFormula",
+    ),
+    QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Strut radius"): (
         "RadiusGrading", "RadiusLaw", "RadiusMin", "RadiusMax", "RadiusFormula", "RadiusReach",
     ),
 }  # fmt: skip
+#: The switches of what is shown in the view.
+PREVIEW = QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Preview")
+CELLS = QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Cells")
 #: Above this group are the figures: what is used most is seen without scrolling.
 SECOND = "Boundary"
+#: Values of the properties that are chosen from lists, marked for translation.
+VALUES = (
+    QT_TRANSLATE_NOOP("App::Property", "touching"),
+    QT_TRANSLATE_NOOP("App::Property", "centre"),
+    QT_TRANSLATE_NOOP("App::Property", "inside"),
+    QT_TRANSLATE_NOOP("App::Property", "trim"),
+    QT_TRANSLATE_NOOP("App::Property", "whole"),
+    QT_TRANSLATE_NOOP("App::Property", "None"),
+    QT_TRANSLATE_NOOP("App::Property", "Scalar"),
+    QT_TRANSLATE_NOOP("App::Property", "Linear"),
+    QT_TRANSLATE_NOOP("App::Property", "Quadratic"),
+    QT_TRANSLATE_NOOP("App::Property", "Exponential"),
+    QT_TRANSLATE_NOOP("App::Property", "Formula"),
+    QT_TRANSLATE_NOOP("App::Property", "Direction"),
+    QT_TRANSLATE_NOOP("App::Property", "Skin"),
+    QT_TRANSLATE_NOOP("App::Property", "Core"),
+    QT_TRANSLATE_NOOP("App::Property", "Field"),
+)
 #: Least width of a field, px: the panel must fit beside FreeCAD's tree.
-FIELD = 70
+FIELD = 82
 _HIDDEN = "Hidden"
 
 
@@ -126,13 +155,15 @@ class TaskPanel:
         for title, names in GROUPS.items():
             if title == SECOND:
                 self._add_figures(column)
-            box = QtWidgets.QGroupBox(title)
+            box = QtWidgets.QGroupBox(translate("VolfrepTaskPanel", title))
             rows = QtWidgets.QFormLayout(box)
+            rows.setContentsMargins(6, 4, 6, 4)
+            rows.setRowWrapPolicy(QtWidgets.QFormLayout.WrapLongRows)
             for name in names:
-                label, widget = QtWidgets.QLabel(_words(name)), self._editor(name)
+                label, widget = QtWidgets.QLabel(_property(words(name))), self._editor(name)
                 widget.setObjectName(name)
                 widget.setMinimumWidth(FIELD)
-                widget.setToolTip(self._obj.getDocumentationOfProperty(name))
+                widget.setToolTip(_property(self._obj.getDocumentationOfProperty(name)))
                 rows.addRow(label, widget)
                 self._rows[name] = label, widget
             column.addWidget(box)
@@ -144,17 +175,21 @@ class TaskPanel:
         self._figures.setWordWrap(True)
         column.addWidget(self._figures)
         line = QtWidgets.QHBoxLayout()
-        self._preview = self._check_box("Preview", True, line)
-        self._grid = self._check_box("Cells", False, line)
-        button = QtWidgets.QPushButton("Compute")
+        self._preview = self._check_box(PREVIEW, True, line)
+        self._grid = self._check_box(CELLS, False, line)
+        button = QtWidgets.QPushButton(translate("VolfrepTaskPanel", "Compute"))
         button.setObjectName("Compute")
-        button.setToolTip("Make the mesh of these values now and stay in this panel")
+        button.setToolTip(
+            translate(
+                "VolfrepTaskPanel", "Make the mesh of these values now and stay in this panel"
+            )
+        )
         button.clicked.connect(self._compute_and_show)
         line.addWidget(button)
         column.addLayout(line)
 
     def _check_box(self, text: str, checked: bool, line: Any) -> Any:
-        box = QtWidgets.QCheckBox(text)
+        box = QtWidgets.QCheckBox(translate("VolfrepTaskPanel", text))
         box.setObjectName(text)
         box.setChecked(checked)
         box.toggled.connect(lambda _: self._timer.start(0))
@@ -175,7 +210,7 @@ class TaskPanel:
         picker.setMovement(QtWidgets.QListView.Static)
         picker.setResizeMode(QtWidgets.QListView.Adjust)
         picker.setFixedHeight(2 * PICTURE + 60)
-        picker.setMinimumWidth(3 * FIELD)
+        picker.setMinimumWidth(4 * PICTURE)
         for name in self._obj.getEnumerationsOfProperty("CellType"):
             item = QtWidgets.QListWidgetItem(name, picker)
             if name in LIBRARY:
@@ -192,9 +227,10 @@ class TaskPanel:
             choice = QtWidgets.QComboBox()
             choice.setMinimumContentsLength(4)
             choice.setSizeAdjustPolicy(QtWidgets.QComboBox.AdjustToMinimumContentsLengthWithIcon)
-            choice.addItems(self._obj.getEnumerationsOfProperty(name))
-            choice.setCurrentText(getattr(self._obj, name))
-            choice.currentTextChanged.connect(self._setter(name))
+            for value in self._obj.getEnumerationsOfProperty(name):
+                choice.addItem(_property(value), value)
+            choice.setCurrentIndex(choice.findData(getattr(self._obj, name)))
+            choice.currentIndexChanged.connect(lambda row: self._setter(name)(choice.itemData(row)))
             return choice
         if kind == "App::PropertyBool":
             box = QtWidgets.QCheckBox()
@@ -240,7 +276,7 @@ class TaskPanel:
                 widget.setVisible(_HIDDEN not in self._obj.getEditorMode(name))
 
     def _say(self, text: str, wrong: bool = False) -> None:
-        self._figures.setStyleSheet("color: #c03020" if wrong else "")
+        self._figures.setStyleSheet(WRONG if wrong else "")
         self._figures.setText(text)
 
     def _close(self) -> None:
@@ -251,7 +287,6 @@ class TaskPanel:
             Gui.ActiveDocument.resetEdit()
 
 
-def _words(name: str) -> str:
-    """RadiusMin as 'Radius min'."""
-    text = "".join(f" {letter.lower()}" if letter.isupper() else letter for letter in name)
-    return text.strip().capitalize()
+def _property(text: str) -> str:
+    """A property's name, description or value, in the context that FreeCAD has for them."""
+    return str(translate("App::Property", text))

@@ -10,6 +10,7 @@ import FreeCAD as App
 import FreeCADGui as Gui
 
 from freecad_volfrep import ICONS, preferences
+from freecad_volfrep.translation import translate
 from volfrep.errors import VolfrepError
 
 from .coarse_view import COARSE, FINE, show_likeness
@@ -100,7 +101,7 @@ class LatticeInfillView:
         for name in applicable_commands():
             command = COMMANDS[name]
             submenu.addAction(
-                QtGui.QIcon(str(ICONS / command.icon)), command.text
+                QtGui.QIcon(str(ICONS / command.icon)), translate(name, command.text)
             ).triggered.connect(lambda _=False, command=command: command.Activated())
 
     def _make(self, mode: str) -> None:

@@ -1,0 +1,1569 @@
+<?xml version="1.0" encoding="utf-8"?>
+<!-- SPDX-License-Identifier: LGPL-2.1-or-later -->
+<!DOCTYPE TS>
+<TS version="2.1" language="de" sourcelanguage="en">
+  <context>
+    <name>App::Property</name>
+    <message>
+      <source>A point of the axis, if UseMapCentre is set</source>
+      <translation>Ein Punkt der Achse, wenn UseMapCentre gesetzt ist</translation>
+    </message>
+    <message>
+      <source>A point of the rotation's axis, if UseRotationOrigin is set</source>
+      <translation>Ein Punkt der Drehachse, wenn UseRotationOrigin gesetzt ist</translation>
+    </message>
+    <message>
+      <source>Activation</source>
+      <translation>Aktivierung</translation>
+    </message>
+    <message>
+      <source>All figures of the last update, as JSON</source>
+      <translation>Alle Zahlen der letzten Aktualisierung, als JSON</translation>
+    </message>
+    <message>
+      <source>All figures, as JSON</source>
+      <translation>Alle Zahlen, als JSON</translation>
+    </message>
+    <message>
+      <source>All figures, for people</source>
+      <translation>Alle Zahlen, zum Lesen</translation>
+    </message>
+    <message>
+      <source>Auto update</source>
+      <translation>Automatisch aktualisieren</translation>
+    </message>
+    <message>
+      <source>Axis of the rotation</source>
+      <translation>Drehachse</translation>
+    </message>
+    <message>
+      <source>Axis that the cells lie about</source>
+      <translation>Achse, um die die Zellen liegen</translation>
+    </message>
+    <message>
+      <source>Base</source>
+      <translation>Basis</translation>
+    </message>
+    <message>
+      <source>Between struts that do not meet, mm</source>
+      <translation>Zwischen Streben, die sich nicht treffen, mm</translation>
+    </message>
+    <message>
+      <source>Bodies</source>
+      <translation>Körper</translation>
+    </message>
+    <message>
+      <source>Boundary</source>
+      <translation>Rand</translation>
+    </message>
+    <message>
+      <source>Build direction</source>
+      <translation>Baurichtung</translation>
+    </message>
+    <message>
+      <source>Cell edges</source>
+      <translation>Zellkanten</translation>
+    </message>
+    <message>
+      <source>Cell file</source>
+      <translation>Zelldatei</translation>
+    </message>
+    <message>
+      <source>Cell map</source>
+      <translation>Zellanordnung</translation>
+    </message>
+    <message>
+      <source>Cell size</source>
+      <translation>Zellgröße</translation>
+    </message>
+    <message>
+      <source>Cell type</source>
+      <translation>Zelltyp</translation>
+    </message>
+    <message>
+      <source>Cells active</source>
+      <translation>Aktive Zellen</translation>
+    </message>
+    <message>
+      <source>Cells along straight axes, about an axis, or about a centre</source>
+      <translation>Zellen entlang gerader Achsen, um eine Achse oder um einen Mittelpunkt</translation>
+    </message>
+    <message>
+      <source>Cells around the full turn; 0 for as many as make them CellSize wide half-way out</source>
+      <translation>Zellen auf dem vollen Umfang; 0 für so viele, dass sie auf halbem Radius CellSize breit sind</translation>
+    </message>
+    <message>
+      <source>Cells grow along it</source>
+      <translation>Entlang dieser Richtung wachsen die Zellen</translation>
+    </message>
+    <message>
+      <source>Cells in the grid</source>
+      <translation>Zellen des Rasters</translation>
+    </message>
+    <message>
+      <source>Cells that grow along a direction: the law of lambda (section 2.5 of the method)</source>
+      <translation>Zellen, die entlang einer Richtung wachsen: das Gesetz von Lambda (Abschnitt 2.5 der Methode)</translation>
+    </message>
+    <message>
+      <source>Cells that hold a lattice</source>
+      <translation>Zellen, die Gitter enthalten</translation>
+    </message>
+    <message>
+      <source>Cells total</source>
+      <translation>Zellen gesamt</translation>
+    </message>
+    <message>
+      <source>Closed cavities</source>
+      <translation>Geschlossene Hohlräume</translation>
+    </message>
+    <message>
+      <source>Closed voids, which would trap powder or resin</source>
+      <translation>Geschlossene Hohlräume, die Pulver oder Harz einschließen würden</translation>
+    </message>
+    <message>
+      <source>Compute at every change; switch it off for large jobs and use Update Lattice Infill</source>
+      <translation>Bei jeder Änderung rechnen; bei großen Aufgaben ausschalten und Gitterfüllung aktualisieren verwenden</translation>
+    </message>
+    <message>
+      <source>Computing time of the last update</source>
+      <translation>Rechenzeit der letzten Aktualisierung</translation>
+    </message>
+    <message>
+      <source>Core</source>
+      <translation>Kern</translation>
+    </message>
+    <message>
+      <source>Dangling removed</source>
+      <translation>Lose Streben entfernt</translation>
+    </message>
+    <message>
+      <source>Density</source>
+      <translation>Dichte</translation>
+    </message>
+    <message>
+      <source>Density of the material in g/cm3</source>
+      <translation>Dichte des Werkstoffs in g/cm3</translation>
+    </message>
+    <message>
+      <source>Depth at which the law ends</source>
+      <translation>Tiefe, in der das Gesetz endet</translation>
+    </message>
+    <message>
+      <source>Deviation</source>
+      <translation>Abweichung</translation>
+    </message>
+    <message>
+      <source>Diameter of the holes that let powder or resin out of the skin; 0 for none</source>
+      <translation>Durchmesser der Löcher, die Pulver oder Harz aus der Haut lassen; 0 für keine</translation>
+    </message>
+    <message>
+      <source>Direction</source>
+      <translation>Richtung</translation>
+    </message>
+    <message>
+      <source>Drain</source>
+      <translation>Entleerung</translation>
+    </message>
+    <message>
+      <source>Drain count</source>
+      <translation>Anzahl der Löcher</translation>
+    </message>
+    <message>
+      <source>Drain diameter</source>
+      <translation>Lochdurchmesser</translation>
+    </message>
+    <message>
+      <source>Drain faces</source>
+      <translation>Gelochte Flächen</translation>
+    </message>
+    <message>
+      <source>Drain holes</source>
+      <translation>Entleerungslöcher</translation>
+    </message>
+    <message>
+      <source>Drain points</source>
+      <translation>Lochpunkte</translation>
+    </message>
+    <message>
+      <source>Every edge is shared by exactly two triangles</source>
+      <translation>Jede Kante gehört zu genau zwei Dreiecken</translation>
+    </message>
+    <message>
+      <source>Expected</source>
+      <translation>Erwartet</translation>
+    </message>
+    <message>
+      <source>Exponential</source>
+      <translation>Exponentiell</translation>
+    </message>
+    <message>
+      <source>Faces in the middle of which holes are drilled</source>
+      <translation>Flächen, in deren Mitte Löcher gebohrt werden</translation>
+    </message>
+    <message>
+      <source>Faces of the solid that have no skin: the cavity opens there, struts are cut flush</source>
+      <translation>Flächen des Volumenkörpers ohne Haut: dort öffnet sich der Hohlraum, Streben sind bündig geschnitten</translation>
+    </message>
+    <message>
+      <source>Facets along the edge of a cell; 0 to choose it by Deviation</source>
+      <translation>Facetten entlang der Kante einer Zelle; 0, um sie nach der Abweichung zu wählen</translation>
+    </message>
+    <message>
+      <source>Field</source>
+      <translation>Feld</translation>
+    </message>
+    <message>
+      <source>File of points and values: .csv, .txt, .vtu, .vtk</source>
+      <translation>Datei mit Punkten und Werten: .csv, .txt, .vtu, .vtk</translation>
+    </message>
+    <message>
+      <source>Findings</source>
+      <translation>Befunde</translation>
+    </message>
+    <message>
+      <source>Formula</source>
+      <translation>Formel</translation>
+    </message>
+    <message>
+      <source>From the build plate up</source>
+      <translation>Von der Bauplatte nach oben</translation>
+    </message>
+    <message>
+      <source>From the build plate up, in the document's coordinates</source>
+      <translation>Von der Bauplatte nach oben, in den Koordinaten des Dokuments</translation>
+    </message>
+    <message>
+      <source>Genus</source>
+      <translation>Geschlecht</translation>
+    </message>
+    <message>
+      <source>Grading</source>
+      <translation>Gradierung</translation>
+    </message>
+    <message>
+      <source>Grading direction</source>
+      <translation>Gradierungsrichtung</translation>
+    </message>
+    <message>
+      <source>Holes for each void that is still closed, at its lowest places along BuildDirection</source>
+      <translation>Löcher für jeden noch geschlossenen Hohlraum, an seinen tiefsten Stellen entlang BuildDirection</translation>
+    </message>
+    <message>
+      <source>How it will be printed</source>
+      <translation>Wie es gedruckt wird</translation>
+    </message>
+    <message>
+      <source>Infill</source>
+      <translation>Füllung</translation>
+    </message>
+    <message>
+      <source>Internal</source>
+      <translation>Intern</translation>
+    </message>
+    <message>
+      <source>Joint fillet</source>
+      <translation>Knotenausrundung</translation>
+    </message>
+    <message>
+      <source>Keep radius</source>
+      <translation>Radius beibehalten</translation>
+    </message>
+    <message>
+      <source>L: edge length of the cubic cell</source>
+      <translation>L: Kantenlänge der würfelförmigen Zelle</translation>
+    </message>
+    <message>
+      <source>Lambda formula</source>
+      <translation>Lambda-Formel</translation>
+    </message>
+    <message>
+      <source>Lambda max</source>
+      <translation>Lambda max</translation>
+    </message>
+    <message>
+      <source>Lambda min</source>
+      <translation>Lambda min</translation>
+    </message>
+    <message>
+      <source>Largest distance between a facet and the exact strut; 0 for a fortieth of the radius</source>
+      <translation>Größter Abstand zwischen einer Facette und der exakten Strebe; 0 für ein Vierzigstel des Radius</translation>
+    </message>
+    <message>
+      <source>Lattice</source>
+      <translation>Gitter</translation>
+    </message>
+    <message>
+      <source>Law of the radius over s</source>
+      <translation>Gesetz des Radius über s</translation>
+    </message>
+    <message>
+      <source>Length of the longest strut of these</source>
+      <translation>Länge der längsten dieser Streben</translation>
+    </message>
+    <message>
+      <source>Limits</source>
+      <translation>Grenzen</translation>
+    </message>
+    <message>
+      <source>Linear</source>
+      <translation>Linear</translation>
+    </message>
+    <message>
+      <source>Longest overhang</source>
+      <translation>Längster Überhang</translation>
+    </message>
+    <message>
+      <source>Loose fragments that were dropped</source>
+      <translation>Lose Bruchstücke, die entfernt wurden</translation>
+    </message>
+    <message>
+      <source>Map around</source>
+      <translation>Zellen am Umfang</translation>
+    </message>
+    <message>
+      <source>Map axis</source>
+      <translation>Achse der Anordnung</translation>
+    </message>
+    <message>
+      <source>Map centre</source>
+      <translation>Mittelpunkt der Anordnung</translation>
+    </message>
+    <message>
+      <source>Mass</source>
+      <translation>Masse</translation>
+    </message>
+    <message>
+      <source>Mass in g at the given density</source>
+      <translation>Masse in g bei der angegebenen Dichte</translation>
+    </message>
+    <message>
+      <source>Material</source>
+      <translation>Werkstoff</translation>
+    </message>
+    <message>
+      <source>Mesh</source>
+      <translation>Netz</translation>
+    </message>
+    <message>
+      <source>Narrowest gap</source>
+      <translation>Engster Spalt</translation>
+    </message>
+    <message>
+      <source>Nodes</source>
+      <translation>Knoten</translation>
+    </message>
+    <message>
+      <source>Nodes of the lattice before trimming</source>
+      <translation>Knoten des Gitters vor dem Beschneiden</translation>
+    </message>
+    <message>
+      <source>None</source>
+      <translation>Keine</translation>
+    </message>
+    <message>
+      <source>Of the facets that hang over: this object's mesh</source>
+      <translation>Der überhängenden Facetten: das Netz dieses Objekts</translation>
+    </message>
+    <message>
+      <source>Of the part</source>
+      <translation>Des Bauteils</translation>
+    </message>
+    <message>
+      <source>Of the part, g</source>
+      <translation>Des Bauteils, g</translation>
+    </message>
+    <message>
+      <source>Of the process, and their source</source>
+      <translation>Des Verfahrens, mit ihrer Quelle</translation>
+    </message>
+    <message>
+      <source>Of the struts' length, too flat</source>
+      <translation>Der Strebenlänge, zu flach</translation>
+    </message>
+    <message>
+      <source>Open faces</source>
+      <translation>Offene Flächen</translation>
+    </message>
+    <message>
+      <source>Origin</source>
+      <translation>Ursprung</translation>
+    </message>
+    <message>
+      <source>Output</source>
+      <translation>Ausgabe</translation>
+    </message>
+    <message>
+      <source>Overhang area</source>
+      <translation>Überhangfläche</translation>
+    </message>
+    <message>
+      <source>Overhang share</source>
+      <translation>Überhanganteil</translation>
+    </message>
+    <message>
+      <source>Pieces removed</source>
+      <translation>Teile entfernt</translation>
+    </message>
+    <message>
+      <source>Points where holes are drilled</source>
+      <translation>Punkte, an denen Löcher gebohrt werden</translation>
+    </message>
+    <message>
+      <source>Print</source>
+      <translation>Druck</translation>
+    </message>
+    <message>
+      <source>Process</source>
+      <translation>Verfahren</translation>
+    </message>
+    <message>
+      <source>Put a corner of a cell at Origin; otherwise the cells start at the corner of the solid</source>
+      <translation>Eine Zellecke an Origin legen; sonst beginnen die Zellen an der Ecke des Volumenkörpers</translation>
+    </message>
+    <message>
+      <source>Put the axis through MapCentre; otherwise through the middle of the solid's box</source>
+      <translation>Die Achse durch MapCentre legen; sonst durch die Mitte des Quaders um den Volumenkörper</translation>
+    </message>
+    <message>
+      <source>Quadratic</source>
+      <translation>Quadratisch</translation>
+    </message>
+    <message>
+      <source>Radius column</source>
+      <translation>Wertespalte</translation>
+    </message>
+    <message>
+      <source>Radius curve</source>
+      <translation>Radiuskurve</translation>
+    </message>
+    <message>
+      <source>Radius direction</source>
+      <translation>Radiusrichtung</translation>
+    </message>
+    <message>
+      <source>Radius field</source>
+      <translation>Radiusfeld</translation>
+    </message>
+    <message>
+      <source>Radius formula</source>
+      <translation>Radiusformel</translation>
+    </message>
+    <message>
+      <source>Radius grading</source>
+      <translation>Radiusgradierung</translation>
+    </message>
+    <message>
+      <source>Radius in mm as a formula of s</source>
+      <translation>Radius in mm als Formel von s</translation>
+    </message>
+    <message>
+      <source>Radius law</source>
+      <translation>Radiusgesetz</translation>
+    </message>
+    <message>
+      <source>Radius max</source>
+      <translation>Radius max</translation>
+    </message>
+    <message>
+      <source>Radius min</source>
+      <translation>Radius min</translation>
+    </message>
+    <message>
+      <source>Radius of the round between struts where they meet; 0 for none</source>
+      <translation>Radius der Ausrundung zwischen Streben, wo sie sich treffen; 0 für keine</translation>
+    </message>
+    <message>
+      <source>Radius reach</source>
+      <translation>Reichweite</translation>
+    </message>
+    <message>
+      <source>Radius result</source>
+      <translation>FEM-Ergebnis</translation>
+    </message>
+    <message>
+      <source>Radius where s = 0 or the field is smallest; 0 for StrutRadius</source>
+      <translation>Radius, wo s = 0 oder das Feld am kleinsten ist; 0 für StrutRadius</translation>
+    </message>
+    <message>
+      <source>Radius where s = 1 or the field is largest; 0 for StrutRadius</source>
+      <translation>Radius, wo s = 1 oder das Feld am größten ist; 0 für StrutRadius</translation>
+    </message>
+    <message>
+      <source>Relative density</source>
+      <translation>Relative Dichte</translation>
+    </message>
+    <message>
+      <source>Remove dangling</source>
+      <translation>Lose Streben weg</translation>
+    </message>
+    <message>
+      <source>Report</source>
+      <translation>Bericht</translation>
+    </message>
+    <message>
+      <source>Resolution</source>
+      <translation>Auflösung</translation>
+    </message>
+    <message>
+      <source>Result</source>
+      <translation>Ergebnis</translation>
+    </message>
+    <message>
+      <source>Result of a FEM solver, instead of a file</source>
+      <translation>Ergebnis eines FEM-Lösers, anstelle einer Datei</translation>
+    </message>
+    <message>
+      <source>Rotation angle</source>
+      <translation>Drehwinkel</translation>
+    </message>
+    <message>
+      <source>Rotation axis</source>
+      <translation>Drehachse</translation>
+    </message>
+    <message>
+      <source>Rotation origin</source>
+      <translation>Drehpunkt</translation>
+    </message>
+    <message>
+      <source>Scalar</source>
+      <translation>Skalar</translation>
+    </message>
+    <message>
+      <source>Seconds</source>
+      <translation>Sekunden</translation>
+    </message>
+    <message>
+      <source>Separate pieces of material</source>
+      <translation>Getrennte Teile aus Werkstoff</translation>
+    </message>
+    <message>
+      <source>Shell thickness</source>
+      <translation>Wandstärke</translation>
+    </message>
+    <message>
+      <source>Short struts with a free end, taken away</source>
+      <translation>Kurze Streben mit freiem Ende, weggenommen</translation>
+    </message>
+    <message>
+      <source>Shortest and longest edge of a cell, mm</source>
+      <translation>Kürzeste und längste Kante einer Zelle, mm</translation>
+    </message>
+    <message>
+      <source>Shortest and longest strut, mm</source>
+      <translation>Kürzeste und längste Strebe, mm</translation>
+    </message>
+    <message>
+      <source>Shortest stub</source>
+      <translation>Kürzester Stummel</translation>
+    </message>
+    <message>
+      <source>Size grading</source>
+      <translation>Größengradierung</translation>
+    </message>
+    <message>
+      <source>Skin</source>
+      <translation>Haut</translation>
+    </message>
+    <message>
+      <source>Smallest and largest strut radius, mm</source>
+      <translation>Kleinster und größter Strebenradius, mm</translation>
+    </message>
+    <message>
+      <source>Smallest diameter of a strut, mm</source>
+      <translation>Kleinster Durchmesser einer Strebe, mm</translation>
+    </message>
+    <message>
+      <source>Solid</source>
+      <translation>Volumenkörper</translation>
+    </message>
+    <message>
+      <source>Status</source>
+      <translation>Status</translation>
+    </message>
+    <message>
+      <source>Strut lengths</source>
+      <translation>Strebenlängen</translation>
+    </message>
+    <message>
+      <source>Strut radii</source>
+      <translation>Strebenradien</translation>
+    </message>
+    <message>
+      <source>Strut radius</source>
+      <translation>Strebenradius</translation>
+    </message>
+    <message>
+      <source>Struts</source>
+      <translation>Streben</translation>
+    </message>
+    <message>
+      <source>Struts of the lattice before trimming</source>
+      <translation>Streben des Gitters vor dem Beschneiden</translation>
+    </message>
+    <message>
+      <source>Struts whose radius varies: along a direction, by the depth below the skin (s = 1 at the Skin, or at the Core), or by a field of values</source>
+      <translation>Streben mit veränderlichem Radius: entlang einer Richtung, mit der Tiefe unter der Haut (s = 1 an der Haut oder im Kern) oder nach einem Feld von Werten</translation>
+    </message>
+    <message>
+      <source>Struts with a free end that were taken away</source>
+      <translation>Streben mit freiem Ende, die weggenommen wurden</translation>
+    </message>
+    <message>
+      <source>Stubs removed</source>
+      <translation>Stummel entfernt</translation>
+    </message>
+    <message>
+      <source>Surface area</source>
+      <translation>Oberfläche</translation>
+    </message>
+    <message>
+      <source>Take away struts with a free end that are shorter than this; 0 for none</source>
+      <translation>Streben mit freiem Ende wegnehmen, die kürzer sind; 0 für keine</translation>
+    </message>
+    <message>
+      <source>Take away struts with a free end, again and again until there are none</source>
+      <translation>Streben mit freiem Ende wegnehmen, bis keine mehr da ist</translation>
+    </message>
+    <message>
+      <source>Text</source>
+      <translation>Text</translation>
+    </message>
+    <message>
+      <source>The .json file of your own unit cell (nodes and struts), for the cell type Custom</source>
+      <translation>Die .json-Datei einer eigenen Einheitszelle (Knoten und Streben), für den Zelltyp Custom</translation>
+    </message>
+    <message>
+      <source>The lattice infill to look at</source>
+      <translation>Die Gitterfüllung, die betrachtet wird</translation>
+    </message>
+    <message>
+      <source>The radius varies along it</source>
+      <translation>Entlang dieser Richtung ändert sich der Radius</translation>
+    </message>
+    <message>
+      <source>The solid to fill: a solid, a Body, a Part, a link to one of these, or a closed mesh</source>
+      <translation>Der zu füllende Volumenkörper: ein Volumenkörper, ein Body, ein Part, eine Verknüpfung darauf oder ein geschlossenes Netz</translation>
+    </message>
+    <message>
+      <source>The unit cell</source>
+      <translation>Die Einheitszelle</translation>
+    </message>
+    <message>
+      <source>Their volume</source>
+      <translation>Ihr Volumen</translation>
+    </message>
+    <message>
+      <source>Thickness of the closed skin; 0 for none: the lattice is cut at the outer surface</source>
+      <translation>Dicke der geschlossenen Haut; 0 für keine: das Gitter wird an der Außenfläche geschnitten</translation>
+    </message>
+    <message>
+      <source>Thinnest strut</source>
+      <translation>Dünnste Strebe</translation>
+    </message>
+    <message>
+      <source>Through-holes of the mesh</source>
+      <translation>Durchgangslöcher des Netzes</translation>
+    </message>
+    <message>
+      <source>Triangles</source>
+      <translation>Dreiecke</translation>
+    </message>
+    <message>
+      <source>Triangles of the mesh</source>
+      <translation>Dreiecke des Netzes</translation>
+    </message>
+    <message>
+      <source>Turn about RotationOrigin; otherwise about the middle of the solid's box</source>
+      <translation>Um RotationOrigin drehen; sonst um die Mitte des Quaders um den Volumenkörper</translation>
+    </message>
+    <message>
+      <source>Turns the lattice, not the solid</source>
+      <translation>Dreht das Gitter, nicht den Volumenkörper</translation>
+    </message>
+    <message>
+      <source>Use map centre</source>
+      <translation>Mittelpunkt verwenden</translation>
+    </message>
+    <message>
+      <source>Use origin</source>
+      <translation>Ursprung verwenden</translation>
+    </message>
+    <message>
+      <source>Use rotation origin</source>
+      <translation>Drehpunkt verwenden</translation>
+    </message>
+    <message>
+      <source>Values and their radii in mm, such as '0:0.5, 120:1.2', in place of RadiusMin, RadiusMax</source>
+      <translation>Werte und ihre Radien in mm, etwa '0:0.5, 120:1.2', anstelle von RadiusMin, RadiusMax</translation>
+    </message>
+    <message>
+      <source>Void volume</source>
+      <translation>Hohlraumvolumen</translation>
+    </message>
+    <message>
+      <source>Voids</source>
+      <translation>Hohlräume</translation>
+    </message>
+    <message>
+      <source>Volume</source>
+      <translation>Volumen</translation>
+    </message>
+    <message>
+      <source>Volume of material</source>
+      <translation>Volumen des Werkstoffs</translation>
+    </message>
+    <message>
+      <source>Volume of the lattice over what it fills</source>
+      <translation>Volumen des Gitters im Verhältnis zum gefüllten Raum</translation>
+    </message>
+    <message>
+      <source>Warnings</source>
+      <translation>Warnungen</translation>
+    </message>
+    <message>
+      <source>Watertight</source>
+      <translation>Wasserdicht</translation>
+    </message>
+    <message>
+      <source>What an update of these properties comes to</source>
+      <translation>Was eine Aktualisierung mit diesen Eigenschaften ergibt</translation>
+    </message>
+    <message>
+      <source>What does not suit the process</source>
+      <translation>Was nicht zum Verfahren passt</translation>
+    </message>
+    <message>
+      <source>What to know about this result</source>
+      <translation>Was man über dieses Ergebnis wissen sollte</translation>
+    </message>
+    <message>
+      <source>Where a cell has a corner, if UseOrigin is set</source>
+      <translation>Wo eine Zelle eine Ecke hat, wenn UseOrigin gesetzt ist</translation>
+    </message>
+    <message>
+      <source>Where cells are stretched or bent, struts stay straight and round; otherwise they are deformed with their cells, as published</source>
+      <translation>Wo Zellen gestreckt oder gebogen sind, bleiben Streben gerade und rund; sonst werden sie mit ihren Zellen verformt, wie veröffentlicht</translation>
+    </message>
+    <message>
+      <source>Where holes go through the skin</source>
+      <translation>Wo Löcher durch die Haut gehen</translation>
+    </message>
+    <message>
+      <source>Whether the mesh fits the properties, or why not</source>
+      <translation>Ob das Netz den Eigenschaften entspricht, oder warum nicht</translation>
+    </message>
+    <message>
+      <source>Which cells hold a lattice: those that touch the inside, whose centre lies inside, or that lie wholly inside</source>
+      <translation>Welche Zellen Gitter enthalten: die das Innere berühren, deren Mitte darin liegt oder die ganz darin liegen</translation>
+    </message>
+    <message>
+      <source>Which values of the file or the FEM result; empty for the only ones, or for vonMises</source>
+      <translation>Welche Werte der Datei oder des FEM-Ergebnisses; leer für die einzigen, oder für vonMises</translation>
+    </message>
+    <message>
+      <source>centre</source>
+      <translation>Mitte</translation>
+    </message>
+    <message>
+      <source>inside</source>
+      <translation>innen</translation>
+    </message>
+    <message>
+      <source>lambda as a formula of s</source>
+      <translation>Lambda als Formel von s</translation>
+    </message>
+    <message>
+      <source>lambda at the far end, s = 1</source>
+      <translation>Lambda am fernen Ende, s = 1</translation>
+    </message>
+    <message>
+      <source>lambda at the near end, s = 0</source>
+      <translation>Lambda am nahen Ende, s = 0</translation>
+    </message>
+    <message>
+      <source>part: skin and lattice; lattice: without the skin; domain: what the lattice fills</source>
+      <translation>part: Haut und Gitter; lattice: ohne die Haut; domain: was das Gitter füllt</translation>
+    </message>
+    <message>
+      <source>r: radius of the struts</source>
+      <translation>r: Radius der Streben</translation>
+    </message>
+    <message>
+      <source>touching</source>
+      <translation>berührend</translation>
+    </message>
+    <message>
+      <source>trim</source>
+      <translation>Beschnitt</translation>
+    </message>
+    <message>
+      <source>trim: the lattice is cut at the wall; whole: cells stay whole, and a skin joins what reaches it</source>
+      <translation>Beschnitt (trim): das Gitter wird an der Wand geschnitten; ganz (whole): Zellen bleiben ganz, und eine Haut verbindet, was sie erreicht</translation>
+    </message>
+    <message>
+      <source>whole</source>
+      <translation>ganz</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_CellLibrary</name>
+    <message>
+      <source>Browse the unit cells, load your own, make one of a sketch, and give it to a lattice infill</source>
+      <translation>Einheitszellen ansehen, eigene laden, eine aus einer Skizze machen und einer Gitterfüllung geben</translation>
+    </message>
+    <message>
+      <source>Cell Library</source>
+      <translation>Zellbibliothek</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_CheckMesh</name>
+    <message>
+      <source>Check Mesh</source>
+      <translation>Netz prüfen</translation>
+    </message>
+    <message>
+      <source>Report on the selected mesh: closed, bodies, volume, angles, triangles that cross, and what a file keeps of it</source>
+      <translation>Bericht über das gewählte Netz: geschlossen, Körper, Volumen, Winkel, sich kreuzende Dreiecke, und was eine Datei davon behält</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_Edit</name>
+    <message>
+      <source>Change the selected lattice infill in its panel, with a preview</source>
+      <translation>Die gewählte Gitterfüllung in ihrem Aufgabenfenster ändern, mit Vorschau</translation>
+    </message>
+    <message>
+      <source>Edit Lattice Infill</source>
+      <translation>Gitterfüllung bearbeiten</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_ExampleBracket</name>
+    <message>
+      <source>Bracket</source>
+      <translation>Lagerbock</translation>
+    </message>
+    <message>
+      <source>Open a bracket on four bolts, filled with a lattice, in a new document</source>
+      <translation>Öffnet in einem neuen Dokument einen Lagerbock auf vier Schrauben, mit Gitter gefüllt</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_ExamplePistonRod</name>
+    <message>
+      <source>Open a piston rod, filled with a lattice, in a new document</source>
+      <translation>Öffnet in einem neuen Dokument ein Pleuel, mit Gitter gefüllt</translation>
+    </message>
+    <message>
+      <source>Piston Rod</source>
+      <translation>Pleuel</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_Export</name>
+    <message>
+      <source>Export Lattice</source>
+      <translation>Gitter exportieren</translation>
+    </message>
+    <message>
+      <source>Write the selected lattice infill for the printer (STL, 3MF with or without beams, PLY, OBJ), for CAD (STEP) or for CalculiX</source>
+      <translation>Schreibt die gewählte Gitterfüllung für den Drucker (STL, 3MF mit oder ohne Balken, PLY, OBJ), für CAD (STEP) oder für CalculiX</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_FemAnalysis</name>
+    <message>
+      <source>FEM Analysis</source>
+      <translation>FEM-Analyse</translation>
+    </message>
+    <message>
+      <source>Make an analysis of the selected lattice infill for the FEM workbench, of beams or of tetrahedra, ready for constraints</source>
+      <translation>Erstellt für den FEM-Arbeitsbereich eine Analyse der gewählten Gitterfüllung, aus Balken oder Tetraedern, bereit für Randbedingungen</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_Help</name>
+    <message>
+      <source>Read about every command, and a tutorial of five minutes</source>
+      <translation>Alles über jeden Befehl, und eine Einführung in fünf Minuten</translation>
+    </message>
+    <message>
+      <source>VOLFREP Help</source>
+      <translation>Hilfe zu VOLFREP</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_LatticeInfill</name>
+    <message>
+      <source>Lattice Infill</source>
+      <translation>Gitterfüllung</translation>
+    </message>
+    <message>
+      <source>Make the selected solid light: a closed skin and a strut lattice inside</source>
+      <translation>Macht den gewählten Volumenkörper leicht: eine geschlossene Haut und innen ein Strebengitter</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_OpenFaces</name>
+    <message>
+      <source>Open Faces</source>
+      <translation>Flächen öffnen</translation>
+    </message>
+    <message>
+      <source>Select a lattice infill and faces of its solid: they get no skin</source>
+      <translation>Eine Gitterfüllung und Flächen ihres Volumenkörpers wählen: sie bekommen keine Haut</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_PreviewOnly</name>
+    <message>
+      <source>Preview Only</source>
+      <translation>Nur Vorschau</translation>
+    </message>
+    <message>
+      <source>Show the struts of the selected lattice infill and their figures without making a mesh; once more takes them away</source>
+      <translation>Zeigt die Streben der gewählten Gitterfüllung und ihre Zahlen, ohne ein Netz zu erzeugen; noch einmal nimmt sie weg</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_PrintCheck</name>
+    <message>
+      <source>Print Check</source>
+      <translation>Druckprüfung</translation>
+    </message>
+    <message>
+      <source>See what hangs over, is too thin or holds powder when the selected lattice infill is printed</source>
+      <translation>Zeigt, was überhängt, zu dünn ist oder Pulver hält, wenn die gewählte Gitterfüllung gedruckt wird</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_SectionView</name>
+    <message>
+      <source>Cut the selected lattice open on the screen, along a plane that can be moved; the lattice itself stays whole</source>
+      <translation>Schneidet das gewählte Gitter am Bildschirm auf, entlang einer verschiebbaren Ebene; das Gitter selbst bleibt ganz</translation>
+    </message>
+    <message>
+      <source>Section View</source>
+      <translation>Schnittansicht</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_Statistics</name>
+    <message>
+      <source>Statistics</source>
+      <translation>Statistik</translation>
+    </message>
+    <message>
+      <source>Tables of the selected lattice infills, or of all in the document: cells, struts, density, mass, times, memory</source>
+      <translation>Tabellen der gewählten Gitterfüllungen oder aller im Dokument: Zellen, Streben, Dichte, Masse, Zeiten, Speicher</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_ToSolid</name>
+    <message>
+      <source>Lattice To Solid</source>
+      <translation>Gitter in Volumenkörper</translation>
+    </message>
+    <message>
+      <source>Make a Part solid of exact surfaces or of plane faces, links to its joints, or the struts' axes</source>
+      <translation>Erzeugt einen Part-Volumenkörper aus exakten Flächen oder ebenen Facetten, Verknüpfungen auf seine Knoten oder die Achsen der Streben</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_Update</name>
+    <message>
+      <source>Compute the selected lattice infill now, also with AutoUpdate off</source>
+      <translation>Berechnet die gewählte Gitterfüllung jetzt, auch wenn AutoUpdate aus ist</translation>
+    </message>
+    <message>
+      <source>Update Lattice Infill</source>
+      <translation>Gitterfüllung aktualisieren</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepCells</name>
+    <message>
+      <source>Apply</source>
+      <translation>Anwenden</translation>
+    </message>
+    <message>
+      <source>Apply to {label}</source>
+      <translation>Auf {label} anwenden</translation>
+    </message>
+    <message>
+      <source>Carries load by</source>
+      <translation>Trägt Last durch</translation>
+    </message>
+    <message>
+      <source>Close</source>
+      <translation>Schließen</translation>
+    </message>
+    <message>
+      <source>Drawn with L = {size:g} mm; every L can be given to an infill.</source>
+      <translation>Gezeichnet mit L = {size:g} mm; eine Füllung kann jedes L bekommen.</translation>
+    </message>
+    <message>
+      <source>File</source>
+      <translation>Datei</translation>
+    </message>
+    <message>
+      <source>From Selection</source>
+      <translation>Aus Auswahl</translation>
+    </message>
+    <message>
+      <source>Give the picked cell to the selected lattice infill</source>
+      <translation>Gibt die gewählte Zelle der ausgewählten Gitterfüllung</translation>
+    </message>
+    <message>
+      <source>Load Cell</source>
+      <translation>Zelle laden</translation>
+    </message>
+    <message>
+      <source>Load...</source>
+      <translation>Laden...</translation>
+    </message>
+    <message>
+      <source>Make a cell of the straight edges of the selected sketches, wires or shapes; the cube about them is the cell</source>
+      <translation>Macht eine Zelle aus den geraden Kanten der gewählten Skizzen, Drähte oder Formen; der Würfel um sie ist die Zelle</translation>
+    </message>
+    <message>
+      <source>Maxwell number</source>
+      <translation>Maxwell-Zahl</translation>
+    </message>
+    <message>
+      <source>Nodes</source>
+      <translation>Knoten</translation>
+    </message>
+    <message>
+      <source>Read a cell of your own from a JSON file</source>
+      <translation>Liest eine eigene Zelle aus einer JSON-Datei</translation>
+    </message>
+    <message>
+      <source>Save As...</source>
+      <translation>Speichern unter...</translation>
+    </message>
+    <message>
+      <source>Save Cell</source>
+      <translation>Zelle speichern</translation>
+    </message>
+    <message>
+      <source>Set Unit Cell</source>
+      <translation>Einheitszelle setzen</translation>
+    </message>
+    <message>
+      <source>Struts</source>
+      <translation>Streben</translation>
+    </message>
+    <message>
+      <source>Unit cell (*.json)</source>
+      <translation>Einheitszelle (*.json)</translation>
+    </message>
+    <message>
+      <source>Write the picked cell to a JSON file</source>
+      <translation>Schreibt die gewählte Zelle in eine JSON-Datei</translation>
+    </message>
+    <message>
+      <source>bending</source>
+      <translation>Biegung</translation>
+    </message>
+    <message>
+      <source>not saved</source>
+      <translation>nicht gespeichert</translation>
+    </message>
+    <message>
+      <source>stretching</source>
+      <translation>Zug und Druck</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepCommands</name>
+    <message>
+      <source>Analyse '{label}' with:</source>
+      <translation>'{label}' analysieren mit:</translation>
+    </message>
+    <message>
+      <source>Check Mesh: {label}</source>
+      <translation>Netz prüfen: {label}</translation>
+    </message>
+    <message>
+      <source>Make of '{label}':</source>
+      <translation>Aus '{label}' machen:</translation>
+    </message>
+    <message>
+      <source>beams</source>
+      <translation>Balken</translation>
+    </message>
+    <message>
+      <source>tetrahedra</source>
+      <translation>Tetraeder</translation>
+    </message>
+    <message>
+      <source>{file}: {estimate}. Write it?</source>
+      <translation>{file}: {estimate}. Schreiben?</translation>
+    </message>
+    <message>
+      <source>{label}: preview off</source>
+      <translation>{label}: Vorschau aus</translation>
+    </message>
+    <message>
+      <source>{label}: preview shown, figures in the report view</source>
+      <translation>{label}: Vorschau gezeigt, Zahlen in der Berichtsansicht</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepFigures</name>
+    <message>
+      <source>{cells:,} active cells, {struts:,} struts
+relative density {density:.3g} %, mass {mass:.4g} g
+about {triangles:.2g} million triangles, {size:.2g} MB as STL, {seconds:.2g} s to compute</source>
+      <translation>{cells:,} aktive Zellen, {struts:,} Streben
+relative Dichte {density:.3g} %, Masse {mass:.4g} g
+etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s Rechenzeit</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepFormats</name>
+    <message>
+      <source>3MF</source>
+      <translation>3MF</translation>
+    </message>
+    <message>
+      <source>3MF, beams only</source>
+      <translation>3MF, nur Balken</translation>
+    </message>
+    <message>
+      <source>3MF, fewer triangles</source>
+      <translation>3MF, weniger Dreiecke</translation>
+    </message>
+    <message>
+      <source>3MF, mesh and beams</source>
+      <translation>3MF, Netz und Balken</translation>
+    </message>
+    <message>
+      <source>CalculiX, beams</source>
+      <translation>CalculiX, Balken</translation>
+    </message>
+    <message>
+      <source>CalculiX, tetrahedra</source>
+      <translation>CalculiX, Tetraeder</translation>
+    </message>
+    <message>
+      <source>OBJ</source>
+      <translation>OBJ</translation>
+    </message>
+    <message>
+      <source>PLY</source>
+      <translation>PLY</translation>
+    </message>
+    <message>
+      <source>STEP, axes of the struts</source>
+      <translation>STEP, Achsen der Streben</translation>
+    </message>
+    <message>
+      <source>STEP, exact surfaces</source>
+      <translation>STEP, exakte Flächen</translation>
+    </message>
+    <message>
+      <source>STEP, instances of joints</source>
+      <translation>STEP, Instanzen der Knoten</translation>
+    </message>
+    <message>
+      <source>STEP, plane faces</source>
+      <translation>STEP, ebene Facetten</translation>
+    </message>
+    <message>
+      <source>STL</source>
+      <translation>STL</translation>
+    </message>
+    <message>
+      <source>STL, fewer triangles</source>
+      <translation>STL, weniger Dreiecke</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepHelp</name>
+    <message>
+      <source>Back</source>
+      <translation>Zurück</translation>
+    </message>
+    <message>
+      <source>Contents</source>
+      <translation>Inhalt</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepJobs</name>
+    <message>
+      <source>Beams of {label}</source>
+      <translation>Balken von {label}</translation>
+    </message>
+    <message>
+      <source>Checking {label}</source>
+      <translation>{label} wird geprüft</translation>
+    </message>
+    <message>
+      <source>Exact surfaces of {label}</source>
+      <translation>Exakte Flächen von {label}</translation>
+    </message>
+    <message>
+      <source>Fewer triangles for {label}</source>
+      <translation>Weniger Dreiecke für {label}</translation>
+    </message>
+    <message>
+      <source>Filling {label}</source>
+      <translation>{label} wird gefüllt</translation>
+    </message>
+    <message>
+      <source>Instances of {label}</source>
+      <translation>Instanzen von {label}</translation>
+    </message>
+    <message>
+      <source>Print check of {label}</source>
+      <translation>Druckprüfung von {label}</translation>
+    </message>
+    <message>
+      <source>Struts of {label}</source>
+      <translation>Streben von {label}</translation>
+    </message>
+    <message>
+      <source>Tetrahedra of {label}</source>
+      <translation>Tetraeder von {label}</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepMessages</name>
+    <message>
+      <source>Cancelled.</source>
+      <translation>Abgebrochen.</translation>
+    </message>
+    <message>
+      <source>{path} written</source>
+      <translation>{path} geschrieben</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepPreferences</name>
+    <message>
+      <source>A change that comes to more triangles waits for Update Lattice Infill</source>
+      <translation>Eine Änderung, die mehr Dreiecke ergibt, wartet auf Gitterfüllung aktualisieren</translation>
+    </message>
+    <message>
+      <source>A mesh of more triangles is shown by a coarse likeness; files stay full</source>
+      <translation>Ein Netz aus mehr Dreiecken wird vergröbert gezeigt; Dateien bleiben vollständig</translation>
+    </message>
+    <message>
+      <source>Cell size</source>
+      <translation>Zellgröße</translation>
+    </message>
+    <message>
+      <source>Cell type</source>
+      <translation>Zelltyp</translation>
+    </message>
+    <message>
+      <source>Colour of overhangs</source>
+      <translation>Farbe der Überhänge</translation>
+    </message>
+    <message>
+      <source>Colour of struts</source>
+      <translation>Farbe der Streben</translation>
+    </message>
+    <message>
+      <source>Defaults</source>
+      <translation>Voreinstellungen</translation>
+    </message>
+    <message>
+      <source>Density</source>
+      <translation>Dichte</translation>
+    </message>
+    <message>
+      <source>Density of the material, from which the mass comes</source>
+      <translation>Dichte des Werkstoffs, aus der die Masse folgt</translation>
+    </message>
+    <message>
+      <source>Deviation</source>
+      <translation>Abweichung</translation>
+    </message>
+    <message>
+      <source>Display</source>
+      <translation>Anzeige</translation>
+    </message>
+    <message>
+      <source>Display and limits</source>
+      <translation>Anzeige und Grenzen</translation>
+    </message>
+    <message>
+      <source>Edge length L of a cell; automatic: about four cells across the thinnest side of the part</source>
+      <translation>Kantenlänge L einer Zelle; automatisch: etwa vier Zellen über die dünnste Seite des Bauteils</translation>
+    </message>
+    <message>
+      <source>Facets along the edge of a cell; automatic: chosen by the deviation</source>
+      <translation>Facetten entlang der Kante einer Zelle; automatisch: nach der Abweichung gewählt</translation>
+    </message>
+    <message>
+      <source>For searching nearest points, measuring meshes and writing STL files; automatic: one on each core</source>
+      <translation>Zum Suchen nächster Punkte, Messen von Netzen und Schreiben von STL-Dateien; automatisch: einer auf jedem Kern</translation>
+    </message>
+    <message>
+      <source>In the preview and in the display mode Simplified</source>
+      <translation>In der Vorschau und in der Darstellung Simplified</translation>
+    </message>
+    <message>
+      <source>Largest distance between a facet and the exact strut, where the resolution is automatic; automatic: by the strut radius</source>
+      <translation>Größter Abstand zwischen einer Facette und der exakten Strebe, wo die Auflösung automatisch ist; automatisch: nach dem Strebenradius</translation>
+    </message>
+    <message>
+      <source>Lattice</source>
+      <translation>Gitter</translation>
+    </message>
+    <message>
+      <source>Limits</source>
+      <translation>Grenzen</translation>
+    </message>
+    <message>
+      <source>Material</source>
+      <translation>Werkstoff</translation>
+    </message>
+    <message>
+      <source>Mesh</source>
+      <translation>Netz</translation>
+    </message>
+    <message>
+      <source>More struts than these are drawn as lines, in the preview and in the display mode Simplified</source>
+      <translation>Mehr Streben als diese werden als Linien gezeichnet, in der Vorschau und in der Darstellung Simplified</translation>
+    </message>
+    <message>
+      <source>New infill</source>
+      <translation>Neue Füllung</translation>
+    </message>
+    <message>
+      <source>Of a new infill, so that the lattice is seen through the skin</source>
+      <translation>Einer neuen Füllung, damit das Gitter durch die Haut zu sehen ist</translation>
+    </message>
+    <message>
+      <source>Of a new print check</source>
+      <translation>Einer neuen Druckprüfung</translation>
+    </message>
+    <message>
+      <source>Radius of the struts as a share of the cell size L</source>
+      <translation>Radius der Streben als Anteil der Zellgröße L</translation>
+    </message>
+    <message>
+      <source>Resolution</source>
+      <translation>Auflösung</translation>
+    </message>
+    <message>
+      <source>Show the values that VOLFREP comes with</source>
+      <translation>Zeigt die Werte, mit denen VOLFREP kommt</translation>
+    </message>
+    <message>
+      <source>Skin thickness</source>
+      <translation>Wandstärke</translation>
+    </message>
+    <message>
+      <source>Strut radius</source>
+      <translation>Strebenradius</translation>
+    </message>
+    <message>
+      <source>Struts to show as solids</source>
+      <translation>Körperlich gezeigte Streben</translation>
+    </message>
+    <message>
+      <source>The property AutoUpdate of a new infill; without it, use Update Lattice Infill</source>
+      <translation>Die Eigenschaft AutoUpdate einer neuen Füllung; ohne sie wird Gitterfüllung aktualisieren verwendet</translation>
+    </message>
+    <message>
+      <source>The unit cell of a new infill</source>
+      <translation>Die Einheitszelle einer neuen Füllung</translation>
+    </message>
+    <message>
+      <source>Thickness of the closed skin; automatic: a fifth of the cell size</source>
+      <translation>Dicke der geschlossenen Haut; automatisch: ein Fünftel der Zellgröße</translation>
+    </message>
+    <message>
+      <source>Threads</source>
+      <translation>Threads</translation>
+    </message>
+    <message>
+      <source>Transparency</source>
+      <translation>Transparenz</translation>
+    </message>
+    <message>
+      <source>Triangles to show</source>
+      <translation>Gezeigte Dreiecke</translation>
+    </message>
+    <message>
+      <source>Triangles to wait at</source>
+      <translation>Warten ab Dreiecken</translation>
+    </message>
+    <message>
+      <source>Update at every change</source>
+      <translation>Bei jeder Änderung aktualisieren</translation>
+    </message>
+    <message>
+      <source>automatic</source>
+      <translation>automatisch</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepProgress</name>
+    <message>
+      <source>Cancel</source>
+      <translation>Abbrechen</translation>
+    </message>
+    <message>
+      <source>Cancelling...</source>
+      <translation>Wird abgebrochen...</translation>
+    </message>
+    <message>
+      <source>Stop this job (Esc)</source>
+      <translation>Diese Aufgabe abbrechen (Esc)</translation>
+    </message>
+    <message>
+      <source>check</source>
+      <translation>Prüfung</translation>
+    </message>
+    <message>
+      <source>compact</source>
+      <translation>Verdichten</translation>
+    </message>
+    <message>
+      <source>lattice</source>
+      <translation>Gitter</translation>
+    </message>
+    <message>
+      <source>shell</source>
+      <translation>Haut</translation>
+    </message>
+    <message>
+      <source>tile</source>
+      <translation>Kachel</translation>
+    </message>
+    <message>
+      <source>trim</source>
+      <translation>Beschnitt</translation>
+    </message>
+    <message>
+      <source>voxels</source>
+      <translation>Voxel</translation>
+    </message>
+    <message>
+      <source>write</source>
+      <translation>Schreiben</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepReport</name>
+    <message>
+      <source>Close</source>
+      <translation>Schließen</translation>
+    </message>
+    <message>
+      <source>Copy</source>
+      <translation>Kopieren</translation>
+    </message>
+    <message>
+      <source>Save Report</source>
+      <translation>Bericht speichern</translation>
+    </message>
+    <message>
+      <source>Save...</source>
+      <translation>Speichern...</translation>
+    </message>
+    <message>
+      <source>The tables are on the clipboard.</source>
+      <translation>Die Tabellen sind in der Zwischenablage.</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepSectionView</name>
+    <message>
+      <source>Across</source>
+      <translation>Quer zu</translation>
+    </message>
+    <message>
+      <source>Other side</source>
+      <translation>Andere Seite</translation>
+    </message>
+    <message>
+      <source>Section of {label}</source>
+      <translation>Schnitt von {label}</translation>
+    </message>
+    <message>
+      <source>The axis that the plane lies across</source>
+      <translation>Die Achse, zu der die Ebene quer liegt</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepSolids</name>
+    <message>
+      <source>Axes of the struts</source>
+      <translation>Achsen der Streben</translation>
+    </message>
+    <message>
+      <source>Links to one solid for each kind of joint</source>
+      <translation>Verknüpfungen auf einen Volumenkörper je Knotenart</translation>
+    </message>
+    <message>
+      <source>One solid of exact surfaces</source>
+      <translation>Ein Volumenkörper aus exakten Flächen</translation>
+    </message>
+    <message>
+      <source>One solid of plane faces</source>
+      <translation>Ein Volumenkörper aus ebenen Facetten</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepTaskPanel</name>
+    <message>
+      <source>Boundary</source>
+      <translation>Rand</translation>
+    </message>
+    <message>
+      <source>Cell size</source>
+      <translation>Zellgröße</translation>
+    </message>
+    <message>
+      <source>Cells</source>
+      <translation>Zellen</translation>
+    </message>
+    <message>
+      <source>Compute</source>
+      <translation>Berechnen</translation>
+    </message>
+    <message>
+      <source>Lattice</source>
+      <translation>Gitter</translation>
+    </message>
+    <message>
+      <source>Make the mesh of these values now and stay in this panel</source>
+      <translation>Erzeugt jetzt das Netz zu diesen Werten und bleibt im Aufgabenfenster</translation>
+    </message>
+    <message>
+      <source>Preview</source>
+      <translation>Vorschau</translation>
+    </message>
+    <message>
+      <source>Strut radius</source>
+      <translation>Strebenradius</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepWorkbench</name>
+    <message>
+      <source>Fill a solid with a strut lattice, ready for the printer</source>
+      <translation>Füllt einen Volumenkörper mit einem Strebengitter, fertig für den Drucker</translation>
+    </message>
+  </context>
+  <context>
+    <name>Workbench</name>
+    <message>
+      <source>Examples</source>
+      <translation>Beispiele</translation>
+    </message>
+    <message>
+      <source>VOLFREP Results</source>
+      <translation>VOLFREP, Ergebnisse</translation>
+    </message>
+  </context>
+</TS>

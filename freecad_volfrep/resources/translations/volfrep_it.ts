@@ -1,0 +1,1569 @@
+<?xml version="1.0" encoding="utf-8"?>
+<!-- SPDX-License-Identifier: LGPL-2.1-or-later -->
+<!DOCTYPE TS>
+<TS version="2.1" language="it" sourcelanguage="en">
+  <context>
+    <name>App::Property</name>
+    <message>
+      <source>A point of the axis, if UseMapCentre is set</source>
+      <translation>Un punto dell'asse, se UseMapCentre è attivo</translation>
+    </message>
+    <message>
+      <source>A point of the rotation's axis, if UseRotationOrigin is set</source>
+      <translation>Un punto dell'asse di rotazione, se UseRotationOrigin è attivo</translation>
+    </message>
+    <message>
+      <source>Activation</source>
+      <translation>Attivazione</translation>
+    </message>
+    <message>
+      <source>All figures of the last update, as JSON</source>
+      <translation>Tutti i dati dell'ultimo aggiornamento, in JSON</translation>
+    </message>
+    <message>
+      <source>All figures, as JSON</source>
+      <translation>Tutti i dati, in JSON</translation>
+    </message>
+    <message>
+      <source>All figures, for people</source>
+      <translation>Tutti i dati, da leggere</translation>
+    </message>
+    <message>
+      <source>Auto update</source>
+      <translation>Aggiornamento automatico</translation>
+    </message>
+    <message>
+      <source>Axis of the rotation</source>
+      <translation>Asse di rotazione</translation>
+    </message>
+    <message>
+      <source>Axis that the cells lie about</source>
+      <translation>Asse attorno al quale stanno le celle</translation>
+    </message>
+    <message>
+      <source>Base</source>
+      <translation>Base</translation>
+    </message>
+    <message>
+      <source>Between struts that do not meet, mm</source>
+      <translation>Tra aste che non si incontrano, mm</translation>
+    </message>
+    <message>
+      <source>Bodies</source>
+      <translation>Corpi</translation>
+    </message>
+    <message>
+      <source>Boundary</source>
+      <translation>Bordo</translation>
+    </message>
+    <message>
+      <source>Build direction</source>
+      <translation>Direzione di stampa</translation>
+    </message>
+    <message>
+      <source>Cell edges</source>
+      <translation>Spigoli delle celle</translation>
+    </message>
+    <message>
+      <source>Cell file</source>
+      <translation>File della cella</translation>
+    </message>
+    <message>
+      <source>Cell map</source>
+      <translation>Disposizione delle celle</translation>
+    </message>
+    <message>
+      <source>Cell size</source>
+      <translation>Dimensione cella</translation>
+    </message>
+    <message>
+      <source>Cell type</source>
+      <translation>Tipo di cella</translation>
+    </message>
+    <message>
+      <source>Cells active</source>
+      <translation>Celle attive</translation>
+    </message>
+    <message>
+      <source>Cells along straight axes, about an axis, or about a centre</source>
+      <translation>Celle lungo assi rettilinei, attorno a un asse o attorno a un centro</translation>
+    </message>
+    <message>
+      <source>Cells around the full turn; 0 for as many as make them CellSize wide half-way out</source>
+      <translation>Celle sull'intero giro; 0 per averne quante servono a renderle larghe CellSize a metà raggio</translation>
+    </message>
+    <message>
+      <source>Cells grow along it</source>
+      <translation>Le celle crescono lungo di essa</translation>
+    </message>
+    <message>
+      <source>Cells in the grid</source>
+      <translation>Celle della griglia</translation>
+    </message>
+    <message>
+      <source>Cells that grow along a direction: the law of lambda (section 2.5 of the method)</source>
+      <translation>Celle che crescono lungo una direzione: la legge di lambda (sezione 2.5 del metodo)</translation>
+    </message>
+    <message>
+      <source>Cells that hold a lattice</source>
+      <translation>Celle che contengono il reticolo</translation>
+    </message>
+    <message>
+      <source>Cells total</source>
+      <translation>Celle totali</translation>
+    </message>
+    <message>
+      <source>Closed cavities</source>
+      <translation>Cavità chiuse</translation>
+    </message>
+    <message>
+      <source>Closed voids, which would trap powder or resin</source>
+      <translation>Vuoti chiusi, che tratterrebbero polvere o resina</translation>
+    </message>
+    <message>
+      <source>Compute at every change; switch it off for large jobs and use Update Lattice Infill</source>
+      <translation>Calcola a ogni modifica; da disattivare per lavori grandi, usando Aggiorna riempimento reticolare</translation>
+    </message>
+    <message>
+      <source>Computing time of the last update</source>
+      <translation>Tempo di calcolo dell'ultimo aggiornamento</translation>
+    </message>
+    <message>
+      <source>Core</source>
+      <translation>Nucleo</translation>
+    </message>
+    <message>
+      <source>Dangling removed</source>
+      <translation>Aste pendenti rimosse</translation>
+    </message>
+    <message>
+      <source>Density</source>
+      <translation>Densità</translation>
+    </message>
+    <message>
+      <source>Density of the material in g/cm3</source>
+      <translation>Densità del materiale in g/cm3</translation>
+    </message>
+    <message>
+      <source>Depth at which the law ends</source>
+      <translation>Profondità alla quale la legge finisce</translation>
+    </message>
+    <message>
+      <source>Deviation</source>
+      <translation>Scostamento</translation>
+    </message>
+    <message>
+      <source>Diameter of the holes that let powder or resin out of the skin; 0 for none</source>
+      <translation>Diametro dei fori che fanno uscire polvere o resina dal guscio; 0 per nessuno</translation>
+    </message>
+    <message>
+      <source>Direction</source>
+      <translation>Direzione</translation>
+    </message>
+    <message>
+      <source>Drain</source>
+      <translation>Scarico</translation>
+    </message>
+    <message>
+      <source>Drain count</source>
+      <translation>Numero di fori</translation>
+    </message>
+    <message>
+      <source>Drain diameter</source>
+      <translation>Diametro dei fori</translation>
+    </message>
+    <message>
+      <source>Drain faces</source>
+      <translation>Facce forate</translation>
+    </message>
+    <message>
+      <source>Drain holes</source>
+      <translation>Fori di scarico</translation>
+    </message>
+    <message>
+      <source>Drain points</source>
+      <translation>Punti dei fori</translation>
+    </message>
+    <message>
+      <source>Every edge is shared by exactly two triangles</source>
+      <translation>Ogni spigolo appartiene a due triangoli esatti</translation>
+    </message>
+    <message>
+      <source>Expected</source>
+      <translation>Previsione</translation>
+    </message>
+    <message>
+      <source>Exponential</source>
+      <translation>Esponenziale</translation>
+    </message>
+    <message>
+      <source>Faces in the middle of which holes are drilled</source>
+      <translation>Facce nel cui centro si praticano i fori</translation>
+    </message>
+    <message>
+      <source>Faces of the solid that have no skin: the cavity opens there, struts are cut flush</source>
+      <translation>Facce del solido senza guscio: lì la cavità si apre e le aste sono tagliate a filo</translation>
+    </message>
+    <message>
+      <source>Facets along the edge of a cell; 0 to choose it by Deviation</source>
+      <translation>Faccette lungo lo spigolo di una cella; 0 per sceglierle con lo scostamento</translation>
+    </message>
+    <message>
+      <source>Field</source>
+      <translation>Campo</translation>
+    </message>
+    <message>
+      <source>File of points and values: .csv, .txt, .vtu, .vtk</source>
+      <translation>File di punti e valori: .csv, .txt, .vtu, .vtk</translation>
+    </message>
+    <message>
+      <source>Findings</source>
+      <translation>Rilievi</translation>
+    </message>
+    <message>
+      <source>Formula</source>
+      <translation>Formula</translation>
+    </message>
+    <message>
+      <source>From the build plate up</source>
+      <translation>Dal piano di stampa verso l'alto</translation>
+    </message>
+    <message>
+      <source>From the build plate up, in the document's coordinates</source>
+      <translation>Dal piano di stampa verso l'alto, nelle coordinate del documento</translation>
+    </message>
+    <message>
+      <source>Genus</source>
+      <translation>Genere</translation>
+    </message>
+    <message>
+      <source>Grading</source>
+      <translation>Gradazione</translation>
+    </message>
+    <message>
+      <source>Grading direction</source>
+      <translation>Direzione della gradazione</translation>
+    </message>
+    <message>
+      <source>Holes for each void that is still closed, at its lowest places along BuildDirection</source>
+      <translation>Fori per ogni vuoto ancora chiuso, nei suoi punti più bassi lungo BuildDirection</translation>
+    </message>
+    <message>
+      <source>How it will be printed</source>
+      <translation>Come sarà stampato</translation>
+    </message>
+    <message>
+      <source>Infill</source>
+      <translation>Riempimento</translation>
+    </message>
+    <message>
+      <source>Internal</source>
+      <translation>Interno</translation>
+    </message>
+    <message>
+      <source>Joint fillet</source>
+      <translation>Raccordo dei nodi</translation>
+    </message>
+    <message>
+      <source>Keep radius</source>
+      <translation>Mantieni raggio</translation>
+    </message>
+    <message>
+      <source>L: edge length of the cubic cell</source>
+      <translation>L: lunghezza dello spigolo della cella cubica</translation>
+    </message>
+    <message>
+      <source>Lambda formula</source>
+      <translation>Formula di lambda</translation>
+    </message>
+    <message>
+      <source>Lambda max</source>
+      <translation>Lambda max</translation>
+    </message>
+    <message>
+      <source>Lambda min</source>
+      <translation>Lambda min</translation>
+    </message>
+    <message>
+      <source>Largest distance between a facet and the exact strut; 0 for a fortieth of the radius</source>
+      <translation>Distanza massima tra una faccetta e l'asta esatta; 0 per un quarantesimo del raggio</translation>
+    </message>
+    <message>
+      <source>Lattice</source>
+      <translation>Reticolo</translation>
+    </message>
+    <message>
+      <source>Law of the radius over s</source>
+      <translation>Legge del raggio in funzione di s</translation>
+    </message>
+    <message>
+      <source>Length of the longest strut of these</source>
+      <translation>Lunghezza della più lunga di queste aste</translation>
+    </message>
+    <message>
+      <source>Limits</source>
+      <translation>Limiti</translation>
+    </message>
+    <message>
+      <source>Linear</source>
+      <translation>Lineare</translation>
+    </message>
+    <message>
+      <source>Longest overhang</source>
+      <translation>Sbalzo più lungo</translation>
+    </message>
+    <message>
+      <source>Loose fragments that were dropped</source>
+      <translation>Frammenti isolati eliminati</translation>
+    </message>
+    <message>
+      <source>Map around</source>
+      <translation>Celle sul giro</translation>
+    </message>
+    <message>
+      <source>Map axis</source>
+      <translation>Asse della disposizione</translation>
+    </message>
+    <message>
+      <source>Map centre</source>
+      <translation>Centro della disposizione</translation>
+    </message>
+    <message>
+      <source>Mass</source>
+      <translation>Massa</translation>
+    </message>
+    <message>
+      <source>Mass in g at the given density</source>
+      <translation>Massa in g alla densità indicata</translation>
+    </message>
+    <message>
+      <source>Material</source>
+      <translation>Materiale</translation>
+    </message>
+    <message>
+      <source>Mesh</source>
+      <translation>Mesh</translation>
+    </message>
+    <message>
+      <source>Narrowest gap</source>
+      <translation>Luce minima</translation>
+    </message>
+    <message>
+      <source>Nodes</source>
+      <translation>Nodi</translation>
+    </message>
+    <message>
+      <source>Nodes of the lattice before trimming</source>
+      <translation>Nodi del reticolo prima del taglio</translation>
+    </message>
+    <message>
+      <source>None</source>
+      <translation>Nessuno</translation>
+    </message>
+    <message>
+      <source>Of the facets that hang over: this object's mesh</source>
+      <translation>Delle faccette a sbalzo: la mesh di questo oggetto</translation>
+    </message>
+    <message>
+      <source>Of the part</source>
+      <translation>Della parte</translation>
+    </message>
+    <message>
+      <source>Of the part, g</source>
+      <translation>Della parte, g</translation>
+    </message>
+    <message>
+      <source>Of the process, and their source</source>
+      <translation>Del processo, con la loro fonte</translation>
+    </message>
+    <message>
+      <source>Of the struts' length, too flat</source>
+      <translation>Della lunghezza delle aste, troppo piatta</translation>
+    </message>
+    <message>
+      <source>Open faces</source>
+      <translation>Facce aperte</translation>
+    </message>
+    <message>
+      <source>Origin</source>
+      <translation>Origine</translation>
+    </message>
+    <message>
+      <source>Output</source>
+      <translation>Risultato</translation>
+    </message>
+    <message>
+      <source>Overhang area</source>
+      <translation>Area a sbalzo</translation>
+    </message>
+    <message>
+      <source>Overhang share</source>
+      <translation>Quota a sbalzo</translation>
+    </message>
+    <message>
+      <source>Pieces removed</source>
+      <translation>Pezzi rimossi</translation>
+    </message>
+    <message>
+      <source>Points where holes are drilled</source>
+      <translation>Punti in cui si praticano i fori</translation>
+    </message>
+    <message>
+      <source>Print</source>
+      <translation>Stampa</translation>
+    </message>
+    <message>
+      <source>Process</source>
+      <translation>Processo</translation>
+    </message>
+    <message>
+      <source>Put a corner of a cell at Origin; otherwise the cells start at the corner of the solid</source>
+      <translation>Mette un vertice di una cella in Origin; altrimenti le celle partono dallo spigolo del solido</translation>
+    </message>
+    <message>
+      <source>Put the axis through MapCentre; otherwise through the middle of the solid's box</source>
+      <translation>Fa passare l'asse per MapCentre; altrimenti per il centro del parallelepipedo del solido</translation>
+    </message>
+    <message>
+      <source>Quadratic</source>
+      <translation>Quadratica</translation>
+    </message>
+    <message>
+      <source>Radius column</source>
+      <translation>Colonna dei valori</translation>
+    </message>
+    <message>
+      <source>Radius curve</source>
+      <translation>Curva del raggio</translation>
+    </message>
+    <message>
+      <source>Radius direction</source>
+      <translation>Direzione del raggio</translation>
+    </message>
+    <message>
+      <source>Radius field</source>
+      <translation>Campo del raggio</translation>
+    </message>
+    <message>
+      <source>Radius formula</source>
+      <translation>Formula del raggio</translation>
+    </message>
+    <message>
+      <source>Radius grading</source>
+      <translation>Gradazione del raggio</translation>
+    </message>
+    <message>
+      <source>Radius in mm as a formula of s</source>
+      <translation>Raggio in mm come formula di s</translation>
+    </message>
+    <message>
+      <source>Radius law</source>
+      <translation>Legge del raggio</translation>
+    </message>
+    <message>
+      <source>Radius max</source>
+      <translation>Raggio max</translation>
+    </message>
+    <message>
+      <source>Radius min</source>
+      <translation>Raggio min</translation>
+    </message>
+    <message>
+      <source>Radius of the round between struts where they meet; 0 for none</source>
+      <translation>Raggio del raccordo tra le aste dove si incontrano; 0 per nessuno</translation>
+    </message>
+    <message>
+      <source>Radius reach</source>
+      <translation>Portata del raggio</translation>
+    </message>
+    <message>
+      <source>Radius result</source>
+      <translation>Risultato FEM</translation>
+    </message>
+    <message>
+      <source>Radius where s = 0 or the field is smallest; 0 for StrutRadius</source>
+      <translation>Raggio dove s = 0 o il campo è minimo; 0 per StrutRadius</translation>
+    </message>
+    <message>
+      <source>Radius where s = 1 or the field is largest; 0 for StrutRadius</source>
+      <translation>Raggio dove s = 1 o il campo è massimo; 0 per StrutRadius</translation>
+    </message>
+    <message>
+      <source>Relative density</source>
+      <translation>Densità relativa</translation>
+    </message>
+    <message>
+      <source>Remove dangling</source>
+      <translation>Togli aste pendenti</translation>
+    </message>
+    <message>
+      <source>Report</source>
+      <translation>Rapporto</translation>
+    </message>
+    <message>
+      <source>Resolution</source>
+      <translation>Risoluzione</translation>
+    </message>
+    <message>
+      <source>Result</source>
+      <translation>Risultato</translation>
+    </message>
+    <message>
+      <source>Result of a FEM solver, instead of a file</source>
+      <translation>Risultato di un solutore FEM, al posto di un file</translation>
+    </message>
+    <message>
+      <source>Rotation angle</source>
+      <translation>Angolo di rotazione</translation>
+    </message>
+    <message>
+      <source>Rotation axis</source>
+      <translation>Asse di rotazione</translation>
+    </message>
+    <message>
+      <source>Rotation origin</source>
+      <translation>Origine della rotazione</translation>
+    </message>
+    <message>
+      <source>Scalar</source>
+      <translation>Scalare</translation>
+    </message>
+    <message>
+      <source>Seconds</source>
+      <translation>Secondi</translation>
+    </message>
+    <message>
+      <source>Separate pieces of material</source>
+      <translation>Pezzi di materiale separati</translation>
+    </message>
+    <message>
+      <source>Shell thickness</source>
+      <translation>Spessore guscio</translation>
+    </message>
+    <message>
+      <source>Short struts with a free end, taken away</source>
+      <translation>Aste corte con un'estremità libera, tolte</translation>
+    </message>
+    <message>
+      <source>Shortest and longest edge of a cell, mm</source>
+      <translation>Spigolo più corto e più lungo di una cella, mm</translation>
+    </message>
+    <message>
+      <source>Shortest and longest strut, mm</source>
+      <translation>Asta più corta e più lunga, mm</translation>
+    </message>
+    <message>
+      <source>Shortest stub</source>
+      <translation>Moncone minimo</translation>
+    </message>
+    <message>
+      <source>Size grading</source>
+      <translation>Gradazione celle</translation>
+    </message>
+    <message>
+      <source>Skin</source>
+      <translation>Guscio</translation>
+    </message>
+    <message>
+      <source>Smallest and largest strut radius, mm</source>
+      <translation>Raggio minimo e massimo delle aste, mm</translation>
+    </message>
+    <message>
+      <source>Smallest diameter of a strut, mm</source>
+      <translation>Diametro minimo di un'asta, mm</translation>
+    </message>
+    <message>
+      <source>Solid</source>
+      <translation>Solido</translation>
+    </message>
+    <message>
+      <source>Status</source>
+      <translation>Stato</translation>
+    </message>
+    <message>
+      <source>Strut lengths</source>
+      <translation>Lunghezze delle aste</translation>
+    </message>
+    <message>
+      <source>Strut radii</source>
+      <translation>Raggi delle aste</translation>
+    </message>
+    <message>
+      <source>Strut radius</source>
+      <translation>Raggio delle aste</translation>
+    </message>
+    <message>
+      <source>Struts</source>
+      <translation>Aste</translation>
+    </message>
+    <message>
+      <source>Struts of the lattice before trimming</source>
+      <translation>Aste del reticolo prima del taglio</translation>
+    </message>
+    <message>
+      <source>Struts whose radius varies: along a direction, by the depth below the skin (s = 1 at the Skin, or at the Core), or by a field of values</source>
+      <translation>Aste di raggio variabile: lungo una direzione, con la profondità sotto il guscio (s = 1 al guscio, o al nucleo), o secondo un campo di valori</translation>
+    </message>
+    <message>
+      <source>Struts with a free end that were taken away</source>
+      <translation>Aste con un'estremità libera che sono state tolte</translation>
+    </message>
+    <message>
+      <source>Stubs removed</source>
+      <translation>Monconi rimossi</translation>
+    </message>
+    <message>
+      <source>Surface area</source>
+      <translation>Area della superficie</translation>
+    </message>
+    <message>
+      <source>Take away struts with a free end that are shorter than this; 0 for none</source>
+      <translation>Toglie le aste con un'estremità libera più corte di così; 0 per nessuna</translation>
+    </message>
+    <message>
+      <source>Take away struts with a free end, again and again until there are none</source>
+      <translation>Toglie le aste con un'estremità libera, finché non ne rimane nessuna</translation>
+    </message>
+    <message>
+      <source>Text</source>
+      <translation>Testo</translation>
+    </message>
+    <message>
+      <source>The .json file of your own unit cell (nodes and struts), for the cell type Custom</source>
+      <translation>Il file .json di una cella propria (nodi e aste), per il tipo di cella Custom</translation>
+    </message>
+    <message>
+      <source>The lattice infill to look at</source>
+      <translation>Il riempimento reticolare da esaminare</translation>
+    </message>
+    <message>
+      <source>The radius varies along it</source>
+      <translation>Il raggio varia lungo di essa</translation>
+    </message>
+    <message>
+      <source>The solid to fill: a solid, a Body, a Part, a link to one of these, or a closed mesh</source>
+      <translation>Il solido da riempire: un solido, un Body, una Part, un link a uno di questi o una mesh chiusa</translation>
+    </message>
+    <message>
+      <source>The unit cell</source>
+      <translation>La cella unitaria</translation>
+    </message>
+    <message>
+      <source>Their volume</source>
+      <translation>Il loro volume</translation>
+    </message>
+    <message>
+      <source>Thickness of the closed skin; 0 for none: the lattice is cut at the outer surface</source>
+      <translation>Spessore del guscio chiuso; 0 per nessuno: il reticolo è tagliato alla superficie esterna</translation>
+    </message>
+    <message>
+      <source>Thinnest strut</source>
+      <translation>Asta più sottile</translation>
+    </message>
+    <message>
+      <source>Through-holes of the mesh</source>
+      <translation>Fori passanti della mesh</translation>
+    </message>
+    <message>
+      <source>Triangles</source>
+      <translation>Triangoli</translation>
+    </message>
+    <message>
+      <source>Triangles of the mesh</source>
+      <translation>Triangoli della mesh</translation>
+    </message>
+    <message>
+      <source>Turn about RotationOrigin; otherwise about the middle of the solid's box</source>
+      <translation>Ruota attorno a RotationOrigin; altrimenti attorno al centro del parallelepipedo del solido</translation>
+    </message>
+    <message>
+      <source>Turns the lattice, not the solid</source>
+      <translation>Ruota il reticolo, non il solido</translation>
+    </message>
+    <message>
+      <source>Use map centre</source>
+      <translation>Usa centro</translation>
+    </message>
+    <message>
+      <source>Use origin</source>
+      <translation>Usa origine</translation>
+    </message>
+    <message>
+      <source>Use rotation origin</source>
+      <translation>Usa origine della rotazione</translation>
+    </message>
+    <message>
+      <source>Values and their radii in mm, such as '0:0.5, 120:1.2', in place of RadiusMin, RadiusMax</source>
+      <translation>Valori e i loro raggi in mm, come '0:0.5, 120:1.2', al posto di RadiusMin, RadiusMax</translation>
+    </message>
+    <message>
+      <source>Void volume</source>
+      <translation>Volume dei vuoti</translation>
+    </message>
+    <message>
+      <source>Voids</source>
+      <translation>Vuoti</translation>
+    </message>
+    <message>
+      <source>Volume</source>
+      <translation>Volume</translation>
+    </message>
+    <message>
+      <source>Volume of material</source>
+      <translation>Volume di materiale</translation>
+    </message>
+    <message>
+      <source>Volume of the lattice over what it fills</source>
+      <translation>Volume del reticolo su quello che riempie</translation>
+    </message>
+    <message>
+      <source>Warnings</source>
+      <translation>Avvisi</translation>
+    </message>
+    <message>
+      <source>Watertight</source>
+      <translation>Stagno</translation>
+    </message>
+    <message>
+      <source>What an update of these properties comes to</source>
+      <translation>Quanto comporta un aggiornamento di queste proprietà</translation>
+    </message>
+    <message>
+      <source>What does not suit the process</source>
+      <translation>Ciò che non si adatta al processo</translation>
+    </message>
+    <message>
+      <source>What to know about this result</source>
+      <translation>Ciò che va saputo di questo risultato</translation>
+    </message>
+    <message>
+      <source>Where a cell has a corner, if UseOrigin is set</source>
+      <translation>Dove una cella ha un vertice, se UseOrigin è attivo</translation>
+    </message>
+    <message>
+      <source>Where cells are stretched or bent, struts stay straight and round; otherwise they are deformed with their cells, as published</source>
+      <translation>Dove le celle sono stirate o curvate, le aste restano diritte e tonde; altrimenti si deformano con le loro celle, come pubblicato</translation>
+    </message>
+    <message>
+      <source>Where holes go through the skin</source>
+      <translation>Dove i fori attraversano il guscio</translation>
+    </message>
+    <message>
+      <source>Whether the mesh fits the properties, or why not</source>
+      <translation>Se la mesh corrisponde alle proprietà, o perché no</translation>
+    </message>
+    <message>
+      <source>Which cells hold a lattice: those that touch the inside, whose centre lies inside, or that lie wholly inside</source>
+      <translation>Quali celle contengono il reticolo: quelle che toccano l'interno, che vi hanno il centro o che vi stanno del tutto</translation>
+    </message>
+    <message>
+      <source>Which values of the file or the FEM result; empty for the only ones, or for vonMises</source>
+      <translation>Quali valori del file o del risultato FEM; vuoto per gli unici, o per vonMises</translation>
+    </message>
+    <message>
+      <source>centre</source>
+      <translation>centro</translation>
+    </message>
+    <message>
+      <source>inside</source>
+      <translation>dentro</translation>
+    </message>
+    <message>
+      <source>lambda as a formula of s</source>
+      <translation>lambda come formula di s</translation>
+    </message>
+    <message>
+      <source>lambda at the far end, s = 1</source>
+      <translation>lambda all'estremità lontana, s = 1</translation>
+    </message>
+    <message>
+      <source>lambda at the near end, s = 0</source>
+      <translation>lambda all'estremità vicina, s = 0</translation>
+    </message>
+    <message>
+      <source>part: skin and lattice; lattice: without the skin; domain: what the lattice fills</source>
+      <translation>part: guscio e reticolo; lattice: senza guscio; domain: ciò che il reticolo riempie</translation>
+    </message>
+    <message>
+      <source>r: radius of the struts</source>
+      <translation>r: raggio delle aste</translation>
+    </message>
+    <message>
+      <source>touching</source>
+      <translation>a contatto</translation>
+    </message>
+    <message>
+      <source>trim</source>
+      <translation>taglio</translation>
+    </message>
+    <message>
+      <source>trim: the lattice is cut at the wall; whole: cells stay whole, and a skin joins what reaches it</source>
+      <translation>taglio (trim): il reticolo è tagliato alla parete; intere (whole): le celle restano intere, e un guscio unisce ciò che lo raggiunge</translation>
+    </message>
+    <message>
+      <source>whole</source>
+      <translation>intere</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_CellLibrary</name>
+    <message>
+      <source>Browse the unit cells, load your own, make one of a sketch, and give it to a lattice infill</source>
+      <translation>Sfoglia le celle unitarie, caricane di tue, creane una da uno schizzo e assegnala a un riempimento reticolare</translation>
+    </message>
+    <message>
+      <source>Cell Library</source>
+      <translation>Libreria di celle</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_CheckMesh</name>
+    <message>
+      <source>Check Mesh</source>
+      <translation>Controlla mesh</translation>
+    </message>
+    <message>
+      <source>Report on the selected mesh: closed, bodies, volume, angles, triangles that cross, and what a file keeps of it</source>
+      <translation>Rapporto sulla mesh selezionata: chiusura, corpi, volume, angoli, triangoli che si incrociano e ciò che ne resta in un file</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_Edit</name>
+    <message>
+      <source>Change the selected lattice infill in its panel, with a preview</source>
+      <translation>Modifica il riempimento reticolare selezionato nel suo pannello, con un'anteprima</translation>
+    </message>
+    <message>
+      <source>Edit Lattice Infill</source>
+      <translation>Modifica riempimento reticolare</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_ExampleBracket</name>
+    <message>
+      <source>Bracket</source>
+      <translation>Staffa</translation>
+    </message>
+    <message>
+      <source>Open a bracket on four bolts, filled with a lattice, in a new document</source>
+      <translation>Apre in un nuovo documento una staffa a quattro bulloni, riempita di reticolo</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_ExamplePistonRod</name>
+    <message>
+      <source>Open a piston rod, filled with a lattice, in a new document</source>
+      <translation>Apre in un nuovo documento una biella riempita di reticolo</translation>
+    </message>
+    <message>
+      <source>Piston Rod</source>
+      <translation>Biella</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_Export</name>
+    <message>
+      <source>Export Lattice</source>
+      <translation>Esporta reticolo</translation>
+    </message>
+    <message>
+      <source>Write the selected lattice infill for the printer (STL, 3MF with or without beams, PLY, OBJ), for CAD (STEP) or for CalculiX</source>
+      <translation>Scrive il riempimento reticolare selezionato per la stampante (STL, 3MF con o senza travi, PLY, OBJ), per il CAD (STEP) o per CalculiX</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_FemAnalysis</name>
+    <message>
+      <source>FEM Analysis</source>
+      <translation>Analisi FEM</translation>
+    </message>
+    <message>
+      <source>Make an analysis of the selected lattice infill for the FEM workbench, of beams or of tetrahedra, ready for constraints</source>
+      <translation>Crea per l'ambiente FEM un'analisi del riempimento reticolare selezionato, di travi o di tetraedri, pronta per i vincoli</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_Help</name>
+    <message>
+      <source>Read about every command, and a tutorial of five minutes</source>
+      <translation>Tutto su ogni comando, e un'esercitazione di cinque minuti</translation>
+    </message>
+    <message>
+      <source>VOLFREP Help</source>
+      <translation>Guida di VOLFREP</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_LatticeInfill</name>
+    <message>
+      <source>Lattice Infill</source>
+      <translation>Riempimento reticolare</translation>
+    </message>
+    <message>
+      <source>Make the selected solid light: a closed skin and a strut lattice inside</source>
+      <translation>Alleggerisce il solido selezionato: un guscio chiuso e dentro un reticolo di aste</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_OpenFaces</name>
+    <message>
+      <source>Open Faces</source>
+      <translation>Apri facce</translation>
+    </message>
+    <message>
+      <source>Select a lattice infill and faces of its solid: they get no skin</source>
+      <translation>Seleziona un riempimento reticolare e facce del suo solido: resteranno senza guscio</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_PreviewOnly</name>
+    <message>
+      <source>Preview Only</source>
+      <translation>Solo anteprima</translation>
+    </message>
+    <message>
+      <source>Show the struts of the selected lattice infill and their figures without making a mesh; once more takes them away</source>
+      <translation>Mostra le aste del riempimento reticolare selezionato e i loro dati senza creare la mesh; di nuovo per toglierle</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_PrintCheck</name>
+    <message>
+      <source>Print Check</source>
+      <translation>Controllo di stampa</translation>
+    </message>
+    <message>
+      <source>See what hangs over, is too thin or holds powder when the selected lattice infill is printed</source>
+      <translation>Mostra ciò che sporge, è troppo sottile o trattiene polvere quando si stampa il riempimento reticolare selezionato</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_SectionView</name>
+    <message>
+      <source>Cut the selected lattice open on the screen, along a plane that can be moved; the lattice itself stays whole</source>
+      <translation>Apre sullo schermo il reticolo selezionato lungo un piano che si può spostare; il reticolo stesso resta intero</translation>
+    </message>
+    <message>
+      <source>Section View</source>
+      <translation>Vista in sezione</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_Statistics</name>
+    <message>
+      <source>Statistics</source>
+      <translation>Statistiche</translation>
+    </message>
+    <message>
+      <source>Tables of the selected lattice infills, or of all in the document: cells, struts, density, mass, times, memory</source>
+      <translation>Tabelle dei riempimenti reticolari selezionati, o di tutti quelli del documento: celle, aste, densità, massa, tempi, memoria</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_ToSolid</name>
+    <message>
+      <source>Lattice To Solid</source>
+      <translation>Reticolo in solido</translation>
+    </message>
+    <message>
+      <source>Make a Part solid of exact surfaces or of plane faces, links to its joints, or the struts' axes</source>
+      <translation>Crea un solido Part di superfici esatte o di facce piane, link ai suoi nodi, o gli assi delle aste</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_Update</name>
+    <message>
+      <source>Compute the selected lattice infill now, also with AutoUpdate off</source>
+      <translation>Calcola ora il riempimento reticolare selezionato, anche con AutoUpdate disattivato</translation>
+    </message>
+    <message>
+      <source>Update Lattice Infill</source>
+      <translation>Aggiorna riempimento reticolare</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepCells</name>
+    <message>
+      <source>Apply</source>
+      <translation>Applica</translation>
+    </message>
+    <message>
+      <source>Apply to {label}</source>
+      <translation>Applica a {label}</translation>
+    </message>
+    <message>
+      <source>Carries load by</source>
+      <translation>Porta il carico per</translation>
+    </message>
+    <message>
+      <source>Close</source>
+      <translation>Chiudi</translation>
+    </message>
+    <message>
+      <source>Drawn with L = {size:g} mm; every L can be given to an infill.</source>
+      <translation>Disegnata con L = {size:g} mm; a un riempimento si può dare qualsiasi L.</translation>
+    </message>
+    <message>
+      <source>File</source>
+      <translation>File</translation>
+    </message>
+    <message>
+      <source>From Selection</source>
+      <translation>Da selezione</translation>
+    </message>
+    <message>
+      <source>Give the picked cell to the selected lattice infill</source>
+      <translation>Assegna la cella scelta al riempimento reticolare selezionato</translation>
+    </message>
+    <message>
+      <source>Load Cell</source>
+      <translation>Carica cella</translation>
+    </message>
+    <message>
+      <source>Load...</source>
+      <translation>Carica...</translation>
+    </message>
+    <message>
+      <source>Make a cell of the straight edges of the selected sketches, wires or shapes; the cube about them is the cell</source>
+      <translation>Crea una cella dai bordi rettilinei degli schizzi, fili o forme selezionati; il cubo che li contiene è la cella</translation>
+    </message>
+    <message>
+      <source>Maxwell number</source>
+      <translation>Numero di Maxwell</translation>
+    </message>
+    <message>
+      <source>Nodes</source>
+      <translation>Nodi</translation>
+    </message>
+    <message>
+      <source>Read a cell of your own from a JSON file</source>
+      <translation>Legge una cella propria da un file JSON</translation>
+    </message>
+    <message>
+      <source>Save As...</source>
+      <translation>Salva con nome...</translation>
+    </message>
+    <message>
+      <source>Save Cell</source>
+      <translation>Salva cella</translation>
+    </message>
+    <message>
+      <source>Set Unit Cell</source>
+      <translation>Imposta cella unitaria</translation>
+    </message>
+    <message>
+      <source>Struts</source>
+      <translation>Aste</translation>
+    </message>
+    <message>
+      <source>Unit cell (*.json)</source>
+      <translation>Cella unitaria (*.json)</translation>
+    </message>
+    <message>
+      <source>Write the picked cell to a JSON file</source>
+      <translation>Scrive la cella scelta in un file JSON</translation>
+    </message>
+    <message>
+      <source>bending</source>
+      <translation>flessione</translation>
+    </message>
+    <message>
+      <source>not saved</source>
+      <translation>non salvata</translation>
+    </message>
+    <message>
+      <source>stretching</source>
+      <translation>trazione e compressione</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepCommands</name>
+    <message>
+      <source>Analyse '{label}' with:</source>
+      <translation>Analizza '{label}' con:</translation>
+    </message>
+    <message>
+      <source>Check Mesh: {label}</source>
+      <translation>Controlla mesh: {label}</translation>
+    </message>
+    <message>
+      <source>Make of '{label}':</source>
+      <translation>Ricava da '{label}':</translation>
+    </message>
+    <message>
+      <source>beams</source>
+      <translation>travi</translation>
+    </message>
+    <message>
+      <source>tetrahedra</source>
+      <translation>tetraedri</translation>
+    </message>
+    <message>
+      <source>{file}: {estimate}. Write it?</source>
+      <translation>{file}: {estimate}. Scriverlo?</translation>
+    </message>
+    <message>
+      <source>{label}: preview off</source>
+      <translation>{label}: anteprima tolta</translation>
+    </message>
+    <message>
+      <source>{label}: preview shown, figures in the report view</source>
+      <translation>{label}: anteprima mostrata, dati nella vista report</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepFigures</name>
+    <message>
+      <source>{cells:,} active cells, {struts:,} struts
+relative density {density:.3g} %, mass {mass:.4g} g
+about {triangles:.2g} million triangles, {size:.2g} MB as STL, {seconds:.2g} s to compute</source>
+      <translation>{cells:,} celle attive, {struts:,} aste
+densità relativa {density:.3g} %, massa {mass:.4g} g
+circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} s di calcolo</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepFormats</name>
+    <message>
+      <source>3MF</source>
+      <translation>3MF</translation>
+    </message>
+    <message>
+      <source>3MF, beams only</source>
+      <translation>3MF, solo travi</translation>
+    </message>
+    <message>
+      <source>3MF, fewer triangles</source>
+      <translation>3MF, meno triangoli</translation>
+    </message>
+    <message>
+      <source>3MF, mesh and beams</source>
+      <translation>3MF, mesh e travi</translation>
+    </message>
+    <message>
+      <source>CalculiX, beams</source>
+      <translation>CalculiX, travi</translation>
+    </message>
+    <message>
+      <source>CalculiX, tetrahedra</source>
+      <translation>CalculiX, tetraedri</translation>
+    </message>
+    <message>
+      <source>OBJ</source>
+      <translation>OBJ</translation>
+    </message>
+    <message>
+      <source>PLY</source>
+      <translation>PLY</translation>
+    </message>
+    <message>
+      <source>STEP, axes of the struts</source>
+      <translation>STEP, assi delle aste</translation>
+    </message>
+    <message>
+      <source>STEP, exact surfaces</source>
+      <translation>STEP, superfici esatte</translation>
+    </message>
+    <message>
+      <source>STEP, instances of joints</source>
+      <translation>STEP, istanze dei nodi</translation>
+    </message>
+    <message>
+      <source>STEP, plane faces</source>
+      <translation>STEP, facce piane</translation>
+    </message>
+    <message>
+      <source>STL</source>
+      <translation>STL</translation>
+    </message>
+    <message>
+      <source>STL, fewer triangles</source>
+      <translation>STL, meno triangoli</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepHelp</name>
+    <message>
+      <source>Back</source>
+      <translation>Indietro</translation>
+    </message>
+    <message>
+      <source>Contents</source>
+      <translation>Indice</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepJobs</name>
+    <message>
+      <source>Beams of {label}</source>
+      <translation>Travi di {label}</translation>
+    </message>
+    <message>
+      <source>Checking {label}</source>
+      <translation>Controllo di {label}</translation>
+    </message>
+    <message>
+      <source>Exact surfaces of {label}</source>
+      <translation>Superfici esatte di {label}</translation>
+    </message>
+    <message>
+      <source>Fewer triangles for {label}</source>
+      <translation>Meno triangoli per {label}</translation>
+    </message>
+    <message>
+      <source>Filling {label}</source>
+      <translation>Riempimento di {label}</translation>
+    </message>
+    <message>
+      <source>Instances of {label}</source>
+      <translation>Istanze di {label}</translation>
+    </message>
+    <message>
+      <source>Print check of {label}</source>
+      <translation>Controllo di stampa di {label}</translation>
+    </message>
+    <message>
+      <source>Struts of {label}</source>
+      <translation>Aste di {label}</translation>
+    </message>
+    <message>
+      <source>Tetrahedra of {label}</source>
+      <translation>Tetraedri di {label}</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepMessages</name>
+    <message>
+      <source>Cancelled.</source>
+      <translation>Annullato.</translation>
+    </message>
+    <message>
+      <source>{path} written</source>
+      <translation>{path} scritto</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepPreferences</name>
+    <message>
+      <source>A change that comes to more triangles waits for Update Lattice Infill</source>
+      <translation>Una modifica che comporta più triangoli attende Aggiorna riempimento reticolare</translation>
+    </message>
+    <message>
+      <source>A mesh of more triangles is shown by a coarse likeness; files stay full</source>
+      <translation>Una mesh con più triangoli è mostrata in forma grossolana; i file restano completi</translation>
+    </message>
+    <message>
+      <source>Cell size</source>
+      <translation>Dimensione cella</translation>
+    </message>
+    <message>
+      <source>Cell type</source>
+      <translation>Tipo di cella</translation>
+    </message>
+    <message>
+      <source>Colour of overhangs</source>
+      <translation>Colore degli sbalzi</translation>
+    </message>
+    <message>
+      <source>Colour of struts</source>
+      <translation>Colore delle aste</translation>
+    </message>
+    <message>
+      <source>Defaults</source>
+      <translation>Predefiniti</translation>
+    </message>
+    <message>
+      <source>Density</source>
+      <translation>Densità</translation>
+    </message>
+    <message>
+      <source>Density of the material, from which the mass comes</source>
+      <translation>Densità del materiale, da cui deriva la massa</translation>
+    </message>
+    <message>
+      <source>Deviation</source>
+      <translation>Scostamento</translation>
+    </message>
+    <message>
+      <source>Display</source>
+      <translation>Visualizzazione</translation>
+    </message>
+    <message>
+      <source>Display and limits</source>
+      <translation>Visualizzazione e limiti</translation>
+    </message>
+    <message>
+      <source>Edge length L of a cell; automatic: about four cells across the thinnest side of the part</source>
+      <translation>Lunghezza L dello spigolo di una cella; automatica: circa quattro celle sul lato più sottile della parte</translation>
+    </message>
+    <message>
+      <source>Facets along the edge of a cell; automatic: chosen by the deviation</source>
+      <translation>Faccette lungo lo spigolo di una cella; automatico: scelte in base allo scostamento</translation>
+    </message>
+    <message>
+      <source>For searching nearest points, measuring meshes and writing STL files; automatic: one on each core</source>
+      <translation>Per cercare i punti più vicini, misurare mesh e scrivere file STL; automatico: uno per ogni core</translation>
+    </message>
+    <message>
+      <source>In the preview and in the display mode Simplified</source>
+      <translation>Nell'anteprima e nel modo di visualizzazione Simplified</translation>
+    </message>
+    <message>
+      <source>Largest distance between a facet and the exact strut, where the resolution is automatic; automatic: by the strut radius</source>
+      <translation>Distanza massima tra una faccetta e l'asta esatta, dove la risoluzione è automatica; automatico: in base al raggio delle aste</translation>
+    </message>
+    <message>
+      <source>Lattice</source>
+      <translation>Reticolo</translation>
+    </message>
+    <message>
+      <source>Limits</source>
+      <translation>Limiti</translation>
+    </message>
+    <message>
+      <source>Material</source>
+      <translation>Materiale</translation>
+    </message>
+    <message>
+      <source>Mesh</source>
+      <translation>Mesh</translation>
+    </message>
+    <message>
+      <source>More struts than these are drawn as lines, in the preview and in the display mode Simplified</source>
+      <translation>Oltre questo numero le aste sono disegnate come linee, nell'anteprima e nel modo di visualizzazione Simplified</translation>
+    </message>
+    <message>
+      <source>New infill</source>
+      <translation>Nuovo riempimento</translation>
+    </message>
+    <message>
+      <source>Of a new infill, so that the lattice is seen through the skin</source>
+      <translation>Di un nuovo riempimento, perché il reticolo si veda attraverso il guscio</translation>
+    </message>
+    <message>
+      <source>Of a new print check</source>
+      <translation>Di un nuovo controllo di stampa</translation>
+    </message>
+    <message>
+      <source>Radius of the struts as a share of the cell size L</source>
+      <translation>Raggio delle aste come frazione della dimensione L della cella</translation>
+    </message>
+    <message>
+      <source>Resolution</source>
+      <translation>Risoluzione</translation>
+    </message>
+    <message>
+      <source>Show the values that VOLFREP comes with</source>
+      <translation>Mostra i valori originali di VOLFREP</translation>
+    </message>
+    <message>
+      <source>Skin thickness</source>
+      <translation>Spessore del guscio</translation>
+    </message>
+    <message>
+      <source>Strut radius</source>
+      <translation>Raggio delle aste</translation>
+    </message>
+    <message>
+      <source>Struts to show as solids</source>
+      <translation>Aste da mostrare come solidi</translation>
+    </message>
+    <message>
+      <source>The property AutoUpdate of a new infill; without it, use Update Lattice Infill</source>
+      <translation>La proprietà AutoUpdate di un nuovo riempimento; senza, si usa Aggiorna riempimento reticolare</translation>
+    </message>
+    <message>
+      <source>The unit cell of a new infill</source>
+      <translation>La cella unitaria di un nuovo riempimento</translation>
+    </message>
+    <message>
+      <source>Thickness of the closed skin; automatic: a fifth of the cell size</source>
+      <translation>Spessore del guscio chiuso; automatico: un quinto della dimensione della cella</translation>
+    </message>
+    <message>
+      <source>Threads</source>
+      <translation>Thread</translation>
+    </message>
+    <message>
+      <source>Transparency</source>
+      <translation>Trasparenza</translation>
+    </message>
+    <message>
+      <source>Triangles to show</source>
+      <translation>Triangoli da mostrare</translation>
+    </message>
+    <message>
+      <source>Triangles to wait at</source>
+      <translation>Triangoli oltre i quali attendere</translation>
+    </message>
+    <message>
+      <source>Update at every change</source>
+      <translation>Aggiorna a ogni modifica</translation>
+    </message>
+    <message>
+      <source>automatic</source>
+      <translation>automatico</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepProgress</name>
+    <message>
+      <source>Cancel</source>
+      <translation>Annulla</translation>
+    </message>
+    <message>
+      <source>Cancelling...</source>
+      <translation>Annullamento...</translation>
+    </message>
+    <message>
+      <source>Stop this job (Esc)</source>
+      <translation>Interrompi questo lavoro (Esc)</translation>
+    </message>
+    <message>
+      <source>check</source>
+      <translation>controllo</translation>
+    </message>
+    <message>
+      <source>compact</source>
+      <translation>riduzione</translation>
+    </message>
+    <message>
+      <source>lattice</source>
+      <translation>reticolo</translation>
+    </message>
+    <message>
+      <source>shell</source>
+      <translation>guscio</translation>
+    </message>
+    <message>
+      <source>tile</source>
+      <translation>tassello</translation>
+    </message>
+    <message>
+      <source>trim</source>
+      <translation>taglio</translation>
+    </message>
+    <message>
+      <source>voxels</source>
+      <translation>voxel</translation>
+    </message>
+    <message>
+      <source>write</source>
+      <translation>scrittura</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepReport</name>
+    <message>
+      <source>Close</source>
+      <translation>Chiudi</translation>
+    </message>
+    <message>
+      <source>Copy</source>
+      <translation>Copia</translation>
+    </message>
+    <message>
+      <source>Save Report</source>
+      <translation>Salva rapporto</translation>
+    </message>
+    <message>
+      <source>Save...</source>
+      <translation>Salva...</translation>
+    </message>
+    <message>
+      <source>The tables are on the clipboard.</source>
+      <translation>Le tabelle sono negli appunti.</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepSectionView</name>
+    <message>
+      <source>Across</source>
+      <translation>Perpendicolare a</translation>
+    </message>
+    <message>
+      <source>Other side</source>
+      <translation>Altro lato</translation>
+    </message>
+    <message>
+      <source>Section of {label}</source>
+      <translation>Sezione di {label}</translation>
+    </message>
+    <message>
+      <source>The axis that the plane lies across</source>
+      <translation>L'asse a cui il piano è perpendicolare</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepSolids</name>
+    <message>
+      <source>Axes of the struts</source>
+      <translation>Assi delle aste</translation>
+    </message>
+    <message>
+      <source>Links to one solid for each kind of joint</source>
+      <translation>Link a un solido per ogni tipo di nodo</translation>
+    </message>
+    <message>
+      <source>One solid of exact surfaces</source>
+      <translation>Un solido di superfici esatte</translation>
+    </message>
+    <message>
+      <source>One solid of plane faces</source>
+      <translation>Un solido di facce piane</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepTaskPanel</name>
+    <message>
+      <source>Boundary</source>
+      <translation>Bordo</translation>
+    </message>
+    <message>
+      <source>Cell size</source>
+      <translation>Dimensione cella</translation>
+    </message>
+    <message>
+      <source>Cells</source>
+      <translation>Celle</translation>
+    </message>
+    <message>
+      <source>Compute</source>
+      <translation>Calcola</translation>
+    </message>
+    <message>
+      <source>Lattice</source>
+      <translation>Reticolo</translation>
+    </message>
+    <message>
+      <source>Make the mesh of these values now and stay in this panel</source>
+      <translation>Crea ora la mesh di questi valori e resta in questo pannello</translation>
+    </message>
+    <message>
+      <source>Preview</source>
+      <translation>Anteprima</translation>
+    </message>
+    <message>
+      <source>Strut radius</source>
+      <translation>Raggio delle aste</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepWorkbench</name>
+    <message>
+      <source>Fill a solid with a strut lattice, ready for the printer</source>
+      <translation>Riempie un solido con un reticolo di aste, pronto per la stampante</translation>
+    </message>
+  </context>
+  <context>
+    <name>Workbench</name>
+    <message>
+      <source>Examples</source>
+      <translation>Esempi</translation>
+    </message>
+    <message>
+      <source>VOLFREP Results</source>
+      <translation>VOLFREP, risultati</translation>
+    </message>
+  </context>
+</TS>

@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The window in Italian and German, and in one of FreeCAD's dark themes: nothing is cut off."""
+
+import sys
+from pathlib import Path
+
+import FreeCAD as App
+import FreeCADGui as Gui
+from PySide import QtCore, QtGui
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from driving import answer_panel, check, failures, panel, picture, run, select, wait, wait_until
+
+GROUP = "User parameter:BaseApp/Preferences/Mod/VOLFREP"
+#: What FreeCAD calls the language, and words that must then be seen.
+LANGUAGES = {
+    "Italian": ("Riempimento reticolare", "guscio", "Dimensione cella", "celle attive"),
+    "German": ("Gitterfüllung", "Haut", "Zellgröße", "aktive Zellen"),
+    "English": ("Lattice Infill", "skin", "Cell size", "active cells"),
+}
+
+
+def commands():
+    """Tips of all our commands' buttons by their texts."""
+    tips = {}
+    for bar in Gui.getMainWindow().findChildren(QtGui.QToolBar):
+        if bar.windowTitle().startswith("VOLFREP"):
+            tips.update({a.text().replace("&", ""): a.toolTip() for a in bar.actions()})
+    return tips
+
+
+def cut_off(form):
+    """Texts of a form's widgets that have less room than they need."""
+    found = []
+    if form.visibleRegion().boundingRect().width() < form.width():
+        found.append(f"{form.objectName()} is {form.width()} wide and hangs over")
+    for widget in form.findChildren(QtGui.QWidget):
+        if isinstance(widget, (QtGui.QLabel, QtGui.QAbstractButton)) and widget.isVisible():
+            needed = widget.minimumSizeHint()
+            wraps = isinstance(widget, QtGui.QLabel) and widget.wordWrap()
+            if widget.text() and not wraps and widget.width() < needed.width():
+                found.append(f"{widget.text()}: {widget.width()} of {needed.width()}")
+    return found
+
+
+def speak(language, command, word, label, figure):
+    """One language: toolbar, panel, preferences."""
+    Gui.setLocale(language)
+    wait(1500)
+    box = App.ActiveDocument.getObject("Block")
+    check(f"{language}: the commands", word in commands().get(command, ""), commands())
+    select(box)
+    Gui.runCommand("VOLFREP_LatticeInfill", 0)
+    check(f"{language}: the panel opens", wait_until(lambda: panel() is not None, 20))
+    obj = App.ActiveDocument.getObject("LatticeInfill")
+    obj.RadiusGrading = "Direction"
+    wait(1500)
+    labels = [widget.text() for widget in panel().findChildren(QtGui.QLabel)]
+    check(f"{language}: the panel's labels", label in labels, labels)
+    figures = panel().findChild(QtGui.QLabel, "Figures").text()
+    check(f"{language}: its figures", figure in figures, figures)
+    choice = panel().findChild(QtGui.QComboBox, "Activation")
+    check(f"{language}: values stay what they are", choice.currentData() == "touching")
+    check(f"{language}: nothing is cut off in it", cut_off(panel()) == [], cut_off(panel()))
+    picture(f"language_{language}_1_panel")
+    choose_boundary(obj)
+    for button in Gui.getMainWindow().findChildren(QtGui.QDialogButtonBox):
+        if button.isVisible() and button.button(QtGui.QDialogButtonBox.Cancel):
+            button.button(QtGui.QDialogButtonBox.Cancel).click()
+            break
+    check(f"{language}: the panel closes", wait_until(lambda: panel() is None, 10))
+    preferences(language)
+
+
+def choose_boundary(obj):
+    """What is chosen in the user's words is set in the document's."""
+    choice = panel().findChild(QtGui.QComboBox, "Boundary")
+    choice.setCurrentIndex(choice.findData("whole"))
+    wait(300)
+    check("a translated choice sets the plain value", obj.Boundary == "whole", obj.Boundary)
+
+
+def preferences(language):
+    """Both pages, with room for their words."""
+
+    def look():
+        dialog = QtGui.QApplication.activeModalWidget()
+        for name in ("NewInfillPage", "DisplayPage"):
+            page = dialog.findChild(QtGui.QWidget, name)
+            for holder in dialog.findChildren(QtGui.QTabWidget):
+                for number in range(holder.count()):
+                    if holder.widget(number).isAncestorOf(page):
+                        holder.setCurrentIndex(number)
+            wait(300)
+            check(f"{language}: nothing is cut off in {name}", cut_off(page) == [], cut_off(page))
+            picture(f"language_{language}_2_{name}")
+        dialog.reject()
+
+    QtCore.QTimer.singleShot(2500, look)
+    Gui.showPreferences("VOLFREP", 0)
+
+
+def go_dark():
+    """The panel in one of FreeCAD's own dark themes."""
+    folder = Path(App.getResourceDir()) / "Gui" / "Stylesheets"
+    sheets = sorted(folder.glob("*[Dd]ark*.qss"))
+    if not sheets:
+        failures.append(f"FreeCAD has no dark theme in {folder}")
+        return
+    application = QtGui.QApplication.instance()
+    application.setStyleSheet(sheets[0].read_text(encoding="utf-8"))
+    wait(1000)
+    select(App.ActiveDocument.getObject("Block"))
+    Gui.runCommand("VOLFREP_LatticeInfill", 0)
+    wait_until(lambda: panel() is not None, 20)
+    obj = App.ActiveDocument.getObject("LatticeInfill")
+    wait(1000)
+    check("dark: nothing is cut off", cut_off(panel()) == [], cut_off(panel()))
+    picture("dark_1_panel")
+    obj.ShellThickness = 15
+    panel().findChild(QtGui.QWidget, "Preview").click()
+    wait(1000)
+    picture("dark_2_refused")
+    answer_panel("Cancel")
+    wait(500)
+    Gui.runCommand("VOLFREP_CellLibrary", 0)
+    wait(800)
+    picture("dark_3_cells")
+
+
+def drive():
+    """Every language, then the dark theme."""
+    App.ParamGet(GROUP).Clear()
+    Gui.activateWorkbench("VolfrepWorkbench")
+    wait(800)
+    doc = App.newDocument("Drive")
+    doc.UndoMode = 1
+    box = doc.addObject("Part::Box", "Block")
+    box.Length, box.Width, box.Height = 40, 30, 20
+    doc.recompute()
+    Gui.activeDocument().activeView().viewIsometric()
+    Gui.SendMsgToActiveView("ViewFit")
+    for language, expected in LANGUAGES.items():
+        speak(language, *expected)
+    go_dark()
+
+
+run(drive, "languages")

@@ -30,11 +30,18 @@ class Example:
     lattice: dict[str, Any]
 
 
+#: Facets coarser than by default: an example is there at once.
 EXAMPLES = {
     "Bracket": Example(
         "Bracket",
         make_bracket,
-        {"CellType": "CVC", "CellSize": 10, "StrutRadius": 1, "ShellThickness": 3},
+        {
+            "CellType": "CVC",
+            "CellSize": 10,
+            "StrutRadius": 1,
+            "ShellThickness": 3,
+            "Deviation": 0.05,
+        },
     ),
     "PistonRod": Example(
         "Piston rod",

@@ -17,7 +17,7 @@ from volfrep.errors import VolfrepError
 
 from .cell_picture import cell_icon
 from .command import undo_step
-from .messages import WRONG
+from .messages import WRONG, file_name
 from .qt import QtCore, QtWidgets
 from .selection import selected_infill, selected_with_edges
 
@@ -101,9 +101,9 @@ class CellLibrary(QtWidgets.QDialog):
         self._lay_out()
         for cell in LIBRARY.values():
             self._add(Entry(cell))
-        self._pick_that_of(selected_infill())
         self._list.currentItemChanged.connect(lambda *_: self._show())
-        self._show()
+        self._list.setCurrentRow(0)
+        self._pick_that_of(selected_infill())
         Gui.Selection.addObserver(self)
 
     # FreeCAD's selection tells its observers by these names.
@@ -232,7 +232,6 @@ class CellLibrary(QtWidgets.QDialog):
         """Pick the cell that an infill has; one from a file is added."""
         name = "CVC" if infill is None else infill.CellType
         if name == CUSTOM_CELL and infill.CellFile:
-            self._list.setCurrentRow(0)
             self.load(infill.CellFile)
             return
         for item in self._list.findItems(name, QtCore.Qt.MatchExactly):
@@ -300,7 +299,7 @@ class CellLibrary(QtWidgets.QDialog):
             self.load(path)
 
     def _ask_and_save(self) -> bool:
-        proposed = Path.home() / f"{self._entry().cell.name}.json"
+        proposed = Path.home() / f"{file_name(self._entry().cell.name)}.json"
         path, _ = QtWidgets.QFileDialog.getSaveFileName(
             self, translate(_CONTEXT, "Save Cell"), str(proposed), translate(_CONTEXT, FILTER)
         )

@@ -15,7 +15,7 @@ from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 from volfrep.errors import VolfrepError
 
 from .command import Command, undo_step
-from .messages import ask, choose, errors_shown, tell, tell_error, tell_written
+from .messages import ask, choose, errors_shown, file_name, tell, tell_error, tell_written
 from .qt import QtWidgets
 from .selection import (
     infill_in_view,
@@ -156,7 +156,7 @@ def export(obj: App.DocumentObject) -> None:
     path, chosen = QtWidgets.QFileDialog.getSaveFileName(
         Gui.getMainWindow(),
         translate("VOLFREP_Export", "Export Lattice"),
-        str(folder / f"{obj.Label}.stl"),
+        str(folder / f"{file_name(obj.Label)}.stl"),
         ";;".join(formats),
     )
     if not path:

@@ -62,6 +62,11 @@ def choose(label: str, items: list[str], refused: list[str]) -> str | None:
     return str(item) if taken else None
 
 
+def file_name(label: str) -> str:
+    """A name to propose for a file, of what a user has called an object."""
+    return "".join("_" if letter in '/\\:*?"<>|' else letter for letter in label)
+
+
 @contextmanager
 def errors_shown(box: bool = False) -> Iterator[None]:
     """Run a block whose bad-input errors are told to the user, in a box or without."""

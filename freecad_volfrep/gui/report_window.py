@@ -10,7 +10,7 @@ import FreeCADGui as Gui
 from freecad_volfrep.features.tables import Table, as_csv, as_html
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 
-from .messages import errors_shown, tell, tell_written
+from .messages import errors_shown, file_name, tell, tell_written
 from .qt import QtWidgets
 
 #: Of the window, px.
@@ -66,7 +66,7 @@ class ReportWindow(QtWidgets.QDialog):
         path, chosen = QtWidgets.QFileDialog.getSaveFileName(
             self,
             translate("VolfrepReport", "Save Report"),
-            str(Path.home() / f"{self._name}.csv"),
+            str(Path.home() / f"{file_name(self._name)}.csv"),
             f"{CSV};;{HTML}",
         )
         if not path:

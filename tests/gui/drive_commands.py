@@ -433,6 +433,14 @@ def use_the_cell_library(doc, obj):
     wait_until(lambda: obj.CellType == "CVC", 30)
     check("a cell of the library can be applied", obj.CellType == "CVC" and obj.isValid())
     close("VolfrepCellLibrary")
+    obj.AutoUpdate, obj.CellFile, obj.CellType = False, str(bad), "Custom"
+    click(toolbar_button("Cell Library"))
+    wait_until(lambda: window("VolfrepCellLibrary") is not None, 10)
+    note = window("VolfrepCellLibrary").findChild(QtGui.QLabel, "Note")
+    check("what is wrong with the infill's own cell is told", "node 1 lies" in note.text())
+    close("VolfrepCellLibrary")
+    obj.CellFile, obj.CellType, obj.AutoUpdate = "", "CVC", True
+    doc.recompute()
     for part in (cube, diagonal, arc):
         doc.removeObject(part.Name)
 

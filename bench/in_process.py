@@ -89,21 +89,25 @@ def unvoxelised(part: str, cell: str, out: str) -> dict[str, Any]:
 
 
 def profile(cell: str, out: str, part: str | None = None) -> dict[str, Any]:
-    """A part, or a block of 10 x 10 x 10 cells where there is none: where the time is spent.
+    """The command on a part, or on a block of 10 x 10 x 10 cells where there is none, profiled.
 
     By the functions' own time, without those that they call.
     """
-    from volfrep import LatticeSpec, block, fill, read_solid
-    from volfrep.export import write_mesh
-
+    report = Path(out).with_suffix(".json")
+    job = ["block", "--count", "10", "10", "10"]
+    if part is not None:
+        job = ["fill", part, "--shell", f"{SHELL:g}"]
+    lattice = ["--cell", cell, "--cell-size", f"{SIZE:g}", "--strut-radius", f"{RADIUS:g}"]
     profiler = cProfile.Profile()
     profiler.enable()
-    spec = LatticeSpec(cell=cell, cell_size=SIZE, strut_radius=RADIUS, shell=SHELL)
-    result = block(spec, (10, 10, 10)) if part is None else fill(read_solid(part), spec)
-    start = time.perf_counter()
-    write_mesh(result.mesh, out)
-    stages = {**result.report.stages, "write": time.perf_counter() - start}
+    from volfrep import cli  # its imports are part of the command
+
+    code = cli.run([*job, "-o", out, *lattice, "--quiet", "--report", str(report)])
     profiler.disable()
+    if code:
+        raise RuntimeError(f"the command ended with exit code {code}")
+    stages = json.loads(report.read_text(encoding="utf-8"))["stages"]
+    report.unlink()
     table: Any = pstats.Stats(profiler)
     entries = sorted(table.stats.items(), key=lambda item: -item[1][2])
     top = [

@@ -102,7 +102,7 @@ def _rows(context: Context) -> Iterator[Row]:
     yield {**our_block(context, "CVC", SMALL), "kind": "small", "setting": "default, L / 15"}
     if not context.quick:
         yield _peer(context, "gmsh", "gmsh, OpenCASCADE fuse", "CVC", 15, "L / 15", SMALL)
-    yield freecad_fuse(context, "CVC", 0.02, context.folder / "fused.stl")
+        yield freecad_fuse(context, "CVC", 0.02, context.folder / "fused.stl")
 
 
 def _peer(

@@ -15,7 +15,7 @@ from ..tables import Column, PowerLaw, Row, bar, measured, power_law, table
 #: Cells along an edge, by what is asked of the facets.
 SERIES: dict[str, tuple[tuple[str, ...], tuple[int, ...]]] = {
     "L / 8": (("--resolution", "8"), (10, 20, 26, 40, 50)),
-    "default, L / 15": ((), (10, 20, 26)),
+    "default, L / 15": ((), (10, 20, 26, 40)),
 }
 QUICK = {"L / 8": (10, 20, 26), "default, L / 15": (10, 20)}
 #: Bytes of a file for each cell, generously.

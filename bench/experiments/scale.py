@@ -22,8 +22,8 @@ QUICK = {"L / 8": (10, 20, 26), "default, L / 15": (10, 20)}
 BYTES_PER_CELL = {"L / 8": 60_000, "default, L / 15": 110_000}
 MOST_BEAM_CELLS, QUICK_BEAM_CELLS = 100, 46
 BAR_26, BAR_EXPONENT, BAR_MEMORY_MB = 12.0, 1.05, 4096.0
-#: Below this the start of the process is most of the time.
-LEAST_CELLS_FITTED = 1000
+#: Below the first the start of the process is most of the time, from the second on little of it.
+LEAST_CELLS_FITTED, LARGE = 1000, 8000
 
 
 def measure(context: Context) -> dict[str, Any]:
@@ -49,11 +49,11 @@ def measure(context: Context) -> dict[str, Any]:
 def _bars(context: Context, rows: list[Row]) -> list[Row]:
     bars = []
     for setting in SERIES:
-        found = _fitted(rows, setting)
-        exponent = _law(found).exponent if len(found) > 2 else None
-        bars.append(
-            bar(f"exponent of time against CVC cells, {setting}", exponent, BAR_EXPONENT, "")
-        )
+        for least in (LEAST_CELLS_FITTED, LARGE):
+            found = _fitted(rows, setting, least)
+            exponent = _law(found).exponent if len(found) > 1 else None
+            name = f"exponent of time against CVC cells, {setting}, from {least:,} cells on"
+            bars.append(bar(name, exponent, BAR_EXPONENT, "", ".3f"))
     if not context.quick:
         by_job = {(row["setting"], row["cells"]): row for row in rows}
         row = by_job["default, L / 15", 26**3]
@@ -89,11 +89,11 @@ def _has_time() -> bool:
     return shutil.which("time") is not None
 
 
-def _fitted(rows: list[Row], setting: str) -> list[Row]:
+def _fitted(rows: list[Row], setting: str, least: int) -> list[Row]:
     return [
         row
         for row in measured(rows, "seconds", "triangles")
-        if row["setting"] == setting and row["cells"] >= LEAST_CELLS_FITTED
+        if row["setting"] == setting and row["cells"] >= least
     ]
 
 
@@ -106,19 +106,16 @@ def render(result: dict[str, Any], images: Path) -> str:
     rows = result["rows"]
     laws, data = [], []
     for setting in SERIES:
-        found = _fitted(rows, setting)
+        found, large = (_fitted(rows, setting, least) for least in (LEAST_CELLS_FITTED, LARGE))
         cells = [row["cells"] for row in found]
         data.append(plots.Line(setting, cells, [row["seconds"] for row in found]))
-        if len(found) < 3:
+        if len(large) < 2:
             continue
-        law = _law(found)
-        largest = max(cells)
+        law, whole = _law(large), _law(found)
         minute = law.inverse(60.0)
-        beyond = "" if minute <= largest else f" (extrapolated from {largest:,})"
+        beyond = "" if minute <= max(cells) else f" (extrapolated from {max(cells):,})"
         laws.append(
-            f"- {setting}: exponent **{law.exponent:.3f}** (R2 {law.r2:.4f}, log-log least squares, "
-            f"from {min(cells):,} cells on; between the two largest "
-            f"{_law(found[-2:]).exponent:.3f}); in one minute {minute:,.0f} cells{beyond}."
+            f"- {setting}: exponent **{law.exponent:.3f}** from {LARGE:,} cells on (R2 {law.r2:.4f}, log-log least squares), {whole.exponent:.3f} from {min(cells):,} on (R2 {whole.r2:.4f}; the start of the process flattens it); by the first, {minute:,.0f} cells in one minute{beyond}."
         )
     data.append(plots.Line("paper: one hour (text)", [CELLS_IN_AN_HOUR], [3600.0], "*"))
     plot = plots.lines(

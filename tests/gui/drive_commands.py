@@ -47,10 +47,11 @@ def drive():
     """The whole session."""
     Gui.activateWorkbench(HOME)
     wait(800)
-    show_report_view()
     step(every_command_is_known)
     step(the_commands_without_a_document)
     doc, box, obj = step(fill_a_box)
+    show_report_view()
+    look_at_all()
     step(preview_without_a_mesh, doc, box, obj)
     step(type_a_radius, doc, obj)
     step(check_the_mesh, doc, obj)

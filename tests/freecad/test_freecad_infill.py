@@ -365,15 +365,11 @@ def test_a_copy_works_by_itself(doc, infill, runs):
 def test_cancelled_keeps_the_last_mesh(doc, infill, monkeypatch):
     before = digest(infill)
 
-    class Impatient:
-        def __enter__(self):
-            return lambda fraction, stage: False
-
-        def __exit__(self, *error):
-            return False
+    def cancelled_at_once(title, work):
+        return work(lambda fraction, stage: False)
 
     with monkeypatch.context() as patch:
-        patch.setattr(lattice_infill, "progress_of", lambda title: Impatient())
+        patch.setattr(lattice_infill, "run_job", cancelled_at_once)
         infill.StrutRadius = 0.8
         doc.recompute()
     assert not infill.isValid()

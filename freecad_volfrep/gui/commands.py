@@ -294,7 +294,7 @@ def show_example(name: str) -> None:
 
     with errors_shown():
         infill = open_example(name)
-        infill.Base.Visibility = False
+        infill.Base.Visibility = not infill.Mesh.CountFacets  # the part, where it was cancelled
         Gui.activeDocument().activeView().viewIsometric()
         Gui.SendMsgToActiveView("ViewFit")
 

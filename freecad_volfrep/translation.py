@@ -11,6 +11,7 @@ errors, which a search for their words should find.
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import FreeCAD as App
@@ -20,10 +21,14 @@ QT_TRANSLATE_NOOP = App.Qt.QT_TRANSLATE_NOOP
 #: Compiled: volfrep_de.qm and the like.
 TRANSLATIONS = Path(__file__).resolve().parent / "resources" / "translations"
 
-__all__ = ["QT_TRANSLATE_NOOP", "TRANSLATIONS", "translate", "words"]
+__all__ = ["QT_TRANSLATE_NOOP", "TRANSLATIONS", "marked", "spaced", "translate"]
 
 
-def words(name: str) -> str:
-    """The name of a property as words: RadiusMin as 'Radius min'."""
-    text = "".join(f" {letter.lower()}" if letter.isupper() else letter for letter in name)
-    return text.strip().capitalize()
+def marked(context: str, *texts: str) -> tuple[str, ...]:
+    """Mark many texts that others write, to be translated where they are shown."""
+    return texts
+
+
+def spaced(name: str) -> str:
+    """A property's name as FreeCAD's property editor shows and translates it: 'Radius Min'."""
+    return re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name)

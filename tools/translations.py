@@ -109,11 +109,13 @@ def _marked(function: str, values: list[str | None]) -> list[Text]:
     found = []
     if function in _MARKS and len(values) == 2 and None not in values:
         found.append((values[0], values[1]))
+    elif function == "marked" and values[0]:
+        found += [(values[0], text) for text in values[1:] if text]
     elif function in _TABLES:
         context, places = _TABLES[function]
         found += [(context, values[k]) for k in places if k < len(values) and values[k]]
         if context == "App::Property" and len(values) > 1 and values[1]:
-            found.append((context, _words(values[1])))
+            found.append((context, _spaced(values[1])))
     elif function == "Command" and len(values) > 4 and values[0]:
         found += [(values[0], values[2]), (values[0], values[3])]
     elif function == "_example":
@@ -121,10 +123,9 @@ def _marked(function: str, values: list[str | None]) -> list[Text]:
     return found
 
 
-def _words(name: str) -> str:
-    """As `freecad_volfrep.translation.words`, which only FreeCAD can import."""
-    text = "".join(f" {letter.lower()}" if letter.isupper() else letter for letter in name)
-    return text.strip().capitalize()
+def _spaced(name: str) -> str:
+    """As `freecad_volfrep.translation.spaced`, which only FreeCAD can import."""
+    return re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name)
 
 
 def main() -> int:

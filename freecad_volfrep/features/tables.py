@@ -6,6 +6,7 @@ from __future__ import annotations
 import csv
 import html
 import io
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -41,18 +42,23 @@ def shown(value: Any) -> str:
     return str(value)
 
 
-def as_html(tables: list[Table]) -> str:
-    """The tables as a document that a window shows and a browser opens."""
+def as_html(tables: list[Table], said: Callable[[str], str] = str) -> str:
+    """The tables as a document that a window shows and a browser opens.
+
+    `said` gives titles, names and words in the user's language; what it does not know it returns.
+    """
     parts = ['<!DOCTYPE html><html><head><meta charset="utf-8"></head><body>']
     for table in tables:
-        parts.append(f"<h3>{html.escape(table.title)}</h3>")
+        parts.append(f"<h3>{html.escape(said(table.title))}</h3>")
         parts.append('<table cellspacing="0" cellpadding="3">')
         if table.header:
-            cells = "".join(f'<th align="left">{html.escape(name)}</th>' for name in table.header)
+            cells = "".join(
+                f'<th align="left">{html.escape(said(name))}</th>' for name in table.header
+            )
             parts.append(f"<tr>{cells}</tr>")
         for first, *others in table.rows:
-            cells = "".join(f"<td>{html.escape(shown(value))}</td>" for value in others)
-            parts.append(f"<tr><td>{html.escape(str(first))}&nbsp;&nbsp;</td>{cells}</tr>")
+            cells = "".join(f"<td>{html.escape(said(shown(value)))}</td>" for value in others)
+            parts.append(f"<tr><td>{html.escape(said(str(first)))}&nbsp;&nbsp;</td>{cells}</tr>")
         parts.append("</table>")
     return "\n".join([*parts, "</body></html>"])
 

@@ -11,7 +11,7 @@ import FreeCAD as App
 import FreeCADGui as Gui
 
 from freecad_volfrep.deps import missing_packages
-from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
+from freecad_volfrep.translation import QT_TRANSLATE_NOOP, marked, translate
 from volfrep.errors import VolfrepError
 
 from .command import Command, undo_step
@@ -27,10 +27,7 @@ from .selection import (
 )
 
 #: Names of FEM models, marked for translation.
-MODEL_NAMES = (
-    QT_TRANSLATE_NOOP("VolfrepCommands", "beams"),
-    QT_TRANSLATE_NOOP("VolfrepCommands", "tetrahedra"),
-)
+MODEL_NAMES = marked("VolfrepCommands", "beams", "tetrahedra")
 
 
 def fillable_selection() -> list[App.DocumentObject] | None:

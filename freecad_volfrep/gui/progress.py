@@ -18,7 +18,7 @@ from typing import TypeVar
 
 import FreeCADGui as Gui
 
-from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
+from freecad_volfrep.translation import marked, translate
 from volfrep.errors import VolfrepError
 from volfrep.progress import ProgressCallback
 
@@ -30,15 +30,8 @@ SHOW_AFTER = 700
 BREATH = 0.02
 _STEPS = 1000
 #: The engine's names of its stages, marked for translation.
-STAGES = (
-    QT_TRANSLATE_NOOP("VolfrepProgress", "shell"),
-    QT_TRANSLATE_NOOP("VolfrepProgress", "voxels"),
-    QT_TRANSLATE_NOOP("VolfrepProgress", "tile"),
-    QT_TRANSLATE_NOOP("VolfrepProgress", "lattice"),
-    QT_TRANSLATE_NOOP("VolfrepProgress", "trim"),
-    QT_TRANSLATE_NOOP("VolfrepProgress", "check"),
-    QT_TRANSLATE_NOOP("VolfrepProgress", "compact"),
-    QT_TRANSLATE_NOOP("VolfrepProgress", "write"),
+STAGES = marked(
+    "VolfrepProgress", "shell", "voxels", "tile", "lattice", "trim", "check", "compact", "write"
 )
 _EVENT = QtCore.QEvent
 #: What a user does, none of which may reach FreeCAD while a job runs.

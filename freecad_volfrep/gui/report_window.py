@@ -8,7 +8,7 @@ from pathlib import Path
 import FreeCADGui as Gui
 
 from freecad_volfrep.features.tables import Table, as_csv, as_html
-from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
+from freecad_volfrep.translation import QT_TRANSLATE_NOOP, marked, translate
 
 from .messages import errors_shown, file_name, tell, tell_written
 from .qt import QtWidgets
@@ -22,6 +22,26 @@ COPY, SAVE, CLOSE = (
     QT_TRANSLATE_NOOP("VolfrepReport", "Save..."),
     QT_TRANSLATE_NOOP("VolfrepReport", "Close"),
 )
+#: What stands in tables, marked for translation; saved tables stay English.
+WORDS = marked(
+    "VolfrepReport",
+    "Inputs", "Result of the last update", "Seconds by stage",
+    "Peak memory at the end of each stage, MB",
+    "Triangles and the file's single precision", "Surfaces that run through each other",
+    "FreeCAD's own checks",
+    "cell", "cell size, mm", "strut radius, mm", "skin, mm", "density, g/cm3", "output", "status",
+    "active cells", "cells of the grid", "struts", "joints", "shortest and longest strut, mm",
+    "smallest and largest radius, mm", "relative density, %", "volume, mm3", "area, mm2",
+    "mass, g", "triangles", "vertices", "bodies", "closed voids", "through-holes", "watertight",
+    "struts removed, free end", "short stubs removed", "loose pieces removed", "all", "most",
+    "shell", "voxels", "tile", "lattice", "trim", "check", "yes", "no", "none", "found",
+    "closed", "manifold", "voids", "genus", "volume", "area", "box", "from", "smallest angle",
+    "as a file holds it", "step of its numbers", "shortest edge", "mean radius ratio",
+    "smallest radius ratio", "along lines through it", "every place inside is enclosed once",
+    "every triangle keeps its corners", "non-manifold edges or points",
+    "wrongly oriented triangles", "corrupted triangles", "invalid points", "wrong neighbours",
+    "a solid", "triangles that cross (FreeCAD)",
+)  # fmt: skip
 
 
 class ReportWindow(QtWidgets.QDialog):
@@ -40,7 +60,7 @@ class ReportWindow(QtWidgets.QDialog):
         self.resize(*SIZE)
         self._name, self._tables = name, tables
         self.text = QtWidgets.QTextBrowser()
-        self.text.setHtml(as_html(tables))
+        self.text.setHtml(as_html(tables, lambda text: str(translate("VolfrepReport", text))))
         column = QtWidgets.QVBoxLayout(self)
         column.addWidget(self.text)
         line = QtWidgets.QHBoxLayout()

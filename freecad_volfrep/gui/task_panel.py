@@ -10,7 +10,7 @@ import FreeCAD as App
 import FreeCADGui as Gui
 
 from freecad_volfrep.features.live_preview import LivePreview
-from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate, words
+from freecad_volfrep.translation import QT_TRANSLATE_NOOP, marked, spaced, translate
 from volfrep.errors import VolfrepError
 
 from .cell_picture import cell_icon
@@ -43,23 +43,10 @@ CELLS = QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Cells")
 #: Above this group are the figures: what is used most is seen without scrolling.
 SECOND = "Boundary"
 #: Values of the properties that are chosen from lists, marked for translation.
-VALUES = (
-    QT_TRANSLATE_NOOP("App::Property", "touching"),
-    QT_TRANSLATE_NOOP("App::Property", "centre"),
-    QT_TRANSLATE_NOOP("App::Property", "inside"),
-    QT_TRANSLATE_NOOP("App::Property", "trim"),
-    QT_TRANSLATE_NOOP("App::Property", "whole"),
-    QT_TRANSLATE_NOOP("App::Property", "None"),
-    QT_TRANSLATE_NOOP("App::Property", "Scalar"),
-    QT_TRANSLATE_NOOP("App::Property", "Linear"),
-    QT_TRANSLATE_NOOP("App::Property", "Quadratic"),
-    QT_TRANSLATE_NOOP("App::Property", "Exponential"),
-    QT_TRANSLATE_NOOP("App::Property", "Formula"),
-    QT_TRANSLATE_NOOP("App::Property", "Direction"),
-    QT_TRANSLATE_NOOP("App::Property", "Skin"),
-    QT_TRANSLATE_NOOP("App::Property", "Core"),
-    QT_TRANSLATE_NOOP("App::Property", "Field"),
-)
+VALUES = marked(
+    "App::Property", "touching", "centre", "inside", "trim", "whole", "None", "Scalar", "Linear",
+    "Quadratic", "Exponential", "Formula", "Direction", "Skin", "Core", "Field",
+)  # fmt: skip
 #: Least width of a field, px: the panel must fit beside FreeCAD's tree.
 FIELD = 82
 _HIDDEN = "Hidden"
@@ -160,7 +147,7 @@ class TaskPanel:
             rows.setContentsMargins(6, 4, 6, 4)
             rows.setRowWrapPolicy(QtWidgets.QFormLayout.WrapLongRows)
             for name in names:
-                label, widget = QtWidgets.QLabel(_property(words(name))), self._editor(name)
+                label, widget = QtWidgets.QLabel(_label(name)), self._editor(name)
                 widget.setObjectName(name)
                 widget.setMinimumWidth(FIELD)
                 widget.setToolTip(_property(self._obj.getDocumentationOfProperty(name)))
@@ -285,6 +272,13 @@ class TaskPanel:
         Gui.Control.closeDialog()
         if Gui.ActiveDocument is not None:
             Gui.ActiveDocument.resetEdit()
+
+
+def _label(name: str) -> str:
+    """A property's name in the user's words; in English only its first letter is a capital."""
+    text = spaced(name)
+    said = _property(text)
+    return text.capitalize() if said == text else said
 
 
 def _property(text: str) -> str:

@@ -84,7 +84,9 @@ class LatticeInfillView:
         """Open the task panel."""
         from .task_panel import TaskPanel
 
-        Gui.Control.showDialog(TaskPanel(view.Object, f"Edit {view.Object.Label}"))
+        Gui.Control.showDialog(
+            TaskPanel(view.Object, translate("VOLFREP_Edit", "Edit Lattice Infill"))
+        )
         return True
 
     def unsetEdit(self, view: Any, mode: int = 0) -> bool:  # noqa: N802

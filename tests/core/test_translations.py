@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The window's texts: each one is in every language, with what is put in; nothing else is."""
 
+import ast
 import importlib.util
+import re
 import string
 from pathlib import Path
 
@@ -26,9 +28,36 @@ def test_the_sources_were_read():
     contexts = {context for context, _ in TEXTS}
     assert {"App::Property", "VOLFREP_LatticeInfill", "VolfrepPreferences", "Workbench"} <= contexts
     assert ("VOLFREP_LatticeInfill", "Lattice Infill") in TEXTS
-    assert ("App::Property", "Cell size") in TEXTS
+    assert ("App::Property", "Cell Size") in TEXTS
     assert ("VolfrepJobs", "Filling {label}") in TEXTS
     assert len(TEXTS) > 300
+
+
+#: Functions that show their arguments to the user.
+SHOWING = {
+    "tell", "tell_error", "show_error", "ask", "choose", "QLabel", "QPushButton", "QCheckBox",
+    "QGroupBox", "setToolTip", "setWindowTitle", "setText", "addAction", "addItem", "addRow",
+    "undo_step", "openTransaction", "progress_of", "run_job", "setPlaceholderText", "setSuffix",
+}  # fmt: skip
+
+
+def written_out(argument):
+    """The words in an argument that is a text, without HTML's."""
+    parts = argument.values if isinstance(argument, ast.JoinedStr) else [argument]
+    texts = [part.value for part in parts if isinstance(part, ast.Constant)]
+    return re.findall(r"[A-Za-z]{3,}", re.sub(r"<[^>]*>", "", "".join(map(str, texts))))
+
+
+def test_no_words_are_shown_that_nobody_could_translate():
+    found = []
+    for path in (ROOT / "freecad_volfrep").rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            name = getattr(getattr(node, "func", None), "id", None)
+            name = name or getattr(getattr(node, "func", None), "attr", None)
+            if isinstance(node, ast.Call) and name in SHOWING:
+                words = [word for argument in node.args for word in written_out(argument)]
+                found += [(path.name, node.lineno, words)] if words else []
+    assert found == []
 
 
 def test_there_are_italian_and_german():

@@ -3,6 +3,7 @@
 
 import csv
 import io
+from xml.etree import ElementTree
 
 import FreeCAD as App
 import Mesh
@@ -13,6 +14,7 @@ from freecad_volfrep import make_lattice_infill
 from freecad_volfrep.features.mesh_check import check_mesh
 from freecad_volfrep.features.statistics import infills_of, statistics
 from freecad_volfrep.features.tables import Table, as_csv, as_html
+from freecad_volfrep.translation import TRANSLATIONS
 from volfrep.errors import VolfrepError
 
 
@@ -36,6 +38,22 @@ def test_a_lattice_is_without_defects(infill):
     assert rows["along lines through it"] == "every place inside is enclosed once"
     assert rows["triangles that cross (FreeCAD)"] == "none"
     assert rows["a solid"] == "yes"
+
+
+def test_every_name_in_the_tables_has_its_translation(infill):
+    tables = [*check_mesh(infill)[1:], *statistics([infill])]
+    names = {row[0] for table in [check_mesh(infill)[0], *tables] for row in table.rows}
+    names |= {table.title for table in tables}
+    for path in TRANSLATIONS.glob("*.ts"):
+        known = {message.findtext("source") for message in ElementTree.parse(path).iter("message")}
+        assert names - known == set(), path.name
+
+
+def test_a_window_may_say_tables_in_other_words():
+    table = Table("Sizes", (("cell", 3, True),), ("", "A", "B"))
+    said = {"Sizes": "Größen", "cell": "Zelle", "yes": "ja"}
+    text = as_html([table], lambda word: said.get(word, word))
+    assert all(word in text for word in ("Größen", "Zelle", "ja", "3"))
 
 
 def test_any_mesh_is_checked_where_it_lies(doc):

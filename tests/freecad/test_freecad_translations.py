@@ -7,7 +7,7 @@ import pytest
 from PySide import QtCore
 
 from freecad_volfrep.features.progress import job_title
-from freecad_volfrep.translation import TRANSLATIONS, translate, words
+from freecad_volfrep.translation import TRANSLATIONS, spaced, translate
 
 FILES = sorted(TRANSLATIONS.glob("volfrep_*.ts"))
 
@@ -31,5 +31,5 @@ def test_without_a_translation_a_text_is_itself(box):
 
 
 def test_names_of_properties_are_read_as_words():
-    assert words("RadiusMin") == "Radius min"
-    assert words("Base") == "Base"
+    assert spaced("RadiusMin") == "Radius Min"
+    assert spaced("Base") == "Base"

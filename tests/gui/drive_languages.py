@@ -80,6 +80,25 @@ def choose_boundary(obj):
     check("a translated choice sets the plain value", obj.Boundary == "whole", obj.Boundary)
 
 
+def tables(language, word):
+    """The window of figures says them in the user's words."""
+    from freecad_volfrep import make_lattice_infill
+
+    doc = App.ActiveDocument
+    obj = make_lattice_infill(doc, doc.Block, CellSize=10, Resolution=10)
+    doc.recompute()
+    select(obj)
+    Gui.runCommand("VOLFREP_Statistics", 0)
+    wait(800)
+    window = Gui.getMainWindow().findChild(QtGui.QDialog, "VolfrepReport")
+    text = window.findChild(QtGui.QTextBrowser).toPlainText()
+    check(f"{language}: the tables' names", word in text, text[:200])
+    picture(f"language_{language}_3_statistics")
+    window.close()
+    doc.removeObject(obj.Name)
+    wait(300)
+
+
 def preferences(language):
     """Both pages, with room for their words."""
 
@@ -142,6 +161,8 @@ def drive():
     Gui.SendMsgToActiveView("ViewFit")
     for language, expected in LANGUAGES.items():
         speak(language, *expected)
+        if language == "German":
+            tables(language, "Zellen des Rasters")
     go_dark()
 
 

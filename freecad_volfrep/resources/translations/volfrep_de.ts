@@ -29,7 +29,7 @@
       <translation>Alle Zahlen, zum Lesen</translation>
     </message>
     <message>
-      <source>Auto update</source>
+      <source>Auto Update</source>
       <translation>Automatisch aktualisieren</translation>
     </message>
     <message>
@@ -57,32 +57,36 @@
       <translation>Rand</translation>
     </message>
     <message>
-      <source>Build direction</source>
+      <source>Build Direction</source>
       <translation>Baurichtung</translation>
     </message>
     <message>
-      <source>Cell edges</source>
+      <source>Cell Edges</source>
       <translation>Zellkanten</translation>
     </message>
     <message>
-      <source>Cell file</source>
+      <source>Cell File</source>
       <translation>Zelldatei</translation>
     </message>
     <message>
-      <source>Cell map</source>
+      <source>Cell Map</source>
       <translation>Zellanordnung</translation>
     </message>
     <message>
-      <source>Cell size</source>
+      <source>Cell Size</source>
       <translation>Zellgröße</translation>
     </message>
     <message>
-      <source>Cell type</source>
+      <source>Cell Type</source>
       <translation>Zelltyp</translation>
     </message>
     <message>
-      <source>Cells active</source>
+      <source>Cells Active</source>
       <translation>Aktive Zellen</translation>
+    </message>
+    <message>
+      <source>Cells Total</source>
+      <translation>Zellen gesamt</translation>
     </message>
     <message>
       <source>Cells along straight axes, about an axis, or about a centre</source>
@@ -109,10 +113,6 @@
       <translation>Zellen, die Gitter enthalten</translation>
     </message>
     <message>
-      <source>Cells total</source>
-      <translation>Zellen gesamt</translation>
-    </message>
-    <message>
       <source>Closed cavities</source>
       <translation>Geschlossene Hohlräume</translation>
     </message>
@@ -133,7 +133,7 @@
       <translation>Kern</translation>
     </message>
     <message>
-      <source>Dangling removed</source>
+      <source>Dangling Removed</source>
       <translation>Lose Streben entfernt</translation>
     </message>
     <message>
@@ -165,23 +165,23 @@
       <translation>Entleerung</translation>
     </message>
     <message>
-      <source>Drain count</source>
+      <source>Drain Count</source>
       <translation>Anzahl der Löcher</translation>
     </message>
     <message>
-      <source>Drain diameter</source>
+      <source>Drain Diameter</source>
       <translation>Lochdurchmesser</translation>
     </message>
     <message>
-      <source>Drain faces</source>
+      <source>Drain Faces</source>
       <translation>Gelochte Flächen</translation>
     </message>
     <message>
-      <source>Drain holes</source>
+      <source>Drain Holes</source>
       <translation>Entleerungslöcher</translation>
     </message>
     <message>
-      <source>Drain points</source>
+      <source>Drain Points</source>
       <translation>Lochpunkte</translation>
     </message>
     <message>
@@ -241,7 +241,7 @@
       <translation>Gradierung</translation>
     </message>
     <message>
-      <source>Grading direction</source>
+      <source>Grading Direction</source>
       <translation>Gradierungsrichtung</translation>
     </message>
     <message>
@@ -261,11 +261,11 @@
       <translation>Intern</translation>
     </message>
     <message>
-      <source>Joint fillet</source>
+      <source>Joint Fillet</source>
       <translation>Knotenausrundung</translation>
     </message>
     <message>
-      <source>Keep radius</source>
+      <source>Keep Radius</source>
       <translation>Radius beibehalten</translation>
     </message>
     <message>
@@ -273,15 +273,15 @@
       <translation>L: Kantenlänge der würfelförmigen Zelle</translation>
     </message>
     <message>
-      <source>Lambda formula</source>
+      <source>Lambda Formula</source>
       <translation>Lambda-Formel</translation>
     </message>
     <message>
-      <source>Lambda max</source>
+      <source>Lambda Max</source>
       <translation>Lambda max</translation>
     </message>
     <message>
-      <source>Lambda min</source>
+      <source>Lambda Min</source>
       <translation>Lambda min</translation>
     </message>
     <message>
@@ -309,7 +309,7 @@
       <translation>Linear</translation>
     </message>
     <message>
-      <source>Longest overhang</source>
+      <source>Longest Overhang</source>
       <translation>Längster Überhang</translation>
     </message>
     <message>
@@ -317,15 +317,15 @@
       <translation>Lose Bruchstücke, die entfernt wurden</translation>
     </message>
     <message>
-      <source>Map around</source>
+      <source>Map Around</source>
       <translation>Zellen am Umfang</translation>
     </message>
     <message>
-      <source>Map axis</source>
+      <source>Map Axis</source>
       <translation>Achse der Anordnung</translation>
     </message>
     <message>
-      <source>Map centre</source>
+      <source>Map Centre</source>
       <translation>Mittelpunkt der Anordnung</translation>
     </message>
     <message>
@@ -345,7 +345,7 @@
       <translation>Netz</translation>
     </message>
     <message>
-      <source>Narrowest gap</source>
+      <source>Narrowest Gap</source>
       <translation>Engster Spalt</translation>
     </message>
     <message>
@@ -381,7 +381,7 @@
       <translation>Der Strebenlänge, zu flach</translation>
     </message>
     <message>
-      <source>Open faces</source>
+      <source>Open Faces</source>
       <translation>Offene Flächen</translation>
     </message>
     <message>
@@ -393,15 +393,15 @@
       <translation>Ausgabe</translation>
     </message>
     <message>
-      <source>Overhang area</source>
+      <source>Overhang Area</source>
       <translation>Überhangfläche</translation>
     </message>
     <message>
-      <source>Overhang share</source>
+      <source>Overhang Share</source>
       <translation>Überhanganteil</translation>
     </message>
     <message>
-      <source>Pieces removed</source>
+      <source>Pieces Removed</source>
       <translation>Teile entfernt</translation>
     </message>
     <message>
@@ -429,56 +429,56 @@
       <translation>Quadratisch</translation>
     </message>
     <message>
-      <source>Radius column</source>
+      <source>Radius Column</source>
       <translation>Wertespalte</translation>
     </message>
     <message>
-      <source>Radius curve</source>
+      <source>Radius Curve</source>
       <translation>Radiuskurve</translation>
     </message>
     <message>
-      <source>Radius direction</source>
+      <source>Radius Direction</source>
       <translation>Radiusrichtung</translation>
     </message>
     <message>
-      <source>Radius field</source>
+      <source>Radius Field</source>
       <translation>Radiusfeld</translation>
     </message>
     <message>
-      <source>Radius formula</source>
+      <source>Radius Formula</source>
       <translation>Radiusformel</translation>
     </message>
     <message>
-      <source>Radius grading</source>
+      <source>Radius Grading</source>
       <translation>Radiusgradierung</translation>
+    </message>
+    <message>
+      <source>Radius Law</source>
+      <translation>Radiusgesetz</translation>
+    </message>
+    <message>
+      <source>Radius Max</source>
+      <translation>Radius max</translation>
+    </message>
+    <message>
+      <source>Radius Min</source>
+      <translation>Radius min</translation>
+    </message>
+    <message>
+      <source>Radius Reach</source>
+      <translation>Reichweite</translation>
+    </message>
+    <message>
+      <source>Radius Result</source>
+      <translation>FEM-Ergebnis</translation>
     </message>
     <message>
       <source>Radius in mm as a formula of s</source>
       <translation>Radius in mm als Formel von s</translation>
     </message>
     <message>
-      <source>Radius law</source>
-      <translation>Radiusgesetz</translation>
-    </message>
-    <message>
-      <source>Radius max</source>
-      <translation>Radius max</translation>
-    </message>
-    <message>
-      <source>Radius min</source>
-      <translation>Radius min</translation>
-    </message>
-    <message>
       <source>Radius of the round between struts where they meet; 0 for none</source>
       <translation>Radius der Ausrundung zwischen Streben, wo sie sich treffen; 0 für keine</translation>
-    </message>
-    <message>
-      <source>Radius reach</source>
-      <translation>Reichweite</translation>
-    </message>
-    <message>
-      <source>Radius result</source>
-      <translation>FEM-Ergebnis</translation>
     </message>
     <message>
       <source>Radius where s = 0 or the field is smallest; 0 for StrutRadius</source>
@@ -489,11 +489,11 @@
       <translation>Radius, wo s = 1 oder das Feld am größten ist; 0 für StrutRadius</translation>
     </message>
     <message>
-      <source>Relative density</source>
+      <source>Relative Density</source>
       <translation>Relative Dichte</translation>
     </message>
     <message>
-      <source>Remove dangling</source>
+      <source>Remove Dangling</source>
       <translation>Lose Streben weg</translation>
     </message>
     <message>
@@ -513,15 +513,15 @@
       <translation>Ergebnis eines FEM-Lösers, anstelle einer Datei</translation>
     </message>
     <message>
-      <source>Rotation angle</source>
+      <source>Rotation Angle</source>
       <translation>Drehwinkel</translation>
     </message>
     <message>
-      <source>Rotation axis</source>
+      <source>Rotation Axis</source>
       <translation>Drehachse</translation>
     </message>
     <message>
-      <source>Rotation origin</source>
+      <source>Rotation Origin</source>
       <translation>Drehpunkt</translation>
     </message>
     <message>
@@ -537,12 +537,16 @@
       <translation>Getrennte Teile aus Werkstoff</translation>
     </message>
     <message>
-      <source>Shell thickness</source>
+      <source>Shell Thickness</source>
       <translation>Wandstärke</translation>
     </message>
     <message>
       <source>Short struts with a free end, taken away</source>
       <translation>Kurze Streben mit freiem Ende, weggenommen</translation>
+    </message>
+    <message>
+      <source>Shortest Stub</source>
+      <translation>Kürzester Stummel</translation>
     </message>
     <message>
       <source>Shortest and longest edge of a cell, mm</source>
@@ -553,11 +557,7 @@
       <translation>Kürzeste und längste Strebe, mm</translation>
     </message>
     <message>
-      <source>Shortest stub</source>
-      <translation>Kürzester Stummel</translation>
-    </message>
-    <message>
-      <source>Size grading</source>
+      <source>Size Grading</source>
       <translation>Größengradierung</translation>
     </message>
     <message>
@@ -581,15 +581,15 @@
       <translation>Status</translation>
     </message>
     <message>
-      <source>Strut lengths</source>
+      <source>Strut Lengths</source>
       <translation>Strebenlängen</translation>
     </message>
     <message>
-      <source>Strut radii</source>
+      <source>Strut Radii</source>
       <translation>Strebenradien</translation>
     </message>
     <message>
-      <source>Strut radius</source>
+      <source>Strut Radius</source>
       <translation>Strebenradius</translation>
     </message>
     <message>
@@ -609,11 +609,11 @@
       <translation>Streben mit freiem Ende, die weggenommen wurden</translation>
     </message>
     <message>
-      <source>Stubs removed</source>
+      <source>Stubs Removed</source>
       <translation>Stummel entfernt</translation>
     </message>
     <message>
-      <source>Surface area</source>
+      <source>Surface Area</source>
       <translation>Oberfläche</translation>
     </message>
     <message>
@@ -657,7 +657,7 @@
       <translation>Dicke der geschlossenen Haut; 0 für keine: das Gitter wird an der Außenfläche geschnitten</translation>
     </message>
     <message>
-      <source>Thinnest strut</source>
+      <source>Thinnest Strut</source>
       <translation>Dünnste Strebe</translation>
     </message>
     <message>
@@ -681,15 +681,15 @@
       <translation>Dreht das Gitter, nicht den Volumenkörper</translation>
     </message>
     <message>
-      <source>Use map centre</source>
+      <source>Use Map Centre</source>
       <translation>Mittelpunkt verwenden</translation>
     </message>
     <message>
-      <source>Use origin</source>
+      <source>Use Origin</source>
       <translation>Ursprung verwenden</translation>
     </message>
     <message>
-      <source>Use rotation origin</source>
+      <source>Use Rotation Origin</source>
       <translation>Drehpunkt verwenden</translation>
     </message>
     <message>
@@ -697,7 +697,7 @@
       <translation>Werte und ihre Radien in mm, etwa '0:0.5, 120:1.2', anstelle von RadiusMin, RadiusMax</translation>
     </message>
     <message>
-      <source>Void volume</source>
+      <source>Void Volume</source>
       <translation>Hohlraumvolumen</translation>
     </message>
     <message>
@@ -1463,6 +1463,22 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>Kopieren</translation>
     </message>
     <message>
+      <source>FreeCAD's own checks</source>
+      <translation>FreeCADs eigene Prüfungen</translation>
+    </message>
+    <message>
+      <source>Inputs</source>
+      <translation>Eingaben</translation>
+    </message>
+    <message>
+      <source>Peak memory at the end of each stage, MB</source>
+      <translation>Höchster Speicher am Ende jedes Schritts, MB</translation>
+    </message>
+    <message>
+      <source>Result of the last update</source>
+      <translation>Ergebnis der letzten Aktualisierung</translation>
+    </message>
+    <message>
       <source>Save Report</source>
       <translation>Bericht speichern</translation>
     </message>
@@ -1471,8 +1487,268 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>Speichern...</translation>
     </message>
     <message>
+      <source>Seconds by stage</source>
+      <translation>Sekunden je Schritt</translation>
+    </message>
+    <message>
+      <source>Surfaces that run through each other</source>
+      <translation>Flächen, die sich durchdringen</translation>
+    </message>
+    <message>
       <source>The tables are on the clipboard.</source>
       <translation>Die Tabellen sind in der Zwischenablage.</translation>
+    </message>
+    <message>
+      <source>Triangles and the file's single precision</source>
+      <translation>Dreiecke und die einfache Genauigkeit der Datei</translation>
+    </message>
+    <message>
+      <source>a solid</source>
+      <translation>ein Volumenkörper</translation>
+    </message>
+    <message>
+      <source>active cells</source>
+      <translation>aktive Zellen</translation>
+    </message>
+    <message>
+      <source>all</source>
+      <translation>alle</translation>
+    </message>
+    <message>
+      <source>along lines through it</source>
+      <translation>entlang von Linien hindurch</translation>
+    </message>
+    <message>
+      <source>area</source>
+      <translation>Oberfläche</translation>
+    </message>
+    <message>
+      <source>area, mm2</source>
+      <translation>Oberfläche, mm2</translation>
+    </message>
+    <message>
+      <source>as a file holds it</source>
+      <translation>wie eine Datei es hält</translation>
+    </message>
+    <message>
+      <source>bodies</source>
+      <translation>Körper</translation>
+    </message>
+    <message>
+      <source>box</source>
+      <translation>Hüllquader</translation>
+    </message>
+    <message>
+      <source>cell</source>
+      <translation>Zelle</translation>
+    </message>
+    <message>
+      <source>cell size, mm</source>
+      <translation>Zellgröße, mm</translation>
+    </message>
+    <message>
+      <source>cells of the grid</source>
+      <translation>Zellen des Rasters</translation>
+    </message>
+    <message>
+      <source>check</source>
+      <translation>Prüfung</translation>
+    </message>
+    <message>
+      <source>closed</source>
+      <translation>geschlossen</translation>
+    </message>
+    <message>
+      <source>closed voids</source>
+      <translation>geschlossene Hohlräume</translation>
+    </message>
+    <message>
+      <source>corrupted triangles</source>
+      <translation>beschädigte Dreiecke</translation>
+    </message>
+    <message>
+      <source>density, g/cm3</source>
+      <translation>Dichte, g/cm3</translation>
+    </message>
+    <message>
+      <source>every place inside is enclosed once</source>
+      <translation>jede Stelle im Inneren ist einmal umschlossen</translation>
+    </message>
+    <message>
+      <source>every triangle keeps its corners</source>
+      <translation>jedes Dreieck behält seine Ecken</translation>
+    </message>
+    <message>
+      <source>found</source>
+      <translation>gefunden</translation>
+    </message>
+    <message>
+      <source>from</source>
+      <translation>ab</translation>
+    </message>
+    <message>
+      <source>genus</source>
+      <translation>Geschlecht</translation>
+    </message>
+    <message>
+      <source>invalid points</source>
+      <translation>ungültige Punkte</translation>
+    </message>
+    <message>
+      <source>joints</source>
+      <translation>Knoten</translation>
+    </message>
+    <message>
+      <source>lattice</source>
+      <translation>Gitter</translation>
+    </message>
+    <message>
+      <source>loose pieces removed</source>
+      <translation>entfernte lose Teile</translation>
+    </message>
+    <message>
+      <source>manifold</source>
+      <translation>mannigfaltig</translation>
+    </message>
+    <message>
+      <source>mass, g</source>
+      <translation>Masse, g</translation>
+    </message>
+    <message>
+      <source>mean radius ratio</source>
+      <translation>mittleres Radienverhältnis</translation>
+    </message>
+    <message>
+      <source>most</source>
+      <translation>höchster Wert</translation>
+    </message>
+    <message>
+      <source>no</source>
+      <translation>nein</translation>
+    </message>
+    <message>
+      <source>non-manifold edges or points</source>
+      <translation>nicht mannigfaltige Kanten oder Punkte</translation>
+    </message>
+    <message>
+      <source>none</source>
+      <translation>keine</translation>
+    </message>
+    <message>
+      <source>output</source>
+      <translation>Ausgabe</translation>
+    </message>
+    <message>
+      <source>relative density, %</source>
+      <translation>relative Dichte, %</translation>
+    </message>
+    <message>
+      <source>shell</source>
+      <translation>Haut</translation>
+    </message>
+    <message>
+      <source>short stubs removed</source>
+      <translation>entfernte kurze Stummel</translation>
+    </message>
+    <message>
+      <source>shortest and longest strut, mm</source>
+      <translation>kürzeste und längste Strebe, mm</translation>
+    </message>
+    <message>
+      <source>shortest edge</source>
+      <translation>kürzeste Kante</translation>
+    </message>
+    <message>
+      <source>skin, mm</source>
+      <translation>Haut, mm</translation>
+    </message>
+    <message>
+      <source>smallest and largest radius, mm</source>
+      <translation>kleinster und größter Radius, mm</translation>
+    </message>
+    <message>
+      <source>smallest angle</source>
+      <translation>kleinster Winkel</translation>
+    </message>
+    <message>
+      <source>smallest radius ratio</source>
+      <translation>kleinstes Radienverhältnis</translation>
+    </message>
+    <message>
+      <source>status</source>
+      <translation>Status</translation>
+    </message>
+    <message>
+      <source>step of its numbers</source>
+      <translation>Schrittweite ihrer Zahlen</translation>
+    </message>
+    <message>
+      <source>strut radius, mm</source>
+      <translation>Strebenradius, mm</translation>
+    </message>
+    <message>
+      <source>struts</source>
+      <translation>Streben</translation>
+    </message>
+    <message>
+      <source>struts removed, free end</source>
+      <translation>entfernte Streben, freies Ende</translation>
+    </message>
+    <message>
+      <source>through-holes</source>
+      <translation>Durchgangslöcher</translation>
+    </message>
+    <message>
+      <source>tile</source>
+      <translation>Kachel</translation>
+    </message>
+    <message>
+      <source>triangles</source>
+      <translation>Dreiecke</translation>
+    </message>
+    <message>
+      <source>triangles that cross (FreeCAD)</source>
+      <translation>sich kreuzende Dreiecke (FreeCAD)</translation>
+    </message>
+    <message>
+      <source>trim</source>
+      <translation>Beschnitt</translation>
+    </message>
+    <message>
+      <source>vertices</source>
+      <translation>Eckpunkte</translation>
+    </message>
+    <message>
+      <source>voids</source>
+      <translation>Hohlräume</translation>
+    </message>
+    <message>
+      <source>volume</source>
+      <translation>Volumen</translation>
+    </message>
+    <message>
+      <source>volume, mm3</source>
+      <translation>Volumen, mm3</translation>
+    </message>
+    <message>
+      <source>voxels</source>
+      <translation>Voxel</translation>
+    </message>
+    <message>
+      <source>watertight</source>
+      <translation>wasserdicht</translation>
+    </message>
+    <message>
+      <source>wrong neighbours</source>
+      <translation>falsche Nachbarn</translation>
+    </message>
+    <message>
+      <source>wrongly oriented triangles</source>
+      <translation>falsch gerichtete Dreiecke</translation>
+    </message>
+    <message>
+      <source>yes</source>
+      <translation>ja</translation>
     </message>
   </context>
   <context>

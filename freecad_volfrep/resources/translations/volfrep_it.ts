@@ -29,7 +29,7 @@
       <translation>Tutti i dati, da leggere</translation>
     </message>
     <message>
-      <source>Auto update</source>
+      <source>Auto Update</source>
       <translation>Aggiornamento automatico</translation>
     </message>
     <message>
@@ -57,32 +57,36 @@
       <translation>Bordo</translation>
     </message>
     <message>
-      <source>Build direction</source>
+      <source>Build Direction</source>
       <translation>Direzione di stampa</translation>
     </message>
     <message>
-      <source>Cell edges</source>
+      <source>Cell Edges</source>
       <translation>Spigoli delle celle</translation>
     </message>
     <message>
-      <source>Cell file</source>
+      <source>Cell File</source>
       <translation>File della cella</translation>
     </message>
     <message>
-      <source>Cell map</source>
+      <source>Cell Map</source>
       <translation>Disposizione delle celle</translation>
     </message>
     <message>
-      <source>Cell size</source>
+      <source>Cell Size</source>
       <translation>Dimensione cella</translation>
     </message>
     <message>
-      <source>Cell type</source>
+      <source>Cell Type</source>
       <translation>Tipo di cella</translation>
     </message>
     <message>
-      <source>Cells active</source>
+      <source>Cells Active</source>
       <translation>Celle attive</translation>
+    </message>
+    <message>
+      <source>Cells Total</source>
+      <translation>Celle totali</translation>
     </message>
     <message>
       <source>Cells along straight axes, about an axis, or about a centre</source>
@@ -109,10 +113,6 @@
       <translation>Celle che contengono il reticolo</translation>
     </message>
     <message>
-      <source>Cells total</source>
-      <translation>Celle totali</translation>
-    </message>
-    <message>
       <source>Closed cavities</source>
       <translation>Cavità chiuse</translation>
     </message>
@@ -133,7 +133,7 @@
       <translation>Nucleo</translation>
     </message>
     <message>
-      <source>Dangling removed</source>
+      <source>Dangling Removed</source>
       <translation>Aste pendenti rimosse</translation>
     </message>
     <message>
@@ -165,23 +165,23 @@
       <translation>Scarico</translation>
     </message>
     <message>
-      <source>Drain count</source>
+      <source>Drain Count</source>
       <translation>Numero di fori</translation>
     </message>
     <message>
-      <source>Drain diameter</source>
+      <source>Drain Diameter</source>
       <translation>Diametro dei fori</translation>
     </message>
     <message>
-      <source>Drain faces</source>
+      <source>Drain Faces</source>
       <translation>Facce forate</translation>
     </message>
     <message>
-      <source>Drain holes</source>
+      <source>Drain Holes</source>
       <translation>Fori di scarico</translation>
     </message>
     <message>
-      <source>Drain points</source>
+      <source>Drain Points</source>
       <translation>Punti dei fori</translation>
     </message>
     <message>
@@ -241,7 +241,7 @@
       <translation>Gradazione</translation>
     </message>
     <message>
-      <source>Grading direction</source>
+      <source>Grading Direction</source>
       <translation>Direzione della gradazione</translation>
     </message>
     <message>
@@ -261,11 +261,11 @@
       <translation>Interno</translation>
     </message>
     <message>
-      <source>Joint fillet</source>
+      <source>Joint Fillet</source>
       <translation>Raccordo dei nodi</translation>
     </message>
     <message>
-      <source>Keep radius</source>
+      <source>Keep Radius</source>
       <translation>Mantieni raggio</translation>
     </message>
     <message>
@@ -273,15 +273,15 @@
       <translation>L: lunghezza dello spigolo della cella cubica</translation>
     </message>
     <message>
-      <source>Lambda formula</source>
+      <source>Lambda Formula</source>
       <translation>Formula di lambda</translation>
     </message>
     <message>
-      <source>Lambda max</source>
+      <source>Lambda Max</source>
       <translation>Lambda max</translation>
     </message>
     <message>
-      <source>Lambda min</source>
+      <source>Lambda Min</source>
       <translation>Lambda min</translation>
     </message>
     <message>
@@ -309,7 +309,7 @@
       <translation>Lineare</translation>
     </message>
     <message>
-      <source>Longest overhang</source>
+      <source>Longest Overhang</source>
       <translation>Sbalzo più lungo</translation>
     </message>
     <message>
@@ -317,15 +317,15 @@
       <translation>Frammenti isolati eliminati</translation>
     </message>
     <message>
-      <source>Map around</source>
+      <source>Map Around</source>
       <translation>Celle sul giro</translation>
     </message>
     <message>
-      <source>Map axis</source>
+      <source>Map Axis</source>
       <translation>Asse della disposizione</translation>
     </message>
     <message>
-      <source>Map centre</source>
+      <source>Map Centre</source>
       <translation>Centro della disposizione</translation>
     </message>
     <message>
@@ -345,7 +345,7 @@
       <translation>Mesh</translation>
     </message>
     <message>
-      <source>Narrowest gap</source>
+      <source>Narrowest Gap</source>
       <translation>Luce minima</translation>
     </message>
     <message>
@@ -381,7 +381,7 @@
       <translation>Della lunghezza delle aste, troppo piatta</translation>
     </message>
     <message>
-      <source>Open faces</source>
+      <source>Open Faces</source>
       <translation>Facce aperte</translation>
     </message>
     <message>
@@ -393,15 +393,15 @@
       <translation>Risultato</translation>
     </message>
     <message>
-      <source>Overhang area</source>
+      <source>Overhang Area</source>
       <translation>Area a sbalzo</translation>
     </message>
     <message>
-      <source>Overhang share</source>
+      <source>Overhang Share</source>
       <translation>Quota a sbalzo</translation>
     </message>
     <message>
-      <source>Pieces removed</source>
+      <source>Pieces Removed</source>
       <translation>Pezzi rimossi</translation>
     </message>
     <message>
@@ -429,56 +429,56 @@
       <translation>Quadratica</translation>
     </message>
     <message>
-      <source>Radius column</source>
+      <source>Radius Column</source>
       <translation>Colonna dei valori</translation>
     </message>
     <message>
-      <source>Radius curve</source>
+      <source>Radius Curve</source>
       <translation>Curva del raggio</translation>
     </message>
     <message>
-      <source>Radius direction</source>
+      <source>Radius Direction</source>
       <translation>Direzione del raggio</translation>
     </message>
     <message>
-      <source>Radius field</source>
+      <source>Radius Field</source>
       <translation>Campo del raggio</translation>
     </message>
     <message>
-      <source>Radius formula</source>
+      <source>Radius Formula</source>
       <translation>Formula del raggio</translation>
     </message>
     <message>
-      <source>Radius grading</source>
+      <source>Radius Grading</source>
       <translation>Gradazione del raggio</translation>
+    </message>
+    <message>
+      <source>Radius Law</source>
+      <translation>Legge del raggio</translation>
+    </message>
+    <message>
+      <source>Radius Max</source>
+      <translation>Raggio max</translation>
+    </message>
+    <message>
+      <source>Radius Min</source>
+      <translation>Raggio min</translation>
+    </message>
+    <message>
+      <source>Radius Reach</source>
+      <translation>Portata del raggio</translation>
+    </message>
+    <message>
+      <source>Radius Result</source>
+      <translation>Risultato FEM</translation>
     </message>
     <message>
       <source>Radius in mm as a formula of s</source>
       <translation>Raggio in mm come formula di s</translation>
     </message>
     <message>
-      <source>Radius law</source>
-      <translation>Legge del raggio</translation>
-    </message>
-    <message>
-      <source>Radius max</source>
-      <translation>Raggio max</translation>
-    </message>
-    <message>
-      <source>Radius min</source>
-      <translation>Raggio min</translation>
-    </message>
-    <message>
       <source>Radius of the round between struts where they meet; 0 for none</source>
       <translation>Raggio del raccordo tra le aste dove si incontrano; 0 per nessuno</translation>
-    </message>
-    <message>
-      <source>Radius reach</source>
-      <translation>Portata del raggio</translation>
-    </message>
-    <message>
-      <source>Radius result</source>
-      <translation>Risultato FEM</translation>
     </message>
     <message>
       <source>Radius where s = 0 or the field is smallest; 0 for StrutRadius</source>
@@ -489,11 +489,11 @@
       <translation>Raggio dove s = 1 o il campo è massimo; 0 per StrutRadius</translation>
     </message>
     <message>
-      <source>Relative density</source>
+      <source>Relative Density</source>
       <translation>Densità relativa</translation>
     </message>
     <message>
-      <source>Remove dangling</source>
+      <source>Remove Dangling</source>
       <translation>Togli aste pendenti</translation>
     </message>
     <message>
@@ -513,15 +513,15 @@
       <translation>Risultato di un solutore FEM, al posto di un file</translation>
     </message>
     <message>
-      <source>Rotation angle</source>
+      <source>Rotation Angle</source>
       <translation>Angolo di rotazione</translation>
     </message>
     <message>
-      <source>Rotation axis</source>
+      <source>Rotation Axis</source>
       <translation>Asse di rotazione</translation>
     </message>
     <message>
-      <source>Rotation origin</source>
+      <source>Rotation Origin</source>
       <translation>Origine della rotazione</translation>
     </message>
     <message>
@@ -537,12 +537,16 @@
       <translation>Pezzi di materiale separati</translation>
     </message>
     <message>
-      <source>Shell thickness</source>
+      <source>Shell Thickness</source>
       <translation>Spessore guscio</translation>
     </message>
     <message>
       <source>Short struts with a free end, taken away</source>
       <translation>Aste corte con un'estremità libera, tolte</translation>
+    </message>
+    <message>
+      <source>Shortest Stub</source>
+      <translation>Moncone minimo</translation>
     </message>
     <message>
       <source>Shortest and longest edge of a cell, mm</source>
@@ -553,11 +557,7 @@
       <translation>Asta più corta e più lunga, mm</translation>
     </message>
     <message>
-      <source>Shortest stub</source>
-      <translation>Moncone minimo</translation>
-    </message>
-    <message>
-      <source>Size grading</source>
+      <source>Size Grading</source>
       <translation>Gradazione celle</translation>
     </message>
     <message>
@@ -581,15 +581,15 @@
       <translation>Stato</translation>
     </message>
     <message>
-      <source>Strut lengths</source>
+      <source>Strut Lengths</source>
       <translation>Lunghezze delle aste</translation>
     </message>
     <message>
-      <source>Strut radii</source>
+      <source>Strut Radii</source>
       <translation>Raggi delle aste</translation>
     </message>
     <message>
-      <source>Strut radius</source>
+      <source>Strut Radius</source>
       <translation>Raggio delle aste</translation>
     </message>
     <message>
@@ -609,11 +609,11 @@
       <translation>Aste con un'estremità libera che sono state tolte</translation>
     </message>
     <message>
-      <source>Stubs removed</source>
+      <source>Stubs Removed</source>
       <translation>Monconi rimossi</translation>
     </message>
     <message>
-      <source>Surface area</source>
+      <source>Surface Area</source>
       <translation>Area della superficie</translation>
     </message>
     <message>
@@ -657,7 +657,7 @@
       <translation>Spessore del guscio chiuso; 0 per nessuno: il reticolo è tagliato alla superficie esterna</translation>
     </message>
     <message>
-      <source>Thinnest strut</source>
+      <source>Thinnest Strut</source>
       <translation>Asta più sottile</translation>
     </message>
     <message>
@@ -681,15 +681,15 @@
       <translation>Ruota il reticolo, non il solido</translation>
     </message>
     <message>
-      <source>Use map centre</source>
+      <source>Use Map Centre</source>
       <translation>Usa centro</translation>
     </message>
     <message>
-      <source>Use origin</source>
+      <source>Use Origin</source>
       <translation>Usa origine</translation>
     </message>
     <message>
-      <source>Use rotation origin</source>
+      <source>Use Rotation Origin</source>
       <translation>Usa origine della rotazione</translation>
     </message>
     <message>
@@ -697,7 +697,7 @@
       <translation>Valori e i loro raggi in mm, come '0:0.5, 120:1.2', al posto di RadiusMin, RadiusMax</translation>
     </message>
     <message>
-      <source>Void volume</source>
+      <source>Void Volume</source>
       <translation>Volume dei vuoti</translation>
     </message>
     <message>
@@ -1463,6 +1463,22 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>Copia</translation>
     </message>
     <message>
+      <source>FreeCAD's own checks</source>
+      <translation>Controlli di FreeCAD</translation>
+    </message>
+    <message>
+      <source>Inputs</source>
+      <translation>Dati</translation>
+    </message>
+    <message>
+      <source>Peak memory at the end of each stage, MB</source>
+      <translation>Memoria massima alla fine di ogni fase, MB</translation>
+    </message>
+    <message>
+      <source>Result of the last update</source>
+      <translation>Risultato dell'ultimo aggiornamento</translation>
+    </message>
+    <message>
       <source>Save Report</source>
       <translation>Salva rapporto</translation>
     </message>
@@ -1471,8 +1487,268 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>Salva...</translation>
     </message>
     <message>
+      <source>Seconds by stage</source>
+      <translation>Secondi per fase</translation>
+    </message>
+    <message>
+      <source>Surfaces that run through each other</source>
+      <translation>Superfici che si attraversano</translation>
+    </message>
+    <message>
       <source>The tables are on the clipboard.</source>
       <translation>Le tabelle sono negli appunti.</translation>
+    </message>
+    <message>
+      <source>Triangles and the file's single precision</source>
+      <translation>Triangoli e precisione singola del file</translation>
+    </message>
+    <message>
+      <source>a solid</source>
+      <translation>un solido</translation>
+    </message>
+    <message>
+      <source>active cells</source>
+      <translation>celle attive</translation>
+    </message>
+    <message>
+      <source>all</source>
+      <translation>tutto</translation>
+    </message>
+    <message>
+      <source>along lines through it</source>
+      <translation>lungo linee che la attraversano</translation>
+    </message>
+    <message>
+      <source>area</source>
+      <translation>area</translation>
+    </message>
+    <message>
+      <source>area, mm2</source>
+      <translation>area, mm2</translation>
+    </message>
+    <message>
+      <source>as a file holds it</source>
+      <translation>come la conserva un file</translation>
+    </message>
+    <message>
+      <source>bodies</source>
+      <translation>corpi</translation>
+    </message>
+    <message>
+      <source>box</source>
+      <translation>ingombro</translation>
+    </message>
+    <message>
+      <source>cell</source>
+      <translation>cella</translation>
+    </message>
+    <message>
+      <source>cell size, mm</source>
+      <translation>dimensione della cella, mm</translation>
+    </message>
+    <message>
+      <source>cells of the grid</source>
+      <translation>celle della griglia</translation>
+    </message>
+    <message>
+      <source>check</source>
+      <translation>controllo</translation>
+    </message>
+    <message>
+      <source>closed</source>
+      <translation>chiusa</translation>
+    </message>
+    <message>
+      <source>closed voids</source>
+      <translation>vuoti chiusi</translation>
+    </message>
+    <message>
+      <source>corrupted triangles</source>
+      <translation>triangoli corrotti</translation>
+    </message>
+    <message>
+      <source>density, g/cm3</source>
+      <translation>densità, g/cm3</translation>
+    </message>
+    <message>
+      <source>every place inside is enclosed once</source>
+      <translation>ogni punto interno è racchiuso una volta</translation>
+    </message>
+    <message>
+      <source>every triangle keeps its corners</source>
+      <translation>ogni triangolo conserva i suoi vertici</translation>
+    </message>
+    <message>
+      <source>found</source>
+      <translation>trovati</translation>
+    </message>
+    <message>
+      <source>from</source>
+      <translation>da</translation>
+    </message>
+    <message>
+      <source>genus</source>
+      <translation>genere</translation>
+    </message>
+    <message>
+      <source>invalid points</source>
+      <translation>punti non validi</translation>
+    </message>
+    <message>
+      <source>joints</source>
+      <translation>nodi</translation>
+    </message>
+    <message>
+      <source>lattice</source>
+      <translation>reticolo</translation>
+    </message>
+    <message>
+      <source>loose pieces removed</source>
+      <translation>pezzi isolati rimossi</translation>
+    </message>
+    <message>
+      <source>manifold</source>
+      <translation>manifold</translation>
+    </message>
+    <message>
+      <source>mass, g</source>
+      <translation>massa, g</translation>
+    </message>
+    <message>
+      <source>mean radius ratio</source>
+      <translation>rapporto medio dei raggi</translation>
+    </message>
+    <message>
+      <source>most</source>
+      <translation>massimo</translation>
+    </message>
+    <message>
+      <source>no</source>
+      <translation>no</translation>
+    </message>
+    <message>
+      <source>non-manifold edges or points</source>
+      <translation>spigoli o punti non manifold</translation>
+    </message>
+    <message>
+      <source>none</source>
+      <translation>nessuno</translation>
+    </message>
+    <message>
+      <source>output</source>
+      <translation>risultato</translation>
+    </message>
+    <message>
+      <source>relative density, %</source>
+      <translation>densità relativa, %</translation>
+    </message>
+    <message>
+      <source>shell</source>
+      <translation>guscio</translation>
+    </message>
+    <message>
+      <source>short stubs removed</source>
+      <translation>monconi corti rimossi</translation>
+    </message>
+    <message>
+      <source>shortest and longest strut, mm</source>
+      <translation>asta più corta e più lunga, mm</translation>
+    </message>
+    <message>
+      <source>shortest edge</source>
+      <translation>spigolo più corto</translation>
+    </message>
+    <message>
+      <source>skin, mm</source>
+      <translation>guscio, mm</translation>
+    </message>
+    <message>
+      <source>smallest and largest radius, mm</source>
+      <translation>raggio minimo e massimo, mm</translation>
+    </message>
+    <message>
+      <source>smallest angle</source>
+      <translation>angolo minimo</translation>
+    </message>
+    <message>
+      <source>smallest radius ratio</source>
+      <translation>rapporto minimo dei raggi</translation>
+    </message>
+    <message>
+      <source>status</source>
+      <translation>stato</translation>
+    </message>
+    <message>
+      <source>step of its numbers</source>
+      <translation>passo dei suoi numeri</translation>
+    </message>
+    <message>
+      <source>strut radius, mm</source>
+      <translation>raggio delle aste, mm</translation>
+    </message>
+    <message>
+      <source>struts</source>
+      <translation>aste</translation>
+    </message>
+    <message>
+      <source>struts removed, free end</source>
+      <translation>aste rimosse, estremità libera</translation>
+    </message>
+    <message>
+      <source>through-holes</source>
+      <translation>fori passanti</translation>
+    </message>
+    <message>
+      <source>tile</source>
+      <translation>tassello</translation>
+    </message>
+    <message>
+      <source>triangles</source>
+      <translation>triangoli</translation>
+    </message>
+    <message>
+      <source>triangles that cross (FreeCAD)</source>
+      <translation>triangoli che si incrociano (FreeCAD)</translation>
+    </message>
+    <message>
+      <source>trim</source>
+      <translation>taglio</translation>
+    </message>
+    <message>
+      <source>vertices</source>
+      <translation>vertici</translation>
+    </message>
+    <message>
+      <source>voids</source>
+      <translation>vuoti</translation>
+    </message>
+    <message>
+      <source>volume</source>
+      <translation>volume</translation>
+    </message>
+    <message>
+      <source>volume, mm3</source>
+      <translation>volume, mm3</translation>
+    </message>
+    <message>
+      <source>voxels</source>
+      <translation>voxel</translation>
+    </message>
+    <message>
+      <source>watertight</source>
+      <translation>stagno</translation>
+    </message>
+    <message>
+      <source>wrong neighbours</source>
+      <translation>vicini sbagliati</translation>
+    </message>
+    <message>
+      <source>wrongly oriented triangles</source>
+      <translation>triangoli orientati male</translation>
+    </message>
+    <message>
+      <source>yes</source>
+      <translation>sì</translation>
     </message>
   </context>
   <context>

@@ -9,11 +9,11 @@ export FREECAD_USER_HOME := $(CURDIR)/.cache/fchome
 SCREEN := xvfb-run -a -s "-screen 0 1600x1200x24 -dpi 96"
 
 .NOTPARALLEL:
-.PHONY: help setup demo test test-all lint format test-core test-freecad test-gui \
+.PHONY: help setup demo test test-all lint format test-core test-freecad test-gui test-in-freecad \
 	test-freecad-1 translations test-newest docs-pictures torture bench bench-quick clean
 
 help: ## show this list
-	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 22
+	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 25
 
 setup: ## install what is missing: FreeCAD, Python packages, a private FreeCAD profile
 	@tools/setup.sh
@@ -27,7 +27,7 @@ demo: setup ## model a bracket, fill it, and leave files and a picture in build/
 	@$(SCREEN) $(PYTHON) demo/render.py graded build/demo/graded.png
 	@ls -l build/demo
 
-test: lint test-freecad test-gui test-core ## style, types, and every test but the slow ones
+test: lint test-in-freecad test-core ## style, types, and every test but the slow ones
 
 test-all: QUICK :=
 test-all: test ## the same with the slow tests
@@ -48,6 +48,13 @@ test-core: setup ## the engine's tests on plain Python
 test-freecad: setup ## the workbench's tests in the real freecadcmd
 	@PYTEST_ARGS='tests/freecad $(QUICK)' freecadcmd tools/run_in_freecad.py < /dev/null
 
+test-in-freecad: setup ## both of these side by side: each keeps one core busy
+	@mkdir -p build
+	@$(MAKE) --no-print-directory test-gui > build/test-gui.log 2>&1 & windows=$$!; \
+	status=0; $(MAKE) --no-print-directory QUICK='$(QUICK)' test-freecad || status=$$?; \
+	wait $$windows || status=$$?; cat build/test-gui.log; exit $$status
+
+test-gui: export FREECAD_USER_HOME := $(CURDIR)/.cache/fchome-gui
 test-gui: setup ## the real FreeCAD window on a virtual screen
 	@set -e; for script in tests/gui/drive_*.py; do tools/run_gui.sh "$$script" < /dev/null; done
 

@@ -2,13 +2,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Run the workbench's tests in FreeCAD 1.0: a Debian 13 in a folder of its own (made once, about
 # 3 GB), with a copy of this checkout inside. Needs root. Any arguments are the make targets to run
-# there instead of test-freecad and test-gui. FREECAD_1_ROOT names another folder.
+# there instead of test-in-freecad. FREECAD_1_ROOT names another folder.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 repository=$PWD
 root=${FREECAD_1_ROOT:-/var/tmp/volfrep-debian13}
 targets=("$@")
-[ ${#targets[@]} -gt 0 ] || targets=(test-freecad test-gui)
+[ ${#targets[@]} -gt 0 ] || targets=(test-in-freecad)
 
 say() { printf 'freecad-1: %s\n' "$*"; }
 refuse() { printf 'freecad-1: %s\n' "$*" >&2; exit 1; }

@@ -6,7 +6,7 @@
 # seconds. Pictures and figures go to GUI_OUT (default: build/gui).
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
-export FREECAD_USER_HOME=${FREECAD_USER_HOME:-$PWD/.cache/fchome}
+export FREECAD_USER_HOME=${FREECAD_USER_HOME:-$PWD/.cache/fchome-gui}
 export GUI_OUT=${GUI_OUT:-$PWD/build/gui}
 mkdir -p "$GUI_OUT"
 # The start page is a web view, which refuses to run as root in its sandbox.

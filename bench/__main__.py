@@ -20,9 +20,9 @@ from .experiments import EXPERIMENTS
 from .measuring import ROOT, Context, machine
 
 #: Seconds that one job of another tool may take.
-PEER_LIMIT, QUICK_PEER_LIMIT = 120.0, 60.0
+PEER_LIMIT, QUICK_PEER_LIMIT = 90.0, 60.0
 #: Minutes after which other tools are left out, so that a slow machine ends all the same.
-PEER_MINUTES, QUICK_PEER_MINUTES = 15.0, 3.5
+PEER_MINUTES, QUICK_PEER_MINUTES = 16.0, 3.5
 #: Files with more triangles are not read back: welding takes 2 s a million, and 0.4 GB.
 MOST_TRIANGLES, QUICK_MOST_TRIANGLES = 8_000_000, 3_000_000
 

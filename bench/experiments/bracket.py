@@ -46,9 +46,9 @@ COLD_BAR, CHANGE_BAR = 6.0, 4.0
 #: The published method's cells and points along a cell, and which voxels it replicates.
 QUICK_JOBS = (("CVC", COARSE, "voxels"), ("CVC", COARSE, "all"))
 JOBS = (
-    *((cell, COARSE, "voxels") for cell in PUBLISHED),
-    ("CVC", COARSE, "all"),
+    *QUICK_JOBS,
     ("CVC", POINTS, "voxels"),
+    *((cell, COARSE, "voxels") for cell in PUBLISHED if cell != "CVC"),
     ("CVC", POINTS, "all"),
 )
 STAGES = ("read", "shell", "voxels", "tile", "lattice", "trim", "write")

@@ -32,7 +32,8 @@ def commands():
 def cut_off(form):
     """Texts of a form's widgets that have less room than they need."""
     found = []
-    if form.visibleRegion().boundingRect().width() < form.width():
+    is_panel = form.objectName() == "VolfrepTaskPanel"
+    if is_panel and form.visibleRegion().boundingRect().width() < form.width():
         found.append(f"{form.objectName()} is {form.width()} wide and hangs over")
     for widget in form.findChildren(QtGui.QWidget):
         if isinstance(widget, (QtGui.QLabel, QtGui.QAbstractButton)) and widget.isVisible():
@@ -106,10 +107,11 @@ def preferences(language):
         dialog = QtGui.QApplication.activeModalWidget()
         for name in ("NewInfillPage", "DisplayPage"):
             page = dialog.findChild(QtGui.QWidget, name)
-            for holder in dialog.findChildren(QtGui.QTabWidget):
-                for number in range(holder.count()):
-                    if holder.widget(number).isAncestorOf(page):
-                        holder.setCurrentIndex(number)
+            for kind in (QtGui.QTabWidget, QtGui.QStackedWidget):
+                for holder in dialog.findChildren(kind):
+                    for number in range(holder.count()):
+                        if holder.widget(number).isAncestorOf(page):
+                            holder.setCurrentIndex(number)
             wait(300)
             check(f"{language}: nothing is cut off in {name}", cut_off(page) == [], cut_off(page))
             picture(f"language_{language}_2_{name}")

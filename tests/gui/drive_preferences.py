@@ -31,8 +31,9 @@ def preferences_open(visit):
 
 
 def editor(dialog, key):
-    """The widget of a preference."""
-    return dialog.findChild(QtGui.QWidget, key)
+    """The widget of a preference, on either of our pages."""
+    pages = [dialog.findChild(QtGui.QWidget, name) for name in ("NewInfillPage", "DisplayPage")]
+    return next(filter(None, (page.findChild(QtGui.QWidget, key) for page in pages)))
 
 
 def fill_in(dialog):

@@ -264,7 +264,7 @@ PROPERTIES = (
         "App::PropertyLength",
         "Deviation",
         "Mesh",
-        "Largest distance between a facet and the exact strut; 0 for a fortieth of the radius",
+        "Largest distance between a facet and the exact strut; 0 for a thirty-fifth of the radius",
         0.0,
     ),
     Property(

@@ -285,8 +285,8 @@
       <translation>Lambda min</translation>
     </message>
     <message>
-      <source>Largest distance between a facet and the exact strut; 0 for a fortieth of the radius</source>
-      <translation>Größter Abstand zwischen einer Facette und der exakten Strebe; 0 für ein Vierzigstel des Radius</translation>
+      <source>Largest distance between a facet and the exact strut; 0 for a thirty-fifth of the radius</source>
+      <translation>Größter Abstand zwischen einer Facette und der exakten Strebe; 0 für ein Fünfunddreißigstel des Radius</translation>
     </message>
     <message>
       <source>Lattice</source>

@@ -285,8 +285,8 @@
       <translation>Lambda min</translation>
     </message>
     <message>
-      <source>Largest distance between a facet and the exact strut; 0 for a fortieth of the radius</source>
-      <translation>Distanza massima tra una faccetta e l'asta esatta; 0 per un quarantesimo del raggio</translation>
+      <source>Largest distance between a facet and the exact strut; 0 for a thirty-fifth of the radius</source>
+      <translation>Distanza massima tra una faccetta e l'asta esatta; 0 per un trentacinquesimo del raggio</translation>
     </message>
     <message>
       <source>Lattice</source>

@@ -143,7 +143,7 @@ class _Progress:
     def refresh(self) -> None:
         """Show what was reported, and let the window live for a moment."""
         if self._since.elapsed() > SHOW_AFTER and self._bar.isHidden():
-            Gui.getMainWindow().statusBar().insertPermanentWidget(0, self._bar)
+            Gui.getMainWindow().statusBar().addPermanentWidget(self._bar)
             self._bar.show()
         if not self._guard.cancelled:
             self._bar.show_state(*self._state)

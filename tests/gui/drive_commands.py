@@ -211,6 +211,15 @@ def preview_without_a_mesh(doc, box, obj):
     obj.AutoUpdate = True
 
 
+def show_model():
+    """The tree and the properties in front: FreeCAD 1.0 may leave the empty tasks there."""
+    for bar in Gui.getMainWindow().findChildren(QtGui.QTabBar):
+        for tab in range(bar.count()):
+            if bar.tabText(tab) == "Model":
+                bar.setCurrentIndex(tab)
+    wait(300)
+
+
 def property_editor():
     """FreeCAD's table of data properties."""
     kind = "Gui::PropertyEditor::PropertyEditor"
@@ -240,6 +249,7 @@ def type_a_radius(doc, obj):
     from freecad_volfrep.gui import progress
 
     progress.SHOW_AFTER, quick = 0, progress.SHOW_AFTER  # the bar must not take the editor's focus
+    show_model()
     select(obj)
     facets, volume = obj.Mesh.CountFacets, obj.Volume.Value
     editor = property_editor()

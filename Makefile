@@ -56,7 +56,8 @@ test-in-freecad: setup ## both of these side by side: each keeps one core busy
 
 test-gui: export FREECAD_USER_HOME := $(CURDIR)/.cache/fchome-gui
 test-gui: setup ## the real FreeCAD window on a virtual screen
-	@set -e; for script in tests/gui/drive_*.py; do tools/run_gui.sh "$$script" < /dev/null; done
+	@status=0; for script in tests/gui/drive_*.py; do \
+	tools/run_gui.sh "$$script" < /dev/null || status=$$?; done; exit $$status
 
 docs-pictures: ## the tutorial's pictures anew, from those of the last make test-gui
 	@tools/docs_pictures.sh

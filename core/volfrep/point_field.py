@@ -178,7 +178,9 @@ class TransferCurve:
 
     def __call__(self, values: ArrayLike) -> Floats:
         """Radii in mm at `values`, float64 of the same shape."""
-        return np.asarray(np.interp(np.asarray(values, np.float64), self.values, self.radii))
+        radii = np.interp(np.asarray(values, np.float64), self.values, self.radii)
+        # The line between two values may end a rounding beyond them.
+        return np.asarray(np.clip(radii, min(self.radii), max(self.radii)))
 
 
 def read_curve(text: str) -> tuple[tuple[float, float], ...]:

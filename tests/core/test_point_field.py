@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from volfrep import point_files
@@ -485,6 +485,11 @@ def test_a_curve_is_straight_between_its_pairs_and_level_beyond() -> None:
     ),
     falling=st.booleans(),
     places=st.lists(st.floats(-2e6, 2e6), min_size=1),
+)
+@example(
+    pairs=[(0.0, 1.4281025237604865), (-450062.5, 256.0)],
+    falling=True,
+    places=[-1.4881134294462808e-23],
 )
 def test_a_curve_is_monotone(
     pairs: list[tuple[float, float]], falling: bool, places: list[float]

@@ -2,6 +2,7 @@
 """How much work a job is, counted: what makes the engine fast stays so on any machine."""
 
 import tracemalloc
+from functools import lru_cache
 
 import pytest
 
@@ -12,6 +13,7 @@ from volfrep.cells import LIBRARY
 SPEC = LatticeSpec("CVC", 5.0, 0.5, shell=1.0, resolution=8)
 
 
+@lru_cache
 def work(cells):
     """Of a cube of so many cells along each axis, cut off the grid."""
     spec = LatticeSpec("CVC", 5.0, 0.5, shell=0.0, resolution=8, origin=(2.2, 2.2, 2.2))

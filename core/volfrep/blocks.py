@@ -67,8 +67,14 @@ def block(
     monitor = Monitor(progress)
     cells, where = _block_setting(spec, count)
     refuse_expected(spec, float(np.prod(cells.shape, dtype=float)) * spec.cell_size**3)
-    laid = _lay(spec, cells, where, monitor, whole=True)
-    cell, layout = spec.unit_cell(), laid.layout
+    laid = _lay(spec, cells, where, monitor)
+    refuse_too_large(spec, laid.layout.grid, laid.layout.octants, None)
+    return _meshed(laid, spec, monitor)
+
+
+def _meshed(laid: _Laid, spec: LatticeSpec, monitor: Monitor) -> Result:
+    """A block as a whole, without its specks."""
+    cell, layout, where = spec.unit_cell(), laid.layout, laid.where
     with monitor.stage("lattice", 0.4, 0.8):
         given = vertices_of(layout, lambda: laid.graph, cell, spec, tile_spec(spec), where, monitor)
         mesh = TriangleMesh(given.vertices, facets(layout, monitor))
@@ -111,14 +117,16 @@ def write_block_stl(
             disk, or the path cannot be written.
         Cancelled: the callback said so; no file is left behind.
     """
-    cells, where = _block_setting(spec, count)
-    if not spec.is_graded:
+    if spec.is_graded:
+        result = block(spec, count, progress=progress)
+    else:
+        cells, where = _block_setting(spec, count)
         refuse_memory(spec, 0, other=cells.cells * BYTES_PER_STREAMED_CELL)
         monitor = Monitor(progress)
-        laid = _lay(spec, cells, where, monitor, whole=False)
+        laid = _lay(spec, cells, where, monitor)
         with monitor.stage("check", 0.4, 0.5):
             measured = survey(laid.layout)
-            streams = measured.shells == 1 and keeps_corners(laid.layout)
+            streams = measured.shells == 1 and keeps_corners(laid.layout, measured.bounds)
             streams = streams and agree_on_faces(laid.layout)
         if streams:
             monitor.count("triangles laid", laid.layout.triangles)
@@ -126,7 +134,8 @@ def write_block_stl(
                 write_octants_stl(laid.layout, path, monitor)
             frame = graded_wireframe(laid.graph, spec, where)
             return _report(laid, measured, frame, spec, monitor, NOTHING_REMOVED)
-    result = block(spec, count, progress=progress)
+        refuse_too_large(spec, laid.layout.grid, laid.layout.octants, None)
+        result = _meshed(laid, spec, monitor)
     start = time.perf_counter()
     write_stl(result.mesh, path)
     stages = {**result.report.stages, "write": time.perf_counter() - start}
@@ -153,18 +162,14 @@ def _block_setting(spec: LatticeSpec, count: Sequence[int]) -> tuple[CellGrid, S
     return block_setting(spec, (shape[0], shape[1], shape[2]))
 
 
-def _lay(
-    spec: LatticeSpec, cells: CellGrid, where: Setting, monitor: Monitor, *, whole: bool
-) -> _Laid:
-    """The octants of a block; `whole`: refuse one whose mesh would not fit into memory."""
+def _lay(spec: LatticeSpec, cells: CellGrid, where: Setting, monitor: Monitor) -> _Laid:
+    """The octants of a block."""
     cell = spec.unit_cell()
     active = np.ones(cells.shape, bool)
     with monitor.stage("tile", 0.0, 0.4):
         grid = octant_grid(cell, active, spec.cell_size, cells.origin, cells.periodic)
         octants = mesh_octants(cell, tile_spec(spec), grid.keys, monitor)
         refuse_solid_cells(octants, spec)
-        if whole:
-            refuse_too_large(spec, grid, octants, None)
         layout = lay_out(grid, octants)
     graph = cell_graph(cell, active, spec.cell_size, cells.origin, cells.periodic)
     return _Laid(cells, where, layout, graph)

@@ -136,9 +136,8 @@ def mesh_octants(
     result: dict[OctantKey, Octant] = {}
     todo = [group[0] for group in groups.values()]
     _mesh(cell, spec, todo, result, monitor)
-    others = [(group[0], _alike(cell, spec, result, group)) for group in groups.values()]
-    for key, alike in others:
-        result.update(dict.fromkeys(alike, result[key]))
+    for group in groups.values():
+        result.update(dict.fromkeys(_alike(cell, spec, result, group), result[group[0]]))
     _mesh(cell, spec, [key for key in dict.fromkeys(keys) if key not in result], result, monitor)
     return result
 
@@ -170,14 +169,14 @@ def _alike(
     The samples said so already; a strut that shows between them only is found here.
     """
     octant = meshed[group[0]]
+    if not len(octant.triangles) or len(group) == 1:
+        return group[1:]
     middles = octant.vertices[octant.triangles].mean(axis=1)
     points = np.concatenate([octant.vertices, middles])[:, None]
 
     def values(key: OctantKey) -> Floats:
         return frep.union(frep.distances(points, _primitives(cell, key, spec)), spec.fillet)
 
-    if not len(octant.triangles) or len(group) == 1:
-        return group[1:]
     wanted = values(group[0])
     return [key for key in group[1:] if np.array_equal(values(key), wanted)]
 

@@ -15,7 +15,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from ..lattice import Layout, OctantGrid, box, frames, in_steps, placed
+from ..lattice import Layout, OctantGrid, frames, in_steps, placed
 from ..progress import Monitor
 from .stl import BLOCK_FACETS, FACET, Facets, write_facets
 
@@ -25,9 +25,12 @@ _RECORD = np.dtype([("numbers", "V48"), ("attribute", "<u2")])
 SAFE_STEPS = 4.0
 
 
-def keeps_corners(layout: Layout) -> bool:
-    """Whether no facet can lose a corner when its coordinates become single precision."""
-    farthest = float(np.abs(box(layout)).max())
+def keeps_corners(layout: Layout, bounds: NDArray[np.float64]) -> bool:
+    """Whether no facet can lose a corner when its coordinates become single precision.
+
+    `bounds` are the layout's, (2, 3), mm.
+    """
+    farthest = float(np.abs(bounds).max())
     if not farthest < np.finfo(np.float32).max:
         return False
     step = float(np.spacing(np.float32(farthest)))

@@ -38,6 +38,11 @@ class Column:
         return format(value, self.form)
 
 
+def yes_no(value: bool) -> str:
+    """How a table tells whether something holds."""
+    return "yes" if value else "no"
+
+
 def table(columns: Sequence[Column], rows: Sequence[Row]) -> str:
     """The rows as a Markdown table, columns without any value left out.
 

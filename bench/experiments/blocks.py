@@ -26,7 +26,7 @@ from ..measuring import (
     triangles_in,
 )
 from ..published import BLOCK, COARSE, POINTS, RADIUS, SIZE, TABLE_1, TABLE_2
-from ..tables import Column, Row, bar, measured, table
+from ..tables import Column, Row, bar, measured, table, yes_no
 
 COUNT = 10
 SMALL = 2
@@ -69,7 +69,7 @@ def measure(context: Context) -> dict[str, Any]:
         bars.append(bar(f"{name}, RMS to the exact surface", row.get("rms"), 0.03, "mm", ".3f"))
         if row.get("looked"):
             bars.append({"text": f"{name}, one closed solid of the right genus", "bar": "yes",
-                         "measured": "yes" if row["one_solid"] else "no",
+                         "measured": yes_no(row["one_solid"]),
                          "met": row["one_solid"]})  # fmt: skip
     bars += [
         bar(f"the same, {row['cell']}, at L / 30", row.get("seconds"), FINE_BAR_SECONDS, "s")
@@ -151,10 +151,6 @@ def freecad_fuse(context: Context, cell: str, deflection: float, out: Path) -> R
     }  # fmt: skip
 
 
-def _yes(value: bool) -> str:
-    return "yes" if value else "no"
-
-
 COLUMNS = (
     Column("tool", "tool"),
     Column("setting", "setting"),
@@ -164,9 +160,9 @@ COLUMNS = (
     Column("MB", "mb", ".1f"),
     Column("triangles", "triangles", ","),
     Column("peak MB", "peak_mb", ",.0f"),
-    Column("closed", "watertight", _yes),
+    Column("closed", "watertight", yes_no),
     Column("bodies", "bodies", ","),
-    Column("one right solid", "one_solid", _yes),
+    Column("one right solid", "one_solid", yes_no),
     Column("volume", "volume_error", lambda error: f"{100 * error:+.2f} %"),
     Column("RMS mm", "rms", ".3f"),
     Column("paper: s", "paper_seconds", ".2f"),

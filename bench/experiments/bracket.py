@@ -40,7 +40,7 @@ from ..published import (
     WITH_VOXELS,
     WITHOUT_VOXELS,
 )
-from ..tables import Column, Row, bar, table
+from ..tables import Column, Row, bar, table, yes_no
 
 COLD_BAR, CHANGE_BAR = 6.0, 4.0
 #: The published method's cells and points along a cell, and which voxels it replicates.
@@ -78,7 +78,7 @@ def measure(context: Context) -> dict[str, Any]:
             sound = row["watertight"] and row["bodies"] == 1
             sound = sound and not row["degenerate"] and not row["pinched"]
             bars.append({"text": f"GE bracket, {cell}, one closed body, no degenerate triangle, "
-                         "no pinched vertex", "bar": "yes", "measured": "yes" if sound else "no",
+                         "no pinched vertex", "bar": "yes", "measured": yes_no(sound),
                          "met": sound})  # fmt: skip
     out = context.folder / "whole_box.stl"
     done = run(bench_job("unvoxelised", str(BRACKET), "CVC", str(out)))
@@ -127,10 +127,6 @@ def _published(context: Context) -> dict[str, Any]:
     return {"peers": peers, "counts": counts, "grid": list(grid.shape)}
 
 
-def _yes(value: bool) -> str:
-    return "yes" if value else "no"
-
-
 def render(result: dict[str, Any], images: Path) -> str:
     """Table 3, the stages, and what voxelisation saves."""
     rows = [{**row, **_paper(row["cell"])} for row in result["rows"]]
@@ -142,7 +138,7 @@ def render(result: dict[str, Any], images: Path) -> str:
         Column("MB", "mb", ".1f"),
         Column("triangles", "triangles", ","),
         Column("peak MB", "peak_mb", ",.0f"),
-        Column("closed", "watertight", _yes),
+        Column("closed", "watertight", yes_no),
         Column("bodies", "bodies"),
         Column("genus", "genus", ","),
         Column("paper: s", "paper_seconds", "g"),
@@ -213,7 +209,7 @@ def _peers(peers: list[Row]) -> str:
         Column("s", "seconds", ".1f"),
         Column("MB", "mb", ".1f"),
         Column("peak MB", "peak_mb", ",.0f"),
-        Column("closed", "watertight", _yes),
+        Column("closed", "watertight", yes_no),
         Column("bodies", "bodies"),
         Column("active cells", "cells_active"),
     )
@@ -232,7 +228,7 @@ def _without(result: dict[str, Any]) -> str:
     ]
     for (points, voxels), row in peers.items():
         name = f"published method, {points} points, this run"
-        word = "yes" if voxels == "voxels" else "no"
+        word = yes_no(voxels == "voxels")
         shown.append(_case(name, word, row, ("isosurface", "replication", "check"), ("Boolean",)))
     for (seconds, replication), word in ((WITH_VOXELS, "yes"), (WITHOUT_VOXELS, "no")):
         shown.append(

@@ -11,7 +11,7 @@ import numpy as np
 from ..measuring import BRACKET, ROD, Context, lattice_options, our_block, our_part
 from ..published import ROD as PUBLISHED
 from ..published import ROD_ACTIVE, ROD_GRID
-from ..tables import Column, Row, bar, table
+from ..tables import Column, Row, bar, table, yes_no
 
 BAR_SECONDS, FIELD_BAR_SECONDS, BLOCK_BAR_SECONDS = 6.0, 12.0, 5.0
 ROD_OPTIONS = (
@@ -68,7 +68,7 @@ def render(result: dict[str, Any], images: Path) -> str:
         Column("triangles", "triangles", ","),
         Column("peak MB", "peak_mb", ",.0f"),
         Column("active cells", "cells_active", ","),
-        Column("closed", "watertight", lambda value: "yes" if value else "no"),
+        Column("closed", "watertight", yes_no),
         Column("bodies", "bodies"),
         Column("paper: s", "paper_seconds", "g"),
         Column("paper: MB", "paper_mb", ".1f"),

@@ -10,7 +10,7 @@ from typing import Any
 from .. import plots
 from ..measuring import Context, lattice_options, our_block, run, volfrep
 from ..published import CELLS_IN_AN_HOUR
-from ..tables import Column, PowerLaw, Row, bar, measured, power_law, table
+from ..tables import Column, PowerLaw, Row, bar, measured, power_law, table, yes_no
 
 #: Cells along an edge, by what is asked of the facets.
 SERIES: dict[str, tuple[tuple[str, ...], tuple[int, ...]]] = {
@@ -130,7 +130,7 @@ def render(result: dict[str, Any], images: Path) -> str:
         Column("peak MB", "peak_mb", ",.0f"),
         Column("file, MB", "mb", ",.1f"),
         Column("triangles", "triangles", ","),
-        Column("closed", "watertight", lambda value: "yes" if value else "no"),
+        Column("closed", "watertight", yes_no),
         Column("bodies", "bodies"),
         Column("genus", "genus", ","),
     )

@@ -9,7 +9,7 @@ from typing import Any
 from .. import plots
 from ..in_process import SHELL
 from ..measuring import BRACKET, Context, lattice_options, our_part
-from ..tables import Column, Row, measured, power_law, table
+from ..tables import Column, Row, measured, power_law, table, yes_no
 
 SIZES = (14.0, 10.0, 7.0, 5.0, 4.0, 3.2)
 QUICK_SIZES = (10.0, 5.0)
@@ -53,7 +53,7 @@ def render(result: dict[str, Any], images: Path) -> str:
         *(Column(stage, stage, ".2f") for stage in STAGES),
         Column("MB", "mb", ".1f"),
         Column("peak MB", "peak_mb", ",.0f"),
-        Column("closed", "watertight", lambda value: "yes" if value else "no"),
+        Column("closed", "watertight", yes_no),
         Column("bodies", "bodies"),
     ]
     notes = [row for row in result["rows"] if row.get("note")]

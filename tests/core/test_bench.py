@@ -136,7 +136,7 @@ class Works:
 def test_an_experiment_that_fails_stays_alone(tmp_path, monkeypatch, capsys):
     experiments = {"broken": Broken, "works": Works}
     monkeypatch.setattr(bench, "EXPERIMENTS", experiments)
-    bench.measure(["broken", "works"], quick=True, results=tmp_path)
+    bench.measure(["broken", "works"], quick=True, results=tmp_path, peer_minutes=1.0)
     assert "no such part" in capsys.readouterr().err
     results = {name: json.loads((tmp_path / f"{name}.json").read_text()) for name in experiments}
     assert bench.failures(results["broken"]) == ["RuntimeError: no such part"]
@@ -190,7 +190,7 @@ def test_when_every_job_fails_every_chapter_says_so(quick, tmp_path, monkeypatch
     monkeypatch.setattr(plots, "lines", lambda *_, **__: "a plot")
     monkeypatch.setattr(plots, "stacks", lambda *_, **__: "a plot")
     monkeypatch.setattr(bench, "machine", lambda: dict(MACHINE))
-    bench.measure(list(EXPERIMENTS), quick=quick, results=tmp_path)
+    bench.measure(list(EXPERIMENTS), quick=quick, results=tmp_path, peer_minutes=1.0)
     results = {name: json.loads((tmp_path / f"{name}.json").read_text()) for name in EXPERIMENTS}
     for name in EXPERIMENTS:
         assert name == "wing" or bench.failures(results[name]), name

@@ -30,18 +30,23 @@ def in_lattice(points, cell, cell_size, radius, active=None):
     home = np.floor(points / cell_size).astype(int)
     for shift in np.stack(np.meshgrid(*[(-1, 0, 1)] * 3), axis=-1).reshape(-1, 3):
         index = home + shift
-        there = np.ones(len(points), bool)
-        if active is not None:
-            there = ((index >= 0) & (index < active.shape)).all(axis=1)
-            there[there] = active[tuple(index[there].T)]
         local = points - index * cell_size
+        # No strut or joint of a cell reaches farther out of it than a joint's radius.
+        there = ((local >= -joint) & (local <= cell_size + joint)).all(axis=1) & ~inside
+        if active is not None:
+            there &= ((index >= 0) & (index < active.shape)).all(axis=1)
+            there[there] = active[tuple(index[there].T)]
+        rows = np.flatnonzero(there)
+        local = local[rows]
+        found = np.zeros(len(rows), bool)
         for a, b in cell.struts:
             p, q = cell.nodes[a] * cell_size, cell.nodes[b] * cell_size
             t = (local - p) @ (q - p) / ((q - p) @ (q - p))
             gap = np.linalg.norm(local - p - t[:, None] * (q - p), axis=1)
-            inside |= there & (t >= 0) & (t <= 1) & (gap <= radius)
+            found |= (t >= 0) & (t <= 1) & (gap <= radius)
         for node in joint_points:
-            inside |= there & (np.linalg.norm(local - node, axis=1) <= joint)
+            found |= np.linalg.norm(local - node, axis=1) <= joint
+        inside[rows[found]] = True
     return inside
 
 

@@ -462,7 +462,7 @@ def test_open_planes_and_drain_holes(
     part: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     report = tmp_path / "report.json"
-    common = ["fill", str(part), *LATTICE, "--shell", "1", "-o", str(tmp_path / "x.stl")]
+    common = ["fill", str(part), *LATTICE, "--shell", "3", "-o", str(tmp_path / "x.stl")]
     common += ["--report", str(report)]
     assert cli.run([*common, "--open-plane", "0,0,-15,0,0,-1"]) == 0
     assert json.loads(report.read_text())["voids"] == 0

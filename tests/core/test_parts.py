@@ -33,7 +33,11 @@ SETTINGS = {
     "trimesh_angle_block.STL": (0.2, 0.02, 0.05),
 }
 #: Thin skins on large parts: half a minute each.
-SLOW = {"fw_ExpansionCard_SelfTapping.stl", "numpystl_rear_case.stl"}
+SLOW = {
+    "fw_ExpansionCard_SelfTapping.stl",
+    "numpystl_rear_case.stl",
+    "odri_electronics_box_base.STL",
+}
 STEP = {
     "nist_ctc_01_asme1_rd.stp", "nist_ctc_02_asme1_rc.stp", "nist_ctc_03_asme1_rc.stp",
     "nist_ftc_06_asme1_rd.stp", "nist_ftc_10_asme1_rb.stp", "ge_bracket.step", "piston_rod.step",

@@ -85,8 +85,7 @@ def _meshed(laid: _Laid, spec: LatticeSpec, monitor: Monitor) -> Result:
             from .trim import clear, smallest_shell  # of no use to most blocks, and slow to import
 
             cleared = clear(mesh, inspect(mesh, monitor), smallest_shell(spec))
-            mesh = cleared.mesh
-            measured = measure(mesh, monitor)
+            mesh, measured = cleared.mesh, cleared.quality
             removed["pieces_removed"] = cleared.pieces_removed
             removed["specks_removed"] = cleared.specks_removed
     frame = graded_wireframe(laid.graph, spec, where)

@@ -103,7 +103,7 @@ def fill(
     if spec.output == "domain":
         precision = shortest_edge(solid)
         clean = separate_vertices(remove_slivers(room, precision), precision)
-        made = Output(Cleared(clean, 0, 0), measure(clean), None)
+        made = Output(Cleared(clean, measure(clean), 0, 0), None)
     else:
         trimming = Trimming(solid, domain, cell, spec, where, floor, active, thin, voxel_key)
         with monitor.stage("tile", 0.4, 0.5):
@@ -121,7 +121,7 @@ def fill(
         warnings += drained.warnings
         skin_volume -= drained.volume
     elif spec.open_faces:
-        warnings += trapped(made.measured.voids)
+        warnings += trapped(made.cleared.quality.voids)
     removed = {
         "struts_dangling_removed": thin.left.dangling if thin is not None else 0,
         "stubs_removed": thin.left.stubs if thin is not None else 0,
@@ -130,7 +130,7 @@ def fill(
         "drain_holes": drained.places if drained is not None else (),
     }
     report = report_of(
-        made.measured, frame, floor.cells, active, where, spec, monitor,
+        made.cleared.quality, frame, floor.cells, active, where, spec, monitor,
         domain_volume=room.volume, skin_volume=skin_volume, warnings=warnings, removed=removed,
     )  # fmt: skip
     return Result(cleared.mesh, frame, report)

@@ -125,15 +125,16 @@ def measure(mesh: TriangleMesh, monitor: Monitor | None = None) -> Quality:
     return inspect(mesh, monitor).quality
 
 
+#: What the qualities of meshes that share no vertex add up to.
+_SUMS = (
+    "triangles", "vertices", "open_edges", "overused_edges", "misoriented_edges",
+    "degenerate_triangles", "shells", "bodies", "voids", "volume", "area",
+)  # fmt: skip
+
+
 def combined(one: Quality, two: Quality) -> Quality:
     """The quality of two meshes taken as one, nothing welded."""
-    sums = {
-        name: getattr(one, name) + getattr(two, name)
-        for name in (
-            "triangles", "vertices", "open_edges", "overused_edges", "misoriented_edges",
-            "degenerate_triangles", "shells", "bodies", "voids", "volume", "area",
-        )
-    }  # fmt: skip
+    sums = {name: getattr(one, name) + getattr(two, name) for name in _SUMS}
     watertight = one.watertight and two.watertight
     bounds = np.array(
         [
@@ -143,6 +144,15 @@ def combined(one: Quality, two: Quality) -> Quality:
     )
     genus = one.genus + two.genus if watertight else -1
     return Quality(watertight=watertight, genus=genus, bounds=bounds, **sums)
+
+
+def remaining(whole: Quality, gone: Quality, bounds: NDArray[np.float64]) -> Quality:
+    """The quality of a watertight mesh less some of its shells, which have a quality of their own.
+
+    `bounds` are those of what is left.
+    """
+    rest = {name: getattr(whole, name) - getattr(gone, name) for name in _SUMS}
+    return Quality(watertight=True, genus=whole.genus - gone.genus, bounds=bounds, **rest)
 
 
 def inspect(mesh: TriangleMesh, monitor: Monitor | None = None) -> Inspection:

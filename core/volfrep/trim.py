@@ -23,7 +23,7 @@ from .mapping import STRAIGHT, LatticeMap
 from .mesh import TriangleMesh, compact
 from .octant import OctantKey, Periodic, wrapped
 from .progress import Monitor
-from .quality import Inspection
+from .quality import Inspection, Quality, measure, remaining
 from .spec import LatticeSpec
 from .tile import Octant
 from .voxels import CellGrid, crossed_cells, inside_cells, inside_points, wall_corners
@@ -187,7 +187,7 @@ def trim(
     monitor.tick(0.9)
     mesh, origin = _read(result)
     is_cap = origin == ids + 1
-    put_back = _put_back(mesh, is_cap, points, inner, cavity)
+    put_back = _put_back(mesh, is_cap, points, caps, inner, cavity)
     if put_back is None:
         # Nothing to weld to: let all the octants go through the Boolean, which takes longer.
         every = Kept(kept.grid, kept.border | kept.inside, np.zeros_like(kept.inside))
@@ -286,6 +286,7 @@ def _put_back(
     cut: TriangleMesh,
     is_cap: NDArray[np.bool_],
     points: NDArray[np.float64],
+    caps: NDArray[np.int32],
     inner: NDArray[np.int32],
     cavity: bool,
 ) -> tuple[TriangleMesh, NDArray[np.bool_]] | None:
@@ -300,9 +301,9 @@ def _put_back(
         if is_cap.any():
             raise RuntimeError("the Boolean left caps where no octant follows")
         return compact(TriangleMesh(cut.vertices, rest)), np.zeros(0, bool)
-    # Open edges of both sides run through the same points; match their coordinates exactly.
-    seam_new = _open_vertices(inner)
-    seam_cut = _open_vertices(rest)
+    # The rims of the caps are what both sides share; match their coordinates exactly.
+    seam_new = _shared(caps, inner, len(points))
+    seam_cut = _shared(cut.triangles[is_cap], rest, len(cut.vertices))
     wanted, have = points[seam_new], cut.vertices[seam_cut]
     order_new, order_cut = np.lexsort(wanted.T), np.lexsort(have.T)
     if len(wanted) != len(have) or not np.array_equal(wanted[order_new], have[order_cut]):
@@ -316,20 +317,12 @@ def _put_back(
     return compact(joined), np.zeros(len(inner), bool)
 
 
-def _open_vertices(triangles: NDArray[np.int32]) -> NDArray[np.int64]:
-    """The vertices on edges that have one triangle only, ascending."""
-    t = triangles.astype(np.int64)
-    start = np.concatenate([t[:, 0], t[:, 1], t[:, 2]])
-    end = np.concatenate([t[:, 1], t[:, 2], t[:, 0]])
-    key = (np.minimum(start, end) << 32) | np.maximum(start, end)
-    key.sort()
-    single = np.ones(len(key), bool)
-    same = key[1:] == key[:-1]
-    single[1:] &= ~same
-    single[:-1] &= ~same
-    ends = np.concatenate([key[single] >> 32, key[single] & 0xFFFFFFFF])
-    result: NDArray[np.int64] = np.unique(ends)
-    return result
+def _shared(one: NDArray[np.int32], two: NDArray[np.int32], count: int) -> NDArray[np.int64]:
+    """The vertices, ascending, that triangles of both sets have; `count` is of all vertices."""
+    in_one, in_two = np.zeros(count, bool), np.zeros(count, bool)
+    in_one[one] = True
+    in_two[two] = True
+    return np.flatnonzero(in_one & in_two)
 
 
 @dataclass(frozen=True, eq=False)
@@ -338,11 +331,13 @@ class Cleared:
 
     Attributes:
         mesh: what is left.
+        quality: of it.
         pieces_removed: pieces of material that hung on nothing.
         specks_removed: shells smaller than a facet, which no sample could follow.
     """
 
     mesh: TriangleMesh
+    quality: Quality
     pieces_removed: int
     specks_removed: int
 
@@ -386,14 +381,20 @@ def clear(
         loose |= solid
         loose[order[:bodies]] = False
     if not (loose | tiny).any():
-        return Cleared(mesh, 0, 0)
+        return Cleared(mesh, found.quality, 0, 0)
     # A void inside a loose piece goes with it.
     inside_loose = np.zeros(len(volume), bool)
     if (loose & ~tiny).any() and (void & ~tiny).any():
         inside_loose = void & _enclosed(mesh, label, loose & ~tiny, void & ~tiny)
     gone = loose | tiny | inside_loose
-    left = compact(TriangleMesh(mesh.vertices, mesh.triangles[~gone[label]]))
-    return Cleared(left, int((loose & ~tiny).sum()), int(tiny.sum()))
+    goes = gone[label]
+    left = compact(TriangleMesh(mesh.vertices, mesh.triangles[~goes]))
+    if found.quality.watertight and len(left.triangles):
+        taken = measure(compact(TriangleMesh(mesh.vertices, mesh.triangles[goes])))
+        quality = remaining(found.quality, taken, left.bounds)
+    else:
+        quality = measure(left)
+    return Cleared(left, quality, int((loose & ~tiny).sum()), int(tiny.sum()))
 
 
 def _enclosed(

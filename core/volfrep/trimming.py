@@ -25,7 +25,7 @@ from .limits import cells_are_full, refuse_solid_cells, refuse_too_large
 from .mesh import TriangleMesh, compact, concatenate
 from .octant import OctantKey
 from .progress import Monitor
-from .quality import Quality, combined, inspect, measure
+from .quality import combined, inspect, measure
 from .spec import LatticeSpec
 from .tile import Octant, mesh_octants, tile_spec
 from .trim import Cleared, Kept, clear, keep, keep_all, octant_roles, smallest_shell, trim
@@ -46,13 +46,11 @@ class Output:
     """What comes out of a trimming.
 
     Attributes:
-        cleared: the mesh, and what was removed from it.
-        measured: its quality.
+        cleared: the mesh, its quality, and what was removed from it.
         drained: its drain holes; None where none were asked for.
     """
 
     cleared: Cleared
-    measured: Quality
     drained: Drained | None
 
 
@@ -170,31 +168,29 @@ class Trimming:
             raise VolfrepError(
                 "No strut lies inside the part: reduce the cell size or move the origin."
             )
-        measured = found.quality
-        if cleared.mesh is not mesh:
-            measured = measure(cleared.mesh, monitor)
-            # The cavity's surface counts as negative: what is left is its wall only.
-            if with_skin and wall.volume + measured.volume < NO_LATTICE * wall.volume:
-                raise _nothing_holds()
+        # The cavity's surface counts as negative: what may be left is its wall only.
+        is_bare = wall.volume + cleared.quality.volume < NO_LATTICE * wall.volume
+        if cleared.mesh is not mesh and with_skin and is_bare:
+            raise _nothing_holds()
         cleared = replace(cleared, pieces_removed=cleared.pieces_removed + removed)
         if self.domain.openings is not None:
-            cleared, measured = self._opened(cleared, self.domain.openings, with_skin, monitor)
+            cleared = self._opened(cleared, self.domain.openings, with_skin, monitor)
         elif with_skin:
-            measured = combined(measure(solid), measured)
-            cleared = replace(cleared, mesh=concatenate(solid, cleared.mesh))
+            whole = concatenate(solid, cleared.mesh)
+            quality = combined(measure(solid), cleared.quality)
+            cleared = replace(cleared, mesh=whole, quality=quality)
         if spec.drains is None:
-            return Output(cleared, measured, None)
+            return Output(cleared, None)
         drained = drain(
             cleared.mesh, solid, self.domain.mesh, frame, spec.shell, spec.drains, monitor
         )
         clean = separate_vertices(remove_slivers(drained.mesh, precision), precision)
-        return Output(
-            replace(cleared, mesh=clean), measure(clean, monitor), replace(drained, mesh=clean)
-        )
+        cleared = replace(cleared, mesh=clean, quality=measure(clean, monitor))
+        return Output(cleared, replace(drained, mesh=clean))
 
     def _opened(
         self, cleared: Cleared, openings: TriangleMesh, with_skin: bool, monitor: Monitor
-    ) -> tuple[Cleared, Quality]:
+    ) -> Cleared:
         """The part, or its lattice, cut at its open faces, beyond which the cavity reaches."""
         solid, mesh = self.solid, cleared.mesh
         precision = shortest_edge(solid)
@@ -212,12 +208,11 @@ class Trimming:
             rest = clear(mesh, found, smallest, keep=self._on_skin(mesh, openings, precision))
         if not len(rest.mesh.triangles):
             raise _nothing_holds()
-        counted = replace(
+        return replace(
             rest,
             pieces_removed=cleared.pieces_removed + rest.pieces_removed,
             specks_removed=cleared.specks_removed + rest.specks_removed,
         )
-        return counted, measure(rest.mesh, monitor)
 
     def _on_skin(
         self, mesh: TriangleMesh, openings: TriangleMesh, precision: float
@@ -234,8 +229,7 @@ class Trimming:
         found = inspect(mesh, monitor)
         bodies = max(1, inspect(self.solid).quality.bodies)
         cleared = clear(mesh, found, smallest_shell(self.spec), bodies=bodies)
-        same = cleared.mesh is mesh
-        return Output(cleared, found.quality if same else measure(cleared.mesh, monitor), None)
+        return Output(cleared, None)
 
 
 def _nothing_holds() -> VolfrepError:

@@ -1,9 +1,14 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What holds for every lattice that is made, and for every refusal."""
 
+from dataclasses import asdict
+
+import pytest
+
 from volfrep import LatticeSpec, StageCache, VolfrepError, fill, quality
 from volfrep.export.stl import as_read
 from volfrep.mesh import TriangleMesh
+from volfrep.quality import Quality
 
 
 def check_contract(
@@ -28,3 +33,11 @@ def check_contract(
     assert (read.bodies, read.genus) == (report.bodies, report.genus)
     if spec.output == "part":
         assert report.bodies == quality.measure(solid).bodies
+
+
+def assert_same_quality(one: Quality, two: Quality) -> None:
+    """Counts are equal; volume, area and bounds agree up to rounding."""
+    first, second = asdict(one), asdict(two)
+    for name in ("volume", "area", "bounds"):
+        assert first.pop(name) == pytest.approx(second.pop(name), rel=1e-9, abs=1e-9), name
+    assert first == second

@@ -10,10 +10,11 @@ import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from contract import assert_same_quality
 from volfrep.errors import Cancelled
 from volfrep.mesh import TriangleMesh, compact, concatenate, empty_mesh
 from volfrep.progress import Monitor
-from volfrep.quality import measure, pinched_vertices, shape_statistics
+from volfrep.quality import measure, pinched_vertices, remaining, shape_statistics
 
 
 def mesh_of(shape: trimesh.Trimesh) -> TriangleMesh:
@@ -59,6 +60,13 @@ def test_bodies_and_voids_and_genus_add_up() -> None:
     assert quality.genus == 2
     assert quality.watertight
     assert measure(hollow).volume == pytest.approx(63.0)
+
+
+def test_what_stays_has_the_quality_of_the_whole_less_what_goes() -> None:
+    stays = concatenate(box(4.0), box(1.0).reversed(), torus())
+    goes = concatenate(box(0.5, (20, 0, 0)), torus().reversed())
+    rest = remaining(measure(concatenate(stays, goes)), measure(goes), stays.bounds)
+    assert_same_quality(rest, measure(stays))
 
 
 def test_an_open_box() -> None:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import samples
+from contract import assert_same_quality
 from volfrep import quality
 from volfrep.cells import LIBRARY
 from volfrep.lattice import OctantGrid, coordinates
@@ -79,7 +80,9 @@ def _ball(radius, centre):
 
 
 def cleared_of(mesh, smallest, **rules):
-    return clear(mesh, quality.inspect(mesh), smallest, **rules)
+    cleared = clear(mesh, quality.inspect(mesh), smallest, **rules)
+    assert_same_quality(cleared.quality, quality.measure(cleared.mesh))
+    return cleared
 
 
 def test_pieces_that_float_in_a_cavity_go_with_the_voids_in_them():
@@ -102,6 +105,19 @@ def test_without_a_skin_the_largest_body_stays():
 def test_specks_are_removed_and_counted_apart():
     cleared = cleared_of(concatenate(_ball(5.0, (0, 0, 0)), _ball(0.1, (20, 0, 0))), 0.1)
     assert (cleared.pieces_removed, cleared.specks_removed) == (0, 1)
+
+
+def test_where_nothing_is_too_small_everything_stays():
+    mesh = concatenate(_ball(5.0, (0, 0, 0)), _ball(1.0, (20, 0, 0)))
+    assert cleared_of(mesh, 0.1).mesh is mesh
+
+
+def test_a_mesh_with_a_hole_is_measured_anew():
+    ball = _ball(5.0, (0, 0, 0))
+    holed = TriangleMesh(ball.vertices, ball.triangles[1:])
+    cleared = cleared_of(concatenate(holed, _ball(0.1, (20, 0, 0))), 0.1)
+    assert cleared.specks_removed == 1
+    assert not cleared.quality.watertight
 
 
 def test_a_mesh_that_is_no_solid_is_refused():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The properties of the group Grading: which of them apply, and what they ask the engine for.
+"""What the properties of the group Grading ask the engine for.
 
 Points and directions are in the coordinate system that the object lies in, like `Origin`: the
 document's, or that of the App::Part that holds the object.
@@ -31,52 +31,6 @@ CHOICES = {
     "RadiusLaw": [name for name in LAWS if name != "Scalar"],
     "CellMap": [CARTESIAN, "Cylindrical", "Spherical"],
 }
-#: Properties on which it hangs whether others apply.
-CONTROLS = (
-    *CHOICES, "RadiusCurve", "UseMapCentre", "RotationAngle", "UseRotationOrigin",
-)  # fmt: skip
-_SHOWN, _HIDDEN = 0, 2
-
-
-def show_applicable(obj: App.DocumentObject) -> None:
-    """Hide the properties that have no effect; does nothing while some are still missing."""
-    if not set(CONTROLS).issubset(obj.PropertiesList):
-        return
-    for name, applies in _applicable(obj).items():
-        if name in obj.PropertiesList:
-            obj.setEditorMode(name, _SHOWN if applies else _HIDDEN)
-
-
-def _applicable(obj: App.DocumentObject) -> dict[str, bool]:
-    size, radius, mapped = obj.SizeGrading, obj.RadiusGrading, obj.CellMap != CARTESIAN
-    by_law = radius in ("Direction", "Skin", "Core")
-    by_field = radius == "Field"
-    ends = (by_law and obj.RadiusLaw != "Formula") or (by_field and not obj.RadiusCurve.strip())
-    turned = obj.RotationAngle.Value != 0
-    return {
-        "LambdaMin": size not in (OFF, "Formula"),
-        "LambdaMax": size not in (OFF, "Formula", "Scalar"),
-        "LambdaFormula": size == "Formula",
-        "GradingDirection": size != OFF,
-        "KeepRadius": size != OFF or mapped,
-        "RadiusLaw": by_law,
-        "RadiusMin": ends,
-        "RadiusMax": ends,
-        "RadiusFormula": by_law and obj.RadiusLaw == "Formula",
-        "RadiusDirection": radius == "Direction",
-        "RadiusReach": radius in ("Skin", "Core"),
-        "RadiusField": by_field,
-        "RadiusResult": by_field,
-        "RadiusColumn": by_field,
-        "RadiusCurve": by_field,
-        "MapAxis": mapped,
-        "MapAround": mapped,
-        "UseMapCentre": mapped,
-        "MapCentre": mapped and obj.UseMapCentre,
-        "RotationAxis": turned,
-        "UseRotationOrigin": turned,
-        "RotationOrigin": turned and obj.UseRotationOrigin,
-    }
 
 
 def gradings_of(obj: App.DocumentObject) -> dict[str, Any]:

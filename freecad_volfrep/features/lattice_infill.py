@@ -12,10 +12,11 @@ import FreeCAD as App
 from freecad_volfrep.engine import require_engine
 from freecad_volfrep.preferences import largest_automatic
 
-from .grading import CONTROLS, gradings_of, show_applicable
+from .applicable import CONTROLS, CUSTOM_CELL, show_applicable
+from .grading import gradings_of
 from .openings import openings_of
 from .progress import job_title, run_job
-from .properties import CUSTOM_CELL, PROPERTIES, ensure_properties
+from .properties import PROPERTIES, ensure_properties
 
 if TYPE_CHECKING:
     from volfrep import LatticeSpec

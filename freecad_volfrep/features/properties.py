@@ -8,13 +8,11 @@ from typing import Any
 
 import FreeCAD as App
 
-from .grading import CARTESIAN, CHOICES, OFF, show_applicable
+from .applicable import CUSTOM_CELL, show_applicable
+from .grading import CARTESIAN, CHOICES, OFF
 
 #: Raised with every change that an older file's objects must be brought up to.
 SCHEMA_VERSION = 3
-
-#: The entry of `CellType` that stands for a cell of the user's own, read from `CellFile`.
-CUSTOM_CELL = "Custom"
 
 # Flags of addProperty: Output says that a change does not ask for a recompute.
 _READ_ONLY, _HIDDEN, _OUTPUT = 1, 4, 8

@@ -10,7 +10,7 @@ from typing import Any
 
 import FreeCADGui as Gui
 
-from freecad_volfrep.features.properties import CUSTOM_CELL
+from freecad_volfrep.features.applicable import CUSTOM_CELL
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 from volfrep.cells import LIBRARY, UnitCell, load_cell
 from volfrep.errors import VolfrepError
@@ -293,7 +293,7 @@ class CellLibrary(QtWidgets.QDialog):
             self,
             translate(_CONTEXT, "Load Cell"),
             str(Path.home()),
-            translate(_CONTEXT, FILTER),
+            cell_files(),
         )
         if path:
             self.load(path)
@@ -301,11 +301,16 @@ class CellLibrary(QtWidgets.QDialog):
     def _ask_and_save(self) -> bool:
         proposed = Path.home() / f"{file_name(self._entry().cell.name)}.json"
         path, _ = QtWidgets.QFileDialog.getSaveFileName(
-            self, translate(_CONTEXT, "Save Cell"), str(proposed), translate(_CONTEXT, FILTER)
+            self, translate(_CONTEXT, "Save Cell"), str(proposed), cell_files()
         )
         if not path:
             return False
         return self.save(path if Path(path).suffix else f"{path}.json")
+
+
+def cell_files() -> str:
+    """The kinds of files that hold a cell, as Qt's file dialog takes them."""
+    return str(translate(_CONTEXT, FILTER))
 
 
 def show_cell_library() -> CellLibrary:

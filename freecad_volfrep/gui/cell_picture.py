@@ -17,8 +17,11 @@ _VIEW = np.array([[0.87, -0.5, 0.0], [0.22, 0.37, 0.9], [0.45, 0.78, -0.43]])
 _CUBE = [(a, b) for a in range(8) for b in range(a) if (a ^ b) in (1, 2, 4)]
 
 
-def cell_icon(cell: UnitCell, size: int = 72) -> QtGui.QIcon:
-    """The cell seen from a corner, in its cube: nearer struts darker and thicker."""
+def cell_icon(cell: UnitCell | None, size: int = 72) -> QtGui.QIcon:
+    """The cell seen from a corner, in its cube: nearer struts darker and thicker.
+
+    None stands for a cell that is not there yet: its cube is empty.
+    """
     corners = np.array([[k & 1, k >> 1 & 1, k >> 2 & 1] for k in range(8)], float)
     placed = (corners - 0.5) @ _VIEW.T
     scale = 0.92 * size / np.ptp(placed[:, :2], axis=0).max()
@@ -36,14 +39,15 @@ def cell_icon(cell: UnitCell, size: int = 72) -> QtGui.QIcon:
     painter.setPen(QtGui.QPen(QtGui.QColor(150, 150, 150), size / 72.0))
     for a, b in _CUBE:
         line(placed[a], placed[b])
-    nodes = (cell.nodes - 0.5) @ _VIEW.T
-    depth = nodes[cell.struts, 2].mean(axis=1)
-    for strut in cell.struts[np.argsort(depth)]:
-        near = float(np.clip(nodes[strut, 2].mean() + 0.5, 0.0, 1.0))
-        pen = QtGui.QPen(QtGui.QColor.fromHsv(210, 200, int(230 - 110 * near)))
-        pen.setWidthF(size / 72.0 * (2.0 + 2.5 * near))
-        pen.setCapStyle(QtCore.Qt.RoundCap)
-        painter.setPen(pen)
-        line(nodes[strut[0]], nodes[strut[1]])
+    if cell is not None:
+        nodes = (cell.nodes - 0.5) @ _VIEW.T
+        depth = nodes[cell.struts, 2].mean(axis=1)
+        for strut in cell.struts[np.argsort(depth)]:
+            near = float(np.clip(nodes[strut, 2].mean() + 0.5, 0.0, 1.0))
+            pen = QtGui.QPen(QtGui.QColor.fromHsv(210, 200, int(230 - 110 * near)))
+            pen.setWidthF(size / 72.0 * (2.0 + 2.5 * near))
+            pen.setCapStyle(QtCore.Qt.RoundCap)
+            painter.setPen(pen)
+            line(nodes[strut[0]], nodes[strut[1]])
     painter.end()
     return QtGui.QIcon(pixmap)

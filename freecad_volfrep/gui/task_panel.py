@@ -9,11 +9,16 @@ from typing import Any
 import FreeCAD as App
 import FreeCADGui as Gui
 
+from freecad_volfrep.features.applicable import CUSTOM_CELL
 from freecad_volfrep.features.live_preview import LivePreview
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, marked, spaced, translate
+from volfrep.cells import LIBRARY, load_cell
 from volfrep.errors import VolfrepError
+from volfrep.point_files import TABLE_SUFFIXES, VTK_SUFFIXES
 
+from .cell_library import cell_files
 from .cell_picture import cell_icon
+from .file_field import FileField
 from .messages import WRONG
 from .preview_only import end_preview
 from .preview_view import PreviewView
@@ -25,7 +30,7 @@ PICTURE = 48
 #: What the panel shows, by group: properties of the object. Those that do not apply are hidden.
 GROUPS = {
     QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Lattice"): (
-        "CellSize", "StrutRadius", "ShellThickness", "JointFillet",
+        "CellFile", "CellSize", "StrutRadius", "ShellThickness", "JointFillet",
     ),
     QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Boundary"): (
         "Activation", "Boundary", "RemoveDangling", "ShortestStub",
@@ -34,12 +39,15 @@ GROUPS = {
         "SizeGrading", "LambdaMin", "LambdaMax", "LambdaFormula",
     ),
     QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Strut radius"): (
-        "RadiusGrading", "RadiusLaw", "RadiusMin", "RadiusMax", "RadiusFormula", "RadiusReach",
+        "RadiusGrading", "RadiusField", "RadiusColumn", "RadiusCurve", "RadiusLaw", "RadiusMin",
+        "RadiusMax", "RadiusFormula", "RadiusReach",
     ),
 }  # fmt: skip
 #: The switches of what is shown in the view.
 PREVIEW = QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Preview")
 CELLS = QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Cells")
+#: What the files of a field hold.
+POINTS = QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Points and values")
 #: Above this group are the figures: what is used most is seen without scrolling.
 SECOND = "Boundary"
 #: Values of the properties that are chosen from lists, marked for translation.
@@ -188,8 +196,6 @@ class TaskPanel:
         self._view.clear()
 
     def _cell_picker(self) -> Any:
-        from volfrep.cells import LIBRARY
-
         picker = QtWidgets.QListWidget()
         picker.setObjectName("CellType")
         picker.setViewMode(QtWidgets.QListView.IconMode)
@@ -200,12 +206,23 @@ class TaskPanel:
         picker.setMinimumWidth(4 * PICTURE)
         for name in self._obj.getEnumerationsOfProperty("CellType"):
             item = QtWidgets.QListWidgetItem(name, picker)
-            if name in LIBRARY:
+            if name == CUSTOM_CELL:
+                self._own = item
+                self._draw_own_cell()
+            else:
                 item.setIcon(cell_icon(LIBRARY[name], PICTURE))
             if name == self._obj.CellType:
                 picker.setCurrentItem(item)
         picker.currentTextChanged.connect(self._setter("CellType"))
         return picker
+
+    def _draw_own_cell(self) -> None:
+        """Show the cell of the object's file, or an empty cube; the figures say what is wrong."""
+        try:
+            cell = load_cell(self._obj.CellFile) if self._obj.CellFile else None
+        except VolfrepError:
+            cell = None
+        self._own.setIcon(cell_icon(cell, PICTURE))
 
     def _editor(self, name: str) -> Any:
         """A widget for a property, by the property's type."""
@@ -228,6 +245,8 @@ class TaskPanel:
             line = QtWidgets.QLineEdit(getattr(self._obj, name))
             line.editingFinished.connect(lambda: self._setter(name)(line.text()))
             return line
+        if kind == "App::PropertyFile":
+            return FileField(getattr(self._obj, name), _files(name), self._setter(name))
         spin = Gui.UiLoader().createWidget("Gui::QuantitySpinBox")
         spin.setProperty("unit", "mm" if kind == "App::PropertyLength" else "")
         spin.setProperty("minimum", 0.0)
@@ -251,6 +270,8 @@ class TaskPanel:
             if driven or value == getattr(present, "Value", present):
                 return
             setattr(self._obj, name, value)
+            if name == "CellFile":
+                self._draw_own_cell()
             self._show_rows()
             self._timer.start(SETTLED)
 
@@ -272,6 +293,14 @@ class TaskPanel:
         Gui.Control.closeDialog()
         if Gui.ActiveDocument is not None:
             Gui.ActiveDocument.resetEdit()
+
+
+def _files(name: str) -> str:
+    """The kinds of files for a property, as Qt's file dialog takes them."""
+    if name == "CellFile":
+        return cell_files()
+    suffixes = " ".join(f"*{suffix}" for suffix in TABLE_SUFFIXES + VTK_SUFFIXES)
+    return f"{translate('VolfrepTaskPanel', POINTS)} ({suffixes})"
 
 
 def _label(name: str) -> str:

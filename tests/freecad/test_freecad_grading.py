@@ -10,7 +10,8 @@ from conftest import SMALL
 
 from freecad_volfrep import make_lattice_infill
 from freecad_volfrep.bridge.fem_fields import field_of_result
-from freecad_volfrep.features.grading import CHOICES, CONTROLS
+from freecad_volfrep.features.applicable import CONTROLS, CUSTOM_CELL
+from freecad_volfrep.features.grading import CHOICES
 from freecad_volfrep.features.lattice_infill import UP_TO_DATE
 from freecad_volfrep.features.properties import PROPERTIES
 from volfrep import grading, law
@@ -36,7 +37,7 @@ def test_the_choices_are_those_of_the_engine(infill):
     assert tuple(LAWS.values()) == law.KINDS
     assert tuple(name.lower() for name in CHOICES["CellMap"]) == grading.MAPS
     assert tuple(name.lower() for name in CHOICES["RadiusGrading"][1:]) == grading.RADIUS_BY
-    assert set(CONTROLS) <= set(GRADING)
+    assert {*CONTROLS} - {"CellType"} <= set(GRADING)
 
 
 @pytest.mark.parametrize(
@@ -77,6 +78,15 @@ def test_only_what_applies_is_shown(doc, box, values, more):
     for name in values:
         setattr(obj, name, {p.name: p.default for p in PROPERTIES}[name])
     assert shown(obj) == CHOOSERS
+
+
+def test_the_file_of_a_cell_is_shown_with_a_cell_of_ones_own(doc, box):
+    obj = make_lattice_infill(doc, box, **SMALL)
+    assert "Hidden" in obj.getEditorMode("CellFile")
+    obj.CellType = CUSTOM_CELL
+    assert "Hidden" not in obj.getEditorMode("CellFile")
+    obj.CellType = "BCC"
+    assert "Hidden" in obj.getEditorMode("CellFile")
 
 
 @pytest.mark.parametrize(

@@ -20,6 +20,7 @@ from driving import (
     answer_panel,
     check,
     click,
+    click_item,
     drawn_share,
     figures,
     infills,
@@ -32,7 +33,7 @@ from driving import (
     shades,
     step,
     toolbar_button,
-    type_length,
+    type_value,
     wait,
     wait_until,
     xdotool,
@@ -166,8 +167,8 @@ def fill_a_box():
     click(toolbar_button("Lattice Infill"))
     check("the panel opens", wait_until(lambda: panel() is not None, 20))
     wait(1000)
-    type_length("CellSize", "10 mm")
-    type_length("StrutRadius", "1 mm")
+    type_value("CellSize", "10 mm")
+    type_value("StrutRadius", "1 mm")
     picture("tutorial_2_panel")
     check("the panel's preview is in the picture", drawn_share("tutorial_2_panel") > 0.1)
     answer_panel("OK")
@@ -385,11 +386,7 @@ def use_the_cell_library(doc, obj):
     told = library.findChild(QtGui.QLabel, "Figures")
     check("with the six cells", cells.count() == 6, cells.count())
     check("the infill's is picked", cells.currentItem().text() == "CVC")
-    place = cells.visualItemRect(cells.findItems("Octet", QtCore.Qt.MatchExactly)[0]).center()
-    spot = cells.viewport().mapToGlobal(place)
-    xdotool("mousemove", spot.x(), spot.y())
-    wait(200)
-    xdotool("click", 1)
+    click_item(cells, cells.findItems("Octet", QtCore.Qt.MatchExactly)[0])
     check("a click shows its figures", wait_until(lambda: "stretching" in told.text(), 5))
     picture("cell_library")
     check(
@@ -498,11 +495,7 @@ def menu_of(doc, obj):
         picture(f"menu_{obj.Name}")
         menu.close()
 
-    spot = tree.viewport().mapToGlobal(tree.visualItemRect(item).center())
-    xdotool("mousemove", spot.x(), spot.y())
-    wait(200)
-    xdotool("click", 1)
-    wait(500)
+    click_item(tree, item)
     QtCore.QTimer.singleShot(700, read)
     xdotool("click", 3)
     wait(1600)

@@ -20,6 +20,7 @@ from driving import (
     answer_panel,
     check,
     click,
+    click_item,
     drawn_share,
     figures,
     infills,
@@ -33,7 +34,7 @@ from driving import (
     select,
     toolbar_button,
     tree_texts,
-    type_length,
+    type_value,
     wait,
     wait_until,
     xdotool,
@@ -97,6 +98,7 @@ def drive():
     obj = infills(doc)[0]
 
     edit_in_the_panel(doc, obj)
+    give_it_an_own_cell(doc, obj)
     run_a_job()
     cancel_an_edit(doc, obj)
     cancel_a_creation(doc, box, fill)
@@ -153,22 +155,22 @@ def use_the_panel(doc, box, fill):
     open_panel(fill)
     obj = infills(doc)[0]
     figures_before = panel_part("Figures").text()
-    type_length("CellSize", "10 mm")
+    type_value("CellSize", "10 mm")
     check("a typed length is set", abs(obj.CellSize.Value - 10) < 1e-9, obj.CellSize)
-    type_length("StrutRadius", "1 mm")
+    type_value("StrutRadius", "1 mm")
     check("so is the next one", abs(obj.StrutRadius.Value - 1) < 1e-9, obj.StrutRadius)
     check("the figures follow", panel_part("Figures").text() != figures_before)
     click(panel_part("Cells"))
     wait(700)
     picture("panel_2_typed")
-    type_length("ShellThickness", "12 mm")
+    type_value("ShellThickness", "12 mm")
     check("what does not fit is said", "inside the skin" in panel_part("Figures").text(),
           panel_part("Figures").text())  # fmt: skip
     picture("panel_3_refused")
     share = drawn_share("panel_3_refused")
     check("and the solid stays to be seen", share > 0.1, share)
     for name, length in (("ShellThickness", "1"), ("CellSize", "5"), ("StrutRadius", "0.5")):
-        type_length(name, f"{length} mm")
+        type_value(name, f"{length} mm")
     click(panel_part("Compute"))
     check("Compute makes the mesh", wait_until(lambda: obj.Mesh.CountFacets > 0, 60))
     check("and stays in the panel", panel() is not None)
@@ -184,13 +186,48 @@ def edit_in_the_panel(doc, obj):
     Gui.activeDocument().setEdit(obj.Name)
     check("editing opens the panel", wait_until(lambda: panel() is not None, 20))
     wait(1000)
-    type_length("StrutRadius", "0.6 mm")
+    type_value("StrutRadius", "0.6 mm")
     check("editing sets the value", abs(obj.StrutRadius.Value - 0.6) < 1e-9)
     answer_panel("Cancel")
     wait(500)
     check("Cancel takes the value back", abs(obj.StrutRadius.Value - radius) < 1e-9)
     check("and the mesh stays", obj.Mesh.CountFacets == facets)
     check("without an undo step", doc.UndoCount == steps, doc.UndoNames)
+
+
+def give_it_an_own_cell(doc, obj):
+    """Custom in the panel asks for a file, of a cell whose picture and struts are then seen."""
+    from volfrep.cells import LIBRARY
+    from volfrep.drawn_cell import save_cell
+
+    path = OUT / "own_cell.json"
+    save_cell(LIBRARY["Octahedron"], path)
+    cell, facets = obj.CellType, obj.Mesh.CountFacets
+    Gui.activeDocument().setEdit(obj.Name)
+    wait_until(lambda: panel() is not None, 20)
+    wait(1000)
+    check("no file is asked for a known cell", not panel_part("CellFile").isVisible())
+    picker = panel_part("CellType")
+    custom = picker.findItems("Custom", QtCore.Qt.MatchExactly)[0]
+    empty = custom.icon().pixmap(48, 48).toImage()
+    click_item(picker, custom)
+    check("Custom is chosen", obj.CellType == "Custom", obj.CellType)
+    check("it asks for a file", panel_part("CellFile").isVisible())
+    check("and says so", "CellFile" in panel_part("Figures").text(), panel_part("Figures").text())
+    type_value("CellFile", str(path))
+    check("the file is set", obj.CellFile == str(path), obj.CellFile)
+    check("the picture is the cell's", custom.icon().pixmap(48, 48).toImage() != empty)
+    check("the figures follow", "struts" in panel_part("Figures").text(),
+          panel_part("Figures").text())  # fmt: skip
+    picture("panel_5_own_cell")
+    type_value("CellFile", str(OUT / "not_there.json"))
+    check("a file that is not there is said", "not_there" in panel_part("Figures").text(),
+          panel_part("Figures").text())  # fmt: skip
+    check("and its picture is empty", custom.icon().pixmap(48, 48).toImage() == empty)
+    answer_panel("Cancel")
+    wait(500)
+    check("Cancel gives the cell back", obj.CellType == cell, obj.CellType)
+    check("and the mesh", obj.Mesh.CountFacets == facets)
 
 
 def run_a_job():

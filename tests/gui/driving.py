@@ -199,8 +199,18 @@ def answer_panel(text):
     raise LookupError(f"no button {text}")
 
 
-def type_length(name, text):
-    """Really type a length over what is in one of the panel's fields."""
+def click_item(view, item):
+    """Really click on an item of a list or a tree."""
+    view.scrollToItem(item)
+    point = view.viewport().mapToGlobal(view.visualItemRect(item).center())
+    xdotool("mousemove", point.x(), point.y())
+    wait(200)
+    xdotool("click", 1)
+    wait(900)
+
+
+def type_value(name, text):
+    """Really type over what is in one of the panel's fields."""
     field = panel_part(name)
     click(field)
     xdotool("key", "ctrl+a")

@@ -1812,8 +1812,16 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>Gitter</translation>
     </message>
     <message>
+      <source>Look for a file</source>
+      <translation>Datei suchen</translation>
+    </message>
+    <message>
       <source>Make the mesh of these values now and stay in this panel</source>
       <translation>Erzeugt jetzt das Netz zu diesen Werten und bleibt im Aufgabenfenster</translation>
+    </message>
+    <message>
+      <source>Points and values</source>
+      <translation>Punkte und Werte</translation>
     </message>
     <message>
       <source>Preview</source>

@@ -1812,8 +1812,16 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>Reticolo</translation>
     </message>
     <message>
+      <source>Look for a file</source>
+      <translation>Cerca un file</translation>
+    </message>
+    <message>
       <source>Make the mesh of these values now and stay in this panel</source>
       <translation>Crea ora la mesh di questi valori e resta in questo pannello</translation>
+    </message>
+    <message>
+      <source>Points and values</source>
+      <translation>Punti e valori</translation>
     </message>
     <message>
       <source>Preview</source>

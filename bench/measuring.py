@@ -109,8 +109,10 @@ def run(
     """Run a process from the checkout's root and wait for it, at most `limit` seconds.
 
     Python keeps its compiled modules, as it does of an installed package, even where whoever runs
-    the benchmark has forbidden that: every tool would compile its own at every start.
+    the benchmark has forbidden that: every tool would compile its own at every start. What earlier
+    jobs have left to be written goes to the disk first, for it is not this one's.
     """
+    os.sync()
     inherited = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
     ended = threading.Event()
     with tempfile.TemporaryFile("w+") as output, tempfile.TemporaryFile("w+") as errors:
@@ -143,9 +145,19 @@ def run(
     return Run(seconds, cpu, process.returncode, said.strip(), ended.is_set())
 
 
-def run_often(arguments: Sequence[str], times: int) -> tuple[Run, list[float]]:
-    """Run a process some times: the run of median time, and all the times, sorted."""
-    runs = sorted((run(arguments) for _ in range(times)), key=lambda done: done.seconds)
+def run_often(
+    arguments: Sequence[str], times: int, out: Path | None = None
+) -> tuple[Run, list[float]]:
+    """Run a process some times: the run of median time, and all the times, sorted.
+
+    `out` is the file it writes: a new one every time.
+    """
+    runs = []
+    for _ in range(times):
+        if out is not None:
+            out.unlink(missing_ok=True)
+        runs.append(run(arguments))
+    runs.sort(key=lambda done: done.seconds)
     failed = [done for done in runs if done.failure]
     return (failed or [runs[(len(runs) - 1) // 2]])[0], [done.seconds for done in runs]
 
@@ -190,7 +202,7 @@ def our_block(
         "block", "-o", str(out), "--cell", cell, "--count", *[str(count)] * 3,
         *lattice_options(), *options, "--quiet", "--report", str(report),
     )  # fmt: skip
-    done, all_seconds = run_often(command, times)
+    done, all_seconds = run_often(command, times, out)
     row: Row = {"tool": "this engine", "cell": cell, "cells": count**3}
     if done.failure:
         return {**row, "note": done.failure, "failed": True}

@@ -179,7 +179,7 @@ def test_when_every_job_fails_every_chapter_says_so(quick, tmp_path, monkeypatch
     def fail(arguments, **options):
         return measuring.Run(0.1, 0.1, 2, "volfrep: no such luck", False)
 
-    def fail_often(arguments, times):
+    def fail_often(arguments, times, out=None):
         return fail(arguments), [0.1] * times
 
     for module in (measuring, *EXPERIMENTS.values()):

@@ -170,7 +170,7 @@ def separate_vertices(mesh: TriangleMesh, precision: float) -> TriangleMesh:
             break
         moved = np.zeros(len(mesh.vertices), bool)
         moved[twins] = True
-        part = mesh.triangles[moved[mesh.triangles].any(axis=1)]
+        part = mesh.triangles[_touching(moved, mesh.triangles)]
         normal = np.repeat(remesh.normals(mesh.vertices[part]), 3, axis=0)
         total = np.stack(
             [

@@ -140,9 +140,9 @@ def mesh_octants(
     result: dict[OctantKey, Octant] = {}
     firsts = [group[0] for group in groups.values()]
     _mesh(spec, {key: primitives[key] for key in firsts}, result, monitor)
-    for first, *others in groups.values():
-        alike = _alike(spec, result[first], primitives[first], others, primitives)
-        result.update(dict.fromkeys(alike, result[first]))
+    for group in groups.values():
+        octant = result[group[0]]
+        result.update(dict.fromkeys(_alike(spec, octant, group, primitives), octant))
     rest = {key: own for key, own in primitives.items() if key not in result}
     _mesh(spec, rest, result, monitor)
     return result
@@ -169,24 +169,24 @@ def _mesh(
 def _alike(
     spec: TileSpec,
     octant: Octant,
-    own: Primitives,
-    others: list[OctantKey],
+    group: list[OctantKey],
     primitives: Mapping[OctantKey, Primitives],
 ) -> list[OctantKey]:
-    """Which others have the surface of an octant, by the field at its facets.
+    """Which octants have the surface of their group's first one, by the field at its facets.
 
     The samples said so already; a strut that shows between them only is found here.
     """
+    first, *others = group
     if not len(octant.triangles) or not others:
         return others
     middles = octant.vertices[octant.triangles].mean(axis=1)
     points = np.concatenate([octant.vertices, middles])[:, None]
 
-    def values(of: Primitives) -> Floats:
-        return frep.union(frep.distances(points, of), spec.fillet)
+    def values(key: OctantKey) -> Floats:
+        return frep.union(frep.distances(points, primitives[key]), spec.fillet)
 
-    wanted = values(own)
-    return [key for key in others if np.array_equal(values(primitives[key]), wanted)]
+    wanted = values(first)
+    return [key for key in others if np.array_equal(values(key), wanted)]
 
 
 @dataclass(frozen=True, eq=False)

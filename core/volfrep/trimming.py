@@ -168,10 +168,11 @@ class Trimming:
             raise VolfrepError(
                 "No strut lies inside the part: reduce the cell size or move the origin."
             )
-        # The cavity's surface counts as negative: what may be left is its wall only.
-        is_bare = wall.volume + cleared.quality.volume < NO_LATTICE * wall.volume
-        if cleared.mesh is not mesh and with_skin and is_bare:
-            raise _nothing_holds()
+        if with_skin and cleared.mesh is not mesh:
+            # The cavity's surface counts as negative: what is left may be its wall only.
+            cavity = wall.volume
+            if cavity + cleared.quality.volume < NO_LATTICE * cavity:
+                raise _nothing_holds()
         cleared = replace(cleared, pieces_removed=cleared.pieces_removed + removed)
         if self.domain.openings is not None:
             cleared = self._opened(cleared, self.domain.openings, with_skin, monitor)

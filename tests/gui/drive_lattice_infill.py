@@ -130,6 +130,17 @@ def show_coarsely(doc, obj):
 def open_panel(fill):
     """A real click on the command's button, until the panel is there to be typed into."""
     click(fill)
+    return panel_is_there()
+
+
+def open_to_edit(obj):
+    """What a double click does, until the panel is there to be typed into."""
+    Gui.activeDocument().setEdit(obj.Name)
+    return panel_is_there()
+
+
+def panel_is_there():
+    """Wait for the panel."""
     there = wait_until(lambda: panel() is not None, 20)
     wait(1000)
     return there
@@ -183,9 +194,7 @@ def use_the_panel(doc, box, fill):
 def edit_in_the_panel(doc, obj):
     """A double click opens the panel of an infill; Cancel takes everything back."""
     radius, facets, steps = obj.StrutRadius.Value, obj.Mesh.CountFacets, doc.UndoCount
-    Gui.activeDocument().setEdit(obj.Name)
-    check("editing opens the panel", wait_until(lambda: panel() is not None, 20))
-    wait(1000)
+    check("editing opens the panel", open_to_edit(obj))
     type_value("StrutRadius", "0.6 mm")
     check("editing sets the value", abs(obj.StrutRadius.Value - 0.6) < 1e-9)
     answer_panel("Cancel")
@@ -203,9 +212,7 @@ def give_it_an_own_cell(doc, obj):
     path = OUT / "own_cell.json"
     save_cell(LIBRARY["Octahedron"], path)
     cell, facets = obj.CellType, obj.Mesh.CountFacets
-    Gui.activeDocument().setEdit(obj.Name)
-    wait_until(lambda: panel() is not None, 20)
-    wait(1000)
+    open_to_edit(obj)
     check("no file is asked for a known cell", not panel_part("CellFile").isVisible())
     picker = panel_part("CellType")
     custom = picker.findItems("Custom", QtCore.Qt.MatchExactly)[0]

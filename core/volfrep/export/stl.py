@@ -27,7 +27,7 @@ FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute"
 Facets = NDArray[np.void]
 #: The file counts its facets in 32 bits.
 MOST_FACETS = int(np.iinfo(np.uint32).max)
-#: Facets prepared at once by each thread (bounds the memory).
+#: Facets prepared at once by each thread: they should stay in the processor's cache.
 BLOCK_FACETS = 1 << 13
 
 

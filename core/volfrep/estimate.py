@@ -19,7 +19,7 @@ from .export.step_faceted import MAX_TRIANGLES as MAX_PLANE_FACES
 from .export.step_faceted import predicted_faceted
 from .export.step_wireframe import predicted_wireframe
 from .limits import rounded_up
-from .spec import MIN_RESOLUTION, LatticeSpec
+from .spec import LatticeSpec
 from .tetrahedra import (
     BYTES_PER_TRIANGLE,
     ELEMENTS_PER_TRIANGLE,
@@ -78,7 +78,7 @@ class Asked:
         """The setting with so many times fewer facets, or else fewer struts."""
         # Triangles go with the square of the facets along L.
         resolution = int(self.spec.facets_along_cell / np.sqrt(excess))
-        if resolution >= MIN_RESOLUTION:
+        if resolution >= self.spec.coarsest_resolution:
             return f"a resolution of {resolution}"
         return self.fewer(excess)
 

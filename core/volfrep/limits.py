@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .errors import VolfrepError
-from .forecast import LONGEST_EDGE, expected_triangles
+from .forecast import expected_triangles
 from .lattice import OctantGrid
 from .octant import OctantKey
-from .spec import MIN_RESOLUTION, LatticeSpec
+from .spec import LatticeSpec
 from .tile import Octant
 
 #: Bytes that a triangle takes at the peak: laid out and checked, or in the Boolean as well.
@@ -104,8 +104,7 @@ def _what_fits(spec: LatticeSpec, excess: float, has_triangles: bool) -> str:
         return f"cells of {rounded_up(spec.cell_size * excess ** (1 / 3)):g} mm would fit"
     cells = f"cells of {rounded_up(spec.cell_size * excess**0.5):g} mm or larger"
     facets = int(spec.facets_along_cell / excess**0.5)
-    # Coarser facets than this do not make fewer: thin struts are sampled finely all the same.
-    if facets < max(MIN_RESOLUTION, spec.cell_size / (LONGEST_EDGE * spec.template_radius)):
+    if facets < spec.coarsest_resolution:
         return f"{cells} would fit, or fewer cells"
     if spec.resolution is not None:
         return f"a resolution of {facets}, or {cells}, would fit"

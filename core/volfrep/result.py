@@ -100,6 +100,6 @@ def report_of(
         work=dict(monitor.work),
         peak_memory_mb=peak_memory_mb(),
         spec=spec.as_dict(),
-        warnings=warnings,
+        warnings=spec.notes + warnings,
         **removed,
     )

@@ -21,6 +21,11 @@ OUTPUTS = ("part", "lattice", "domain")
 #: About nine facets round a strut.
 DEFAULT_RELATIVE_DEVIATION = 1.0 / 35.0
 MIN_RESOLUTION, MAX_RESOLUTION = 4, 400
+#: No facet is longer than this many strut radii: fewer than about six round a strut cannot be
+#: placed so that its volume is right. Nor are there fewer than so many along L, whose edges could
+#: not follow the windows between thick struts.
+LONGEST_FACET = 1.0
+COARSEST = 8
 #: The resolution that is chosen for thick struts, whose windows are smaller than they are.
 MIN_AUTOMATIC_RESOLUTION = 15
 
@@ -34,7 +39,7 @@ class LatticeSpec:
         cell_size: L, edge of the cubic cell.
         strut_radius: r, of every strut.
         shell: thickness of the closed skin; 0 trims the lattice at the outer surface.
-        resolution: facets along L; or
+        resolution: facets along L, and never fewer than struts need (`coarsest_resolution`); or
         deviation: largest distance in mm between a facet and the exact strut. With neither,
             the deviation is `DEFAULT_RELATIVE_DEVIATION` r.
         activation: ``touching`` (every cell that touches the domain), ``centre`` (cells whose
@@ -196,8 +201,9 @@ class LatticeSpec:
         the radius varies, every strut has as many facets round it, and the thickest one strays
         most.
         """
+        coarsest = self.coarsest_resolution
         if self.resolution is not None:
-            return int(self.resolution)
+            return max(int(self.resolution), coarsest)
         radius = self.template_radius**2 / self.radius_extremes[1]
         if self.deviation is None:
             radius = self.template_radius
@@ -210,8 +216,37 @@ class LatticeSpec:
                 f"A deviation of {deviation:.3g} mm needs {wanted:.0f} facets along a cell: the "
                 f"limit is {MAX_RESOLUTION}, which reaches {smallest:.3g} mm."
             )
-        least = MIN_RESOLUTION if self.deviation is not None else MIN_AUTOMATIC_RESOLUTION
+        least = coarsest if self.deviation is not None else MIN_AUTOMATIC_RESOLUTION
         return max(math.ceil(wanted), least)
+
+    @property
+    def coarsest_resolution(self) -> int:
+        """Facets along L below which struts would not have their volume.
+
+        Raises:
+            VolfrepError: struts are so thin that not even the finest resolution follows them.
+        """
+        needed = math.ceil(self.cell_size / (LONGEST_FACET * self.template_radius) - 1e-9)
+        if needed > MAX_RESOLUTION:
+            thinnest = self.cell_size / (LONGEST_FACET * MAX_RESOLUTION)
+            raise VolfrepError(
+                f"Struts of radius {self.template_radius:.3g} mm are too thin for cells of "
+                f"{self.cell_size:g} mm: they need {needed} facets along a cell, the limit is "
+                f"{MAX_RESOLUTION}; make them {thinnest:.3g} mm or thicker, or the cells smaller."
+            )
+        return max(needed, COARSEST)
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Sentences on what is made otherwise than it was asked for."""
+        facets = self.facets_along_cell
+        if self.resolution is None or facets <= self.resolution:
+            return ()
+        return (
+            f"A resolution of {self.resolution} is too coarse for struts of radius "
+            f"{self.template_radius:.3g} mm, which would not have their volume: {facets} facets "
+            "along a cell are made.",
+        )
 
     def unit_cell(self) -> UnitCell:
         """The cell itself, looked up in the library or read from its file."""

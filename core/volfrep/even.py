@@ -22,11 +22,13 @@ from .frep import Floats, Ints, distances_and_gradients
 from .surface import (
     Surface,
     between_samples,
+    moved,
     neighbour_mean,
     project,
     shortened,
     step_to_primitives,
 )
+from .untangle import proper_border
 
 Bools = NDArray[np.bool_]
 
@@ -46,14 +48,26 @@ ON_SURFACE = 1e-3
 BISECTIONS = 30
 
 
-def even_out(raw: Surface) -> tuple[Surface, Ints]:
-    """Even triangles with their edges on the creases, the vertices on the exact surface."""
+def even_out(raw: Surface, gently: bool = False) -> tuple[Surface, Ints]:
+    """Even triangles with their edges on the creases, the vertices on the exact surface.
+
+    Args:
+        raw: what marching cubes found.
+        gently: inside, all triangles stay, and creases are not looked for; the border comes out
+            the same.
+
+    Returns:
+        The surface, and which of the raw vertices its own were.
+    """
     origin = np.arange(len(raw.vertices))
     if not len(raw.triangles):
         return raw, origin
-    surface = _relax(project(_settle_on_edges(raw)), border=True, passes=2)
+    settled = _settle_on_edges(raw)
+    surface = _relax(project(settled), border=True, passes=2)
     surface = _sharpen_border(_hold_on_edges(surface))
-    surface = _relax(surface, border=True, passes=3)
+    surface = proper_border(settled, _relax(surface, border=True, passes=3))
+    if gently:
+        return _relax(surface), origin
     for _ in range(3):
         surface, stay = _collapse(surface)
         origin = origin[stay]
@@ -128,6 +142,8 @@ def _collapse(surface: Surface) -> tuple[Surface, Ints]:
         surface.field.rows(stay),
         surface.edge,
         surface.step,
+        surface.piece[stay],
+        surface.size,
     )
     return project(smaller), stay
 
@@ -259,7 +275,7 @@ def _snap(surface: Surface, ends: Ints, movable: Bools) -> Surface:
     pick = order[first]
     vertices, new_held = surface.vertices.copy(), surface.held.copy()
     vertices[vertex], new_held[vertex] = point[pick], held_by[pick]
-    return replace(surface, vertices=vertices, held=new_held)
+    return replace(moved(surface, vertices), held=new_held)
 
 
 def _crossing(

@@ -9,13 +9,12 @@ the normal equations of the fit set the mean distance about every vertex to zero
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from . import remesh
-from .frep import Field, Floats, Ints
-from .surface import Surface, between_samples, neighbour_mean, shortened, step_to_primitives
+from .frep import Field, Floats
+from .surface import Surface, between_samples, moved, neighbour_mean, shortened, step_to_primitives
+from .untangle import proper_border
 
 #: Steps of the fit.
 FIT_PASSES = 4
@@ -29,20 +28,19 @@ QUADRATURE = np.array([[4, 1, 1], [1, 4, 1], [1, 1, 4]]) / 6.0
 QUADRATURE_WEIGHTS = np.full(3, 1.0 / 3.0)
 
 
-def fit(even: Surface, piece: Ints) -> Surface:
+def fit(even: Surface) -> Surface:
     """The facets fitted to the exact surface.
 
     Args:
         even: what `volfrep.even.even_out` made.
-        piece: (n,) int64, which octant each vertex belongs to: the volume is right in each.
     """
     if not len(even.triangles):
         return even
-    surface = _offset_border(even)
+    surface = proper_border(even, _offset_border(even))
     for _ in range(FIT_PASSES):
         surface = _fit(surface)
     for _ in range(2):
-        surface = _balance(surface, piece)
+        surface = _balance(surface)
     return surface
 
 
@@ -81,7 +79,7 @@ def _offset_border(surface: Surface) -> Surface:
     points[on_edge] = np.clip(points[on_edge], low, high)
     vertices = surface.vertices.copy()
     vertices[index] = points
-    return replace(surface, vertices=vertices)
+    return moved(surface, vertices)
 
 
 def _curvature(field: Field, points: Floats, edge: float) -> Floats:
@@ -136,7 +134,7 @@ def _fit(surface: Surface) -> Surface:
     matrix = matrix + (pull[:, None, None] + 1e-12) * np.eye(3)
     step = np.linalg.solve(matrix, (pull[:, None] * drift - right)[:, :, None])[:, :, 0]
     step = np.where(surface.pinned.any(axis=1)[:, None], 0.0, step)
-    return replace(surface, vertices=surface.vertices + shortened(step, 0.2 * surface.edge))
+    return moved(surface, surface.vertices + shortened(step, 0.2 * surface.edge))
 
 
 def _sampled(surface: Surface) -> tuple[Floats, Floats, Floats]:
@@ -149,20 +147,20 @@ def _sampled(surface: Surface) -> tuple[Floats, Floats, Floats]:
     return area, value.reshape(len(area), -1), gradient.reshape(len(area), -1, 3)
 
 
-def _balance(surface: Surface, piece: Ints) -> Surface:
+def _balance(surface: Surface) -> Surface:
     """The volume of every piece put right.
 
     Its inner vertices move along the surface's normal, all by the same amount, so that the volume
     that the facets miss (the integral of the distance over them) is zero.
     """
-    triangles, count = surface.triangles, len(surface.vertices)
+    triangles, count, piece = surface.triangles, len(surface.vertices), surface.piece
     area, value, gradient = _sampled(surface)
     missed = np.bincount(piece[triangles[:, 0]], area * (value @ QUADRATURE_WEIGHTS))
     free = ~surface.pinned.any(axis=1)
-    moved = np.bincount(piece[triangles[:, 0]], area * free[triangles].sum(axis=1) / 3.0)
+    swept = np.bincount(piece[triangles[:, 0]], area * free[triangles].sum(axis=1) / 3.0)
     amount = np.zeros(piece.max() + 1)
-    some = np.flatnonzero(moved > 0.0)
-    amount[some] = -missed[some] / moved[some]
+    some = np.flatnonzero(swept > 0.0)
+    amount[some] = -missed[some] / swept[some]
     limit = BALANCE_REACH * surface.edge
     flux = area[:, None] * np.einsum("q,mqk->mk", QUADRATURE_WEIGHTS, gradient)
     normal = np.stack(
@@ -174,4 +172,4 @@ def _balance(surface: Surface, piece: Ints) -> Surface:
     )
     normal = normal / np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
     step = np.clip(amount, -limit, limit)[piece][:, None] * normal
-    return replace(surface, vertices=surface.vertices + np.where(free[:, None], step, 0.0))
+    return moved(surface, surface.vertices + np.where(free[:, None], step, 0.0))

@@ -16,6 +16,9 @@ from .frep import Field, Floats, Ints, distances_and_gradients
 
 Bools = NDArray[np.bool_]
 
+#: Vertices that are not on a face of their octant keep this distance to it, in sampling steps.
+FACE_MARGIN = 1e-3
+
 
 @dataclass(frozen=True, eq=False)
 class Surface:
@@ -30,6 +33,8 @@ class Surface:
         field: the signed distance about each vertex.
         edge: wanted edge length, mm.
         step: sampling step of the raw surface, mm.
+        piece: (n,) int64, which of the octants that are meshed together a vertex belongs to.
+        size: of an octant, mm.
     """
 
     vertices: Floats
@@ -39,6 +44,8 @@ class Surface:
     field: Field
     edge: float
     step: float
+    piece: Ints
+    size: float
 
     @property
     def pinned(self) -> Bools:
@@ -80,7 +87,18 @@ def project(surface: Surface, passes: int = 2) -> Surface:
         if len(bound):
             step = step_to_primitives(surface, vertices[bound], surface.held[bound], loose[bound])
             vertices[bound] += shortened(step, 0.5 * surface.edge)
-    return replace(surface, vertices=vertices)
+    return moved(surface, vertices)
+
+
+def moved(surface: Surface, vertices: Floats) -> Surface:
+    """The surface with its vertices elsewhere, each still in its octant, face or edge.
+
+    A facet that left its octant would run through those of the next one, and a vertex that came
+    next to a face without lying on it could become one with the next octant's in single precision.
+    """
+    margin = FACE_MARGIN * surface.step
+    kept = np.clip(vertices, margin, surface.size - margin)
+    return replace(surface, vertices=np.where(surface.pinned, surface.vertices, kept))
 
 
 def step_to_primitives(

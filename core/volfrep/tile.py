@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from . import frep
 from .cells import UnitCell
+from .errors import VolfrepError
 from .even import even_out
 from .fit import fit
 from .frep import Field, Floats, Ints, Primitives
@@ -26,6 +27,7 @@ from .octant import (
 from .progress import Monitor
 from .spec import LatticeSpec
 from .surface import Surface
+from .untangle import untangled
 
 #: The sampling step is at most this, in units of r: no strut slips between the samples.
 COARSEST_STEP = 0.75
@@ -41,6 +43,10 @@ STEPS = float(1 << 26)
 SEEN_STEPS = 2.0
 #: Pieces are meshed together up to about this many vertices.
 BATCH_VERTICES = 150_000
+
+
+class FacetsCross(VolfrepError):
+    """Facets of an octant run through each other, whatever is done about it."""
 
 
 @dataclass(frozen=True)
@@ -125,6 +131,9 @@ def mesh_octants(
 
     Struts that an octant has and another one lacks are often hidden in its joints: octants whose
     surfaces are the same are meshed once.
+
+    Raises:
+        FacetsCross: there is an octant whose facets run through each other, however it is meshed.
     """
     # What an octant's surface may consist of, as far as its vertices may move.
     primitives = {
@@ -154,15 +163,29 @@ def _mesh(
     result: dict[OctantKey, Octant],
     monitor: Monitor,
 ) -> None:
-    """Mesh octants, each by itself, and put them to the others."""
+    """Mesh octants, each by itself, and put them to the others.
+
+    Raises:
+        FacetsCross: there is an octant whose facets run through each other, however it is meshed.
+    """
     monitor.count("kinds of octants meshed", len(primitives))
     todo, done = list(primitives), 0
     while done < len(todo):
-        batch = _Batch.of(spec, {key: primitives[key] for key in todo[done:]})
-        even, origin = even_out(batch.surface)
-        fitted = fit(even, batch.piece_of(origin))
+        # Octants whose facets crossed come again, after all the others.
+        gently = done >= len(primitives)
+        same = todo[done:] if gently else todo[done : len(primitives)]
+        batch = _Batch.of(spec, {key: primitives[key] for key in same})
+        even, origin = even_out(batch.surface, gently)
+        fitted, crossed = untangled(fit(even), batch.surface.vertices[origin])
+        bad = [batch.keys[k] for k in np.unique(fitted.piece[fitted.triangles[crossed, 0]])]
+        if bad and gently:
+            raise FacetsCross(
+                f"Where struts meet, facets of a {spec.facets}th of a cell run through each other: "
+                "choose another resolution or strut radius, or move the nodes of the cell."
+            )
         result.update(batch.split(fitted, origin))
         done += len(batch.keys)
+        todo += bad
         monitor.tick(done / len(todo))
 
 
@@ -241,13 +264,10 @@ class _Batch:
             field,
             spec.edge,
             spec.step,
+            np.repeat(np.arange(len(raw)), np.diff(first)),
+            0.5 * spec.cell_size,
         )
         return _Batch(used, raw, solid, whole, 0.5 * spec.cell_size / STEPS)
-
-    def piece_of(self, vertices: Ints) -> Ints:
-        """Which of the octants each of the raw surface's vertices belongs to."""
-        end = np.cumsum([len(piece.vertices) for piece in self.raw])
-        return np.searchsorted(end, vertices, side="right")
 
     def split(self, refined: Surface, origin: Ints) -> dict[OctantKey, Octant]:
         """The refined surface cut into the octants again."""

@@ -14,8 +14,10 @@ import numpy as np
 from .errors import VolfrepError
 from .export.stl import write_stl
 from .export.stl_octants import keeps_corners, write_octants_stl
+from .finer import until_sound
+from .finish import finished, refuse_no_solid
 from .forecast import BYTES_PER_STREAMED_CELL
-from .graded import Setting, block_setting, graded_wireframe, vertices_of
+from .graded import Setting, block_setting, graded_wireframe, keeps_places, vertices_of
 from .lattice import Layout, facets, lay_out, octant_grid
 from .limits import (
     refuse_expected,
@@ -26,7 +28,7 @@ from .limits import (
 from .mesh import TriangleMesh
 from .progress import Monitor, ProgressCallback, peak_memory_mb
 from .quality import Quality, inspect, measure
-from .report import Report
+from .report import Report, told
 from .result import NOTHING_REMOVED, Result, report_of
 from .sizes import mapped_volume
 from .spec import LatticeSpec
@@ -64,7 +66,11 @@ def block(
         VolfrepError: the counts make no sense or the block would not fit into memory.
         Cancelled: the callback said so.
     """
-    monitor = Monitor(progress)
+    made, notes = until_sound(spec, lambda finer: _block(finer, count, Monitor(progress)))
+    return replace(made, report=told(made.report, notes))
+
+
+def _block(spec: LatticeSpec, count: Sequence[int], monitor: Monitor) -> Result:
     cells, where = _block_setting(spec, count)
     refuse_expected(spec, float(np.prod(cells.shape, dtype=float)) * spec.cell_size**3)
     laid = _lay(spec, cells, where, monitor)
@@ -88,9 +94,11 @@ def _meshed(laid: _Laid, spec: LatticeSpec, monitor: Monitor) -> Result:
             mesh, measured = cleared.mesh, cleared.quality
             removed["pieces_removed"] = cleared.pieces_removed
             removed["specks_removed"] = cleared.specks_removed
+        moved = not keeps_places(spec, where)
+        mesh, measured, notes = finished(mesh, measured, monitor, moved)
     frame = graded_wireframe(laid.graph, spec, where)
     report = _report(laid, measured, frame, spec, monitor, removed)
-    return Result(mesh, frame, report)
+    return Result(mesh, frame, told(report, notes))
 
 
 def write_block_stl(
@@ -116,8 +124,18 @@ def write_block_stl(
             disk, or the path cannot be written.
         Cancelled: the callback said so; no file is left behind.
     """
+    made, notes = until_sound(spec, lambda finer: _write_block(finer, count, path, progress))
+    return told(made, notes)
+
+
+def _write_block(
+    spec: LatticeSpec,
+    count: Sequence[int],
+    path: str | os.PathLike[str],
+    progress: ProgressCallback | None,
+) -> Report:
     if spec.is_graded:
-        result = block(spec, count, progress=progress)
+        result = _block(spec, count, Monitor(progress))
     else:
         cells, where = _block_setting(spec, count)
         refuse_memory(spec, 0, other=cells.cells * BYTES_PER_STREAMED_CELL)
@@ -125,6 +143,7 @@ def write_block_stl(
         laid = _lay(spec, cells, where, monitor)
         with monitor.stage("check", 0.4, 0.5):
             measured = survey(laid.layout)
+            refuse_no_solid(measured)
             streams = measured.shells == 1 and keeps_corners(laid.layout, measured.bounds)
             streams = streams and agree_on_faces(laid.layout)
         if streams:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import remesh
+from .export.precision import as_decimals
 from .mesh import TriangleMesh, compact
 
 Ints = NDArray[np.int64]
@@ -37,10 +38,31 @@ def remove_slivers(mesh: TriangleMesh, tolerance: float, among: int | None = Non
         tolerance: mm.
         among: look for slivers in so many of the first triangles; None: in all.
     """
+    return without_slivers(mesh, tolerance, among)[0]
+
+
+def without_slivers(
+    mesh: TriangleMesh, tolerance: float, among: int | None = None
+) -> tuple[TriangleMesh, Bools]:
+    """As `remove_slivers`, with (m,) which triangles were not there, or elsewhere."""
     thin = _slivers(mesh.vertices, mesh.triangles[:among], tolerance)
     if not len(thin):
-        return mesh
-    return compact(TriangleMesh(*_without(mesh.vertices, mesh.triangles, thin, tolerance, PASSES)))
+        return mesh, np.zeros(len(mesh.triangles), bool)
+    points, triangles, old = _without(mesh.vertices, mesh.triangles, thin, tolerance, PASSES)
+    new = np.zeros(len(triangles), bool)
+    rebuilt = triangles[len(mesh.triangles) - len(old) :]
+    moved = (points != mesh.vertices).any(axis=1)
+    is_old = np.isin(_names(rebuilt), _names(mesh.triangles[old])) & ~_touching(moved, rebuilt)
+    new[len(triangles) - len(rebuilt) :] = ~is_old
+    return compact(TriangleMesh(points, triangles)), new
+
+
+def _names(triangles: NDArray[np.int32]) -> NDArray[np.uint64]:
+    """(m,) a number for each triangle, whichever of its corners comes first."""
+    a, b, c = np.sort(triangles, axis=1).astype(np.uint64).T
+    with np.errstate(over="ignore"):
+        name: NDArray[np.uint64] = (a << np.uint64(32) | b) * np.uint64(0x9E3779B97F4A7C15) + c
+    return name
 
 
 def _slivers(points: NDArray[np.float64], triangles: NDArray[np.int32], tolerance: float) -> Ints:
@@ -60,8 +82,10 @@ def _without(
     thin: Ints,
     tolerance: float,
     passes: int,
-) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
-    """Points, some of them no longer in use, and triangles without the slivers.
+) -> tuple[NDArray[np.float64], NDArray[np.int32], Ints]:
+    """Points, some of them no longer in use, triangles, and which of the old ones went.
+
+    The new triangles are the last ones.
 
     A pass leaves few slivers: the next one looks at their neighbourhoods only.
     """
@@ -78,10 +102,11 @@ def _without(
     if passes > 1 and (flipped or len(stay) < len(used)):
         left = _slivers(moved, piece, tolerance)
         if len(left):
-            moved, piece = _without(moved, piece, left, tolerance, passes - 1)
+            moved, piece, _ = _without(moved, piece, left, tolerance, passes - 1)
     points = points.copy()
     points[stay] = moved
-    return points, np.concatenate([triangles[~part], stay[piece].astype(np.int32)])
+    joined = np.concatenate([triangles[~part], stay[piece].astype(np.int32)])
+    return points, joined, np.flatnonzero(part)
 
 
 def _touching(near: Bools, triangles: NDArray[np.int32]) -> Bools:
@@ -154,7 +179,7 @@ def _keeps_side(old: NDArray[np.float64], new: NDArray[np.float64], tolerance: f
 
 
 def separate_vertices(mesh: TriangleMesh, precision: float) -> TriangleMesh:
-    """The mesh with no two vertices that single precision would take for one.
+    """The mesh with no two vertices that single precision would take for one, where possible.
 
     Where two sheets of a surface touch, a reader that merges equal corners finds edges of four
     triangles. Such vertices are moved into the material, against their normals, by a few steps of
@@ -165,9 +190,9 @@ def separate_vertices(mesh: TriangleMesh, precision: float) -> TriangleMesh:
         precision: `shortest_edge` of the part, mm.
     """
     for attempt in range(1, PASSES + 1):
-        twins = _twins(mesh.vertices.astype(np.float32))
+        twins = merging_vertices(mesh)
         if not len(twins):
-            break
+            return mesh
         moved = np.zeros(len(mesh.vertices), bool)
         moved[twins] = True
         part = mesh.triangles[_touching(moved, mesh.triangles)]
@@ -186,6 +211,15 @@ def separate_vertices(mesh: TriangleMesh, precision: float) -> TriangleMesh:
         vertices[twins] -= total * (reach / length)[:, None]
         mesh = TriangleMesh(vertices, mesh.triangles)
     return mesh
+
+
+def merging_vertices(mesh: TriangleMesh) -> Ints:
+    """The vertices that a reader of a file would take for one with another, such together.
+
+    A binary file holds the nearest float32 of every coordinate, a text the nearest decimal.
+    """
+    binary = _twins(mesh.vertices.astype(np.float32))
+    return binary if len(binary) else _twins(as_decimals(mesh.vertices).astype(np.float32))
 
 
 def _twins(points: NDArray[np.float32]) -> Ints:

@@ -4,22 +4,26 @@
 from __future__ import annotations
 
 import hashlib
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .cache import StageCache
 from .cells import UnitCell
-from .clean import remove_slivers, separate_vertices, shortest_edge
+from .clean import shortest_edge
 from .dangling import thinned
 from .domain import Domain, find_domain
 from .drains import trapped
 from .errors import VolfrepError
+from .finer import until_sound
+from .finish import finished, tidied
 from .graded import Ground, Setting, graded_wireframe, ground, keeps_places, setting
 from .limits import BYTES_PER_CELL, refuse_expected, refuse_memory
 from .mesh import TriangleMesh, box_of, concatenate
 from .progress import Monitor, ProgressCallback
 from .quality import measure
+from .report import told
 from .result import Result, report_of
 from .solid import Solid
 from .spec import LatticeSpec
@@ -52,7 +56,11 @@ def fill(
         Cancelled: the callback said so.
     """
     cache = cache or StageCache()
-    monitor = Monitor(progress)
+    made, notes = until_sound(spec, lambda finer: _fill(solid, finer, Monitor(progress), cache))
+    return replace(made, report=told(made.report, notes))
+
+
+def _fill(solid: TriangleMesh, spec: LatticeSpec, monitor: Monitor, cache: StageCache) -> Result:
     cell = spec.unit_cell()
     size = solid.bounds[1] - solid.bounds[0]
     if spec.cell_size > size.max():
@@ -102,7 +110,7 @@ def fill(
 
     if spec.output == "domain":
         precision = shortest_edge(solid)
-        clean = separate_vertices(remove_slivers(room, precision), precision)
+        clean = tidied(room, precision, monitor)
         made = Output(Cleared(clean, measure(clean), 0, 0), None)
     else:
         trimming = Trimming(solid, domain, cell, spec, where, floor, active, thin, voxel_key)
@@ -115,13 +123,16 @@ def fill(
             kept, layout, points = trimming.lay(kept, octants, margin, cache, monitor)
         with monitor.stage("trim", 0.6, 1.0):
             made = trimming.output(kept, layout, points, frame, monitor)
+    moved = spec.output != "domain" and not keeps_places(spec, where)
+    mesh, quality, notes = finished(made.cleared.mesh, made.cleared.quality, monitor, moved)
     cleared, drained = made.cleared, made.drained
+    warnings += notes
     skin_volume = solid.volume - room.volume if spec.output == "part" else 0.0
     if drained is not None:
         warnings += drained.warnings
         skin_volume -= drained.volume
     elif spec.open_faces:
-        warnings += trapped(made.cleared.quality.voids)
+        warnings += trapped(quality.voids)
     removed = {
         "struts_dangling_removed": thin.left.dangling if thin is not None else 0,
         "stubs_removed": thin.left.stubs if thin is not None else 0,
@@ -130,10 +141,10 @@ def fill(
         "drain_holes": drained.places if drained is not None else (),
     }
     report = report_of(
-        made.cleared.quality, frame, floor.cells, active, where, spec, monitor,
+        quality, frame, floor.cells, active, where, spec, monitor,
         domain_volume=room.volume, skin_volume=skin_volume, warnings=warnings, removed=removed,
     )  # fmt: skip
-    return Result(cleared.mesh, frame, report)
+    return Result(mesh, frame, report)
 
 
 def _voxels(

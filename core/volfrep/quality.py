@@ -146,12 +146,21 @@ def combined(one: Quality, two: Quality) -> Quality:
     return Quality(watertight=watertight, genus=genus, bounds=bounds, **sums)
 
 
-def remaining(whole: Quality, gone: Quality, bounds: NDArray[np.float64]) -> Quality:
+def remaining(
+    whole: Quality, gone: Quality, bounds: NDArray[np.float64], volumes: NDArray[np.float64]
+) -> Quality:
     """The quality of a watertight mesh less some of its shells, which have a quality of their own.
 
-    `bounds` are those of what is left.
+    Args:
+        whole: of all.
+        gone: of what goes.
+        bounds: of what is left.
+        volumes: of the shells that are left. What goes may be as flat as to have no volume but
+            rounding, whose sign would differ from that in the whole.
     """
     rest = {name: getattr(whole, name) - getattr(gone, name) for name in _SUMS}
+    rest["bodies"] = int(np.count_nonzero(volumes > 0))
+    rest["voids"] = int(np.count_nonzero(volumes < 0))
     return Quality(watertight=True, genus=whole.genus - gone.genus, bounds=bounds, **rest)
 
 

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 
@@ -82,3 +82,8 @@ class Report:
     def to_json(self) -> str:
         """The figures as a JSON text."""
         return json.dumps(self.as_dict(), indent=2)
+
+
+def told(report: Report, sentences: tuple[str, ...]) -> Report:
+    """The report with further sentences for the user."""
+    return replace(report, warnings=report.warnings + sentences) if sentences else report

@@ -391,7 +391,7 @@ def clear(
     left = compact(TriangleMesh(mesh.vertices, mesh.triangles[~goes]))
     if found.quality.watertight and len(left.triangles):
         taken = measure(compact(TriangleMesh(mesh.vertices, mesh.triangles[goes])))
-        quality = remaining(found.quality, taken, left.bounds)
+        quality = remaining(found.quality, taken, left.bounds, volume[used & ~gone])
     else:
         quality = measure(left)
     return Cleared(left, quality, int((loose & ~tiny).sum()), int(tiny.sum()))

@@ -11,12 +11,13 @@ from numpy.typing import NDArray
 from .booleans import difference, intersection
 from .cache import StageCache
 from .cells import UnitCell
-from .clean import remove_slivers, separate_vertices, shortest_edge
+from .clean import shortest_edge
 from .dangling import Thinned
 from .distance import closest_points
 from .domain import Domain
 from .drains import Drained, drain
 from .errors import VolfrepError
+from .finish import tidied
 from .frep import Floats
 from .graded import Ground, Setting, keeps_places, vertices_of
 from .incidence import without_struts
@@ -156,7 +157,7 @@ class Trimming:
             mesh, cut, removed = held.mesh, len(held.mesh.triangles), held.pieces_removed
             if removed and not len(mesh.triangles):
                 raise _nothing_holds()
-        mesh = separate_vertices(remove_slivers(mesh, precision, cut), precision)
+        mesh = tidied(mesh, precision, monitor, cut)
         found = inspect(mesh, monitor)
         bodies = 0
         if spec.shell == 0:
@@ -185,7 +186,7 @@ class Trimming:
         drained = drain(
             cleared.mesh, solid, self.domain.mesh, frame, spec.shell, spec.drains, monitor
         )
-        clean = separate_vertices(remove_slivers(drained.mesh, precision), precision)
+        clean = tidied(drained.mesh, precision, monitor)
         cleared = replace(cleared, mesh=clean, quality=measure(clean, monitor))
         return Output(cleared, replace(drained, mesh=clean))
 
@@ -201,7 +202,7 @@ class Trimming:
         else:
             lattice = mesh
             mesh = monitor.call(lambda: intersection(lattice, solid))
-        mesh = separate_vertices(remove_slivers(mesh, precision), precision)
+        mesh = tidied(mesh, precision, monitor)
         found, smallest = inspect(mesh, monitor), smallest_shell(self.spec)
         if with_skin:
             rest = clear(mesh, found, smallest, bodies=inspect(solid).quality.bodies)
@@ -226,7 +227,8 @@ class Trimming:
 
     def _uncut(self, layout: Layout, points: Floats, monitor: Monitor) -> Output:
         """The lattice of whole cells as it is, without loose pieces, and its quality."""
-        mesh = compact(TriangleMesh(points, facets(layout, monitor)))
+        laid = compact(TriangleMesh(points, facets(layout, monitor)))
+        mesh = tidied(laid, shortest_edge(laid), monitor)
         found = inspect(mesh, monitor)
         bodies = max(1, inspect(self.solid).quality.bodies)
         cleared = clear(mesh, found, smallest_shell(self.spec), bodies=bodies)

@@ -61,10 +61,16 @@ def as_text(mesh: TriangleMesh, path: str | os.PathLike[str]) -> NDArray[np.floa
     Raises:
         VolfrepError: as `single_precision` and `refuse_lost_corners`.
     """
-    farthest = np.abs(single_precision(mesh, path)).max()
-    points = rounded(mesh.vertices, float(np.spacing(np.maximum(farthest, np.float32(1.0)))))
+    single_precision(mesh, path)
+    points = as_decimals(mesh.vertices)
     refuse_lost_corners(points.astype(np.float32), mesh.triangles, path)
     return points
+
+
+def as_decimals(points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Coordinates rounded to a decimal place, finer than single precision where it is coarsest."""
+    farthest = np.float32(np.abs(points).max(initial=1.0))
+    return rounded(points, float(np.spacing(farthest)))
 
 
 def rounded(numbers: NDArray[np.float64], step: float) -> NDArray[np.float64]:

@@ -17,28 +17,55 @@ from numpy.typing import NDArray
 
 from ..lattice import Layout, OctantGrid, frames, in_steps, placed
 from ..progress import Monitor
+from ..tile import Octant
 from .stl import BLOCK_FACETS, FACET, Facets, write_facets
 
 #: A facet of the file whose numbers are moved at once.
 _RECORD = np.dtype([("numbers", "V48"), ("attribute", "<u2")])
 #: Facets whose heights are all above so many steps of single precision keep their corners in it.
 SAFE_STEPS = 4.0
+#: A direction, of length 1, in which few vertices of a regular mesh share a place.
+GENERIC = np.array([0.26740, 0.53480, 0.80153])
 
 
 def keeps_corners(layout: Layout, bounds: NDArray[np.float64]) -> bool:
     """Whether no facet can lose a corner when its coordinates become single precision.
+
+    Nor can two vertices become one: they lie farther apart within an octant, and those that are
+    not on its faces lie farther from these, and so from the vertices of its neighbours.
 
     `bounds` are the layout's, (2, 3), mm.
     """
     farthest = float(np.abs(bounds).max())
     if not farthest < np.finfo(np.float32).max:
         return False
-    step = float(np.spacing(np.float32(farthest)))
+    safe = SAFE_STEPS * float(np.spacing(np.float32(farthest)))
     return all(
-        _least_height(octant.vertices[octant.triangles]) > SAFE_STEPS * step
+        _least_height(octant.vertices[octant.triangles]) > safe
+        and _keeps_apart(octant, 0.5 * layout.grid.cell_size, safe)
         for octant in layout.octants.values()
         if len(octant.triangles)
     )
+
+
+def _keeps_apart(octant: Octant, size: float, safe: float) -> bool:
+    """Whether vertices are farther than `safe` from each other and from faces they are not on."""
+    points = octant.vertices
+    inner = points[octant.places == 1]
+    if min(inner.min(initial=size), (size - inner).min(initial=size)) <= safe:
+        return False
+    # Along a line on which few of them share a place, only the next ones can be that near.
+    along = points @ GENERIC
+    order = np.argsort(along)
+    points, along = points[order], along[order]
+    for ahead in range(1, len(points)):
+        near = np.flatnonzero(along[ahead:] - along[:-ahead] <= safe)
+        if not len(near):
+            break
+        gap = points[near + ahead] - points[near]
+        if (np.einsum("ij,ij->i", gap, gap) <= safe * safe).any():
+            return False
+    return True
 
 
 def write_octants_stl(

@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What leaves the engine is what a reader of its file finds."""
+
+import numpy as np
+import pytest
+import trimesh
+
+import samples
+from volfrep.blocks import block
+from volfrep.clean import without_slivers
+from volfrep.crossings import crossing_near, crossing_triangles
+from volfrep.errors import VolfrepError
+from volfrep.export import write_mesh
+from volfrep.finish import finished, refuse_merging, tidied
+from volfrep.grading import CellMap
+from volfrep.mesh import TriangleMesh, concatenate
+from volfrep.pipeline import fill
+from volfrep.progress import Monitor
+from volfrep.quality import inspect, measure
+from volfrep.spec import LatticeSpec
+from volfrep.trim import clear
+
+
+def moved(mesh, by):
+    return TriangleMesh(mesh.vertices + np.asarray(by, float), mesh.triangles)
+
+
+def shells_read(path):
+    """Bodies and voids of a file by trimesh, which merges equal corners; closed or not."""
+    mesh = trimesh.load(path, force="mesh")
+    volumes = [part.volume for part in mesh.split(only_watertight=False)]
+    return sum(v > 0 for v in volumes), sum(v < 0 for v in volumes), mesh.is_watertight
+
+
+@pytest.mark.parametrize("extension", [".stl", ".ply", ".obj", ".3mf"])
+@pytest.mark.parametrize("gap", [1e-9, 2e-7, 1e-6, 4e-6])
+def test_bodies_that_nearly_touch_stay_two_in_every_file(tmp_path, extension, gap):
+    box = samples.box((10.0, 10.0, 10.0))
+    # At the origin float32 tells more apart than decimals do; far from it, less.
+    pair = concatenate(box, moved(box, (-10.0 - gap, 0.0, 0.0)), moved(box, (60.0, 70.0, 80.0)))
+    mesh, quality, notes = finished(pair, measure(pair), Monitor(), moved=False)
+    path = tmp_path / f"a{extension}"
+    write_mesh(mesh, path)
+    assert shells_read(path) == (quality.bodies, quality.voids, True) == (3, 0, True)
+    assert notes == ()
+
+
+def test_vertices_that_no_file_can_tell_apart_are_refused_with_their_place():
+    box = samples.box((10.0, 10.0, 10.0))
+    with pytest.raises(VolfrepError, match=r"Near \(.*single precision of files"):
+        refuse_merging(concatenate(box, box))
+
+
+def test_what_encloses_nothing_is_refused():
+    for mesh in (samples.box().reversed(), concatenate(samples.box(), samples.box().reversed())):
+        with pytest.raises(VolfrepError, match="no solid"):
+            finished(moved_apart(mesh), measure(mesh), Monitor(), moved=False)
+
+
+def moved_apart(mesh):
+    """No two vertices in one place."""
+    random = np.random.default_rng(1)
+    return TriangleMesh(mesh.vertices + 1e-3 * random.random(mesh.vertices.shape), mesh.triangles)
+
+
+def test_flat_shells_that_go_leave_the_count_of_bodies_as_it_is():
+    # Four corners in a plane: of no volume but rounding, whose sign depends on where it is seen.
+    random = np.random.default_rng(3)
+    faces = np.array([[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]], np.int32)
+    flat = []
+    for _ in range(40):
+        plane = np.linalg.qr(random.normal(size=(3, 3)))[0][:, :2]
+        corners = random.normal(size=(4, 2)) @ plane.T * 0.01
+        flat.append(TriangleMesh(corners + random.uniform(-5.0, 25.0, 3), faces))
+    mesh = concatenate(samples.box(), *flat)
+    cleared = clear(mesh, inspect(mesh), 1e-3)
+    assert len(cleared.mesh.triangles) == 12
+    assert (cleared.quality.bodies, cleared.quality.voids) == (1, 0)
+
+
+@pytest.mark.parametrize("shell", [0.0, 1.0])
+@pytest.mark.parametrize("boundary", ["trim", "whole"])
+def test_the_report_counts_what_a_reader_of_the_file_does(tmp_path, shell, boundary):
+    for k, cell in enumerate(("Box", "BCC", samples.SKEW)):
+        spec = LatticeSpec(cell, 8.0, 0.7, shell=shell, boundary=boundary, resolution=12)
+        result = fill(samples.box((31.0, 26.0, 24.0)), spec)
+        path = tmp_path / f"{k}.stl"
+        write_mesh(result.mesh, path)
+        report = result.report
+        assert shells_read(path) == (report.bodies, report.voids, True)
+        assert trimesh.load(path).volume == pytest.approx(report.volume_mm3, rel=1e-6)
+
+
+def test_graded_struts_that_run_through_each_other_are_told_with_their_place():
+    # Next to the axis the cells of a cylinder are narrower than their struts.
+    spec = LatticeSpec("CVC", 10.0, 1.0, resolution=15, cell_map=CellMap("cylindrical"))
+    result = block(spec, (6, 5, 1))
+    crossing = crossing_triangles(result.mesh, np.ones(len(result.mesh.triangles), bool), 1e-2)
+    assert crossing.any()
+    assert "run through each other there" in result.report.warnings[-1]
+    plain = block(LatticeSpec("CVC", 10.0, 1.0, resolution=15), (2, 2, 1))
+    assert plain.report.warnings == ()
+
+
+def test_slivers_stay_where_facets_would_cross_without_them(monkeypatch):
+    box = samples.box()
+
+    def bad(mesh, tolerance, among=None):
+        vertices = mesh.vertices.copy()
+        vertices[0] += [70.0, 55.0, 40.0]  # a corner through the opposite faces
+        return TriangleMesh(vertices, mesh.triangles), np.ones(len(mesh.triangles), bool)
+
+    monkeypatch.setattr("volfrep.finish.without_slivers", bad)
+    assert tidied(box, 1e-4, Monitor()) is box
+
+
+def test_near_the_few_finds_what_everywhere_does():
+    part = samples.sphere(20.0, 4)
+    vertices = part.vertices.copy()
+    top = int(vertices[:, 2].argmax())
+    vertices[top] = [0.3, 0.2, -25.0]
+    bent = TriangleMesh(vertices, part.triangles)
+    few = (bent.triangles == top).any(axis=1)
+    found = crossing_near(bent, few, 1e-6)
+    assert found.sum() > few.sum()
+    np.testing.assert_array_equal(found, crossing_triangles(bent, few, 1e-6))
+    assert not crossing_near(bent, np.zeros(len(few), bool), 1e-6).any()
+
+
+def test_new_triangles_are_those_that_were_not_there():
+    part = samples.sphere(20.0, 3)
+    # One edge made shorter than the tolerance.
+    a, b = part.triangles[100, :2]
+    vertices = part.vertices.copy()
+    vertices[b] = vertices[a] + 3e-5
+    pinched = TriangleMesh(vertices, part.triangles)
+    mesh, new = without_slivers(pinched, 1e-4)
+    assert len(mesh.triangles) == len(part.triangles) - 2
+
+    def places(mesh, rows):
+        corners = np.sort(mesh.vertices[mesh.triangles[rows]].round(7), axis=1)
+        return {tuple(row.ravel()) for row in corners}
+
+    old = places(pinched, np.ones(len(pinched.triangles), bool))
+    assert 0 < new.sum() < 10
+    assert not places(mesh, new) & old
+    assert places(mesh, ~new) <= old

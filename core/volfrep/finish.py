@@ -14,6 +14,7 @@ from .errors import VolfrepError
 from .mesh import TriangleMesh
 from .progress import Monitor
 from .quality import Quality, measure
+from .spec import LatticeSpec
 
 #: Lines see no crossing where less than this part of the volume is not enclosed once: rounding.
 ROUNDING = 1e-9
@@ -81,6 +82,35 @@ def finished(
     if share > MOST_CROSSED:
         raise VolfrepError(f"{where}, {advice}.")
     return mesh, quality, (f"{where}; {advice} if that matters.",)
+
+
+def pieces_told(
+    spec: LatticeSpec, quality: Quality, removed: int, volume_removed: float
+) -> tuple[str, ...]:
+    """Sentences on pieces of a lattice without a skin that hang on nothing.
+
+    Args:
+        spec: what was wanted.
+        quality: of what is left.
+        removed: how many pieces were left out.
+        volume_removed: of these, mm3.
+    """
+    if spec.output == "domain" or (spec.output == "part" and spec.shell > 0):
+        return ()
+    sentences = []
+    if removed:
+        share = 100.0 * volume_removed / (volume_removed + quality.volume)
+        what = "piece that hangs" if removed == 1 else "pieces that hang"
+        sentences.append(
+            f"{removed:,} {what} on nothing left out, {share:.2g} % of the lattice's volume: "
+            "smaller cells or another origin may join them, and so does a skin."
+        )
+    if spec.output == "lattice" and quality.bodies > 1:
+        sentences.append(
+            f"The lattice is {quality.bodies:,} bodies that do not touch each other: only the "
+            "part's skin holds them together."
+        )
+    return tuple(sentences)
 
 
 def _finer_than_files(mesh: TriangleMesh) -> VolfrepError:

@@ -17,7 +17,7 @@ from .domain import Domain, find_domain
 from .drains import trapped
 from .errors import VolfrepError
 from .finer import until_sound
-from .finish import finished, tidied
+from .finish import finished, pieces_told, tidied
 from .graded import Ground, Setting, graded_wireframe, ground, keeps_places, setting
 from .limits import BYTES_PER_CELL, refuse_expected, refuse_memory
 from .mesh import TriangleMesh, box_of, concatenate
@@ -127,6 +127,7 @@ def _fill(solid: TriangleMesh, spec: LatticeSpec, monitor: Monitor, cache: Stage
     mesh, quality, notes = finished(made.cleared.mesh, made.cleared.quality, monitor, moved)
     cleared, drained = made.cleared, made.drained
     warnings += notes
+    warnings += pieces_told(spec, quality, cleared.pieces_removed, cleared.volume_removed)
     skin_volume = solid.volume - room.volume if spec.output == "part" else 0.0
     if drained is not None:
         warnings += drained.warnings

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import remesh
-from .clean import remove_slivers, separate_vertices, shortest_edge
+from .clean import merging_vertices, remove_slivers, separate_vertices, shortest_edge
 from .distance import closest_points
 from .errors import VolfrepError
 from .mesh import TriangleMesh
@@ -94,7 +94,8 @@ def reduce_triangles(
         reduced = separate_vertices(remove_slivers(reduced, precision), precision)
         after = measure(reduced, monitor)
         same = ("watertight", "bodies", "voids", "genus")
-        if any(getattr(after, name) != getattr(before, name) for name in same):
+        differs = any(getattr(after, name) != getattr(before, name) for name in same)
+        if differs or len(merging_vertices(reduced)):
             raise VolfrepError(
                 f"Within {deviation:g} mm the triangles cannot be reduced without closing a gap: "
                 "give a smaller deviation."

@@ -334,12 +334,14 @@ class Cleared:
         quality: of it.
         pieces_removed: pieces of material that hung on nothing.
         specks_removed: shells smaller than a facet, which no sample could follow.
+        volume_removed: of the pieces, mm3.
     """
 
     mesh: TriangleMesh
     quality: Quality
     pieces_removed: int
     specks_removed: int
+    volume_removed: float = 0.0
 
 
 def smallest_shell(spec: LatticeSpec) -> float:
@@ -394,7 +396,8 @@ def clear(
         quality = remaining(found.quality, taken, left.bounds, volume[used & ~gone])
     else:
         quality = measure(left)
-    return Cleared(left, quality, int((loose & ~tiny).sum()), int(tiny.sum()))
+    pieces = loose & ~tiny
+    return Cleared(left, quality, int(pieces.sum()), int(tiny.sum()), float(volume[pieces].sum()))
 
 
 def _enclosed(

@@ -149,12 +149,13 @@ class Trimming:
         with_skin = spec.output == "part" and spec.shell > 0
         wall = self.domain.wall
         trimmed = trim(wall, kept, layout, points, cavity=with_skin, monitor=monitor)
-        mesh, cut, removed = trimmed.mesh, trimmed.cut, 0
+        mesh, cut, removed, lost = trimmed.mesh, trimmed.cut, 0, 0.0
         smallest, precision = smallest_shell(spec), shortest_edge(solid)
         if spec.output == "lattice" and spec.shell > 0:
             on_wall = np.flatnonzero(trimmed.on_wall)
             held = clear(mesh, inspect(mesh, monitor), smallest, keep=on_wall)
-            mesh, cut, removed = held.mesh, len(held.mesh.triangles), held.pieces_removed
+            mesh, cut = held.mesh, len(held.mesh.triangles)
+            removed, lost = held.pieces_removed, held.volume_removed
             if removed and not len(mesh.triangles):
                 raise _nothing_holds()
         mesh = tidied(mesh, precision, monitor, cut)
@@ -174,7 +175,11 @@ class Trimming:
             cavity = wall.volume
             if cavity + cleared.quality.volume < NO_LATTICE * cavity:
                 raise _nothing_holds()
-        cleared = replace(cleared, pieces_removed=cleared.pieces_removed + removed)
+        cleared = replace(
+            cleared,
+            pieces_removed=cleared.pieces_removed + removed,
+            volume_removed=cleared.volume_removed + lost,
+        )
         if self.domain.openings is not None:
             cleared = self._opened(cleared, self.domain.openings, with_skin, monitor)
         elif with_skin:
@@ -213,6 +218,7 @@ class Trimming:
         return replace(
             rest,
             pieces_removed=cleared.pieces_removed + rest.pieces_removed,
+            volume_removed=cleared.volume_removed + rest.volume_removed,
             specks_removed=cleared.specks_removed + rest.specks_removed,
         )
 

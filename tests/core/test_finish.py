@@ -7,6 +7,7 @@ import trimesh
 
 import samples
 from volfrep.blocks import block
+from volfrep.cells import make_cell
 from volfrep.clean import without_slivers
 from volfrep.crossings import crossing_near, crossing_triangles
 from volfrep.errors import VolfrepError
@@ -89,6 +90,37 @@ def test_the_report_counts_what_a_reader_of_the_file_does(tmp_path, shell, bound
         report = result.report
         assert shells_read(path) == (report.bodies, report.voids, True)
         assert trimesh.load(path).volume == pytest.approx(report.volume_mm3, rel=1e-6)
+
+
+#: Three struts that touch neither each other nor the cells beside theirs.
+APART = make_cell(
+    "apart",
+    [[0.2, 0.2, 0.2], [0.2, 0.2, 0.7], [0.5, 0.5, 0.2], [0.5, 0.5, 0.6], [0.8, 0.8, 0.2],
+     [0.8, 0.8, 0.8]],
+    [[0, 1], [2, 3], [4, 5]],
+)  # fmt: skip
+
+
+def test_pieces_that_are_left_out_are_told_with_their_share():
+    spec = LatticeSpec(APART, 10.0, 0.8, shell=0, boundary="whole", activation="inside")
+    report = fill(samples.box((20.0, 10.0, 10.0)), spec).report
+    # Capsules of 5, 4 and 6 mm, twice; one of the longest stays.
+    joint = 0.8 * 1.08
+    volume = [np.pi * 0.64 * length + 4.0 / 3.0 * np.pi * joint**3 for length in (5, 4, 6)]
+    share = 1.0 - report.volume_mm3 / (2 * sum(volume))
+    told = next(text for text in report.warnings if "left out" in text)
+    assert report.pieces_removed == 5
+    assert told.startswith("5 pieces that hang on nothing left out, ")
+    assert float(told.split("left out, ")[1].split(" %")[0]) == pytest.approx(100 * share, abs=2)
+
+
+def test_a_lattice_of_many_bodies_is_told():
+    solid = samples.box((31.0, 26.0, 24.0))
+    cut = fill(solid, LatticeSpec(APART, 10.0, 0.8, shell=2, output="lattice")).report
+    assert cut.bodies > 1
+    assert any(f"{cut.bodies} bodies that do not touch" in text for text in cut.warnings)
+    whole = fill(solid, LatticeSpec("Box", 10.0, 0.8, shell=0)).report
+    assert not any("hang" in text or "touch" in text for text in whole.warnings)
 
 
 def test_graded_struts_that_run_through_each_other_are_told_with_their_place():

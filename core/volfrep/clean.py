@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import remesh
-from .export.precision import as_decimals
+from .export.precision import decimal_step, rounded
 from .mesh import TriangleMesh, compact
 
 Ints = NDArray[np.int64]
@@ -24,7 +24,7 @@ PASSES = 8
 
 def shortest_edge(mesh: TriangleMesh) -> float:
     """Length in mm below which an edge may not survive in a file of single precision."""
-    farthest = np.float32(np.abs(mesh.vertices).max(initial=1.0))
+    farthest = np.float32(np.abs(mesh.bounds).max(initial=1.0))
     return float(STEPS * np.spacing(farthest))
 
 
@@ -219,16 +219,28 @@ def merging_vertices(mesh: TriangleMesh) -> Ints:
     A binary file holds the nearest float32 of every coordinate, a text the nearest decimal.
     """
     binary = _twins(mesh.vertices.astype(np.float32))
-    return binary if len(binary) else _twins(as_decimals(mesh.vertices).astype(np.float32))
+    if len(binary):
+        return binary
+    # A column at a time: the memory is that of a binary file's numbers.
+    text = np.empty(mesh.vertices.shape, np.float32)
+    step = decimal_step(mesh.vertices)
+    for k in range(3):
+        text[:, k] = rounded(mesh.vertices[:, k], step)
+    return _twins(text)
 
 
 def _twins(points: NDArray[np.float32]) -> Ints:
     """Indices of the points that share all their coordinates with another one, twins together."""
-    bits = (points + np.float32(0.0)).view(np.uint32).astype(np.uint64)
+
+    def bits(axis: int) -> NDArray[np.uint64]:
+        return (points[:, axis] + np.float32(0.0)).view(np.uint32).astype(np.uint64)
+
     with np.errstate(over="ignore"):
-        key = bits[:, 0] * np.uint64(0x9E3779B97F4A7C15)
-        key ^= bits[:, 1] * np.uint64(0xC2B2AE3D27D4EB4F)
-        key += (bits[:, 2] << np.uint64(32)) ^ (bits[:, 2] * np.uint64(0x165667B19E3779F9))
+        key = bits(0) * np.uint64(0x9E3779B97F4A7C15)
+        key ^= bits(1) * np.uint64(0xC2B2AE3D27D4EB4F)
+        z = bits(2)
+        key += (z << np.uint64(32)) ^ (z * np.uint64(0x165667B19E3779F9))
+    del z
     order = np.argsort(key, kind="stable")
     same = key[order[1:]] == key[order[:-1]]
     candidates = np.zeros(len(points), bool)

@@ -28,7 +28,7 @@ MOST_MOVED = 1e-3
 def tidied(
     mesh: TriangleMesh, precision: float, monitor: Monitor, among: int | None = None
 ) -> TriangleMesh:
-    """A mesh from a Boolean, without slivers where they can go, its vertices apart in float32.
+    """A mesh from a Boolean, without slivers where they can go.
 
     Args:
         mesh: closed.
@@ -39,7 +39,7 @@ def tidied(
     smooth, new = without_slivers(mesh, precision, among)
     if monitor.call(lambda: crossing_near(smooth, new, precision)).any():
         smooth = mesh  # a sliver is better than facets that cross
-    return separate_vertices(smooth, precision)
+    return smooth
 
 
 def finished(

@@ -69,8 +69,13 @@ def as_text(mesh: TriangleMesh, path: str | os.PathLike[str]) -> NDArray[np.floa
 
 def as_decimals(points: NDArray[np.float64]) -> NDArray[np.float64]:
     """Coordinates rounded to a decimal place, finer than single precision where it is coarsest."""
-    farthest = np.float32(np.abs(points).max(initial=1.0))
-    return rounded(points, float(np.spacing(farthest)))
+    return rounded(points, decimal_step(points))
+
+
+def decimal_step(points: NDArray[np.float64]) -> float:
+    """What the decimals of a text have to resolve, mm."""
+    farthest = max(float(points.max(initial=1.0)), -float(points.min(initial=-1.0)))
+    return float(np.spacing(np.float32(farthest)))
 
 
 def rounded(numbers: NDArray[np.float64], step: float) -> NDArray[np.float64]:

@@ -242,7 +242,9 @@ def _twins(points: NDArray[np.float32]) -> Ints:
         key += (z << np.uint64(32)) ^ (z * np.uint64(0x165667B19E3779F9))
     del z
     order = np.argsort(key, kind="stable")
-    same = key[order[1:]] == key[order[:-1]]
+    key = key[order]
+    same = key[1:] == key[:-1]
+    del key
     candidates = np.zeros(len(points), bool)
     candidates[order[1:][same]] = True
     candidates[order[:-1][same]] = True

@@ -6,6 +6,8 @@ And slivers as thin: three corners almost on a line may lie on it after rounding
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -20,6 +22,8 @@ Bools = NDArray[np.bool_]
 STEPS = 16
 #: Passes over the edges: each takes those that do not touch each other.
 PASSES = 8
+#: Points whose hashes are found at a time.
+HASHED_ROWS = 1 << 16
 
 
 def shortest_edge(mesh: TriangleMesh) -> float:
@@ -218,43 +222,48 @@ def merging_vertices(mesh: TriangleMesh) -> Ints:
 
     A binary file holds the nearest float32 of every coordinate, a text the nearest decimal.
     """
-    binary = _twins(mesh.vertices.astype(np.float32))
-    if len(binary):
-        return binary
-    # A column at a time: the memory is that of a binary file's numbers.
-    text = np.empty(mesh.vertices.shape, np.float32)
-    step = decimal_step(mesh.vertices)
-    for k in range(3):
-        text[:, k] = rounded(mesh.vertices[:, k], step)
-    return _twins(text)
+    vertices = mesh.vertices
+    step = decimal_step(vertices)
+
+    def binary(part: slice | Ints) -> NDArray[np.float32]:
+        return vertices[part].astype(np.float32)
+
+    def text(part: slice | Ints) -> NDArray[np.float32]:
+        return rounded(vertices[part], step).astype(np.float32)
+
+    twins = _twins(binary, len(vertices))
+    return twins if len(twins) else _twins(text, len(vertices))
 
 
-def _twins(points: NDArray[np.float32]) -> Ints:
+def _twins(rows: Callable[[slice | Ints], NDArray[np.float32]], size: int) -> Ints:
     """Indices of the points that share all their coordinates with another one, twins together."""
-
-    def bits(axis: int) -> NDArray[np.uint64]:
-        return (points[:, axis] + np.float32(0.0)).view(np.uint32).astype(np.uint64)
-
-    with np.errstate(over="ignore"):
-        key = bits(0) * np.uint64(0x9E3779B97F4A7C15)
-        key ^= bits(1) * np.uint64(0xC2B2AE3D27D4EB4F)
-        z = bits(2)
-        key += (z << np.uint64(32)) ^ (z * np.uint64(0x165667B19E3779F9))
-    del z
-    order = np.argsort(key, kind="stable")
-    key = key[order]
-    same = key[1:] == key[:-1]
-    del key
-    candidates = np.zeros(len(points), bool)
-    candidates[order[1:][same]] = True
-    candidates[order[:-1][same]] = True
-    index = np.flatnonzero(candidates)
-    if not len(index):
-        return index
+    # Sorted by their hashes, which are made twice rather than held beside their order.
+    key = _hashes(rows, size)
+    key.sort()
+    shared_keys = key[1:][key[1:] == key[:-1]]
+    if not len(shared_keys):
+        return np.zeros(0, np.int64)
+    index = np.flatnonzero(np.isin(_hashes(rows, size), shared_keys))
+    points = rows(index)
     _, inverse, count = np.unique(
-        points[index] + np.float32(0.0), axis=0, return_inverse=True, return_counts=True
+        points + np.float32(0.0), axis=0, return_inverse=True, return_counts=True
     )
     inverse = inverse.ravel()
     shared = count[inverse] > 1
     twins: Ints = index[shared][np.argsort(inverse[shared], kind="stable")]
     return twins
+
+
+def _hashes(rows: Callable[[slice | Ints], NDArray[np.float32]], count: int) -> NDArray[np.uint64]:
+    """(count,) a number for each point, equal where the coordinates are."""
+    key = np.empty(count, np.uint64)
+    for start in range(0, count, HASHED_ROWS):
+        part = slice(start, min(start + HASHED_ROWS, count))
+        # Zero has two signs and is one number.
+        x, y, z = (rows(part) + np.float32(0.0)).view(np.uint32).astype(np.uint64).T
+        with np.errstate(over="ignore"):
+            mixed = x * np.uint64(0x9E3779B97F4A7C15)
+            mixed ^= y * np.uint64(0xC2B2AE3D27D4EB4F)
+            mixed += (z << np.uint64(32)) ^ (z * np.uint64(0x165667B19E3779F9))
+        key[part] = mixed
+    return key

@@ -10,15 +10,16 @@ import FreeCAD as App
 from freecad_volfrep.engine import require_engine
 from volfrep.errors import VolfrepError
 
-from .progress import job_title, progress_of
+from .progress import job_title, run_job
 from .tables import Table
 
 if TYPE_CHECKING:
-    from volfrep.mesh_report import MeshReport
+    import numpy as np
+    from numpy.typing import NDArray
 
-#: FreeCAD's search for triangles that run through each other takes 3 s per million on a fast
-#: machine and cannot be cancelled: it is left out above so many triangles.
-MOST_FOR_FREECAD = 1_000_000
+    from volfrep.mesh import TriangleMesh
+    from volfrep.mesh_report import MeshReport
+    from volfrep.progress import ProgressCallback
 
 
 def check_mesh(obj: App.DocumentObject) -> list[Table]:
@@ -30,25 +31,52 @@ def check_mesh(obj: App.DocumentObject) -> list[Table]:
     """
     require_engine()
     from freecad_volfrep.bridge.solids import mesh_in_document
-    from volfrep.mesh_report import mesh_report
-    from volfrep.progress import Monitor
 
     if not obj.isDerivedFrom("Mesh::Feature") or not obj.Mesh.CountFacets:
         raise VolfrepError(f"'{obj.Label}' has no mesh to check: update it first.")
-    with progress_of(job_title("Checking {label}", obj)) as progress:
-        monitor = Monitor(progress)
-        report = mesh_report(mesh_in_document(obj), monitor, look_for_overlaps=True)
-        own = _freecads_own(obj)
+    mesh = mesh_in_document(obj)
+    report, crossing = run_job(
+        job_title("Checking {label}", obj), lambda progress: _look_at(mesh, progress)
+    )
     return [
-        Table(f"{obj.Label}: {_verdict(report)}", tuple(report.rows())),
+        Table(f"{obj.Label}: {_verdict(report, crossing)}", tuple(report.rows())),
         Table("Triangles and the file's single precision", tuple(_precision(report))),
-        Table("Surfaces that run through each other", tuple(_crossings(report, own))),
-        Table("FreeCAD's own checks", tuple(own)),
+        Table("Surfaces that run through each other", tuple(_crossings(report, crossing))),
+        Table("FreeCAD's own checks", tuple(_freecads_own(obj))),
     ]
 
 
-def _verdict(report: MeshReport) -> str:
-    if report.printable:
+def _look_at(
+    mesh: TriangleMesh, progress: ProgressCallback | None
+) -> tuple[MeshReport, NDArray[np.float64]]:
+    """The report of a mesh, and (k, 3) places where two of its triangles run through each other.
+
+    A place is the middle of what the boxes of the two have in common, mm.
+
+    FreeCAD's own search for these opens a box when Escape is pressed, works in single precision
+    with a tolerance, so that it names needles which lie a thousandth of a millimetre apart, and
+    gives a list of None where its second look does not find all of what its first one did.
+    """
+    import numpy as np
+
+    from volfrep.export.stl import as_read
+    from volfrep.mesh_report import mesh_report
+    from volfrep.piercing import piercing_pairs
+    from volfrep.progress import Monitor
+
+    monitor = Monitor(progress)
+    with monitor.stage("check", 0.0, 0.5):
+        report = mesh_report(mesh, monitor, look_for_overlaps=True)
+    with monitor.stage("crossings", 0.5, 1.0):
+        read = as_read(mesh)
+        pairs = piercing_pairs(read, monitor)
+    corners = read.vertices[read.triangles[np.unique(np.sort(pairs, axis=1), axis=0)]]
+    low, high = corners.min(axis=2).max(axis=1), corners.max(axis=2).min(axis=1)
+    return report, 0.5 * (low + high)
+
+
+def _verdict(report: MeshReport, crossing: NDArray[np.float64]) -> str:
+    if report.printable and not len(crossing):
         return "closed and without defects"
     if not report.closed:
         return "not closed"
@@ -68,20 +96,24 @@ def _precision(report: MeshReport) -> list[tuple[str, str]]:
     ]
 
 
-def _crossings(report: MeshReport, own: list[tuple[str, str]]) -> list[tuple[str, str]]:
+def _crossings(report: MeshReport, crossing: NDArray[np.float64]) -> list[tuple[str, str]]:
     if report.overlap is None:
         lines = "not looked for: the mesh is not closed"
     elif report.overlaps:
         lines = f"about {report.overlap:,.3g} mm3 enclosed more than once or the wrong way round"
     else:
         lines = "every place inside is enclosed once"
-    return [("along lines through it", lines), own.pop()]
+    triangles = "none"
+    if len(crossing):
+        x, y, z = crossing[0]
+        pairs = "1 pair" if len(crossing) == 1 else f"{len(crossing):,} pairs"
+        triangles = f"{pairs}, first near ({x:.4g}, {y:.4g}, {z:.4g})"
+    return [("along lines through it", lines), ("triangles that cross", triangles)]
 
 
 def _freecads_own(obj: App.DocumentObject) -> list[tuple[str, str]]:
-    """FreeCAD's checks; the last row is that for triangles that cross."""
     mesh = obj.Mesh
-    rows = [
+    return [
         ("non-manifold edges or points", _found(mesh.hasNonManifolds())),
         ("wrongly oriented triangles", _found(mesh.hasNonUniformOrientedFacets())),
         ("corrupted triangles", _found(mesh.hasCorruptedFacets())),
@@ -89,18 +121,6 @@ def _freecads_own(obj: App.DocumentObject) -> list[tuple[str, str]]:
         ("wrong neighbours", _found(mesh.hasInvalidNeighbourhood())),
         ("a solid", "yes" if mesh.isSolid() else "no"),
     ]
-    what = "triangles that cross (FreeCAD)"
-    if mesh.CountFacets > MOST_FOR_FREECAD:
-        return [*rows, (what, f"not looked for above {MOST_FOR_FREECAD:,} triangles")]
-    # FreeCAD 0.20 finds the places before the placement, 1.0 behind it: here there is none.
-    unplaced = mesh.copy()
-    unplaced.Placement = App.Placement()
-    pairs = unplaced.getSelfIntersections()
-    if not pairs:
-        return [*rows, (what, "none")]
-    place = obj.Placement.multVec(pairs[0][2])
-    near = f"({place.x:.3g}, {place.y:.3g}, {place.z:.3g})"
-    return [*rows, (what, f"{len(pairs):,} pairs, first near {near}")]
 
 
 def _found(found: bool) -> str:

@@ -40,7 +40,7 @@ WORDS = marked(
     "smallest radius ratio", "along lines through it", "every place inside is enclosed once",
     "every triangle keeps its corners", "non-manifold edges or points",
     "wrongly oriented triangles", "corrupted triangles", "invalid points", "wrong neighbours",
-    "a solid", "triangles that cross (FreeCAD)",
+    "a solid", "triangles that cross",
 )  # fmt: skip
 
 

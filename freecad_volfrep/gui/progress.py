@@ -19,7 +19,7 @@ from typing import TypeVar
 import FreeCADGui as Gui
 
 from freecad_volfrep.translation import marked, translate
-from volfrep.errors import VolfrepError
+from volfrep.errors import Cancelled, VolfrepError
 from volfrep.progress import ProgressCallback
 
 from .qt import QtCore, QtGui, QtWidgets
@@ -31,7 +31,16 @@ BREATH = 0.02
 _STEPS = 1000
 #: The engine's names of its stages, marked for translation.
 STAGES = marked(
-    "VolfrepProgress", "shell", "voxels", "tile", "lattice", "trim", "check", "compact", "write"
+    "VolfrepProgress",
+    "shell",
+    "voxels",
+    "tile",
+    "lattice",
+    "trim",
+    "check",
+    "crossings",
+    "compact",
+    "write",
 )
 _EVENT = QtCore.QEvent
 #: What a user does, none of which may reach FreeCAD while a job runs.
@@ -86,6 +95,10 @@ class _Guard(QtCore.QObject):
 
     Of the filters of an application the one installed last is asked first: this one sees events
     before FreeCAD's own, which swallows them during a recompute.
+
+    A modal window gets all of its input, whoever opened it: FreeCAD asks whether to abort, or a
+    recovery that failed wants an answer, and who cannot give it can do nothing but kill FreeCAD.
+    Qt itself keeps the other windows' input away meanwhile.
     """
 
     def __init__(self, bar: _Bar) -> None:
@@ -98,7 +111,7 @@ class _Guard(QtCore.QObject):
         if kind == _EVENT.Close and target is Gui.getMainWindow():
             event.ignore()  # FreeCAD stays until the job ends
             return True
-        if kind not in _INPUT:
+        if kind not in _INPUT or QtWidgets.QApplication.activeModalWidget() is not None:
             return False
         # A key first comes as ShortcutOverride; where a shortcut takes it, nothing follows.
         pressed = kind in (_EVENT.KeyPress, _EVENT.ShortcutOverride)
@@ -140,6 +153,15 @@ class _Progress:
         self._state = fraction, stage
         return not self._guard.cancelled
 
+    def refuse_if_cancelled(self) -> None:
+        """After the work's last look.
+
+        Raises:
+            Cancelled: the user has cancelled it meanwhile.
+        """
+        if self._guard.cancelled:
+            raise Cancelled("cancelled at the end")
+
     def refresh(self) -> None:
         """Show what was reported, and let the window live for a moment."""
         if self._since.elapsed() > SHOW_AFTER and self._bar.isHidden():
@@ -174,6 +196,7 @@ def run_on_thread(title: str, work: Callable[[ProgressCallback], T]) -> T:
 
     Raises:
         VolfrepError: another such job is running.
+        Cancelled: by the user, be it while the work came to its end: what it made is dropped.
     """
     if not _one_job.acquire(blocking=False):
         raise VolfrepError("Another lattice is being computed: wait for its end, or cancel it.")
@@ -182,6 +205,8 @@ def run_on_thread(title: str, work: Callable[[ProgressCallback], T]) -> T:
             job = pool.submit(work, progress.report)
             while not wait([job], timeout=BREATH).done:
                 progress.refresh()
-            return job.result()
+            result = job.result()
+            progress.refuse_if_cancelled()
+            return result
     finally:
         _one_job.release()

@@ -1428,6 +1428,10 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>Verdichten</translation>
     </message>
     <message>
+      <source>crossings</source>
+      <translation>Durchdringungen</translation>
+    </message>
+    <message>
       <source>lattice</source>
       <translation>Gitter</translation>
     </message>
@@ -1707,8 +1711,8 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>Dreiecke</translation>
     </message>
     <message>
-      <source>triangles that cross (FreeCAD)</source>
-      <translation>sich kreuzende Dreiecke (FreeCAD)</translation>
+      <source>triangles that cross</source>
+      <translation>Dreiecke, die sich durchdringen</translation>
     </message>
     <message>
       <source>trim</source>

@@ -1428,6 +1428,10 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>riduzione</translation>
     </message>
     <message>
+      <source>crossings</source>
+      <translation>intersezioni</translation>
+    </message>
+    <message>
       <source>lattice</source>
       <translation>reticolo</translation>
     </message>
@@ -1707,8 +1711,8 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>triangoli</translation>
     </message>
     <message>
-      <source>triangles that cross (FreeCAD)</source>
-      <translation>triangoli che si incrociano (FreeCAD)</translation>
+      <source>triangles that cross</source>
+      <translation>triangoli che si intersecano</translation>
     </message>
     <message>
       <source>trim</source>

@@ -2,5 +2,9 @@
 """Run by FreeCAD at its start, with or without windows.
 
 FreeCAD has by then put the add-on's folder on the module path, so that ``from freecad_volfrep
-import make_lattice_infill`` works. Nothing else is needed, and nothing that costs time is done.
+import make_lattice_infill`` works. Nothing that costs time is done.
 """
+
+from freecad_volfrep.revival import watch_documents
+
+watch_documents()

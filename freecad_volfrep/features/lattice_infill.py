@@ -16,7 +16,13 @@ from .applicable import CONTROLS, CUSTOM_CELL, show_applicable
 from .grading import gradings_of
 from .openings import openings_of
 from .progress import job_title, run_job
-from .properties import PROPERTIES, ensure_properties
+from .properties import (
+    PROPERTIES,
+    ensure_properties,
+    is_spoiled,
+    refuse_spoiled,
+    wrong_types,
+)
 
 if TYPE_CHECKING:
     from volfrep import LatticeSpec
@@ -29,8 +35,12 @@ OUT_OF_DATE = "Out of date: AutoUpdate is off, use Update Lattice Infill"
 LARGE = "Out of date: a large job, use Update Lattice Infill"
 FAILED = "Failed: see the report view"
 CANCELLED = (
-    "Cancelled: the mesh is that of the last finished update; recompute to try again, or switch "
-    "AutoUpdate off."
+    "Cancelled: the mesh is that of the last finished update; use Update Lattice Infill to try "
+    "again."
+)
+CANCELLED_FIRST = "Cancelled: there is no mesh yet; use Update Lattice Infill to make it."
+REVIVED = (
+    "Saved by a FreeCAD without VOLFREP: recompute, and whatever was changed there is followed"
 )
 
 
@@ -41,6 +51,12 @@ class LatticeInfill:
     not saved; everything that is saved is a property.
     """
 
+    # Of a proxy that FreeCAD has made of a damaged file, without a call of ours.
+    _forced = False
+    _reader: Any = None
+    _cache: Any = None
+    was_cancelled = False
+
     def __init__(self, obj: App.DocumentObject) -> None:
         self._forget()
         obj.Proxy = self
@@ -49,11 +65,15 @@ class LatticeInfill:
     def execute(self, obj: App.DocumentObject) -> None:
         """Bring the mesh up to date; called by FreeCAD's recompute.
 
+        A cancelled job is no error: the last mesh stays, and `Status` says so.
+
         Raises:
             VolfrepError: one sentence; the object turns Invalid and its last mesh stays.
         """
         from volfrep.errors import Cancelled, VolfrepError
 
+        if is_spoiled(obj):
+            ensure_properties(obj)
         forced, self._forced = self._forced, False
         self.was_cancelled = False
         obj.Status = FAILED  # what stays if something fails that is not the input's fault
@@ -62,8 +82,10 @@ class LatticeInfill:
         except VolfrepError as error:
             message = str(error)
         except Cancelled:
-            message = CANCELLED
             self.was_cancelled = True
+            obj.Status = CANCELLED if obj.Mesh.CountFacets else CANCELLED_FIRST
+            App.Console.PrintMessage(f"VOLFREP, {obj.Label}: {obj.Status}\n")
+            return
         except MemoryError:
             message = "Not enough memory: choose larger cells or a coarser deviation."
         except Exception as error:  # whatever it is, the user gets a sentence and keeps the mesh
@@ -79,16 +101,16 @@ class LatticeInfill:
         raise VolfrepError(message)
 
     def update(self, obj: App.DocumentObject) -> bool:
-        """Compute now, AutoUpdate or not; returns whether the object is valid afterwards."""
-        self._forced = True
+        """Compute now, AutoUpdate or not; returns whether the mesh fits the properties then."""
+        self._forced, self.was_cancelled = True, False
         obj.touch()
         obj.Document.recompute()
         self._forced = False  # where a failing base kept the object from being executed
-        return bool(obj.isValid())
+        return bool(obj.isValid()) and not self.was_cancelled
 
     def onChanged(self, obj: App.DocumentObject, name: str) -> None:  # noqa: N802
         """Show the properties that apply now, and no others."""
-        if name in CONTROLS:
+        if name in CONTROLS and not wrong_types(obj):
             show_applicable(obj)
 
     def inputs(self, obj: App.DocumentObject) -> tuple[TriangleMesh, LatticeSpec, StageCache]:
@@ -112,8 +134,16 @@ class LatticeInfill:
         """Bring an object of an older file up to the present table of properties.
 
         A file that was written without windows has no view: it gets one where there are windows.
+        What cannot be computed says so at once.
         """
+        from volfrep.errors import VolfrepError
+
         ensure_properties(obj)
+        try:
+            refuse_spoiled(obj)
+        except VolfrepError as error:
+            obj.Status = str(error)
+            App.Console.PrintWarning(f"VOLFREP, {obj.Label}: {error}\n")
         if App.GuiUp and obj.ViewObject.Proxy is None:
             from freecad_volfrep.gui.view_provider import LatticeInfillView
 
@@ -180,6 +210,7 @@ class LatticeInfill:
         from volfrep.cache import StageCache
         from volfrep.errors import VolfrepError
 
+        refuse_spoiled(obj)
         spec = spec_of(obj)
         if obj.Base is None:
             raise VolfrepError("There is no solid to fill: choose one as Base.")
@@ -190,6 +221,24 @@ class LatticeInfill:
 
 # Saved files find the class under this name, wherever the file it is written in moves to.
 LatticeInfill.__module__ = "freecad_volfrep.features"
+
+
+def revive_infill(obj: App.DocumentObject) -> None:
+    """Make a lattice infill of an object that has its properties, but has lost its proxy."""
+    from volfrep.errors import VolfrepError
+
+    LatticeInfill(obj)
+    obj.Status = REVIVED
+    try:
+        refuse_spoiled(obj)
+    except VolfrepError as error:
+        obj.Status = str(error)
+    if App.GuiUp:
+        from freecad_volfrep.gui.view_provider import LatticeInfillView
+
+        transparency = obj.ViewObject.Transparency
+        LatticeInfillView(obj.ViewObject)
+        obj.ViewObject.Transparency = transparency  # as it was saved
 
 
 def spec_of(obj: App.DocumentObject) -> LatticeSpec:

@@ -18,6 +18,8 @@ from .properties import Property, add_missing, result
 if TYPE_CHECKING:
     from volfrep.printability import PrintReport
 
+CANCELLED = "Cancelled: other figures are those of the last finished check, if there was one."
+
 PROPERTIES = (
     Property("App::PropertyLink", "Infill", "Print", "The lattice infill to look at"),
     Property("App::PropertyEnumeration", "Process", "Print", "How it will be printed", "FFF"),
@@ -50,6 +52,8 @@ class PrintCheck:
     Its mesh is what of the infill's hangs over: red on the infill, which is translucent.
     """
 
+    was_cancelled = False
+
     def __init__(self, obj: App.DocumentObject) -> None:
         obj.Proxy = self
         self._ensure_properties(obj)
@@ -57,18 +61,23 @@ class PrintCheck:
     def execute(self, obj: App.DocumentObject) -> None:
         """Bring mesh and figures up to date; called by FreeCAD's recompute.
 
+        A cancelled check is no error: the last figures stay, and `Text` says so.
+
         Raises:
             VolfrepError: one sentence; the object turns Invalid.
         """
         from volfrep.errors import Cancelled
 
+        self.was_cancelled = False
         try:
             self._run(obj)
         except VolfrepError as error:
             App.Console.PrintError(f"VOLFREP, {obj.Label}: {error}\n")
             raise
-        except Cancelled as error:
-            raise VolfrepError("Cancelled: recompute to try again.") from error
+        except Cancelled:
+            self.was_cancelled = True
+            obj.Text = CANCELLED
+            App.Console.PrintMessage(f"VOLFREP, {obj.Label}: {CANCELLED}\n")
 
     def onDocumentRestored(self, obj: App.DocumentObject) -> None:  # noqa: N802
         """Bring an object of an older file up to the present table of properties."""
@@ -132,6 +141,15 @@ class PrintCheck:
 
 # Saved files find the class under this name.
 PrintCheck.__module__ = "freecad_volfrep.features"
+
+
+def revive_print_check(obj: App.DocumentObject) -> None:
+    """Make a print check of an object that has its properties, but has lost its proxy."""
+    PrintCheck(obj)
+    if App.GuiUp:
+        from freecad_volfrep.gui.view_provider import PrintCheckView
+
+        PrintCheckView(obj.ViewObject)
 
 
 def make_print_check(

@@ -8,6 +8,8 @@ from typing import Any
 
 import FreeCAD as App
 
+from volfrep.errors import VolfrepError
+
 from .applicable import CUSTOM_CELL, show_applicable
 from .grading import CARTESIAN, CHOICES, OFF
 
@@ -315,7 +317,11 @@ INPUTS = tuple(prop.name for prop in PROPERTIES if not prop.flags)
 
 
 def ensure_properties(obj: App.DocumentObject) -> None:
-    """Give `obj` every property of the table that it lacks; safe to call again at any time."""
+    """Give `obj` every property of the table that it lacks; safe to call again at any time.
+
+    Results of a wrong type are ours, and made anew. What a user sets is left as it is, and so is
+    the number of a later table: `refuse_spoiled` says so.
+    """
     from volfrep.cells import LIBRARY
     from volfrep.spec import ACTIVATIONS, BOUNDARIES, OUTPUTS
 
@@ -326,15 +332,57 @@ def ensure_properties(obj: App.DocumentObject) -> None:
         "Output": list(OUTPUTS),
         **CHOICES,
     }
+    for name in wrong_types(obj):
+        if name not in INPUTS:
+            obj.removeProperty(name)
     add_missing(obj, PROPERTIES, choices)
+    wrong = wrong_types(obj)
     for name, values in choices.items():  # a cell may have been added since the file was saved
+        if name in wrong:
+            continue
         chosen = getattr(obj, name)
         if obj.getEnumerationsOfProperty(name) != values and chosen in values:
             setattr(obj, name, values)
             setattr(obj, name, chosen)
-    if obj.SchemaVersion != SCHEMA_VERSION:
+    if obj.SchemaVersion < SCHEMA_VERSION:
         obj.SchemaVersion = SCHEMA_VERSION
-    show_applicable(obj)
+    if not wrong:
+        show_applicable(obj)
+
+
+def wrong_types(obj: App.DocumentObject) -> dict[str, Property]:
+    """Properties that `obj` has under a name of the table, but of another type."""
+    present = set(obj.PropertiesList)
+    return {
+        prop.name: prop
+        for prop in PROPERTIES
+        if prop.name in present and obj.getTypeIdOfProperty(prop.name) != prop.type
+    }
+
+
+def is_spoiled(obj: App.DocumentObject) -> bool:
+    """Whether properties are missing or of a wrong type."""
+    return bool(wrong_types(obj)) or not {p.name for p in PROPERTIES} <= set(obj.PropertiesList)
+
+
+def refuse_spoiled(obj: App.DocumentObject) -> None:
+    """Refuse an object of which nobody can tell what it stands for.
+
+    Raises:
+        VolfrepError: it was made by a later version, or a property is of a wrong type.
+    """
+    for name, prop in wrong_types(obj).items():
+        raise VolfrepError(
+            f"The property {name} is of the type {obj.getTypeIdOfProperty(name)} instead of "
+            f"{prop.type}, so that another program has changed it: remove it, and the next "
+            "recompute adds it with its first value."
+        )
+    if obj.SchemaVersion > SCHEMA_VERSION:
+        raise VolfrepError(
+            f"This object was made by a later version of VOLFREP (its table of properties is "
+            f"number {obj.SchemaVersion}, this one knows {SCHEMA_VERSION}): update VOLFREP to "
+            "compute it, and until then its mesh stays as it is."
+        )
 
 
 def add_missing(

@@ -101,7 +101,10 @@ def luminance(colour):
 def test_the_start_of_freecad_imports_nothing_heavy():
     """Init.py and the import of the package must not cost every start of FreeCAD time."""
     code = (
-        f"import sys; sys.path.insert(0, {str(ROOT)!r}); exec(open('Init.py').read());"
+        f"import sys, types; sys.path.insert(0, {str(ROOT)!r});"
+        "app = sys.modules['FreeCAD'] = types.ModuleType('FreeCAD');"
+        "observers = []; app.addDocumentObserver = observers.append;"
+        "exec(open('Init.py').read()); assert len(observers) == 1;"
         "import freecad_volfrep; heavy = {'numpy', 'scipy', 'skimage', 'trimesh', 'volfrep'};"
         "sys.exit(str(heavy & set(sys.modules)) if heavy & set(sys.modules) else 0)"
     )

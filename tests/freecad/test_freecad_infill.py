@@ -10,7 +10,12 @@ from conftest import SMALL
 from freecad_volfrep import make_lattice_infill
 from freecad_volfrep.features import LatticeInfill, lattice_infill
 from freecad_volfrep.features.factory import suggested_sizes
-from freecad_volfrep.features.lattice_infill import CANCELLED, OUT_OF_DATE, UP_TO_DATE
+from freecad_volfrep.features.lattice_infill import (
+    CANCELLED,
+    CANCELLED_FIRST,
+    OUT_OF_DATE,
+    UP_TO_DATE,
+)
 from freecad_volfrep.features.properties import PROPERTIES, SCHEMA_VERSION, ensure_properties
 from volfrep.cells import LIBRARY
 from volfrep.errors import Cancelled, VolfrepError
@@ -372,14 +377,24 @@ def test_cancelled_keeps_the_last_mesh(doc, infill, monkeypatch):
         patch.setattr(lattice_infill, "run_job", cancelled_at_once)
         infill.StrutRadius = 0.8
         doc.recompute()
-    assert not infill.isValid()
+        assert not infill.Proxy.update(infill)
+    assert infill.isValid(), "a cancelled job is no error"
     assert infill.Proxy.was_cancelled
-    assert infill.getStatusString() == CANCELLED
+    assert infill.Status == CANCELLED
     assert digest(infill) == before
-    doc.recompute()
-    assert infill.isValid(), infill.getStatusString()
+    assert infill.Proxy.update(infill)
+    assert infill.Status == UP_TO_DATE
     assert digest(infill) != before
     assert not issubclass(Cancelled, VolfrepError)
+
+
+def test_cancelled_the_first_time_speaks_of_no_mesh(doc, box, monkeypatch):
+    obj = make_lattice_infill(doc, box, **SMALL)
+    with monkeypatch.context() as patch:
+        patch.setattr(lattice_infill, "run_job", lambda _, work: work(lambda *_: False))
+        doc.recompute()
+    assert obj.Status == CANCELLED_FIRST
+    assert not obj.Mesh.CountFacets
 
 
 def test_the_factory_refuses_what_there_is_not(doc, box):

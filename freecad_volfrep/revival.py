@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Objects of ours that a file holds without their proxies come back to life.
+
+A FreeCAD without this workbench opens a document with lattice infills, finds no class for them,
+and saves it with proxies of None. Their properties and meshes are all there, but nothing follows a
+new radius any more, and `Status` says what it said last. A damaged or a foreign proxy comes to the
+same. So every document is looked through when it is opened and before it is recomputed.
+
+Registered at FreeCAD's start: nothing here costs time before there is something to revive.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import FreeCAD as App
+
+_TYPE = "Mesh::FeaturePython"
+#: Properties by which our objects are known, whatever their proxies say.
+_INFILL = {"Fingerprint", "SchemaVersion", "StrutRadius", "Status"}
+_PRINT_CHECK = {"Infill", "Process", "Findings", "OverhangShare"}
+
+_watch: Watch | None = None
+
+
+class Watch:
+    """Hears from FreeCAD when a document may hold objects without their proxies.
+
+    FreeCAD 0.20 tells Python of no end of reading a file; it makes the document active then. A
+    document that is read because another one links to it is not made active, but recomputed.
+    """
+
+    def slotActivateDocument(self, doc: Any) -> None:  # noqa: N802
+        """A document was opened, or made active: it and those that were opened with it."""
+        for known in App.listDocuments().values():
+            revive(known)
+
+    def slotBeforeRecomputeDocument(self, doc: Any) -> None:  # noqa: N802
+        """What changed meanwhile is to be computed."""
+        revive(doc)
+
+
+def watch_documents() -> None:
+    """Look through every document that is opened from now on."""
+    global _watch
+    if _watch is None:
+        _watch = Watch()
+        App.addDocumentObserver(_watch)
+
+
+def revive(doc: App.Document) -> list[App.DocumentObject]:
+    """Give objects of ours their proxies back; returns those that had lost them.
+
+    They are marked as touched, because their properties may have changed meanwhile: the next
+    recompute finds out, and makes no new mesh where nothing has.
+    """
+    if doc.Restoring:
+        return []
+    revived = []
+    for obj in doc.findObjects(_TYPE):
+        names = set(obj.PropertiesList)
+        if names >= _INFILL:
+            from freecad_volfrep.features.lattice_infill import LatticeInfill, revive_infill
+
+            kind, bring_back = LatticeInfill, revive_infill
+        elif names >= _PRINT_CHECK:
+            from freecad_volfrep.features.print_check import PrintCheck, revive_print_check
+
+            kind, bring_back = PrintCheck, revive_print_check
+        else:
+            continue
+        if isinstance(getattr(obj, "Proxy", None), kind):
+            continue
+        bring_back(obj)
+        obj.touch()
+        App.Console.PrintWarning(
+            f"VOLFREP, {obj.Label}: saved by a FreeCAD without VOLFREP, or damaged; it is alive "
+            "again, and the next recompute brings it up to date.\n"
+        )
+        revived.append(obj)
+    return revived

@@ -131,6 +131,11 @@ def check_print(infill: App.DocumentObject) -> None:
     with undo_step(doc, translate("VOLFREP_PrintCheck", "Print Check")):
         check = make_print_check(doc, infill)
         doc.recompute()
+        cancelled = check.Proxy.was_cancelled
+        if cancelled:
+            doc.removeObject(check.Name)
+    if cancelled:
+        return
     if check.isValid():
         Gui.Selection.clearSelection()
         App.Console.PrintMessage(f"VOLFREP, {check.Label}:\n{check.Text}\n")
@@ -470,6 +475,7 @@ TOOLBARS = {
         "VOLFREP_CellLibrary",
     ],
     QT_TRANSLATE_NOOP("Workbench", "VOLFREP Results"): [
+        "VOLFREP_SectionView",
         "VOLFREP_CheckMesh",
         "VOLFREP_PrintCheck",
         "VOLFREP_Statistics",

@@ -234,11 +234,9 @@ def revive_infill(obj: App.DocumentObject) -> None:
     except VolfrepError as error:
         obj.Status = str(error)
     if App.GuiUp:
-        from freecad_volfrep.gui.view_provider import LatticeInfillView
+        from freecad_volfrep.gui.revived_view import revive_infill_view
 
-        transparency = obj.ViewObject.Transparency
-        LatticeInfillView(obj.ViewObject)
-        obj.ViewObject.Transparency = transparency  # as it was saved
+        revive_infill_view(obj.ViewObject)
 
 
 def spec_of(obj: App.DocumentObject) -> LatticeSpec:

@@ -147,9 +147,9 @@ def revive_print_check(obj: App.DocumentObject) -> None:
     """Make a print check of an object that has its properties, but has lost its proxy."""
     PrintCheck(obj)
     if App.GuiUp:
-        from freecad_volfrep.gui.view_provider import PrintCheckView
+        from freecad_volfrep.gui.revived_view import revive_print_check_view
 
-        PrintCheckView(obj.ViewObject)
+        revive_print_check_view(obj.ViewObject)
 
 
 def make_print_check(

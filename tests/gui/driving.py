@@ -148,6 +148,48 @@ def toolbar_button(name):
     raise LookupError(f"no button {name}")
 
 
+def click_place(place):
+    """A real click at a place of the screen."""
+    xdotool("mousemove", place.x(), place.y())
+    wait(250)
+    xdotool("click", 1)
+    wait(400)
+
+
+def _click_entries(texts):
+    """Really click through the entries of the open menu and of the submenus that open then."""
+    for text in texts:
+        # Asked for anew each time: to ask an entry for its submenu spoils Qt's wrappers of both.
+        menu = QtGui.QApplication.activePopupWidget()
+        entries = menu.actions()
+        found = [entry for entry in entries if entry.text().replace("&", "") == text]
+        if not found:
+            failures.append(f"no entry {text} in {[entry.text() for entry in entries]}")
+            menu.close()
+            return
+        click_place(menu.mapToGlobal(menu.actionGeometry(found[0]).center()))
+
+
+def click_menu(*texts):
+    """Really click through FreeCAD's menu bar."""
+    bar = Gui.getMainWindow().menuBar()
+    entries = bar.actions()
+    entry = next(a for a in entries if a.text().replace("&", "") == texts[0])
+    click_place(bar.mapToGlobal(bar.actionGeometry(entry).center()))
+    _click_entries(texts[1:])
+
+
+def context_menu(obj, *texts):
+    """Really right-click an object in the tree, and click through what opens."""
+    tree = next(t for t in Gui.getMainWindow().findChildren(QtGui.QTreeWidget) if t.isVisible())
+    item = tree.findItems(obj.Label, QtCore.Qt.MatchExactly | QtCore.Qt.MatchRecursive)[0]
+    click_item(tree, item)
+    # The menu has a loop of its own: what is done in it is done from inside.
+    QtCore.QTimer.singleShot(700, lambda: _click_entries(texts))
+    xdotool("click", 3)
+    wait(3000)
+
+
 def tree_texts():
     """Labels of all the items of the model tree."""
     texts = set()

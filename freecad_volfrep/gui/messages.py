@@ -74,5 +74,5 @@ def errors_shown(box: bool = False) -> Iterator[None]:
         yield
     except VolfrepError as error:
         (show_error if box else tell_error)(str(error))
-    except Cancelled:
+    except (Cancelled, App.Base.FreeCADAbort):  # ours, or where FreeCAD has asked
         tell(translate("VolfrepMessages", "Cancelled."))

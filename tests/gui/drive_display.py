@@ -10,7 +10,7 @@ import FreeCADGui as Gui
 from PySide import QtGui
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from driving import OUT, check, figures, picture, run, wait
+from driving import OUT, check, click, figures, picture, run, toolbar_button, wait
 
 FIXTURE = Path(__file__).resolve().parents[1] / "freecad" / "fixtures" / "infill-0.1.0.FCStd"
 GROUP = "User parameter:BaseApp/Preferences/Mod/VOLFREP"
@@ -145,7 +145,7 @@ def section(obj):
     Gui.Selection.clearSelection()
     Gui.Selection.addSelection(obj)
     wait(500)
-    Gui.runCommand("VOLFREP_SectionView", 0)
+    click(toolbar_button("Section View"))
     wait(500)
     check("the section opens", dock() is not None)
     check("one plane is in the scene", planes(obj) == 1, planes(obj))
@@ -169,7 +169,7 @@ def section(obj):
     picture("section_3_simplified")
     obj.ViewObject.DisplayMode = "Shaded"
     Gui.Selection.addSelection(obj)
-    Gui.runCommand("VOLFREP_SectionView", 0)
+    click(toolbar_button("Section View"))
     wait(500)
     check("a second call takes its place", planes(obj) == 1, planes(obj))
     dock().close()
@@ -177,7 +177,7 @@ def section(obj):
     check("closing removes it", planes(obj) == 0 and dock() is None)
     check("the document is as before", (doc.UndoCount, doc.isTouched()) == (steps, touched))
     check("and so is the mesh", obj.Mesh.CountFacets == facets)
-    Gui.runCommand("VOLFREP_SectionView", 0)
+    click(toolbar_button("Section View"))
     wait(300)
     doc.removeObject(obj.Name)
     wait(500)

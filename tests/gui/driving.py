@@ -290,7 +290,7 @@ def run(drive, name):
         try:
             drive()
             code = 1 if failures else 0
-        except Exception:
+        except BaseException:  # FreeCAD's abort is no Exception
             failures.append(traceback.format_exc())
         watch.deleteLater()
         figures["failures"] = failures

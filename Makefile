@@ -10,7 +10,7 @@ SCREEN := xvfb-run -a -s "-screen 0 1600x1200x24 -dpi 96"
 
 .NOTPARALLEL:
 .PHONY: help setup demo test test-all lint format test-core test-freecad test-gui test-in-freecad \
-	test-freecad-1 translations test-newest docs-pictures torture bench bench-quick clean
+	test-freecad-1 translations test-newest docs-pictures test-escape torture bench bench-quick clean
 
 help: ## show this list
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 25
@@ -58,6 +58,10 @@ test-gui: export FREECAD_USER_HOME := $(CURDIR)/.cache/fchome-gui
 test-gui: setup ## the real FreeCAD window on a virtual screen
 	@status=0; for script in tests/gui/drive_*.py; do \
 	tools/run_gui.sh "$$script" < /dev/null || status=$$?; done; exit $$status
+
+test-escape: export FREECAD_USER_HOME := $(CURDIR)/.cache/fchome-gui
+test-escape: setup ## Escape at ten random times in every long command of the window, a quarter of an hour
+	@ESCAPES=10 GUI_TIMEOUT=1800 tools/run_gui.sh tests/gui/drive_escape.py < /dev/null
 
 docs-pictures: ## the tutorial's pictures anew, from those of the last make test-gui
 	@tools/docs_pictures.sh

@@ -2,8 +2,9 @@
 """Escape at random times during every long command, in the real FreeCAD; see tools/run_gui.sh.
 
 Each command is clicked once to the end and then ESCAPES times more (an environment variable; once
-by default, ten times by ``make test-escape``; the seed is SEED), with a real Escape after a random part of its time. FreeCAD has to be
-itself afterwards: nothing waits, no box is open, and the next click is followed.
+by default, ten times by ``make test-escape``; the seed is SEED), with a real Escape after a random
+part of its time. FreeCAD has to be itself afterwards: nothing waits, no box is open, and the next
+click is followed.
 """
 
 import os

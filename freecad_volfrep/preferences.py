@@ -61,17 +61,19 @@ AUTO_UPDATE = Preference("NewAutoUpdate", True)
 DENSITY = Preference("NewDensity", 1.0, 0.001, 25.0)
 LARGEST_AUTOMATIC = Preference("LargestAutomaticTriangles", 3_000_000, 0, 2_000_000_000)
 LARGEST_SHOWN = Preference("LargestShownTriangles", 1_000_000, 1_000, 2_000_000_000)
-TRANSPARENCY = Preference("Transparency", 60, 0, 100)
+TRANSPARENCY = Preference("Transparency", 75, 0, 100)
 MOST_PRISMS = Preference("LargestShownStruts", 6_000, 0, 1_000_000)
 STRUT_COLOUR = Colour("StrutColour", 0x216BB8FF)
+SKIN_COLOUR = Colour("SkinColour", 0xB8C2D1FF)
+CUT_COLOUR = Colour("CutColour", 0xFA9429FF)
 OVERHANG_COLOUR = Colour("OverhangColour", 0xD9291FFF)
 THREADS = Preference("Threads", 0, 1, 256, automatic=True)
 
 #: All of them, as the tests and the page see them.
 PREFERENCES = (
     CELL_TYPE, CELL_SIZE, STRUT_SHARE, SKIN, RESOLUTION, DEVIATION, AUTO_UPDATE, DENSITY,
-    LARGEST_AUTOMATIC, LARGEST_SHOWN, TRANSPARENCY, MOST_PRISMS, STRUT_COLOUR, OVERHANG_COLOUR,
-    THREADS,
+    LARGEST_AUTOMATIC, LARGEST_SHOWN, TRANSPARENCY, MOST_PRISMS, STRUT_COLOUR, SKIN_COLOUR,
+    CUT_COLOUR, OVERHANG_COLOUR, THREADS,
 )  # fmt: skip
 
 #: What has been said about stored values, so that it is said once.

@@ -6,6 +6,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
@@ -34,8 +35,8 @@ def coarse_likeness(mesh: TriangleMesh, most: int) -> TriangleMesh:
         step *= COARSER
 
 
-def outside_and_cavities(mesh: TriangleMesh) -> tuple[TriangleMesh, TriangleMesh]:
-    """The shells of a closed mesh that bound it from outside, and those that bound cavities."""
+def is_outside(mesh: TriangleMesh) -> NDArray[np.bool_]:
+    """(t,) whether a triangle's shell bounds the closed mesh from outside, and not a cavity."""
     triangles, count = mesh.triangles, len(mesh.vertices)
     rows = np.concatenate([triangles[:, 0], triangles[:, 1]])
     columns = np.concatenate([triangles[:, 1], triangles[:, 2]])
@@ -43,11 +44,7 @@ def outside_and_cavities(mesh: TriangleMesh) -> tuple[TriangleMesh, TriangleMesh
     shells, shell = connected_components(graph, directed=False)
     shell = shell[triangles[:, 0]]
     volume = np.bincount(shell, weights=mesh.signed_volumes(), minlength=shells)
-    is_outside = volume[shell] > 0
-    outside, cavities = (
-        compact(TriangleMesh(mesh.vertices, triangles[rows])) for rows in (is_outside, ~is_outside)
-    )
-    return outside, cavities
+    return np.asarray(volume[shell] > 0)
 
 
 def _clustered(mesh: TriangleMesh, step: float) -> TriangleMesh:

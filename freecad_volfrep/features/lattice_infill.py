@@ -163,6 +163,7 @@ class LatticeInfill:
         self._forced = False
         self._reader: Any = None
         self._cache: Any = None
+        self.made: Any = None
         self.was_cancelled = False
 
     def _run(self, obj: App.DocumentObject, forced: bool) -> None:
@@ -171,6 +172,8 @@ class LatticeInfill:
         from volfrep.forecast import forecast_fill
         from volfrep.pipeline import fill
         from volfrep.solid import check_solid
+
+        from .skin import made_of
 
         spec, solid = self.read(obj)
         fingerprint = fingerprint_of(spec, solid)
@@ -193,6 +196,7 @@ class LatticeInfill:
             lambda progress: fill(solid, spec, progress=progress, cache=self._cache),
         )
         mesh = to_freecad(result.mesh)
+        self.made = made_of(result.mesh, solid, spec)
         placement = obj.Placement
         obj.Mesh = mesh
         obj.Placement = placement  # assigning a mesh also assigns the mesh's placement

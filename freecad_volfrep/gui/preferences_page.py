@@ -227,10 +227,18 @@ class DisplayPage(Page):
                 ),
                 Row(
                     prefs.STRUT_COLOUR,
-                    QT_TRANSLATE_NOOP("VolfrepPreferences", "Colour of struts"),
-                    QT_TRANSLATE_NOOP(
-                        "VolfrepPreferences", "In the preview and in the display mode Simplified"
-                    ),
+                    QT_TRANSLATE_NOOP("VolfrepPreferences", "Colour of the lattice"),
+                    QT_TRANSLATE_NOOP("VolfrepPreferences", "Of a new infill"),
+                ),
+                Row(
+                    prefs.SKIN_COLOUR,
+                    QT_TRANSLATE_NOOP("VolfrepPreferences", "Colour of the skin"),
+                    QT_TRANSLATE_NOOP("VolfrepPreferences", "Of a new infill"),
+                ),
+                Row(
+                    prefs.CUT_COLOUR,
+                    QT_TRANSLATE_NOOP("VolfrepPreferences", "Colour of cut faces"),
+                    QT_TRANSLATE_NOOP("VolfrepPreferences", "In Section View"),
                 ),
                 Row(
                     prefs.OVERHANG_COLOUR,

@@ -10,35 +10,51 @@ import FreeCAD as App
 import FreeCADGui as Gui
 
 from freecad_volfrep import ICONS, preferences
-from freecad_volfrep.translation import translate
+from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 from volfrep.errors import VolfrepError
 
-from .coarse_view import COARSE, FINE, show_likeness
+from .coarse_view import COARSE, show_likeness
+from .filled_view import FILLED, show_filled
 from .qt import QtCore, QtGui
 from .simplified_view import SIMPLIFIED, show_struts
 
 #: The modes beside those of every mesh, and what fills a node for each.
-_MODES = {COARSE: show_likeness, SIMPLIFIED: show_struts}
+_MODES = {FILLED: show_filled, COARSE: show_likeness, SIMPLIFIED: show_struts}
+#: FreeCAD's mode that was a document's before there was `FILLED`.
+_PLAIN = "Shaded"
+#: What of a view is in the look of our modes; FreeCAD 1.0 has another name for the colour.
+_LOOKS = ("ShapeColor", "ShapeAppearance", "Transparency", "LatticeColor")
+#: Saved with a view, so that one of an older file is known.
+_VERSION = 2
+LATTICE_COLOUR = QT_TRANSLATE_NOOP("App::Property", "Colour of the lattice inside the skin")
 
 
 class LatticeInfillView:
     """View provider of a lattice infill: its icon, the commands for it, display modes.
 
-    Beside FreeCAD's own modes for meshes there are Coarse, a likeness of fewer triangles, and
-    Simplified, the struts without any. Each is made when it is shown first and dropped with a new
-    mesh. A mesh of more triangles than the preference allows is shown coarsely, unless it is
-    shown simplified already; whoever then chooses another mode sees all of it.
+    Beside FreeCAD's own modes for meshes there are Skin and Lattice, which is a new infill's,
+    Coarse, a likeness of fewer triangles, and Simplified, the struts without any. Each is made
+    when it is shown first and dropped with a new mesh. A mesh of more triangles than the
+    preference allows is shown coarsely, unless it is shown simplified already; whoever then
+    chooses another mode sees all of it.
     """
 
     def __init__(self, view: Any) -> None:
         view.Proxy = self
         view.Transparency = preferences.read(preferences.TRANSPARENCY)
+        view.ShapeColor = preferences.colour(preferences.SKIN_COLOUR)
+        view.DisplayMode = FILLED
 
     def attach(self, view: Any) -> None:
         """Called by FreeCAD for a new object and for one from a file."""
         from pivy import coin
 
         self.object = view.Object
+        self._is_cut = False
+        self._drawn: dict[str, Any] = {}
+        if not hasattr(view, "LatticeColor"):
+            view.addProperty("App::PropertyColor", "LatticeColor", "Object Style", LATTICE_COLOUR)
+            view.LatticeColor = preferences.colour(preferences.STRUT_COLOUR)
         self._modes = {mode: (coin.SoSeparator(), show) for mode, show in _MODES.items()}
         for mode, (node, _) in self._modes.items():
             view.addDisplayMode(node, mode)
@@ -49,27 +65,42 @@ class LatticeInfillView:
 
     def getDefaultDisplayMode(self) -> str:  # noqa: N802
         """The mode of a new object."""
-        return FINE
+        return FILLED
 
     def setDisplayMode(self, mode: str) -> str:  # noqa: N802
         """Every mode of the list is one of the view's own; ours are made now."""
         self._make(mode)
         return mode
 
+    def onChanged(self, view: Any, name: str) -> None:  # noqa: N802
+        """Draw what is drawn already in the new colours."""
+        if name in _LOOKS:
+            self._set_looks()
+
     def updateData(self, obj: Any, name: str) -> None:  # noqa: N802
         """A new mesh: what was made of the old one goes."""
         if name != "Mesh":
             return
+        self._drawn.clear()
         for node, _ in self._modes.values():
             node.removeAllChildren()
         view = obj.ViewObject
         large = obj.Mesh.CountFacets > preferences.largest_shown()
         if view.DisplayMode == COARSE and not large:
-            view.DisplayMode = FINE
-        elif view.DisplayMode not in _MODES and large:
+            view.DisplayMode = FILLED
+        elif view.DisplayMode not in (COARSE, SIMPLIFIED) and large:
             view.DisplayMode = COARSE
         else:
             self._make(view.DisplayMode)
+
+    def show_cut(self, is_cut: bool) -> bool:
+        """Draw for a section, opaque and with cut faces, or as without one.
+
+        Returns whether the present mode has cut faces of its own.
+        """
+        self._is_cut = is_cut
+        self._set_looks()
+        return self.object.ViewObject.DisplayMode in _MODES
 
     def getIcon(self) -> str:  # noqa: N802
         """Path of the tree's icon."""
@@ -115,21 +146,29 @@ class LatticeInfillView:
             QtCore.QTimer.singleShot(0, self._make_shown)
             return
         try:
-            show(self.object, node)
+            self._drawn[mode] = show(self.object, node)
+            self._set_looks()
         except VolfrepError as error:
             node.removeAllChildren()
             App.Console.PrintError(f"VOLFREP, {self.object.Label}: not shown {mode}. {error}\n")
+
+    def _set_looks(self) -> None:
+        """Give everything that is drawn the view's present colours."""
+        for drawn in self._drawn.values():
+            drawn.set_look(self.object.ViewObject, self._is_cut)
 
     def _make_shown(self) -> None:
         """Fill the mode that is shown, once a file is read."""
         with suppress(ReferenceError):  # the document was closed meanwhile
             self._make(self.object.ViewObject.DisplayMode)
 
-    def dumps(self) -> None:
-        """Nothing to save."""
+    def dumps(self) -> int:
+        """Of all this, only that it knows the mode Skin and Lattice."""
+        return _VERSION
 
     def loads(self, state: Any) -> None:
-        """Nothing to restore: `attach` is called with the view."""
+        """Note whether the file is older than that; `attach` is called with the view."""
+        self._is_older = state is None
 
     __getstate__ = dumps  # FreeCAD 0.20
     __setstate__ = loads

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What the triangles of an infill's mesh are: outside, inner wall or lattice."""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from volfrep.errors import VolfrepError
+
+if TYPE_CHECKING:
+    import FreeCAD as App
+
+    from volfrep import LatticeSpec
+    from volfrep.mesh import TriangleMesh
+
+
+@dataclass(frozen=True, eq=False)
+class Made:
+    """What a mesh was made of.
+
+    Attributes:
+        solid: that was filled, checked.
+        spec: how.
+        triangles: digest of the mesh's triangles.
+    """
+
+    solid: TriangleMesh
+    spec: LatticeSpec
+    triangles: bytes
+
+
+def made_of(mesh: TriangleMesh, solid: TriangleMesh, spec: LatticeSpec) -> Made:
+    """To be kept with a mesh, so that its triangles can be told apart later."""
+    return Made(solid, spec, _digest(mesh))
+
+
+def kinds_of(obj: App.DocumentObject, mesh: TriangleMesh) -> NDArray[np.uint8]:
+    """(t,) uint8 for each triangle of an infill's mesh, see `volfrep.skin`.
+
+    What the mesh was made of is known since it was computed; for one from a file it is what the
+    properties stand for. Where these have changed since, only the mesh itself is left to ask:
+    what encloses a cavity is outside, what bounds one is lattice, its skin's wall too.
+
+    Args:
+        obj: the infill.
+        mesh: its mesh, as it lies before the object's Placement moves it.
+    """
+    from volfrep.coarse import is_outside
+    from volfrep.skin import LATTICE, OUTSIDE, kinds_of_triangles
+
+    made: Any = obj.Proxy.made
+    if made is not None and made.triangles == _digest(mesh):
+        return kinds_of_triangles(mesh, made.solid, made.spec)
+    try:
+        solid, spec, _ = obj.Proxy.inputs(obj)
+    except VolfrepError:
+        outside = is_outside(mesh)
+        return np.where(outside & (not outside.all()), OUTSIDE, LATTICE).astype(np.uint8)
+    return kinds_of_triangles(mesh, solid, spec)
+
+
+def _digest(mesh: TriangleMesh) -> bytes:
+    return hashlib.blake2b(np.ascontiguousarray(mesh.triangles, np.int32)).digest()

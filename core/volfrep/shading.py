@@ -50,8 +50,8 @@ def shaded(mesh: TriangleMesh, crease_angle: float = CREASE_ANGLE) -> Shaded:
     vertex = np.empty(count, np.int64)
     vertex[corner] = t.ravel()
     weight = np.repeat(area, 3, axis=0)
-    normals = np.stack([np.bincount(corner, weight[:, k], count) for k in range(3)], axis=1)
-    normals /= np.maximum(np.linalg.norm(normals, axis=1), 1e-300)[:, None]
+    total = np.stack([np.bincount(corner, weight[:, k], count) for k in range(3)], axis=1)
+    normals = total / np.maximum(np.linalg.norm(total, axis=1), 1e-300)[:, None]
     return Shaded(
         mesh.vertices[vertex].astype(np.float32),
         normals.astype(np.float32),
@@ -71,7 +71,8 @@ def sharp_edges(mesh: TriangleMesh, angle: float = EDGE_ANGLE) -> Ints:
 
 def _half_edges(triangles: NDArray[np.int32]) -> Ints:
     """(3 t, 2) ends of the sides: side k of a triangle goes from its corner k to the next."""
-    return np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=2).reshape(-1, 2).astype(int)
+    ends = np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=2)
+    return np.asarray(ends.reshape(-1, 2), np.int64)
 
 
 def _pairs(mesh: TriangleMesh) -> Ints:

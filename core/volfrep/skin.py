@@ -25,7 +25,7 @@ Kinds = NDArray[np.uint8]
 OUTSIDE, WALL, LATTICE = 0, 1, 2
 #: A corner lies on the wall up to this depth, in thicknesses of the skin; on the outside up to
 #: that one.
-WALL_DEPTH, OUTSIDE_DEPTH = 1.05, 0.25
+WALL_DEPTH, OUTSIDE_DEPTH = 1.01, 0.25
 #: The surface is sampled this often along the diagonal of the part's box, and with no more points.
 SAMPLES_ALONG = 150.0
 MOST_SAMPLES = 2_000_000
@@ -62,7 +62,8 @@ def kinds_of_triangles(mesh: TriangleMesh, solid: TriangleMesh, spec: LatticeSpe
     kinds = np.full(len(corners), LATTICE, np.uint8)
     kinds[deepest <= most] = WALL
     outermost = below_all[corners].max(axis=1) <= OUTSIDE_DEPTH * spec.shell
-    kinds[outermost & (kinds == WALL)] = OUTSIDE
+    # Where struts end in an open face, triangles reach from their ends into the skin's rim.
+    kinds[outermost & (below_skin[corners].mean(axis=1) <= most)] = OUTSIDE
     return kinds
 
 

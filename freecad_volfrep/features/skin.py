@@ -26,17 +26,25 @@ class Made:
     Attributes:
         solid: that was filled, checked.
         spec: how.
-        triangles: digest of the mesh's triangles.
+        count: of the mesh's triangles.
+        triangles: digest of them.
     """
 
     solid: TriangleMesh
     spec: LatticeSpec
+    count: int
     triangles: bytes
 
 
 def made_of(mesh: TriangleMesh, solid: TriangleMesh, spec: LatticeSpec) -> Made:
     """To be kept with a mesh, so that its triangles can be told apart later."""
-    return Made(solid, spec, _digest(mesh))
+    return Made(solid, spec, len(mesh.triangles), _digest(mesh))
+
+
+def is_just_made(obj: App.DocumentObject) -> bool:
+    """Whether it is known what an infill's mesh was made of, without asking its properties."""
+    made: Any = obj.Proxy.made
+    return made is not None and made.count == obj.Mesh.CountFacets
 
 
 def kinds_of(obj: App.DocumentObject, mesh: TriangleMesh) -> NDArray[np.uint8]:

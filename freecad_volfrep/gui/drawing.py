@@ -6,14 +6,20 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from volfrep.mesh import TriangleMesh
 from volfrep.shading import CREASE_ANGLE, shaded, sharp_edges
 
 #: How shiny what we draw is.
-SPECULAR, SHININESS = (0.22, 0.22, 0.22), 0.35
-AMBIENT = (0.35, 0.35, 0.35)
-EDGE_WIDTH = 1.5
+SPECULAR, SHININESS = (0.10, 0.10, 0.10), 0.3
+#: Shares of a colour: that glows, that no shade takes away, that of the light that falls on it.
+#: Large faces are seen by their colour, struts by their shade.
+FACE, STRUT = (0.14, 0.20, 0.70), (0.06, 0.10, 0.88)
+#: So much of the depth of the view edges are drawn nearer than the faces that they are on, and
+#: what is cut through nearer still, because the edges behind it are hidden.
+EDGES_NEARER, CUT_NEARER = 2e-4, 3e-4
+EDGE_WIDTH, EDGE_DARKER = 2.0, 0.4
 
 
 def faces(mesh: TriangleMesh, crease_angle: float = CREASE_ANGLE) -> Any:
@@ -35,19 +41,22 @@ def faces(mesh: TriangleMesh, crease_angle: float = CREASE_ANGLE) -> Any:
 
 def edges(mesh: TriangleMesh) -> Any:
     """A group that draws a mesh's sharp edges, without a colour."""
+    start, end = mesh.vertices[sharp_edges(mesh).T]
+    return lines(start, end, EDGE_WIDTH)
+
+
+def lines(start: NDArray[np.float64], end: NDArray[np.float64], width: float) -> Any:
+    """A group that draws lines, (k, 3) starts and ends, so many pixels wide, without a colour."""
     from pivy import coin
 
-    ends = sharp_edges(mesh)
-    vertices, index = np.unique(ends, return_inverse=True)
     coordinates = coin.SoCoordinate3()
-    coordinates.point.setValues(0, len(vertices), mesh.vertices[vertices].astype(np.float32))
-    lines = coin.SoIndexedLineSet()
-    rows = np.full((len(ends), 3), -1)
-    rows[:, :2] = index.reshape(-1, 2)
-    lines.coordIndex.setValues(0, rows.size, rows.ravel().tolist())
+    points = np.stack([start, end], axis=1).reshape(-1, 3).astype(np.float32)
+    coordinates.point.setValues(0, len(points), points)
+    drawn = coin.SoLineSet()
+    drawn.numVertices.setValues(0, len(start), [2] * len(start))
     style = coin.SoDrawStyle()
-    style.lineWidth = EDGE_WIDTH
-    return _group(coin.SoGroup(), flat_light(), style, coordinates, lines)
+    style.lineWidth = width
+    return _group(coin.SoGroup(), flat_light(), style, coordinates, drawn)
 
 
 def material(colour: Any, transparency: float = 0.0) -> Any:
@@ -55,9 +64,23 @@ def material(colour: Any, transparency: float = 0.0) -> Any:
     from pivy import coin
 
     node = coin.SoMaterial()
-    node.ambientColor, node.specularColor, node.shininess = AMBIENT, SPECULAR, SHININESS
-    node.diffuseColor, node.transparency = tuple(colour[:3]), transparency
+    node.specularColor, node.shininess, node.transparency = SPECULAR, SHININESS, transparency
+    paint(node, colour)
     return node
+
+
+def paint(node: Any, colour: Any, shares: tuple[float, float, float] = FACE) -> None:
+    """Give a material a colour, which it has where it faces the viewer.
+
+    The light comes from there: without some of the colour in the shade, faces that he sees at a
+    slant would be nearly black.
+    """
+    glow, ambient, diffuse = shares
+    # Coin gives a material a fifth of its ambient colour, whatever the light.
+    for name, share in (
+        ("emissiveColor", glow), ("ambientColor", 5 * ambient), ("diffuseColor", diffuse),
+    ):  # fmt: skip
+        setattr(node, name, tuple(float(share * part) for part in colour[:3]))
 
 
 def seen_from(outside: bool) -> Any:
@@ -71,13 +94,14 @@ def seen_from(outside: bool) -> Any:
     return hints
 
 
-def behind_edges() -> Any:
-    """Push faces back a little, so that the edges on them are whole lines."""
+def nearer(share: float) -> Any:
+    """Draw a little nearer to the viewer than it is."""
     from pivy import coin
 
-    offset = coin.SoPolygonOffset()
-    offset.factor, offset.units = 1.0, 1.0
-    return offset
+    depth = coin.SoDepthBuffer()
+    depth.test, depth.write = True, True
+    depth.function, depth.range = coin.SoDepthBuffer.LEQUAL, (0.0, 1.0 - share)
+    return depth
 
 
 def flat_light() -> Any:
@@ -102,14 +126,68 @@ def see_through() -> Any:
     return kind
 
 
-def nearest_only() -> Any:
-    """Let what is drawn hide what is behind it, though it is transparent."""
+class Inside:
+    """The insides of surfaces that are seen, evenly in one colour.
+
+    Where a section cuts a closed surface open one looks at its inside, just where the cut face
+    would be: so this shows cut faces, exactly and at once. It also shows the ends of struts
+    whose roots are not drawn.
+
+    Args:
+        shapes: groups of `faces`.
+    """
+
+    def __init__(self, *shapes: Any) -> None:
+        self._look = material((0.0, 0.0, 0.0))
+        hints = seen_from(outside=False), nearer(CUT_NEARER), flat_light()
+        self.node = separate(*hints, self._look, *shapes)
+
+    def paint(self, colour: Any) -> None:
+        """Give it a colour."""
+        self._look.diffuseColor = tuple(colour[:3])
+
+
+class SeeThrough:
+    """The outside of a solid: its edges, and its faces opaque or see-through.
+
+    Of faces that are seen through, only those nearest to the viewer are drawn: first without any
+    colour, so that they hide all others, and then with it. So the picture does not depend on
+    their order.
+
+    Args:
+        mesh: the solid's surface, or a part of it.
+        shape: the `faces` of that.
+    """
+
+    def __init__(self, mesh: TriangleMesh, shape: Any) -> None:
+        from pivy import coin
+
+        self._look, self._edge_look = material((0.0, 0.0, 0.0)), material((0.0, 0.0, 0.0))
+        unseen = separate(material((1.0, 1.0, 1.0), 1.0), shape)
+        coloured = separate(self._look, shape)
+        self._faces = coin.SoSwitch()
+        self._faces.addChild(coloured)
+        self._faces.addChild(separate(see_through(), nearer(0.0), unseen, coloured))
+        self.node = separate(
+            separate(self._edge_look, nearer(EDGES_NEARER), edges(mesh)),
+            seen_from(outside=True), self._faces,
+        )  # fmt: skip
+
+    def paint(self, colour: Any, transparency: float) -> None:
+        """Give it a colour, and a transparency from 0 to 1."""
+        paint(self._look, colour)
+        self._edge_look.diffuseColor = tuple(EDGE_DARKER * part for part in colour[:3])
+        self._look.transparency = transparency
+        self._faces.whichChild = 0 if transparency == 0 else 1
+
+
+def unpickable() -> Any:
+    """Clicks go through what is drawn."""
     from pivy import coin
 
-    depth = coin.SoDepthBuffer()
-    depth.test, depth.write = True, True
-    depth.function = coin.SoDepthBuffer.LEQUAL
-    return depth
+    pick = coin.SoPickStyle()
+    pick.style = coin.SoPickStyle.UNPICKABLE
+    return pick
 
 
 def separate(*parts: Any) -> Any:

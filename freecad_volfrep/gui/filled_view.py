@@ -16,8 +16,8 @@ from . import drawing
 
 #: The display mode.
 FILLED = "Skin and Lattice"
-#: The inner wall is so much nearer to white than the skin, and edges darker.
-WALL_LIGHTER, EDGE_DARKER = 0.35, 0.45
+#: The inner wall is so much nearer to white than the skin.
+WALL_LIGHTER = 0.35
 
 
 class FilledPart:
@@ -25,9 +25,7 @@ class FilledPart:
 
     All is opaque but for the outside, and of that only what is nearest to the viewer is drawn,
     last. So the picture does not depend on the order in which anything is drawn. Only what faces
-    the viewer is drawn, so that the near wall does not hide the lattice; where a section cuts the
-    part open one looks at the inside of its surfaces, and these are drawn evenly in the colour of
-    cut faces: that covers what is cut through exactly.
+    the viewer is drawn, so that the near wall does not hide the lattice.
 
     Args:
         node: an empty node of the scene.
@@ -53,54 +51,39 @@ class FilledPart:
             if rows.any():
                 parts[kind] = likeness(compact(TriangleMesh(mesh.vertices, mesh.triangles[rows])))
         shapes = {kind: drawing.faces(part) for kind, part in parts.items()}
-        self._looks = {kind: drawing.material((1.0, 1.0, 1.0)) for kind in shapes}
-        self._edge_look = drawing.material((0.0, 0.0, 0.0))
-        self._cut_look = drawing.material((0.0, 0.0, 0.0))
-        front = drawing.separate(drawing.seen_from(outside=True), drawing.behind_edges())
-        for kind in (LATTICE, WALL):
-            if kind in shapes:
-                front.addChild(drawing.separate(self._looks[kind], shapes[kind]))
+        self._looks = {}
+        front = drawing.separate(drawing.seen_from(outside=True))
+        for kind in parts.keys() & {LATTICE, WALL}:
+            self._looks[kind] = drawing.material((0.0, 0.0, 0.0))
+            front.addChild(drawing.separate(self._looks[kind], shapes[kind]))
+        self._ends = drawing.Inside(*(shapes[kind] for kind in shapes if kind == LATTICE))
+        self._cut_faces = drawing.Inside(*shapes.values())
+        self._inside = coin.SoSwitch()
+        for inside in (self._ends, self._cut_faces):
+            self._inside.addChild(inside.node)
         node.addChild(front)
-        self._cut = coin.SoSwitch()
-        self._cut.addChild(
-            drawing.separate(
-                drawing.seen_from(outside=False), drawing.behind_edges(), drawing.flat_light(),
-                self._cut_look, *shapes.values(),
-            )
-        )  # fmt: skip
-        node.addChild(self._cut)
-        self._skin = coin.SoSwitch()
+        node.addChild(self._inside)
+        self._skin = None
         if OUTSIDE in parts:
-            node.addChild(drawing.separate(self._edge_look, drawing.edges(parts[OUTSIDE])))
-            hints = drawing.seen_from(outside=True), drawing.behind_edges()
-            coloured = drawing.separate(self._looks[OUTSIDE], shapes[OUTSIDE])
-            unseen = drawing.separate(drawing.material((1.0, 1.0, 1.0), 1.0), shapes[OUTSIDE])
-            self._skin.addChild(drawing.separate(*hints, coloured))
-            self._skin.addChild(
-                drawing.separate(
-                    *hints, drawing.see_through(), drawing.nearest_only(), unseen, coloured
-                )
-            )
-            node.addChild(self._skin)
+            self._skin = drawing.SeeThrough(parts[OUTSIDE], shapes[OUTSIDE])
+            node.addChild(self._skin.node)
 
     def set_look(self, view: Any, is_cut: bool) -> None:
         """Colours and transparency of the object's view; opaque, with cut faces, in a section."""
-        from volfrep.skin import LATTICE, OUTSIDE, WALL
+        from volfrep.skin import LATTICE, WALL
 
-        skin = np.array(view.ShapeColor[:3])
-        colours = {
-            OUTSIDE: skin,
-            WALL: skin + WALL_LIGHTER * (1.0 - skin),
-            LATTICE: view.LatticeColor[:3],
-        }
-        transparency = 0.0 if is_cut else view.Transparency / 100.0
-        for kind, look in self._looks.items():
-            look.diffuseColor = tuple(float(part) for part in colours[kind])
-            look.transparency = transparency if kind == OUTSIDE else 0.0
-        self._edge_look.diffuseColor = tuple(float(part) for part in EDGE_DARKER * skin)
-        self._cut_look.diffuseColor = preferences.colour(preferences.CUT_COLOUR)
-        self._cut.whichChild = 0 if is_cut else -1
-        self._skin.whichChild = 0 if transparency == 0 else 1
+        skin, lattice = view.ShapeColor[:3], view.LatticeColor[:3]
+        wall = [part + WALL_LIGHTER * (1.0 - part) for part in skin]
+        for kind, look in (
+            (LATTICE, (lattice, drawing.STRUT)), (WALL, (wall, drawing.FACE)),
+        ):  # fmt: skip
+            if kind in self._looks:
+                drawing.paint(self._looks[kind], *look)
+        self._ends.paint(lattice)
+        self._cut_faces.paint(preferences.colour(preferences.CUT_COLOUR))
+        self._inside.whichChild = 1 if is_cut else 0
+        if self._skin is not None:
+            self._skin.paint(skin, 0.0 if is_cut else view.Transparency / 100.0)
 
 
 def show_filled(obj: Any, node: Any) -> FilledPart:

@@ -58,12 +58,10 @@ class _Preview:
     """One infill's struts in the 3D view, in the place of the infill and its solid."""
 
     def __init__(self, obj: App.DocumentObject) -> None:
-        from freecad_volfrep.bridge.solids import parent_placement
-
         self.obj = obj
         self._live = LivePreview(obj)
         shown = self._live.show()
-        self._view = PreviewView(parent_placement(obj))
+        self._view = PreviewView(obj)
         self._view.show(shown, with_grid=False)
         self._doc = obj.Document
         self._was_visible = {part.Name: part.Visibility for part in (obj, obj.Base)}

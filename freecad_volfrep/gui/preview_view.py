@@ -10,57 +10,89 @@ import FreeCADGui as Gui
 import numpy as np
 
 from freecad_volfrep import preferences
+from volfrep.mesh import TriangleMesh
+
+from . import drawing
 
 if TYPE_CHECKING:
     from freecad_volfrep.features.live_preview import Shown
-    from volfrep.mesh import TriangleMesh
+    from volfrep.preview import Preview
 
 #: Name of what is added to the view's scene.
 NODE = "VolfrepPreview"
 #: Struts are drawn as prisms of so many sides, or as lines where there are very many.
 SIDES = 6
-SOLID, GRID = (0.75, 0.75, 0.78), (0.55, 0.55, 0.55)
-SOLID_TRANSPARENCY = 0.8
+GRID = (0.55, 0.55, 0.55)
+LINE_WIDTH = 2
+#: Prisms are drawn round: their sides meet at a smaller angle, in radians.
+CREASE_ANGLE = 1.2
+#: Where the preview itself is seen through a solid that the view shows opaque, in percent.
+LEAST_TRANSPARENCY = 50
 
 
 class PreviewView:
-    """What is drawn beside the document's objects, until it is removed."""
+    """What is drawn beside the document's objects, until it is removed.
 
-    def __init__(self, placement: App.Placement) -> None:
+    Args:
+        obj: the infill, whose colours it has.
+    """
+
+    def __init__(self, obj: App.DocumentObject) -> None:
         from pivy import coin
 
+        from freecad_volfrep.bridge.solids import parent_placement
+
+        self._view = obj.ViewObject
+        self._plane: Any = None
         self._root = coin.SoSeparator()
         self._root.setName(NODE)
         turn = coin.SoMatrixTransform()
-        a = placement.toMatrix().A
+        a = parent_placement(obj).toMatrix().A
         turn.matrix.setValue(*[a[4 * column + row] for row in range(4) for column in range(4)])
         self._struts, self._grid, self._solid = (coin.SoSeparator() for _ in range(3))
-        for part in (turn, self._struts, self._grid, self._solid):
+        for part in (turn, drawing.unpickable(), self._struts, self._grid, self._solid):
             self._root.addChild(part)
         self._shown_solid: Any = None
+        self._drawn: Any = None
         self._scene = Gui.activeDocument().activeView().getSceneGraph()
         self._scene.addChild(self._root)
 
     def show(self, shown: Shown, with_grid: bool) -> None:
         """Draw a preview in the place of the last one."""
-        p = shown.preview
         self._struts.removeAllChildren()
         self._grid.removeAllChildren()
-        add_struts(self._struts, p.start, p.end, p.radii)
+        self._drawn = Struts(self._struts, shown.preview)
+        self._drawn.set_look(self._view, self._plane is not None)
         if with_grid:
-            _add_lines(self._grid, *shown.preview.grid_lines, GRID)
+            look = drawing.material(GRID)
+            lines = drawing.lines(*shown.preview.grid_lines, LINE_WIDTH)
+            self._grid.addChild(drawing.separate(look, lines))
         if self._shown_solid is not shown.solid:
             self._solid.removeAllChildren()
-            add_solid(self._solid, shown.solid)
+            skin = drawing.SeeThrough(shown.solid, drawing.faces(shown.solid))
+            paint_solid(skin, self._view)
+            self._solid.addChild(skin.node)
             self._shown_solid = shown.solid
 
-    def show_solid_only(self) -> None:
-        """Leave the solid that was drawn last: its values have no struts to show.
+    @property
+    def bounds(self) -> np.ndarray:
+        """(2, 3) lowest and highest coordinates of the solid that is shown, mm; or zeros."""
+        return np.zeros((2, 3)) if self._shown_solid is None else self._shown_solid.bounds
 
-        Coin draws a transparent shape opaque where nothing else is drawn, which serves well here.
-        """
+    def show_solid_only(self) -> None:
+        """Leave the solid that was drawn last: its values have no struts to show."""
         self._struts.removeAllChildren()
         self._grid.removeAllChildren()
+
+    def cut_by(self, plane: Any) -> None:
+        """Cut it open by a clipping plane in the coordinates of the infill's group; None: whole."""
+        if self._plane is not None:
+            self._root.removeChild(self._plane)
+        self._plane = plane
+        if plane is not None:
+            self._root.insertChild(plane, 1)
+        if self._drawn is not None:
+            self._drawn.set_look(self._view, plane is not None)
 
     def clear(self) -> None:
         """Draw nothing."""
@@ -73,28 +105,44 @@ class PreviewView:
         self._scene.removeChild(self._root)
 
 
-def add_solid(node: Any, mesh: TriangleMesh, pickable: bool = False) -> None:
-    """Draw a solid that can be seen through."""
-    faces = mesh.vertices, mesh.triangles
-    _add_faces(node, *faces, SOLID, SOLID_TRANSPARENCY, crease=0.6, pickable=pickable)
-
-
-def add_struts(
-    node: Any, start: np.ndarray, end: np.ndarray, radii: np.ndarray, pickable: bool = False
-) -> None:
-    """Draw struts, (k, 3) starts and ends and (k, 2) radii, in the preferred colour.
+class Struts:
+    """Struts in a node of the scene, as a lattice's view has them.
 
     They are prisms as long as there are not more than the preference allows, else lines.
+
+    Args:
+        node: an empty node of the scene.
+        shown: the struts.
     """
-    colour = preferences.colour(preferences.STRUT_COLOUR)
-    if len(start) <= preferences.read(preferences.MOST_PRISMS):
-        _add_faces(node, *prisms(start, end, radii), colour, 0.0, crease=1.2, pickable=pickable)
-    else:
-        _add_lines(node, start, end, colour, pickable)
+
+    def __init__(self, node: Any, shown: Preview) -> None:
+        self._look, self._inside = drawing.material((0.0, 0.0, 0.0)), None
+        if len(shown.start) > preferences.read(preferences.MOST_PRISMS):
+            lines = drawing.lines(shown.start, shown.end, LINE_WIDTH)
+            node.addChild(drawing.separate(self._look, lines))
+            return
+        if len(shown.start):
+            shape = drawing.faces(prisms(shown.start, shown.end, shown.radii), CREASE_ANGLE)
+            self._inside = drawing.Inside(shape)
+            front = drawing.seen_from(outside=True)
+            node.addChild(drawing.separate(front, self._look, shape))
+            node.addChild(self._inside.node)
+
+    def set_look(self, view: Any, is_cut: bool) -> None:
+        """Colours of the object's view."""
+        drawing.paint(self._look, view.LatticeColor, drawing.STRUT)
+        if self._inside is not None:
+            cut = preferences.colour(preferences.CUT_COLOUR)
+            self._inside.paint(cut if is_cut else view.LatticeColor)
 
 
-def prisms(start: np.ndarray, end: np.ndarray, radii: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Vertices and triangles of the sides of struts, (k, 3) starts and ends, (k, 2) radii."""
+def paint_solid(skin: drawing.SeeThrough, view: Any) -> None:
+    """Give the solid round struts the skin's colour; it is seen through, whatever the skin is."""
+    skin.paint(view.ShapeColor, max(view.Transparency, LEAST_TRANSPARENCY) / 100.0)
+
+
+def prisms(start: np.ndarray, end: np.ndarray, radii: np.ndarray) -> TriangleMesh:
+    """The sides of struts, (k, 3) starts and ends, (k, 2) radii."""
     axis = end - start
     axis /= np.maximum(np.linalg.norm(axis, axis=1), 1e-12)[:, None]
     helper = np.where(np.abs(axis[:, :1]) < 0.7, [[1.0, 0.0, 0.0]], [[0.0, 1.0, 0.0]])
@@ -117,51 +165,5 @@ def prisms(start: np.ndarray, end: np.ndarray, radii: np.ndarray) -> tuple[np.nd
         ]
     )
     first = 2 * SIDES * np.arange(len(start))
-    return vertices, (first[:, None, None] + sides).reshape(-1, 3)
-
-
-def _add_faces(
-    node: Any, vertices: np.ndarray, triangles: np.ndarray, colour: Any, transparency: float,
-    crease: float, pickable: bool = False,
-) -> None:  # fmt: skip
-    from pivy import coin
-
-    hints = coin.SoShapeHints()
-    hints.vertexOrdering = coin.SoShapeHints.COUNTERCLOCKWISE
-    hints.shapeType = coin.SoShapeHints.SOLID
-    hints.creaseAngle = crease
-    faces = coin.SoIndexedFaceSet()
-    index = np.full((len(triangles), 4), -1)
-    index[:, :3] = triangles
-    faces.coordIndex.setValues(0, index.size, index.ravel().tolist())
-    _add(node, vertices, (colour, transparency), hints, faces, pickable)
-
-
-def _add_lines(
-    node: Any, start: np.ndarray, end: np.ndarray, colour: Any, pickable: bool = False
-) -> None:
-    from pivy import coin
-
-    lines = coin.SoLineSet()
-    lines.numVertices.setValues(0, len(start), [2] * len(start))
-    style = coin.SoDrawStyle()
-    style.lineWidth = 2
-    points = np.stack([start, end], axis=1).reshape(-1, 3)
-    _add(node, points, (colour, 0.0), style, lines, pickable)
-
-
-def _add(
-    node: Any, points: np.ndarray, look: tuple[Any, float], style: Any, shape: Any, pickable: bool
-) -> None:
-    from pivy import coin
-
-    material = coin.SoMaterial()
-    material.diffuseColor, material.transparency = look
-    pick = coin.SoPickStyle()
-    pick.style = coin.SoPickStyle.SHAPE if pickable else coin.SoPickStyle.UNPICKABLE
-    coordinates = coin.SoCoordinate3()
-    coordinates.point.setValues(0, len(points), points.tolist())
-    group = coin.SoSeparator()
-    for part in (pick, material, style, coordinates, shape):
-        group.addChild(part)
-    node.addChild(group)
+    triangles = (first[:, None, None] + sides).reshape(-1, 3)
+    return TriangleMesh(vertices, triangles.astype(np.int32))

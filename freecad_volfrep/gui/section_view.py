@@ -7,15 +7,20 @@ what lies beside it stays whole, and it can be moved.
 
 from __future__ import annotations
 
-from contextlib import suppress
 from typing import Any
 
 import FreeCAD as App
 import FreeCADGui as Gui
 
+from freecad_volfrep import preferences
+from freecad_volfrep.bridge.meshes import from_freecad
+from freecad_volfrep.bridge.solids import placed
 from freecad_volfrep.translation import translate
 
+from . import drawing
+from .preview_view import PreviewView
 from .qt import QtCore, QtWidgets
+from .view_provider import LatticeInfillView
 
 #: Name of the plane in the infill's scene, and of the dock.
 NODE = "VolfrepSection"
@@ -23,6 +28,8 @@ DOCK = "VolfrepSectionView"
 AXES = "XYZ"
 #: The slider's steps from one side of the infill to the other.
 STEPS = 1000
+#: FreeCAD's own modes in which a mesh's faces are drawn.
+OPAQUE_MODES = ("Shaded", "Flat Lines")
 
 
 class Section:
@@ -30,17 +37,38 @@ class Section:
 
     Args:
         obj: a mesh object, shown or not.
+        preview: what is drawn in its place, if anything: cut as well.
     """
 
-    def __init__(self, obj: App.DocumentObject) -> None:
+    def __init__(self, obj: App.DocumentObject, preview: PreviewView | None = None) -> None:
         from pivy import coin
 
+        self._obj, self._preview = obj, preview
         self._plane = coin.SoClipPlane()
         self._plane.setName(NODE)
         self._root = obj.ViewObject.RootNode
         # In front of the transform of the object's Placement: in the coordinates of its group,
         # where its Mesh has its bounding box.
         self._root.insertChild(self._plane, 0)
+        if preview is not None:
+            preview.cut_by(self._plane)
+        self._cut_faces: Any = None
+        self.show_cut_faces()
+
+    def show_cut_faces(self) -> None:
+        """Fill what is cut through: a view of ours does it itself, an opaque mesh gets it here."""
+        view = self._obj.ViewObject
+        self._drop_cut_faces()
+        if isinstance(view.Proxy, LatticeInfillView) and view.Proxy.show_cut(True):
+            return
+        if view.DisplayMode not in OPAQUE_MODES or view.Transparency > 0:
+            return
+        if not self._obj.Mesh.CountFacets:
+            return
+        mesh = placed(from_freecad(self._obj.Mesh), self._obj.Placement.inverse())
+        self._cut_faces = drawing.Inside(drawing.faces(mesh))
+        self._cut_faces.paint(preferences.colour(preferences.CUT_COLOUR))
+        self._root.addChild(self._cut_faces.node)
 
     def cut(self, axis: int, offset: float, keep_far: bool) -> None:
         """Show what lies before the offset in mm along the axis, or what lies beyond it."""
@@ -53,13 +81,28 @@ class Section:
 
     def remove(self) -> None:
         """Show all of it again."""
+        self._drop_cut_faces()
         self._root.removeChild(self._plane)
+        if self._preview is not None:
+            self._preview.cut_by(None)
+        if isinstance(self._obj.ViewObject.Proxy, LatticeInfillView):
+            self._obj.ViewObject.Proxy.show_cut(False)
+
+    def _drop_cut_faces(self) -> None:
+        if self._cut_faces is not None:
+            self._root.removeChild(self._cut_faces.node)
+            self._cut_faces = None
 
 
 class SectionDock(QtWidgets.QDockWidget):
-    """The plane's axis, place and side; closing it removes the plane."""
+    """The plane's axis, place and side; closing it removes the plane.
 
-    def __init__(self, obj: App.DocumentObject) -> None:
+    Args:
+        obj: the mesh object to cut open.
+        preview: what is drawn in its place, if anything.
+    """
+
+    def __init__(self, obj: App.DocumentObject, preview: PreviewView | None = None) -> None:
         super().__init__(Gui.getMainWindow())
         self.setObjectName(DOCK)
         self.setAttribute(QtCore.Qt.WA_DeleteOnClose)
@@ -67,7 +110,8 @@ class SectionDock(QtWidgets.QDockWidget):
             translate("VolfrepSectionView", "Section of {label}").format(label=obj.Label)
         )
         self._obj, self._doc = obj, obj.Document
-        self._section: Section | None = Section(obj)
+        self._preview = preview
+        self._section: Section | None = Section(obj, preview)
         self._axis = QtWidgets.QComboBox()
         self._axis.setObjectName("Axis")
         self._axis.addItems(AXES)
@@ -90,6 +134,10 @@ class SectionDock(QtWidgets.QDockWidget):
         self.centre()
         App.addDocumentObserver(self)
 
+    def shows(self, obj: App.DocumentObject) -> bool:
+        """Whether this is the section of the object."""
+        return bool(self._obj == obj)
+
     def centre(self) -> None:
         """Put the plane in the middle of the mesh along the axis, and open it to the user."""
         self._flip.setChecked(_view_direction()[self._axis.currentIndex()] > 0)
@@ -110,6 +158,8 @@ class SectionDock(QtWidgets.QDockWidget):
         if obj == self._obj and name == "Mesh":
             self._offset.setRange(*self._extent())
             self._cut()
+            if self._section is not None:
+                self._section.show_cut_faces()
 
     def slotDeletedObject(self, obj: App.DocumentObject) -> None:  # noqa: N802
         """Called by FreeCAD: there is nothing to cut any more."""
@@ -146,9 +196,12 @@ class SectionDock(QtWidgets.QDockWidget):
         self.setWidget(panel)
 
     def _extent(self) -> tuple[float, float]:
-        """Of the mesh along the axis, mm."""
-        box = self._obj.Mesh.BoundBox
-        name = AXES[self._axis.currentIndex()]
+        """Of the mesh along the axis, mm; of its preview where there is no mesh yet."""
+        axis = self._axis.currentIndex()
+        if self._preview is not None and not self._obj.Mesh.CountFacets:
+            low, high = self._preview.bounds[:, axis]
+            return float(low), float(high)
+        box, name = self._obj.Mesh.BoundBox, AXES[axis]
         return getattr(box, f"{name}Min"), getattr(box, f"{name}Max")
 
     def _at(self, step: int) -> float:
@@ -172,12 +225,29 @@ def _view_direction() -> tuple[float, float, float]:
     return x, y, z
 
 
-def open_section(obj: App.DocumentObject) -> SectionDock:
-    """Cut the object open on the screen, in the place of a section that is shown already."""
-    window = Gui.getMainWindow()
-    for old in window.findChildren(QtWidgets.QDockWidget, DOCK):
-        with suppress(RuntimeError):  # closed, and Qt has deleted it meanwhile
-            old.close()
-    dock = SectionDock(obj)
-    window.addDockWidget(QtCore.Qt.BottomDockWidgetArea, dock)
+def open_section(obj: App.DocumentObject, preview: PreviewView | None = None) -> SectionDock:
+    """Cut the object open on the screen, in the place of a section that is shown already.
+
+    Args:
+        obj: a mesh object.
+        preview: what is drawn in its place, if anything: it is cut with it.
+    """
+    for old in _docks():
+        old.close()
+    dock = SectionDock(obj, preview)
+    Gui.getMainWindow().addDockWidget(QtCore.Qt.BottomDockWidgetArea, dock)
     return dock
+
+
+def close_section(obj: App.DocumentObject) -> bool:
+    """Show all of the object again; returns whether it was cut open."""
+    shown = [dock for dock in _docks() if dock.shows(obj)]
+    for dock in shown:
+        dock.close()
+    return bool(shown)
+
+
+def _docks() -> list[SectionDock]:
+    """Those that are open."""
+    found = Gui.getMainWindow().findChildren(QtWidgets.QDockWidget, DOCK)
+    return [dock for dock in found if isinstance(dock, SectionDock) and dock.isVisible()]

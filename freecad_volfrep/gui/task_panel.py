@@ -23,6 +23,7 @@ from .messages import WRONG
 from .preview_only import end_preview
 from .preview_view import PreviewView
 from .qt import OK_CANCEL, QtCore, QtWidgets
+from .section_view import close_section, open_section
 
 #: The preview waits until no value has changed for so long, ms.
 SETTLED = 120
@@ -69,14 +70,13 @@ class TaskPanel:
     """
 
     def __init__(self, obj: App.DocumentObject, transaction: str | None = None) -> None:
-        from freecad_volfrep.bridge.solids import parent_placement
-
         end_preview(obj)  # the panel shows one of its own
+        was_cut = close_section(obj)
         self._obj, self._doc = obj, obj.Document
         if transaction is not None:
             self._doc.openTransaction(transaction)
         self._live = LivePreview(obj)
-        self._view = PreviewView(parent_placement(obj))
+        self._view = PreviewView(obj)
         self._was_visible = {
             shown: shown.ViewObject.Visibility for shown in (obj, obj.Base) if shown is not None
         }
@@ -90,6 +90,8 @@ class TaskPanel:
         self._timer.timeout.connect(self.refresh)
         self._show_rows()
         self.refresh()
+        if was_cut:
+            open_section(obj, self._view)
 
     def getStandardButtons(self) -> int:  # noqa: N802
         """OK and Cancel."""
@@ -180,6 +182,19 @@ class TaskPanel:
             )
         )
         button.clicked.connect(self._compute_and_show)
+        section = QtWidgets.QPushButton(translate("VolfrepTaskPanel", "Section"))
+        section.setObjectName("Section")
+        section.setToolTip(
+            translate(
+                "VolfrepTaskPanel",
+                "Cut the part open on the screen, along a plane that can be moved; once more "
+                "shows it whole",
+            )
+        )
+        section.clicked.connect(self._toggle_section)
+        column.addLayout(line)
+        line = QtWidgets.QHBoxLayout()
+        line.addWidget(section)
         line.addWidget(button)
         column.addLayout(line)
 
@@ -194,6 +209,10 @@ class TaskPanel:
     def _compute_and_show(self) -> None:
         self._obj.ViewObject.Visibility = self.compute()
         self._view.clear()
+
+    def _toggle_section(self) -> None:
+        if not close_section(self._obj):
+            open_section(self._obj, self._view)
 
     def _cell_picker(self) -> Any:
         picker = QtWidgets.QListWidget()

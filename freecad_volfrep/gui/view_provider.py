@@ -10,22 +10,25 @@ import FreeCAD as App
 import FreeCADGui as Gui
 
 from freecad_volfrep import ICONS, preferences
+from freecad_volfrep.features.skin import is_just_made
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 from volfrep.errors import VolfrepError
 
 from .coarse_view import COARSE, show_likeness
 from .filled_view import FILLED, show_filled
 from .qt import QtCore, QtGui
-from .simplified_view import SIMPLIFIED, show_struts
+from .simplified_view import SIMPLIFIED, SimplifiedPart
 
 #: The modes beside those of every mesh, and what fills a node for each.
-_MODES = {FILLED: show_filled, COARSE: show_likeness, SIMPLIFIED: show_struts}
+_MODES = {FILLED: show_filled, COARSE: show_likeness, SIMPLIFIED: SimplifiedPart}
 #: FreeCAD's mode that was a document's before there was `FILLED`.
 _PLAIN = "Shaded"
 #: What of a view is in the look of our modes; FreeCAD 1.0 has another name for the colour.
 _LOOKS = ("ShapeColor", "ShapeAppearance", "Transparency", "LatticeColor")
 #: Saved with a view, so that one of an older file is known.
 _VERSION = 2
+#: FreeCAD would otherwise draw all that is selected green, skin and lattice alike.
+SELECTION_STYLE = "BoundBox"
 LATTICE_COLOUR = QT_TRANSLATE_NOOP("App::Property", "Colour of the lattice inside the skin")
 
 
@@ -39,10 +42,13 @@ class LatticeInfillView:
     chooses another mode sees all of it.
     """
 
+    _is_older = False
+
     def __init__(self, view: Any) -> None:
         view.Proxy = self
         view.Transparency = preferences.read(preferences.TRANSPARENCY)
         view.ShapeColor = preferences.colour(preferences.SKIN_COLOUR)
+        view.SelectionStyle = SELECTION_STYLE
         view.DisplayMode = FILLED
 
     def attach(self, view: Any) -> None:
@@ -58,6 +64,8 @@ class LatticeInfillView:
         self._modes = {mode: (coin.SoSeparator(), show) for mode, show in _MODES.items()}
         for mode, (node, _) in self._modes.items():
             view.addDisplayMode(node, mode)
+        if self._is_older:
+            QtCore.QTimer.singleShot(0, self._modernise)
 
     def getDisplayModes(self, view: Any) -> list[str]:  # noqa: N802
         """The modes beside those of every mesh."""
@@ -137,12 +145,19 @@ class LatticeInfillView:
                 QtGui.QIcon(str(ICONS / command.icon)), translate(name, command.text)
             ).triggered.connect(lambda _=False, command=command: command.Activated())
 
-    def _make(self, mode: str) -> None:
-        """Fill the node of a mode of ours that is still empty; nothing for FreeCAD's own modes."""
+    def _make(self, mode: str, is_settled: bool = False) -> None:
+        """Fill the node of a mode of ours that is still empty; nothing for FreeCAD's own modes.
+
+        Args:
+            mode: a display mode.
+            is_settled: FreeCAD is not in the middle of something.
+        """
         node, show = self._modes.get(mode, (None, None))
         if node is None or node.getNumChildren() or not self.object.Mesh.CountFacets:
             return
-        if self.object.Document.Restoring:  # the solid may not be there yet
+        # While a file is read the solid may not be there yet, nor while a step is undone.
+        is_known = mode == SIMPLIFIED or is_just_made(self.object) or is_settled
+        if self.object.Document.Restoring or not is_known:
             QtCore.QTimer.singleShot(0, self._make_shown)
             return
         try:
@@ -158,9 +173,18 @@ class LatticeInfillView:
             drawn.set_look(self.object.ViewObject, self._is_cut)
 
     def _make_shown(self) -> None:
-        """Fill the mode that is shown, once a file is read."""
+        """Fill the mode that is shown, once a file is read or a step undone."""
         with suppress(ReferenceError):  # the document was closed meanwhile
-            self._make(self.object.ViewObject.DisplayMode)
+            self._make(self.object.ViewObject.DisplayMode, is_settled=True)
+
+    def _modernise(self) -> None:
+        """Show an infill of an older file as a new one is, unless someone chose how to."""
+        with suppress(ReferenceError):
+            view = self.object.ViewObject
+            view.SelectionStyle = SELECTION_STYLE
+            if view.DisplayMode == _PLAIN:
+                large = self.object.Mesh.CountFacets > preferences.largest_shown()
+                view.DisplayMode = COARSE if large else FILLED
 
     def dumps(self) -> int:
         """Of all this, only that it knows the mode Skin and Lattice."""

@@ -142,7 +142,7 @@ def paint_solid(skin: drawing.SeeThrough, view: Any) -> None:
 
 
 def prisms(start: np.ndarray, end: np.ndarray, radii: np.ndarray) -> TriangleMesh:
-    """The sides of struts, (k, 3) starts and ends, (k, 2) radii."""
+    """Closed prisms in the place of struts, (k, 3) starts and ends, (k, 2) radii."""
     axis = end - start
     axis /= np.maximum(np.linalg.norm(axis, axis=1), 1e-12)[:, None]
     helper = np.where(np.abs(axis[:, :1]) < 0.7, [[1.0, 0.0, 0.0]], [[0.0, 1.0, 0.0]])
@@ -157,11 +157,13 @@ def prisms(start: np.ndarray, end: np.ndarray, radii: np.ndarray) -> TriangleMes
     ]
     vertices = np.concatenate(rings, axis=1).reshape(-1, 3)
     k = np.arange(SIDES)
-    following = (k + 1) % SIDES
+    following, inner = (k + 1) % SIDES, k[1:-1]
     sides = np.concatenate(
         [
             np.stack([k, following, following + SIDES], 1),
             np.stack([k, following + SIDES, k + SIDES], 1),
+            np.stack([0 * inner, inner + 1, inner], 1),
+            np.stack([0 * inner, inner, inner + 1], 1) + SIDES,
         ]
     )
     first = 2 * SIDES * np.arange(len(start))

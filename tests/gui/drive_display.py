@@ -13,6 +13,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 from driving import OUT, check, click, figures, picture, run, toolbar_button, wait
 
 FIXTURE = Path(__file__).resolve().parents[1] / "freecad" / "fixtures" / "infill-0.1.0.FCStd"
+OURS = "Skin and Lattice"
 GROUP = "User parameter:BaseApp/Preferences/Mod/VOLFREP"
 
 
@@ -51,7 +52,10 @@ def display_modes(obj):
     """Every mode is there; Simplified is made when it is chosen and dropped with the mesh."""
     view = obj.ViewObject
     modes = view.listDisplayModes()
-    for mode in ("Shaded", "Flat Lines", "Wireframe", "Points", "Coarse", "Simplified"):
+    check("a new infill shows skin and lattice", view.DisplayMode == OURS, view.DisplayMode)
+    for mode in (
+        "Shaded", "Flat Lines", "Wireframe", "Points", OURS, "Coarse", "Simplified",
+    ):  # fmt: skip
         check(f"there is the mode {mode}", mode in modes, modes)
         view.DisplayMode = mode
         check(f"{mode} can be shown", view.DisplayMode == mode)
@@ -112,7 +116,7 @@ def saved_modes(obj):
     before = [o for o in old.Objects if o.TypeId == "Mesh::FeaturePython"]
     check("0.1.0 opens", before and all(o.Mesh.CountFacets for o in before))
     for infill in before:
-        check("with a mode of its own", infill.ViewObject.DisplayMode in ("Shaded", "Coarse"))
+        check("shown as new ones are", infill.ViewObject.DisplayMode in (OURS, "Coarse"))
         infill.ViewObject.DisplayMode = "Simplified"
         check("and can be simplified", node_of(infill, "Simplified").getNumChildren() > 0)
     App.closeDocument(old.Name)
@@ -200,7 +204,7 @@ def frames():
     start = time.perf_counter()
     obj.ViewObject.DisplayMode = "Simplified"
     figures["seconds to simplify"] = round(time.perf_counter() - start, 2)
-    for mode in ("Shaded", "Coarse", "Simplified"):
+    for mode in ("Shaded", OURS, "Coarse", "Simplified"):
         figures[f"seconds a frame, {mode}"] = round(seconds_a_frame(obj, mode), 3)
     check(
         "simplified is drawn faster",

@@ -124,7 +124,7 @@ def show_coarsely(doc, obj):
     group.RemInt("LargestShownTriangles")
     obj.StrutRadius = 0.5
     doc.recompute()
-    check("a small one as it is", obj.ViewObject.DisplayMode == "Shaded")
+    check("a small one as it is", obj.ViewObject.DisplayMode == "Skin and Lattice")
 
 
 def open_panel(fill):

@@ -121,6 +121,10 @@
       <translation>Geschlossene Hohlräume, die Pulver oder Harz einschließen würden</translation>
     </message>
     <message>
+      <source>Colour of the lattice inside the skin</source>
+      <translation>Farbe des Gitters in der Haut</translation>
+    </message>
+    <message>
       <source>Compute at every change; switch it off for large jobs and use Update Lattice Infill</source>
       <translation>Bei jeder Änderung rechnen; bei großen Aufgaben ausschalten und Gitterfüllung aktualisieren verwenden</translation>
     </message>
@@ -1261,12 +1265,20 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>Zelltyp</translation>
     </message>
     <message>
+      <source>Colour of cut faces</source>
+      <translation>Farbe der Schnittflächen</translation>
+    </message>
+    <message>
       <source>Colour of overhangs</source>
       <translation>Farbe der Überhänge</translation>
     </message>
     <message>
-      <source>Colour of struts</source>
-      <translation>Farbe der Streben</translation>
+      <source>Colour of the lattice</source>
+      <translation>Farbe des Gitters</translation>
+    </message>
+    <message>
+      <source>Colour of the skin</source>
+      <translation>Farbe der Haut</translation>
     </message>
     <message>
       <source>Defaults</source>
@@ -1305,8 +1317,8 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>Zum Suchen nächster Punkte, Messen von Netzen und Schreiben von STL-Dateien; automatisch: einer auf jedem Kern</translation>
     </message>
     <message>
-      <source>In the preview and in the display mode Simplified</source>
-      <translation>In der Vorschau und in der Darstellung Simplified</translation>
+      <source>In Section View</source>
+      <translation>In der Schnittansicht</translation>
     </message>
     <message>
       <source>Largest distance between a facet and the exact strut, where the resolution is automatic; automatic: by the strut radius</source>
@@ -1335,6 +1347,10 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
     <message>
       <source>New infill</source>
       <translation>Neue Füllung</translation>
+    </message>
+    <message>
+      <source>Of a new infill</source>
+      <translation>Einer neuen Füllung</translation>
     </message>
     <message>
       <source>Of a new infill, so that the lattice is seen through the skin</source>
@@ -1812,6 +1828,10 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>Berechnen</translation>
     </message>
     <message>
+      <source>Cut the part open on the screen, along a plane that can be moved; once more shows it whole</source>
+      <translation>Schneidet das Teil am Bildschirm auf, entlang einer verschiebbaren Ebene; noch einmal zeigt es ganz</translation>
+    </message>
+    <message>
       <source>Lattice</source>
       <translation>Gitter</translation>
     </message>
@@ -1830,6 +1850,10 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
     <message>
       <source>Preview</source>
       <translation>Vorschau</translation>
+    </message>
+    <message>
+      <source>Section</source>
+      <translation>Schnitt</translation>
     </message>
     <message>
       <source>Strut radius</source>

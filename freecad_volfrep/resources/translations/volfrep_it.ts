@@ -121,6 +121,10 @@
       <translation>Vuoti chiusi, che tratterrebbero polvere o resina</translation>
     </message>
     <message>
+      <source>Colour of the lattice inside the skin</source>
+      <translation>Colore del reticolo dentro il guscio</translation>
+    </message>
+    <message>
       <source>Compute at every change; switch it off for large jobs and use Update Lattice Infill</source>
       <translation>Calcola a ogni modifica; da disattivare per lavori grandi, usando Aggiorna riempimento reticolare</translation>
     </message>
@@ -1261,12 +1265,20 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>Tipo di cella</translation>
     </message>
     <message>
+      <source>Colour of cut faces</source>
+      <translation>Colore delle facce tagliate</translation>
+    </message>
+    <message>
       <source>Colour of overhangs</source>
       <translation>Colore degli sbalzi</translation>
     </message>
     <message>
-      <source>Colour of struts</source>
-      <translation>Colore delle aste</translation>
+      <source>Colour of the lattice</source>
+      <translation>Colore del reticolo</translation>
+    </message>
+    <message>
+      <source>Colour of the skin</source>
+      <translation>Colore del guscio</translation>
     </message>
     <message>
       <source>Defaults</source>
@@ -1305,8 +1317,8 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>Per cercare i punti più vicini, misurare mesh e scrivere file STL; automatico: uno per ogni core</translation>
     </message>
     <message>
-      <source>In the preview and in the display mode Simplified</source>
-      <translation>Nell'anteprima e nel modo di visualizzazione Simplified</translation>
+      <source>In Section View</source>
+      <translation>Nella vista in sezione</translation>
     </message>
     <message>
       <source>Largest distance between a facet and the exact strut, where the resolution is automatic; automatic: by the strut radius</source>
@@ -1335,6 +1347,10 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
     <message>
       <source>New infill</source>
       <translation>Nuovo riempimento</translation>
+    </message>
+    <message>
+      <source>Of a new infill</source>
+      <translation>Di un nuovo riempimento</translation>
     </message>
     <message>
       <source>Of a new infill, so that the lattice is seen through the skin</source>
@@ -1812,6 +1828,10 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>Calcola</translation>
     </message>
     <message>
+      <source>Cut the part open on the screen, along a plane that can be moved; once more shows it whole</source>
+      <translation>Apre il pezzo sullo schermo lungo un piano che si può spostare; ancora una volta lo mostra intero</translation>
+    </message>
+    <message>
       <source>Lattice</source>
       <translation>Reticolo</translation>
     </message>
@@ -1830,6 +1850,10 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
     <message>
       <source>Preview</source>
       <translation>Anteprima</translation>
+    </message>
+    <message>
+      <source>Section</source>
+      <translation>Sezione</translation>
     </message>
     <message>
       <source>Strut radius</source>

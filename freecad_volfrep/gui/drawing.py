@@ -131,7 +131,8 @@ class Inside:
 
     Where a section cuts a closed surface open one looks at its inside, just where the cut face
     would be: so this shows cut faces, exactly and at once. It also shows the ends of struts
-    whose roots are not drawn.
+    whose roots are not drawn. It goes before what shows the outside of surfaces: Coin leaves
+    OpenGL as the last shape needed it, and FreeCAD's background would be taken for a back side.
 
     Args:
         shapes: groups of `faces`.

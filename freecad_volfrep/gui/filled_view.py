@@ -61,8 +61,8 @@ class FilledPart:
         self._inside = coin.SoSwitch()
         for inside in (self._ends, self._cut_faces):
             self._inside.addChild(inside.node)
-        node.addChild(front)
         node.addChild(self._inside)
+        node.addChild(front)
         self._skin = None
         if OUTSIDE in parts:
             self._skin = drawing.SeeThrough(parts[OUTSIDE], shapes[OUTSIDE])

@@ -125,8 +125,8 @@ class Struts:
             shape = drawing.faces(prisms(shown.start, shown.end, shown.radii), CREASE_ANGLE)
             self._inside = drawing.Inside(shape)
             front = drawing.seen_from(outside=True)
-            node.addChild(drawing.separate(front, self._look, shape))
             node.addChild(self._inside.node)
+            node.addChild(drawing.separate(front, self._look, shape))
 
     def set_look(self, view: Any, is_cut: bool) -> None:
         """Colours of the object's view."""

@@ -68,7 +68,7 @@ class Section:
         mesh = placed(from_freecad(self._obj.Mesh), self._obj.Placement.inverse())
         self._cut_faces = drawing.Inside(drawing.faces(mesh))
         self._cut_faces.paint(preferences.colour(preferences.CUT_COLOUR))
-        self._root.addChild(self._cut_faces.node)
+        self._root.insertChild(self._cut_faces.node, self._root.getNumChildren() - 1)
 
     def cut(self, axis: int, offset: float, keep_far: bool) -> None:
         """Show what lies before the offset in mm along the axis, or what lies beyond it."""
@@ -134,6 +134,11 @@ class SectionDock(QtWidgets.QDockWidget):
         self.centre()
         App.addDocumentObserver(self)
 
+    def show_cut_faces(self) -> None:
+        """Fill what is cut through in the present display mode."""
+        if self._section is not None:
+            self._section.show_cut_faces()
+
     def shows(self, obj: App.DocumentObject) -> bool:
         """Whether this is the section of the object."""
         return bool(self._obj == obj)
@@ -158,8 +163,7 @@ class SectionDock(QtWidgets.QDockWidget):
         if obj == self._obj and name == "Mesh":
             self._offset.setRange(*self._extent())
             self._cut()
-            if self._section is not None:
-                self._section.show_cut_faces()
+            self.show_cut_faces()
 
     def slotDeletedObject(self, obj: App.DocumentObject) -> None:  # noqa: N802
         """Called by FreeCAD: there is nothing to cut any more."""
@@ -245,6 +249,13 @@ def close_section(obj: App.DocumentObject) -> bool:
     for dock in shown:
         dock.close()
     return bool(shown)
+
+
+def refresh_section(obj: App.DocumentObject) -> None:
+    """Fill cut faces anew where the object is cut open: it is shown in another way."""
+    for dock in _docks():
+        if dock.shows(obj):
+            dock.show_cut_faces()
 
 
 def _docks() -> list[SectionDock]:

@@ -84,6 +84,10 @@ class LatticeInfillView:
         """Draw what is drawn already in the new colours."""
         if name in _LOOKS:
             self._set_looks()
+        if self._is_cut and name in ("DisplayMode", "Transparency"):
+            from .section_view import refresh_section
+
+            refresh_section(self.object)
 
     def updateData(self, obj: Any, name: str) -> None:  # noqa: N802
         """A new mesh: what was made of the old one goes."""

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import FreeCAD as App
 import FreeCADGui as Gui
-from PySide import QtGui
+from PySide import QtCore, QtGui
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from driving import OUT, check, click, figures, picture, run, toolbar_button, wait
+from driving import OUT, check, click, figures, picture, run, toolbar_button, view_3d, wait
 
 FIXTURE = Path(__file__).resolve().parents[1] / "freecad" / "fixtures" / "infill-0.1.0.FCStd"
 OURS = "Skin and Lattice"
@@ -137,6 +137,15 @@ def planes(obj):
     return names.count("VolfrepSection")
 
 
+def background_changes(name):
+    """Whether FreeCAD's background goes from one colour to another down the left of the view."""
+    image = QtGui.QImage(str(OUT / f"{name}.png"))
+    corner = view_3d().mapToGlobal(QtCore.QPoint(4, 0))
+    height = view_3d().height()
+    rows = range(corner.y() + 10, corner.y() + height - 10, 10)
+    return len({image.pixel(corner.x(), y) for y in rows}) > len(rows) // 2
+
+
 def section(obj):
     """The plane appears in the middle, moves, turns, and goes without a trace."""
     doc = obj.Document
@@ -171,6 +180,8 @@ def section(obj):
     obj.ViewObject.DisplayMode = "Simplified"
     axis.setCurrentText("X")
     picture("section_3_simplified")
+    for name in ("section_1_middle", "section_2_moved", "section_3_simplified"):
+        check(f"{name}: the background is whole", background_changes(name))
     obj.ViewObject.DisplayMode = "Shaded"
     Gui.Selection.addSelection(obj)
     click(toolbar_button("Section View"))

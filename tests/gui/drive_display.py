@@ -149,8 +149,7 @@ def background_changes(name):
 def section(obj):
     """The plane appears in the middle, moves, turns, and goes without a trace."""
     doc = obj.Document
-    obj.ViewObject.DisplayMode = "Shaded"
-    obj.ViewObject.Transparency = 0
+    obj.ViewObject.DisplayMode = OURS
     steps, touched = doc.UndoCount, doc.isTouched()
     facets = obj.Mesh.CountFacets
     Gui.activeDocument().activeView().viewIsometric()
@@ -177,10 +176,13 @@ def section(obj):
     check("and can be turned", not flip.isChecked() and planes(obj) == 1)
     flip.click()
     picture("section_2_moved")
+    obj.ViewObject.DisplayMode = "Shaded"
+    obj.ViewObject.Transparency = 0
+    picture("section_4_shaded")
     obj.ViewObject.DisplayMode = "Simplified"
     axis.setCurrentText("X")
     picture("section_3_simplified")
-    for name in ("section_1_middle", "section_2_moved", "section_3_simplified"):
+    for name in ("section_1_middle", "section_2_moved", "section_3_simplified", "section_4_shaded"):
         check(f"{name}: the background is whole", background_changes(name))
     obj.ViewObject.DisplayMode = "Shaded"
     Gui.Selection.addSelection(obj)

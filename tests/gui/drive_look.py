@@ -196,6 +196,9 @@ def fill_a_box(doc):
     Gui.Selection.clearSelection()
     wait(300)
     does_not_depend_on_order(obj, "look_5_box")
+    click(view_3d())
+    check("a click on it selects it", Gui.Selection.getSelection() == [obj])
+    Gui.Selection.clearSelection()
     return obj
 
 

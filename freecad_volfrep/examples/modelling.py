@@ -122,6 +122,111 @@ def add_tangent_taper(
     return sketch
 
 
+def add_rod_outline(
+    doc: Any,
+    label: str,
+    placement: Any | None,
+    foot_end: tuple[float, str],
+    tip_end: tuple[float, str, float, str],
+    shank: tuple[float, str, float, str],
+    neck: tuple[float, str],
+) -> Any:
+    """A sketch of two round ends joined by a tapered shank, with arcs where the shank enters them.
+
+    The arcs are drawn here and not made by a fillet later: a fillet refers to the edges of a
+    union by their numbers, which FreeCAD loses when a size changes.
+
+    Args:
+        doc: the document.
+        label: the sketch's name.
+        placement: of the sketch, or None.
+        foot_end: the radius of the end about the origin, and its expression.
+        tip_end: the other end's y and its expression, its radius and its expression.
+        shank: half the shank's width at the origin and its expression, the radius about the
+            other end's centre that its sides are tangent to and its expression.
+        neck: the radius of the arcs between shank and ends, and its expression.
+    """
+    big, big_expression = foot_end
+    pitch, pitch_expression, small, small_expression = tip_end
+    half, half_expression, tip, tip_expression = shank
+    bend, bend_expression = neck
+    # The right side's outward normal and its direction towards the tip; its distance from the
+    # origin. A neck's centre is as far outside it as outside the round end.
+    tilt = math.acos(tip / math.hypot(half, pitch)) - math.atan2(pitch, half)
+    normal = App.Vector(math.cos(tilt), math.sin(tilt), 0)
+    along = App.Vector(-math.sin(tilt), math.cos(tilt), 0)
+    from_foot, from_tip = half * math.cos(tilt) + bend, tip + bend
+    foot_neck = normal * from_foot + along * math.sqrt((big + bend) ** 2 - from_foot**2)
+    tip_reach = along * math.sqrt((small + bend) ** 2 - from_tip**2)
+    tip_neck = App.Vector(0, pitch, 0) + normal * from_tip - tip_reach
+
+    turn = math.atan2
+    foot_angle = turn(foot_neck.y, foot_neck.x)
+    tip_angle = turn(tip_neck.y - pitch, tip_neck.x)
+    side_start, side_end = foot_neck - normal * bend, tip_neck - normal * bend
+
+    def mirrored(point: Any) -> Any:
+        return App.Vector(-point.x, point.y, 0)
+
+    def arc(centre: Any, radius: float, first: float, last: float) -> Any:
+        return Part.ArcOfCircle(Part.Circle(centre, App.Vector(0, 0, 1), radius), first, last)
+
+    pi = math.pi
+    sketch = add_sketch(doc, label, placement)
+    # Anticlockwise from the foot's end; FreeCAD's arcs turn to the left, the necks' to the right.
+    foot, right_foot, right, right_tip, tip_arc, left_tip, left, left_foot = sketch.addGeometry(
+        [
+            arc(App.Vector(), big, pi - foot_angle, 2 * pi + foot_angle),
+            arc(foot_neck, bend, tilt + pi, foot_angle + pi),
+            Part.LineSegment(side_start, side_end),
+            arc(tip_neck, bend, tip_angle + pi, tilt + pi),
+            arc(App.Vector(0, pitch, 0), small, tip_angle, pi - tip_angle),
+            arc(mirrored(tip_neck), bend, -tilt, -tip_angle),
+            Part.LineSegment(mirrored(side_end), mirrored(side_start)),
+            arc(mirrored(foot_neck), bend, -foot_angle, -tilt),
+        ],
+        False,
+    )
+    touched = Part.Circle(App.Vector(0, pitch, 0), App.Vector(0, 0, 1), tip)
+    guide, right_point, left_point = sketch.addGeometry(
+        [touched, Part.Point(App.Vector(half, 0, 0)), Part.Point(App.Vector(-half, 0, 0))], True
+    )
+    origin, x_axis, y_axis = (-1, START), -1, -2
+    rules = Sketcher.Constraint
+    joints = [
+        (foot, END, right_foot, END),
+        (right_foot, START, right, START),
+        (right, END, right_tip, END),
+        (right_tip, START, tip_arc, START),
+        (tip_arc, END, left_tip, END),
+        (left_tip, START, left, START),
+        (left, END, left_foot, END),
+        (left_foot, START, foot, START),
+    ]
+    sketch.addConstraint(
+        [
+            *(rules("Tangent", *joint) for joint in joints),
+            rules("Coincident", foot, CENTRE, *origin),
+            rules("PointOnObject", tip_arc, CENTRE, y_axis),
+            rules("Coincident", guide, CENTRE, tip_arc, CENTRE),
+            rules("PointOnObject", right_point, START, x_axis),
+            rules("Symmetric", right_point, START, left_point, START, y_axis),
+            rules("PointOnObject", right_point, START, right),
+            rules("PointOnObject", left_point, START, left),
+            rules("Tangent", right, guide),
+            rules("Tangent", left, guide),
+        ]
+    )
+    constrain(sketch, big_expression, "Radius", foot, value=big)
+    constrain(sketch, small_expression, "Radius", tip_arc, value=small)
+    constrain(sketch, tip_expression, "Radius", guide, value=tip)
+    constrain(sketch, pitch_expression, "DistanceY", *origin, tip_arc, CENTRE, value=pitch)
+    constrain(sketch, half_expression, "DistanceX", *origin, right_point, START, value=half)
+    for curve in (right_foot, right_tip, left_tip, left_foot):
+        constrain(sketch, bend_expression, "Radius", curve, value=bend)
+    return sketch
+
+
 def extrude(
     doc: Any, label: str, sketch: Any, direction: Point | Sequence[float], length: str
 ) -> Any:

@@ -20,6 +20,7 @@ SIZES: dict[str, tuple[float, str]] = {
     "shank": (9.6, "Thickness of the shank"),
     "shank_foot": (10.0, "Half width of the shank at the big end's centre"),
     "shank_tip": (6.0, "Half width of the shank at the small end"),
+    "neck": (6.0, "Radius where the shank's sides enter the round ends"),
     "web": (4.0, "Thickness of the web between the pockets"),
     "flange": (3.2, "Width of the flanges beside the pockets"),
     "pocket_start": (19.0, "Begin of the pockets, from the big end's centre"),
@@ -27,7 +28,6 @@ SIZES: dict[str, tuple[float, str]] = {
     "oil_hole": (2.0, "Diameter of the oil hole in the small end"),
 }
 POCKET_RADIUS = 1.5
-NECK_RADIUS = 6.0
 
 
 def make_piston_rod(doc: Any) -> Any:
@@ -44,20 +44,21 @@ def make_piston_rod(doc: Any) -> Any:
     pitch_start = v["length"] - v["big_end"] / 2 - v["small_end"] / 2
     along_x = App.Placement(App.Vector(), App.Rotation(App.Vector(0, 0, 1), -90))
 
-    profile = m.add_tangent_taper(
+    outline = m.add_rod_outline(
         doc,
-        "ShankProfile",
+        "ShankOutline",
         along_x,
-        (0.5, f"{s}shank / 19.2", v["shank_foot"], s + "shank_foot"),
-        (pitch_start, pitch, v["shank_tip"], s + "shank_tip"),
+        (v["big_end"] / 2, s + "big_end / 2"),
+        (pitch_start, pitch, v["small_end"] / 2, s + "small_end / 2"),
+        (v["shank_foot"], s + "shank_foot", v["shank_tip"], s + "shank_tip"),
+        (v["neck"], s + "neck"),
     )
-    shank = m.extrude(doc, "Shank", profile, (0, 0, 1), s + "shank")
+    shank = m.extrude(doc, "Shank", outline, (0, 0, 1), s + "shank")
     ends = [
         _cylinder(doc, "BigEnd", s + "big_end / 2", s + "thickness", "0 mm"),
         _cylinder(doc, "SmallEnd", s + "small_end / 2", s + "thickness", pitch),
     ]
     blank = m.add(doc, "Part::MultiFuse", "Blank", {}, Shapes=[shank, *ends])
-    necked = m.fillet(doc, "Necks", blank, _neck_radius)
 
     tools = [
         _cylinder(doc, "BigBore", s + "big_bore / 2", s + "thickness", "0 mm"),
@@ -91,7 +92,7 @@ def make_piston_rod(doc: Any) -> Any:
     mirrored = m.add(doc, "Part::Mirroring", "MirroredPocket", {}, Source=pocket, Normal=normal)
     tools += [pocket, mirrored]
     cuts = m.add(doc, "Part::MultiFuse", "Cuts", {}, Shapes=tools)
-    part = m.add(doc, "Part::Cut", "PistonRod", {}, Base=necked, Tool=cuts)
+    part = m.add(doc, "Part::Cut", "PistonRod", {}, Base=blank, Tool=cuts)
     doc.recompute()
     m.hide([obj for obj in doc.Objects if obj not in before and obj is not part])
     return part
@@ -117,14 +118,6 @@ def _oil_hole(doc: Any, s: str, pitch: str) -> Any:
 def _is_upright(edge: Any) -> bool:
     first, last = edge.Vertexes[0].Point, edge.Vertexes[-1].Point
     return bool(abs(first.x - last.x) + abs(first.y - last.y) < 1e-6 < abs(first.z - last.z))
-
-
-def _neck_radius(edge: Any) -> float:
-    """For the upright edges where the shank's sides enter the round ends."""
-    x, y = edge.Vertexes[0].Point.x, abs(edge.Vertexes[0].Point.y)
-    big, pitch = SIZES["big_end"][0] / 2, SIZES["length"][0] - SIZES["big_end"][0] / 2
-    between = 1.0 < x < pitch - SIZES["small_end"][0] / 2 - 1.0
-    return NECK_RADIUS if _is_upright(edge) and between and 1.0 < y < big - 1.0 else 0.0
 
 
 def _pocket_radius(edge: Any) -> float:

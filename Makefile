@@ -72,8 +72,9 @@ translations: setup ## refresh the .ts files from the sources, and compile them 
 torture: setup ## every broken, odd and real file beside what it must get
 	@$(PYTHON) tests/core/torture.py
 
-test-freecad-1: ## the workbench's tests in FreeCAD 1.0, in a Debian 13 of its own (as root)
-	@tools/freecad_1.sh
+test-freecad-1: ## the workbench's tests in FreeCAD 1.0 and 1.1, each in a Debian of its own (root)
+	@status=0; for suite in trixie forky; do \
+	tools/freecad_in.sh $$suite < /dev/null || status=$$?; done; exit $$status
 
 test-newest: ## the engine's tests on the newest numpy, scipy and scikit-image
 	@tools/newest.sh

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from itertools import pairwise
 from typing import Any
 
 import FreeCAD as App
@@ -122,6 +123,85 @@ def add_tangent_taper(
     return sketch
 
 
+def add_rounded_taper(
+    doc: Any,
+    label: str,
+    placement: Any | None,
+    start: tuple[float, str, float, str],
+    eye: tuple[float, str, float, str],
+    corner: float,
+) -> Any:
+    """As `add_tangent_taper`, with the base line's corners rounded off in the sketch.
+
+    The half width is that of the sharp corner. Upright edges of an extrusion come from points of
+    its sketch, whose names FreeCAD 1.1 loses when a size changes: no fillet should refer to them.
+
+    Args:
+        doc: the document.
+        label: the sketch's name.
+        placement: of the sketch, or None.
+        start: the base line's y and its expression, its half width and its expression.
+        eye: the arc centre's y and its expression, its radius and its expression.
+        corner: radius of the two corners, mm.
+    """
+    y0, y0_expression, half, half_expression = start
+    height, height_expression, radius, radius_expression = eye
+    rise = height - y0
+    tilt = math.acos(radius / math.hypot(half, rise)) - math.atan2(rise, half)
+    # A corner's centre is its radius above the base and inside the side.
+    reach = half - corner * (1.0 + math.sin(tilt)) / math.cos(tilt)
+    centre = App.Vector(reach, y0 + corner, 0)
+    normal = App.Vector(math.cos(tilt), math.sin(tilt), 0)
+    turned, touch = centre + normal * corner, App.Vector(0, height, 0) + normal * radius
+
+    sketch = add_sketch(doc, label, placement)
+    base, right_corner, right, arc, left, left_corner = sketch.addGeometry(
+        [
+            Part.LineSegment(App.Vector(-reach, y0, 0), App.Vector(reach, y0, 0)),
+            _arc(centre, corner, -math.pi / 2, tilt),
+            Part.LineSegment(turned, touch),
+            _arc(App.Vector(0, height, 0), radius, tilt, math.pi - tilt),
+            Part.LineSegment(_mirrored(touch), _mirrored(turned)),
+            _arc(_mirrored(centre), corner, math.pi - tilt, 1.5 * math.pi),
+        ],
+        False,
+    )
+    sharp, other = sketch.addGeometry(
+        [Part.Point(App.Vector(half, y0, 0)), Part.Point(App.Vector(-half, y0, 0))], True
+    )
+    origin, y_axis = (-1, START), -2
+    rules = Sketcher.Constraint
+    ring = (base, right_corner, right, arc, left, left_corner, base)
+    sketch.addConstraint(
+        [
+            *(rules("Tangent", one, END, two, START) for one, two in pairwise(ring)),
+            rules("Horizontal", base),
+            rules("PointOnObject", arc, CENTRE, y_axis),
+            rules("PointOnObject", sharp, START, base),
+            rules("Symmetric", sharp, START, other, START, y_axis),
+            rules("PointOnObject", sharp, START, right),
+            rules("PointOnObject", other, START, left),
+            rules("Radius", right_corner, corner),
+            rules("Radius", left_corner, corner),
+        ]
+    )
+    constrain(sketch, half_expression, "DistanceX", *origin, sharp, START, value=half)
+    constrain(sketch, radius_expression, "Radius", arc, value=radius)
+    constrain(sketch, height_expression, "DistanceY", *origin, arc, CENTRE, value=height)
+    constrain(sketch, y0_expression, "DistanceY", *origin, base, START, value=y0)
+    return sketch
+
+
+def _mirrored(point: Any) -> Any:
+    """On the other side of the sketch's Y axis."""
+    return App.Vector(-point.x, point.y, 0)
+
+
+def _arc(centre: Any, radius: float, first: float, last: float) -> Any:
+    """An arc in the sketch's plane between two angles, anticlockwise."""
+    return Part.ArcOfCircle(Part.Circle(centre, App.Vector(0, 0, 1), radius), first, last)
+
+
 def add_rod_outline(
     doc: Any,
     label: str,
@@ -165,25 +245,19 @@ def add_rod_outline(
     tip_angle = turn(tip_neck.y - pitch, tip_neck.x)
     side_start, side_end = foot_neck - normal * bend, tip_neck - normal * bend
 
-    def mirrored(point: Any) -> Any:
-        return App.Vector(-point.x, point.y, 0)
-
-    def arc(centre: Any, radius: float, first: float, last: float) -> Any:
-        return Part.ArcOfCircle(Part.Circle(centre, App.Vector(0, 0, 1), radius), first, last)
-
     pi = math.pi
     sketch = add_sketch(doc, label, placement)
     # Anticlockwise from the foot's end; FreeCAD's arcs turn to the left, the necks' to the right.
     foot, right_foot, right, right_tip, tip_arc, left_tip, left, left_foot = sketch.addGeometry(
         [
-            arc(App.Vector(), big, pi - foot_angle, 2 * pi + foot_angle),
-            arc(foot_neck, bend, tilt + pi, foot_angle + pi),
+            _arc(App.Vector(), big, pi - foot_angle, 2 * pi + foot_angle),
+            _arc(foot_neck, bend, tilt + pi, foot_angle + pi),
             Part.LineSegment(side_start, side_end),
-            arc(tip_neck, bend, tip_angle + pi, tilt + pi),
-            arc(App.Vector(0, pitch, 0), small, tip_angle, pi - tip_angle),
-            arc(mirrored(tip_neck), bend, -tilt, -tip_angle),
-            Part.LineSegment(mirrored(side_end), mirrored(side_start)),
-            arc(mirrored(foot_neck), bend, -foot_angle, -tilt),
+            _arc(tip_neck, bend, tip_angle + pi, tilt + pi),
+            _arc(App.Vector(0, pitch, 0), small, tip_angle, pi - tip_angle),
+            _arc(_mirrored(tip_neck), bend, -tilt, -tip_angle),
+            Part.LineSegment(_mirrored(side_end), _mirrored(side_start)),
+            _arc(_mirrored(foot_neck), bend, -foot_angle, -tilt),
         ],
         False,
     )

@@ -28,6 +28,7 @@ SIZES: dict[str, tuple[float, str]] = {
     "oil_hole": (2.0, "Diameter of the oil hole in the small end"),
 }
 POCKET_RADIUS = 1.5
+CORNER_RADIUS = 2.0
 
 
 def make_piston_rod(doc: Any) -> Any:
@@ -68,7 +69,7 @@ def make_piston_rod(doc: Any) -> Any:
     # The pockets taper with the shank: its half width at a distance, less the flange.
     slope = f"({s}shank_foot - {s}shank_tip) / {pitch}"
     slope_start = (v["shank_foot"] - v["shank_tip"]) / pitch_start
-    pocket_profile = m.add_tangent_taper(
+    pocket_profile = m.add_rounded_taper(
         doc,
         "PocketProfile",
         along_x,
@@ -84,6 +85,7 @@ def make_piston_rod(doc: Any) -> Any:
             v["shank_foot"] - v["flange"] - slope_start * v["pocket_end"],
             f"{s}shank_foot - {s}flange - {slope} * {s}pocket_end",
         ),
+        CORNER_RADIUS,
     )
     pocket_profile.setExpression("Placement.Base.z", f"({s}web + {s}shank) / 2")
     block = m.extrude(doc, "Pocket", pocket_profile, (0, 0, 1), s + "shank")
@@ -115,16 +117,8 @@ def _oil_hole(doc: Any, s: str, pitch: str) -> Any:
     return m.add(doc, "Part::Cylinder", "OilHole", expressions, Placement=turned)
 
 
-def _is_upright(edge: Any) -> bool:
-    first, last = edge.Vertexes[0].Point, edge.Vertexes[-1].Point
-    return bool(abs(first.x - last.x) + abs(first.y - last.y) < 1e-6 < abs(first.z - last.z))
-
-
 def _pocket_radius(edge: Any) -> float:
-    """For a pocket's corners and its floor, the side towards the web."""
+    """For a pocket's floor, the side towards the web."""
     floor = SIZES["web"][0] / 2
-    heights = [abs(vertex.Point.z) for vertex in edge.Vertexes]
-    on_floor = all(abs(height - floor) < 1e-6 for height in heights)
-    at_square_end = abs(edge.Vertexes[0].Point.x - SIZES["pocket_start"][0]) < 1e-6
-    corner = _is_upright(edge) and at_square_end
-    return POCKET_RADIUS if on_floor or corner else 0.0
+    on_floor = all(abs(abs(vertex.Point.z) - floor) < 1e-6 for vertex in edge.Vertexes)
+    return POCKET_RADIUS if on_floor else 0.0

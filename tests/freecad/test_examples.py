@@ -58,6 +58,22 @@ def test_follows_its_spreadsheet(example):
     assert box_of(part.Shape) == pytest.approx((box[0] + 10, box[1], box[2]), abs=0.02)
 
 
+def test_follows_all_its_sizes_at_once(example):
+    """Larger by a twentieth, but for a few radii of fillets, which do not change."""
+    part, sheet, box = example
+    volume, faces = part.Shape.Volume, len(part.Shape.Faces)
+    for row in range(1, 100):
+        if not sheet.getAlias(f"B{row}"):
+            break
+        sheet.set(f"B{row}", f"{1.05 * sheet.get(f'B{row}').Value} mm")
+    part.Document.recompute()
+    assert [obj.Name for obj in part.Document.Objects if not obj.isValid()] == []
+    assert part.Shape.isValid()
+    assert len(part.Shape.Faces) == faces
+    assert box_of(part.Shape) == pytest.approx([1.05 * side for side in box], abs=0.02)
+    assert part.Shape.Volume == pytest.approx(1.05**3 * volume, rel=0.01)
+
+
 @pytest.mark.parametrize("name", ["Bracket", "PistonRod"])
 def test_a_filled_example_is_ready(name):
     from freecad_volfrep.examples.filled import open_example

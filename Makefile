@@ -9,8 +9,9 @@ export FREECAD_USER_HOME := $(CURDIR)/.cache/fchome
 SCREEN := xvfb-run -a -s "-screen 0 1600x1200x24 -dpi 96"
 
 .NOTPARALLEL:
-.PHONY: help setup demo test test-all lint format test-core test-freecad test-gui test-in-freecad \
-	test-freecad-1 translations test-newest docs-pictures test-escape torture bench bench-quick clean
+.PHONY: help setup demo test test-all lint format test-core test-random test-alone test-freecad \
+	test-gui test-in-freecad test-freecad-1 translations test-newest docs-pictures test-escape torture bench \
+	bench-quick clean
 
 help: ## show this list
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 25
@@ -43,10 +44,25 @@ format: setup ## let ruff rewrite the sources
 
 QUICK := -m "not slow"
 test-core: setup ## the engine's tests on plain Python
-	@$(PYTHON) -m pytest tests/core $(QUICK) -n auto --dist loadfile
+	@$(PYTHON) -m pytest tests/core $(QUICK) -n auto --dist loadfile --durations=10
+
+test-random: setup ## searches by chance, with other seeds every time, in the engine's tests
+	@$(PYTHON) -m pytest tests/core -m "hypothesis and not slow" --hypothesis-profile=random \
+		-n auto --durations=10
+
+# What uses real parts, and the benchmark's jobs on them, where there are none.
+test-alone: export VOLFREP_PARTS := $(CURDIR)/build/no-parts
+test-alone: export VOLFREP_TORTURE := $(CURDIR)/build/no-torture
+test-alone: setup ## the tests and jobs that take real parts, as in a checkout with nothing beside it
+	@$(PYTHON) -m pytest -q -rs -n auto -k "not modelled" -m "not slow" tests/core/test_bench.py \
+		tests/core/test_parts.py tests/core/test_shell.py tests/core/test_slicers.py \
+		tests/core/test_solid.py tests/core/test_torture.py
+	@PYTEST_ARGS='-q -rs -m "not slow" tests/freecad/test_freecad_parts.py' \
+		freecadcmd tools/run_in_freecad.py < /dev/null
+	@$(PYTHON) -m bench --quick --only rod
 
 test-freecad: setup ## the workbench's tests in the real freecadcmd
-	@PYTEST_ARGS='tests/freecad $(QUICK)' freecadcmd tools/run_in_freecad.py < /dev/null
+	@PYTEST_ARGS='tests/freecad $(QUICK) --durations=10' freecadcmd tools/run_in_freecad.py < /dev/null
 
 test-in-freecad: setup ## both of these side by side: each keeps one core busy
 	@mkdir -p build
@@ -70,7 +86,7 @@ translations: setup ## refresh the .ts files from the sources, and compile them 
 	@$(PYTHON) tools/translations.py
 
 torture: setup ## every broken, odd and real file beside what it must get
-	@$(PYTHON) tests/core/torture.py
+	@PYTHONPATH=. $(PYTHON) tests/core/torture.py
 
 test-freecad-1: ## the workbench's tests in FreeCAD 1.0 and 1.1, each in a Debian of its own (root)
 	@status=0; for suite in trixie forky; do \

@@ -31,12 +31,11 @@ from volfrep.solid import read_triangles
 from volfrep.wireframe import cell_graph
 
 from . import exact
+from .parts import PARTS, at_hand
 from .published import RADIUS, SIZE
 from .tables import Row
 
 ROOT = Path(__file__).resolve().parent.parent
-PARTS = ROOT.parent / "shared" / "parts"
-BRACKET, ROD = PARTS / "ge_bracket.stl", PARTS / "piston_rod.stl"
 #: The environment of the other tools; `make bench` makes it.
 BENCH_PYTHON = ROOT / ".cache" / "bench" / "bin" / "python"
 
@@ -218,8 +217,6 @@ def our_part(context: Context, part: Path, cell: str, *options: str, look: bool 
     """A part of ours as STL, from the start of the process to the file; as `our_block`."""
     out, report = context.folder / "part.stl", context.folder / "report.json"
     row: Row = {"tool": "this engine", "cell": cell}
-    if not part.is_file():
-        return {**row, "note": f"left out: there is no {part.name} in shared/parts"}
     command = volfrep("fill", str(part), "-o", str(out), "--cell", cell, *options)
     done = run([*command, "--quiet", "--report", str(report)])
     if done.failure:
@@ -321,6 +318,18 @@ def gaps(mesh: TriangleMesh, cell: str, count: int) -> np.ndarray:
 
 
 @lru_cache
+def bracket() -> Path:
+    """The GE bracket's file, or a modelled bracket's of the same box."""
+    return at_hand("ge_bracket.stl", "bracket")
+
+
+@lru_cache
+def rod() -> Path:
+    """The piston rod's file, or a modelled one's of the same box."""
+    return at_hand("piston_rod.stl", "piston_rod")
+
+
+@lru_cache
 def true_volume(cell: str, count: int) -> float:
     """Of the exact block, mm3."""
     return exact.block_volume(LIBRARY[cell], count, SIZE, RADIUS)
@@ -349,6 +358,7 @@ def machine() -> Row:
         "packages": {name: version(name) for name in packages},
         "peer_packages": peer_versions(),
         "commit": commit or "not in a repository",
+        "stand_ins": [path.stem for path in (bracket(), rod()) if path.parent != PARTS],
         "date": time.strftime("%Y-%m-%d %H:%M"),
         "load": round(os.getloadavg()[0], 2),
     }

@@ -17,10 +17,10 @@ from .. import plots
 from ..in_process import RADII, SHELL
 from ..measuring import (
     BENCH_PYTHON,
-    BRACKET,
     Context,
     answer,
     bench_job,
+    bracket,
     lattice_options,
     look_at,
     our_part,
@@ -56,15 +56,13 @@ STAGES = ("read", "shell", "voxels", "tile", "lattice", "trim", "write")
 
 def measure(context: Context) -> dict[str, Any]:
     """Each cell from cold and with its radius changed, and the published method."""
-    if not BRACKET.is_file():
-        raise FileNotFoundError(f"there is no {BRACKET}")
     rows: list[Row] = []
     bars: list[Row] = []
     for cell in ("CVC",) if context.quick else PUBLISHED:
         options = [*lattice_options(), "--shell", f"{SHELL:g}"]
-        row = our_part(context, BRACKET, cell, *options)
+        row = our_part(context, bracket(), cell, *options)
         out = context.folder / "changed.stl"
-        done = run(bench_job("changes", str(BRACKET), cell, str(out)))
+        done = run(bench_job("changes", str(bracket()), cell, str(out)))
         out.unlink(missing_ok=True)
         if done.failure:
             row |= {"note": done.failure, "failed": True}
@@ -81,7 +79,7 @@ def measure(context: Context) -> dict[str, Any]:
                          "no pinched vertex", "bar": "yes", "measured": yes_no(sound),
                          "met": sound})  # fmt: skip
     out = context.folder / "whole_box.stl"
-    done = run(bench_job("unvoxelised", str(BRACKET), "CVC", str(out)))
+    done = run(bench_job("unvoxelised", str(bracket()), "CVC", str(out)))
     unvoxelised: Row = {"tool": "this engine", "cell": "CVC"}
     if done.failure:
         unvoxelised |= {"note": done.failure, "failed": True}
@@ -98,13 +96,13 @@ def _published(context: Context) -> dict[str, Any]:
     """The published method on the same part, with the cavity that ours finds."""
     domain = context.folder / "domain.stl"
     done = run(
-        volfrep("fill", str(BRACKET), "-o", str(domain), "--cell", "CVC", *lattice_options(),
+        volfrep("fill", str(bracket()), "-o", str(domain), "--cell", "CVC", *lattice_options(),
                 "--shell", f"{SHELL:g}", "--output", "domain", "--quiet")
     )  # fmt: skip
     if done.failure:
         return {"peers": [{"tool": "published method", "note": done.failure, "failed": True}]}
     counts = {}
-    solid, cavity = read_solid(BRACKET), read_triangles(domain)
+    solid, cavity = read_solid(bracket()), read_triangles(domain)
     grid = make_grid(solid.bounds, SIZE)
     for name, mesh in (("part", solid), ("cavity", cavity)):
         for rule in ("centre", "touching"):
@@ -114,7 +112,7 @@ def _published(context: Context) -> dict[str, Any]:
     out = context.folder / "published.stl"
     for cell, points, voxels in QUICK_JOBS if context.quick else JOBS:
         command = [str(BENCH_PYTHON), "-m", "bench.peers", "part", cell, str(points)]
-        files = [str(BRACKET), str(domain), str(out)]
+        files = [str(bracket()), str(domain), str(out)]
         row = peer_job(
             context, "published method", [*command, *files, voxels], out, cell=cell,
             points=points, voxels=voxels,

@@ -6,15 +6,15 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from ..measuring import BRACKET, Context, answer, bench_job, run
+from ..measuring import Context, answer, bench_job, bracket, run
 from ..tables import Column, Row, table
 
 
 def measure(context: Context) -> dict[str, Any]:
     """cProfile over a block and over the bracket."""
     jobs = [("block 10 x 10 x 10, CVC", ["CVC"])]
-    if BRACKET.is_file() and not context.quick:
-        jobs.append(("GE bracket, FCC", ["FCC", str(BRACKET)]))
+    if not context.quick:
+        jobs.append(("GE bracket, FCC", ["FCC", str(bracket())]))
     rows: list[Row] = []
     for name, (cell, *part) in jobs:
         out = context.folder / "profiled.stl"

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..measuring import BRACKET, ROD, Context, lattice_options, our_block, our_part
+from ..measuring import Context, bracket, lattice_options, our_block, our_part, rod
 from ..published import ROD as PUBLISHED
 from ..published import ROD_ACTIVE, ROD_GRID
 from ..tables import Column, Row, bar, table, yes_no
@@ -26,7 +26,7 @@ def measure(context: Context) -> dict[str, Any]:
     rows: list[Row] = []
     bars: list[Row] = []
     for cell in ("CVC",) if context.quick else PUBLISHED:
-        row = our_part(context, ROD, cell, *ROD_OPTIONS)
+        row = our_part(context, rod(), cell, *ROD_OPTIONS)
         rows.append(context.say({**row, "job": "piston rod"}))
         bars.append(bar(f"piston rod, {cell}", row.get("seconds"), BAR_SECONDS, "s"))
     if context.quick:
@@ -38,7 +38,7 @@ def measure(context: Context) -> dict[str, Any]:
     field = context.folder / "field.csv"
     write_field(field)
     by_field = ("--radius-grading", "field", "--radius-field", str(field), *THICKER)
-    row = our_part(context, BRACKET, "CVC", *lattice_options(), "--shell", "3", *by_field)
+    row = our_part(context, bracket(), "CVC", *lattice_options(), "--shell", "3", *by_field)
     rows.append(context.say({**row, "job": "GE bracket, skin 3, r from 0.6 to 1.4 by a field"}))
     bars.append(bar("GE bracket, radius by a field", row.get("seconds"), FIELD_BAR_SECONDS, "s"))
     return {"rows": rows, "bars": bars}

@@ -8,7 +8,7 @@ from typing import Any
 
 from .. import plots
 from ..in_process import SHELL
-from ..measuring import BRACKET, Context, lattice_options, our_part
+from ..measuring import Context, bracket, lattice_options, our_part
 from ..tables import Column, Row, measured, power_law, table, yes_no
 
 SIZES = (14.0, 10.0, 7.0, 5.0, 4.0, 3.2)
@@ -18,12 +18,10 @@ STAGES = ("read", "shell", "voxels", "tile", "lattice", "trim", "write")
 
 def measure(context: Context) -> dict[str, Any]:
     """r = L / 10 throughout."""
-    if not BRACKET.is_file():
-        raise FileNotFoundError(f"there is no {BRACKET}")
     rows: list[Row] = []
     for size in QUICK_SIZES if context.quick else SIZES:
         options = [*lattice_options(size, size / 10), "--shell", f"{SHELL:g}"]
-        row = our_part(context, BRACKET, "CVC", *options, look=False)
+        row = our_part(context, bracket(), "CVC", *options, look=False)
         rows.append(context.say({**row, "size": size}))
     return {"rows": rows, "bars": []}
 

@@ -2,18 +2,17 @@
 """Real and modelled parts under random parameters: one closed surface each, as a reader sees it."""
 
 from functools import cache
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 import samples
+from bench import parts
+from bench.parts import NO_PARTS, PARTS
 from contract import check_contract
 from volfrep import LatticeSpec, StageCache, read_solid
 from volfrep.cells import LIBRARY
 from volfrep.openings import DrainHoles, OpenPlane
-
-FOLDER = Path(__file__).resolve().parents[3] / "shared" / "parts"
 
 REAL = (
     "ge_bracket.stl",
@@ -28,6 +27,9 @@ MODELLED = {
     "plate": samples.plate,
     "bracket": lambda: samples.bracket(17.0),
     "wing": lambda: samples.naca2412(100.0, 60.0, 60),
+    "ribbed_housing": parts.ribbed_housing,
+    "imported_flange": parts.imported_flange,
+    "three_bodies": parts.three_bodies,
 }
 EACH = 50
 #: Cells are made larger than asked for where a part would hold more of them than this.
@@ -40,9 +42,9 @@ REFUSALS = ("reduce", "enlarge", "at least", "smaller diameter")
 def solid_of(name):
     if name in MODELLED:
         return MODELLED[name](), StageCache()
-    if not (FOLDER / name).is_file():
-        pytest.skip("the folder of real parts is not here")
-    return read_solid(FOLDER / name), StageCache()
+    if not (PARTS / name).is_file():
+        pytest.skip(NO_PARTS)
+    return read_solid(PARTS / name), StageCache()
 
 
 def largest_plane(solid):

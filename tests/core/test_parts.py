@@ -1,20 +1,19 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Real parts, read where they lie; skipped where they are not at hand."""
+"""Real parts, read where they lie, or skipped where they are not at hand; and modelled ones."""
 
 import shutil
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 
+from bench.parts import MODELLED, NO_PARTS, PARTS, modelled_file
 from volfrep import LatticeSpec, StageCache, fill, quality, read_solid
 from volfrep.cells import LIBRARY
 from volfrep.export.stl import as_read
 from walls import wall_errors
 
-PARTS = Path(__file__).resolve().parents[3] / "shared" / "parts"
-needs_parts = pytest.mark.skipif(not PARTS.is_dir(), reason="the folder of real parts is not here")
+needs_parts = pytest.mark.skipif(not PARTS.is_dir(), reason=NO_PARTS)
 needs_freecad = pytest.mark.skipif(
     shutil.which("freecadcmd") is None, reason="freecadcmd, which reads STEP files, is not there"
 )
@@ -60,7 +59,11 @@ _caches: dict[str, StageCache] = {}
 
 
 def check(name, spec):
-    result = fill(read_solid(PARTS / name), spec, cache=_caches.setdefault(name, StageCache()))
+    return check_solid(read_solid(PARTS / name), spec, _caches.setdefault(name, StageCache()))
+
+
+def check_solid(solid, spec, cache=None):
+    result = fill(solid, spec, cache=cache)
     read = quality.measure(as_read(result.mesh))
     assert read.watertight
     assert read.degenerate_triangles == 0
@@ -88,6 +91,29 @@ def test_a_real_part_becomes_one_body(name):
     result = check(name, LatticeSpec(cell="CVC", cell_size=size, strut_radius=radius, shell=shell))
     assert result.report.bodies == 1
     assert np.isfinite(result.mesh.vertices).all()
+
+
+#: Cell size, strut radius, shell, mm, and the bodies of each modelled part.
+MODELLED_SETTINGS = {
+    "bracket": (10.0, 1.0, 3.0, 1),
+    "piston_rod": (4.0, 0.4, 1.0, 1),
+    "ribbed_housing": (6.0, 0.6, 0.9, 1),
+    "imported_flange": (6.0, 0.6, 1.5, 1),
+    "three_bodies": (6.0, 0.6, 1.5, 3),
+}
+
+
+@pytest.mark.parametrize("name", MODELLED)
+def test_a_modelled_part_keeps_its_bodies(name, tmp_path):
+    size, radius, shell, bodies = MODELLED_SETTINGS[name]
+    part, solid = MODELLED[name](), read_solid(modelled_file(name, tmp_path))
+    assert not solid.notes
+    assert solid.volume == pytest.approx(part.volume, rel=1e-6)
+    spec = LatticeSpec(cell="CVC", cell_size=size, strut_radius=radius, shell=shell)
+    result = check_solid(solid, spec)
+    assert result.report.bodies == bodies
+    assert 0.0 < result.report.volume_mm3 < solid.volume
+    np.testing.assert_allclose(result.mesh.bounds, solid.bounds, atol=1e-5)
 
 
 @needs_parts

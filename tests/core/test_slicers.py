@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 import samples
+from bench.parts import NO_PARTS, PARTS
 from slicers import cura_resources, cura_volume, prusa_info, prusa_slicer, prusa_volume
 from volfrep import LatticeSpec, Result, StageCache, block, fill, read_solid
 from volfrep.beam_lattice import beam_model
@@ -17,8 +18,7 @@ needs_prusa_slicer = pytest.mark.skipif(not prusa_slicer(), reason="PrusaSlicer 
 needs_cura = pytest.mark.skipif(
     cura_resources() is None, reason="CuraEngine or its printer definitions are not installed"
 )
-PARTS = Path(__file__).resolve().parents[3] / "shared" / "parts"
-needs_parts = pytest.mark.skipif(not PARTS.is_dir(), reason="the folder of real parts is not here")
+needs_parts = pytest.mark.skipif(not PARTS.is_dir(), reason=NO_PARTS)
 
 #: What PrusaSlicer says of a model that it took as it is.
 INFO = {f"{what}_{axis}" for what in ("size", "min", "max") for axis in "xyz"}

@@ -1,21 +1,18 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 import re
 import struct
-from pathlib import Path
 
 import numpy as np
 import pytest
 import trimesh
 
 import samples
+from bench.parts import NO_PARTS, PARTS
 from volfrep.errors import VolfrepError
 from volfrep.mesh import TriangleMesh, concatenate
 from volfrep.solid import check_solid, read_solid
 
-PARTS = Path(__file__).resolve().parents[3] / "shared" / "parts"
-needs_parts = pytest.mark.skipif(
-    not PARTS.is_dir(), reason="the folder of real parts is not beside the project"
-)
+needs_parts = pytest.mark.skipif(not PARTS.is_dir(), reason=NO_PARTS)
 #: Its three shells overlap: united, it is smaller than the sum that the table prints.
 OVERLAPPING = "conrod_slevin48.stl"
 

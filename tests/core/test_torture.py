@@ -6,15 +6,14 @@ import shutil
 import pytest
 
 import torture
+from bench.parts import NO_TORTURE
 
-pytestmark = pytest.mark.skipif(
-    not torture.SHARED.is_dir(), reason="the folder of torture files is not beside the project"
-)
+pytestmark = pytest.mark.skipif(not torture.jobs(), reason=NO_TORTURE)
 
 
 def jobs():
     """Each file as a test; those that FreeCAD reads, or solid angles judge, take seconds."""
-    for path, name, expected in torture.jobs() if torture.SHARED.is_dir() else []:
+    for path, name, expected in torture.jobs():
         judged = expected is not None and expected.told and path.stat().st_size > 100_000
         marks = [pytest.mark.slow] * bool(judged or torture.is_cad(path))
         yield pytest.param((path, name, expected), id=name, marks=marks)

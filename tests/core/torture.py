@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Every file of ../shared/torture and ../shared/parts, and what its folder's README asks of it.
+"""Every torture file and every real part, and what its folder's README asks of it.
 
 `make torture` prints the table; test_torture.py asserts it. The files are read in place.
 """
@@ -15,13 +15,14 @@ from pathlib import Path
 
 import numpy as np
 
+from bench.parts import NO_TORTURE, PARTS, TORTURE
 from volfrep.errors import VolfrepError
 from volfrep.quality import measure
 from volfrep.reading.units import refuse_scale
 from volfrep.solid import Solid, read_solid, read_triangles
 from winding import disagreement
 
-SHARED = Path(__file__).resolve().parents[3] / "shared"
+FOLDERS = {"torture": TORTURE, "parts": PARTS}
 ROD = 11035.12
 #: The rod's volume when its corners are moved or its holes closed: 0.2 %.
 ABOUT = 2e-3
@@ -67,7 +68,7 @@ def refused(words: str) -> Expected:
 
 #: Volumes of files from elsewhere are those that trimesh and admesh find, and where these refuse
 #: the file, the exact ones of the shapes (cubes) or ours, which solid angles confirm below.
-TORTURE = {
+EXPECTED = {
     "derived/ascii_crlf.stl": rod(),
     "derived/ascii_upper.stl": rod(),
     "derived/ascii_names_spaces.stl": rod(),
@@ -138,7 +139,7 @@ TESSELLATED = 3e-3
 
 def expected_parts() -> dict[str, Expected]:
     """The volumes that the README of the parts gives; its parts of inches are given so."""
-    text = (SHARED / "parts" / "README.md").read_text(encoding="utf-8")
+    text = (PARTS / "README.md").read_text(encoding="utf-8")
     table = {}
     for name, note, volume in re.findall(
         r"^\| `([^`]+)` \| (.*?) \|.*?\| ([\d.]+) \|", text, re.MULTILINE
@@ -221,13 +222,15 @@ def _asks_unit(path: Path) -> list[str]:
 
 def jobs() -> list[tuple[Path, str, Expected | None]]:
     """All files of both folders, each with what it must get; None where nobody said."""
-    tables = {"torture": TORTURE, "parts": expected_parts()}
     found = []
-    for folder, table in tables.items():
-        for path in sorted((SHARED / folder).rglob("*")):
+    for kind, folder in FOLDERS.items():
+        if not folder.is_dir():
+            continue
+        table = EXPECTED if kind == "torture" else expected_parts()
+        for path in sorted(folder.rglob("*")):
             if path.is_file() and path.name != "README.md":
-                name = path.relative_to(SHARED / folder).as_posix()
-                found.append((path, f"{folder}/{name}", table.get(name)))
+                name = path.relative_to(folder).as_posix()
+                found.append((path, f"{kind}/{name}", table.get(name)))
     return found
 
 
@@ -240,8 +243,8 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--width", type=int, default=90, help="of the column of what happened")
     width = parser.parse_args().width
-    if not SHARED.is_dir():
-        print("The folder 'shared' with the torture files is not beside the project: nothing done.")
+    if not jobs():
+        print(f"Nothing done: {NO_TORTURE}.")
         return 0
     failed = 0
     print(f"{'':<5}{'file':<44}{'asks':<16}{'s':>5}  what happened")

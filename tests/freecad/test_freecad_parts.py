@@ -1,18 +1,14 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Real STEP parts, read where they lie; skipped where they are not at hand."""
 
-from pathlib import Path
-
 import FreeCAD as App
 import Part
 import pytest
 
+from bench.parts import NO_PARTS, PARTS
 from freecad_volfrep import make_lattice_infill
 
-PARTS = Path(__file__).resolve().parents[3] / "shared" / "parts"
-pytestmark = pytest.mark.skipif(
-    not PARTS.is_dir(), reason="the folder of real parts is not beside the project"
-)
+pytestmark = pytest.mark.skipif(not PARTS.is_dir(), reason=NO_PARTS)
 
 #: Cell size, strut radius and skin of each, mm.
 SETTINGS = {

@@ -178,9 +178,18 @@ class TransferCurve:
 
     def __call__(self, values: ArrayLike) -> Floats:
         """Radii in mm at `values`, float64 of the same shape."""
-        radii = np.interp(np.asarray(values, np.float64), self.values, self.radii)
+        places = np.asarray(values, np.float64)
+        x, y = np.asarray(self.values), np.asarray(self.radii)
+        with np.errstate(over="ignore"):
+            steepest = np.abs(np.diff(y) / np.diff(x)).max()
+        if np.isfinite(steepest):
+            radii = np.interp(places, x, y)
+        else:  # values so near each other that no number tells the slope between them
+            k = np.clip(np.searchsorted(x, places, "right") - 1, 0, len(x) - 2)
+            share = np.clip((places - x[k]) / (x[k + 1] - x[k]), 0.0, 1.0)
+            radii = y[k] + (y[k + 1] - y[k]) * share
         # The line between two values may end a rounding beyond them.
-        return np.asarray(np.clip(radii, min(self.radii), max(self.radii)))
+        return np.asarray(np.clip(radii, y.min(), y.max()))
 
 
 def read_curve(text: str) -> tuple[tuple[float, float], ...]:

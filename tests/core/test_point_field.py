@@ -32,7 +32,7 @@ def cloud(count: int, seed: int = 0) -> np.ndarray:
 # --- between the points
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 @given(count=st.integers(1, 40), seed=st.integers(0, 2**32 - 1))
 def test_the_field_is_exact_at_its_points_and_within_range_elsewhere(count: int, seed: int) -> None:
     points = cloud(count, seed)
@@ -181,7 +181,7 @@ def test_a_column_is_chosen_by_its_name(name: str, tmp_path: Path) -> None:
         read_point_field(file, "x")
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(
     rows=st.lists(st.tuples(*[st.floats(-1e6, 1e6)] * 4), min_size=1, max_size=20),
     separator=st.sampled_from([",", ";", "\t", " ", "  ", ", "]),
@@ -261,7 +261,7 @@ def test_a_text_that_is_not_utf8_is_refused(tmp_path: Path) -> None:
         read_point_field(file)
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 @given(data=st.binary(max_size=60) | st.text('0123456789.,;\t \nxyzT#"-en', max_size=80))
 def test_any_bytes_are_a_table_or_one_sentence(
     data: bytes | str, tmp_path_factory: pytest.TempPathFactory
@@ -421,7 +421,7 @@ def test_values_that_are_not_finite_are_refused_with_their_point(tmp_path: Path)
 
 
 @pytest.mark.parametrize("name", ["a.vtu", "a.vtk"])
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=150)
 @given(seed=st.integers(0, 2**32 - 1))
 def test_damaged_vtk_files_are_read_or_refused(
     name: str, seed: int, tmp_path_factory: pytest.TempPathFactory
@@ -491,6 +491,12 @@ def test_a_curve_is_straight_between_its_pairs_and_level_beyond() -> None:
     falling=True,
     places=[-1.4881134294462808e-23],
 )
+@example(  # so near that the slope between them is infinite
+    pairs=[(0.0, 1.0), (2e-311, 2.0), (1.0, 3.0)],
+    falling=False,
+    places=[0.0, 5e-312, 1e-311, 1.5e-311, 2e-311, 0.5],
+)
+@example(pairs=[(0.0, 1.0), (5e-324, 2.0)], falling=True, places=[0.0, 5e-324, 1e-323])
 def test_a_curve_is_monotone(
     pairs: list[tuple[float, float]], falling: bool, places: list[float]
 ) -> None:

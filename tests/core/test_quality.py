@@ -143,7 +143,7 @@ def test_more_triangles_than_a_block() -> None:
     assert shape_statistics(sphere).smallest_angle == pytest.approx(angle)
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(st.integers(0, 2**32 - 1))
 def test_the_order_of_vertices_and_triangles_does_not_matter(seed: int) -> None:
     generator = np.random.default_rng(seed)
@@ -159,7 +159,7 @@ def test_the_order_of_vertices_and_triangles_does_not_matter(seed: int) -> None:
     assert quality.volume == pytest.approx(expected.volume)
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(st.sets(st.integers(0, 1151), min_size=1, max_size=6))
 def test_any_missing_triangle_is_seen(missing: set[int]) -> None:
     whole = mesh_of(trimesh.creation.torus(5.0, 1.0, major_sections=24, minor_sections=24))

@@ -67,7 +67,7 @@ def by_hand(
     return nodes, struts
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(
     name=st.sampled_from(sorted(LIBRARY)),
     shape=st.tuples(*[st.integers(1, 4)] * 3),

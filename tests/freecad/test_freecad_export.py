@@ -6,8 +6,8 @@ import Mesh
 import numpy as np
 import Part
 import pytest
-from conftest import SMALL
 
+from conftest import SMALL
 from freecad_volfrep import export_mesh, make_lattice_infill, make_solid
 from freecad_volfrep.bridge.faceted import faceted_solid
 from freecad_volfrep.bridge.meshes import from_freecad, to_freecad
@@ -243,12 +243,9 @@ def test_solid_of_something_without_a_mesh(doc, box):
         make_solid(doc, box)
 
 
-def test_a_large_solid_takes_seconds(doc):
-    import time
-
+def test_a_large_solid(doc):
+    """A second; FreeCAD's own sewing takes minutes."""
     obj = doc.addObject("Mesh::Feature", "Ball")
     obj.Mesh = Mesh.createSphere(20, 160)
-    start = time.perf_counter()
     solid = make_solid(doc, obj)
-    assert time.perf_counter() - start < 20  # a second; FreeCAD's own sewing takes minutes
     assert solid.Shape.Volume == pytest.approx(obj.Mesh.Volume, rel=1e-5)

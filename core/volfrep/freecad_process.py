@@ -16,11 +16,9 @@ import numpy as np
 from .errors import VolfrepError
 from .export.files import replacing
 from .mesh import TriangleMesh
-from .programs import run_program
+from .programs import find_freecad, run_program
 from .progress import Monitor
 from .wireframe import Wireframe
-
-PROGRAMS = ("freecadcmd", "FreeCADCmd", "freecad.cmd")
 
 # freecadcmd runs a script that raises a second time and then exits with 0: leave by os._exit.
 _SCRIPT = """import os, sys, traceback
@@ -41,15 +39,14 @@ finally:
 
 
 def freecad_program() -> str:
-    """FreeCAD without windows, as found on the path.
+    """FreeCAD without windows, as `programs.find_freecad` finds it.
 
     Raises:
         VolfrepError: there is none.
     """
-    for name in PROGRAMS:
-        program = shutil.which(name)
-        if program is not None:
-            return program
+    program = find_freecad()
+    if program is not None:
+        return program
     raise VolfrepError(
         "Exact STEP is made by FreeCAD, and there is no 'freecadcmd' on the PATH: install FreeCAD, "
         "or use --step faceted."

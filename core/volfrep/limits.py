@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 import os
+import sys
 
 import numpy as np
 from numpy.typing import NDArray
@@ -129,7 +130,22 @@ def _free_memory() -> float:
                 if line.startswith("MemAvailable:"):
                     return float(line.split()[1]) * 1024.0
     except OSError:
-        pass
+        if sys.platform == "win32":
+            return _free_memory_of_windows()
     if hasattr(os, "sysconf") and "SC_AVPHYS_PAGES" in os.sysconf_names:
         return float(os.sysconf("SC_AVPHYS_PAGES")) * os.sysconf("SC_PAGE_SIZE")
+    return ASSUMED_MEMORY
+
+
+def _free_memory_of_windows() -> float:
+    """Bytes of physical memory that are free, as GlobalMemoryStatusEx tells."""
+    if sys.platform == "win32":
+        import ctypes
+
+        # MEMORYSTATUSEX: two fields of 32 bits, the first its length, then seven of 64 bits: all
+        # the physical memory, and what of it is available.
+        status = (ctypes.c_uint64 * 8)()
+        ctypes.cast(status, ctypes.POINTER(ctypes.c_uint32))[0] = ctypes.sizeof(status)
+        if ctypes.windll.kernel32.GlobalMemoryStatusEx(ctypes.byref(status)):
+            return float(status[2])
     return ASSUMED_MEMORY

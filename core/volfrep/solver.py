@@ -45,7 +45,11 @@ def solve(deck: str | os.PathLike[str], monitor: Monitor | None = None) -> NDArr
         environment = {**os.environ, "OMP_NUM_THREADS": str(threads())}
         said = run_program([program, "-i", "job"], folder, monitor, environment)
         printed = folder / "job.dat"
-        blocks = _RESULT.findall(printed.read_text()) if printed.is_file() else []
+        blocks = (
+            _RESULT.findall(printed.read_text(encoding="utf-8", errors="replace"))
+            if printed.is_file()
+            else []
+        )
         if said.returncode or not blocks:
             reason = [line for line in said.stdout.splitlines() if "ERROR" in line]
             detail = f": {reason[0].strip().rstrip('.')}" if reason else ""

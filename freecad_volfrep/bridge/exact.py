@@ -125,9 +125,16 @@ def joint_step(joint: Joint) -> tuple[str, float]:
 
 @contextmanager
 def silence() -> Iterator[None]:
-    """Keep OpenCASCADE's account of every file from the standard output."""
+    """Keep OpenCASCADE's account of every file from the standard output, where there is one.
+
+    A window's program on Windows has none.
+    """
     sys.stdout.flush()
-    kept = os.dup(1)
+    try:
+        kept = os.dup(1)
+    except OSError:
+        yield
+        return
     nowhere = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, 1)
     try:

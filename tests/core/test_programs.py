@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from volfrep.errors import Cancelled
-from volfrep.programs import run_program
+from volfrep.programs import FREECAD_PLACES, find_freecad, run_program
 from volfrep.progress import Monitor
 
 
@@ -32,3 +32,32 @@ def test_a_cancelled_program_is_ended(tmp_path: Path):
         run_program([sys.executable, "-c", script], tmp_path, Monitor(cancel_once_it_runs))
     with pytest.raises(OSError, match=r"[Nn]o such process|[Pp]arameter"):
         os.kill(int((tmp_path / "on").read_text()), 0)
+
+
+def test_freecad_is_named_by_a_variable_or_found_on_the_path(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    program = tmp_path / "freecadcmd"
+    monkeypatch.setenv("PATH", str(tmp_path))
+    monkeypatch.setattr(sys, "platform", "a system of which nothing is known")
+    monkeypatch.delenv("VOLFREP_FREECAD", raising=False)
+    assert find_freecad() is None
+    program.touch(0o755)
+    assert find_freecad() == str(program)
+    monkeypatch.setenv("VOLFREP_FREECAD", str(tmp_path / "missing"))
+    assert find_freecad() is None
+
+
+def test_freecad_is_found_where_installers_put_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setenv("PATH", "")
+    monkeypatch.delenv("VOLFREP_FREECAD", raising=False)
+    for version in ("1.0", "1.1"):
+        place = tmp_path / f"FreeCAD {version}" / "bin"
+        place.mkdir(parents=True)
+        (place / "freecadcmd.exe").touch()
+    monkeypatch.setattr(sys, "platform", "win32")
+    pattern = FREECAD_PLACES["win32"][1]
+    monkeypatch.setitem(FREECAD_PLACES, "win32", (str(tmp_path), pattern))
+    # Of the test's own system, whose `which` wants no Windows.
+    monkeypatch.setattr("volfrep.programs.shutil.which", lambda name: None)
+    assert find_freecad() == str(tmp_path / "FreeCAD 1.1" / "bin" / "freecadcmd.exe")

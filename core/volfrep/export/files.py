@@ -69,5 +69,9 @@ def replacing(path: str | os.PathLike[str], size: int = 0) -> Iterator[BinaryIO]
             os.replace(part, real)
         finally:
             part.unlink(missing_ok=True)
+    except PermissionError as error:  # Windows replaces no file that is open somewhere
+        raise VolfrepError(
+            f"Cannot write '{target}': {error.strerror}; is it open in another program?"
+        ) from error
     except OSError as error:
         raise VolfrepError(f"Cannot write '{target}': {error.strerror}.") from error

@@ -4,12 +4,12 @@
 from __future__ import annotations
 
 import os
-import shutil
 import subprocess
 import tempfile
 from pathlib import Path
 
 from ..errors import VolfrepError
+from ..programs import FREECAD, NO_WINDOW, find_freecad
 from ..tessellation import ANGULAR_DEVIATION, MAX_DEVIATION, RELATIVE_DEVIATION
 from .contents import Contents
 from .edges import edges_of
@@ -18,7 +18,6 @@ from .step_text import refuse_damaged_step
 from .weld import weld_equal
 
 STEP_SUFFIXES = (".step", ".stp")
-PROGRAMS = ("freecadcmd", "FreeCADCmd", "freecad.cmd")
 MACRO = Path(__file__).with_name("tessellate.FCMacro")
 MAX_SECONDS = 1800
 
@@ -37,10 +36,10 @@ def read_cad(data: bytes, file: Path) -> Contents:
     """
     if file.suffix.lower() in STEP_SUFFIXES:
         refuse_damaged_step(data, file.name)
-    program = next(filter(None, map(shutil.which, PROGRAMS)), None)
+    program = find_freecad()
     if program is None:
         raise VolfrepError(
-            f"Reading '{file.name}' needs FreeCAD, and there is no '{PROGRAMS[0]}' on the PATH: "
+            f"Reading '{file.name}' needs FreeCAD, and there is no '{FREECAD[0]}' on the PATH: "
             "install FreeCAD, or convert the file to STL or 3MF first."
         )
     with tempfile.TemporaryDirectory(prefix="volfrep-") as folder:
@@ -59,6 +58,7 @@ def read_cad(data: bytes, file: Path) -> Contents:
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.DEVNULL,
                 stderr=subprocess.DEVNULL,
+                creationflags=NO_WINDOW,
                 timeout=MAX_SECONDS,
                 check=False,
             )

@@ -10,7 +10,7 @@ import FreeCADGui as Gui
 from PySide import QtCore, QtGui
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from driving import OUT, check, click, figures, picture, run, toolbar_button, view_3d, wait
+from driving import OUT, check, click, figures, picture, run_checks, settle, toolbar_button, view_3d
 
 FIXTURE = Path(__file__).resolve().parents[1] / "freecad" / "fixtures" / "infill-0.1.0.FCStd"
 OURS = "Skin and Lattice"
@@ -26,7 +26,7 @@ def seconds_a_frame(obj, mode):
     """How long the view takes to draw once in a mode."""
     obj.ViewObject.DisplayMode = mode
     view = Gui.activeDocument().activeView()
-    wait(500)
+    settle()
     start = time.perf_counter()
     for _ in range(3):
         view.redraw()
@@ -34,10 +34,12 @@ def seconds_a_frame(obj, mode):
     return (time.perf_counter() - start) / 3
 
 
-def make(doc):
+def made():
     """An infill of a box, shown from a corner."""
     from freecad_volfrep import make_lattice_infill
 
+    doc = App.newDocument("Drive")
+    doc.UndoMode = 1
     box = doc.addObject("Part::Box", "Block")
     box.Length, box.Width, box.Height = 40, 30, 20
     obj = make_lattice_infill(doc, box, CellSize=5, StrutRadius=0.5, ShellThickness=1)
@@ -45,7 +47,8 @@ def make(doc):
     box.Visibility = False
     Gui.activeDocument().activeView().viewIsometric()
     Gui.SendMsgToActiveView("ViewFit")
-    return obj
+    settle()
+    return (obj,)
 
 
 def display_modes(obj):
@@ -106,13 +109,13 @@ def saved_modes(obj):
     doc.saveAs(str(path))
     App.closeDocument(doc.Name)
     again = App.openDocument(str(path))
-    wait(1000)
+    settle()
     found = again.getObject("LatticeInfill")
     check("opened simplified", found.ViewObject.DisplayMode == "Simplified")
     check("with its struts", node_of(found, "Simplified").getNumChildren() == 2)
     check("without computing", found.State == ["Up-to-date"], found.State)
     old = App.openDocument(str(FIXTURE))
-    wait(1000)
+    settle()
     before = [o for o in old.Objects if o.TypeId == "Mesh::FeaturePython"]
     check("0.1.0 opens", before and all(o.Mesh.CountFacets for o in before))
     for infill in before:
@@ -156,9 +159,9 @@ def section(obj):
     Gui.SendMsgToActiveView("ViewFit")
     Gui.Selection.clearSelection()
     Gui.Selection.addSelection(obj)
-    wait(500)
+    settle()
     click(toolbar_button("Section View"))
-    wait(500)
+    settle()
     check("the section opens", dock() is not None)
     check("one plane is in the scene", planes(obj) == 1, planes(obj))
     axis = dock().findChild(QtGui.QComboBox, "Axis")
@@ -187,17 +190,17 @@ def section(obj):
     obj.ViewObject.DisplayMode = "Shaded"
     Gui.Selection.addSelection(obj)
     click(toolbar_button("Section View"))
-    wait(500)
+    settle()
     check("a second call takes its place", planes(obj) == 1, planes(obj))
     dock().close()
-    wait(300)
+    settle()
     check("closing removes it", planes(obj) == 0 and dock() is None)
     check("the document is as before", (doc.UndoCount, doc.isTouched()) == (steps, touched))
     check("and so is the mesh", obj.Mesh.CountFacets == facets)
     click(toolbar_button("Section View"))
-    wait(300)
+    settle()
     doc.removeObject(obj.Name)
-    wait(500)
+    settle()
     check("it closes with its object", dock() is None)
 
 
@@ -228,18 +231,7 @@ def frames():
     App.closeDocument(doc.Name)
 
 
-def drive():
-    """The whole session."""
-    App.ParamGet(GROUP).Clear()
-    doc = App.newDocument("Drive")
-    doc.UndoMode = 1
-    Gui.activateWorkbench("VolfrepWorkbench")
-    wait(800)
-    obj = make(doc)
-    display_modes(obj)
-    many_struts(obj)
-    section(saved_modes(obj))
-    frames()
-
-
-run(drive, "display")
+run_checks(
+    "display",
+    {display_modes: made, many_struts: made, saved_modes: made, section: made, frames: None},
+)

@@ -9,7 +9,17 @@ import FreeCADGui as Gui
 from PySide import QtCore, QtGui
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from driving import answer_panel, check, failures, panel, picture, run, select, wait, wait_until
+from driving import (
+    answer_panel,
+    check,
+    lightness,
+    panel,
+    picture,
+    run_checks,
+    select,
+    settle,
+    wait_until,
+)
 
 GROUP = "User parameter:BaseApp/Preferences/Mod/VOLFREP"
 #: What FreeCAD calls the language, and words that must then be seen.
@@ -47,7 +57,7 @@ def cut_off(form):
 def speak(language, command, word, label, figure):
     """One language: toolbar, panel, preferences."""
     Gui.setLocale(language)
-    wait(1500)
+    settle()
     box = App.ActiveDocument.getObject("Block")
     check(f"{language}: the commands", word in commands().get(command, ""), commands())
     select(box)
@@ -55,7 +65,7 @@ def speak(language, command, word, label, figure):
     check(f"{language}: the panel opens", wait_until(lambda: panel() is not None, 20))
     obj = App.ActiveDocument.getObject("LatticeInfill")
     obj.RadiusGrading = "Direction"
-    wait(1500)
+    settle()
     labels = [widget.text() for widget in panel().findChildren(QtGui.QLabel)]
     check(f"{language}: the panel's labels", label in labels, labels)
     figures = panel().findChild(QtGui.QLabel, "Figures").text()
@@ -77,7 +87,7 @@ def choose_boundary(obj):
     """What is chosen in the user's words is set in the document's."""
     choice = panel().findChild(QtGui.QComboBox, "Boundary")
     choice.setCurrentIndex(choice.findData("whole"))
-    wait(300)
+    settle()
     check("a translated choice sets the plain value", obj.Boundary == "whole", obj.Boundary)
 
 
@@ -90,14 +100,14 @@ def tables(language, word):
     doc.recompute()
     select(obj)
     Gui.runCommand("VOLFREP_Statistics", 0)
-    wait(800)
+    settle()
     window = Gui.getMainWindow().findChild(QtGui.QDialog, "VolfrepReport")
     text = window.findChild(QtGui.QTextBrowser).toPlainText()
     check(f"{language}: the tables' names", word in text, text[:200])
     picture(f"language_{language}_3_statistics")
     window.close()
     doc.removeObject(obj.Name)
-    wait(300)
+    settle()
 
 
 def preferences(language):
@@ -105,6 +115,9 @@ def preferences(language):
 
     def look():
         dialog = QtGui.QApplication.activeModalWidget()
+        if dialog is None or dialog.findChild(QtGui.QWidget, "DisplayPage") is None:
+            QtCore.QTimer.singleShot(50, look)
+            return
         for name in ("NewInfillPage", "DisplayPage"):
             page = dialog.findChild(QtGui.QWidget, name)
             for kind in (QtGui.QTabWidget, QtGui.QStackedWidget):
@@ -112,48 +125,65 @@ def preferences(language):
                     for number in range(holder.count()):
                         if holder.widget(number).isAncestorOf(page):
                             holder.setCurrentIndex(number)
-            wait(300)
+            settle()
             check(f"{language}: nothing is cut off in {name}", cut_off(page) == [], cut_off(page))
             picture(f"language_{language}_2_{name}")
         dialog.reject()
 
-    QtCore.QTimer.singleShot(2500, look)
+    QtCore.QTimer.singleShot(50, look)
     Gui.showPreferences("VOLFREP", 0)
+
+
+def wear_dark():
+    """One of FreeCAD's own dark themes; returns what takes it off again."""
+    application = QtGui.QApplication.instance()
+    before = application.styleSheet()
+    folder = Path(App.getResourceDir()) / "Gui" / "Stylesheets"
+    sheets = sorted(folder.glob("*[Dd]ark*.qss"))
+    if sheets:
+        application.setStyleSheet(sheets[0].read_text(encoding="utf-8"))
+        return lambda: application.setStyleSheet(before)
+    # FreeCAD 1.1 has one style sheet, and its colours in a theme.
+    group = App.ParamGet("User parameter:BaseApp/Preferences/MainWindow")
+    worn = {name: group.GetString(name) for name in ("Theme", "StyleSheet")}
+    group.SetString("Theme", "FreeCAD Dark")
+    group.SetString("StyleSheet", "FreeCAD.qss")
+    wait_until(lambda: application.styleSheet() != before, 10)
+
+    def take_off():
+        for name, value in worn.items():
+            group.SetString(name, value)
+
+    return take_off
 
 
 def go_dark():
     """The panel in one of FreeCAD's own dark themes."""
-    folder = Path(App.getResourceDir()) / "Gui" / "Stylesheets"
-    sheets = sorted(folder.glob("*[Dd]ark*.qss"))
-    if not sheets:
-        failures.append(f"FreeCAD has no dark theme in {folder}")
-        return
-    application = QtGui.QApplication.instance()
-    application.setStyleSheet(sheets[0].read_text(encoding="utf-8"))
-    wait(1000)
+    take_off = wear_dark()
+    settle()
     select(App.ActiveDocument.getObject("Block"))
     Gui.runCommand("VOLFREP_LatticeInfill", 0)
     wait_until(lambda: panel() is not None, 20)
     obj = App.ActiveDocument.getObject("LatticeInfill")
-    wait(1000)
+    settle()
     check("dark: nothing is cut off", cut_off(panel()) == [], cut_off(panel()))
     picture("dark_1_panel")
+    light = lightness("dark_1_panel", panel())
+    check("dark: the panel is dark", light < 0.4, light)
     obj.ShellThickness = 15
     panel().findChild(QtGui.QWidget, "Preview").click()
-    wait(1000)
+    settle()
     picture("dark_2_refused")
     answer_panel("Cancel")
-    wait(500)
+    settle()
     Gui.runCommand("VOLFREP_CellLibrary", 0)
-    wait(800)
+    settle()
     picture("dark_3_cells")
+    take_off()
 
 
-def drive():
-    """Every language, then the dark theme."""
-    App.ParamGet(GROUP).Clear()
-    Gui.activateWorkbench("VolfrepWorkbench")
-    wait(800)
+def boxed():
+    """A document with a box."""
     doc = App.newDocument("Drive")
     doc.UndoMode = 1
     box = doc.addObject("Part::Box", "Block")
@@ -161,11 +191,28 @@ def drive():
     doc.recompute()
     Gui.activeDocument().activeView().viewIsometric()
     Gui.SendMsgToActiveView("ViewFit")
-    for language, expected in LANGUAGES.items():
-        speak(language, *expected)
-        if language == "German":
-            tables(language, "Zellen des Rasters")
-    go_dark()
+    settle()
+    return ()
 
 
-run(drive, "languages")
+def italian():
+    """The whole window in Italian."""
+    speak("Italian", *LANGUAGES["Italian"])
+    Gui.setLocale("English")
+
+
+def german():
+    """The whole window in German, and the tables."""
+    speak("German", *LANGUAGES["German"])
+    tables("German", "Zellen des Rasters")
+    Gui.setLocale("English")
+
+
+def english():
+    """Back to the texts of the sources."""
+    Gui.setLocale("German")
+    settle()
+    speak("English", *LANGUAGES["English"])
+
+
+run_checks("languages", {italian: boxed, german: boxed, english: boxed, go_dark: boxed})

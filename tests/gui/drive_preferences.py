@@ -10,7 +10,7 @@ import FreeCADGui as Gui
 from PySide import QtCore, QtGui
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from driving import check, failures, picture, run, wait
+from driving import check, failures, picture, run_checks, settle
 
 GROUP = "User parameter:BaseApp/Preferences/Mod/VOLFREP"
 
@@ -20,13 +20,16 @@ def preferences_open(visit):
 
     def look():
         dialog = QtGui.QApplication.activeModalWidget()
+        if dialog is None or dialog.findChild(QtGui.QWidget, "DisplayPage") is None:
+            QtCore.QTimer.singleShot(50, look)
+            return
         try:
             visit(dialog)
         except Exception:
             failures.append(traceback.format_exc())
         dialog.accept()
 
-    QtCore.QTimer.singleShot(2500, look)
+    QtCore.QTimer.singleShot(50, look)
     Gui.showPreferences("VOLFREP", 0)
 
 
@@ -62,7 +65,7 @@ def show_second(dialog, second):
             for number in range(holder.count()):
                 if holder.widget(number).isAncestorOf(second):
                     holder.setCurrentIndex(number)
-    wait(300)
+    settle()
     check("the second is shown", second.isVisible())
 
 
@@ -78,8 +81,8 @@ def read_back(dialog):
     check("Defaults shows them", editor(dialog, "NewCellType").currentText() == "CVC")
 
 
-def drive():
-    """Set, use, read back."""
+def set_use_and_read_back():
+    """What is set in the preferences is used, shown again, and forgotten."""
     group = App.ParamGet(GROUP)
     group.Clear()
     preferences_open(fill_in)
@@ -111,4 +114,4 @@ def use():
     App.closeDocument(doc.Name)
 
 
-run(drive, "preferences")
+run_checks("preferences", {set_use_and_read_back: None})

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What the scripts share that drive the workbench in the real FreeCAD; see tools/run_gui.sh.
 
-A script notes checks, figures and failures here, and `run` leaves FreeCAD with 0 when every check
-held.
+A script is a table of checks, each a function that stands alone: `run_checks` runs those that were
+asked for, a failing one does not hide the others, and FreeCAD is left with 0 when every check held.
+Nothing waits for a time that was guessed: `settle` waits until the window has nothing left to do.
 """
 
 import json
@@ -22,11 +23,15 @@ figures = {}
 failures = []
 
 
+#: The check that is running, by its function's name.
+_running = ""
+
+
 def check(name, holds, detail=""):
-    """Note a check; go on to the others whatever it says."""
+    """Note whether something holds; go on whatever it says."""
     figures[name] = bool(holds)
     if not holds:
-        failures.append(f"{name} {detail}".strip())
+        failures.append(f"{_running}: {name} {detail}".strip().removeprefix(": "))
 
 
 def step(function, *arguments):
@@ -38,7 +43,7 @@ def step(function, *arguments):
 
 
 def wait(milliseconds):
-    """Let Qt run, so that what xdotool sends arrives."""
+    """Let Qt run for a time; only what `wait_until` cannot be asked for needs it."""
     loop = QtCore.QEventLoop()
     QtCore.QTimer.singleShot(milliseconds, loop.quit)
     (loop.exec if hasattr(loop, "exec") else loop.exec_)()
@@ -50,8 +55,73 @@ def wait_until(condition, seconds):
     while time.monotonic() < end:
         if condition():
             return True
-        wait(50)
+        wait(20)
     return bool(condition())
+
+
+def settle(seconds=10):
+    """Wait until the window has done what was asked for: returns whether it has.
+
+    Nothing is left in Qt's queue, no timer of the task panel runs, and every button of ours can be
+    used as its command says, which FreeCAD looks at from time to time.
+    """
+    done = wait_until(_is_settled, seconds)
+    if not done:
+        figures["not settled"] = [*figures.get("not settled", ()), _running]
+    for _ in range(3):
+        QtCore.QCoreApplication.sendPostedEvents()
+        QtCore.QCoreApplication.processEvents()
+    return done
+
+
+def _is_settled():
+    form = panel()
+    if form is not None and any(timer.isActive() for timer in form.findChildren(QtCore.QTimer)):
+        return False
+    if QtGui.QApplication.activeModalWidget() is not None:
+        return True
+    for name in Gui.Command.listAll():
+        if name.startswith("VOLFREP_"):
+            command = Gui.Command.get(name)
+            text = command.getInfo()["menuText"].replace("&", "")
+            button = next((b for t, b in _toolbar_buttons() if t == text), None)
+            if button is not None and button.isEnabled() != command.isActive():
+                return False
+    return True
+
+
+class _Arrived(QtCore.QObject):
+    """Sees whether a real event of the mouse has reached the window."""
+
+    def __init__(self, kind):
+        super().__init__()
+        self.kind, self.seen = kind, False
+        QtGui.QApplication.instance().installEventFilter(self)
+
+    def eventFilter(self, widget, event):  # noqa: N802
+        """Note it and let it pass."""
+        if event.type() == self.kind:
+            self.seen = True
+        return False
+
+    def wait(self):
+        """For it to come, a few seconds at most: a menu or a dialog may keep it for itself."""
+        if not wait_until(lambda: self.seen, 3):
+            figures["clicks not seen"] = [*figures.get("clicks not seen", ()), _running]
+        QtGui.QApplication.instance().removeEventFilter(self)
+
+
+def move_mouse(point):
+    """Really move the mouse to a point of the screen."""
+    xdotool("mousemove", point.x(), point.y())
+    wait_until(lambda: QtGui.QCursor.pos() == point, 3)
+
+
+def press_button(*options):
+    """A real click where the mouse is."""
+    arrived = _Arrived(QtCore.QEvent.MouseButtonRelease)
+    xdotool("click", *options, 1)
+    arrived.wait()
 
 
 def xdotool(*arguments):
@@ -62,16 +132,30 @@ def xdotool(*arguments):
 def click(widget):
     """A real click in the middle of a widget."""
     point = widget.mapToGlobal(widget.rect().center())
-    xdotool("mousemove", point.x(), point.y())
-    wait(200)
-    xdotool("click", 1)
-    wait(200)
+    move_mouse(point)
+    press_button()
+    settle()
+
+
+def when_dialog(kind, act, seconds=30):
+    """Once a modal dialog of a kind is there, call `act` with it, from Qt's own loop."""
+    end = time.monotonic() + seconds
+
+    def look():
+        dialog = QtGui.QApplication.activeModalWidget()
+        if isinstance(dialog, kind):
+            act(dialog)
+        elif time.monotonic() < end:
+            QtCore.QTimer.singleShot(50, look)
+
+    QtCore.QTimer.singleShot(50, look)
 
 
 def picture(name):
     """The whole screen as a file."""
+    settle()
     Gui.updateGui()
-    wait(300)
+    QtGui.QGuiApplication.sync()
     subprocess.run(["import", "-window", "root", str(OUT / f"{name}.png")], check=True)
 
 
@@ -83,7 +167,7 @@ def look_at_all(from_below=False):
     turn = App.Rotation(25, 0, 118 if from_below else 62)
     Gui.activeDocument().activeView().setCameraOrientation(turn.Q)
     Gui.SendMsgToActiveView("ViewFit")
-    wait(300)
+    settle()
 
 
 def view_3d():
@@ -94,6 +178,12 @@ def view_3d():
 def shades(name, widget):
     """How many colours a picture has where a widget is; a blank one has one or two."""
     return len(set(_sampled(name, widget, 0.0).values()))
+
+
+def lightness(name, widget):
+    """How light a picture is where a widget is, in the mean, from 0 to 1."""
+    colours = [_channels(colour) for colour in _sampled(name, widget, 0.0).values()]
+    return sum(map(sum, colours)) / (3 * 255 * len(colours))
 
 
 def drawn_share(name):
@@ -138,13 +228,19 @@ def _distance(one, two):
     return sum(abs(a - b) for a, b in zip(_channels(one), _channels(two), strict=True))
 
 
+def _toolbar_buttons():
+    """Texts and buttons of the workbench's toolbars."""
+    for bar in Gui.getMainWindow().findChildren(QtGui.QToolBar):
+        if bar.windowTitle().startswith("VOLFREP") and bar.isVisible():
+            for action in bar.actions():
+                yield action.text().replace("&", ""), bar.widgetForAction(action)
+
+
 def toolbar_button(name):
     """The button of a command in the workbench's toolbars."""
-    for bar in Gui.getMainWindow().findChildren(QtGui.QToolBar):
-        if bar.windowTitle().startswith("VOLFREP"):
-            for action in bar.actions():
-                if action.text().replace("&", "") == name:
-                    return bar.widgetForAction(action)
+    for text, button in _toolbar_buttons():
+        if text == name:
+            return button
     raise LookupError(f"no button {name}")
 
 
@@ -211,7 +307,7 @@ def select(*objects):
     Gui.Selection.clearSelection()
     for obj in objects:
         Gui.Selection.addSelection(obj)
-    wait(900)
+    settle()
 
 
 def panel():
@@ -245,10 +341,9 @@ def click_item(view, item):
     """Really click on an item of a list or a tree."""
     view.scrollToItem(item)
     point = view.viewport().mapToGlobal(view.visualItemRect(item).center())
-    xdotool("mousemove", point.x(), point.y())
-    wait(200)
-    xdotool("click", 1)
-    wait(900)
+    move_mouse(point)
+    press_button()
+    settle()
 
 
 def type_value(name, text):
@@ -258,7 +353,9 @@ def type_value(name, text):
     xdotool("key", "ctrl+a")
     xdotool("type", text)
     xdotool("key", "Tab")
-    wait(700)
+    holders = [field, *field.findChildren(QtGui.QWidget)]
+    wait_until(lambda: QtGui.QApplication.focusWidget() not in holders, 5)
+    settle()
 
 
 class UnexpectedMessages(QtCore.QObject):
@@ -281,10 +378,64 @@ class UnexpectedMessages(QtCore.QObject):
         self.box = box
 
 
+def clear():
+    """What a check leaves behind goes: dialogs, the panel, our windows, documents, a selection."""
+    for _ in range(5):
+        dialog = QtGui.QApplication.activeModalWidget()
+        if dialog is None:
+            break
+        dialog.close()
+        settle(1)
+    if Gui.Control.activeDialog():
+        Gui.Control.closeDialog()
+    for name in list(App.listDocuments()):
+        App.closeDocument(name)
+    for window in Gui.getMainWindow().findChildren(QtGui.QDialog):
+        if window.objectName().startswith("Volfrep") and window.isVisible():
+            window.close()
+    Gui.Selection.clearSelection()
+    App.ParamGet("User parameter:BaseApp/Preferences/Mod/VOLFREP").Clear()
+    if Gui.activeWorkbench().name() != "VolfrepWorkbench":
+        Gui.activateWorkbench("VolfrepWorkbench")
+    settle()
+
+
+def run_checks(name, checks):
+    """Run checks, or those of them that GUI_CHECKS names, each in a window that was cleared.
+
+    Args:
+        name: of the file of figures.
+        checks: functions, each with what makes its arguments (a tuple), or None for none.
+    """
+    wanted = os.environ.get("GUI_CHECKS", "").split()
+    known = {function.__name__: (function, make) for function, make in checks.items()}
+
+    def drive():
+        global _running
+        failures.extend(f"there is no check '{one}': {', '.join(known)}"
+                        for one in wanted if one not in known)  # fmt: skip
+        for one, (function, make) in known.items():
+            if wanted and one not in wanted:
+                continue
+            _running = one
+            print(f"check: {one}", file=sys.__stdout__, flush=True)
+            try:
+                clear()
+                step(function, *(make() if make is not None else ()))
+            except Exception:
+                failures.append(f"{one}: {traceback.format_exc()}")
+        _running = ""
+        clear()
+
+    run(drive, name)
+
+
 def run(drive, name):
     """Once FreeCAD is up: drive, write down to ``name.json`` in GUI_OUT, leave."""
 
     def main():
+        wait_until(Gui.getMainWindow().isVisible, 60)
+        settle()
         code = 1
         watch = UnexpectedMessages()
         try:
@@ -292,6 +443,7 @@ def run(drive, name):
             code = 1 if failures else 0
         except BaseException:  # FreeCAD's abort is no Exception
             failures.append(traceback.format_exc())
+            code = 1
         watch.deleteLater()
         figures["failures"] = failures
         (OUT / f"{name}.json").write_text(json.dumps(figures, indent=1), encoding="utf-8")
@@ -299,4 +451,4 @@ def run(drive, name):
         sys.stdout.flush()
         os._exit(code)
 
-    QtCore.QTimer.singleShot(2500, main)
+    QtCore.QTimer.singleShot(0, main)

@@ -22,5 +22,5 @@ mkdir -p "$GUI_OUT"
 export QTWEBENGINE_DISABLE_SANDBOX=1
 export LIBGL_ALWAYS_SOFTWARE=1 QT_XCB_GL_INTEGRATION=xcb_glx
 # Without a resolution of 96 dpi Qt scales its windows and real clicks miss their buttons.
-exec timeout "${GUI_TIMEOUT:-300}" \
+exec timeout "${GUI_TIMEOUT:-900}" \
   xvfb-run -a -s "-screen 0 1400x900x24 -dpi 96" freecad "$script"

@@ -111,7 +111,7 @@ def export_step(solid: App.DocumentObject, path: str | os.PathLike[str]) -> None
     """
     import Part
 
-    from volfrep.export.files import check_writable
+    from volfrep.export.files import check_writable, not_written
 
     target = check_writable(path)
     unfinished = target.with_name(f".{target.stem}.{os.getpid()}.step")
@@ -122,7 +122,10 @@ def export_step(solid: App.DocumentObject, path: str | os.PathLike[str]) -> None
         Part.export([solid], str(unfinished))
         if not unfinished.is_file():
             raise VolfrepError(f"FreeCAD could not write '{target}': see the report view.")
-        os.replace(unfinished, target)
+        try:
+            os.replace(unfinished, target)
+        except OSError as error:
+            raise not_written(target, error) from error
     finally:
         if before is not None:
             Part.setStaticValue(mode, before)

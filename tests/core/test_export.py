@@ -12,6 +12,7 @@ import samples
 from volfrep import LatticeSpec, block
 from volfrep.errors import Cancelled, VolfrepError
 from volfrep.export import MESH_WRITERS, write_mesh
+from volfrep.export.files import replacing
 from volfrep.export.precision import as_text, lines, rounded
 from volfrep.mesh import TriangleMesh, empty_mesh
 from volfrep.progress import Monitor
@@ -93,3 +94,22 @@ def test_lines_are_filled_row_by_row() -> None:
     assert b"".join(lines("<%d>", np.zeros((0, 1), int))) == b""
     short = rounded(np.array([[-1e-9, 0.25, 1.00001]]), 1e-4)
     assert b"".join(lines("%.9g %.9g %.9g", short)) == b"0 0.25 1"
+
+
+def test_a_file_that_windows_holds_open_is_told_as_that(tmp_path, monkeypatch):
+    target = tmp_path / "part.bin"
+    target.write_bytes(b"old")
+    held = PermissionError(13, "Access is denied")
+    held.winerror = 5  # as Windows sets it
+
+    def refuse(*_):
+        raise held
+
+    monkeypatch.setattr("volfrep.export.files.os.replace", refuse)
+    with (
+        pytest.raises(VolfrepError, match="Access is denied; it may be open in another program"),
+        replacing(target) as file,
+    ):
+        file.write(b"new")
+    assert [path.name for path in tmp_path.iterdir()] == ["part.bin"]
+    assert target.read_bytes() == b"old"

@@ -13,6 +13,9 @@ from typing import BinaryIO
 
 from ..errors import VolfrepError
 
+#: What Windows says of a file that is to be replaced while a program holds it open.
+_WINDOWS_HOLDS = (5, 32)
+
 
 def check_writable(path: str | os.PathLike[str]) -> Path:
     """The path itself, once it is clear that a file could be put there.
@@ -69,9 +72,14 @@ def replacing(path: str | os.PathLike[str], size: int = 0) -> Iterator[BinaryIO]
             os.replace(part, real)
         finally:
             part.unlink(missing_ok=True)
-    except PermissionError as error:  # Windows replaces no file that is open somewhere
-        raise VolfrepError(
-            f"Cannot write '{target}': {error.strerror}; is it open in another program?"
-        ) from error
     except OSError as error:
-        raise VolfrepError(f"Cannot write '{target}': {error.strerror}.") from error
+        raise not_written(target, error) from error
+
+
+def not_written(target: Path, error: OSError) -> VolfrepError:
+    """Why a file could not be written or put in another's place."""
+    if getattr(error, "winerror", None) in _WINDOWS_HOLDS:
+        return VolfrepError(
+            f"Cannot write '{target}': {error.strerror}; it may be open in another program."
+        )
+    return VolfrepError(f"Cannot write '{target}': {error.strerror}.")

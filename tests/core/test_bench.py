@@ -2,6 +2,7 @@
 """The harness of the benchmark: tables, fits, failures kept, the published method as a peer."""
 
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -20,6 +21,10 @@ from bench.document import document  # noqa: E402
 from bench.exact import block_volume  # noqa: E402
 from bench.experiments import EXPERIMENTS  # noqa: E402
 from bench.tables import Column, bar, bars_table, power_law, table  # noqa: E402
+
+pytestmark = pytest.mark.skipif(
+    not hasattr(os, "wait4"), reason="the benchmark runs on POSIX systems only"
+)
 
 
 def test_a_table_shows_figures_and_leaves_empty_columns_out():

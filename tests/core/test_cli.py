@@ -84,6 +84,7 @@ def test_cells(capsys: pytest.CaptureFixture[str]) -> None:
     ]
 
 
+@pytest.mark.skipif(os.name == "nt", reason="needs a shell with pipes")
 def test_a_reader_that_stops_early_is_no_error() -> None:
     done = subprocess.run(
         f"(sleep 0.5; {' '.join(COMMAND)} cells) | true",

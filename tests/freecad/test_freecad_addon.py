@@ -12,9 +12,9 @@ from xml.etree import ElementTree
 import FreeCAD as App
 import pytest
 import tomllib
-from conftest import said_without_packages
 
 import freecad_volfrep
+from conftest import said_without_packages
 from freecad_volfrep import compat, deps
 
 ROOT = Path(__file__).resolve().parents[2]

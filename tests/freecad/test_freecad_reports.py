@@ -9,8 +9,8 @@ from xml.etree import ElementTree
 import FreeCAD as App
 import Mesh
 import pytest
-from conftest import SMALL
 
+from conftest import SMALL
 from freecad_volfrep import make_lattice_infill
 from freecad_volfrep.features.mesh_check import check_mesh
 from freecad_volfrep.features.statistics import infills_of, statistics

@@ -22,6 +22,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from . import cli_domain, cli_printing, cli_solver
+from .cli_files import check_files
 from .cli_grading import add_grading_options, gradings
 from .cli_printing import print_rows, print_warnings
 from .errors import VolfrepError
@@ -210,7 +211,7 @@ def _add_lattice_options(parser: argparse.ArgumentParser) -> None:
 
 def _fill(options: argparse.Namespace) -> None:
     part = Path(options.part)
-    _check_targets(options, part)
+    _check_targets(options)
     spec = _spec(
         options, "shell", "output", "origin", *cli_domain.FIELDS, **cli_domain.openings(options)
     )
@@ -288,22 +289,16 @@ def _writes_stl(options: argparse.Namespace) -> bool:
     return plain and Path(options.out).suffix.lower() == ".stl"
 
 
-def _check_targets(options: argparse.Namespace, part: Path | None = None) -> None:
+def _check_targets(options: argparse.Namespace) -> None:
     """Refuse before the work what could not be written after it."""
     from .export import mesh_writer
-    from .export.files import check_writable
 
-    out = check_writable(options.out)
+    check_files(options)
+    out = Path(options.out)
     if not cli_solver.is_deck(out):
         mesh_writer(out)
     cli_printing.check(options, out)
     cli_solver.check(options, out)
-    if part is not None and out.exists() and part.exists() and out.samefile(part):
-        raise VolfrepError(f"The output '{out}' is the part itself: give another name.")
-    if options.report is not None:
-        report = check_writable(options.report)
-        if report.resolve() == out.resolve():
-            raise VolfrepError(f"The report and the mesh cannot both be written to '{out}'.")
 
 
 def _spec(options: argparse.Namespace, *more: str, **further: Any) -> LatticeSpec:

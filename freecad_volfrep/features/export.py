@@ -13,6 +13,7 @@ from freecad_volfrep.engine import require_engine
 from freecad_volfrep.translation import translate
 from volfrep.errors import VolfrepError
 
+from .input_files import refuse_inputs
 from .lattice_infill import LatticeInfill
 from .progress import job_title, run_job
 from .solver_files import CONTENTS, write_solver_file
@@ -77,7 +78,8 @@ def export_mesh(
             lattice infill in .step or .inp, too: one of `solver_files.CONTENTS`.
 
     Raises:
-        VolfrepError: there is no mesh, the file cannot be written or cannot hold that content.
+        VolfrepError: there is no mesh, the file cannot be written, cannot hold that content, or is
+            one that the object is made of.
         Cancelled: in the window, by the user.
     """
     require_engine()
@@ -89,6 +91,7 @@ def export_mesh(
 
     if not obj.isDerivedFrom("Mesh::Feature") or not obj.Mesh.CountFacets:
         raise VolfrepError(f"'{obj.Label}' has no mesh to export: update it first.")
+    refuse_inputs(path, obj)
     if content == "mesh":
         write_mesh(mesh_in_document(obj), path)
         return

@@ -12,6 +12,8 @@ import FreeCAD as App
 from freecad_volfrep.engine import require_engine
 from volfrep.errors import VolfrepError
 
+from .input_files import refuse_inputs
+
 #: More triangles than this are refused unless the caller raises the limit.
 DEFAULT_LIMIT = 100_000
 
@@ -107,13 +109,14 @@ def export_step(solid: App.DocumentObject, path: str | os.PathLike[str]) -> None
     A fifth of the size and a third of the time of FreeCAD 0.20's own setting.
 
     Raises:
-        VolfrepError: the file cannot be written.
+        VolfrepError: the file cannot be written, or is one that the solid is made of.
     """
     import Part
 
     from volfrep.export.files import check_writable, not_written
 
     target = check_writable(path)
+    refuse_inputs(path, solid)
     unfinished = target.with_name(f".{target.stem}.{os.getpid()}.step")
     mode = "write.surfacecurve.mode"
     before = Part.getStaticValue(mode) if hasattr(Part, "getStaticValue") else None

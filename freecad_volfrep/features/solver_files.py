@@ -22,6 +22,7 @@ from .exact import (
     inputs_of,
     warn,
 )
+from .input_files import refuse_inputs
 from .instances import estimate_instances, write_instances
 from .progress import job_title, progress_of, run_job
 
@@ -96,6 +97,7 @@ def write_solver_file(obj: App.DocumentObject, path: str | os.PathLike[str], con
     suffixes, write = CONTENTS[content]
     if Path(path).suffix.lower() not in suffixes:
         raise VolfrepError(f"'{path}' cannot hold {content}: give it the extension {suffixes[0]}.")
+    refuse_inputs(path, obj)
     write(obj, path)
 
 

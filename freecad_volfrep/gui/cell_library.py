@@ -159,10 +159,12 @@ class CellLibrary(QtWidgets.QDialog):
 
     def save(self, path: str) -> bool:
         """Write the picked cell; returns whether that was done, says here why not."""
+        from freecad_volfrep.features.input_files import refuse_inputs_of_all
         from volfrep.drawn_cell import save_cell
 
         entry = self._entry()
         try:
+            refuse_inputs_of_all(path, but=("CellFile",))  # a cell may replace a cell
             save_cell(entry.cell, path)
         except VolfrepError as error:
             self._say(str(error), wrong=True)

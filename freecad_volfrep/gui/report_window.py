@@ -100,10 +100,12 @@ class ReportWindow(QtWidgets.QDialog):
         """Write the tables as HTML where the name ends in .html, else as CSV.
 
         Raises:
-            VolfrepError: the file cannot be written; an older one stays.
+            VolfrepError: the file cannot be written, or an open document reads it; it stays.
         """
+        from freecad_volfrep.features.input_files import refuse_inputs_of_all
         from volfrep.export.files import replacing
 
+        refuse_inputs_of_all(path)
         is_html = Path(path).suffix.lower() in (".html", ".htm")
         with replacing(path) as file:
             file.write((as_html if is_html else as_csv)(self._tables).encode())

@@ -3,6 +3,7 @@
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -13,8 +14,9 @@ import numpy as np
 import pytest
 import trimesh
 
-from volfrep import cli, cli_grading, grading, law
-from volfrep.cells import LIBRARY
+from volfrep import cli, cli_files, cli_grading, grading, law
+from volfrep.cells import LIBRARY, UnitCell
+from volfrep.drawn_cell import save_cell
 from volfrep.export.stl import as_read, write_stl
 from volfrep.mesh import TriangleMesh, concatenate
 from volfrep.quality import measure
@@ -168,13 +170,79 @@ def test_places_that_cannot_be_written(
     assert "name without an extension" in fill_to(tmp_path / "out")
     assert "there is no folder" in fill_to(tmp_path / "none" / "out.stl")
     assert "is not a file" in fill_to(tmp_path)
-    assert "is the part itself" in fill_to(part)
     good = tmp_path / "out.stl"
     assert "there is no folder" in fill_to(good, "--report", tmp_path / "none" / "r.json")
     assert "cannot both be written" in fill_to(good, "--report", good)
     # As a user without the right to write there (root has every right).
     monkeypatch.setattr(os, "access", lambda path, mode: False)
     assert "permission denied" in fill_to(good)
+
+
+def test_the_tables_of_files_hold_every_option_that_takes_one(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    taken = {"part", "cell"}  # PART, and --cell, which takes a name, too
+    for command in ("fill", "block"):
+        with pytest.raises(SystemExit):
+            cli.run([command, "--help"])
+        usage = capsys.readouterr().out
+        flags = re.findall(r"--?([\w-]+) (?:FILE|OUT)\b", usage)
+        assert {"o", "report", "radius-field"} <= set(flags)
+        taken |= {"out" if flag == "o" else flag.replace("-", "_") for flag in flags}
+    assert taken == {*cli_files.INPUTS, *cli_files.OUTPUTS}
+
+
+@pytest.mark.parametrize("way", ["its name", "a symbolic link", "a hard link"])
+@pytest.mark.parametrize("output", cli_files.OUTPUTS)
+@pytest.mark.parametrize(
+    ("command", "source"),
+    [
+        *(("fill", source) for source in cli_files.INPUTS),
+        *(("block", source) for source in cli_files.INPUTS if source != "part"),
+    ],
+)
+def test_no_output_is_an_input(
+    capsys: pytest.CaptureFixture[str],
+    tmp_path: Path,
+    part: Path,
+    command: str,
+    source: str,
+    output: str,
+    way: str,
+) -> None:
+    box = LIBRARY["Box"]
+    files = {"part": part, "cell": tmp_path / "own.json", "radius_field": tmp_path / "field.csv"}
+    save_cell(UnitCell("own", box.nodes, box.struts), files["cell"])
+    files["radius_field"].write_text("x,y,z,v\n0,0,0,1\n9,0,0,2\n")
+    before = {file: file.read_bytes() for file in files.values()}
+    target = files[source]
+    if way != "its name":
+        target = tmp_path / "other.stl"
+        (os.symlink if way == "a symbolic link" else os.link)(files[source], target)
+    outputs = {"out": tmp_path / "new.stl", "report": tmp_path / "new.json", output: target}
+    arguments = [command, *([part, "--shell", 2] if command == "fill" else ["--count", 1, 1, 1])]
+    arguments += ["-o", outputs["out"], "--report", outputs["report"], "--cell", files["cell"]]
+    arguments += ["--cell-size", 10, "--strut-radius", 1, "--radius-grading", "field"]
+    arguments += ["--radius-field", files["radius_field"], "--radius-curve", "1:1,2:0.8"]
+    said = refused(capsys, *arguments)
+    assert f"is the {cli_files.INPUTS[source]} itself" in said
+    assert {file: file.read_bytes() for file in files.values()} == before
+    assert not (tmp_path / "new.stl").exists()
+    assert not (tmp_path / "new.json").exists()
+
+
+def test_a_file_with_the_name_of_a_library_cell_is_no_input(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    report = tmp_path / "Box"
+    report.write_text("old")
+    out = tmp_path / "out.stl"
+    assert (
+        cli.run(["block", "-o", str(out), *LATTICE, "--count", "1", "1", "1", "--report", "Box"])
+        == 0
+    )
+    assert json.loads(report.read_text())["watertight"]
 
 
 def test_a_file_to_check_must_be_readable(

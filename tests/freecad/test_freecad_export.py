@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """From the object to files and to a Part solid."""
 
+import os
+
 import FreeCAD as App
 import Mesh
 import numpy as np
@@ -13,6 +15,7 @@ from freecad_volfrep.bridge.faceted import faceted_solid
 from freecad_volfrep.bridge.meshes import from_freecad, to_freecad
 from freecad_volfrep.features.export import formats_of
 from freecad_volfrep.features.faceted_solid import export_step, predict_solid
+from freecad_volfrep.features.input_files import refuse_inputs_of_all
 from freecad_volfrep.features.solver_files import CONTENTS
 from volfrep.errors import VolfrepError
 from volfrep.export import MESH_WRITERS
@@ -249,3 +252,53 @@ def test_a_large_solid(doc):
     obj.Mesh = Mesh.createSphere(20, 160)
     solid = make_solid(doc, obj)
     assert solid.Shape.Volume == pytest.approx(obj.Mesh.Volume, rel=1e-5)
+
+
+@pytest.mark.parametrize("way", ["its name", "a symbolic link", "a hard link"])
+def test_no_export_replaces_a_file_that_the_object_is_made_of(doc, infill, tmp_path, way):
+    base = tmp_path / "base.stl"
+    Mesh.createBox(30, 30, 30).write(str(base))
+    cell, field = tmp_path / "own.json", tmp_path / "field.csv"
+    cell.write_text("{}")
+    field.write_text("x")
+    imported = doc.addObject("Mesh::Import", "Imported")
+    imported.FileName = str(base)
+    infill.Base, infill.CellFile, infill.RadiusField = imported, str(cell), str(field)
+    doc.saveAs(str(tmp_path / "document.FCStd"))
+    before = {file: file.read_bytes() for file in tmp_path.iterdir()}
+    for file, what in (
+        (base, "FileName of 'Imported'"),
+        (cell, "CellFile of "),
+        (field, "RadiusField of "),
+        (tmp_path / "document.FCStd", "document "),
+    ):
+        target = file
+        if way != "its name":
+            target = tmp_path / f"link to {file.name}"
+            (os.symlink if way == "a symbolic link" else os.link)(file, target)
+        for content in ("mesh", "compact", "beams", "both", *CONTENTS):
+            with pytest.raises(VolfrepError, match=f"is the {what}"):
+                export_mesh(infill, target, content)
+    assert all(file.read_bytes() == held for file, held in before.items())
+
+
+def test_a_step_solid_does_not_replace_its_document(doc, box, tmp_path):
+    doc.saveAs(str(tmp_path / "document.FCStd"))
+    before = (tmp_path / "document.FCStd").read_bytes()
+    with pytest.raises(VolfrepError, match="is the document"):
+        export_step(box, tmp_path / "document.FCStd")
+    assert (tmp_path / "document.FCStd").read_bytes() == before
+
+
+def test_a_saved_table_or_cell_does_not_replace_what_a_document_reads(doc, infill, tmp_path):
+    cell, field = tmp_path / "own.json", tmp_path / "field.csv"
+    cell.write_text("{}")
+    field.write_text("x")
+    infill.CellFile, infill.RadiusField = str(cell), str(field)
+    refuse_inputs_of_all(tmp_path / "new.csv")
+    for path in (cell, field):
+        with pytest.raises(VolfrepError, match="give another name"):
+            refuse_inputs_of_all(path)
+    refuse_inputs_of_all(cell, but=("CellFile",))
+    with pytest.raises(VolfrepError, match="is the RadiusField of '"):
+        refuse_inputs_of_all(field, but=("CellFile",))

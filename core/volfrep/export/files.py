@@ -6,7 +6,7 @@ from __future__ import annotations
 import os
 import secrets
 import shutil
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import BinaryIO
@@ -37,6 +37,38 @@ def check_writable(path: str | os.PathLike[str]) -> Path:
     if not os.access(folder, os.W_OK) or (taken and not os.access(target, os.W_OK)):
         raise VolfrepError(f"Cannot write '{target}': permission denied.")
     return target
+
+
+def same_file(one: str | os.PathLike[str], other: str | os.PathLike[str]) -> bool:
+    """Whether both paths mean one file, through symbolic and hard links too.
+
+    Paths where nothing is yet are compared by where a file written there would be.
+    """
+    try:
+        return os.path.samefile(one, other)
+    except OSError:  # at least one is not there, or cannot be looked at
+        first, second = (os.path.normcase(Path(path).resolve()) for path in (one, other))
+        return first == second
+
+
+def refuse_overwriting(
+    outputs: Mapping[str, str | os.PathLike[str]], inputs: Mapping[str, str | os.PathLike[str]]
+) -> None:
+    """Refuse to write a file over one that the job is made of.
+
+    Args:
+        outputs: paths to be written, by what a user calls them ("output", "report").
+        inputs: paths that are read, the same way ("part", "cell file").
+
+    Raises:
+        VolfrepError: naming the two.
+    """
+    for what, path in outputs.items():
+        for source, read in inputs.items():
+            if same_file(path, read):
+                raise VolfrepError(
+                    f"The {what} '{path}' is the {source} itself: give another name."
+                )
 
 
 @contextmanager

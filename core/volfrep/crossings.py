@@ -34,9 +34,56 @@ def crossing_triangles(mesh: TriangleMesh, among: Bools, depth: float) -> Bools:
     Returns:
         (m,) bool: both the triangles that are run through and those whose edges do it.
     """
+    one, other, _ = crossing_edges(mesh, among, depth)
     crossing = np.zeros(len(mesh.triangles), bool)
-    if not among.any():
-        return crossing
+    crossing[one] = True
+    crossing[other] = True
+    return crossing
+
+
+def crossing_edges(mesh: TriangleMesh, among: Bools, depth: float) -> tuple[Ints, Ints, Floats]:
+    """Where edges of triangles run through other triangles.
+
+    Args:
+        mesh: the surface, mm.
+        among: (m,) bool, triangles to look at; pairs of two others are not tested.
+        depth: an edge has to stick out on both sides of a triangle by more than this, mm.
+
+    Returns:
+        (k,) triangles whose edge it is, (k,) those that it runs through, and (k, 3) where, mm.
+    """
+    found = [(np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros((0, 3)))]
+    if among.any():
+        rows = _reached_from(mesh, among)
+        part = TriangleMesh(mesh.vertices, mesh.triangles[rows])
+        for one, other, points in _crossing_edges(part, among[rows], depth):
+            found.append((rows[one], rows[other], points))
+    one, other, points = (np.concatenate(column) for column in zip(*found, strict=True))
+    return one, other, points
+
+
+def _reached_from(mesh: TriangleMesh, among: Bools) -> Ints:
+    """The triangles whose boxes reach into cubes that those of the chosen ones reach into."""
+    if among.all():
+        return np.arange(len(among))
+    corners = mesh.vertices[mesh.triangles]
+    low, high = corners.min(axis=1), corners.max(axis=1)
+    first, last = low[among], high[among]
+    size = max(float((last - first).max()), float(np.ptp(corners, axis=(0, 1)).max()) / MOST_BINS)
+    origin = low.min(axis=0)
+    bins = np.unique(boxes_in_bins(first, last, origin, size)[1])
+    # Those of the others that are larger than a cube reach into many: kept without a look.
+    result = among | ((high - low).max(axis=1) > size)
+    rows = np.flatnonzero(~result)
+    box, its_bin = boxes_in_bins(low[rows], high[rows], origin, size)
+    place = np.minimum(np.searchsorted(bins, its_bin), len(bins) - 1)
+    result[rows[box[bins[place] == its_bin]]] = True
+    return np.flatnonzero(result)
+
+
+def _crossing_edges(
+    mesh: TriangleMesh, among: Bools, depth: float
+) -> Iterator[tuple[Ints, Ints, Floats]]:
     corners = mesh.vertices[mesh.triangles]
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
@@ -51,12 +98,9 @@ def crossing_triangles(mesh: TriangleMesh, among: Bools, depth: float) -> Bools:
             cut = _on_both_sides(_heights(corners, normal, a, b), 0.0)
             a, b = b[cut], a[cut]
         for one, other in ((a, b), (b, a)):
-            hit = _edges_cross(
-                mesh, corners, _heights(corners, normal, one, other), one, other, depth
-            )
-            crossing[one[hit]] = True
-            crossing[other[hit]] = True
-    return crossing
+            heights = _heights(corners, normal, one, other)
+            for hit, points in _edges_cross(mesh, corners, heights, one, other, depth):
+                yield one[hit], other[hit], points
 
 
 def close_pairs(corners: Floats, among: Bools) -> Iterator[tuple[Ints, Ints]]:
@@ -125,9 +169,8 @@ def _on_both_sides(heights: Floats, depth: float) -> Bools:
 
 def _edges_cross(
     mesh: TriangleMesh, corners: Floats, height: Floats, a: Ints, b: Ints, depth: float
-) -> Bools:
-    """Whether an edge of triangle a, without a vertex in common with b, runs through b."""
-    crosses = np.zeros(len(a), bool)
+) -> Iterator[tuple[Ints, Floats]]:
+    """Where an edge of triangle a, without a vertex in common with b, runs through b."""
     for k in range(3):
         following = (k + 1) % 3
         from_above = (height[:, k] > depth) & (height[:, following] < -depth)
@@ -142,8 +185,9 @@ def _edges_cross(
             u, v = corners[b[rows], e], corners[b[rows], (e + 1) % 3]
             sides.append(np.einsum("ij,ij->i", np.cross(q - p, u - p), v - p))
         one_side = np.all([s > 0 for s in sides], axis=0) | np.all([s < 0 for s in sides], axis=0)
-        crosses[rows[one_side]] = True
-    return crosses
+        rows, p, q = rows[one_side], p[one_side], q[one_side]
+        share = height[rows, k] / (height[rows, k] - height[rows, following])
+        yield rows, p + share[:, None] * (q - p)
 
 
 def crossing_near(mesh: TriangleMesh, among: Bools, depth: float) -> Bools:

@@ -14,7 +14,9 @@ from scipy.spatial import cKDTree
 from .contour import Facets, fan_edges, fanned
 from .crossings import crossing_triangles
 from .field import DepthField
+from .judged import NOTHING_JUDGED, judged
 from .mesh import TriangleMesh
+from .plugs import CROSSING_DEPTH, without_crossings
 from .refine import Wall
 
 Floats = NDArray[np.float64]
@@ -22,23 +24,22 @@ Bools = NDArray[np.bool_]
 
 #: How far simplifying may move the wall, in units of the thickness.
 TOLERANCE = 0.005
-#: Facets that cross by less than this (thicknesses) only touch.
-CROSSING_DEPTH = 1e-5
 #: Round crossing facets others are not simplified: as far as these reach, but no farther than the
 #: one (thicknesses), and the other on top.
 LOCKED_FARTHEST = 0.8
 LOCKED_AROUND = 0.1
-#: So often in vain another try is made to have fewer crossings.
-TRIES = 3
+#: So often the wall is simplified, each time with less where it crossed itself.
+TRIES = 4
 #: Rounds of false position on an edge that is crossed.
 SECANTS = 5
 
 
 def simplified(wall: Wall, field: DepthField) -> TriangleMesh:
-    """The wall with fewer facets.
+    """The wall with fewer facets, none of which run through each other.
 
     Where they would cross they stay as they were found; where those cross as well they are
-    replaced by fans. Few crossings may be left, in the smallest cubes that hold several sheets.
+    replaced by fans. That is tried `TRIES` times. What crosses even then lies where the room
+    between two walls ends, and is filled with small boxes.
     """
     call, thickness = field.depth.monitor.call, field.depth.thickness
     tolerance = TOLERANCE * thickness
@@ -46,33 +47,28 @@ def simplified(wall: Wall, field: DepthField) -> TriangleMesh:
     facets = _with_fans(wall, cut, field)
     locked = np.zeros(len(facets.edge), bool)
     balls = np.zeros((0, 4))
-    best, fewest, tries = facets.mesh, len(facets.edge) + 1, TRIES
-    while tries:
+    best, fewest = facets.mesh, len(facets.edge) + 1
+    best_known = known = NOTHING_JUDGED
+    for done in range(TRIES):
         simple = call(partial(_simplify, facets.mesh, locked, tolerance))
-        crossed = call(partial(_crossing, simple, thickness))
-        tries -= 1
+        field.depth.monitor.count("simplifications of the wall", 1)
+        known = call(partial(judged, simple, CROSSING_DEPTH * thickness, known))
+        crossed = known.crossed
         if crossed.sum() < fewest:
-            best, fewest, tries = simple, int(crossed.sum()), TRIES
-        if not fewest:
+            best, best_known, fewest = simple, known, int(crossed.sum())
+        if not fewest or done == TRIES - 1:
             break
         balls = np.concatenate([balls, _balls(simple, crossed, thickness)])
         near = call(partial(_within, facets.mesh, balls))
-        crossed = call(partial(_crossing, facets.mesh, thickness, near))
+        crossed = call(partial(crossing_triangles, facets.mesh, near, CROSSING_DEPTH * thickness))
         segments = wall.crossings.segment[facets.edge[crossed]]
         segments = segments[segments >= 0]
         if cut[segments].all() and locked[near].all():
-            tolerance /= 4.0  # what is locked still loses edges shorter than the tolerance
+            break  # another try would be the same
         cut[segments] = True
         facets = _with_fans(wall, cut, field)
         locked = call(partial(_within, facets.mesh, balls))
-    return best
-
-
-def _crossing(mesh: TriangleMesh, thickness: float, among: Bools | None = None) -> Bools:
-    everywhere = np.ones(len(mesh.triangles), bool)
-    return crossing_triangles(
-        mesh, everywhere if among is None else among, CROSSING_DEPTH * thickness
-    )
+    return call(partial(without_crossings, best, best_known, thickness)) if fewest else best
 
 
 def _balls(mesh: TriangleMesh, crossed: Bools, thickness: float) -> Floats:

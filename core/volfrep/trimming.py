@@ -38,6 +38,8 @@ Bools = NDArray[np.bool_]
 #: their edges. Where they do, they are looked for so many times as far as the last ones reached.
 FIRST_MARGIN = 0.05
 SPARE_MARGIN = 1.05
+#: So often the octants are laid anew because struts reach farther out than was thought.
+MOST_LAYINGS = 12
 #: Less of a domain than this is no lattice.
 NO_LATTICE = 1e-6
 
@@ -122,7 +124,7 @@ class Trimming:
         monitor: Monitor,
     ) -> tuple[Kept, Layout, Floats]:
         """The octants laid where the struts are; with more of them, where struts reach far out."""
-        while True:
+        for _ in range(MOST_LAYINGS):
             layout = kept.lay_out(octants)
             placed = vertices_of(
                 layout, self._graph,
@@ -132,6 +134,10 @@ class Trimming:
                 return kept, layout, placed.vertices
             margin = SPARE_MARGIN * placed.excess
             kept, octants = self.octants(margin, cache, monitor)
+        raise VolfrepError(
+            f"The grading moves struts by {placed.excess:.3g} mm and more out of their cells, each "
+            "time farther where more of them are kept: make it change more slowly."
+        )
 
     def _graph(self) -> CellGraph:
         """The nodes and struts that the octants hang on."""

@@ -114,3 +114,25 @@ def knot() -> TriangleMesh:
         return np.stack([radius * np.cos(angle), radius * np.sin(angle), height], axis=1)
 
     return _mesh(bar.warp_batch(bend))
+
+
+def housing(sides=24) -> TriangleMesh:
+    """A rounded box, open below, with walls of 11, tilted ribs and a conical boss with a hole."""
+
+    def rounded(x, y, z, radius):
+        ball = manifold3d.Manifold.sphere(radius, sides)
+        middles = np.stack(np.meshgrid(*([-1, 1],) * 3), axis=-1).reshape(-1, 3) * (
+            np.array([x, y, z]) / 2 - radius
+        )
+        return manifold3d.Manifold.batch_hull([ball.translate(m.tolist()) for m in middles])
+
+    outer = rounded(90, 70, 60, 25)
+    solid = outer - rounded(68, 48, 38, 14)
+    solid -= manifold3d.Manifold.cube((100, 100, 40)).translate((-50, -50, -50))
+    window = manifold3d.Manifold.cylinder(40, 12, 12, sides, True).rotate((0, 90, 0))
+    rib = manifold3d.Manifold.cube((11, 60, 34), True) - window.translate((0, 0, -4))
+    for x in (-14.0, 9.0):
+        solid += rib.rotate((0, 0, x / 3)).translate((x, 0, 10))
+    boss = manifold3d.Manifold.cylinder(40, 11.5, 14.5, sides)
+    boss -= manifold3d.Manifold.cylinder(100, 2.5, 2.5, sides)
+    return _mesh((solid + boss.translate((26, 6, -10))) ^ outer)

@@ -4,8 +4,8 @@
 import math
 
 import pytest
-from conftest import SMALL
 
+from conftest import SMALL
 from freecad_volfrep import make_lattice_infill
 
 

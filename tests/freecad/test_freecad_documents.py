@@ -6,8 +6,8 @@ from pathlib import Path
 
 import FreeCAD as App
 import pytest
-from conftest import said_without_packages
 
+from conftest import said_without_packages
 from freecad_volfrep import make_lattice_infill, preferences
 from freecad_volfrep.features import LatticeInfill, lattice_infill
 from freecad_volfrep.features.lattice_infill import LARGE, UP_TO_DATE

@@ -5,8 +5,8 @@ import FreeCAD as App
 import numpy as np
 import Part
 import pytest
-from conftest import SMALL
 
+from conftest import SMALL
 from freecad_volfrep import make_lattice_infill
 from freecad_volfrep.bridge.drawn_lines import drawn_lines, has_edges
 from volfrep.cells import LIBRARY

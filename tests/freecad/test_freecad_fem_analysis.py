@@ -6,8 +6,8 @@ import shutil
 import FreeCAD as App
 import numpy as np
 import pytest
-from conftest import SMALL
 
+from conftest import SMALL
 from freecad_volfrep import make_fem_analysis, make_lattice_infill
 from freecad_volfrep.features.fem_analysis import vertices
 from freecad_volfrep.features.solver_files import axes_of

@@ -6,8 +6,8 @@ import FreeCAD as App
 import numpy as np
 import ObjectsFem
 import pytest
-from conftest import SMALL
 
+from conftest import SMALL
 from freecad_volfrep import make_lattice_infill
 from freecad_volfrep.bridge.fem_fields import field_of_result
 from freecad_volfrep.features.applicable import CONTROLS, CUSTOM_CELL

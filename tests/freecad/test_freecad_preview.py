@@ -3,8 +3,8 @@
 
 import FreeCAD as App
 import pytest
-from conftest import SMALL
 
+from conftest import SMALL
 from freecad_volfrep import make_lattice_infill
 from freecad_volfrep.features.live_preview import LivePreview
 from volfrep.errors import VolfrepError

@@ -7,8 +7,8 @@ import shutil
 import FreeCAD as App
 import Part
 import pytest
-from conftest import SMALL
 
+from conftest import SMALL
 from freecad_volfrep import export_mesh, make_lattice_infill
 from freecad_volfrep.features.solids import KINDS, kinds_of, make_kind
 from freecad_volfrep.features.solver_files import CONTENTS, estimate_file

@@ -57,13 +57,20 @@ class Depth:
         spacing = self.index.spacing
         return 0.1 * spacing + 0.3 * spacing**2 / self.thickness
 
-    def values(self, points: Floats, inside: Bools | None = None) -> tuple[Floats, Floats]:
+    def values(
+        self, points: Floats, inside: Bools | None = None, unknown: Bools | None = None
+    ) -> tuple[Floats, Floats]:
         """Thickness less depth at points (n, 3), mm, and its gradients (n, 3).
 
         Below 0 inside the inner wall. `inside` (n,) tells which points are inside the solid;
-        None: all.
+        None: all. Of the `unknown` ones (n,) the surface next to them tells it; None: of none.
         """
         closest, distance = self.nearest(points)
+        if inside is not None and unknown is not None:
+            # Nearer than the wall it does not matter.
+            asked = np.flatnonzero(unknown & (distance >= 0.99 * self.thickness))
+            inside = inside.copy()
+            inside[asked] = self.index.below(points[asked])
         sign = np.ones(len(points)) if inside is None else np.where(inside, 1.0, -1.0)
         gradient = (closest - points) * (sign / np.maximum(distance, 1e-300))[:, None]
         return self.thickness - sign * distance, gradient

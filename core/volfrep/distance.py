@@ -27,6 +27,8 @@ POINTS_PER_STEP = 50_000
 PAIRS_PER_STEP = 2_000_000
 #: How often the walk from a nearest sample to the nearest triangle may cross an edge.
 MAX_EDGE_CROSSINGS = 8
+#: No more triangles are walked through round a corner.
+MOST_ROUND_A_CORNER = 1000
 #: A surface is not sampled with more points than this (100 bytes each, with the search tree).
 MAX_SAMPLES = 30_000_000
 #: Sine of the angle between two faces from which their reentrant edge has samples of its own.
@@ -216,39 +218,98 @@ class SurfaceIndex:
         inside the solid it is too large by at most ``(0.75 spacing)**2 / (2 d) + spacing / 10``,
         and nearly always exact; outside, by at most the spacing.
         """
+        closest, distance, _, _ = self._nearest(points)
+        return closest, distance
+
+    def below(self, points: Floats) -> NDArray[np.bool_]:
+        """(n,) whether points lie below the surface, as its normal next to them tells.
+
+        At an edge that is the sum of both faces' normals, at a corner that of all its faces,
+        weighted by their angles (Baerentzen and Aanaes 2005, "Signed distance computation using
+        the angle weighted pseudonormal").
+        """
+        closest, _, triangle, edge = self._nearest(points)
+        normal = self._normals(triangle)
+        rows = np.flatnonzero(edge >= 0)
+        normal[rows] += self._normals(self.across[triangle[rows], edge[rows]])
+        for end in (0, 1):
+            corner = (edge[rows] + end) % 3
+            place = self.corners[triangle[rows], corner]
+            at = (np.abs(place - closest[rows]) <= 1e-9 * self.spacing).all(axis=1)
+            normal[rows[at]] = self._corner_normals(triangle[rows[at]], corner[at])
+        return np.asarray(_dot(points - closest, normal) < 0.0)
+
+    def _normals(self, triangle: Ints) -> Floats:
+        a, b, c = self.corners[triangle].transpose(1, 0, 2)
+        normal = np.cross(b - a, c - a)
+        unit: Floats = normal / np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+        return unit
+
+    def _corner_normals(self, triangle: Ints, corner: Ints) -> Floats:
+        """The normals of all triangles round a corner, by walking from one to the next."""
+        total = np.zeros((len(triangle), 3))
+        place = self.corners[triangle, corner]
+        rows, here, first = np.arange(len(triangle)), corner, triangle
+        for _ in range(MOST_ROUND_A_CORNER):
+            if not len(rows):
+                break
+            own = self.corners[triangle]
+            each = np.arange(len(rows))
+            one = own[each, (here + 1) % 3] - place[rows]
+            other = own[each, (here + 2) % 3] - place[rows]
+            angle = np.arctan2(np.linalg.norm(np.cross(one, other), axis=1), _dot(one, other))
+            total[rows] += angle[:, None] * self._normals(triangle)
+            triangle = self.across[triangle, (here + 2) % 3]
+            here = (self.corners[triangle] == place[rows][:, None]).all(axis=2).argmax(axis=1)
+            on = triangle != first[rows]
+            rows, triangle, here = rows[on], triangle[on], here[on]
+        return total
+
+    def _nearest(self, points: Floats) -> tuple[Floats, Floats, Ints, Ints]:
+        """Closest points, distances, their triangles, and the edges they lie on (-1: none)."""
         nearest = self.tree.query(points, workers=threads())[1]
         triangle = self.triangle_of_sample[nearest].astype(np.int64)
-        closest, edge = closest_on_triangles(self.corners[triangle], points)
+        closest, on_edge = closest_on_triangles(self.corners[triangle], points)
         squared = ((points - closest) ** 2).sum(axis=1)
-        rows = np.flatnonzero(edge >= 0)
+        rows = np.flatnonzero(on_edge >= 0)
         for _ in range(MAX_EDGE_CROSSINGS):
             if not len(rows):
                 break
-            other = self.across[triangle[rows], edge[rows]]
+            other = self.across[triangle[rows], on_edge[rows]]
             candidate, candidate_edge = closest_on_triangles(self.corners[other], points[rows])
             distance = ((points[rows] - candidate) ** 2).sum(axis=1)
             better = distance < squared[rows]
             rows = rows[better]
-            triangle[rows], edge[rows] = other[better], candidate_edge[better]
+            triangle[rows], on_edge[rows] = other[better], candidate_edge[better]
             closest[rows], squared[rows] = candidate[better], distance[better]
-            rows = rows[edge[rows] >= 0]
-        return closest, np.sqrt(squared)
+            rows = rows[on_edge[rows] >= 0]
+        return closest, np.sqrt(squared), triangle, on_edge
 
 
-def index_surface(mesh: TriangleMesh, spacing: float) -> SurfaceIndex:
+def index_surface(
+    mesh: TriangleMesh, spacing: float, sampled: tuple[Floats, Ints] | None = None
+) -> SurfaceIndex:
     """Prepare a closed manifold mesh for `SurfaceIndex.near`.
+
+    Args:
+        mesh: the surface.
+        spacing: of the samples, mm.
+        sampled: points of the surface and their triangles, where it is sampled already: fewer of
+            them where no other part of the surface is near.
 
     Raises:
         VolfrepError: at this spacing the surface would take more than `MAX_SAMPLES` samples.
     """
-    expected = mesh.area / spacing**2
+    expected = mesh.area / spacing**2 if sampled is None else len(sampled[0])
     if expected > MAX_SAMPLES:
         raise VolfrepError(
             f"Sampling the part's surface every {spacing:.3g} mm would take {expected:.2g} "
             "points: ask for a thicker shell."
         )
     across = neighbours(mesh)
-    samples, owner = _sample(mesh, spacing)
+    if sampled is None:
+        sampled = sample_triangles(np.stack(mesh.corners(), axis=1), spacing)
+    samples, owner = sampled
     edge_samples, edge_owner = _sample_reentrant_edges(mesh, across, spacing)
     samples = np.concatenate([samples, edge_samples])
     triangle = np.concatenate([owner, edge_owner]).astype(np.int32)
@@ -268,9 +329,11 @@ def neighbours(mesh: TriangleMesh) -> Ints:
     return across.reshape(-1, 3)
 
 
-def _sample(mesh: TriangleMesh, spacing: float) -> tuple[Floats, Ints]:
-    """Points in rows parallel to each triangle's longest edge, and the triangles they lie on."""
-    corners = np.stack(mesh.corners(), axis=1)
+def sample_triangles(corners: Floats, spacing: float) -> tuple[Floats, Ints]:
+    """Points in rows parallel to each triangle's longest edge, and the triangles they lie on.
+
+    Every point of a triangle (k, 3, 3) has one of them within 0.75 of the spacing.
+    """
     lengths = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2)
     longest = lengths.argmax(axis=1)
     turn = (longest[:, None] + np.arange(3)) % 3

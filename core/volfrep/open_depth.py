@@ -53,7 +53,9 @@ class OpenDepth(Depth):
         """Beyond open faces the cavity ends outside the solid's box."""
         return -self.reach
 
-    def values(self, points: Floats, inside: Bools | None = None) -> tuple[Floats, Floats]:
+    def values(
+        self, points: Floats, inside: Bools | None = None, unknown: Bools | None = None
+    ) -> tuple[Floats, Floats]:
         """As `Depth.values`; which points are inside is looked up in any case."""
         value, gradient = super().values(points)
         beyond, outward = self._beyond(points)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from .contour import Facets, facets, place_vertices
 from .depth import Depth
 from .field import COARSEST, DepthField
-from .octree import Crossings, Leaves, cross, find, name
+from .octree import Crossings, Leaves, cross, find, name, named
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -131,12 +131,22 @@ def _looked_at(
 
 
 def _near(leaves: Leaves, changed: Bools) -> Bools:
-    """(n,) the leaves in reach of changed ones."""
-    cube = leaves.corner // COARSEST
-    around = name(cube[changed])
-    for one_on in name(np.eye(3, dtype=np.int64)):
-        around = np.unique(around[:, None] + one_on * np.arange(-REACH, REACH + 1))
-    return find(around, name(cube)) >= 0
+    """(n,) the leaves in reach of changed ones: so many cubes of their size, or of the coarsest."""
+    size = np.maximum(leaves.size, COARSEST)
+    result = np.zeros(len(size), bool)
+    sizes = np.unique(size)
+    for own in np.unique(size[changed]):
+        around = name(leaves.corner[changed & (size == own)] // own)
+        for one_on in name(np.eye(3, dtype=np.int64)):
+            around = np.unique(around[:, None] + one_on * np.arange(-REACH, REACH + 1))
+        for other in sizes:
+            rows = np.flatnonzero(size == other)
+            within = around
+            if other > own:
+                within = np.unique(name(named(around) // (other // own)))
+            cube = name(leaves.corner[rows] // max(own, other))
+            result[rows] |= find(within, cube) >= 0
+    return result
 
 
 def _with_new(known: _Known, field: DepthField, crossings: Crossings, new: Bools) -> _Known:

@@ -19,9 +19,10 @@ from scipy.sparse.csgraph import connected_components
 from .depth import Depth
 from .distance import index_surface
 from .errors import VolfrepError
-from .field import DepthField
+from .field import DepthField, cube_grid
 from .mesh import TriangleMesh, compact, empty_mesh
 from .open_depth import open_depth
+from .plain import find_plain
 from .progress import Monitor
 from .refine import find_wall
 from .simplify import simplified
@@ -87,27 +88,43 @@ def inner_wall(
     if is_open is None and np.min(high - low) <= 2.0 * thickness:
         return InnerWall(empty_mesh(), 0.0, np.zeros(3))
     diagonal = float(np.linalg.norm(high - low))
+    depth: Depth
     cube = min(CUBE * thickness, diagonal / CUBES_ALONG_DIAGONAL)
-    needed = 2.0 * solid.area / cube**2 * BYTES_PER_CROSSED_CUBE
-    if needed > MEMORY_LIMIT:
-        least = thickness * (needed / MEMORY_LIMIT) ** 0.5
-        raise VolfrepError(
-            f"A wall of {thickness:g} mm is too thin for a part of {diagonal:.4g} mm: it would "
-            f"take more than {MEMORY_LIMIT / 1e9:g} GB; make it at least {least:.3g} mm."
-        )
     monitor.tick(0.0)
     spacing = SAMPLE_SPACING * thickness
+    plain = None
     if is_open is None:
-        depth = Depth(monitor.call(lambda: index_surface(solid, spacing)), thickness, monitor)
+        grid = cube_grid(low, high, thickness, cube)
+        most = MEMORY_LIMIT / BYTES_PER_CROSSED_CUBE / 2.0
+        plain = find_plain(solid, grid[0], cube, grid[2], thickness, spacing, most, monitor)
+        _refuse_too_thin(solid, thickness, plain.cubes, cube)
+        sampled = (plain.samples, plain.owner)
+        index = monitor.call(lambda: index_surface(solid, spacing, sampled))
+        depth = Depth(index, thickness, monitor)
     else:
+        _refuse_too_thin(solid, thickness, solid.area / cube**2, cube)
         depth = open_depth(solid, is_open, thickness, spacing, monitor)
-    field = DepthField(solid, depth, cube)
+    field = DepthField(solid, depth, cube, plain)
     monitor.tick(0.1)
     wall = find_wall(field)
     monitor.tick(0.8)
     mesh = simplified(wall, field)
     monitor.tick(0.95)
     return _measured(_without_small(mesh, (SMALLEST_POCKET * cube) ** 3), depth)
+
+
+def _refuse_too_thin(solid: TriangleMesh, thickness: float, cubes: float, cube: float) -> None:
+    """Refuse a wall whose cubes do not fit into memory."""
+    if 2.0 * cubes * BYTES_PER_CROSSED_CUBE <= MEMORY_LIMIT:
+        return
+    # With cubes of one size everywhere this one would fit.
+    everywhere = 2.0 * solid.area / cube**2 * BYTES_PER_CROSSED_CUBE
+    least = thickness * (everywhere / MEMORY_LIMIT) ** 0.5
+    diagonal = float(np.linalg.norm(np.ptp(solid.bounds, axis=0)))
+    raise VolfrepError(
+        f"A wall of {thickness:g} mm is too thin for a part of {diagonal:.4g} mm: it would "
+        f"take more than {MEMORY_LIMIT / 1e9:g} GB; make it at least {least:.3g} mm."
+    )
 
 
 def _without_small(mesh: TriangleMesh, volume: float) -> TriangleMesh:

@@ -136,3 +136,13 @@ def housing(sides=24) -> TriangleMesh:
     boss = manifold3d.Manifold.cylinder(40, 11.5, 14.5, sides)
     boss -= manifold3d.Manifold.cylinder(100, 2.5, 2.5, sides)
     return _mesh((solid + boss.translate((26, 6, -10))) ^ outer)
+
+
+def sheet(size=(80.0, 60.0, 3.0), hole=4.0, turn=(10.0, 20.0, 30.0)) -> TriangleMesh:
+    """A turned sheet with a hole in its middle and a small one off it."""
+    solid = manifold3d.Manifold.cube(size)
+    for x, y, radius in ((size[0] / 2, size[1] / 2, hole), (15.3, 21.7, 0.6)):
+        solid -= manifold3d.Manifold.cylinder(3 * size[2], radius, radius, 64).translate(
+            (x, y, -size[2])
+        )
+    return _mesh(solid.rotate(turn))

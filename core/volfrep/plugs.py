@@ -18,7 +18,7 @@ Floats = NDArray[np.float64]
 CROSSING_DEPTH = 1e-5
 #: How far the boxes reach beyond the places where facets cross, in thicknesses: at first, and in
 #: each further round so many times as far.
-BEYOND = 0.012
+BEYOND = 0.004
 FARTHER = 2.0
 ROUNDS = 3
 

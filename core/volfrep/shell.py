@@ -78,8 +78,8 @@ def inner_wall(
         inside it; but beyond open triangles, which do not count for the depth, it reaches out of
         the solid (`volfrep.open_depth`). The wall is within `TOLERANCE` of its thickness, as long
         as that does not take too many cubes (`refine.MOST_EDGES`). Where the room between two
-        walls gets narrower than a tenth of the thickness the cavity may end, and where it is
-        hardly wider a few facets may cross.
+        walls gets narrower than a tenth of the thickness the cavity may end; where facets cross
+        there, they go with a little of the room about them (`plugs`).
 
     Raises:
         VolfrepError: the wall is so thin that its cubes would not fit into memory.

@@ -20,7 +20,7 @@ CROSSING_DEPTH = 1e-5
 #: each further round so many times as far.
 BEYOND = 0.004
 FARTHER = 2.0
-ROUNDS = 3
+ROUNDS = 5
 
 
 def without_crossings(mesh: TriangleMesh, known: Judged, thickness: float) -> TriangleMesh:

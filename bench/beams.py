@@ -21,14 +21,15 @@ from pathlib import Path
 import numpy as np
 
 from volfrep import LatticeSpec, block
-from volfrep.beam_elements import JOINT_LENGTH, beam_model
-from volfrep.blocks import block_wireframe
-from volfrep.cells import LIBRARY
-from volfrep.export.calculix import StaticStep, write_beams, write_tetrahedra
-from volfrep.joint_loads import balls_of, joint_displacements, joint_step
-from volfrep.solver import solve
-from volfrep.tetrahedra import TetrahedralMesh, tetrahedra
-from volfrep.wireframe import Wireframe
+from volfrep.design.cells import LIBRARY
+from volfrep.fem.beam_mesh import JOINT_LENGTH, beam_model
+from volfrep.fem.calculix import solve
+from volfrep.fem.joint_loads import balls_of, joint_displacements, joint_step
+from volfrep.fem.model import StaticStep
+from volfrep.fem.tet_mesh import TetrahedralMesh, tetrahedra
+from volfrep.grid.strut_graph import Wireframe
+from volfrep.io.write.calculix import write_beams, write_tetrahedra
+from volfrep.jobs.blocks import block_wireframe
 
 ROOT = Path(__file__).resolve().parent.parent
 Floats = np.ndarray

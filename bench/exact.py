@@ -14,8 +14,8 @@ import math
 
 import numpy as np
 
-from volfrep.cells import UnitCell
-from volfrep.mesh import TriangleMesh
+from volfrep.design.cells import UnitCell
+from volfrep.mesh.triangle_mesh import TriangleMesh
 
 Floats = np.ndarray
 Sides = tuple[tuple[bool, bool], ...]  # for each axis: is there a cell below, is there one above

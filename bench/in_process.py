@@ -33,7 +33,7 @@ def changes(part: str, cell: str, out: str) -> dict[str, Any]:
     Reading the part is not in it, writing the file is.
     """
     from volfrep import LatticeSpec, StageCache, fill, read_solid
-    from volfrep.export import write_mesh
+    from volfrep.io.write import write_mesh
 
     solid, cache = read_solid(part), StageCache()
     runs = []
@@ -56,11 +56,11 @@ def unvoxelised(part: str, cell: str, out: str) -> dict[str, Any]:
     or proved afterwards, which favours this way.
     """
     from volfrep import LatticeSpec, StageCache, block, fill, read_solid
-    from volfrep.booleans import difference
-    from volfrep.export import write_mesh
-    from volfrep.mesh import TriangleMesh
-    from volfrep.trim import NUDGE
-    from volfrep.voxels import make_grid
+    from volfrep.grid.activation import make_grid
+    from volfrep.io.write import write_mesh
+    from volfrep.mesh.booleans import difference
+    from volfrep.mesh.triangle_mesh import TriangleMesh
+    from volfrep.trim.boolean_trim import NUDGE
 
     stages: dict[str, float] = {}
     start = time.perf_counter()
@@ -100,7 +100,7 @@ def profile(cell: str, out: str, part: str | None = None) -> dict[str, Any]:
     lattice = ["--cell", cell, "--cell-size", f"{SIZE:g}", "--strut-radius", f"{RADIUS:g}"]
     profiler = cProfile.Profile()
     profiler.enable()
-    from volfrep import cli  # its imports are part of the command
+    from volfrep.cli import command as cli  # its imports are part of the command
 
     code = cli.run([*job, "-o", out, *lattice, "--quiet", "--report", str(report)])
     profiler.disable()

@@ -23,12 +23,12 @@ from typing import Any
 
 import numpy as np
 
-from volfrep.cells import LIBRARY
-from volfrep.export.stl import FACET, HEADER_BYTES, as_read
-from volfrep.mesh import TriangleMesh
-from volfrep.quality import measure, pinched_vertices, shape_statistics
-from volfrep.solid import read_triangles
-from volfrep.wireframe import cell_graph
+from volfrep.design.cells import LIBRARY
+from volfrep.grid.strut_graph import cell_graph
+from volfrep.io.solid import read_triangles
+from volfrep.io.write.stl import FACET, HEADER_BYTES, as_read
+from volfrep.mesh.quality import measure, pinched_vertices, shape_statistics
+from volfrep.mesh.triangle_mesh import TriangleMesh
 
 from . import exact
 from .parts import PARTS, at_hand

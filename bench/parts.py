@@ -17,8 +17,8 @@ import manifold3d
 import numpy as np
 from manifold3d import CrossSection, Manifold
 
-from volfrep.export.stl import write_stl
-from volfrep.mesh import TriangleMesh
+from volfrep.io.write.stl import write_stl
+from volfrep.mesh.triangle_mesh import TriangleMesh
 
 ROOT = Path(__file__).resolve().parent.parent
 

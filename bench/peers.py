@@ -19,9 +19,9 @@ from pathlib import Path
 
 import numpy as np
 
-from volfrep.cells import LIBRARY
-from volfrep.progress import peak_memory_mb
-from volfrep.wireframe import Graph, cell_graph
+from volfrep.design.cells import LIBRARY
+from volfrep.grid.strut_graph import Graph, cell_graph
+from volfrep.util.progress import peak_memory_mb
 
 from . import published_method
 from .published import RADIUS, SIZE

@@ -29,15 +29,15 @@ from scipy.spatial import cKDTree
 from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 
 from volfrep import LatticeSpec, block
-from volfrep.blocks import block_wireframe
-from volfrep.cells import LIBRARY
-from volfrep.export.calculix import write_tetrahedra
-from volfrep.grading import CellMap, Orientation, RadiusGrading, SizeGrading
-from volfrep.joint_loads import balls_of, joint_step
-from volfrep.law import Law
-from volfrep.mesh import TriangleMesh
-from volfrep.solver import solve
-from volfrep.tetrahedra import tetrahedra
+from volfrep.design.cells import LIBRARY
+from volfrep.design.grading import CellMap, Orientation, RadiusGrading, SizeGrading
+from volfrep.design.profile import Profile
+from volfrep.fem.calculix import solve
+from volfrep.fem.joint_loads import balls_of, joint_step
+from volfrep.fem.tet_mesh import tetrahedra
+from volfrep.io.write.calculix import write_tetrahedra
+from volfrep.jobs.blocks import block_wireframe
+from volfrep.mesh.triangle_mesh import TriangleMesh
 
 Colour = tuple[float, float, float]
 SKIN: Colour = (0.72, 0.76, 0.82)
@@ -110,8 +110,8 @@ def cells(picture: str) -> None:
 
 def graded(picture: str) -> None:
     """Picture what may vary in a lattice, one block each."""
-    linear = SizeGrading(Law("linear", 1.0, 1.8))
-    thicker = RadiusGrading("direction", Law("linear", 0.4, 1.3))
+    linear = SizeGrading(Profile("linear", 1.0, 1.8))
+    thicker = RadiusGrading("direction", Profile("linear", 0.4, 1.3))
     asked: tuple[tuple[str, dict[str, Any], tuple[int, int, int]], ...] = (
         ("size, round struts", {"size_grading": linear}, (4, 3, 2)),
         ("size, struts deformed", {"size_grading": linear, "keep_radius": False}, (4, 3, 2)),

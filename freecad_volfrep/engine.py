@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from volfrep.errors import VolfrepError
+from volfrep.util.errors import VolfrepError
 
 from .compat import repair_lazy_loader
 from .deps import explain_missing, missing_packages
@@ -20,6 +20,6 @@ def require_engine() -> None:
     if missing:
         raise VolfrepError(explain_missing(missing))
     repair_lazy_loader()
-    from volfrep.threads import use_threads
+    from volfrep.util.threads import use_threads
 
     use_threads(read(THREADS))

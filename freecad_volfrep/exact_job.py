@@ -2,7 +2,7 @@
 """One exact STEP file for the `volfrep` command, which has no OpenCASCADE of its own.
 
 The command leaves `job.npz` in a folder and starts `freecadcmd`, which calls `run`; the answer is
-`lattice.step` and `answer.json` in the same folder (see `volfrep.freecad_process`).
+`lattice.step` and `answer.json` in the same folder (see `volfrep.io.freecad_process`).
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ def run(folder: str | Path) -> None:
 
 def _answer(place: Path) -> dict[str, Any]:
     """The volume written, or a sentence that says why there is none."""
-    from volfrep.errors import VolfrepError
+    from volfrep.util.errors import VolfrepError
 
     try:
         require_engine()
@@ -34,8 +34,8 @@ def _answer(place: Path) -> dict[str, Any]:
 
 
 def _write(place: Path) -> float:
-    from volfrep.mesh import TriangleMesh
-    from volfrep.wireframe import Wireframe
+    from volfrep.grid.strut_graph import Wireframe
+    from volfrep.mesh.triangle_mesh import TriangleMesh
 
     from .bridge.exact import write_exact
     from .bridge.trimmed import check_volume, exact_part, plane_wall, write_shape

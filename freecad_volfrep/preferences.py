@@ -46,7 +46,7 @@ class Colour(Preference):
 
 
 def _cells() -> list[str]:
-    from volfrep.cells import LIBRARY
+    from volfrep.design.cells import LIBRARY
 
     return list(LIBRARY)
 

@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from volfrep.distance import closest_points
-from volfrep.export.stl import as_read
-from volfrep.mesh import TriangleMesh
-from volfrep.solid import read_triangles
+from volfrep.io.solid import read_triangles
+from volfrep.io.write.stl import as_read
+from volfrep.mesh.triangle_mesh import TriangleMesh
+from volfrep.spatial.proximity import closest_points
 
 from .. import plots
 from ..exact import sample_surface

@@ -10,10 +10,10 @@ from typing import Any
 
 import numpy as np
 
-from volfrep.cells import LIBRARY
-from volfrep.errors import VolfrepError
-from volfrep.freecad_process import freecad_program
-from volfrep.wireframe import cell_graph
+from volfrep.design.cells import LIBRARY
+from volfrep.grid.strut_graph import cell_graph
+from volfrep.io.freecad_process import freecad_program
+from volfrep.util.errors import VolfrepError
 
 from ..measuring import (
     BENCH_PYTHON,

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from volfrep import read_solid
-from volfrep.progress import Monitor
-from volfrep.solid import read_triangles
-from volfrep.voxels import active_cells, make_grid
+from volfrep.grid.activation import active_cells, make_grid
+from volfrep.io.solid import read_triangles
+from volfrep.util.progress import Monitor
 
 from .. import plots
 from ..in_process import RADII, SHELL

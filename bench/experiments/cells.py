@@ -6,7 +6,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from volfrep.cells import LIBRARY
+from volfrep.design.cells import LIBRARY
 
 from .. import plots
 from ..measuring import BENCH_PYTHON, Context, our_block, peer_job
@@ -67,8 +67,8 @@ def render(result: dict[str, Any], images: Path) -> str:
         line |= {str(row["cells"]): row["seconds"] for row in found}
         large = [row for row in found if row["cells"] >= 200]
         if len(large) > 1:
-            law = power_law([row["cells"] for row in large], [row["seconds"] for row in large])
-            line["exponent"] = law.exponent
+            profile = power_law([row["cells"] for row in large], [row["seconds"] for row in large])
+            line["exponent"] = profile.exponent
         shown.append(line)
     columns = [Column("tool", "tool"), Column("cell", "cell")]
     columns += [Column(f"{count:,} cells", str(count), ".2f") for count in counts]

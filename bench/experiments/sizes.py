@@ -39,9 +39,9 @@ def render(result: dict[str, Any], images: Path) -> str:
     )
     growth = ""
     if len(rows) > 1:
-        law = power_law(cells, [row["seconds"] for row in rows])
+        profile = power_law(cells, [row["seconds"] for row in rows])
         growth = (
-            f"Whole process: time grows with the {law.exponent:.2f}th power of the active cells; "
+            f"Whole process: time grows with the {profile.exponent:.2f}th power of the active cells; "
             "trimming is what grows, with the area that the wall cuts through."
         )
     columns = [

@@ -9,9 +9,9 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from volfrep.mesh import TriangleMesh
-from volfrep.progress import Monitor
-from volfrep.voxels import active_cells, make_grid
+from volfrep.grid.activation import active_cells, make_grid
+from volfrep.mesh.triangle_mesh import TriangleMesh
+from volfrep.util.progress import Monitor
 
 from ..measuring import ROOT, Context
 from ..published import WING_GRID, WING_SHARE

@@ -10,30 +10,30 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .blocks import block, write_block_stl
-    from .cache import StageCache
-    from .errors import Cancelled, VolfrepError
-    from .mesh import TriangleMesh
-    from .pipeline import fill
-    from .report import Report
-    from .result import Result
-    from .solid import read_solid
-    from .spec import LatticeSpec
+    from .design.spec import LatticeSpec
+    from .io.solid import read_solid
+    from .jobs.blocks import block, write_block_stl
+    from .jobs.pipeline import fill
+    from .mesh.triangle_mesh import TriangleMesh
+    from .reports.report import Report
+    from .reports.result import Result
+    from .util.cache import StageCache
+    from .util.errors import Cancelled, VolfrepError
 
 __version__ = "0.1.0"
 
 _HOMES = {
-    "Cancelled": "errors",
-    "VolfrepError": "errors",
-    "TriangleMesh": "mesh",
-    "Result": "result",
-    "StageCache": "cache",
-    "block": "blocks",
-    "fill": "pipeline",
-    "Report": "report",
-    "read_solid": "solid",
-    "LatticeSpec": "spec",
-    "write_block_stl": "blocks",
+    "Cancelled": "util.errors",
+    "VolfrepError": "util.errors",
+    "TriangleMesh": "mesh.triangle_mesh",
+    "Result": "reports.result",
+    "StageCache": "util.cache",
+    "block": "jobs.blocks",
+    "fill": "jobs.pipeline",
+    "Report": "reports.report",
+    "read_solid": "io.solid",
+    "LatticeSpec": "design.spec",
+    "write_block_stl": "jobs.blocks",
 }
 
 __all__ = [

@@ -8,9 +8,9 @@ from dataclasses import replace
 import FreeCAD as App
 import numpy as np
 
-from volfrep.beam_lattice import BeamModel
-from volfrep.mesh import TriangleMesh
-from volfrep.wireframe import Wireframe
+from volfrep.grid.strut_graph import Wireframe
+from volfrep.mesh.triangle_mesh import TriangleMesh
+from volfrep.trim.beam_model import BeamModel
 
 from .solids import parent_placement, placed
 

@@ -8,7 +8,7 @@ import numpy as np
 import Part
 from numpy.typing import NDArray
 
-from volfrep.errors import VolfrepError
+from volfrep.util.errors import VolfrepError
 
 _LINE = "Part::GeomLine"
 

@@ -15,12 +15,18 @@ import numpy as np
 import Part
 from numpy.typing import NDArray
 
-from volfrep.errors import VolfrepError
-from volfrep.export.files import check_writable
-from volfrep.export.step_exact import Shared, joint_text, write_step_exact
-from volfrep.joint_kinds import Joint, Unsuitable, distinct_joints, joint_volume, refuse_overlaps
-from volfrep.progress import Monitor
-from volfrep.wireframe import Wireframe
+from volfrep.grid.congruent_joints import (
+    Joint,
+    Unsuitable,
+    distinct_joints,
+    joint_volume,
+    refuse_overlaps,
+)
+from volfrep.grid.strut_graph import Wireframe
+from volfrep.io.write.step_exact import Shared, joint_text, write_step_exact
+from volfrep.util.errors import VolfrepError
+from volfrep.util.files import check_writable
+from volfrep.util.progress import Monitor
 
 Floats = NDArray[np.float64]
 

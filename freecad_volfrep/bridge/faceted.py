@@ -12,9 +12,9 @@ import numpy as np
 import Part
 from numpy.typing import NDArray
 
-from volfrep.errors import VolfrepError
-from volfrep.facets import TOLERANCE, FacetedBrep, faceted_brep
-from volfrep.mesh import TriangleMesh
+from volfrep.mesh.brep import TOLERANCE, FacetedBrep, faceted_brep
+from volfrep.mesh.triangle_mesh import TriangleMesh
+from volfrep.util.errors import VolfrepError
 
 _VERTEX = f"Ve\n{TOLERANCE:g}\n%.17g %.17g %.17g\n0 0\n\n0101101\n*\n"
 _EDGE = f"Ed\n {TOLERANCE:g} 1 1 0\n1  %d 0 0 %.17g\n0\n\n0101000\n+%d 0 -%d 0 *\n"

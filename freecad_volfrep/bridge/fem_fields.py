@@ -6,8 +6,8 @@ from __future__ import annotations
 import FreeCAD as App
 import numpy as np
 
-from volfrep.errors import VolfrepError
-from volfrep.point_field import PointField
+from volfrep.design.scattered_field import PointField
+from volfrep.util.errors import VolfrepError
 
 from .solids import parent_placement
 

@@ -15,8 +15,8 @@ import numpy as np
 import Part
 from numpy.typing import NDArray
 
-from volfrep.beam_elements import BeamModel
-from volfrep.tetrahedra import TetrahedralMesh
+from volfrep.fem.beam_mesh import BeamModel
+from volfrep.fem.tet_mesh import TetrahedralMesh
 
 Ints = NDArray[np.int64]
 

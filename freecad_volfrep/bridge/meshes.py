@@ -13,9 +13,9 @@ from pathlib import Path
 import Mesh
 import numpy as np
 
-from volfrep.errors import VolfrepError
-from volfrep.export.ply import END_OF_HEADER, FACE, ply_chunks
-from volfrep.mesh import TriangleMesh
+from volfrep.io.write.ply import END_OF_HEADER, FACE, ply_chunks
+from volfrep.mesh.triangle_mesh import TriangleMesh
+from volfrep.util.errors import VolfrepError
 
 
 def to_freecad(mesh: TriangleMesh) -> Mesh.Mesh:

@@ -8,9 +8,9 @@ import numpy as np
 import Part
 from numpy.typing import NDArray
 
-from volfrep.errors import VolfrepError
-from volfrep.mesh import TriangleMesh, concatenate
-from volfrep.tessellation import ANGULAR_DEVIATION, MAX_DEVIATION, RELATIVE_DEVIATION
+from volfrep.io.tessellation import ANGULAR_DEVIATION, MAX_DEVIATION, RELATIVE_DEVIATION
+from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
+from volfrep.util.errors import VolfrepError
 
 from .meshes import from_freecad
 

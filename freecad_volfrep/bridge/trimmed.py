@@ -13,11 +13,11 @@ from pathlib import Path
 import FreeCAD as App
 import Part
 
-from volfrep.errors import VolfrepError
-from volfrep.export.files import replacing
-from volfrep.mesh import TriangleMesh
-from volfrep.progress import Monitor
-from volfrep.wireframe import Wireframe
+from volfrep.grid.strut_graph import Wireframe
+from volfrep.mesh.triangle_mesh import TriangleMesh
+from volfrep.util.errors import VolfrepError
+from volfrep.util.files import replacing
+from volfrep.util.progress import Monitor
 
 from .exact import exact_lattice, plain_curves, silence
 from .faceted import faceted_solid

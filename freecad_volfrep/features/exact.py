@@ -9,17 +9,17 @@ from typing import TYPE_CHECKING, Any
 import FreeCAD as App
 
 from freecad_volfrep.engine import require_engine
-from volfrep.errors import VolfrepError
+from volfrep.util.errors import VolfrepError
 
 from .lattice_infill import LatticeInfill
 from .progress import job_title, progress_of
 
 if TYPE_CHECKING:
-    from volfrep.cache import StageCache
-    from volfrep.estimate import Estimate
-    from volfrep.mesh import TriangleMesh
-    from volfrep.spec import LatticeSpec
-    from volfrep.wireframe import Wireframe
+    from volfrep.design.spec import LatticeSpec
+    from volfrep.grid.strut_graph import Wireframe
+    from volfrep.mesh.triangle_mesh import TriangleMesh
+    from volfrep.reports.estimate import Estimate
+    from volfrep.util.cache import StageCache
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,8 +74,8 @@ def ingredients_of(obj: App.DocumentObject, progress: Any = None) -> Ingredients
         Cancelled: in the window, by the user.
     """
     solid, spec, cache = inputs_of(obj)
-    from volfrep.beam_lattice import beam_model, deformed_struts
-    from volfrep.pipeline import fill
+    from volfrep.jobs.beam_part import beam_model, deformed_struts
+    from volfrep.jobs.pipeline import fill
 
     bare = replace(spec, output="lattice", drains=None)
     lattice = beam_model(solid, bare, progress=progress, cache=cache).lattice
@@ -91,7 +91,7 @@ def estimate_of(made_of: Ingredients) -> Estimate:
     Raises:
         VolfrepError: absurdly much; the text names the nearest cell size that fits.
     """
-    from volfrep.estimate import Asked, estimate_exact
+    from volfrep.reports.estimate import Asked, estimate_exact
 
     cut = made_of.domain is not None
     return estimate_exact(made_of.lattice, Asked(made_of.spec), trimmed=cut)
@@ -162,8 +162,8 @@ def warn(obj: App.DocumentObject, sentences: tuple[str, ...]) -> None:
 def _shape(obj: App.DocumentObject, made_of: Ingredients, progress: Any) -> Any:
     from freecad_volfrep.bridge.exact import exact_lattice
     from freecad_volfrep.bridge.trimmed import check_volume, exact_part
-    from volfrep.estimate import refuse_inexact
-    from volfrep.progress import Monitor
+    from volfrep.reports.estimate import refuse_inexact
+    from volfrep.util.progress import Monitor
 
     refuse_inexact(made_of.spec)
     expected = expected_volume(obj, made_of)

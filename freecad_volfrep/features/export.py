@@ -11,7 +11,7 @@ import FreeCAD as App
 
 from freecad_volfrep.engine import require_engine
 from freecad_volfrep.translation import translate
-from volfrep.errors import VolfrepError
+from volfrep.util.errors import VolfrepError
 
 from .input_files import refuse_inputs
 from .lattice_infill import LatticeInfill
@@ -84,10 +84,10 @@ def export_mesh(
     """
     require_engine()
     from freecad_volfrep.bridge.solids import mesh_in_document
-    from volfrep.export import mesh_writer, write_mesh
-    from volfrep.export.threemf import write_3mf_beams
-    from volfrep.progress import Monitor
-    from volfrep.reduce import reduce_triangles
+    from volfrep.io.write import mesh_writer, write_mesh
+    from volfrep.io.write.threemf import write_3mf_beams
+    from volfrep.jobs.decimate import reduce_triangles
+    from volfrep.util.progress import Monitor
 
     if not obj.isDerivedFrom("Mesh::Feature") or not obj.Mesh.CountFacets:
         raise VolfrepError(f"'{obj.Label}' has no mesh to export: update it first.")
@@ -114,7 +114,7 @@ def export_mesh(
     if Path(path).suffix.lower() != ".3mf" or content not in ("beams", "both"):
         raise VolfrepError(f"'{path}' cannot hold {content}: only a 3MF file holds beams or both.")
     from freecad_volfrep.bridge.beams import place_in_document, placed_beams
-    from volfrep.beam_lattice import beam_model
+    from volfrep.jobs.beam_part import beam_model
 
     if not isinstance(getattr(obj, "Proxy", None), LatticeInfill):
         raise VolfrepError(f"'{obj.Label}' is a mesh without beams: export its mesh.")

@@ -10,7 +10,7 @@ from pathlib import Path
 import FreeCAD as App
 
 from freecad_volfrep.engine import require_engine
-from volfrep.errors import VolfrepError
+from volfrep.util.errors import VolfrepError
 
 from .input_files import refuse_inputs
 
@@ -113,7 +113,7 @@ def export_step(solid: App.DocumentObject, path: str | os.PathLike[str]) -> None
     """
     import Part
 
-    from volfrep.export.files import check_writable, not_written
+    from volfrep.util.files import check_writable, not_written
 
     target = check_writable(path)
     refuse_inputs(path, solid)

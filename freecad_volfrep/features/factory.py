@@ -9,7 +9,7 @@ from typing import Any
 import FreeCAD as App
 
 from freecad_volfrep import preferences
-from volfrep.errors import VolfrepError
+from volfrep.util.errors import VolfrepError
 
 from .lattice_infill import LatticeInfill
 from .properties import INPUTS

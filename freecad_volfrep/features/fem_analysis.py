@@ -13,14 +13,14 @@ from typing import TYPE_CHECKING, Any
 import FreeCAD as App
 import numpy as np
 
-from volfrep.errors import VolfrepError
+from volfrep.util.errors import VolfrepError
 
 from .exact import inputs_of, warn
 from .progress import job_title, progress_of
 from .solver_files import axes_of
 
 if TYPE_CHECKING:
-    from volfrep.export.calculix import Material
+    from volfrep.fem.model import Material
 
 MODELS = ("beams", "tetrahedra")
 #: Three-noded elements along a strut between its stiff ends: with fewer CalculiX's are too stiff.
@@ -64,7 +64,7 @@ def make_fem_analysis(
     if model not in MODELS:
         raise VolfrepError(f"There is no model '{model}': choose {' or '.join(MODELS)}.")
     inputs_of(obj)
-    from volfrep.export.calculix import Material
+    from volfrep.fem.model import Material
 
     material = material or Material(density=obj.Density)
     return (_beams if model == "beams" else _tetrahedra)(doc, obj, material)
@@ -88,9 +88,9 @@ def vertices(shape: App.DocumentObject) -> tuple[App.DocumentObject, list[str]]:
 
 def _beams(doc: App.Document, obj: App.DocumentObject, material: Material) -> App.DocumentObject:
     from freecad_volfrep.bridge.fem_meshes import beam_mesh, points_shape, runs_of
-    from volfrep.beam_elements import beam_model
-    from volfrep.beam_lattice import deformed_struts
-    from volfrep.export.calculix import JOINT_STIFFNESS, sides
+    from volfrep.fem.beam_mesh import beam_model
+    from volfrep.io.write.calculix import JOINT_STIFFNESS, sides
+    from volfrep.jobs.beam_part import deformed_struts
 
     clipped = axes_of(obj)
     model = beam_model(clipped.wireframe, clipped.on_wall, elements_per_strut=ELEMENTS_PER_STRUT)
@@ -136,9 +136,9 @@ def _tetrahedra(
         placed,
         resolve_base,
     )
-    from volfrep.export.calculix import sides
-    from volfrep.progress import Monitor
-    from volfrep.tetrahedra import nodes_on, tetrahedra
+    from volfrep.fem.tet_mesh import nodes_on, tetrahedra
+    from volfrep.io.write.calculix import sides
+    from volfrep.util.progress import Monitor
 
     solid, spec, _ = inputs_of(obj)
     solid = placed(solid, place_in_document(obj))

@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING, Any
 import FreeCAD as App
 
 if TYPE_CHECKING:
-    from volfrep.law import Law
-    from volfrep.point_field import PointField
+    from volfrep.design.profile import Profile
+    from volfrep.design.scattered_field import PointField
 
 #: What a user chooses by name, and the engine's word for it.
-LAWS = {
+PROFILES = {
     "Scalar": "scalar",
     "Linear": "linear",
     "Quadratic": "quadratic",
@@ -26,9 +26,9 @@ LAWS = {
 OFF = "None"
 CARTESIAN = "Cartesian"
 CHOICES = {
-    "SizeGrading": [OFF, *LAWS],
+    "SizeGrading": [OFF, *PROFILES],
     "RadiusGrading": [OFF, "Direction", "Skin", "Core", "Field"],
-    "RadiusLaw": [name for name in LAWS if name != "Scalar"],
+    "RadiusLaw": [name for name in PROFILES if name != "Scalar"],
     "CellMap": [CARTESIAN, "Cylindrical", "Spherical"],
 }
 
@@ -39,27 +39,27 @@ def gradings_of(obj: App.DocumentObject) -> dict[str, Any]:
     Raises:
         VolfrepError: naming the first property that makes no sense.
     """
-    from volfrep.grading import CellMap, Orientation, RadiusGrading, SizeGrading
-    from volfrep.law import Law
-    from volfrep.point_field import read_curve
+    from volfrep.design.grading import CellMap, Orientation, RadiusGrading, SizeGrading
+    from volfrep.design.profile import Profile
+    from volfrep.design.scattered_field import read_curve
 
     size = radius = cell_map = orientation = None
     if obj.SizeGrading != OFF:
-        law = _law(obj.SizeGrading, obj.LambdaMin, obj.LambdaMax, obj.LambdaFormula)
-        size = SizeGrading(law, tuple(obj.GradingDirection))
+        profile = _law(obj.SizeGrading, obj.LambdaMin, obj.LambdaMax, obj.LambdaFormula)
+        size = SizeGrading(profile, tuple(obj.GradingDirection))
     if obj.RadiusGrading == "Field":
         curve = read_curve(obj.RadiusCurve) if obj.RadiusCurve.strip() else ()
         radius = RadiusGrading(
             "field",
-            Law() if curve else Law("linear", *_radii(obj)),  # a curve needs no law
+            Profile() if curve else Profile("linear", *_radii(obj)),  # a curve needs no law
             field=_field(obj),
             column=obj.RadiusColumn or None,
             curve=curve,
         )
     elif obj.RadiusGrading != OFF:
-        law = _law(obj.RadiusLaw, *_radii(obj), obj.RadiusFormula)
+        profile = _law(obj.RadiusLaw, *_radii(obj), obj.RadiusFormula)
         by, direction = obj.RadiusGrading.lower(), tuple(obj.RadiusDirection)
-        radius = RadiusGrading(by, law, direction, obj.RadiusReach.Value)
+        radius = RadiusGrading(by, profile, direction, obj.RadiusReach.Value)
     if obj.CellMap != CARTESIAN:
         centre = tuple(obj.MapCentre) if obj.UseMapCentre else None
         kind, axis = obj.CellMap.lower(), tuple(obj.MapAxis)
@@ -76,13 +76,13 @@ def gradings_of(obj: App.DocumentObject) -> dict[str, Any]:
     }
 
 
-def _law(name: str, start: float, end: float, formula: str = "") -> Law:
-    from volfrep.law import Law
+def _law(name: str, start: float, end: float, formula: str = "") -> Profile:
+    from volfrep.design.profile import Profile
 
-    kind = LAWS[name]
+    kind = PROFILES[name]
     if kind == "expression":
-        return Law(kind, expression=formula)
-    return Law(kind, start, end)
+        return Profile(kind, expression=formula)
+    return Profile(kind, start, end)
 
 
 def _radii(obj: App.DocumentObject) -> tuple[float, float]:
@@ -94,8 +94,8 @@ def _field(obj: App.DocumentObject) -> PointField | None:
     """The field of the FEM result or of the file; None where neither is chosen."""
     from freecad_volfrep.bridge.fem_fields import field_of_result
     from freecad_volfrep.bridge.solids import parent_placement
-    from volfrep.errors import VolfrepError
-    from volfrep.point_field import read_point_field
+    from volfrep.design.scattered_field import read_point_field
+    from volfrep.util.errors import VolfrepError
 
     if obj.RadiusResult is not None:
         if obj.RadiusField:

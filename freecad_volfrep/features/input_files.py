@@ -34,14 +34,14 @@ def refuse_inputs(path: str | os.PathLike[str], *objects: App.DocumentObject) ->
     Raises:
         VolfrepError: naming the property, its object and the path.
     """
-    from volfrep.export.files import refuse_overwriting
+    from volfrep.util.files import refuse_overwriting
 
     refuse_overwriting({"output": path}, files_read_by(objects))
 
 
 def refuse_inputs_of_all(path: str | os.PathLike[str], but: tuple[str, ...] = ()) -> None:
     """The same for every object of every open document, but for properties of some names."""
-    from volfrep.export.files import refuse_overwriting
+    from volfrep.util.files import refuse_overwriting
 
     objects = [obj for document in App.listDocuments().values() for obj in document.Objects]
     read = files_read_by(objects)

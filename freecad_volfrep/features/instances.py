@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING, Any
 import FreeCAD as App
 import numpy as np
 
-from volfrep.errors import VolfrepError
+from volfrep.util.errors import VolfrepError
 
 from .exact import Ingredients, expected_volume, ingredients_of, walls_of, warn
 from .progress import job_title, progress_of
 
 if TYPE_CHECKING:
-    from volfrep.estimate import Estimate
-    from volfrep.joint_kinds import Joint
+    from volfrep.grid.congruent_joints import Joint
+    from volfrep.reports.estimate import Estimate
 
 #: Joints that a wall cuts are solids of their own: no more of them than this.
 MOST_CUT_JOINTS = 2_000
@@ -48,8 +48,8 @@ def make_instances(doc: App.Document, obj: App.DocumentObject) -> App.DocumentOb
     """
     from freecad_volfrep.bridge.beams import place_in_document
     from freecad_volfrep.bridge.trimmed import check_volume
-    from volfrep.estimate import refuse_inexact
-    from volfrep.progress import Monitor
+    from volfrep.reports.estimate import refuse_inexact
+    from volfrep.util.progress import Monitor
 
     with progress_of(job_title("Instances of {label}", obj)) as progress:
         made_of = ingredients_of(obj, progress)
@@ -84,9 +84,9 @@ def estimate_instances(obj: App.DocumentObject) -> Estimate:
         VolfrepError: as `inputs_of`, or the wall cuts too many joints.
         Cancelled: in the window, by the user.
     """
-    from volfrep.estimate import Estimate
-    from volfrep.export.step_exact import predicted_exact
-    from volfrep.joint_kinds import distinct_joints
+    from volfrep.grid.congruent_joints import distinct_joints
+    from volfrep.io.write.step_exact import predicted_exact
+    from volfrep.reports.estimate import Estimate
 
     with progress_of(job_title("Struts of {label}", obj)) as progress:
         made_of = ingredients_of(obj, progress)
@@ -110,7 +110,7 @@ def write_instances(obj: App.DocumentObject, path: str | os.PathLike[str]) -> No
     import Import
 
     from freecad_volfrep.bridge.exact import plain_curves, silence
-    from volfrep.export.files import replacing
+    from volfrep.util.files import replacing
 
     active = App.ActiveDocument
     # Hidden, so that no window of it opens.
@@ -137,7 +137,7 @@ def _solids(
 ) -> tuple[list[tuple[Any, np.ndarray]], list[tuple[str, Any]], float]:
     """Shapes with their places, shapes that are there once with their labels, and the volume."""
     from freecad_volfrep.bridge.exact import joint_solid
-    from volfrep.joint_kinds import Unsuitable, distinct_joints, refuse_overlaps
+    from volfrep.grid.congruent_joints import Unsuitable, distinct_joints, refuse_overlaps
 
     lattice = made_of.lattice
     refuse_overlaps(lattice)
@@ -178,9 +178,9 @@ def _solids(
 
 def _sides(made_of: Ingredients, joints: list[Joint]) -> tuple[np.ndarray, np.ndarray]:
     """(n,) which nodes' joints lie wholly inside the wall, and which of them it may cut."""
-    from volfrep.distance import closest_points
-    from volfrep.progress import Monitor
-    from volfrep.voxels import inside_points
+    from volfrep.spatial.proximity import closest_points
+    from volfrep.spatial.rays import inside_points
+    from volfrep.util.progress import Monitor
 
     nodes = made_of.lattice.nodes
     if made_of.domain is None:

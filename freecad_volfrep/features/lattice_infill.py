@@ -26,9 +26,9 @@ from .properties import (
 
 if TYPE_CHECKING:
     from volfrep import LatticeSpec
-    from volfrep.cache import StageCache
-    from volfrep.mesh import TriangleMesh
-    from volfrep.result import Result
+    from volfrep.mesh.triangle_mesh import TriangleMesh
+    from volfrep.reports.result import Result
+    from volfrep.util.cache import StageCache
 
 UP_TO_DATE = "Up to date"
 OUT_OF_DATE = "Out of date: AutoUpdate is off, use Update Lattice Infill"
@@ -70,7 +70,7 @@ class LatticeInfill:
         Raises:
             VolfrepError: one sentence; the object turns Invalid and its last mesh stays.
         """
-        from volfrep.errors import Cancelled, VolfrepError
+        from volfrep.util.errors import Cancelled, VolfrepError
 
         if is_spoiled(obj):
             ensure_properties(obj)
@@ -121,8 +121,8 @@ class LatticeInfill:
         Raises:
             VolfrepError: the mesh does not fit the properties.
         """
-        from volfrep.errors import VolfrepError
-        from volfrep.solid import check_solid
+        from volfrep.io.solid import check_solid
+        from volfrep.util.errors import VolfrepError
 
         require_engine()
         spec, solid = self.read(obj)
@@ -136,7 +136,7 @@ class LatticeInfill:
         A file that was written without windows has no view: it gets one where there are windows.
         What cannot be computed says so at once.
         """
-        from volfrep.errors import VolfrepError
+        from volfrep.util.errors import VolfrepError
 
         ensure_properties(obj)
         try:
@@ -169,9 +169,9 @@ class LatticeInfill:
     def _run(self, obj: App.DocumentObject, forced: bool) -> None:
         require_engine()
         from freecad_volfrep.bridge.meshes import to_freecad
-        from volfrep.forecast import forecast_fill
-        from volfrep.pipeline import fill
-        from volfrep.solid import check_solid
+        from volfrep.design.forecast import forecast_fill
+        from volfrep.io.solid import check_solid
+        from volfrep.jobs.pipeline import fill
 
         from .skin import made_of
 
@@ -211,8 +211,8 @@ class LatticeInfill:
             VolfrepError: a property makes no sense, or there is no solid.
         """
         from freecad_volfrep.bridge.solids import SolidReader, parent_placement
-        from volfrep.cache import StageCache
-        from volfrep.errors import VolfrepError
+        from volfrep.util.cache import StageCache
+        from volfrep.util.errors import VolfrepError
 
         refuse_spoiled(obj)
         spec = spec_of(obj)
@@ -229,7 +229,7 @@ LatticeInfill.__module__ = "freecad_volfrep.features"
 
 def revive_infill(obj: App.DocumentObject) -> None:
     """Make a lattice infill of an object that has its properties, but has lost its proxy."""
-    from volfrep.errors import VolfrepError
+    from volfrep.util.errors import VolfrepError
 
     LatticeInfill(obj)
     obj.Status = REVIVED
@@ -249,8 +249,8 @@ def spec_of(obj: App.DocumentObject) -> LatticeSpec:
     Raises:
         VolfrepError: naming the first property that makes no sense.
     """
-    from volfrep.errors import VolfrepError
-    from volfrep.spec import LatticeSpec
+    from volfrep.design.spec import LatticeSpec
+    from volfrep.util.errors import VolfrepError
 
     cell = obj.CellType
     if cell == CUSTOM_CELL:
@@ -283,7 +283,7 @@ def fingerprint_of(spec: LatticeSpec, solid: TriangleMesh) -> str:
     """A digest of all that a result's geometry depends on (so not of the density)."""
     import numpy as np
 
-    from volfrep.point_field import PointField
+    from volfrep.design.scattered_field import PointField
 
     digest = hashlib.sha256()
     values = spec.as_dict()

@@ -12,9 +12,9 @@ import FreeCAD as App
 from freecad_volfrep.translation import translate
 
 if TYPE_CHECKING:
-    from volfrep.forecast import Forecast
-    from volfrep.mesh import TriangleMesh
-    from volfrep.preview import Preview
+    from volfrep.design.forecast import Forecast
+    from volfrep.jobs.preview import Preview
+    from volfrep.mesh.triangle_mesh import TriangleMesh
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,9 +66,9 @@ class LivePreview:
         Raises:
             VolfrepError: they make no sense, or do not fit the solid.
         """
-        from volfrep.forecast import forecast_fill
-        from volfrep.preview import PartDepth, preview
-        from volfrep.solid import check_solid
+        from volfrep.design.forecast import forecast_fill
+        from volfrep.io.solid import check_solid
+        from volfrep.jobs.preview import PartDepth, preview
 
         spec, mesh = self._obj.Proxy.read(self._obj)
         key = hashlib.blake2b(mesh.vertices.tobytes() + mesh.triangles.tobytes())

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import FreeCAD as App
 
 from freecad_volfrep.engine import require_engine
-from volfrep.errors import VolfrepError
+from volfrep.util.errors import VolfrepError
 
 from .progress import job_title, run_job
 from .tables import Table
@@ -17,9 +17,9 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from volfrep.mesh import TriangleMesh
-    from volfrep.mesh_report import MeshReport
-    from volfrep.progress import ProgressCallback
+    from volfrep.mesh.triangle_mesh import TriangleMesh
+    from volfrep.reports.mesh_report import MeshReport
+    from volfrep.util.progress import ProgressCallback
 
 
 def check_mesh(obj: App.DocumentObject) -> list[Table]:
@@ -59,10 +59,10 @@ def _look_at(
     """
     import numpy as np
 
-    from volfrep.export.stl import as_read
-    from volfrep.mesh_report import mesh_report
-    from volfrep.piercing import piercing_pairs
-    from volfrep.progress import Monitor
+    from volfrep.io.write.stl import as_read
+    from volfrep.reports.mesh_report import mesh_report
+    from volfrep.spatial.piercing import piercing_pairs
+    from volfrep.util.progress import Monitor
 
     monitor = Monitor(progress)
     with monitor.stage("check", 0.0, 0.5):

@@ -15,7 +15,7 @@ def openings_of(obj: App.DocumentObject) -> dict[str, Any]:
         VolfrepError: a property makes no sense, or a face is no more.
     """
     from freecad_volfrep.bridge.solids import face_facets, face_middle, parent_placement
-    from volfrep.openings import DrainHoles, DrainPlace, OpenPatch
+    from volfrep.design.openings import DrainHoles, DrainPlace, OpenPatch
 
     frame = parent_placement(obj)
     result: dict[str, Any] = {}

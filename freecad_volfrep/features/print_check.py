@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING, Any
 import FreeCAD as App
 
 from freecad_volfrep.engine import require_engine
-from volfrep.errors import VolfrepError
+from volfrep.util.errors import VolfrepError
 
 from .lattice_infill import LatticeInfill
 from .progress import job_title, run_job
 from .properties import Property, add_missing, result
 
 if TYPE_CHECKING:
-    from volfrep.printability import PrintReport
+    from volfrep.reports.printability import PrintReport
 
 CANCELLED = "Cancelled: other figures are those of the last finished check, if there was one."
 
@@ -66,7 +66,7 @@ class PrintCheck:
         Raises:
             VolfrepError: one sentence; the object turns Invalid.
         """
-        from volfrep.errors import Cancelled
+        from volfrep.util.errors import Cancelled
 
         self.was_cancelled = False
         try:
@@ -93,7 +93,7 @@ class PrintCheck:
     __setstate__ = loads
 
     def _ensure_properties(self, obj: App.DocumentObject) -> None:
-        from volfrep.printability import PROCESSES
+        from volfrep.reports.printability import PROCESSES
 
         add_missing(obj, PROPERTIES, {"Process": list(PROCESSES)})
 
@@ -105,9 +105,9 @@ class PrintCheck:
         from freecad_volfrep.bridge.beams import place_in_document, placed_lattice
         from freecad_volfrep.bridge.meshes import to_freecad
         from freecad_volfrep.bridge.solids import mesh_in_document, placed
-        from volfrep.mesh import TriangleMesh, compact
-        from volfrep.pipeline import fill
-        from volfrep.printability import (
+        from volfrep.jobs.pipeline import fill
+        from volfrep.mesh.triangle_mesh import TriangleMesh, compact
+        from volfrep.reports.printability import (
             find_process,
             overhanging_facets,
             print_report,
@@ -169,7 +169,7 @@ def make_print_check(
     Raises:
         VolfrepError: there is no such process, or that is no lattice infill; nothing is added.
     """
-    from volfrep.printability import find_process, unit_direction
+    from volfrep.reports.printability import find_process, unit_direction
 
     if not isinstance(getattr(infill, "Proxy", None), LatticeInfill):
         raise VolfrepError(f"'{infill.Label}' is not a lattice infill: choose one.")

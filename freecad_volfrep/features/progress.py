@@ -10,7 +10,7 @@ from typing import TypeVar
 import FreeCAD as App
 
 from freecad_volfrep.translation import translate
-from volfrep.progress import ProgressCallback
+from volfrep.util.progress import ProgressCallback
 
 T = TypeVar("T")
 

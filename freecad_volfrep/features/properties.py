@@ -8,7 +8,7 @@ from typing import Any
 
 import FreeCAD as App
 
-from volfrep.errors import VolfrepError
+from volfrep.util.errors import VolfrepError
 
 from .applicable import CUSTOM_CELL, show_applicable
 from .grading import CARTESIAN, CHOICES, OFF
@@ -322,8 +322,8 @@ def ensure_properties(obj: App.DocumentObject) -> None:
     Results of a wrong type are ours, and made anew. What a user sets is left as it is, and so is
     the number of a later table: `refuse_spoiled` says so.
     """
-    from volfrep.cells import LIBRARY
-    from volfrep.spec import ACTIVATIONS, BOUNDARIES, OUTPUTS
+    from volfrep.design.cells import LIBRARY
+    from volfrep.design.spec import ACTIVATIONS, BOUNDARIES, OUTPUTS
 
     choices = {
         "CellType": [*LIBRARY, CUSTOM_CELL],

@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from volfrep.errors import VolfrepError
+from volfrep.util.errors import VolfrepError
 
 if TYPE_CHECKING:
     import FreeCAD as App
 
     from volfrep import LatticeSpec
-    from volfrep.mesh import TriangleMesh
+    from volfrep.mesh.triangle_mesh import TriangleMesh
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,7 +48,7 @@ def is_just_made(obj: App.DocumentObject) -> bool:
 
 
 def kinds_of(obj: App.DocumentObject, mesh: TriangleMesh) -> NDArray[np.uint8]:
-    """(t,) uint8 for each triangle of an infill's mesh, see `volfrep.skin`.
+    """(t,) uint8 for each triangle of an infill's mesh, see `volfrep.reports.facet_roles`.
 
     What the mesh was made of is known since it was computed; for one from a file it is what the
     properties stand for. Where these have changed since, only the mesh itself is left to ask:
@@ -58,8 +58,8 @@ def kinds_of(obj: App.DocumentObject, mesh: TriangleMesh) -> NDArray[np.uint8]:
         obj: the infill.
         mesh: its mesh, as it lies before the object's Placement moves it.
     """
-    from volfrep.coarse import is_outside
-    from volfrep.skin import LATTICE, OUTSIDE, kinds_of_triangles
+    from volfrep.mesh.vertex_cluster import is_outside
+    from volfrep.reports.facet_roles import LATTICE, OUTSIDE, kinds_of_triangles
 
     made: Any = obj.Proxy.made
     if made is not None and made.triangles == _digest(mesh):

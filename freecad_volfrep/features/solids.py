@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import FreeCAD as App
 
-from volfrep.errors import VolfrepError
+from volfrep.util.errors import VolfrepError
 
 from .exact import checked_ingredients, exact_shape, warn
 from .faceted_solid import acceptable_solid, make_solid

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import FreeCAD as App
 
-from volfrep.errors import VolfrepError
+from volfrep.util.errors import VolfrepError
 
 from .exact import (
     checked_ingredients,
@@ -27,7 +27,7 @@ from .instances import estimate_instances, write_instances
 from .progress import job_title, progress_of, run_job
 
 if TYPE_CHECKING:
-    from volfrep.clip import Clipped
+    from volfrep.trim.clip_struts import Clipped
 
 STEP_SUFFIXES = (".step", ".stp")
 DECK_SUFFIXES = (".inp",)
@@ -42,7 +42,7 @@ def axes_of(obj: App.DocumentObject) -> Clipped:
     """
     solid, spec, cache = inputs_of(obj)
     from freecad_volfrep.bridge.beams import place_in_document, placed_lattice
-    from volfrep.clip import clipped_infill
+    from volfrep.jobs.beam_part import clipped_infill
 
     clipped = run_job(
         job_title("Struts of {label}", obj),
@@ -61,8 +61,8 @@ def estimate_file(obj: App.DocumentObject, content: str) -> str:
     if content not in CONTENTS:
         raise VolfrepError(f"There is no content '{content}': choose {' or '.join(CONTENTS)}.")
     _, spec, _ = inputs_of(obj)
-    from volfrep.beam_elements import beam_model
-    from volfrep.estimate import Asked, estimate_axes, estimate_beams, estimate_tetrahedra
+    from volfrep.fem.beam_mesh import beam_model
+    from volfrep.reports.estimate import Asked, estimate_axes, estimate_beams, estimate_tetrahedra
 
     asked = Asked(spec)
     if content == "tetrahedra":
@@ -106,10 +106,10 @@ def _write_exact(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
     from freecad_volfrep.bridge.exact import write_exact
     from freecad_volfrep.bridge.solids import mesh_in_document
     from freecad_volfrep.bridge.trimmed import check_volume, write_shape
-    from volfrep.estimate import estimate_faceted
-    from volfrep.export.files import check_writable
-    from volfrep.export.step_faceted import write_step_faceted
-    from volfrep.progress import Monitor
+    from volfrep.io.write.step_faceted import write_step_faceted
+    from volfrep.reports.estimate import estimate_faceted
+    from volfrep.util.files import check_writable
+    from volfrep.util.progress import Monitor
 
     check_writable(path)
     made_of = checked_ingredients(obj)
@@ -135,16 +135,17 @@ def _write_exact(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
 
 
 def _write_axes(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
-    from volfrep.export.step_wireframe import write_step_wireframe
+    from volfrep.io.write.step_wireframe import write_step_wireframe
 
     write_step_wireframe(axes_of(obj).wireframe, path)
 
 
 def _write_beams(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
-    from volfrep.beam_elements import beam_model
-    from volfrep.beam_lattice import deformed_struts
-    from volfrep.estimate import estimate_beams
-    from volfrep.export.calculix import Material, write_beams
+    from volfrep.fem.beam_mesh import beam_model
+    from volfrep.fem.model import Material
+    from volfrep.io.write.calculix import write_beams
+    from volfrep.jobs.beam_part import deformed_struts
+    from volfrep.reports.estimate import estimate_beams
 
     clipped = axes_of(obj)
     model = beam_model(clipped.wireframe, clipped.on_wall)
@@ -156,9 +157,10 @@ def _write_beams(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
 def _write_tetrahedra(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
     from freecad_volfrep.bridge.beams import place_in_document
     from freecad_volfrep.bridge.solids import mesh_in_document, placed
-    from volfrep.export.calculix import Material, write_tetrahedra
-    from volfrep.progress import Monitor
-    from volfrep.tetrahedra import nodes_on, tetrahedra
+    from volfrep.fem.model import Material
+    from volfrep.fem.tet_mesh import nodes_on, tetrahedra
+    from volfrep.io.write.calculix import write_tetrahedra
+    from volfrep.util.progress import Monitor
 
     solid = placed(inputs_of(obj)[0], place_in_document(obj))
     with progress_of(job_title("Tetrahedra of {label}", obj)) as progress:

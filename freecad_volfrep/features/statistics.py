@@ -9,7 +9,7 @@ from typing import Any
 
 import FreeCAD as App
 
-from volfrep.errors import VolfrepError
+from volfrep.util.errors import VolfrepError
 
 from .lattice_infill import LatticeInfill
 from .tables import Table

@@ -12,8 +12,8 @@ import FreeCADGui as Gui
 
 from freecad_volfrep.features.applicable import CUSTOM_CELL
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
-from volfrep.cells import LIBRARY, UnitCell, load_cell
-from volfrep.errors import VolfrepError
+from volfrep.design.cells import LIBRARY, UnitCell, load_cell
+from volfrep.util.errors import VolfrepError
 
 from .cell_picture import cell_icon
 from .command import undo_step
@@ -144,7 +144,7 @@ class CellLibrary(QtWidgets.QDialog):
     def make_from_selection(self) -> None:
         """Add the cell that the selected edges draw and pick it; says what cannot be a strut."""
         from freecad_volfrep.bridge.drawn_lines import drawn_lines
-        from volfrep.drawn_cell import cell_from_lines
+        from volfrep.design.drawn_cell import cell_from_lines
 
         objects = selected_with_edges() or []
         try:
@@ -160,7 +160,7 @@ class CellLibrary(QtWidgets.QDialog):
     def save(self, path: str) -> bool:
         """Write the picked cell; returns whether that was done, says here why not."""
         from freecad_volfrep.features.input_files import refuse_inputs_of_all
-        from volfrep.drawn_cell import save_cell
+        from volfrep.design.drawn_cell import save_cell
 
         entry = self._entry()
         try:

@@ -10,7 +10,7 @@ import numpy as np
 from .qt import QtCore, QtGui
 
 if TYPE_CHECKING:
-    from volfrep.cells import UnitCell
+    from volfrep.design.cells import UnitCell
 
 #: Rows: to the right, up, and towards whoever looks, of x, y and z.
 _VIEW = np.array([[0.87, -0.5, 0.0], [0.22, 0.37, 0.9], [0.45, 0.78, -0.43]])

@@ -17,7 +17,7 @@ SHARE = 0.25
 
 def show_likeness(obj: Any, node: Any) -> FilledPart:
     """Fill the node with a likeness of an infill's mesh, drawn as the mesh itself would be."""
-    from volfrep.coarse import coarse_likeness
+    from volfrep.mesh.vertex_cluster import coarse_likeness
 
     limit = int(SHARE * largest_shown())
     return FilledPart(node, *mesh_and_kinds(obj), lambda part: coarse_likeness(part, limit))

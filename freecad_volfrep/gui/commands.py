@@ -12,7 +12,7 @@ import FreeCADGui as Gui
 
 from freecad_volfrep.deps import missing_packages
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, marked, translate
-from volfrep.errors import VolfrepError
+from volfrep.util.errors import VolfrepError
 
 from .command import Command, undo_step
 from .messages import ask, choose, errors_shown, file_name, tell, tell_error, tell_written

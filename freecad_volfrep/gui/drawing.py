@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from volfrep.mesh import TriangleMesh
-from volfrep.shading import CREASE_ANGLE, shaded, sharp_edges
+from volfrep.mesh.shading import CREASE_ANGLE, shaded, sharp_edges
+from volfrep.mesh.triangle_mesh import TriangleMesh
 
 #: How shiny what we draw is.
 SPECULAR, SHININESS = (0.10, 0.10, 0.10), 0.3

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from freecad_volfrep import preferences
-from volfrep.mesh import TriangleMesh, compact
+from volfrep.mesh.triangle_mesh import TriangleMesh, compact
 
 from . import drawing
 
@@ -30,7 +30,7 @@ class FilledPart:
     Args:
         node: an empty node of the scene.
         mesh: closed, as it lies before the object's Placement moves it.
-        kinds: (t,) of its triangles, see `volfrep.skin`.
+        kinds: (t,) of its triangles, see `volfrep.reports.facet_roles`.
         likeness: what is drawn in the place of each of its three parts.
     """
 
@@ -43,7 +43,7 @@ class FilledPart:
     ) -> None:
         from pivy import coin
 
-        from volfrep.skin import LATTICE, OUTSIDE, WALL
+        from volfrep.reports.facet_roles import LATTICE, OUTSIDE, WALL
 
         parts = {}
         for kind in (LATTICE, WALL, OUTSIDE):
@@ -70,7 +70,7 @@ class FilledPart:
 
     def set_look(self, view: Any, is_cut: bool) -> None:
         """Colours and transparency of the object's view; opaque, with cut faces, in a section."""
-        from volfrep.skin import LATTICE, WALL
+        from volfrep.reports.facet_roles import LATTICE, WALL
 
         skin, lattice = view.ShapeColor[:3], view.LatticeColor[:3]
         wall = [part + WALL_LIGHTER * (1.0 - part) for part in skin]

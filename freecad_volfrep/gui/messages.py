@@ -14,7 +14,7 @@ import FreeCAD as App
 import FreeCADGui as Gui
 
 from freecad_volfrep.translation import translate
-from volfrep.errors import Cancelled, VolfrepError
+from volfrep.util.errors import Cancelled, VolfrepError
 
 from .qt import QtWidgets
 

@@ -9,7 +9,7 @@ import FreeCAD as App
 
 from freecad_volfrep.features.live_preview import LivePreview
 from freecad_volfrep.features.properties import INPUTS
-from volfrep.errors import VolfrepError
+from volfrep.util.errors import VolfrepError
 
 from .messages import tell_error
 from .preview_view import PreviewView

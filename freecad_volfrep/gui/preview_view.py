@@ -10,13 +10,13 @@ import FreeCADGui as Gui
 import numpy as np
 
 from freecad_volfrep import preferences
-from volfrep.mesh import TriangleMesh
+from volfrep.mesh.triangle_mesh import TriangleMesh
 
 from . import drawing
 
 if TYPE_CHECKING:
     from freecad_volfrep.features.live_preview import Shown
-    from volfrep.preview import Preview
+    from volfrep.jobs.preview import Preview
 
 #: Name of what is added to the view's scene.
 NODE = "VolfrepPreview"

@@ -19,8 +19,8 @@ from typing import TypeVar
 import FreeCADGui as Gui
 
 from freecad_volfrep.translation import marked, translate
-from volfrep.errors import Cancelled, VolfrepError
-from volfrep.progress import ProgressCallback
+from volfrep.util.errors import Cancelled, VolfrepError
+from volfrep.util.progress import ProgressCallback
 
 from .qt import QtCore, QtGui, QtWidgets
 

@@ -103,7 +103,7 @@ class ReportWindow(QtWidgets.QDialog):
             VolfrepError: the file cannot be written, or an open document reads it; it stays.
         """
         from freecad_volfrep.features.input_files import refuse_inputs_of_all
-        from volfrep.export.files import replacing
+        from volfrep.util.files import replacing
 
         refuse_inputs_of_all(path)
         is_html = Path(path).suffix.lower() in (".html", ".htm")

@@ -12,9 +12,9 @@ import FreeCADGui as Gui
 from freecad_volfrep.features.applicable import CUSTOM_CELL
 from freecad_volfrep.features.live_preview import LivePreview
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, marked, spaced, translate
-from volfrep.cells import LIBRARY, load_cell
-from volfrep.errors import VolfrepError
-from volfrep.point_files import TABLE_SUFFIXES, VTK_SUFFIXES
+from volfrep.design.cells import LIBRARY, load_cell
+from volfrep.design.field_files import TABLE_SUFFIXES, VTK_SUFFIXES
+from volfrep.util.errors import VolfrepError
 
 from .cell_library import cell_files
 from .cell_picture import cell_icon

@@ -12,7 +12,7 @@ import FreeCADGui as Gui
 from freecad_volfrep import ICONS, preferences
 from freecad_volfrep.features.skin import is_just_made
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
-from volfrep.errors import VolfrepError
+from volfrep.util.errors import VolfrepError
 
 from .coarse_view import COARSE, show_likeness
 from .filled_view import FILLED, show_filled

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The command as the tests call it."""
 
-from volfrep import cli
+from volfrep.cli import command as cli
 
 
 def run(*arguments: object) -> int:

@@ -5,10 +5,11 @@ from dataclasses import asdict
 
 import pytest
 
-from volfrep import LatticeSpec, StageCache, VolfrepError, fill, quality
-from volfrep.export.stl import as_read
-from volfrep.mesh import TriangleMesh
-from volfrep.quality import Quality
+from volfrep import LatticeSpec, StageCache, VolfrepError, fill
+from volfrep.io.write.stl import as_read
+from volfrep.mesh import quality
+from volfrep.mesh.quality import Quality
+from volfrep.mesh.triangle_mesh import TriangleMesh
 
 
 def check_contract(

@@ -65,7 +65,7 @@ def distances_to_one_cell(points, cell, cell_size, radius):
 
 
 def in_struts(points, graph):
-    """Whether points lie in the cones and spheres of a `volfrep.wireframe.Wireframe`.
+    """Whether points lie in the cones and spheres of a `volfrep.grid.strut_graph.Wireframe`.
 
     Candidates by distance to the struts' middles, membership from the definition of a cone: shares
     nothing with the engine but the wireframe.

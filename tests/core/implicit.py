@@ -5,8 +5,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from volfrep import frep, surface
-from volfrep.octant import ALL_ACTIVE, OctantKey, octant_primitives, raw_octant, sample_octant
+from volfrep.octants import constrained_mesh as surface
+from volfrep.octants import sdf as frep
+from volfrep.octants.octant import (
+    ALL_ACTIVE,
+    OctantKey,
+    octant_primitives,
+    raw_octant,
+    sample_octant,
+)
 
 
 def field_of(primitives: frep.Primitives, count: int, fillet: float = 0.0) -> frep.Field:

@@ -7,8 +7,8 @@ import manifold3d
 import numpy as np
 import trimesh
 
-from volfrep.cells import make_cell
-from volfrep.mesh import TriangleMesh
+from volfrep.design.cells import make_cell
+from volfrep.mesh.triangle_mesh import TriangleMesh
 
 #: A cell without any symmetry.
 SKEW = make_cell(

@@ -9,7 +9,7 @@ import pytest
 import trimesh
 
 from bench import document, parts
-from volfrep.solid import read_solid
+from volfrep.io.solid import read_solid
 
 #: The box of each, mm.
 BOXES = {

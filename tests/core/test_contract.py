@@ -8,7 +8,7 @@ import samples
 from contract import check_contract
 from samples import SKEW
 from volfrep import LatticeSpec
-from volfrep.cells import LIBRARY
+from volfrep.design.cells import LIBRARY
 
 SOLIDS = (
     lambda: samples.box(),

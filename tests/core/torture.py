@@ -16,10 +16,10 @@ from pathlib import Path
 import numpy as np
 
 from bench.parts import NO_TORTURE, PARTS, TORTURE
-from volfrep.errors import VolfrepError
-from volfrep.quality import measure
-from volfrep.reading.units import refuse_scale
-from volfrep.solid import Solid, read_solid, read_triangles
+from volfrep.io.read.units import refuse_scale
+from volfrep.io.solid import Solid, read_solid, read_triangles
+from volfrep.mesh.quality import measure
+from volfrep.util.errors import VolfrepError
 from winding import disagreement
 
 FOLDERS = {"torture": TORTURE, "parts": PARTS}

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Solids whose inner wall is known in closed form, as the stages of the shelling get them."""
 
-from volfrep.depth import Depth
-from volfrep.distance import index_surface
-from volfrep.field import DepthField
-from volfrep.progress import Monitor
+from volfrep.shell.depth import Depth
+from volfrep.shell.sampled_depth import DepthField
+from volfrep.spatial.proximity import index_surface
+from volfrep.util.progress import Monitor
 
 
 def depth_of(solid, thickness) -> Depth:

@@ -4,7 +4,7 @@
 import numpy as np
 import trimesh
 
-from volfrep.distance import closest_points
+from volfrep.spatial.proximity import closest_points
 
 
 def wall_errors(solid, wall, thickness, points=10_000):

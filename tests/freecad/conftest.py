@@ -70,14 +70,14 @@ def infill(doc, box):
 def runs(monkeypatch):
     """The specifications that the engine has been run with since the test began."""
     require_engine()
-    import volfrep.pipeline
+    import volfrep.jobs.pipeline
 
     specs = []
-    fill = volfrep.pipeline.fill
+    fill = volfrep.jobs.pipeline.fill
 
     def counting(solid, spec, **options):
         specs.append(spec)
         return fill(solid, spec, **options)
 
-    monkeypatch.setattr(volfrep.pipeline, "fill", counting)
+    monkeypatch.setattr(volfrep.jobs.pipeline, "fill", counting)
     return specs

@@ -114,9 +114,9 @@ def test_the_start_of_freecad_imports_nothing_heavy():
 
 
 def test_the_engine_is_the_one_beside_the_workbench():
-    import volfrep.errors
+    import volfrep.util.errors
 
-    assert Path(volfrep.errors.__file__).is_relative_to(ROOT / "core")
+    assert Path(volfrep.util.errors.__file__).is_relative_to(ROOT / "core")
 
 
 def test_scikit_image_imports_inside_freecad():

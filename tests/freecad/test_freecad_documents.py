@@ -197,7 +197,7 @@ def test_without_a_window_no_job_is_too_large_to_be_made():
 
 
 def test_a_defect_of_the_engine_is_a_sentence_and_loses_nothing(doc, infill, monkeypatch):
-    import volfrep.pipeline
+    import volfrep.jobs.pipeline
 
     before = digest(infill)
 
@@ -205,7 +205,7 @@ def test_a_defect_of_the_engine_is_a_sentence_and_loses_nothing(doc, infill, mon
         raise ZeroDivisionError("by accident")
 
     with monkeypatch.context() as patch:
-        patch.setattr(volfrep.pipeline, "fill", broken)
+        patch.setattr(volfrep.jobs.pipeline, "fill", broken)
         infill.StrutRadius = 0.8
         doc.recompute()
     assert not infill.isValid()

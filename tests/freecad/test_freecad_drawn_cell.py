@@ -9,9 +9,9 @@ import pytest
 from conftest import SMALL
 from freecad_volfrep import make_lattice_infill
 from freecad_volfrep.bridge.drawn_lines import drawn_lines, has_edges
-from volfrep.cells import LIBRARY
-from volfrep.drawn_cell import cell_from_lines, save_cell
-from volfrep.errors import VolfrepError
+from volfrep.design.cells import LIBRARY
+from volfrep.design.drawn_cell import cell_from_lines, save_cell
+from volfrep.util.errors import VolfrepError
 
 V = App.Vector
 

@@ -16,9 +16,9 @@ require_engine()
 
 from freecad_volfrep.bridge.exact import exact_lattice, write_exact  # noqa: E402
 from volfrep import LatticeSpec, block  # noqa: E402
-from volfrep.errors import Cancelled, VolfrepError  # noqa: E402
-from volfrep.export.step_exact import predicted_exact  # noqa: E402
-from volfrep.progress import Monitor  # noqa: E402
+from volfrep.io.write.step_exact import predicted_exact  # noqa: E402
+from volfrep.util.errors import Cancelled, VolfrepError  # noqa: E402
+from volfrep.util.progress import Monitor  # noqa: E402
 
 
 def result(cell="CVC", count=(2, 1, 1), size=20.0, radius=2.0, resolution=32):

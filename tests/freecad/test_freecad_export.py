@@ -17,9 +17,9 @@ from freecad_volfrep.features.export import formats_of
 from freecad_volfrep.features.faceted_solid import export_step, predict_solid
 from freecad_volfrep.features.input_files import refuse_inputs_of_all
 from freecad_volfrep.features.solver_files import CONTENTS
-from volfrep.errors import VolfrepError
-from volfrep.export import MESH_WRITERS
-from volfrep.mesh import TriangleMesh, concatenate
+from volfrep.io.write import MESH_WRITERS
+from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
+from volfrep.util.errors import VolfrepError
 
 
 def cube(size, centre=(0, 0, 0)):

@@ -11,7 +11,7 @@ from conftest import SMALL
 from freecad_volfrep import make_fem_analysis, make_lattice_infill
 from freecad_volfrep.features.fem_analysis import vertices
 from freecad_volfrep.features.solver_files import axes_of
-from volfrep.errors import VolfrepError
+from volfrep.util.errors import VolfrepError
 
 needs_calculix = pytest.mark.skipif(
     shutil.which("ccx") is None, reason="CalculiX (ccx) is not installed"
@@ -114,9 +114,10 @@ def test_struts_of_several_radii_have_several_sections(doc, box):
 @needs_calculix
 def test_beams_solved_by_freecad_and_by_our_own_deck(doc, tmp_path):
     """200 N on the paper's sample: 1.54 mm by solid elements (see docs/solver.md)."""
-    from volfrep.beam_elements import beam_model
-    from volfrep.export.calculix import Material, StaticStep, write_beams
-    from volfrep.solver import solve
+    from volfrep.fem.beam_mesh import beam_model
+    from volfrep.fem.calculix import solve
+    from volfrep.fem.model import Material, StaticStep
+    from volfrep.io.write.calculix import write_beams
 
     infill = block(doc, Resolution=8)
     analysis = make_fem_analysis(doc, infill)
@@ -162,9 +163,10 @@ def test_the_skin_holds_the_lattice(doc, infill, tmp_path):
 @pytest.mark.slow
 def test_tetrahedra_solved_by_freecad_and_by_our_own_deck(doc, tmp_path):
     from freecad_volfrep.bridge.solids import mesh_in_document
-    from volfrep.export.calculix import Material, StaticStep, sides, write_tetrahedra
-    from volfrep.solver import solve
-    from volfrep.tetrahedra import tetrahedra
+    from volfrep.fem.calculix import solve
+    from volfrep.fem.model import Material, StaticStep
+    from volfrep.fem.tet_mesh import tetrahedra
+    from volfrep.io.write.calculix import sides, write_tetrahedra
 
     infill = block(doc, (16, 14, 14), CellSize=10, StrutRadius=1, ShellThickness=2, Resolution=8)
     steel = Material("STEEL", 210_000.0, 0.3, 7.85)

@@ -14,8 +14,8 @@ from freecad_volfrep.features.applicable import CONTROLS, CUSTOM_CELL
 from freecad_volfrep.features.grading import CHOICES
 from freecad_volfrep.features.lattice_infill import UP_TO_DATE
 from freecad_volfrep.features.properties import PROPERTIES
-from volfrep import grading, law
-from volfrep.errors import VolfrepError
+from volfrep.design import grading, profile
+from volfrep.util.errors import VolfrepError
 
 THIN = {**SMALL, "StrutRadius": 0.7, "ShellThickness": 1.5}
 GRADING = [prop.name for prop in PROPERTIES if prop.group == "Grading"]
@@ -32,9 +32,9 @@ def digest(obj):
 
 
 def test_the_choices_are_those_of_the_engine(infill):
-    from freecad_volfrep.features.grading import LAWS
+    from freecad_volfrep.features.grading import PROFILES
 
-    assert tuple(LAWS.values()) == law.KINDS
+    assert tuple(PROFILES.values()) == profile.KINDS
     assert tuple(name.lower() for name in CHOICES["CellMap"]) == grading.MAPS
     assert tuple(name.lower() for name in CHOICES["RadiusGrading"][1:]) == grading.RADIUS_BY
     assert {*CONTROLS} - {"CellType"} <= set(GRADING)

@@ -17,8 +17,8 @@ from freecad_volfrep.features.lattice_infill import (
     UP_TO_DATE,
 )
 from freecad_volfrep.features.properties import PROPERTIES, SCHEMA_VERSION, ensure_properties
-from volfrep.cells import LIBRARY
-from volfrep.errors import Cancelled, VolfrepError
+from volfrep.design.cells import LIBRARY
+from volfrep.util.errors import Cancelled, VolfrepError
 
 
 def digest(obj):
@@ -154,17 +154,17 @@ def test_editing_the_base_recomputes(doc, infill, box, runs):
 
 
 def test_a_change_runs_only_the_stages_it_affects(doc, box, monkeypatch):
-    import volfrep.pipeline
+    import volfrep.jobs.pipeline
 
     seen = []
-    fill = volfrep.pipeline.fill
+    fill = volfrep.jobs.pipeline.fill
 
     def watching(*arguments, **options):
         result = fill(*arguments, **options)
         seen.append(result.report.stages)
         return result
 
-    monkeypatch.setattr(volfrep.pipeline, "fill", watching)
+    monkeypatch.setattr(volfrep.jobs.pipeline, "fill", watching)
     obj = make_lattice_infill(doc, box, **SMALL)
     doc.recompute()
     obj.StrutRadius = 0.8

@@ -103,7 +103,7 @@ def test_a_colour_is_what_freecad_stores(group):
 
 
 def test_the_limits_of_the_facets_are_the_engines():
-    from volfrep.spec import MAX_RESOLUTION, MIN_RESOLUTION
+    from volfrep.design.spec import MAX_RESOLUTION, MIN_RESOLUTION
 
     assert preferences.RESOLUTION.low == MIN_RESOLUTION
     assert preferences.RESOLUTION.high == MAX_RESOLUTION
@@ -154,7 +154,7 @@ def test_scripts_make_the_same_whoever_runs_them(doc, box):
 
 
 def test_the_engine_uses_as_many_threads_as_preferred():
-    from volfrep.threads import threads
+    from volfrep.util.threads import threads
 
     engine.require_engine()
     automatic = threads()

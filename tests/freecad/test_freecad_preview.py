@@ -7,7 +7,7 @@ import pytest
 from conftest import SMALL
 from freecad_volfrep import make_lattice_infill
 from freecad_volfrep.features.live_preview import LivePreview
-from volfrep.errors import VolfrepError
+from volfrep.util.errors import VolfrepError
 
 
 def test_the_figures_are_those_of_the_computed_infill(doc, infill):

@@ -8,7 +8,7 @@ import pytest
 
 from conftest import SMALL
 from freecad_volfrep import make_lattice_infill, make_print_check
-from volfrep.errors import VolfrepError
+from volfrep.util.errors import VolfrepError
 
 
 @pytest.fixture

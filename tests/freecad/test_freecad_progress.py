@@ -7,7 +7,7 @@ import FreeCAD as App
 import pytest
 
 from freecad_volfrep.features.progress import progress_of, run_job
-from volfrep.errors import VolfrepError
+from volfrep.util.errors import VolfrepError
 
 
 def test_without_a_screen_a_job_is_called_where_it_is_asked_for():

@@ -16,7 +16,7 @@ from freecad_volfrep.features.mesh_check import check_mesh
 from freecad_volfrep.features.statistics import infills_of, statistics
 from freecad_volfrep.features.tables import Table, as_csv, as_html
 from freecad_volfrep.translation import TRANSLATIONS
-from volfrep.errors import VolfrepError
+from volfrep.util.errors import VolfrepError
 
 
 def rows_of(tables):

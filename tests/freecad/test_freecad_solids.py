@@ -12,7 +12,7 @@ from conftest import SMALL
 from freecad_volfrep import export_mesh, make_lattice_infill
 from freecad_volfrep.features.solids import KINDS, kinds_of, make_kind
 from freecad_volfrep.features.solver_files import CONTENTS, estimate_file
-from volfrep.errors import VolfrepError
+from volfrep.util.errors import VolfrepError
 
 needs_gmsh = pytest.mark.skipif(shutil.which("gmsh") is None, reason="Gmsh is not installed")
 

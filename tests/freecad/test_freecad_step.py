@@ -10,9 +10,9 @@ from freecad_volfrep.engine import require_engine
 require_engine()
 
 from volfrep import LatticeSpec, block, fill  # noqa: E402
-from volfrep.export.step_faceted import write_step_faceted  # noqa: E402
-from volfrep.export.step_wireframe import write_step_wireframe  # noqa: E402
-from volfrep.mesh import TriangleMesh, concatenate  # noqa: E402
+from volfrep.io.write.step_faceted import write_step_faceted  # noqa: E402
+from volfrep.io.write.step_wireframe import write_step_wireframe  # noqa: E402
+from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate  # noqa: E402
 
 
 def read(path):

@@ -220,8 +220,8 @@ def edit_in_the_panel(doc, obj):
 
 def give_it_an_own_cell(doc, obj):
     """Custom in the panel asks for a file, of a cell whose picture and struts are then seen."""
-    from volfrep.cells import LIBRARY
-    from volfrep.drawn_cell import save_cell
+    from volfrep.design.cells import LIBRARY
+    from volfrep.design.drawn_cell import save_cell
 
     path = OUT / "own_cell.json"
     save_cell(LIBRARY["Octahedron"], path)
@@ -257,7 +257,7 @@ def run_a_job():
     import threading
 
     from freecad_volfrep.features.progress import run_job
-    from volfrep.errors import VolfrepError
+    from volfrep.util.errors import VolfrepError
 
     refusals, beats = [], []
 

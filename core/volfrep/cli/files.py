@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The files that a command reads and writes: every one in a table, and none of them twice."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from ..util.errors import VolfrepError
+
+#: What the command calls its input files, by the names of the options that give them.
+INPUTS = {"part": "part", "cell": "cell file", "radius_field": "field file"}
+#: The files that it writes, the same way.
+OUTPUTS = {"out": "output", "report": "report"}
+
+
+def check_files(options: argparse.Namespace) -> None:
+    """Refuse, before any work, files that could not be written or that would replace an input.
+
+    Raises:
+        VolfrepError: naming the file, and what is wrong with it.
+    """
+    from ..util.files import check_writable, refuse_overwriting, same_file
+
+    inputs, outputs = _given(options, INPUTS), _given(options, OUTPUTS)
+    if not inputs.get("cell file", "").lower().endswith(".json"):
+        inputs.pop("cell file", None)  # the name of a library cell
+    for path in outputs.values():
+        check_writable(path)
+    refuse_overwriting(outputs, inputs)
+    names = list(outputs)
+    for k, name in enumerate(names):
+        for other in names[:k]:
+            if same_file(outputs[name], outputs[other]):
+                raise VolfrepError(
+                    f"The {name} and the {other} cannot both be written to '{outputs[name]}': "
+                    "give another name."
+                )
+
+
+def _given(options: argparse.Namespace, table: dict[str, str]) -> dict[str, str]:
+    """The files of the options that are there and were given, by what they are called."""
+    given = ((called, getattr(options, name, None)) for name, called in table.items())
+    return {called: str(Path(path)) for called, path in given if path is not None}

@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The command's options for the printer, and what it prints.
+
+numpy and the engine are imported inside the functions, as in `cli`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+import math
+import sys
+import time
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ..util.errors import VolfrepError
+
+if TYPE_CHECKING:
+    from ..mesh.triangle_mesh import TriangleMesh
+    from ..reports.printability import PrintReport
+    from ..reports.result import Result
+    from ..trim.beam_model import BeamModel
+    from ..util.progress import ProgressCallback
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """The options of the commands that make a lattice."""
+    add = parser.add_argument
+    add(
+        "--3mf",
+        dest="threemf",
+        choices=("mesh", "beams", "both"),
+        help="what a 3MF file holds: the part as triangles (default), its lattice as beams of the "
+        "beam lattice extension (small, and made without a mesh), or both",
+    )
+    add(
+        "--compact",
+        type=float,
+        nargs="?",
+        const=0.02,
+        metavar="MM",
+        help="fewer triangles, moved by no more than so much (0.02 if not said)",
+    )
+    add(
+        "--print-report",
+        metavar="PROCESS",
+        help="say how the part suits a printing process: FFF, SLA, SLS or LPBF",
+    )
+    add(
+        "--build-direction",
+        type=_direction,
+        default=(0.0, 0.0, 1.0),
+        metavar="X,Y,Z",
+        help="from the build plate up (default 0,0,1)",
+    )
+
+
+def check(options: argparse.Namespace, out: Path) -> None:
+    """Refuse options that do not go together, before any work.
+
+    Raises:
+        VolfrepError: naming them.
+    """
+    if options.threemf is not None and out.suffix.lower() != ".3mf":
+        raise VolfrepError(f"'{out}' cannot hold what --3mf asks for: give it the extension .3mf.")
+    if options.compact is not None and not 0.0 < options.compact < math.inf:
+        raise VolfrepError(
+            f"The deviation of --compact must be above 0 mm, not {options.compact:g}."
+        )
+    if options.threemf == "beams" and options.compact is not None:
+        raise VolfrepError("Beams have no triangles for --compact to reduce: leave it out.")
+    if options.threemf == "beams" and (options.report or options.print_report):
+        raise VolfrepError(
+            "A report is made of the mesh, which --3mf beams does without: use both."
+        )
+    if options.print_report is not None:
+        from ..reports.printability import find_process, unit_direction
+
+        find_process(options.print_report)
+        unit_direction(options.build_direction)
+
+
+def compacted(result: Result, options: argparse.Namespace, progress: ProgressCallback) -> Result:
+    """The result with as few triangles as --compact allows; says on the screen how many went.
+
+    Raises:
+        VolfrepError: the deviation is larger than the part allows.
+        Cancelled: the callback said so.
+    """
+    from ..jobs.decimate import reduce_triangles
+    from ..util.progress import Monitor
+
+    monitor = Monitor(progress)
+    with monitor.stage("compact", 0.0, 1.0):
+        reduced = reduce_triangles(result.mesh, options.compact, monitor)
+    found = reduced.quality
+    report = dataclasses.replace(
+        result.report,
+        triangles=found.triangles,
+        vertices=found.vertices,
+        volume_mm3=found.volume,
+        area_mm2=found.area,
+        mass_g=found.volume * result.report.spec["density"] / 1000.0,
+        stages={**result.report.stages, **monitor.stages},
+        stage_memory_mb={**result.report.stage_memory_mb, **monitor.memory_mb},
+    )
+    if not options.quiet:
+        print(
+            f"Compact: {found.triangles:,} of {reduced.triangles_before:,} triangles are left, and "
+            f"the surface has moved by up to {reduced.deviation:.2g} mm."
+        )
+    return dataclasses.replace(result, mesh=reduced.mesh, report=report)
+
+
+def report_of(
+    result: Result, options: argparse.Namespace, domain: TriangleMesh | None
+) -> PrintReport:
+    """The print report that the options ask for."""
+    from ..reports.printability import find_process, print_report
+
+    return print_report(
+        result.mesh,
+        result.wireframe,
+        find_process(options.print_report),
+        build_direction=options.build_direction,
+        density=result.report.spec["density"],
+        domain=domain,
+    )
+
+
+def finish_beams(model: BeamModel, options: argparse.Namespace, start: float) -> None:
+    """Write a lattice as beams; say what was made since `start` (of `time.perf_counter`)."""
+    from ..io.write.threemf import write_3mf_beams
+
+    write_3mf_beams(model, options.out)
+    print_warnings(model.warnings)
+    if options.quiet:
+        return
+    lattice = model.lattice
+    print_rows(
+        ("file", f"{options.out}, {Path(options.out).stat().st_size / 1e6:.1f} MB"),
+        ("struts", f"{len(lattice.struts):,} between {len(lattice.nodes):,} nodes, as beams"),
+        ("time", f"{time.perf_counter() - start:.2f} s"),
+    )
+
+
+def print_rows(*rows: tuple[str, str]) -> None:
+    """Names and values in two columns."""
+    width = max(len(name) for name, _ in rows) + 2
+    for name, value in rows:
+        print(f"{name:<{width}}{value}")
+
+
+def print_warnings(warnings: Sequence[str]) -> None:
+    """A line each, on standard error."""
+    for warning in warnings:
+        print(f"volfrep: warning: {warning}", file=sys.stderr)
+
+
+def _direction(text: str) -> tuple[float, float, float]:
+    """Three numbers between commas."""
+    try:
+        x, y, z = (float(number) for number in text.split(","))
+    except ValueError as error:
+        message = f"'{text}' is not three numbers such as 0,0,1"
+        raise argparse.ArgumentTypeError(message) from error
+    return x, y, z

@@ -1,0 +1,315 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The command's files for CAD and for a solver: STEP in three forms, decks for CalculiX.
+
+numpy and the engine are imported inside the functions, as in `cli`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+import re
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ..util.errors import VolfrepError
+from .printing_options import print_rows, print_warnings
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from ..design.spec import LatticeSpec
+    from ..fem.model import Material
+    from ..grid.strut_graph import Wireframe
+    from ..mesh.triangle_mesh import TriangleMesh
+    from ..reports.estimate import Asked, Estimate
+    from ..reports.result import Result
+    from ..util.cache import StageCache
+    from ..util.progress import ProgressCallback
+
+    #: Writes a result's file and returns sentences for the user.
+    Writer = Callable[[Result], tuple[str, ...]]
+
+STEP_FORMS = ("faceted", "exact", "wireframe")
+DECKS = ("beams", "tetrahedra")
+STEP_SUFFIXES = (".step", ".stp")
+DECK_SUFFIX = ".inp"
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """The options of the commands that make a lattice."""
+    add = parser.add_argument_group("files for CAD and for a solver").add_argument
+    add(
+        "--step",
+        choices=STEP_FORMS,
+        help="what a .step file holds: a plane face for every triangle (faceted, default); "
+        "cylinders, cones and spheres (exact, by an installed FreeCAD); or the struts' axes "
+        "(wireframe)",
+    )
+    add(
+        "--inp",
+        choices=DECKS,
+        help="what an .inp file for CalculiX holds: struts as beams with stiff ends (beams, "
+        "default), or the part as second-order tetrahedra by Gmsh (tetrahedra)",
+    )
+    add(
+        "--material",
+        type=_material,
+        metavar="NAME,E,NU",
+        help="of an .inp file: Young's modulus in MPa and Poisson's ratio (default PETG,2100,0.38)",
+    )
+
+
+def is_deck(out: Path) -> bool:
+    """Whether the file is one for CalculiX."""
+    return out.suffix.lower() == DECK_SUFFIX
+
+
+def check(options: argparse.Namespace, out: Path) -> None:
+    """Refuse options that do not go together, before any work; fill in the defaults.
+
+    Raises:
+        VolfrepError: naming them.
+    """
+    suffix = out.suffix.lower()
+    if options.step is not None and suffix not in STEP_SUFFIXES:
+        raise VolfrepError(
+            f"'{out}' cannot hold what --step asks for: give it the extension .step."
+        )
+    for name in ("inp", "material"):
+        if getattr(options, name) is not None and not is_deck(out):
+            raise VolfrepError(
+                f"'{out}' cannot hold what --{name} asks for: give it the extension {DECK_SUFFIX}."
+            )
+    if suffix in STEP_SUFFIXES and options.step is None:
+        options.step = "faceted"
+    if is_deck(out) and options.inp is None:
+        options.inp = "beams"
+    kind = options.step or options.inp
+    asked = f"--step {kind}" if options.step else f"--inp {kind}"
+    if kind in ("wireframe", "beams") and options.compact is not None:
+        raise VolfrepError(f"{asked} has no triangles for --compact to reduce: leave it out.")
+    if kind in ("wireframe", "beams") and (options.report or options.print_report):
+        raise VolfrepError(
+            f"A report is made of the mesh, which {asked} does without: leave one of them out."
+        )
+    if kind not in (None, "faceted") and getattr(options, "output", None) == "domain":
+        raise VolfrepError(
+            "The output 'domain' holds no lattice to write: choose part or lattice, or --step "
+            "faceted."
+        )
+    if kind in ("exact", "wireframe", "beams") and options.fillet:
+        raise VolfrepError(
+            f"The form '{kind}' has no fillets between struts: set the fillet to 0, or choose "
+            f"{'tetrahedra' if options.inp else 'faceted'}."
+        )
+    if kind == "exact":
+        from ..io.freecad_process import freecad_program
+
+        freecad_program()
+
+
+def fill_axes(
+    solid: TriangleMesh,
+    spec: LatticeSpec,
+    options: argparse.Namespace,
+    progress: ProgressCallback,
+    start: float,
+) -> bool:
+    """Write the forms that are made of the struts' axes in a solid; whether it was asked for one.
+
+    `start` is when the job began, of `time.perf_counter`.
+    """
+    if not _needs_axes(options):
+        return False
+    from ..jobs.beam_part import clipped_infill
+
+    clipped = clipped_infill(solid, spec, progress=progress)
+    _write_axes(clipped.wireframe, clipped.on_wall, spec, options, start)
+    return True
+
+
+def block_axes(spec: LatticeSpec, options: argparse.Namespace, start: float) -> bool:
+    """As `fill_axes`, of a block of whole cells."""
+    if not _needs_axes(options):
+        return False
+    from ..jobs.blocks import block_wireframe
+
+    _write_axes(block_wireframe(spec, options.count), None, spec, options, start)
+    return True
+
+
+def writer(
+    options: argparse.Namespace,
+    spec: LatticeSpec,
+    solid: TriangleMesh | None,
+    cache: StageCache | None,
+    progress: ProgressCallback,
+) -> Writer | None:
+    """What writes the result as the options ask for; None where a mesh format does.
+
+    Args:
+        options: of the command.
+        spec: what was made.
+        solid: that was filled; None for a block.
+        cache: that it was filled with.
+        progress: asked for a cancel.
+    """
+    if options.step == "exact":
+        return lambda result: _write_exact(result, options, spec, solid, cache, progress)
+    if options.step == "faceted":
+        return lambda result: _write_faceted(result, options, spec)
+    if options.inp == "tetrahedra":
+        return lambda result: _write_tetrahedra(result, options, spec, solid, cache, progress)
+    return None
+
+
+def _needs_axes(options: argparse.Namespace) -> bool:
+    return bool(options.step == "wireframe" or options.inp == "beams")
+
+
+def _write_axes(
+    frame: Wireframe,
+    on_wall: NDArray[np.bool_] | None,
+    spec: LatticeSpec,
+    options: argparse.Namespace,
+    start: float,
+) -> None:
+    from ..fem.beam_mesh import beam_model
+    from ..io.write.calculix import write_beams
+    from ..io.write.step_wireframe import write_step_wireframe
+    from ..jobs.beam_part import deformed_struts
+    from ..reports.estimate import estimate_axes, estimate_beams
+
+    warnings: tuple[str, ...] = ()
+    if options.step == "wireframe":
+        _announce(estimate_axes(len(frame.struts), _asked(spec, options)), options)
+        write_step_wireframe(frame, options.out)
+    else:
+        model = beam_model(frame, on_wall)
+        _announce(estimate_beams(model, _asked(spec, options)), options)
+        write_beams(model, options.out, _material_of(options), on_wall=on_wall)
+        warnings = deformed_struts(spec)
+    print_warnings(warnings)
+    if options.quiet:
+        return
+    what = "lines" if options.step == "wireframe" else "beams"
+    print_rows(
+        ("file", f"{options.out}, {Path(options.out).stat().st_size / 1e6:.1f} MB"),
+        ("struts", f"{len(frame.struts):,} between {len(frame.nodes):,} nodes, as {what}"),
+        ("time", f"{time.perf_counter() - start:.2f} s"),
+    )
+
+
+def _write_faceted(
+    result: Result, options: argparse.Namespace, spec: LatticeSpec
+) -> tuple[str, ...]:
+    from ..io.write.step_faceted import write_step_faceted
+    from ..reports.estimate import estimate_faceted
+
+    _announce(estimate_faceted(len(result.mesh.triangles), _asked(spec, options)), options)
+    write_step_faceted(result.mesh, options.out)
+    return ()
+
+
+def _write_exact(
+    result: Result,
+    options: argparse.Namespace,
+    spec: LatticeSpec,
+    solid: TriangleMesh | None,
+    cache: StageCache | None,
+    progress: ProgressCallback,
+) -> tuple[str, ...]:
+    """Exact surfaces, or plane faces where OpenCASCADE does not manage them."""
+    from ..io.freecad_process import write_exact_step
+    from ..jobs.beam_part import beam_model, deformed_struts
+    from ..jobs.pipeline import fill
+    from ..reports.estimate import estimate_exact, refuse_inexact
+    from ..util.progress import Monitor
+
+    lattice, inner, outer = result.wireframe, None, None
+    if solid is not None:
+        bare = dataclasses.replace(spec, output="lattice", drains=None)
+        lattice = beam_model(solid, bare, cache=cache).lattice
+        if spec.is_cut:
+            inner = fill(solid, dataclasses.replace(spec, output="domain"), cache=cache).mesh
+            outer = solid if spec.output == "part" and spec.shell > 0 else None
+    estimate = estimate_exact(lattice, _asked(spec, options), trimmed=inner is not None)
+    _announce(estimate, options)
+    warnings = deformed_struts(spec, "Exact struts")
+    measured = result.report.volume_mm3
+    expected = None if warnings else measured
+    try:
+        refuse_inexact(spec)
+        volume = write_exact_step(
+            lattice, options.out, expected, inner=inner, outer=outer, monitor=Monitor(progress)
+        )
+    except VolfrepError as error:
+        faceted = _write_faceted(result, options, spec)
+        return (*faceted, f"{error} The file holds plane faces instead of exact surfaces.")
+    if not options.quiet:
+        print_rows(("exact volume", f"{volume:,.1f} mm3 (mesh: {measured:,.1f} mm3)"))
+    return warnings
+
+
+def _write_tetrahedra(
+    result: Result,
+    options: argparse.Namespace,
+    spec: LatticeSpec,
+    solid: TriangleMesh | None,
+    cache: StageCache | None,
+    progress: ProgressCallback,
+) -> tuple[str, ...]:
+    from ..fem.tet_mesh import nodes_on, tetrahedra
+    from ..io.write.calculix import write_tetrahedra
+    from ..reports.estimate import estimate_tetrahedra
+    from ..util.progress import Monitor
+
+    _announce(estimate_tetrahedra(len(result.mesh.triangles), _asked(spec, options)), options)
+    filled = tetrahedra(result.mesh, Monitor(progress))
+    sets = {}
+    if solid is not None:
+        wall = solid
+        if spec.output == "lattice":
+            from ..jobs.pipeline import fill
+
+            wall = fill(solid, dataclasses.replace(spec, output="domain"), cache=cache).mesh
+        sets["SKIN"] = nodes_on(filled, wall)
+    write_tetrahedra(filled, options.out, _material_of(options), sets=sets)
+    return ()
+
+
+def _asked(spec: LatticeSpec, options: argparse.Namespace) -> Asked:
+    from ..reports.estimate import Asked
+
+    return Asked(spec, getattr(options, "count", None))
+
+
+def _announce(estimate: Estimate, options: argparse.Namespace) -> None:
+    """Say what a file will take before it is made."""
+    if not options.quiet:
+        print(f"{options.out}: {estimate}", flush=True)
+
+
+def _material_of(options: argparse.Namespace) -> Material:
+    from ..fem.model import Material
+
+    given = {} if options.material is None else options.material
+    if options.density is not None:
+        given = {**given, "density": options.density}
+    return Material(**given)
+
+
+def _material(text: str) -> dict[str, str | float]:
+    """A name and two numbers between commas."""
+    try:
+        name, young, poisson = text.split(",")
+        if not re.fullmatch(r"[A-Za-z][-\w]{0,70}", name, re.ASCII):
+            raise ValueError(name)
+        return {"name": name, "young": float(young), "poisson": float(poisson)}
+    except ValueError as error:
+        message = f"'{text}' is not a name and two numbers such as PETG,2100,0.38"
+        raise argparse.ArgumentTypeError(message) from error

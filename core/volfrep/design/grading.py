@@ -1,0 +1,211 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What a user may ask of a lattice that is not the same everywhere, and what follows from it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from ..util.errors import VolfrepError
+from ..util.linalg import rotation
+from ..util.types import Floats
+from .profile import Profile
+from .scattered_field import PointField, TransferCurve, default_curve, read_point_field
+
+Vector = tuple[float, float, float]
+
+MAPS = ("cartesian", "cylindrical", "spherical")
+RADIUS_BY = ("direction", "skin", "core", "field")
+#: Fewest cells around a full turn: with fewer, a cell would be its own neighbour's neighbour.
+LEAST_AROUND = 4
+MOST_AROUND = 100_000
+
+
+@dataclass(frozen=True)
+class SizeGrading:
+    """Cells that grow along a direction: the published grading (section 2.5 of the paper).
+
+    Attributes:
+        profile: lambda over s, the place along the direction from 0 to 1.
+        direction: g, of any length.
+    """
+
+    profile: Profile
+    direction: Vector = (1.0, 0.0, 0.0)
+
+    def __post_init__(self) -> None:
+        check_vector("grading direction", self.direction)
+
+
+@dataclass(frozen=True)
+class RadiusGrading:
+    """Struts whose radius varies from node to node, and linearly between.
+
+    Attributes:
+        by: ``direction``: over the place s along a direction. ``skin``: over the depth below the
+            part's surface, s = 1 at the surface and 0 at `reach` and deeper. ``core``: the
+            reverse, s = 0 at the surface. ``field``: from a field of values at points.
+        profile: the radius in mm over s; for a field, its ends are the radii of its smallest
+            and largest value.
+        direction: of any length.
+        reach: depth in mm at which the law ends.
+        field: the values, or the file that holds them.
+        column: which values of the file.
+        curve: (value, radius in mm) pairs, rising in value, to use instead of the law.
+    """
+
+    by: str
+    profile: Profile
+    direction: Vector = (1.0, 0.0, 0.0)
+    reach: float = 5.0
+    field: PointField | str | None = field(default=None, compare=False)
+    column: str | None = None
+    curve: tuple[tuple[float, float], ...] = ()
+
+    def __post_init__(self) -> None:
+        if self.by not in RADIUS_BY:
+            raise VolfrepError(
+                f"The radius cannot be graded by '{self.by}': choose {', '.join(RADIUS_BY)}."
+            )
+        check_vector("radius grading direction", self.direction)
+        if not (math.isfinite(self.reach) and self.reach > 0):
+            raise VolfrepError(
+                f"The depth that the radius is graded over must be above 0 mm, not {self.reach:g}."
+            )
+        if self.by == "field" and self.field is None:
+            raise VolfrepError(
+                "A radius graded by a field needs one: name a CSV or VTK file with x, y, z and a "
+                "value, or choose a FEM result."
+            )
+        if self.curve:
+            _ = self._transfer()
+
+    @property
+    def extremes(self) -> tuple[float, float]:
+        """The smallest and the largest radius that can come out, mm."""
+        if self.by == "field" and self.curve:
+            radii = [radius for _, radius in self.curve]
+            return min(radii), max(radii)
+        return self.profile.extremes()
+
+    def _transfer(self) -> TransferCurve:
+        values, radii = np.array(self.curve, float).reshape(-1, 2).T
+        return TransferCurve(values, radii)
+
+    def radii(self, points: Floats, bounds: Floats, depth: Callable[[Floats], Floats]) -> Floats:
+        """(n,) radius of the struts at (n, 3) points, mm.
+
+        Args:
+            points: of the part, mm.
+            bounds: (2, 3) the part's box, mm.
+            depth: gives the depth below the part's surface of points, mm; not above 0 outside.
+        """
+        if self.by == "direction":
+            ends = np.sort(bounds * np.asarray(self.direction), axis=0).sum(axis=1)
+            return self.profile(
+                (points @ np.asarray(self.direction) - ends[0]) / (ends[1] - ends[0])
+            )
+        if self.by == "field":
+            values = self.field
+            if isinstance(values, str):
+                values = read_point_field(values, self.column)
+            assert values is not None
+            if self.curve:
+                return self._transfer()(values(points))
+            ends = default_curve(values.values, self.profile.start, self.profile.end)
+            return ends(values(points))
+        s = np.clip(depth(points) / self.reach, 0.0, 1.0)
+        return self.profile(1.0 - s if self.by == "skin" else s)
+
+
+@dataclass(frozen=True)
+class CellMap:
+    """Cells about an axis or a centre.
+
+    Attributes:
+        kind: ``cylindrical`` (cells along radius, angle and axis) or ``spherical`` (along radius,
+            angle from the axis, angle around it).
+        centre: a point of the axis, or the centre; None: the middle of the part's box.
+        axis: of any length.
+        around: cells around the full turn; None: as many as make them L wide half-way out.
+    """
+
+    kind: str
+    centre: Vector | None = None
+    axis: Vector = (0.0, 0.0, 1.0)
+    around: int | None = None
+
+    def __post_init__(self) -> None:
+        if self.kind not in MAPS[1:]:
+            raise VolfrepError(
+                f"There is no cell map '{self.kind}': choose {' or '.join(MAPS[1:])}."
+            )
+        if self.centre is not None:
+            check_point("centre of the cell map", self.centre)
+        check_vector("axis of the cell map", self.axis)
+        if self.around is not None and (
+            self.around != int(self.around) or not LEAST_AROUND <= self.around <= MOST_AROUND
+        ):
+            raise VolfrepError(
+                f"The cells around must be a whole number from {LEAST_AROUND} to {MOST_AROUND}, "
+                f"not {self.around:g}."
+            )
+
+
+@dataclass(frozen=True)
+class Orientation:
+    """The lattice turned, and not the part.
+
+    Attributes:
+        axis: of the rotation, of any length.
+        angle: in degrees, counter-clockwise seen against the axis.
+        origin: a point of the axis; None: the middle of the part's box.
+    """
+
+    axis: Vector = (0.0, 0.0, 1.0)
+    angle: float = 0.0
+    origin: Vector | None = None
+
+    def __post_init__(self) -> None:
+        check_vector("axis of the rotation", self.axis)
+        if not math.isfinite(self.angle):
+            raise VolfrepError(f"The rotation must be a finite angle, not {self.angle}.")
+        if self.origin is not None:
+            check_point("origin of the rotation", self.origin)
+
+    @property
+    def matrix(self) -> Floats:
+        """(3, 3) the rotation."""
+        return rotation(np.array(self.axis, float), math.radians(self.angle))
+
+
+def check_point(name: str, point: Sequence[float]) -> None:
+    """Refuse what is not three finite coordinates."""
+    if len(point) != 3 or not all(math.isfinite(c) for c in point):
+        raise VolfrepError(f"The {name} must be three finite coordinates, not {tuple(point)}.")
+
+
+def check_vector(name: str, vector: Sequence[float]) -> None:
+    """Refuse what has no direction."""
+    check_point(name, vector)
+    if math.hypot(*vector) < 1e-9:
+        raise VolfrepError(f"The {name} must have a length above 0, not {tuple(vector)}.")
+
+
+def as_plain(value: Any) -> Any:
+    """A grading as plain JSON values."""
+    if isinstance(value, Profile):
+        return value.as_dict()
+    if isinstance(value, PointField):
+        return f"{len(value.values)} points" + f" of {value.source}" * bool(value.source)
+    if hasattr(value, "as_plain"):
+        return value.as_plain()
+    if hasattr(value, "__dataclass_fields__"):
+        return {name: as_plain(getattr(value, name)) for name in value.__dataclass_fields__}
+    if isinstance(value, tuple):
+        return [as_plain(item) for item in value]
+    return value

@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What a job would take, and the refusal of one that does not fit into memory."""
+
+from __future__ import annotations
+
+import math
+import os
+import sys
+
+import numpy as np
+
+from ..util.errors import VolfrepError
+from .forecast import expected_triangles
+from .spec import LatticeSpec
+
+#: Bytes that a triangle takes at the peak: laid out and checked, or in the Boolean as well.
+BYTES_PER_TRIANGLE = 150
+BYTES_PER_BOOLEAN_TRIANGLE = 900
+#: Bytes that a cell of the grid takes while cells and octants are told apart.
+BYTES_PER_CELL = 500
+#: The estimate of triangles is good to a third: so much of it will be there.
+CERTAIN_SHARE = 0.6
+#: Taken for free memory where the system does not tell.
+ASSUMED_MEMORY = 8e9
+
+
+def cells_are_full(spec: LatticeSpec) -> VolfrepError:
+    """What is wrong where struts leave no room between them."""
+    return VolfrepError(
+        f"Struts of radius {spec.strut_radius:g} mm fill cells of {spec.cell_size:g} mm "
+        "completely: reduce the radius or enlarge the cells."
+    )
+
+
+def refuse_expected(spec: LatticeSpec, volume: float) -> None:
+    """Refuse a lattice in a volume of mm3 that surely would not fit, before any work starts.
+
+    Raises:
+        VolfrepError: it needs more memory than is free.
+    """
+    refuse_memory(spec, CERTAIN_SHARE * expected_triangles(spec, volume))
+
+
+def refuse_memory(
+    spec: LatticeSpec, triangles: float, in_boolean: float = 0.0, other: float = 0.0
+) -> None:
+    """Refuse a job of so many triangles, some of them in the Boolean, and other bytes.
+
+    Raises:
+        VolfrepError: it needs more memory than is free; with the nearest settings that would fit.
+    """
+    needed = triangles * BYTES_PER_TRIANGLE + in_boolean * BYTES_PER_BOOLEAN_TRIANGLE + other
+    free = _free_memory()
+    most = np.iinfo(np.int32).max // 3
+    if needed <= free and triangles <= most:
+        return
+    excess = 1.2 * max(needed / free, triangles / most)
+    what = f"have about {triangles / 1e6:.3g} million triangles and " if triangles else ""
+    raise VolfrepError(
+        f"This lattice would {what}take {needed / 1e9:.3g} GB of the {free / 1e9:.3g} GB of "
+        f"free memory: {_what_fits(spec, excess, bool(triangles))}."
+    )
+
+
+def _what_fits(spec: LatticeSpec, excess: float, has_triangles: bool) -> str:
+    """Settings that take so many times less.
+
+    Facets go with the square of their edge, struts in a volume with the square of the cell.
+    """
+    if not has_triangles:
+        return f"cells of {rounded_up(spec.cell_size * excess ** (1 / 3)):g} mm would fit"
+    cells = f"cells of {rounded_up(spec.cell_size * excess**0.5):g} mm or larger"
+    facets = int(spec.facets_along_cell / excess**0.5)
+    if facets < spec.coarsest_resolution:
+        return f"{cells} would fit, or fewer cells"
+    if spec.resolution is not None:
+        return f"a resolution of {facets}, or {cells}, would fit"
+    edge = spec.cell_size / facets
+    return (
+        f"a deviation of {rounded_up(edge**2 / (16 * spec.template_radius)):g} mm, or {cells}, "
+        "would fit"
+    )
+
+
+def rounded_up(value: float) -> float:
+    """The next number of two significant figures, not below the value."""
+    step = 10.0 ** (math.floor(math.log10(value)) - 1)
+    return math.ceil(value / step - 1e-9) * step
+
+
+def _free_memory() -> float:
+    """Bytes of memory that are free, as far as the system tells."""
+    try:
+        with open("/proc/meminfo", encoding="ascii") as file:
+            for line in file:
+                if line.startswith("MemAvailable:"):
+                    return float(line.split()[1]) * 1024.0
+    except OSError:
+        if sys.platform == "win32":
+            return _free_memory_of_windows()
+    if hasattr(os, "sysconf") and "SC_AVPHYS_PAGES" in os.sysconf_names:
+        return float(os.sysconf("SC_AVPHYS_PAGES")) * os.sysconf("SC_PAGE_SIZE")
+    return ASSUMED_MEMORY
+
+
+def _free_memory_of_windows() -> float:
+    """Bytes of physical memory that are free, as GlobalMemoryStatusEx tells."""
+    if sys.platform == "win32":
+        import ctypes
+
+        # MEMORYSTATUSEX: two fields of 32 bits, the first its length, then seven of 64 bits: all
+        # the physical memory, and what of it is available.
+        status = (ctypes.c_uint64 * 8)()
+        ctypes.cast(status, ctypes.POINTER(ctypes.c_uint32))[0] = ctypes.sizeof(status)
+        if ctypes.windll.kernel32.GlobalMemoryStatusEx(ctypes.byref(status)):
+            return float(status[2])
+    return ASSUMED_MEMORY

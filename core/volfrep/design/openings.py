@@ -1,0 +1,201 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What is to be open in a skin: faces without one, and drain holes."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..mesh.triangle_mesh import TriangleMesh, compact
+from ..util.errors import VolfrepError
+from ..util.types import Bools, Floats
+
+Vector = tuple[float, float, float]
+
+#: A face lies in a plane when its corners are nearer to it than this part of the diagonal of the
+#: solid's box, and a facet belongs to a patch when its corners are nearer to that than this.
+IN_PLANE = 1e-4
+NEAR_PATCH = 1e-3
+#: Points lie in open faces when they are this near to them, in units of their size.
+ON_OPENING = 1e-7
+#: A facet lies along a plane or a patch when the cosine of the angle between them is above this.
+ALONG_PLANE = 0.999
+ALONG_PATCH = 0.9
+#: More places than this, or automatic holes for one void, are a mistake.
+MOST_HOLES = 100
+
+
+@dataclass(frozen=True)
+class OpenPlane:
+    """The faces of a part in a plane.
+
+    Attributes:
+        point: any point of the plane, mm.
+        normal: across it, of any length and either sense.
+    """
+
+    point: Vector
+    normal: Vector
+
+    def __post_init__(self) -> None:
+        _check("point of an open plane", self.point)
+        _check("normal of an open plane", self.normal, not_zero=True)
+
+    def contains(self, solid: TriangleMesh) -> Bools:
+        """(m,) which triangles of a solid lie in the plane."""
+        normal = np.array(self.normal, float) / np.linalg.norm(self.normal)
+        size = float(np.linalg.norm(np.ptp(solid.bounds, axis=0)))
+        off = np.abs((solid.vertices - np.array(self.point)) @ normal) < IN_PLANE * size
+        along = np.abs(_normals(solid) @ normal) > ALONG_PLANE
+        return np.asarray(off[solid.triangles].all(axis=1) & along)
+
+    def __str__(self) -> str:
+        return "the plane through ({:.4g}, {:.4g}, {:.4g})".format(*self.point)
+
+
+@dataclass(frozen=True, eq=False)
+class OpenPatch:
+    """The faces of a part near some facets, such as those of a face picked in FreeCAD.
+
+    Attributes:
+        corners: (k, 3, 3) float64, of the facets, mm.
+    """
+
+    corners: Floats
+
+    def contains(self, solid: TriangleMesh) -> Bools:
+        """(m,) which triangles of a solid lie on the patch: corners, middle and direction."""
+        patch = TriangleMesh(
+            self.corners.reshape(-1, 3),
+            np.arange(3 * len(self.corners), dtype=np.int32).reshape(-1, 3),
+        )
+        size = float(np.linalg.norm(np.ptp(solid.bounds, axis=0)))
+        corners = np.stack(solid.corners(), axis=1)
+        points = np.concatenate([corners, corners.mean(axis=1)[:, None]], axis=1)
+        from ..spatial.proximity import closest_points  # slow to import, and most jobs open no face
+
+        _, distance, facet = closest_points(patch, points.reshape(-1, 3))
+        near = (distance.reshape(-1, 4) < NEAR_PATCH * size).all(axis=1)
+        towards = _normals(patch)[facet.reshape(-1, 4)[:, 3]]
+        along = np.einsum("ij,ij->i", _normals(solid), towards) > ALONG_PATCH
+        return np.asarray(near & along)
+
+    def as_plain(self) -> dict[str, Any]:
+        """What tells one patch from another, as plain JSON values."""
+        digest = hashlib.blake2b(np.round(self.corners, 6).tobytes(), digest_size=8)
+        return {"facets": len(self.corners), "digest": digest.hexdigest()}
+
+    def __str__(self) -> str:
+        middle = self.corners.reshape(-1, 3).mean(axis=0)
+        return "the face near ({:.4g}, {:.4g}, {:.4g})".format(*middle)
+
+
+OpenFace = OpenPlane | OpenPatch
+
+
+@dataclass(frozen=True)
+class DrainPlace:
+    """Where a drain hole is wanted.
+
+    Attributes:
+        point: on the part's surface, or near it: the nearest point of the surface counts, mm.
+        direction: along the hole, of any length and either sense; None for across the surface.
+    """
+
+    point: Vector
+    direction: Vector | None = None
+
+    def __post_init__(self) -> None:
+        _check("place of a drain hole", self.point)
+        if self.direction is not None:
+            _check("direction of a drain hole", self.direction, not_zero=True)
+
+
+@dataclass(frozen=True)
+class DrainHoles:
+    """Holes through the skin.
+
+    Attributes:
+        diameter: mm.
+        places: where they are wanted.
+        count: holes for each void that is still closed then, at its lowest places.
+        build_direction: which way is up, of any length.
+    """
+
+    diameter: float
+    places: tuple[DrainPlace, ...] = ()
+    count: int = 0
+    build_direction: Vector = (0.0, 0.0, 1.0)
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.diameter) and self.diameter > 0):
+            raise VolfrepError(
+                f"The diameter of drain holes must be above 0 mm, not {self.diameter:g}."
+            )
+        if self.count != int(self.count) or not 0 <= self.count <= MOST_HOLES:
+            raise VolfrepError(
+                f"The number of drain holes must be a whole number from 0 to {MOST_HOLES}, not "
+                f"{self.count}."
+            )
+        if len(self.places) > MOST_HOLES:
+            raise VolfrepError(
+                f"There are {len(self.places)} places for drain holes: give at most {MOST_HOLES}."
+            )
+        if not self.places and not self.count:
+            raise VolfrepError("Drain holes need places, or a count of how many to place.")
+        _check("build direction", self.build_direction, not_zero=True)
+
+
+def _check(name: str, vector: Sequence[float], not_zero: bool = False) -> None:
+    if len(vector) != 3 or not all(math.isfinite(value) for value in vector):
+        raise VolfrepError(f"The {name} must be three finite numbers.")
+    if not_zero and not any(vector):
+        raise VolfrepError(f"The {name} must not be zero.")
+
+
+def open_surface(solid: TriangleMesh, is_open: Bools) -> TriangleMesh:
+    """The open faces of a solid, (m,) of its triangles, as a mesh."""
+    return compact(TriangleMesh(solid.vertices, solid.triangles[is_open]))
+
+
+def lie_on(openings: TriangleMesh, points: Floats, reach: Floats | float = 0.0) -> Bools:
+    """(n,) which points lie in open faces, or as near to them as the reach, mm."""
+    if not len(points):
+        return np.zeros(0, bool)
+    size = float(np.ptp(openings.bounds, axis=0).max())
+    from ..spatial.proximity import closest_points
+
+    return np.asarray(closest_points(openings, points)[1] <= np.maximum(reach, ON_OPENING * size))
+
+
+def _normals(mesh: TriangleMesh) -> Floats:
+    a, b, c = mesh.corners()
+    normal = np.cross(b - a, c - a)
+    return np.asarray(normal / np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None])
+
+
+def open_triangles(solid: TriangleMesh, faces: tuple[OpenFace, ...]) -> Bools:
+    """(m,) which triangles of a solid are left open.
+
+    Raises:
+        VolfrepError: a plane or a patch holds no face of the solid, or all of it is open.
+    """
+    result = np.zeros(len(solid.triangles), bool)
+    for face in faces:
+        found = face.contains(solid)
+        if not found.any():
+            raise VolfrepError(
+                f"No face of the part lies in {face}: give a point on a face that is to be open."
+            )
+        result |= found
+    if result.all():
+        raise VolfrepError(
+            "All faces of the part are left open: for no skin at all, reduce the shell thickness "
+            "to 0."
+        )
+    return result

@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A lattice as beams for a finite-element solver: fast where solid elements are out of reach.
+
+Bare beams from node to node are far too soft, because struts of ordinary thickness overlap at
+their joints. So the ends of each strut are stiff over a part of its radius.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..grid.strut_graph import Wireframe
+from ..util.errors import VolfrepError
+from ..util.ragged import spread
+from ..util.types import Bools, Floats, Ints
+
+#: Length of a strut's stiff ends in units of its radius. With it the displacements of all six
+#: cells come nearest to those of solid elements.
+JOINT_LENGTH = 0.8
+#: ... but never more than this part of a strut.
+LONGEST_JOINT = 0.4
+#: Elements along a strut between its stiff ends, none shorter than so many radii.
+ELEMENTS_PER_STRUT = 8
+SHORTEST_ELEMENT = 0.4
+#: A beam has the same radius all along: a cone becomes steps. Steps of different struts whose
+#: radii differ by less than this fraction to either side share a section.
+RADIUS_TOLERANCE = 0.01
+
+
+@dataclass(frozen=True, eq=False)
+class BeamModel:
+    """Straight two-noded beams of circular section.
+
+    Attributes:
+        nodes: (k, 3) float64, mm; the wireframe's own nodes come first.
+        joints: how many nodes are the wireframe's own.
+        elements: (e, 2) int64, rows of `nodes`.
+        strut: (e,) int64, the strut each element is a part of.
+        section: (e,) int64, rows of `radii`.
+        radii: (s,) float64, the sections' radii, mm.
+        is_joint: (e,) bool, the stiff ends.
+    """
+
+    nodes: Floats
+    joints: int
+    elements: Ints
+    strut: Ints
+    section: Ints
+    radii: Floats
+    is_joint: Bools
+
+
+def beam_model(
+    wireframe: Wireframe,
+    on_wall: Bools | None = None,
+    *,
+    joint_length: float = JOINT_LENGTH,
+    elements_per_strut: int = ELEMENTS_PER_STRUT,
+    radius_tolerance: float = RADIUS_TOLERANCE,
+) -> BeamModel:
+    """Divide every strut into stiff ends and a flexible middle.
+
+    Args:
+        wireframe: the struts, mm.
+        on_wall: (n,) bool, nodes on a wall: a strut that ends there alone, not in a joint, gets
+            no stiff end there. None: all are joints.
+        joint_length: of the stiff ends, in units of the radius there; 0 for bare beams.
+        elements_per_strut: of the flexible middle.
+        radius_tolerance: sections whose radii differ by less than this fraction to either side
+            become one; a lattice of one radius keeps it exactly.
+
+    Raises:
+        VolfrepError: there are no struts, or an argument makes no sense.
+    """
+    if not len(wireframe.struts):
+        raise VolfrepError("The lattice has no struts to make beams of.")
+    if not 0.0 <= joint_length <= 2.0:
+        raise VolfrepError(f"Stiff ends must be 0 to 2 radii long, not {joint_length:g}.")
+    if elements_per_strut < 1:
+        raise VolfrepError("A strut needs at least one element.")
+    if not 0.0 < radius_tolerance < 0.5:
+        raise VolfrepError(
+            f"The tolerance of the radius must be between 0 and 0.5, not {radius_tolerance:g}."
+        )
+    start, end = wireframe.nodes[wireframe.struts].swapaxes(0, 1)
+    length = np.linalg.norm(end - start, axis=1)
+    stiff = np.minimum(joint_length * wireframe.radii, LONGEST_JOINT * length[:, None])
+    if on_wall is not None:
+        alone = np.bincount(wireframe.struts.ravel(), minlength=len(wireframe.nodes)) == 1
+        stiff[(on_wall & alone)[wireframe.struts]] = 0.0
+    flexible = length - stiff.sum(axis=1)
+    shortest = SHORTEST_ELEMENT * wireframe.radii.max(axis=1)
+    middle = np.clip(np.floor(flexible / shortest), 1, elements_per_strut).astype(np.int64)
+
+    before = (stiff[:, 0] > 0).astype(np.int64)
+    counts = middle + before + (stiff[:, 1] > 0)
+    strut, place = spread(counts)
+    is_joint = ((place == 0) & (before[strut] > 0)) | (
+        (place == counts[strut] - 1) & (stiff[strut, 1] > 0)
+    )
+    # An element's second node: behind its stiff start, so many equal steps on; or the strut's end.
+    last = place == counts[strut] - 1
+    steps = (place + 1 - before[strut]) / middle[strut]
+    high = np.where(last, length[strut], stiff[strut, 0] + flexible[strut] * steps) / length[strut]
+    low = np.where(place == 0, 0.0, np.roll(high, 1))
+
+    # Behind the lattice's own nodes come those between the elements of each strut.
+    joints = len(wireframe.nodes)
+    own = joints + np.arange(len(strut)) - strut
+    elements = np.stack(
+        [
+            np.where(place == 0, wireframe.struts[strut, 0], own - 1),
+            np.where(last, wireframe.struts[strut, 1], own),
+        ],
+        axis=1,
+    )
+    nodes = np.concatenate([wireframe.nodes, np.empty((len(strut) - len(counts), 3))])
+    nodes[own[~last]] = (start[strut] + high[:, None] * (end - start)[strut])[~last]
+    share = 0.5 * (low + high)
+    radius = (1.0 - share) * wireframe.radii[strut, 0] + share * wireframe.radii[strut, 1]
+    section, radii = _sections(radius, radius_tolerance)
+    return BeamModel(nodes, joints, elements, strut, section, radii, is_joint)
+
+
+def _sections(radius: Floats, tolerance: float) -> tuple[Ints, Floats]:
+    """The section of every element, and every section's radius: midway between its elements'."""
+    ratio = np.log1p(tolerance) - np.log1p(-tolerance)
+    bins = np.floor(np.log(radius / radius.min()) / ratio + 1e-6).astype(np.int64)
+    used, section = np.unique(bins, return_inverse=True)
+    low, high = np.full(len(used), np.inf), np.zeros(len(used))
+    np.minimum.at(low, section, radius)
+    np.maximum.at(high, section, radius)
+    return section.ravel().astype(np.int64), 0.5 * (low + high)

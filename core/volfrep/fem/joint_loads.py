@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Holding and pulling a lattice at its joints, in a mesh of tetrahedra: beside a beam model.
+
+A beam's joint is a point that is held or carries a force. In a solid it is a ball: all its nodes
+are held, or carry the force as their shares of the ball's volume, so that it acts at its middle.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from ..grid.strut_graph import Wireframe
+from ..util.errors import VolfrepError
+from ..util.types import Floats, Ints
+from .model import StaticStep
+from .tet_mesh import TetrahedralMesh
+
+#: Nodes outside a ball by this much, mm, still belong to it.
+TOLERANCE = 1e-6
+
+
+@dataclass(frozen=True, eq=False)
+class Ball:
+    """The nodes of one joint.
+
+    Attributes:
+        nodes: (k,) rows of the mesh's nodes.
+        shares: (k,) their parts of the ball's volume, together 1.
+    """
+
+    nodes: Ints
+    shares: Floats
+
+
+def balls_of(filled: TetrahedralMesh, frame: Wireframe, joints: Ints) -> list[Ball]:
+    """The nodes inside the spheres of some joints.
+
+    Args:
+        filled: a lattice as tetrahedra, mm.
+        frame: the same lattice's struts and joints.
+        joints: rows of its nodes.
+
+    Raises:
+        VolfrepError: a joint holds no node of the mesh.
+    """
+    # A tenth of each tetrahedron to each of its ten nodes.
+    volume = np.repeat(filled.volumes() / 10.0, 10)
+    weight = np.bincount(filled.elements.ravel(), volume, len(filled.nodes))
+    found = cKDTree(filled.nodes).query_ball_point(
+        frame.nodes[joints], frame.joint_radii[joints] + TOLERANCE, return_sorted=True
+    )
+    balls = []
+    for joint, rows in zip(joints.tolist(), found, strict=True):
+        nodes = np.array(rows, np.int64)
+        if not len(nodes):
+            x, y, z = frame.nodes[joint]
+            raise VolfrepError(
+                f"The joint at ({x:.4g}, {y:.4g}, {z:.4g}) holds no node: is it the same lattice?"
+            )
+        balls.append(Ball(nodes, weight[nodes] / weight[nodes].sum()))
+    return balls
+
+
+def joint_step(
+    fixed: list[Ball], loaded: list[Ball], force: tuple[float, float, float]
+) -> StaticStep:
+    """A step that holds some joints; others share a force equally.
+
+    Args:
+        fixed: joints that are held.
+        loaded: joints that carry the force.
+        force: (3,) N, the whole of it.
+    """
+    return StaticStep(
+        np.unique(np.concatenate([ball.nodes for ball in fixed])),
+        np.concatenate([ball.nodes for ball in loaded]),
+        force,
+        np.concatenate([ball.shares for ball in loaded]) / len(loaded),
+    )
+
+
+def joint_displacements(moved: Floats, balls: list[Ball]) -> Floats:
+    """(n, 3) mm, the mean displacement of each joint's ball, from (nodes, 3) of all nodes."""
+    return np.array([ball.shares @ moved[ball.nodes] for ball in balls])

@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Where a lattice lies in its part: its coordinate map, its box, and the radii of its nodes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..design.spec import LatticeSpec
+from ..mesh.triangle_mesh import TriangleMesh
+from ..spatial.rays import inside_points
+from ..util.errors import VolfrepError
+from ..util.progress import Monitor
+from ..util.types import Floats
+from .activation import OPEN, CellGrid
+from .coordinate_map import CoordinateMap, lattice_map, mapped_box
+from .strut_graph import CellGraph, Wireframe, wireframe
+
+
+@dataclass(frozen=True, eq=False)
+class Placement:
+    """What a graded lattice is laid in.
+
+    Attributes:
+        mapping: from lattice space to the part; None where they are the same.
+        bounds: (2, 3) box that directions are measured in, mm.
+        depth: gives the depth of (n, 3) points below the part's surface, mm; 0 outside.
+    """
+
+    mapping: CoordinateMap | None
+    bounds: Floats
+    depth: Callable[[Floats], Floats]
+
+
+def placement_in(solid: TriangleMesh, spec: LatticeSpec, monitor: Monitor) -> Placement:
+    """The setting of a lattice inside a solid."""
+
+    def depth(points: Floats) -> Floats:
+        inside = inside_points(solid, points, monitor)
+        result = np.zeros(len(points))
+        from ..spatial.proximity import closest_points  # slow to import
+
+        result[inside] = monitor.call(lambda: closest_points(solid, points[inside])[1])
+        return result
+
+    return Placement(part_map(spec, solid.bounds), solid.bounds, depth)
+
+
+def part_map(spec: LatticeSpec, bounds: Floats) -> CoordinateMap | None:
+    """The map of a lattice that fills a part; None where lattice space is the part's own."""
+    mapping = lattice_map(
+        spec.cell_size, bounds, spec.size_grading, spec.cell_map, spec.orientation
+    )
+    return None if mapping.is_identity else mapping
+
+
+def block_placement(spec: LatticeSpec, shape: tuple[int, int, int]) -> tuple[CellGrid, Placement]:
+    """The grid and the setting of a free-standing block of so many cells.
+
+    About an axis or a centre, the block is a full turn: as many cells along the angle as the map
+    has around, as wide as L half-way out.
+
+    Raises:
+        VolfrepError: the block does not close, or is not what a radius can be graded by.
+    """
+    size, extent = spec.cell_size, np.array(shape) * spec.cell_size
+    origin = np.array(spec.origin or (0.0, 0.0, 0.0), float)
+    cells, periodic = spec.cell_map, OPEN
+    if cells is not None:
+        axis = 1 if cells.kind == "cylindrical" else 2
+        around = shape[axis] if cells.around is None else cells.around
+        if around != shape[axis]:
+            raise VolfrepError(
+                f"A {cells.kind} block closes upon itself: give as many cells along axis "
+                f"{axis + 1} as around, {around} and not {shape[axis]}."
+            )
+        cells = replace(cells, around=around)
+        periodic = (False, axis == 1, axis == 2)
+        turn = around * size
+        origin = np.array([max(turn / (2.0 * np.pi) - 0.5 * extent[0], 0.5 * size), 0.0, 0.0])
+        if axis == 2:
+            if 2 * shape[1] > around - 2:
+                raise VolfrepError(
+                    f"A spherical block of {around} cells around has room for at most "
+                    f"{(around - 2) // 2} from pole to pole, not {shape[1]}."
+                )
+            origin[1] = 0.25 * turn - 0.5 * extent[1]
+    bounds = np.stack([origin, origin + extent])
+    mapping = lattice_map(size, bounds, spec.size_grading, cells, spec.orientation, block=True)
+    box = mapped_box(mapping.to_part, bounds)
+
+    def depth(points: Floats) -> Floats:
+        raise VolfrepError(
+            "A block in free space has no skin to grade the radius by: grade it along a direction "
+            "or by a field."
+        )
+
+    grid = CellGrid(origin, size, shape, periodic)
+    return grid, Placement(None if mapping.is_identity else mapping, box, depth)
+
+
+def node_radii(spec: LatticeSpec, points: Floats, placement: Placement) -> Floats:
+    """(n,) radius of the struts at points of the part, mm."""
+    if spec.radius_grading is None:
+        return np.full(len(points), float(spec.strut_radius))
+    return spec.radius_grading.radii(points, placement.bounds, placement.depth)
+
+
+def graded_wireframe(graph: CellGraph, spec: LatticeSpec, placement: Placement) -> Wireframe:
+    """The lattice as a graph in the part.
+
+    Struts that are deformed with their cells are given the radius of a circle of their section.
+    """
+    mapping = placement.mapping
+    points = graph.nodes if mapping is None else mapping.to_part(graph.nodes)
+    radius = node_radii(spec, points, placement)
+    result = wireframe(graph, points, radius, spec.cell_size)
+    if mapping is None or mapping.is_rigid or spec.keep_radius:
+        return result
+    jacobian = mapping.jacobians(graph.nodes)
+    volume = np.linalg.det(jacobian)
+    span = graph.nodes[graph.struts[:, 1]] - graph.nodes[graph.struts[:, 0]]
+    for axis in np.flatnonzero(mapping.base.periodic):
+        span[:, axis] -= mapping.base.turn * np.round(span[:, axis] / mapping.base.turn)
+    span /= np.linalg.norm(span, axis=1)[:, None]
+    longer = np.linalg.norm(np.einsum("meij,mj->mei", jacobian[graph.struts], span), axis=2)
+    radii = result.radii * np.sqrt(volume[graph.struts] / longer)
+    joint = result.joint_radii * np.cbrt(volume)
+    return Wireframe(points, graph.struts, radii, joint)

@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The lattice as a graph: the unique nodes and struts of cells."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..design.cells import NODE_TOLERANCE, UnitCell, joint_radius
+from ..util.types import Bools, Floats, Ints
+
+
+@dataclass(frozen=True, eq=False)
+class Graph:
+    """Nodes and struts, each once.
+
+    Attributes:
+        nodes: (n, 3) float64, mm.
+        struts: (m, 2) int32, rows of `nodes`.
+    """
+
+    nodes: Floats
+    struts: NDArray[np.int32]
+
+    @property
+    def genus(self) -> int:
+        """Independent loops if the graph is in one piece: struts - nodes + 1."""
+        return len(self.struts) - len(self.nodes) + 1
+
+
+@dataclass(frozen=True, eq=False)
+class Wireframe(Graph):
+    """The lattice in the part: what its nodes and struts are, and how thick.
+
+    Attributes:
+        radii: (m, 2) float64, radius of each strut at its two ends, mm: it is a cone where they
+            differ.
+        joint_radii: (n,) float64, radius of the joint sphere of each node, mm.
+    """
+
+    radii: Floats
+    joint_radii: Floats
+
+
+@dataclass(frozen=True, eq=False)
+class CellGraph(Graph):
+    """A graph in lattice space, and which of its nodes is which of a cell's.
+
+    Attributes:
+        row: (nx, ny, nz) int32, row of a cell in `node_of`; -1 for one that is not of it.
+        node_of: (cells, k) int32, the nodes of each cell in the unit cell's order.
+        first: (3,) index in `row` of the first cell of the grid that the lattice is laid on.
+    """
+
+    row: NDArray[np.int32]
+    node_of: NDArray[np.int32]
+    first: NDArray[np.int64]
+
+
+def cell_graph(
+    cell: UnitCell,
+    cells: Bools,
+    cell_size: float,
+    origin: Floats,
+    periodic: tuple[bool, bool, bool] = (False, False, False),
+    first: tuple[int, int, int] = (0, 0, 0),
+) -> CellGraph:
+    """The graph of some cells of a grid.
+
+    Args:
+        cell: the unit cell.
+        cells: (nx, ny, nz) bool, the cells that it consists of.
+        cell_size: L in mm.
+        origin: (3,) lowest corner of the grid in mm.
+        periodic: axes along which the last cell is followed by the first one.
+        first: cells that were added to the grid below its first one.
+    """
+    index = np.argwhere(cells)
+    # A node is identified by whole numbers: the cell it begins in and its place there, so that
+    # a node on a cell's far side is one on the near side of the next cell.
+    steps = round(1.0 / NODE_TOLERANCE)
+    local = np.round(cell.nodes * steps).astype(np.int64)
+    places, place_of = np.unique(local % steps, axis=0, return_inverse=True)
+    whole = index[:, None, :] + (local // steps)[None, :, :]
+    for axis in np.flatnonzero(periodic):
+        whole[:, :, axis] %= cells.shape[axis]
+    shape = np.array(cells.shape) + 1
+    packed = np.ravel_multi_index(tuple(np.moveaxis(whole, -1, 0)), tuple(shape))
+    packed = packed * len(places) + place_of.ravel()[None, :]
+    unique, inverse = np.unique(packed.ravel(), return_inverse=True)
+    inverse = inverse.reshape(packed.shape)
+    corner = np.stack(np.unravel_index(unique // len(places), tuple(shape)), axis=1)
+    nodes = origin + cell_size * (corner + places[unique % len(places)] / steps)
+
+    ends = inverse[:, cell.struts]  # (cells, struts, 2)
+    ends = np.sort(ends.reshape(-1, 2), axis=1)
+    strut_keys = np.unique(ends[:, 0] * len(unique) + ends[:, 1])
+    struts = np.stack([strut_keys // len(unique), strut_keys % len(unique)], axis=1)
+    row = np.full(cells.shape, -1, np.int32)
+    row[cells] = np.arange(len(index))
+    return CellGraph(
+        nodes, struts.astype(np.int32), row, inverse.astype(np.int32), np.array(first, np.int64)
+    )
+
+
+def struts_of(graph: CellGraph, cell: UnitCell, cells: NDArray[np.int32]) -> Bools:
+    """(m,) which struts of a graph belong to one of some cells, given by their rows."""
+    count = len(graph.nodes)
+    ends = np.sort(graph.node_of[cells][:, cell.struts].reshape(-1, 2).astype(np.int64), axis=1)
+    own = np.sort(graph.struts.astype(np.int64), axis=1)
+    result: Bools = np.isin(own[:, 0] * count + own[:, 1], ends[:, 0] * count + ends[:, 1])
+    return result
+
+
+def chosen(lattice: Wireframe, struts: Bools) -> Wireframe:
+    """Some of the struts of a wireframe, (m,) bool, and their nodes."""
+    used, rows = np.unique(lattice.struts[struts], return_inverse=True)
+    return Wireframe(
+        lattice.nodes[used],
+        rows.reshape(-1, 2).astype(np.int32),
+        lattice.radii[struts],
+        lattice.joint_radii[used],
+    )
+
+
+def wireframe(graph: CellGraph, points: Floats, radius: Floats, cell_size: float) -> Wireframe:
+    """The struts and joints of a graph in the part.
+
+    Args:
+        graph: its nodes and struts.
+        points: (n, 3) where the nodes lie in the part, mm.
+        radius: (n,) radius of the struts where they end at each node, mm.
+        cell_size: L in mm.
+    """
+    return Wireframe(points, graph.struts, radius[graph.struts], joint_radius(radius, cell_size))
+
+
+def neighbour_table(struts: NDArray[np.int32] | Ints, count: int) -> Ints:
+    """(count, k) the other ends of the struts at every node; -1 where it has fewer than k."""
+    start = np.concatenate([struts[:, 0], struts[:, 1]]).astype(np.int64)
+    end = np.concatenate([struts[:, 1], struts[:, 0]]).astype(np.int64)
+    order = np.argsort(start, kind="stable")
+    start, end = start[order], end[order]
+    number = np.bincount(start, minlength=count)
+    table = np.full((count, int(number.max(initial=0))), -1, np.int64)
+    table[start, np.arange(len(start)) - np.repeat(np.cumsum(number) - number, number)] = end
+    return table

@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""STEP, IGES and BREP, by way of FreeCAD in a process of its own."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import tempfile
+from pathlib import Path
+
+from ...mesh.edge_table import edges_of
+from ...util.errors import VolfrepError
+from ...util.subprocesses import FREECAD, NO_WINDOW, find_freecad
+from ..repair.weld import weld_equal
+from ..tessellation import ANGULAR_DEVIATION, MAX_DEVIATION, RELATIVE_DEVIATION
+from .contents import Contents
+from .ply import read_ply
+from .step_text import refuse_damaged_step
+
+STEP_SUFFIXES = (".step", ".stp")
+MACRO = Path(__file__).with_name("tessellate.FCMacro")
+MAX_SECONDS = 1800
+
+
+def read_cad(data: bytes, file: Path) -> Contents:
+    """The solids of a CAD file, tessellated as FreeCAD's Lattice Infill does, in mm.
+
+    FreeCAD runs with an empty profile and opens no document: nothing in the file is executed.
+
+    Args:
+        data: the whole file.
+        file: where it is, for FreeCAD.
+
+    Raises:
+        VolfrepError: FreeCAD is not there, or cannot make solids of the file.
+    """
+    if file.suffix.lower() in STEP_SUFFIXES:
+        refuse_damaged_step(data, file.name)
+    program = find_freecad()
+    if program is None:
+        raise VolfrepError(
+            f"Reading '{file.name}' needs FreeCAD, and there is no '{FREECAD[0]}' on the PATH: "
+            "install FreeCAD, or convert the file to STL or 3MF first."
+        )
+    with tempfile.TemporaryDirectory(prefix="volfrep-") as folder:
+        mesh = Path(folder) / "mesh.ply"
+        # FreeCAD takes the kind of the file from its extension; arguments it would open itself.
+        given = {
+            "VOLFREP_SOURCE": str(file.resolve()),
+            "VOLFREP_MESH": str(mesh),
+            "VOLFREP_DEVIATIONS": f"{RELATIVE_DEVIATION} {MAX_DEVIATION} {ANGULAR_DEVIATION}",
+            "FREECAD_USER_HOME": folder,
+        }
+        try:
+            subprocess.run(
+                [program, str(MACRO)],
+                env={**os.environ, **given},
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+                creationflags=NO_WINDOW,
+                timeout=MAX_SECONDS,
+                check=False,
+            )
+        except subprocess.TimeoutExpired as error:
+            raise VolfrepError(
+                f"FreeCAD has not read '{file.name}' in {MAX_SECONDS / 60:.0f} minutes: export a "
+                "simpler solid."
+            ) from error
+        except OSError as error:
+            raise VolfrepError(f"'{program}' cannot be started: {error.strerror}.") from error
+        said = mesh.with_name(mesh.name + ".txt")
+        if said.is_file():
+            text = said.read_text(encoding="utf-8").rstrip(".")
+            raise VolfrepError(f"FreeCAD cannot make a solid of '{file.name}': {text}.")
+        if not mesh.is_file():
+            raise VolfrepError(
+                f"FreeCAD failed while it read '{file.name}': open it in FreeCAD to see why."
+            )
+        contents = read_ply(mesh.read_bytes(), file.name)
+        warned = mesh.with_name(mesh.name + ".invalid").is_file()
+    if warned:
+        edges = edges_of(weld_equal(contents.mesh))
+        if not (edges.is_manifold and edges.is_closed):
+            raise VolfrepError(
+                f"FreeCAD finds faults in the geometry of '{file.name}', and its facets do not "
+                "close: mend it there (Part > Check geometry) and export it again."
+            )
+    warning = f"FreeCAD finds faults in the geometry of '{file.name}' (Part > Check geometry)."
+    return Contents(contents.mesh, "mm", (warning,) if warned else ())

@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""One file a format, behind one function that picks the format by the file's extension."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ...util.errors import VolfrepError
+
+if TYPE_CHECKING:
+    from ...mesh.triangle_mesh import TriangleMesh
+    from ...util.progress import Monitor
+
+MeshWriter = Callable[["TriangleMesh", "str | os.PathLike[str]", "Monitor | None"], None]
+
+#: Modules and functions by extension, imported when used. A new format is one more line here.
+MESH_WRITERS: dict[str, tuple[str, str]] = {
+    ".stl": ("stl", "write_stl"),
+    ".3mf": ("threemf", "write_3mf"),
+    ".ply": ("ply", "write_ply"),
+    ".obj": ("obj", "write_obj"),
+    ".step": ("step_faceted", "write_step_faceted"),
+    ".stp": ("step_faceted", "write_step_faceted"),
+}
+
+
+def mesh_writer(path: str | os.PathLike[str]) -> MeshWriter:
+    """The writer for the path's extension (case does not matter).
+
+    Raises:
+        VolfrepError: listing the known extensions.
+    """
+    extension = Path(path).suffix
+    home = MESH_WRITERS.get(extension.lower())
+    if home is None:
+        named = f"the extension '{extension}'" if extension else "a name without an extension"
+        raise VolfrepError(
+            f"Cannot write '{path}': {named} is not a known mesh format, "
+            f"use {' or '.join(MESH_WRITERS)}."
+        )
+    module, function = home
+    writer: MeshWriter = getattr(import_module(f".{module}", __name__), function)
+    return writer
+
+
+def write_mesh(
+    mesh: TriangleMesh, path: str | os.PathLike[str], monitor: Monitor | None = None
+) -> None:
+    """Write a mesh in the format that the path's extension names.
+
+    Raises:
+        VolfrepError: unknown extension, unwritable path, or a mesh the format cannot hold.
+        Cancelled: when the monitor says so; no file is left behind.
+    """
+    mesh_writer(path)(mesh, path, monitor)

@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Binary STL: the format of every slicer, with the precision of float32."""
+
+from __future__ import annotations
+
+import os
+from collections import deque
+from collections.abc import Callable, Iterable
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
+from itertools import islice
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...mesh.precision import refuse_lost_corners, single_precision
+from ...mesh.triangle_mesh import TriangleMesh, compact
+from ...util.errors import VolfrepError
+from ...util.files import replacing
+from ...util.progress import Monitor
+from ...util.threads import threads
+
+HEADER_BYTES = 80
+#: One facet as it lies in the file.
+FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+#: Facets as they lie in the file: (m,) of `FACET`.
+Facets = NDArray[np.void]
+#: The file counts its facets in 32 bits.
+MOST_FACETS = int(np.iinfo(np.uint32).max)
+#: Facets prepared at once by each thread: they should stay in the processor's cache.
+BLOCK_FACETS = 1 << 13
+
+
+def write_stl(
+    mesh: TriangleMesh, path: str | os.PathLike[str], monitor: Monitor | None = None
+) -> None:
+    """Write a binary STL with facet normals, beside the target and then renamed.
+
+    Args:
+        mesh: in mm.
+        path: of the file; an old file stays if anything goes wrong.
+        monitor: told the progress, asked for a cancel.
+
+    Raises:
+        VolfrepError: the mesh is empty, holds coordinates that float32 cannot, or has triangles
+            that lose a corner in float32; or the path cannot be written.
+        Cancelled: when the monitor says so; no file is left behind.
+    """
+    vertices = single_precision(mesh, path)
+    starts = range(0, len(mesh.triangles), BLOCK_FACETS)
+    write_facets(
+        path,
+        len(mesh.triangles),
+        (
+            partial(_facets, vertices, mesh.triangles[start : start + BLOCK_FACETS], path)
+            for start in starts
+        ),
+        monitor,
+    )
+
+
+def write_facets(
+    path: str | os.PathLike[str],
+    count: int,
+    blocks: Iterable[Callable[[], Facets]],
+    monitor: Monitor | None,
+) -> None:
+    """Write a binary STL of blocks of facets, each made when its turn comes near.
+
+    Args:
+        path: of the file; an old file stays if anything goes wrong.
+        count: of all the facets.
+        blocks: called on all cores, a few blocks ahead of what is written.
+        monitor: told the progress, asked for a cancel.
+
+    Raises:
+        VolfrepError: there are more facets than the format can count, or the path cannot be
+            written.
+        Cancelled: when the monitor says so; no file is left behind.
+    """
+    if count > MOST_FACETS:
+        raise VolfrepError(
+            f"Cannot write '{path}': an STL file holds at most {MOST_FACETS:,} triangles, and "
+            f"there are {count:,}; use a coarser resolution or fewer cells."
+        )
+    workers = threads()
+    waiting = iter(blocks)
+    with (
+        replacing(path, HEADER_BYTES + 4 + FACET.itemsize * count) as file,
+        ThreadPoolExecutor(max_workers=workers) as pool,
+    ):
+        file.write(b"binary STL, mm".ljust(HEADER_BYTES, b" "))
+        file.write(np.array(count, "<u4").tobytes())
+        # A few blocks ahead, so that the threads work on while a block is written.
+        ahead = deque(pool.submit(block) for block in islice(waiting, 2 * workers))
+        written = 0
+        try:
+            while ahead:
+                facets = ahead.popleft().result()
+                ahead.extend(pool.submit(block) for block in islice(waiting, 1))
+                file.write(facets.data)
+                written += len(facets)
+                if monitor is not None:
+                    monitor.count("bytes written", facets.nbytes)
+                    monitor.tick(written / count)
+        finally:
+            for future in ahead:
+                future.cancel()
+
+
+def merge_corners(corners: NDArray[np.float32]) -> TriangleMesh:
+    """A mesh from (3 m, 3) float32 corners, three a triangle, equal ones made one vertex."""
+    # Adding zero turns -0.0 into 0.0: equal numbers then have equal bits.
+    bits = (np.asarray(corners, np.float32) + np.float32(0.0)).view(np.uint32)
+    key = bits[:, 0].astype(np.uint64) << np.uint64(32) | bits[:, 1]
+    _, column = np.unique(key, return_inverse=True)
+    key = column.ravel().astype(np.uint64) << np.uint64(32) | bits[:, 2]
+    del column
+    _, first, index = np.unique(key, return_index=True, return_inverse=True)
+    return TriangleMesh(corners[first].astype(np.float64), index.reshape(-1, 3).astype(np.int32))
+
+
+def as_read(mesh: TriangleMesh) -> TriangleMesh:
+    """The mesh as it will come back from an STL file, without the way through the disk."""
+    used = compact(mesh)
+    return merge_corners(used.vertices.astype(np.float32)[used.triangles].reshape(-1, 3))
+
+
+def _facets(
+    vertices: NDArray[np.float32], triangles: NDArray[np.int32], path: str | os.PathLike[str]
+) -> Facets:
+    facets = np.zeros(len(triangles), FACET)
+    corners = vertices[triangles]
+    facets["corners"] = corners
+    e, f = (np.ascontiguousarray((corners[:, k] - corners[:, 0]).T) for k in (1, 2))
+    normal = np.stack([e[i] * f[j] - e[j] * f[i] for i, j in ((1, 2), (2, 0), (0, 1))])
+    length = np.sqrt((normal * normal).sum(axis=0))
+    flat = np.flatnonzero(length == 0.0)
+    refuse_lost_corners(vertices, triangles[flat], path)
+    length[flat] = 1.0
+    facets["normal"] = (normal / length).T
+    return facets

@@ -1,0 +1,245 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""3MF: a part as triangles, as beams for readers of the beam lattice extension, or as both.
+
+Written after the 3MF Core Specification 1.3 and its Beam Lattice Extension 1.2. The file is a zip
+with one XML text in it, which needs no library; readers keep single precision, and the numbers
+are written to its step.
+"""
+
+from __future__ import annotations
+
+import os
+import zipfile
+from collections.abc import Iterator
+from html import escape
+from itertools import chain
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ... import __version__
+from ...grid.strut_graph import Wireframe
+from ...mesh.precision import BLOCK_ROWS, as_text, lines, rounded
+from ...mesh.triangle_mesh import TriangleMesh
+from ...util.errors import VolfrepError
+from ...util.files import replacing
+from ...util.progress import Monitor
+from ...util.types import Floats
+
+if TYPE_CHECKING:
+    from ...trim.beam_model import BeamModel
+
+
+#: Beams are written to this part of the thinnest radius.
+BEAM_STEP = 1e-4
+#: Written before the names of the clip's elements: the same names to a reader of XML namespaces,
+#: as one of the extension must be. Slicers that compare plain names do not see the clip then;
+#: PrusaSlicer would refuse a file with a mesh that is not to be printed.
+HIDING_PREFIX = "core:"
+
+_MODEL = "3D/3dmodel.model"
+_XML = '<?xml version="1.0" encoding="UTF-8"?>\n'
+_CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
+_BEAMS = "http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02"
+_BALLS = "http://schemas.microsoft.com/3dmanufacturing/beamlattice/balls/2020/07"
+_EXTENSIONS = (
+    f' xmlns:core="{_CORE}" xmlns:b="{_BEAMS}" xmlns:b2="{_BALLS}" requiredextensions="b b2"'
+)
+_PACKAGE = "http://schemas.openxmlformats.org/package/2006"
+_PART = "application/vnd.ms-package.3dmanufacturing-3dmodel+xml"
+_CONTENT_TYPES = (
+    f'{_XML}<Types xmlns="{_PACKAGE}/content-types"><Default Extension="rels" '
+    'ContentType="application/vnd.openxmlformats-package.relationships+xml"/>'
+    f'<Default Extension="model" ContentType="{_PART}"/></Types>'
+)
+_RELATIONSHIPS = (
+    f'{_XML}<Relationships xmlns="{_PACKAGE}/relationships"><Relationship Id="model" '
+    'Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel" '
+    f'Target="/{_MODEL}"/></Relationships>'
+)
+
+
+def write_3mf(
+    mesh: TriangleMesh, path: str | os.PathLike[str], monitor: Monitor | None = None
+) -> None:
+    """Write a mesh as a compressed 3MF file, beside the target and then renamed.
+
+    Args:
+        mesh: in mm.
+        path: of the file; an old file stays if anything goes wrong.
+        monitor: told the progress, asked for a cancel.
+
+    Raises:
+        VolfrepError: the mesh is empty, holds coordinates that float32 cannot, or has triangles
+            that lose a corner in float32; or the path cannot be written.
+        Cancelled: when the monitor says so; no file is left behind.
+    """
+    _write(path, [_mesh_object(1, "part", mesh, path)], 1, _rows(mesh), monitor)
+
+
+def write_3mf_beams(
+    model: BeamModel,
+    path: str | os.PathLike[str],
+    fallback: TriangleMesh | None = None,
+    monitor: Monitor | None = None,
+) -> None:
+    """Write a lattice as beams: cones, balls at the joints, clipped, joined to its skin.
+
+    Skin and lattice are one assembly. A slicer that ignores the extension finds an object without
+    triangles in it and refuses the file, rather than printing the skin alone. With a fallback,
+    the object with the beams also holds the whole part as triangles, in place of the skin. The
+    extension defines such an object as the union of the two, so that the part is the same, and
+    other readers see the triangles. (The extension's own representation mesh is for display only,
+    and readers without the extension do not look for it.)
+
+    Args:
+        model: in mm.
+        path: of the file; an old file stays if anything goes wrong.
+        fallback: the same part as triangles.
+        monitor: told the progress, asked for a cancel.
+
+    Raises:
+        VolfrepError: the lattice has no struts, or as `write_3mf`.
+        Cancelled: when the monitor says so; no file is left behind.
+    """
+    if not len(model.lattice.struts):
+        raise VolfrepError(f"There is nothing to write to '{path}': the lattice has no struts.")
+    objects: list[Iterator[bytes]] = []
+    clip = skin = None
+    if model.clip is not None:
+        clip = 1
+        prefix = "" if fallback is None else HIDING_PREFIX
+        objects.append(_mesh_object(clip, "clip", model.clip, path, prefix))
+    if model.skin is not None and fallback is None:
+        skin = len(objects) + 1
+        objects.append(_mesh_object(skin, "skin", model.skin, path))
+    lattice = len(objects) + 1
+    objects.append(_beam_object(lattice, model.lattice, clip, fallback, path))
+    if skin is not None:
+        parts = "".join(f'<component objectid="{part}"/>' for part in (skin, lattice))
+        text = f"<components>{parts}</components>".encode()
+        objects.append(_object(len(objects) + 1, "part", iter([text])))
+    rows = len(model.lattice.nodes) + len(model.lattice.struts)
+    rows += sum(_rows(mesh) for mesh in (model.clip, fallback or model.skin) if mesh is not None)
+    _write(path, objects, len(objects), rows, monitor, _EXTENSIONS)
+
+
+def _rows(mesh: TriangleMesh) -> int:
+    return len(mesh.vertices) + len(mesh.triangles)
+
+
+def _write(
+    path: str | os.PathLike[str],
+    objects: list[Iterator[bytes]],
+    build: int,
+    rows: int,
+    monitor: Monitor | None,
+    extensions: str = "",
+) -> None:
+    """Write the package; `build` is the number of the object to print, `rows` for the progress."""
+    title = "".join(letter for letter in Path(path).stem if letter.isprintable())
+    head = (
+        f'{_XML}<model unit="millimeter" xml:lang="en-US" xmlns="{_CORE}"{extensions}>'
+        f'<metadata name="Title">{escape(title)}</metadata>'
+        f'<metadata name="Application">VOLFREP {__version__}</metadata><resources>'
+    ).encode()
+    tail = f'</resources><build><item objectid="{build}"/></build></model>'.encode()
+    with replacing(path) as file, zipfile.ZipFile(file, "w") as package:
+        package.writestr(_entry("[Content_Types].xml"), _CONTENT_TYPES)
+        package.writestr(_entry("_rels/.rels"), _RELATIONSHIPS)
+        with package.open(_entry(_MODEL), "w", force_zip64=True) as model:
+            for count, chunk in enumerate(chain([head], *objects, [tail])):
+                model.write(chunk)
+                if monitor is not None:
+                    monitor.tick(count * BLOCK_ROWS / rows)
+
+
+def _entry(name: str) -> zipfile.ZipInfo:
+    entry = zipfile.ZipInfo(name)  # with the oldest date: the same input makes the same file
+    entry.compress_type = zipfile.ZIP_DEFLATED
+    return entry
+
+
+def _object(number: int, name: str, inside: Iterator[bytes], prefix: str = "") -> Iterator[bytes]:
+    yield f'<{prefix}object id="{number}" type="model" name="{name}">'.encode()
+    yield from inside
+    yield f"</{prefix}object>".encode()
+
+
+def _mesh_object(
+    number: int, name: str, mesh: TriangleMesh, path: str | os.PathLike[str], prefix: str = ""
+) -> Iterator[bytes]:
+    inside = _mesh(as_text(mesh, path), mesh.triangles, iter(()), prefix)
+    return _object(number, name, inside, prefix)
+
+
+def _beam_object(
+    number: int,
+    lattice: Wireframe,
+    clip: int | None,
+    mesh: TriangleMesh | None,
+    path: str | os.PathLike[str],
+) -> Iterator[bytes]:
+    """The object of the beams; the vertices of its own triangles follow the nodes."""
+    points = rounded(lattice.nodes, BEAM_STEP * float(lattice.radii.min()))
+    triangles = np.zeros((0, 3), np.int32)
+    if mesh is not None:
+        triangles = mesh.triangles + np.int32(len(points))
+        points = np.concatenate([points, as_text(mesh, path)])
+    return _object(number, "lattice", _mesh(points, triangles, _beam_lattice(lattice, clip)))
+
+
+def _mesh(
+    points: Floats, triangles: NDArray[np.int32], more: Iterator[bytes], prefix: str = ""
+) -> Iterator[bytes]:
+    vertex = f'<{prefix}vertex x="%.9g" y="%.9g" z="%.9g"/>'
+    triangle = f'<{prefix}triangle v1="%d" v2="%d" v3="%d"/>'
+    yield f"<{prefix}mesh><{prefix}vertices>".encode()
+    yield from lines(vertex, points)
+    yield f"</{prefix}vertices><{prefix}triangles>".encode()
+    yield from lines(triangle, triangles)
+    yield f"</{prefix}triangles>".encode()
+    yield from more
+    yield f"</{prefix}mesh>".encode()
+
+
+def _beam_lattice(lattice: Wireframe, clip: int | None) -> Iterator[bytes]:
+    """Beams, and the balls that are not of the usual radius.
+
+    Where a reader does not know the balls, spheres of the struts' own radius close the joints.
+    """
+    step = BEAM_STEP * float(lattice.radii.min())
+    radii, balls = rounded(lattice.radii, step), rounded(lattice.joint_radii, step)
+    radius, ball = _most_common(radii.ravel()), _most_common(balls)
+    ends = lattice.nodes[lattice.struts]
+    shortest = float(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).min())
+    clipping = "" if clip is None else f' clippingmode="inside" clippingmesh="{clip}"'
+    yield (
+        f'<b:beamlattice minlength="{shortest / 2:.3g}" radius="{radius:.9g}" cap="sphere" '
+        f'b2:ballmode="all" b2:ballradius="{ball:.9g}"{clipping}><b:beams>'
+    ).encode()
+    cone = radii[:, 0] != radii[:, 1]
+    usual = ~cone & (radii[:, 0] == radius)
+    even = ~cone & ~usual
+    struts = lattice.struts
+    yield from lines('<b:beam v1="%d" v2="%d"/>', struts[usual])
+    yield from lines(
+        '<b:beam v1="%d" v2="%d" r1="%.9g"/>', np.hstack([struts[even], radii[even, :1]])
+    )
+    yield from lines(
+        '<b:beam v1="%d" v2="%d" r1="%.9g" r2="%.9g"/>', np.hstack([struts[cone], radii[cone]])
+    )
+    yield b"</b:beams>"
+    special = np.unique(struts[balls[struts] != ball])
+    if len(special):
+        yield b"<b2:balls>"
+        yield from lines('<b2:ball vindex="%d" r="%.9g"/>', np.stack([special, balls[special]], 1))
+        yield b"</b2:balls>"
+    yield b"</b:beamlattice>"
+
+
+def _most_common(values: Floats) -> float:
+    numbers, counts = np.unique(values, return_counts=True)
+    return float(numbers[counts.argmax()])

@@ -1,0 +1,220 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Free-standing blocks of whole cells, with full round struts on their outside."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from ..design.forecast import BYTES_PER_STREAMED_CELL
+from ..design.memory_guard import refuse_expected, refuse_memory
+from ..design.spec import LatticeSpec
+from ..grid.activation import CellGrid
+from ..grid.placement import Placement, block_placement, graded_wireframe
+from ..grid.sizes import mapped_volume
+from ..grid.strut_graph import CellGraph, Wireframe, cell_graph
+from ..io.write.stl import write_stl
+from ..io.write.stl_octants import keeps_corners, write_octants_stl
+from ..lattice.assembly import (
+    Layout,
+    facets,
+    lay_out,
+    octant_grid,
+    refuse_solid_cells,
+    refuse_too_large,
+)
+from ..lattice.certificate import agree_on_faces, certify
+from ..lattice.padded_grid import keeps_places, vertices_of
+from ..mesh.quality import Quality, inspect, measure
+from ..mesh.triangle_mesh import TriangleMesh
+from ..octants.octant_mesh import mesh_octants, octant_spec
+from ..reports.report import Report, told
+from ..reports.result import NOTHING_REMOVED, Result, report_of
+from ..trim.finish import finished, refuse_no_solid
+from ..util.errors import VolfrepError
+from ..util.progress import Monitor, ProgressCallback, peak_memory_mb
+from .finer import until_sound
+
+
+@dataclass(frozen=True, eq=False)
+class _Laid:
+    """The octants of a block, laid, and what they stand on."""
+
+    cells: CellGrid
+    placement: Placement
+    layout: Layout
+    graph: CellGraph
+
+
+def block(
+    spec: LatticeSpec,
+    count: Sequence[int],
+    *,
+    progress: ProgressCallback | None = None,
+) -> Result:
+    """A free-standing block of whole cells.
+
+    Args:
+        spec: what to make; only cell, sizes, grading, fillet, resolution, origin and density
+            count.
+        count: cells along x, y, z.
+        progress: called with the fraction done and the stage; returning False cancels.
+
+    Raises:
+        VolfrepError: the counts make no sense or the block would not fit into memory.
+        Cancelled: the callback said so.
+    """
+    made, notes = until_sound(spec, lambda finer: _block(finer, count, Monitor(progress)))
+    return replace(made, report=told(made.report, notes))
+
+
+def _block(spec: LatticeSpec, count: Sequence[int], monitor: Monitor) -> Result:
+    cells, placement = _block_placement(spec, count)
+    refuse_expected(spec, float(np.prod(cells.shape, dtype=float)) * spec.cell_size**3)
+    laid = _lay(spec, cells, placement, monitor)
+    refuse_too_large(spec, laid.layout.grid, laid.layout.octants, None)
+    return _meshed(laid, spec, monitor)
+
+
+def _meshed(laid: _Laid, spec: LatticeSpec, monitor: Monitor) -> Result:
+    """A block as a whole, without its specks."""
+    cell, layout, placement = spec.unit_cell(), laid.layout, laid.placement
+    with monitor.stage("lattice", 0.4, 0.8):
+        given = vertices_of(
+            layout, lambda: laid.graph, cell, spec, octant_spec(spec), placement, monitor
+        )
+        mesh = TriangleMesh(given.vertices, facets(layout, monitor))
+    removed = dict(NOTHING_REMOVED)
+    with monitor.stage("check", 0.8, 1.0):
+        measured = measure(mesh, monitor) if spec.is_graded else certify(layout)
+        if measured.shells > 1 or measured.degenerate_triangles:
+            from ..trim.boolean_trim import (  # of no use to most blocks, and slow to import
+                clear,
+                smallest_shell,
+            )
+
+            cleared = clear(mesh, inspect(mesh, monitor), smallest_shell(spec))
+            mesh, measured = cleared.mesh, cleared.quality
+            removed["pieces_removed"] = cleared.pieces_removed
+            removed["specks_removed"] = cleared.specks_removed
+        moved = not keeps_places(spec, placement)
+        mesh, measured, notes = finished(mesh, measured, monitor, moved)
+    frame = graded_wireframe(laid.graph, spec, placement)
+    report = _report(laid, measured, frame, spec, monitor, removed)
+    return Result(mesh, frame, told(report, notes))
+
+
+def write_block_stl(
+    spec: LatticeSpec,
+    count: Sequence[int],
+    path: str | os.PathLike[str],
+    *,
+    progress: ProgressCallback | None = None,
+) -> Report:
+    """A free-standing block straight into a binary STL.
+
+    Equal cells are written octant by octant, so that the memory does not grow with the triangles;
+    graded ones, whose octants all differ, are meshed as a whole first.
+
+    Args:
+        spec: what to make, as for `block`.
+        count: cells along x, y, z.
+        path: of the file; an old file stays if anything goes wrong.
+        progress: called with the fraction done and the stage; returning False cancels.
+
+    Raises:
+        VolfrepError: the counts make no sense, the block would not fit into memory or onto the
+            disk, or the path cannot be written.
+        Cancelled: the callback said so; no file is left behind.
+    """
+    made, notes = until_sound(spec, lambda finer: _write_block(finer, count, path, progress))
+    return told(made, notes)
+
+
+def _write_block(
+    spec: LatticeSpec,
+    count: Sequence[int],
+    path: str | os.PathLike[str],
+    progress: ProgressCallback | None,
+) -> Report:
+    if spec.is_graded:
+        result = _block(spec, count, Monitor(progress))
+    else:
+        cells, placement = _block_placement(spec, count)
+        refuse_memory(spec, 0, other=cells.cells * BYTES_PER_STREAMED_CELL)
+        monitor = Monitor(progress)
+        laid = _lay(spec, cells, placement, monitor)
+        with monitor.stage("check", 0.4, 0.5):
+            measured = certify(laid.layout)
+            refuse_no_solid(measured)
+            streams = measured.shells == 1 and keeps_corners(laid.layout, measured.bounds)
+            streams = streams and agree_on_faces(laid.layout)
+        if streams:
+            monitor.count("triangles laid", laid.layout.triangles)
+            with monitor.stage("write", 0.5, 1.0):
+                write_octants_stl(laid.layout, path, monitor)
+            frame = graded_wireframe(laid.graph, spec, placement)
+            return _report(laid, measured, frame, spec, monitor, NOTHING_REMOVED)
+        refuse_too_large(spec, laid.layout.grid, laid.layout.octants, None)
+        result = _meshed(laid, spec, monitor)
+    start = time.perf_counter()
+    write_stl(result.mesh, path)
+    stages = {**result.report.stages, "write": time.perf_counter() - start}
+    return replace(result.report, stages=stages, peak_memory_mb=peak_memory_mb())
+
+
+def block_wireframe(spec: LatticeSpec, count: Sequence[int]) -> Wireframe:
+    """The nodes and struts of a free-standing block.
+
+    Raises:
+        VolfrepError: the counts make no sense.
+    """
+    cells, placement = _block_placement(spec, count)
+    active = np.ones(cells.shape, bool)
+    graph = cell_graph(spec.unit_cell(), active, spec.cell_size, cells.origin, cells.periodic)
+    return graded_wireframe(graph, spec, placement)
+
+
+def _block_placement(spec: LatticeSpec, count: Sequence[int]) -> tuple[CellGrid, Placement]:
+    """The grid and the setting of a free-standing block, with its counts checked."""
+    shape = tuple(int(n) for n in count)
+    if len(shape) != 3 or min(shape) < 1 or any(n != m for n, m in zip(shape, count, strict=True)):
+        raise VolfrepError(f"The count must be three whole numbers above 0, not {list(count)}.")
+    return block_placement(spec, (shape[0], shape[1], shape[2]))
+
+
+def _lay(spec: LatticeSpec, cells: CellGrid, placement: Placement, monitor: Monitor) -> _Laid:
+    """The octants of a block."""
+    cell = spec.unit_cell()
+    active = np.ones(cells.shape, bool)
+    with monitor.stage("tile", 0.0, 0.4):
+        grid = octant_grid(cell, active, spec.cell_size, cells.origin, cells.periodic)
+        octants = mesh_octants(cell, octant_spec(spec), grid.keys, monitor)
+        refuse_solid_cells(octants, spec)
+        layout = lay_out(grid, octants)
+    graph = cell_graph(cell, active, spec.cell_size, cells.origin, cells.periodic)
+    return _Laid(cells, placement, layout, graph)
+
+
+def _report(
+    laid: _Laid,
+    measured: Quality,
+    frame: Wireframe,
+    spec: LatticeSpec,
+    monitor: Monitor,
+    removed: Mapping[str, Any],
+) -> Report:
+    cells, mapping = laid.cells, laid.placement.mapping
+    volume = float(np.prod(cells.shape, dtype=float)) * spec.cell_size**3
+    if mapping is not None and not mapping.is_rigid:
+        volume = mapped_volume(cells, mapping)
+    active = np.ones(cells.shape, bool)
+    return report_of(
+        measured, frame, cells, active, laid.placement, spec, monitor,
+        domain_volume=volume, removed=removed,
+    )  # fmt: skip

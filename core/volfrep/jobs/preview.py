@@ -1,0 +1,259 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The lattice as lines, at once: what a user sees while values change, before anything is meshed.
+
+The skin's inner wall is not looked for: a point lies in the lattice's domain where its depth
+below the part's surface is more than the skin. Depths come from `SurfaceIndex.near`, struts are
+cut between points along them, and so ends lie within a few hundredths of a cell of the wall.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from scipy.stats import qmc
+
+from ..design.cells import LIBRARY, UnitCell
+from ..design.forecast import strut_shares
+from ..design.memory_guard import BYTES_PER_CELL, refuse_memory
+from ..design.openings import OpenFace, open_triangles
+from ..design.spec import LatticeSpec
+from ..grid.activation import CellGrid, make_grid, mapped_grid
+from ..grid.coordinate_map import CoordinateMap
+from ..grid.placement import graded_wireframe, placement_in
+from ..grid.strut_graph import Wireframe, cell_graph
+from ..lattice.padded_grid import padded_grid
+from ..mesh.triangle_mesh import TriangleMesh
+from ..octants import sdf
+from ..octants.octant import ALL_ACTIVE, OctantKey, octant_primitives
+from ..spatial.proximity import index_surface
+from ..spatial.rays import inside_points
+from ..util.errors import VolfrepError
+from ..util.progress import Monitor
+from ..util.types import Bools, Floats, Ints
+
+#: The surface is sampled this often along the diagonal of the part's box.
+SAMPLES_ALONG = 150.0
+#: Pieces that a strut near the wall is looked at in.
+PIECES = 8
+#: Points by which the volume within a skin is measured, and that of a cell's struts (powers of 2).
+VOLUME_POINTS = 14
+CELL_POINTS = 12
+#: More struts than this are no preview.
+MOST_STRUTS = 2_000_000
+
+
+@dataclass(frozen=True, eq=False)
+class Preview:
+    """What of the struts lies inside, and what the lattice will come to.
+
+    Attributes:
+        start: (k, 3) float64, where the pieces begin, mm.
+        end: (k, 3) where they end.
+        radii: (k, 2) at both.
+        cells: active unit cells, nearly.
+        struts: with a piece inside.
+        grid: the cells' grid, in lattice space.
+        relative_density: of the lattice in what it fills.
+        volume: of the part, mm3.
+        mass: in g.
+        grid_lines: (l, 3) starts and ends of the edges of the active cells, mm.
+    """
+
+    start: Floats
+    end: Floats
+    radii: Floats
+    cells: int
+    struts: int
+    grid: CellGrid
+    relative_density: float
+    volume: float
+    mass: float
+    grid_lines: tuple[Floats, Floats]
+
+
+class PartDepth:
+    """How deep points lie in a part; made once, asked at every change of the lattice.
+
+    Args:
+        solid: checked closed mesh, mm.
+        open_faces: faces that have no skin, as `LatticeSpec` has them.
+    """
+
+    def __init__(self, solid: TriangleMesh, open_faces: tuple[OpenFace, ...] = ()) -> None:
+        self._solid = solid
+        diagonal = float(np.linalg.norm(np.ptp(solid.bounds, axis=0)))
+        self._surface = index_surface(solid, diagonal / SAMPLES_ALONG)
+        self._skinned = None
+        if open_faces:
+            self._skinned = self._surface.without(open_triangles(solid, open_faces))
+        low, high = solid.bounds
+        points = low + qmc.Sobol(3, seed=1).random_base2(VOLUME_POINTS) * (high - low)
+        points = points[inside_points(solid, points, Monitor())]
+        self._sampled = (self._skinned or self._surface).near(points)[1]
+
+    def below_skin(self, points: Floats, shell: float) -> Floats:
+        """(n,) how far below a skin (n, 3) points lie, mm; negative in the skin and outside."""
+        depth = self._surface.near(points)[1]
+        # On which side a point lies does not matter where it is nearer than the skin is thick.
+        far = np.flatnonzero(depth > (shell if self._skinned is None else 0.0))
+        outside = far[~inside_points(self._solid, points[far], Monitor())]
+        depth[outside] *= -1.0
+        if self._skinned is None:
+            return depth - shell
+        return np.minimum(self._skinned.near(points)[1] - shell, depth)
+
+    def volume_below(self, shell: float) -> float:
+        """Volume of what lies below a skin, mm3, within a few percent."""
+        return abs(self._solid.volume) * float((self._sampled > shell).mean())
+
+
+def preview(solid: TriangleMesh, spec: LatticeSpec, depth: PartDepth) -> Preview:
+    """The trimmed wireframe of a solid's lattice, and its figures.
+
+    Args:
+        solid: checked closed mesh, mm.
+        spec: what to make; its drain holes and the removal of struts are not shown.
+        depth: of that solid, with the open faces of that specification.
+
+    Raises:
+        VolfrepError: the specification does not fit the solid.
+    """
+    cell = spec.unit_cell()
+    placement = placement_in(solid, spec, Monitor())
+    if placement.mapping is None:
+        grid = make_grid(solid.bounds, spec.cell_size, spec.origin)
+    else:
+        grid = mapped_grid(solid, placement.mapping, spec.cell_size, spec.origin, Monitor())
+    refuse_memory(spec, 0, other=grid.cells * BYTES_PER_CELL)
+    usable = padded_grid(grid, cell, spec, placement).inner_usable
+    active, cells = _active(grid, spec, placement.mapping, depth, usable)
+    if int(active.sum()) * len(cell.struts) > MOST_STRUTS:
+        raise VolfrepError(
+            f"{int(active.sum()):,} cells are too many to be shown as lines: enlarge the cells."
+        )
+    graph = cell_graph(cell, active, spec.cell_size, grid.origin, grid.periodic)
+    frame = graded_wireframe(graph, spec, placement)
+    owner, low, high = _inside(frame, spec, depth)
+    if not len(owner):
+        raise VolfrepError(
+            f"No strut of cells of {spec.cell_size:g} mm lies inside the skin: reduce the cell "
+            "size or the shell thickness."
+        )
+    ends = frame.nodes[frame.struts[owner]]
+    span = ends[:, 1] - ends[:, 0]
+    radii = frame.radii[owner]
+    slope = radii[:, 1] - radii[:, 0]
+    start, end = ends[:, 0] + low[:, None] * span, ends[:, 0] + high[:, None] * span
+    piece_radii = np.stack([radii[:, 0] + low * slope, radii[:, 0] + high * slope], axis=1)
+    length = np.linalg.norm(span, axis=1) * (high - low)
+    lattice = float(np.pi * (length * piece_radii.prod(axis=1)).sum()) * _joints_share(
+        cell, spec.template_radius / spec.cell_size, spec.fillet / spec.cell_size
+    )
+    room = depth.volume_below(spec.shell)
+    skin = abs(solid.volume) - room if spec.output == "part" else 0.0
+    return Preview(
+        start, end, piece_radii, cells, len(np.unique(owner)), grid,
+        lattice / max(room, 1e-300), lattice + skin, (lattice + skin) * spec.density / 1000.0,
+        _edges(active, spec, grid, placement.mapping),
+    )  # fmt: skip
+
+
+def _active(
+    grid: CellGrid,
+    spec: LatticeSpec,
+    mapping: CoordinateMap | None,
+    depth: PartDepth,
+    usable: Bools | None,
+) -> tuple[Bools, int]:
+    """(nx, ny, nz) the cells that struts are taken from, and how many will be active."""
+
+    def depths(axes: list[Floats]) -> Floats:
+        places = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
+        points = places.reshape(-1, 3)
+        below = depth.below_skin(points if mapping is None else mapping.to_part(points), spec.shell)
+        return below.reshape(places.shape[:3])
+
+    at_centre = depths([grid.centres(axis) for axis in range(3)])
+    every = np.ones(grid.shape, bool) if usable is None else usable
+    if spec.activation == "centre":
+        active = (at_centre > 0.0) & every
+        return active, int(active.sum())
+    size, shape = grid.cell_size, grid.shape
+    at_corner = depths([grid.origin[k] + size * np.arange(shape[k] + 1) for k in range(3)])
+    nx, ny, nz = shape
+    corner_of = np.argwhere(np.ones((2, 2, 2), bool))
+    around = np.stack([at_corner[i : i + nx, j : j + ny, k : k + nz] for i, j, k in corner_of])
+    if spec.activation == "inside":
+        active = (np.minimum(around.min(axis=0), at_centre) > 0.0) & every
+        return active, int(active.sum())
+    # No point of a cell lies deeper than its centre by more than its corners are away.
+    reach = np.maximum(np.abs(around - at_centre).max(axis=0), 0.5 * np.sqrt(3.0) * size)
+    touching = (np.maximum(around.max(axis=0), at_centre) > 0.0) & every
+    return (at_centre + reach > 0.0) & every, int(touching.sum())
+
+
+def _inside(frame: Wireframe, spec: LatticeSpec, depth: PartDepth) -> tuple[Ints, Floats, Floats]:
+    """(k,) struts, and from where to where they lie inside, as shares of their length."""
+    count = len(frame.struts)
+    if not spec.is_cut:
+        return np.arange(count), np.zeros(count), np.ones(count)
+    ends = frame.nodes[frame.struts]
+    length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    at_end = depth.below_skin(frame.nodes, spec.shell)[frame.struts]
+    # Depth changes no faster than one goes.
+    whole = at_end.sum(axis=1) > length
+    near = np.flatnonzero(~whole & (at_end.sum(axis=1) > -length))
+    share = np.linspace(0.0, 1.0, PIECES + 1)
+    points = ends[near, None, 0] + share[:, None] * (ends[near, 1] - ends[near, 0])[:, None]
+    value = np.empty((len(near), PIECES + 1))
+    value[:, [0, -1]] = at_end[near]
+    inner = depth.below_skin(points[:, 1:-1].reshape(-1, 3), spec.shell)
+    value[:, 1:-1] = inner.reshape(len(near), PIECES - 1)
+    a, b = value[:, :-1], value[:, 1:]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        zero = np.clip(a / (a - b), 0.0, 1.0)
+    low = share[:-1] + np.where(a > 0, 0.0, zero) / PIECES
+    high = share[:-1] + np.where(b > 0, 1.0, zero) / PIECES
+    strut, piece = np.nonzero((a > 0) | (b > 0))
+    low, high = low[strut, piece], high[strut, piece]
+    # Pieces that follow upon each other are one.
+    begins = np.ones(len(strut), bool)
+    begins[1:] = (strut[1:] != strut[:-1]) | (low[1:] > high[:-1] + 1e-9)
+    first = np.flatnonzero(begins)
+    last = np.append(first[1:], len(strut)) - 1
+    whole_struts = np.flatnonzero(whole)
+    return (
+        np.concatenate([whole_struts, near[strut[first]]]),
+        np.concatenate([np.zeros(len(whole_struts)), low[first]]),
+        np.concatenate([np.ones(len(whole_struts)), high[last[last >= 0]]]),
+    )
+
+
+def _edges(
+    active: Bools, spec: LatticeSpec, grid: CellGrid, mapping: CoordinateMap | None
+) -> tuple[Floats, Floats]:
+    """The edges of the cells that struts are taken from, straight from corner to corner."""
+    cubes = cell_graph(LIBRARY["Box"], active, spec.cell_size, grid.origin, grid.periodic)
+    nodes = cubes.nodes if mapping is None else mapping.to_part(cubes.nodes)
+    return nodes[cubes.struts[:, 0]], nodes[cubes.struts[:, 1]]
+
+
+@lru_cache(maxsize=64)
+def _joints_share(cell: UnitCell, radius: float, fillet: float) -> float:
+    """Volume of a cell's struts and joints over that of its struts counted each by itself.
+
+    The radius is in units of L. Struts overlap at the joints, where spheres and fillets add some.
+    """
+    points = 0.5 * qmc.Sobol(3, seed=1).random_base2(CELL_POINTS)
+    mirrors = (0,) if cell.is_mirror_symmetric else range(8)
+    filled = []
+    for mirror in mirrors:
+        key = OctantKey(mirror, ALL_ACTIVE)
+        primitives = octant_primitives(cell, key, 1.0, radius, fillet)
+        values = sdf.union(sdf.distances(points[:, None], primitives), fillet)
+        filled.append(float((values < 0.0).mean()))
+    ends = cell.nodes[cell.struts]
+    length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    return float(np.mean(filled) / (np.pi * radius**2 * (length @ strut_shares(cell))))

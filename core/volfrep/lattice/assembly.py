@@ -1,0 +1,311 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Laying meshed octants side by side into one welded surface.
+
+Vertices are numbered on the complex of octants: those inside an octant, those on each face and
+those on each edge between octants are counted once, and an octant finds the numbers of its own
+by where it lies. No coordinates are compared.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..design.cells import UnitCell
+from ..design.memory_guard import cells_are_full, refuse_memory
+from ..design.spec import LatticeSpec
+from ..grid.activation import OPEN, Periodic
+from ..mesh.triangle_mesh import TriangleMesh, box_of
+from ..octants import caps
+from ..octants.octant import OctantKey, corner_patterns, octant_mirrors
+from ..octants.octant_mesh import STEPS, Octant
+from ..util.progress import Monitor
+from ..util.types import Floats
+
+#: Octants are laid in groups of about so many vertices or triangles: a cancel is soon seen.
+CHUNK_VERTICES = 200_000
+
+
+@dataclass(frozen=True, eq=False)
+class OctantGrid:
+    """Which octant lies where.
+
+    Attributes:
+        keys: the kinds of octant.
+        kind: (nx, ny, nz) int16, index into `keys`; -1 where there is none.
+        origin: (3,) the grid corner about which octant (0, 0, 0) lies on the low side, mm.
+        cell_size: L, mm.
+        symmetric: whether octants are described up to reflection.
+        periodic: axes along which the last octant is followed by the first one.
+    """
+
+    keys: list[OctantKey]
+    kind: NDArray[np.int16]
+    origin: Floats
+    cell_size: float
+    symmetric: bool
+    periodic: Periodic = OPEN
+
+
+def used_kinds(grid: OctantGrid) -> OctantGrid:
+    """The grid without the kinds of octant that lie nowhere in it."""
+    used, kind = np.unique(grid.kind, return_inverse=True)
+    first = int((used < 0).any())
+    return replace(
+        grid,
+        keys=[grid.keys[k] for k in used[first:]],
+        kind=(kind.reshape(grid.kind.shape) - first).astype(np.int16),
+    )
+
+
+def octant_grid(
+    cell: UnitCell,
+    active: NDArray[np.bool_],
+    cell_size: float,
+    origin: Floats,
+    periodic: Periodic = OPEN,
+) -> OctantGrid:
+    """The octants of the active cells, with the half cell about them that their struts reach.
+
+    Args:
+        cell: the unit cell.
+        active: (nx, ny, nz) bool.
+        cell_size: L, mm.
+        origin: (3,) lowest corner of the cells, mm.
+        periodic: axes along which the last cell is followed by the first one.
+    """
+    pattern = corner_patterns(active, periodic)
+    symmetric = cell.is_mirror_symmetric
+    code = pattern.astype(np.int64)
+    if not symmetric:
+        code += octant_mirrors(pattern.shape).astype(np.int64) << 8  # type: ignore[arg-type]
+    code[pattern == 0] = -1
+    values, inverse = np.unique(code, return_inverse=True)
+    kind = inverse.reshape(code.shape).astype(np.int16)
+    if len(values) and values[0] < 0:
+        values, kind = values[1:], kind - np.int16(1)
+    keys = [OctantKey(int(v) >> 8, int(v) & 0xFF) for v in values]
+    return OctantGrid(keys, kind, np.asarray(origin, float), cell_size, symmetric, periodic)
+
+
+@dataclass(frozen=True, eq=False)
+class Layout:
+    """The octants of a grid with all their vertices numbered.
+
+    Attributes:
+        grid: which octant lies where.
+        octants: their meshes.
+        places: per key of the grid, (k, 3) where it lies.
+        base: number of the first vertex of every entity of the complex of octants, on a grid
+            twice as fine: even places are planes between octants.
+        count: of all vertices.
+    """
+
+    grid: OctantGrid
+    octants: dict[OctantKey, Octant]
+    places: list[NDArray[np.int64]]
+    base: NDArray[np.int32]
+    count: int
+
+    @property
+    def triangles(self) -> int:
+        """How many there are on all the octants."""
+        pairs = zip(self.grid.keys, self.places, strict=True)
+        return sum(len(place) * len(self.octants[key].triangles) for key, place in pairs)
+
+
+_STEPS = np.stack(np.unravel_index(np.arange(27), (3, 3, 3)), axis=1)
+
+
+def lay_out(grid: OctantGrid, octants: dict[OctantKey, Octant]) -> Layout:
+    """Number the vertices of all the octants of the grid, each once."""
+    count = np.zeros(_complex_shape(grid), np.int32)
+    places = [np.argwhere(grid.kind == k) for k in range(len(grid.keys))]
+    for key, place in zip(grid.keys, places, strict=True):
+        number = np.bincount(octants[key].entity, minlength=27)
+        for entity in np.flatnonzero(number):
+            count[tuple(_entity_positions(grid, place, _STEPS[entity]).T)] = number[entity]
+    end = np.cumsum(count.ravel(), dtype=np.int64)
+    base = (end - count.ravel()).astype(np.int32).reshape(count.shape)
+    return Layout(grid, octants, places, base, int(end[-1]))
+
+
+def numbers(layout: Layout, octant: Octant, place: NDArray[np.int64]) -> NDArray[np.int32]:
+    """(k, n) numbers of the vertices of an octant at k places."""
+    used, column = np.unique(octant.entity, return_inverse=True)
+    first = np.stack(
+        [layout.base[tuple(_entity_positions(layout.grid, place, _STEPS[e]).T)] for e in used],
+        axis=1,
+    )
+    result: NDArray[np.int32] = first[:, column.ravel()] + octant.rank
+    return result
+
+
+def coordinates(layout: Layout, monitor: Monitor) -> Floats:
+    """(n, 3) coordinates of all the numbered vertices, mm."""
+    grid = layout.grid
+    vertices = np.empty((layout.count, 3))
+    for key, place in zip(grid.keys, layout.places, strict=True):
+        octant = layout.octants[key]
+        if not len(octant.vertices):
+            continue
+        steps = in_steps(grid, octant)
+        size = max(1, CHUNK_VERTICES // len(octant.vertices))
+        for begin in range(0, len(place), size):
+            part = place[begin : begin + size]
+            corner, sign = frames(part)
+            vertices[numbers(layout, octant, part)] = placed(
+                grid, corner[:, None, :], sign[:, None, :] * steps
+            )
+            monitor.tick()
+    return vertices
+
+
+def in_steps(grid: OctantGrid, octant: Octant) -> Floats:
+    """(n, 3) the vertices of an octant in its own frame, in whole steps."""
+    steps: Floats = np.rint(octant.vertices / (0.5 * grid.cell_size / STEPS))
+    return steps
+
+
+def placed(grid: OctantGrid, corner: NDArray[np.int64], steps: Floats) -> Floats:
+    """Coordinates in mm of what lies so many steps from corners of the grid.
+
+    The sum in steps is exact, so that equal places have equal coordinates.
+    """
+    result = corner * (2.0 * STEPS) + steps
+    result *= 0.5 * grid.cell_size / STEPS
+    result += grid.origin
+    return result
+
+
+def box(layout: Layout) -> Floats:
+    """(2, 3) lowest and highest coordinate of all the vertices, mm; zeros where there are none."""
+    grid, boxes = layout.grid, []
+    for key, place in zip(grid.keys, layout.places, strict=True):
+        octant = layout.octants[key]
+        if not len(octant.vertices) or not len(place):
+            continue
+        steps = in_steps(grid, octant)
+        extremes = np.stack([steps.min(axis=0), steps.max(axis=0)])
+        corner, sign = frames(place)
+        ends = placed(grid, corner[:, None, :], sign[:, None, :] * extremes)
+        boxes.append(box_of(ends.reshape(-1, 3)))
+    return box_of(np.concatenate(boxes)) if boxes else np.zeros((2, 3))
+
+
+def facets(
+    layout: Layout,
+    monitor: Monitor,
+    where: NDArray[np.bool_] | None = None,
+    cap: tuple[int, bool] | None = None,
+) -> NDArray[np.int32]:
+    """(m, 3) triangles of numbered vertices.
+
+    Args:
+        layout: the numbered octants.
+        monitor: for cancel.
+        where: octants to take; None: all.
+        cap: None for the lattice's surface; or (axis, high) for the flat caps on that face, in
+            the octants' own frames.
+    """
+    groups = []
+    for key, place in zip(layout.grid.keys, layout.places, strict=True):
+        octant = layout.octants[key]
+        pattern = octant.triangles if cap is None else caps.cap(octant, *cap)
+        if where is not None:
+            place = place[where[tuple(place.T)]]
+        if not len(pattern) or not len(place):
+            continue
+        turned = ((place % 2) == 0).sum(axis=1) % 2 == 1
+        groups.append((octant, place[~turned], pattern))
+        groups.append((octant, place[turned], pattern[:, ::-1]))
+    total = sum(len(place) * len(pattern) for _, place, pattern in groups)
+    if cap is None:
+        monitor.count("triangles laid", total)
+    triangles = np.empty((total, 3), np.int32)
+    filled = 0
+    for octant, place, pattern in groups:
+        size = max(1, CHUNK_VERTICES // len(pattern))
+        for begin in range(0, len(place), size):
+            part = place[begin : begin + size]
+            amount = len(part) * len(pattern)
+            out = triangles[filled : filled + amount].reshape(len(part), len(pattern), 3)
+            np.take(numbers(layout, octant, part), pattern, axis=1, out=out, mode="clip")
+            filled += amount
+            monitor.tick()
+    return triangles
+
+
+def lay(layout: Layout, monitor: Monitor) -> TriangleMesh:
+    """All the octants of a layout as one welded mesh."""
+    return TriangleMesh(coordinates(layout, monitor), facets(layout, monitor))
+
+
+def frames(place: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """The grid corner that octants lie about, and the direction of their axes."""
+    return place // 2, np.where(place % 2 == 0, -1, 1)
+
+
+def _complex_shape(grid: OctantGrid) -> tuple[int, ...]:
+    """Entities of the complex of octants along each axis.
+
+    There are as many cells as planes, and one more plane where it does not close upon itself.
+    """
+    return tuple(
+        2 * n + (not closed) for n, closed in zip(grid.kind.shape, grid.periodic, strict=True)
+    )
+
+
+def _entity_positions(
+    grid: OctantGrid, place: NDArray[np.int64], step: NDArray[np.int64]
+) -> NDArray[np.int64]:
+    """Where an entity of octants is on the complex: reflected frames run backwards."""
+    result: NDArray[np.int64] = 2 * place + np.where(place % 2 == 0, 2 - step, step)
+    result %= np.array(_complex_shape(grid))
+    return result
+
+
+def neighbour_missing(
+    grid: OctantGrid, where: NDArray[np.bool_], axis: int, high: bool
+) -> NDArray[np.bool_]:
+    """Octants of `where` whose neighbour across a face, named in their own frame, is not of it."""
+    width = [(1, 1) if k == axis else (0, 0) for k in range(3)]
+    padded = np.pad(where, width, mode="wrap" if grid.periodic[axis] else "constant")
+    index = np.arange(where.shape[axis])
+    # Frames run backwards at even places: the high face is then on the grid's low side.
+    step = np.where((index % 2 == 0) == high, -1, 1)
+    beyond = np.take(padded, index + 1 + step, axis=axis)
+    result: NDArray[np.bool_] = where & ~beyond
+    return result
+
+
+def refuse_too_large(
+    spec: LatticeSpec,
+    grid: OctantGrid,
+    octants: dict[OctantKey, Octant],
+    border: NDArray[np.bool_] | None,
+) -> None:
+    """Refuse a lattice that would not fit.
+
+    Args:
+        spec: what to make.
+        grid: which octant lies where.
+        octants: their meshes.
+        border: octants that go through the Boolean; None for none.
+
+    Raises:
+        VolfrepError: it needs more memory than is free.
+    """
+    per_kind = np.array([len(octants[key].triangles) for key in grid.keys])
+    present = grid.kind >= 0
+    triangles = int(per_kind[grid.kind[present]].sum())
+    in_boolean = 0 if border is None else int(per_kind[grid.kind[present & border]].sum())
+    refuse_memory(spec, triangles, in_boolean)
+
+
+def refuse_solid_cells(octants: dict[OctantKey, Octant], spec: LatticeSpec) -> None:
+    """Raise a `VolfrepError` where no octant has a surface: struts fill everything."""
+    if not any(len(octant.triangles) for octant in octants.values()):
+        raise cells_are_full(spec)

@@ -1,0 +1,232 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Where the nodes of a graded lattice lie, how thick its struts are, and its octants laid there."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..design.cells import UnitCell, joint_radius
+from ..design.spec import LatticeSpec
+from ..grid.activation import CellGrid
+from ..grid.coordinate_map import identity_map
+from ..grid.node_frames import NodeFrames, node_frames
+from ..grid.placement import Placement, node_radii
+from ..grid.strut_graph import CellGraph, cell_graph
+from ..octants.octant import ALL_ACTIVE, OctantKey, octant_mirrors
+from ..octants.octant_mesh import OctantSpec
+from ..util.progress import Monitor
+from ..util.types import Bools, Floats
+from .assembly import Layout, OctantGrid, coordinates, octant_grid
+from .deform import Deformed, deform
+from .strut_binding import bind, crease
+
+#: Cells about the active ones whose struts may matter at a joint of the lattice.
+SUPPORT = 3
+#: Cells squeezed to less than this times what leaves their struts room hold no lattice; and
+#: where struts are deformed with their cells, to less than that of L.
+SPARE = 1.15
+LEAST_WIDTH_STRETCHED = 0.25
+#: Widths of a cell that are tried in turn, in units of L, and rulings round a strut.
+WIDTHS = np.linspace(1.0, 0.15, 18)
+RULINGS = 24
+
+
+def usable_cells(
+    cells: CellGrid, cell: UnitCell, spec: LatticeSpec, placement: Placement
+) -> Bools | None:
+    """(nx, ny, nz) bool, cells about an axis or centre that are wide enough; None: all are."""
+    mapping = placement.mapping
+    if mapping is None or mapping.base.kind == "cartesian":
+        return None
+    least = LEAST_WIDTH_STRETCHED
+    if spec.keep_radius:
+        least = SPARE * narrowest(cell, spec.cell_size, spec.radius_extremes[1])
+    index = np.stack(np.meshgrid(*(np.arange(n + 1) for n in cells.shape), indexing="ij"), axis=-1)
+    inside = cells.origin + cells.cell_size * index
+    beyond = inside[..., 0] < -1e-9 * cells.cell_size
+    if mapping.base.kind == "spherical":
+        slack = 1e-9 * mapping.base.turn
+        beyond |= (inside[..., 1] < -slack) | (inside[..., 1] > 0.5 * mapping.base.turn + slack)
+    placed = mapping.to_part(inside.reshape(-1, 3)).reshape(inside.shape)
+    usable: Bools = np.ones(cells.shape, bool)
+    for axis in range(3):
+        edge = np.linalg.norm(np.diff(placed, axis=axis), axis=3)
+        wide = edge >= least * cells.cell_size
+        for other in (k for k in range(3) if k != axis):
+            wide = _both(wide, other)
+        usable &= wide
+        beyond = ~_both(~beyond, axis)
+    return np.asarray(usable & ~beyond)
+
+
+def _both(values: Bools, axis: int) -> Bools:
+    """Where an entry and the one after it along an axis are both true."""
+    count = values.shape[axis]
+    return np.take(values, range(count - 1), axis) & np.take(values, range(1, count), axis)
+
+
+def narrowest(cell: UnitCell, cell_size: float, radius: float) -> float:
+    """The least width, in units of L, that a cell squeezed along one axis leaves its struts room.
+
+    Struts have room where the rulings of every one leave its joints before its middle.
+    """
+    graph = cell_graph(cell, np.ones((3, 3, 3), bool), cell_size, np.zeros(3))
+    middle = graph.node_of[graph.row[1, 1, 1]][cell.struts]
+    start, end = middle.ravel(), middle[:, ::-1].ravel()
+    angle = 2.0 * np.pi * np.arange(RULINGS) / RULINGS
+    least = 1.0
+    for width in WIDTHS:
+        for axis in range(3):
+            squeezed = graph.nodes.copy()
+            squeezed[:, axis] *= width
+            nodes = node_frames(graph, squeezed, np.full(len(squeezed), radius), cell_size)
+            if not _has_room(nodes, start, end, angle, joint_radius(radius, cell_size)):
+                return least
+        least = float(width)
+    return least
+
+
+def _has_room(
+    nodes: NodeFrames, start: NDArray[np.int32], end: NDArray[np.int32], angle: Floats, joint: float
+) -> bool:
+    span = nodes.points[end] - nodes.points[start]
+    length = np.linalg.norm(span, axis=1)
+    axis = span / length[:, None]
+    aside = np.eye(3)[np.abs(axis).argmin(axis=1)]
+    first = np.cross(axis, aside)
+    first /= np.linalg.norm(first, axis=1)[:, None]
+    second = np.cross(axis, first)
+    radial = np.cos(angle)[:, None, None] * first + np.sin(angle)[:, None, None] * second
+    count = len(angle)
+    ends = np.tile(nodes.neighbours[start], (count, 1))
+    begin = crease(
+        np.tile(axis, (count, 1)), radial.reshape(-1, 3), np.tile(nodes.radius[start], count),
+        np.zeros(count * len(start)), np.full(count * len(start), joint),
+        np.tile(nodes.directions[start], (count, 1, 1)), np.zeros(ends.shape),
+        (ends >= 0) & (ends != np.tile(end, count)[:, None]),
+    )  # fmt: skip
+    return bool((begin < 0.5 * np.tile(length, count)).all())
+
+
+@dataclass(frozen=True, eq=False)
+class PaddedGrid:
+    """The cells that a lattice may be laid on, some way beyond the part's.
+
+    Attributes:
+        cells: the part's grid.
+        first: (3,) cells that were added before it.
+        usable: (nx, ny, nz) bool, all the cells, those added included; None: all can be used.
+    """
+
+    cells: CellGrid
+    first: tuple[int, int, int]
+    usable: Bools | None
+
+    @property
+    def inner_usable(self) -> Bools | None:
+        """`usable` of the part's grid."""
+        return None if self.usable is None else self.usable[self._inner(1)]
+
+    def _inner(self, per_cell: int) -> tuple[slice, ...]:
+        return tuple(slice(per_cell * n, -per_cell * n or None) for n in self.first)
+
+    def octants(self, cell: UnitCell, active: Bools, endless: bool) -> OctantGrid:
+        """The octants of the active cells; or of all, as of a lattice without end."""
+        cells, size = self.cells, self.cells.cell_size
+        if not endless:
+            return octant_grid(cell, active, size, cells.origin, cells.periodic)
+        if self.usable is not None:
+            # The grid that reaches beyond, without the octants beyond.
+            grid = octant_grid(cell, self.usable, size, cells.origin, cells.periodic)
+            return replace(grid, kind=grid.kind[self._inner(2)])
+        open_ends = zip(active.shape, cells.periodic, strict=True)
+        nx, ny, nz = (2 * n + (0 if closed else 2) for n, closed in open_ends)
+        if cell.is_mirror_symmetric:
+            kind, keys = np.zeros((nx, ny, nz), np.int16), [OctantKey(0, ALL_ACTIVE)]
+        else:
+            kind = octant_mirrors((nx, ny, nz)).astype(np.int16)
+            keys = [OctantKey(mirror, ALL_ACTIVE) for mirror in range(8)]
+        symmetric = cell.is_mirror_symmetric
+        return OctantGrid(keys, kind, cells.origin, size, symmetric, cells.periodic)
+
+    def graph(self, cell: UnitCell, active: Bools, endless: bool) -> CellGraph:
+        """The graph of all the cells whose struts the octants of the active ones hang on."""
+        around = [(n, n) if n else (SUPPORT, SUPPORT) for n in self.first]
+        wide = active
+        for axis, width in enumerate(around):
+            pad = [width if k == axis else (0, 0) for k in range(3)]
+            wide = np.pad(wide, pad, mode="constant" if self.first[axis] else "wrap")
+        if endless:
+            from scipy import ndimage  # slow to import
+
+            wide = ndimage.binary_dilation(wide, np.ones((3, 3, 3), bool), SUPPORT)
+        wide = wide[tuple(slice(None) if n else slice(SUPPORT, -SUPPORT) for n in self.first)]
+        if endless and self.usable is not None:
+            wide &= self.usable
+        origin = self.cells.origin - self.cells.cell_size * np.array(self.first)
+        return cell_graph(cell, wide, self.cells.cell_size, origin, self.cells.periodic, self.first)
+
+
+def padded_grid(
+    cells: CellGrid, cell: UnitCell, spec: LatticeSpec, placement: Placement
+) -> PaddedGrid:
+    """What a lattice on the cells of a part's grid is laid on."""
+    x, y, z = (0 if closed else SUPPORT for closed in cells.periodic)
+    nx, ny, nz = (n + 2 * extra for n, extra in zip(cells.shape, (x, y, z), strict=True))
+    origin = cells.origin - cells.cell_size * np.array([x, y, z])
+    wide = CellGrid(origin, cells.cell_size, (nx, ny, nz), cells.periodic)
+    return PaddedGrid(cells, (x, y, z), usable_cells(wide, cell, spec, placement))
+
+
+def keeps_places(spec: LatticeSpec, placement: Placement) -> bool:
+    """Whether the vertices of octants keep their places in lattice space."""
+    rigid = placement.mapping is None or placement.mapping.is_rigid
+    return spec.radius_grading is None and (rigid or not spec.keep_radius)
+
+
+def vertices_of(
+    layout: Layout,
+    graph: Callable[[], CellGraph],
+    cell: UnitCell,
+    spec: LatticeSpec,
+    tile: OctantSpec,
+    placement: Placement,
+    monitor: Monitor,
+) -> Deformed:
+    """Where the vertices of the laid octants are in the part.
+
+    Args:
+        layout: the numbered octants.
+        graph: gives the nodes and struts that they hang on.
+        cell: the unit cell.
+        spec: what is wanted.
+        tile: what the octants were meshed for.
+        placement: the setting.
+        monitor: for progress and cancel.
+
+    Raises:
+        VolfrepError: struts grow into each other; the text says where.
+    """
+    mapping = placement.mapping or identity_map(spec.cell_size)
+    if keeps_places(spec, placement):
+        inside = coordinates(layout, monitor)
+        return Deformed(inside if placement.mapping is None else mapping.to_part(inside), 0.0)
+    own = graph()
+    placed = mapping.to_part(own.nodes)
+    radius = node_radii(spec, placed, placement)
+    turn = np.where(mapping.base.periodic, mapping.base.turn, np.inf)
+    if spec.keep_radius and not mapping.is_rigid:
+        bends = mapping.jacobians(own.nodes)
+        nodes = node_frames(own, placed, radius, spec.cell_size, bends, turn)
+    else:
+        nodes = node_frames(own, own.nodes, radius, spec.cell_size, None, turn)
+    bindings = {
+        key: bind(cell, tile, key, layout.octants[key])
+        for key, place in zip(layout.grid.keys, layout.places, strict=True)
+        if len(place) and len(layout.octants[key].vertices)
+    }
+    return deform(layout, bindings, cell, nodes, mapping, spec.fillet, monitor)

@@ -1,0 +1,267 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Removing what single precision would lose: edges as short as the steps between its numbers.
+
+And slivers as thin: three corners almost on a line may lie on it after rounding.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..util.types import Bools, Ints
+from . import remesh
+from .precision import decimal_step, rounded
+from .triangle_mesh import TriangleMesh, compact
+
+#: Edges shorter than this many steps of float32 at the mesh's farthest coordinate are removed.
+STEPS = 16
+#: Passes over the edges: each takes those that do not touch each other.
+PASSES = 8
+#: Points whose hashes are found at a time.
+HASHED_ROWS = 1 << 16
+
+
+def shortest_edge(mesh: TriangleMesh) -> float:
+    """Length in mm below which an edge may not survive in a file of single precision."""
+    farthest = np.float32(np.abs(mesh.bounds).max(initial=1.0))
+    return float(STEPS * np.spacing(farthest))
+
+
+def remove_slivers(mesh: TriangleMesh, tolerance: float, among: int | None = None) -> TriangleMesh:
+    """The closed mesh without edges or heights below `tolerance` mm, where topology allows it.
+
+    Only the neighbourhoods of such triangles are touched; genus, shells and closedness stay.
+
+    Args:
+        mesh: closed.
+        tolerance: mm.
+        among: look for slivers in so many of the first triangles; None: in all.
+    """
+    return without_slivers(mesh, tolerance, among)[0]
+
+
+def without_slivers(
+    mesh: TriangleMesh, tolerance: float, among: int | None = None
+) -> tuple[TriangleMesh, Bools]:
+    """As `remove_slivers`, with (m,) which triangles were not there, or elsewhere."""
+    thin = _slivers(mesh.vertices, mesh.triangles[:among], tolerance)
+    if not len(thin):
+        return mesh, np.zeros(len(mesh.triangles), bool)
+    points, triangles, old = _without(mesh.vertices, mesh.triangles, thin, tolerance, PASSES)
+    new = np.zeros(len(triangles), bool)
+    rebuilt = triangles[len(mesh.triangles) - len(old) :]
+    moved = (points != mesh.vertices).any(axis=1)
+    is_old = np.isin(_names(rebuilt), _names(mesh.triangles[old])) & ~_touching(moved, rebuilt)
+    new[len(triangles) - len(rebuilt) :] = ~is_old
+    return compact(TriangleMesh(points, triangles)), new
+
+
+def _names(triangles: NDArray[np.int32]) -> NDArray[np.uint64]:
+    """(m,) a number for each triangle, whichever of its corners comes first."""
+    a, b, c = np.sort(triangles, axis=1).astype(np.uint64).T
+    with np.errstate(over="ignore"):
+        name: NDArray[np.uint64] = (a << np.uint64(32) | b) * np.uint64(0x9E3779B97F4A7C15) + c
+    return name
+
+
+def _slivers(points: NDArray[np.float64], triangles: NDArray[np.int32], tolerance: float) -> Ints:
+    """The triangles with an edge or a height below the tolerance."""
+    corners = points[triangles]
+    sides = [corners[:, k] - corners[:, k - 2] for k in range(3)]
+    squares = np.stack([np.einsum("ij,ij->i", side, side) for side in sides])
+    twice = np.cross(sides[0], sides[1])
+    thin = np.einsum("ij,ij->i", twice, twice) < tolerance**2 * squares.max(axis=0)
+    thin |= squares.min(axis=0) < tolerance**2
+    return np.flatnonzero(thin)
+
+
+def _without(
+    points: NDArray[np.float64],
+    triangles: NDArray[np.int32],
+    thin: Ints,
+    tolerance: float,
+    passes: int,
+) -> tuple[NDArray[np.float64], NDArray[np.int32], Ints]:
+    """Points, some of them no longer in use, triangles, and which of the old ones went.
+
+    The new triangles are the last ones.
+
+    A pass leaves few slivers: the next one looks at their neighbourhoods only.
+    """
+    # Two rings of triangles about the slivers; the outer ring's border stays as it is.
+    near = np.zeros(len(points), bool)
+    near[triangles[thin]] = True
+    near[triangles[_touching(near, triangles)]] = True
+    part = _touching(near, triangles)
+    used, local = np.unique(triangles[part], return_inverse=True)
+    moved, kept, inner = _collapse(points[used], local.reshape(-1, 3).astype(np.int64), tolerance)
+    inner, flipped = _flip_slivers(moved, inner, tolerance)
+    stay = used[kept]
+    piece = inner.astype(np.int32)
+    if passes > 1 and (flipped or len(stay) < len(used)):
+        left = _slivers(moved, piece, tolerance)
+        if len(left):
+            moved, piece, _ = _without(moved, piece, left, tolerance, passes - 1)
+    points = points.copy()
+    points[stay] = moved
+    joined = np.concatenate([triangles[~part], stay[piece].astype(np.int32)])
+    return points, joined, np.flatnonzero(part)
+
+
+def _touching(near: Bools, triangles: NDArray[np.int32]) -> Bools:
+    """Triangles with a corner among the near vertices."""
+    # A column at a time: numpy is slow at reducing many short rows.
+    a, b, c = (near[triangles[:, k]] for k in range(3))
+    return np.asarray(a | b | c, np.bool_)
+
+
+def _collapse(
+    points: NDArray[np.float64], triangles: Ints, tolerance: float
+) -> tuple[NDArray[np.float64], Ints, Ints]:
+    """An open piece of mesh, collapsed within its border: points, which they were, triangles."""
+    table = remesh.edges(triangles, len(points))
+    rank = np.zeros(len(points), np.int64)
+    rank[table.ends[table.triangles[:, 1] < 0]] = 1
+
+    def is_free(gone: Ints, _: Ints) -> Bools:
+        free: Bools = rank[gone] == 0
+        return free
+
+    rules = remesh.Rules(rank, is_free, _none, lambda a, b: _keeps_side(a, b, tolerance))
+    points, triangles, renumber = remesh.collapse(points, triangles, rules, tolerance, np.inf)
+    return points, np.flatnonzero(renumber >= 0), triangles
+
+
+def _flip_slivers(
+    points: NDArray[np.float64], triangles: Ints, tolerance: float
+) -> tuple[Ints, int]:
+    """Slivers given away to the triangle beyond their longest edge."""
+
+    def gain(ends: Ints, corners: Ints) -> NDArray[np.float64]:
+        a, b, c, d = (
+            points[ends[:, 0]],
+            points[ends[:, 1]],
+            points[corners[:, 0]],
+            points[corners[:, 1]],
+        )
+        old = np.minimum(_height(a, b, c), _height(b, a, d))
+        new = np.minimum(_height(c, d, b), _height(d, c, a))
+        wanted: NDArray[np.float64] = np.where(old < tolerance, new - 1.5 * old, -1.0)
+        return wanted
+
+    return remesh.flip(points, triangles, gain, _none)
+
+
+def _height(
+    a: NDArray[np.float64], b: NDArray[np.float64], c: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """The least height of triangles, mm."""
+    corners = np.stack([a, b, c], axis=1)
+    longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
+    height: NDArray[np.float64] = np.linalg.norm(remesh.normals(corners), axis=1) / np.maximum(
+        longest, 1e-300
+    )
+    return height
+
+
+def _none(one: Ints, two: Ints) -> Bools:
+    return np.zeros(len(one), bool)
+
+
+def _keeps_side(old: NDArray[np.float64], new: NDArray[np.float64], tolerance: float) -> Bools:
+    """Whether triangles keep their side; a sliver as thin as the tolerance has none to keep."""
+    before, after = remesh.normals(old), remesh.normals(new)
+    longest = np.linalg.norm(old - np.roll(old, 1, axis=1), axis=2).max(axis=1)
+    thin = np.linalg.norm(before, axis=1) < 4.0 * tolerance * longest
+    result: Bools = thin | (np.einsum("ij,ij->i", before, after) > 0.0)
+    return result
+
+
+def separate_vertices(mesh: TriangleMesh, precision: float) -> TriangleMesh:
+    """The mesh with no two vertices that single precision would take for one, where possible.
+
+    Where two sheets of a surface touch, a reader that merges equal corners finds edges of four
+    triangles. Such vertices are moved into the material, against their normals, by a few steps of
+    single precision.
+
+    Args:
+        mesh: closed.
+        precision: `shortest_edge` of the part, mm.
+    """
+    for attempt in range(1, PASSES + 1):
+        twins = merging_vertices(mesh)
+        if not len(twins):
+            return mesh
+        moved = np.zeros(len(mesh.vertices), bool)
+        moved[twins] = True
+        part = mesh.triangles[_touching(moved, mesh.triangles)]
+        normal = np.repeat(remesh.normals(mesh.vertices[part]), 3, axis=0)
+        total = np.stack(
+            [
+                np.bincount(part.ravel(), normal[:, k], minlength=len(mesh.vertices))[twins]
+                for k in range(3)
+            ],
+            axis=1,
+        )
+        # Twins whose normals agree part nevertheless: each goes a little further than the last.
+        length = np.maximum(np.linalg.norm(total, axis=1), 1e-300)
+        reach = precision / STEPS * (2.0 + attempt + 3.0 * (np.arange(len(twins)) % 5))
+        vertices = mesh.vertices.copy()
+        vertices[twins] -= total * (reach / length)[:, None]
+        mesh = TriangleMesh(vertices, mesh.triangles)
+    return mesh
+
+
+def merging_vertices(mesh: TriangleMesh) -> Ints:
+    """The vertices that a reader of a file would take for one with another, such together.
+
+    A binary file holds the nearest float32 of every coordinate, a text the nearest decimal.
+    """
+    vertices = mesh.vertices
+    step = decimal_step(vertices)
+
+    def binary(part: slice | Ints) -> NDArray[np.float32]:
+        return vertices[part].astype(np.float32)
+
+    def text(part: slice | Ints) -> NDArray[np.float32]:
+        return rounded(vertices[part], step).astype(np.float32)
+
+    twins = _twins(binary, len(vertices))
+    return twins if len(twins) else _twins(text, len(vertices))
+
+
+def _twins(rows: Callable[[slice | Ints], NDArray[np.float32]], size: int) -> Ints:
+    """Indices of the points that share all their coordinates with another one, twins together."""
+    # Sorted by their hashes, which are made twice rather than held beside their order.
+    key = _hashes(rows, size)
+    key.sort()
+    shared_keys = key[1:][key[1:] == key[:-1]]
+    if not len(shared_keys):
+        return np.zeros(0, np.int64)
+    index = np.flatnonzero(np.isin(_hashes(rows, size), shared_keys))
+    points = rows(index)
+    _, inverse, count = np.unique(
+        points + np.float32(0.0), axis=0, return_inverse=True, return_counts=True
+    )
+    inverse = inverse.ravel()
+    shared = count[inverse] > 1
+    twins: Ints = index[shared][np.argsort(inverse[shared], kind="stable")]
+    return twins
+
+
+def _hashes(rows: Callable[[slice | Ints], NDArray[np.float32]], count: int) -> NDArray[np.uint64]:
+    """(count,) a number for each point, equal where the coordinates are."""
+    key = np.empty(count, np.uint64)
+    for start in range(0, count, HASHED_ROWS):
+        part = slice(start, min(start + HASHED_ROWS, count))
+        # Zero has two signs and is one number.
+        x, y, z = (rows(part) + np.float32(0.0)).view(np.uint32).astype(np.uint64).T
+        with np.errstate(over="ignore"):
+            mixed = x * np.uint64(0x9E3779B97F4A7C15)
+            mixed ^= y * np.uint64(0xC2B2AE3D27D4EB4F)
+            mixed += (z << np.uint64(32)) ^ (z * np.uint64(0x165667B19E3779F9))
+        key[part] = mixed
+    return key

@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What a reader of single precision sees of a mesh, and numbers written as text for it."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..util.errors import VolfrepError
+from .triangle_mesh import TriangleMesh
+
+#: Triangles looked at, or lines of text made, in one step (bounds the memory).
+BLOCK_ROWS = 1 << 16
+
+
+def single_precision(mesh: TriangleMesh, path: str | os.PathLike[str]) -> NDArray[np.float32]:
+    """The vertices (n, 3) as a file of single precision holds them.
+
+    Raises:
+        VolfrepError: the mesh is empty or has coordinates that float32 cannot hold; `path` is
+            named in the text.
+    """
+    if not len(mesh.triangles):
+        raise VolfrepError(f"There is nothing to write to '{path}': the mesh is empty.")
+    if not np.abs(mesh.bounds).max() < np.finfo(np.float32).max:
+        raise VolfrepError(
+            f"Cannot write '{path}': the mesh holds coordinates that are not finite "
+            "single-precision numbers."
+        )
+    return mesh.vertices.astype(np.float32)
+
+
+def refuse_lost_corners(
+    vertices: NDArray[np.float32], triangles: NDArray[np.int32], path: str | os.PathLike[str]
+) -> None:
+    """Refuse triangles of which two corners became one when they were rounded.
+
+    Raises:
+        VolfrepError: saying where the first of them is.
+    """
+    for start in range(0, len(triangles), BLOCK_ROWS):
+        corners = vertices[triangles[start : start + BLOCK_ROWS]]
+        lost = np.zeros(len(corners), bool)
+        for a, b in ((0, 1), (1, 2), (2, 0)):
+            lost |= (corners[:, a] == corners[:, b]).all(axis=1)
+        if lost.any():
+            x, y, z = corners[int(lost.argmax()), 0]
+            raise VolfrepError(
+                f"Cannot write '{path}': near ({x:g}, {y:g}, {z:g}) the mesh is finer than the "
+                "single precision of the file there; move the part nearer to the origin or use a "
+                "coarser resolution."
+            )
+
+
+def as_text(mesh: TriangleMesh, path: str | os.PathLike[str]) -> NDArray[np.float64]:
+    """The vertices (n, 3) rounded to the step of single precision, so that their text is short.
+
+    Raises:
+        VolfrepError: as `single_precision` and `refuse_lost_corners`.
+    """
+    single_precision(mesh, path)
+    points = as_decimals(mesh.vertices)
+    refuse_lost_corners(points.astype(np.float32), mesh.triangles, path)
+    return points
+
+
+def as_decimals(points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Coordinates rounded to a decimal place, finer than single precision where it is coarsest."""
+    return rounded(points, decimal_step(points))
+
+
+def decimal_step(points: NDArray[np.float64]) -> float:
+    """What the decimals of a text have to resolve, mm."""
+    farthest = max(float(points.max(initial=1.0)), -float(points.min(initial=-1.0)))
+    return float(np.spacing(np.float32(farthest)))
+
+
+def rounded(numbers: NDArray[np.float64], step: float) -> NDArray[np.float64]:
+    """Numbers rounded to the decimal place that resolves `step`."""
+    decimals = int(np.ceil(-np.log10(step)))
+    return np.round(numbers, decimals) + 0.0  # -0 becomes 0
+
+
+def lines(template: str, values: NDArray[np.generic]) -> Iterator[bytes]:
+    """The template once for every row of (n, k) values, in blocks of one formatting call each."""
+    for start in range(0, len(values), BLOCK_ROWS):
+        block = values[start : start + BLOCK_ROWS]
+        yield ((template * len(block)) % tuple(block.ravel().tolist())).encode("ascii")

@@ -1,0 +1,404 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What we claim about a mesh, measured.
+
+`measure` looks at the topology and the volume (it is part of every run), `shape_statistics` at
+the triangles' shapes and `pinched_vertices` at the vertices (both on demand).
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import coo_matrix, csr_matrix
+from scipy.sparse.csgraph import connected_components
+
+from ..util.progress import Monitor
+from ..util.threads import threads
+from .triangle_mesh import TriangleMesh
+
+T = TypeVar("T")
+
+#: Triangles per block of the passes over coordinates: small enough to stay in the cache.
+BLOCK_TRIANGLES = 1 << 16
+#: A triangle is degenerate when its height is below this fraction of its longer sides.
+DEGENERATE_HEIGHT = 1e-10
+#: Vertices per block in `pinched_vertices`.
+BLOCK_VERTICES = 1 << 14
+
+
+@dataclass(frozen=True, eq=False)
+class Quality:
+    """Topology, volume and size of a mesh; lengths in mm.
+
+    Attributes:
+        triangles: of the mesh.
+        vertices: that a triangle uses.
+        watertight: every edge is shared by exactly two triangles that run along it in opposite
+            directions, and no triangle names a vertex twice.
+        open_edges: edges of a single triangle.
+        overused_edges: edges of more than two triangles.
+        misoriented_edges: edges whose two triangles run along them in the same direction.
+        degenerate_triangles: with a repeated vertex or (nearly) without height.
+        shells: pieces of surface that share no vertex.
+        bodies: shells that enclose material (positive volume).
+        voids: shells that enclose emptiness (negative volume).
+        genus: through-holes summed over the shells (shells - Euler number / 2); -1 where the
+            mesh is not watertight, since it then has no meaning.
+        volume: signed, in mm3.
+        area: in mm2.
+        bounds: (2, 3) lowest and highest corner of the vertices in use.
+    """
+
+    triangles: int
+    vertices: int
+    watertight: bool
+    open_edges: int
+    overused_edges: int
+    misoriented_edges: int
+    degenerate_triangles: int
+    shells: int
+    bodies: int
+    voids: int
+    genus: int
+    volume: float
+    area: float
+    bounds: NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class ShapeStatistics:
+    """How good the triangles are, as in Table 2 of the VOLFREP paper.
+
+    Attributes:
+        smallest_angle: of all the triangles, degrees.
+        radius_ratio_mean, radius_ratio_deviation: of 2 x inradius / circumradius, 1 for an
+            equilateral triangle, 0 for a degenerate one; mean and standard deviation.
+        radius_ratio_min: the worst triangle's.
+        area_ratio_mean, area_ratio_deviation: of 2 x area / longest side squared (MeshLab's
+            "area / max side"), 0.866 for an equilateral triangle.
+        area_mean, area_deviation: of the area, mm2.
+    """
+
+    smallest_angle: float
+    radius_ratio_mean: float
+    radius_ratio_deviation: float
+    radius_ratio_min: float
+    area_ratio_mean: float
+    area_ratio_deviation: float
+    area_mean: float
+    area_deviation: float
+
+
+@dataclass(frozen=True, eq=False)
+class Inspection:
+    """A mesh's quality, and the shells that it was found on.
+
+    Attributes:
+        quality: of the whole.
+        shell: (m,) int32, which shell each triangle belongs to.
+        volume: signed volume of every shell, mm3; shells without triangles may be among them.
+    """
+
+    quality: Quality
+    shell: NDArray[np.int32]
+    volume: NDArray[np.float64]
+
+
+def measure(mesh: TriangleMesh, monitor: Monitor | None = None) -> Quality:
+    """Topology, volume and size of a mesh, by vertex indices (nothing is merged).
+
+    Takes about 0.15 s and 60 bytes per triangle for a million triangles on two cores.
+
+    Args:
+        mesh: any mesh, closed or not.
+        monitor: asked for a cancel between (and while) the steps run.
+
+    Raises:
+        Cancelled: when the monitor says so.
+    """
+    return inspect(mesh, monitor).quality
+
+
+#: What the qualities of meshes that share no vertex add up to.
+_SUMS = (
+    "triangles", "vertices", "open_edges", "overused_edges", "misoriented_edges",
+    "degenerate_triangles", "shells", "bodies", "voids", "volume", "area",
+)  # fmt: skip
+
+
+def combined(one: Quality, two: Quality) -> Quality:
+    """The quality of two meshes taken as one, nothing welded."""
+    sums = {name: getattr(one, name) + getattr(two, name) for name in _SUMS}
+    watertight = one.watertight and two.watertight
+    bounds = np.array(
+        [
+            np.minimum(one.bounds[0], two.bounds[0]),
+            np.maximum(one.bounds[1], two.bounds[1]),
+        ]
+    )
+    genus = one.genus + two.genus if watertight else -1
+    return Quality(watertight=watertight, genus=genus, bounds=bounds, **sums)
+
+
+def remaining(
+    whole: Quality, gone: Quality, bounds: NDArray[np.float64], volumes: NDArray[np.float64]
+) -> Quality:
+    """The quality of a watertight mesh less some of its shells, which have a quality of their own.
+
+    Args:
+        whole: of all.
+        gone: of what goes.
+        bounds: of what is left.
+        volumes: of the shells that are left. What goes may be as flat as to have no volume but
+            rounding, whose sign would differ from that in the whole.
+    """
+    rest = {name: getattr(whole, name) - getattr(gone, name) for name in _SUMS}
+    rest["bodies"] = int(np.count_nonzero(volumes > 0))
+    rest["voids"] = int(np.count_nonzero(volumes < 0))
+    return Quality(watertight=True, genus=whole.genus - gone.genus, bounds=bounds, **rest)
+
+
+def inspect(mesh: TriangleMesh, monitor: Monitor | None = None) -> Inspection:
+    """As `measure`, with the shell of every triangle and every shell's volume."""
+    used = np.zeros(len(mesh.vertices), bool)
+    used[mesh.triangles.ravel()] = True
+    vertices = int(np.count_nonzero(used))
+    if not vertices:
+        nothing = Quality(0, 0, False, 0, 0, 0, 0, 0, 0, 0, -1, 0.0, 0.0, np.zeros((2, 3)))
+        return Inspection(nothing, np.zeros(0, np.int32), np.zeros(0))
+    # Coordinate by coordinate, which the passes below take in far faster than row by row.
+    columns = np.ascontiguousarray(mesh.vertices.T)
+    points = columns if vertices == len(used) else columns[:, used]
+    bounds = np.array([points.min(axis=1), points.max(axis=1)])
+
+    forward, backward = _run(monitor, lambda: _edges(mesh))
+    uses = _edge_uses(forward, backward)
+    volumes, area, degenerate, repeated = _run(
+        monitor, lambda: _sizes(columns - bounds.mean(axis=0)[:, None], mesh.triangles)
+    )
+    shell, shell_volumes = _run(monitor, lambda: _shells(mesh, uses.graph, volumes))
+    # A vertex without triangle is a component of its own.
+    shells = len(shell_volumes) - (len(used) - vertices)
+
+    watertight = not (uses.open or uses.overused or uses.misoriented or repeated)
+    euler = vertices - uses.graph.nnz + len(mesh.triangles)
+    quality = Quality(
+        triangles=len(mesh.triangles),
+        vertices=vertices,
+        watertight=watertight,
+        open_edges=uses.open,
+        overused_edges=uses.overused,
+        misoriented_edges=uses.misoriented,
+        degenerate_triangles=degenerate,
+        shells=shells,
+        bodies=int(np.count_nonzero(shell_volumes > 0)),
+        voids=int(np.count_nonzero(shell_volumes < 0)),
+        genus=shells - euler // 2 if watertight else -1,
+        volume=float(volumes.sum()),
+        area=area,
+        bounds=bounds,
+    )
+    return Inspection(quality, shell, shell_volumes)
+
+
+def shape_statistics(mesh: TriangleMesh) -> ShapeStatistics:
+    """The triangles' angles and proportions.
+
+    Raises:
+        ValueError: the mesh has no triangle.
+    """
+    if not len(mesh.triangles):
+        raise ValueError("a mesh without triangles has no shape statistics")
+    blocks = _in_blocks(lambda start, stop: _block_shapes(mesh, start, stop), len(mesh.triangles))
+    count = len(mesh.triangles)
+    sums = np.sum([sums for sums, _ in blocks], axis=0)
+    lowest = np.min([lowest for _, lowest in blocks], axis=0)
+    mean = sums[0] / count
+    # Rounding may leave a variance of identical triangles a hair below zero.
+    deviation = np.sqrt(np.maximum(sums[1] / count - mean**2, 0.0))
+    return ShapeStatistics(
+        smallest_angle=float(np.degrees(np.arcsin(lowest[0]))),
+        radius_ratio_mean=float(mean[0]),
+        radius_ratio_deviation=float(deviation[0]),
+        radius_ratio_min=float(lowest[1]),
+        area_ratio_mean=float(mean[1]),
+        area_ratio_deviation=float(deviation[1]),
+        area_mean=float(mean[2]),
+        area_deviation=float(deviation[2]),
+    )
+
+
+def pinched_vertices(mesh: TriangleMesh) -> int:
+    """Vertices at which more than one fan of triangles meets (two cones tip to tip).
+
+    Every edge of such a mesh can be shared by exactly two triangles, and yet its surface is
+    not a manifold there.
+    """
+    # Corners ordered by their vertex: one block then holds all the corners of its vertices.
+    order = np.argsort(mesh.triangles.ravel(), kind="stable")
+    at = mesh.triangles.ravel()[order]
+    cuts = np.searchsorted(at, np.arange(0, len(mesh.vertices) + BLOCK_VERTICES, BLOCK_VERTICES))
+    spans = [slice(start, stop) for start, stop in itertools.pairwise(cuts.tolist())]
+    with ThreadPoolExecutor(max_workers=threads()) as pool:
+        return sum(pool.map(lambda span: _pinched_in(mesh, order[span], at[span]), spans))
+
+
+def _pinched_in(mesh: TriangleMesh, corner: NDArray[np.int64], at: NDArray[np.int32]) -> int:
+    """Pinched vertices among those whose (complete) sets of corners are given."""
+    if not len(corner):
+        return 0
+    triangle, place = np.divmod(corner, 3)
+    apex = at.astype(np.int64) << 32
+    one = apex | mesh.triangles[triangle, (place + 1) % 3]
+    two = apex | mesh.triangles[triangle, (place + 2) % 3]
+    # A corner joins the two edges it lies between: a fan is a connected set of edges.
+    edges, index = np.unique(np.concatenate([one, two]), return_inverse=True)
+    index = index.reshape(2, -1)
+    links = coo_matrix((np.ones(len(corner), np.int8), tuple(index)), shape=(len(edges),) * 2)
+    fans, fan_of_edge = connected_components(links, directed=False)
+    vertex_of_fan = np.zeros(fans, np.int64)
+    vertex_of_fan[fan_of_edge] = edges >> 32
+    _, fans_of_vertex = np.unique(vertex_of_fan, return_counts=True)
+    return int(np.count_nonzero(fans_of_vertex > 1))
+
+
+@dataclass(frozen=True, eq=False)
+class _EdgeUses:
+    open: int
+    overused: int
+    misoriented: int
+    graph: Any  # sparse matrix, one entry for each undirected edge
+
+
+def _edges(mesh: TriangleMesh) -> tuple[Any, Any]:
+    """How often each edge is used towards its higher index, and towards its lower one.
+
+    Two sparse matrices (lower index, higher index) -> count. Building one is a counting sort,
+    in compiled code that lets the other thread run.
+    """
+    with ThreadPoolExecutor(max_workers=min(2, threads())) as pool:
+        forward, backward = pool.map(lambda way: _directed_edges(mesh, way), (True, False))
+    return forward, backward
+
+
+def _directed_edges(mesh: TriangleMesh, towards_higher: bool) -> Any:
+    ways = []
+    for first, second in ((0, 1), (1, 2), (2, 0)):
+        start, end = mesh.triangles[:, first], mesh.triangles[:, second]
+        if not towards_higher:
+            start, end = end, start
+        ways.append((start, end, start < end))
+    filled = np.cumsum([0] + [np.count_nonzero(chosen) for _, _, chosen in ways])
+    rows, columns = np.empty((2, filled[-1]), np.int32)
+    for (start, end, chosen), low, high in zip(ways, filled, filled[1:], strict=False):
+        np.compress(chosen, start, out=rows[low:high])
+        np.compress(chosen, end, out=columns[low:high])
+    del ways
+    size = len(mesh.vertices)
+    return csr_matrix((np.ones(len(rows), np.int32), (rows, columns)), shape=(size, size))
+
+
+def _edge_uses(forward: Any, backward: Any) -> _EdgeUses:
+    if (
+        np.array_equal(forward.indptr, backward.indptr)
+        and np.array_equal(forward.indices, backward.indices)
+        and (forward.data == 1).all()
+        and (backward.data == 1).all()
+    ):
+        return _EdgeUses(0, 0, 0, forward)
+    # Both counts of an edge in one number: the forward one below, the backward one above.
+    both = forward.astype(np.int64) + backward.astype(np.int64) * (1 << 32)
+    ahead, back = both.data & 0xFFFFFFFF, both.data >> 32
+    uses = ahead + back
+    return _EdgeUses(
+        open=int(np.count_nonzero(uses == 1)),
+        overused=int(np.count_nonzero(uses > 2)),
+        misoriented=int(np.count_nonzero((uses == 2) & (ahead != 1))),
+        graph=both,
+    )
+
+
+def _shells(
+    mesh: TriangleMesh, graph: Any, volumes: NDArray[np.float64]
+) -> tuple[NDArray[np.int32], NDArray[np.float64]]:
+    """The shell of every triangle and every shell's volume; unused vertices are shells too."""
+    components, label = connected_components(graph, directed=False)
+    of_triangle: NDArray[np.int32] = label[mesh.triangles[:, 0]]
+    sums = np.bincount(of_triangle, weights=volumes, minlength=components)
+    return of_triangle, sums.astype(np.float64)
+
+
+def _sizes(
+    columns: NDArray[np.float64], triangles: NDArray[np.int32]
+) -> tuple[NDArray[np.float64], float, int, int]:
+    """Signed volumes about the origin, total area, degenerate triangles, repeated vertices."""
+    volumes = np.empty(len(triangles))
+
+    def block(start: int, stop: int) -> tuple[float, int, int]:
+        corners = np.ascontiguousarray(triangles[start:stop].T)
+        a, b, c = ([column.take(corner) for column in columns] for corner in corners)
+        e = [b[k] - a[k] for k in range(3)]
+        f = [c[k] - a[k] for k in range(3)]
+        normal = _cross(e, f)
+        volumes[start:stop] = _dot(a, normal) / 6.0
+        doubled = np.sqrt(_dot(normal, normal))
+        flat = doubled <= DEGENERATE_HEIGHT * np.maximum(_dot(e, e), _dot(f, f))
+        repeated = (
+            (corners[0] == corners[1]) | (corners[1] == corners[2]) | (corners[2] == corners[0])
+        )
+        return (
+            float(doubled.sum()) / 2.0,
+            int(np.count_nonzero(flat | repeated)),
+            int(np.count_nonzero(repeated)),
+        )
+
+    areas, flats, repeats = zip(*_in_blocks(block, len(triangles)), strict=True)
+    return volumes, float(sum(areas)), sum(flats), sum(repeats)
+
+
+def _block_shapes(
+    mesh: TriangleMesh, start: int, stop: int
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Sums of (radius ratio, area ratio, area) and of their squares; lowest sine and ratio."""
+    a, b, c = (mesh.vertices[corner] for corner in mesh.triangles[start:stop].T)
+    doubled = np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    sides = np.sort([np.linalg.norm(q - p, axis=1) for p, q in ((a, b), (b, c), (c, a))], axis=0)
+    proper = doubled > 0.0
+    # The smallest angle lies opposite the shortest side, between the other two.
+    sine = np.divide(doubled, sides[1] * sides[2], out=np.zeros_like(doubled), where=proper)
+    # 2 r / R with r = area / half perimeter and R = product of the sides / (4 area).
+    ratio = np.divide(
+        4.0 * doubled**2, sides.sum(axis=0) * sides.prod(axis=0), out=sine * 0.0, where=proper
+    )
+    fatness = np.divide(doubled, sides[2] ** 2, out=sine * 0.0, where=proper)
+    values = np.array([ratio, fatness, doubled / 2.0])
+    return (
+        np.array([values.sum(axis=1), (values**2).sum(axis=1)]),
+        np.array([sine.min(), ratio.min()]),
+    )
+
+
+def _in_blocks(work: Callable[[int, int], T], count: int) -> list[T]:
+    """`work(start, stop)` for consecutive blocks of triangles, on every core."""
+    starts = range(0, count, BLOCK_TRIANGLES)
+    with ThreadPoolExecutor(max_workers=threads()) as pool:
+        return list(pool.map(lambda s: work(s, min(s + BLOCK_TRIANGLES, count)), starts))
+
+
+def _run(monitor: Monitor | None, function: Callable[[], T]) -> T:
+    return function() if monitor is None else monitor.call(function)
+
+
+def _cross(a: list[NDArray[np.float64]], b: list[NDArray[np.float64]]) -> list[NDArray[np.float64]]:
+    return [a[i] * b[j] - a[j] * b[i] for i, j in ((1, 2), (2, 0), (0, 1))]
+
+
+def _dot(a: list[NDArray[np.float64]], b: list[NDArray[np.float64]]) -> NDArray[np.float64]:
+    product: NDArray[np.float64] = a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+    return product

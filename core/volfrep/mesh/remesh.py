@@ -1,0 +1,318 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Mesh surgery in bulk: collapse short edges, flip badly placed ones.
+
+Every operation acts at once on a set of edges that do not touch each other's neighbourhoods, so
+that each is safe by itself (link condition, no triangle turned over) and the whole pass is a few
+numpy calls. What may be done to a vertex is told by its rank: an edge is collapsed onto the end
+of higher rank, and only where the lower end may slide there (see `Rules`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..util.ragged import rows_of
+from ..util.types import Bools, Floats, Ints
+
+#: A triangle may not turn by more than this (cosine) when a neighbour is collapsed or flipped.
+MIN_TURN_COSINE = 0.35
+#: Nor become worse than this (inradius over circumradius, 1 for an equilateral one).
+MIN_QUALITY = 0.25
+
+
+@dataclass(frozen=True, eq=False)
+class Edges:
+    """The edges of an oriented mesh.
+
+    Attributes:
+        ends: (e, 2) vertices, as the first triangle runs through them.
+        triangles: (e, 2) the one or two triangles; -1 for none.
+        opposite: (e, 2) the corner of each triangle that is not on the edge; -1 for none.
+    """
+
+    ends: Ints
+    triangles: Ints
+    opposite: Ints
+
+
+def edges(triangles: Ints, vertex_count: int) -> Edges:
+    """The edges of a mesh whose edges have one or two triangles each."""
+    count = len(triangles)
+    start = triangles.ravel(order="F")
+    end = triangles[:, [1, 2, 0]].ravel(order="F")
+    opposite = triangles[:, [2, 0, 1]].ravel(order="F")
+    owner = np.tile(np.arange(count), 3)
+    key = np.minimum(start, end) * np.int64(vertex_count) + np.maximum(start, end)
+    order = np.argsort(key, kind="stable")
+    sorted_key = key[order]
+    is_first = np.ones(len(key), bool)
+    is_first[1:] = sorted_key[1:] != sorted_key[:-1]
+    position = np.flatnonzero(is_first)
+    one = order[position]
+    has_two = np.zeros(len(position), bool)
+    inside = position + 1 < len(key)
+    has_two[inside] = ~is_first[position[inside] + 1]
+    two = order[np.minimum(position + 1, len(key) - 1)]
+    return Edges(
+        np.stack([start[one], end[one]], axis=1),
+        np.stack([owner[one], np.where(has_two, owner[two], -1)], axis=1),
+        np.stack([opposite[one], np.where(has_two, opposite[two], -1)], axis=1),
+    )
+
+
+def qualities(points: Floats) -> Floats:
+    """(m,) 2 inradius / circumradius of (m, 3, 3) triangles: 1 equilateral, 0 degenerate."""
+    a = np.linalg.norm(points[:, 1] - points[:, 2], axis=1)
+    b = np.linalg.norm(points[:, 2] - points[:, 0], axis=1)
+    c = np.linalg.norm(points[:, 0] - points[:, 1], axis=1)
+    product = np.maximum(a * b * c, 1e-300)
+    result: Floats = (b + c - a) * (c + a - b) * (a + b - c) / product
+    return result
+
+
+def normals(points: Floats) -> Floats:
+    """(m, 3) vectors of twice the area of (m, 3, 3) triangles."""
+    return np.cross(points[:, 1] - points[:, 0], points[:, 2] - points[:, 0])
+
+
+def grouped(rows: Ints, values: Ints, count: int) -> tuple[Ints, Ints]:
+    """The values of each of `count` rows laid end to end: (count + 1,) offsets, values."""
+    order = np.argsort(rows, kind="stable")
+    start = np.concatenate([[0], np.cumsum(np.bincount(rows, minlength=count))])
+    return start.astype(np.int64), values[order]
+
+
+@dataclass(frozen=True, eq=False)
+class Rules:
+    """What may be collapsed.
+
+    Attributes:
+        rank: (n,) 0 for a vertex that is free on a surface, more where it is held (on a crease,
+            at a corner, on the mesh's border).
+        may_slide: called with (k,) from and to vertices of edges; whether the first may be
+            merged into the second, which stays where it is.
+        forbidden: called likewise; whether no new edge may join the two. (An edge between two
+            vertices of one border would be made again by the piece beyond the border.)
+        stays_good: called with the (k, 3, 3) corners of triangles before and after; whether
+            they may change like that.
+        merge: called with (k,) from and to vertices of edges: the cost of merging them, and the
+            place of what they become. The cheapest go first, those of infinite cost stay. None:
+            the shortest first, into the middle of two free ends or else where the second one is.
+    """
+
+    rank: Ints
+    may_slide: Callable[[Ints, Ints], Bools]
+    forbidden: Callable[[Ints, Ints], Bools]
+    stays_good: Callable[[Floats, Floats], Bools]
+    merge: Callable[[Ints, Ints], tuple[Floats, Floats]] | None = None
+
+
+def collapse(
+    vertices: Floats, triangles: Ints, rules: Rules, shortest: float, longest: float
+) -> tuple[Floats, Ints, Ints]:
+    """One pass of collapsing edges shorter than `shortest`.
+
+    An edge between two free vertices becomes its middle point, any other the vertex of higher
+    rank. No edge longer than `longest` and no turned or degenerate triangle is made.
+
+    Returns:
+        vertices, triangles, and (n,) the new index of every old vertex. Vertices that stay keep
+        their order; one that is gone has ~k, k the new index of what it was merged into.
+    """
+    count = len(vertices)
+    table = edges(triangles, count)
+    ends = table.ends
+    length = np.linalg.norm(vertices[ends[:, 0]] - vertices[ends[:, 1]], axis=1)
+    swap = rules.rank[ends[:, 0]] > rules.rank[ends[:, 1]]
+    from_to = np.where(swap[:, None], ends[:, ::-1], ends)
+    candidate = np.flatnonzero((length < shortest) & (table.triangles[:, 1] >= 0))
+    gone, kept = from_to[candidate, 0], from_to[candidate, 1]
+    allowed = rules.may_slide(gone, kept)
+    candidate, gone, kept = candidate[allowed], gone[allowed], kept[allowed]
+    if rules.merge is None:
+        cost = length[candidate]
+        free = (rules.rank[gone] == 0) & (rules.rank[kept] == 0)
+        target = np.where(free[:, None], 0.5 * (vertices[gone] + vertices[kept]), vertices[kept])
+    else:
+        cost, target = rules.merge(gone, kept)
+        free = np.ones(len(gone), bool)
+    worth = cost < np.inf
+    gone, kept, free = gone[worth], kept[worth], free[worth]
+    cost, target = cost[worth], target[worth]
+    identity = np.arange(count)
+    if not len(gone):
+        return vertices, triangles, identity
+
+    corner_start, corner_triangle = grouped(
+        triangles.ravel(), np.repeat(np.arange(len(triangles)), 3), count
+    )
+    both = np.concatenate([ends, ends[:, ::-1]])
+    near_start, near = grouped(both[:, 0], both[:, 1], count)
+    edge_keys = np.sort(both[:, 0] * np.int64(count) + both[:, 1])
+
+    # Link condition: the ends share exactly the two corners opposite to the edge.
+    rows, owner = rows_of(near_start, gone)
+    key = kept[owner] * np.int64(count) + near[rows]
+    found = edge_keys[np.minimum(np.searchsorted(edge_keys, key), len(edge_keys) - 1)] == key
+    good = np.bincount(owner[found], minlength=len(gone)) == 2
+    new, other = owner[~found], near[rows[~found]]
+    outlawed = rules.forbidden(kept[new], other) & (kept[new] != other)
+    good &= np.bincount(new[outlawed], minlength=len(gone)) == 0
+
+    for side, other, moves in ((gone, kept, np.ones(len(gone), bool)), (kept, gone, free)):
+        rows, owner = rows_of(corner_start, side)
+        corners = triangles[corner_triangle[rows]]
+        affected = ~(corners == other[owner][:, None]).any(axis=1) & moves[owner]
+        corners, owner = corners[affected], owner[affected]
+        before = vertices[corners]
+        after = np.where(
+            (corners == side[owner][:, None])[:, :, None], target[owner][:, None, :], before
+        )
+        bad = ~rules.stays_good(before, after)
+        span = np.linalg.norm(after - np.roll(after, 1, axis=1), axis=2).max(axis=1)
+        bad |= span > longest
+        good &= np.bincount(owner[bad], minlength=len(gone)) == 0
+    gone, kept, target, cost = gone[good], kept[good], target[good], cost[good]
+
+    chosen = _independent(np.stack([gone, kept], axis=1), cost, near_start, near, count)
+    gone, kept, target = gone[chosen], kept[chosen], target[chosen]
+    moved = vertices.copy()
+    moved[kept] = target
+    identity[gone] = kept
+    merged = identity[triangles]
+    degenerate = (
+        (merged[:, 0] == merged[:, 1])
+        | (merged[:, 1] == merged[:, 2])
+        | (merged[:, 2] == merged[:, 0])
+    )
+    stay = np.ones(count, bool)
+    stay[gone] = False
+    renumber = np.cumsum(stay) - 1
+    renumber[gone] = ~renumber[kept]
+    return moved[stay], renumber[merged[~degenerate]], renumber
+
+
+def stays_good(before: Floats, after: Floats) -> Bools:
+    """Whether (m, 3, 3) triangles keep their side and a usable shape."""
+    old, new = normals(before), normals(after)
+    cosine = np.einsum("ij,ij->i", old, new)
+    size = np.linalg.norm(old, axis=1) * np.linalg.norm(new, axis=1)
+    quality = qualities(after)
+    shape = (quality > MIN_QUALITY) | (quality > qualities(before))
+    result: Bools = (cosine > MIN_TURN_COSINE * size) & (size > 0) & shape
+    return result
+
+
+def _independent(ends: Ints, cost: Floats, near_start: Ints, near: Ints, count: int) -> Bools:
+    """Edges that are the cheapest of all that end in or beside their two ends' neighbours."""
+    order = np.empty(len(ends), np.int64)
+    order[np.argsort(cost, kind="stable")] = np.arange(len(ends))
+    best = np.full(count, len(ends), np.int64)
+    np.minimum.at(best, ends[:, 0], order)
+    np.minimum.at(best, ends[:, 1], order)
+    around = np.minimum(best, np.minimum.reduceat(best[near], near_start[:-1]))
+    result: Bools = (around[ends[:, 0]] == order) & (around[ends[:, 1]] == order)
+    return result
+
+
+def flip(
+    vertices: Floats,
+    triangles: Ints,
+    gain: Callable[[Ints, Ints], Floats],
+    forbidden: Callable[[Ints, Ints], Bools],
+) -> tuple[Ints, int]:
+    """One pass of edge flips; returns the new triangles and how many edges were flipped.
+
+    Args:
+        vertices: (n, 3).
+        triangles: (m, 3).
+        gain: called with the (k, 2) ends of the edges that could be flipped and the (k, 2)
+            corners that the flipped edges would join; positive where a flip is wanted.
+        forbidden: called with (k,) corners; whether no new edge may join the two.
+    """
+    count = len(vertices)
+    table = edges(triangles, count)
+    inner = np.flatnonzero(table.triangles[:, 1] >= 0)
+    ends, corners = table.ends[inner], table.opposite[inner]
+    pair = table.triangles[inner]
+    low, high = table.ends.min(axis=1), table.ends.max(axis=1)
+    keys = np.sort(low * np.int64(count) + high)
+    new_key = corners.min(axis=1) * np.int64(count) + corners.max(axis=1)
+    exists = keys[np.minimum(np.searchsorted(keys, new_key), len(keys) - 1)] == new_key
+    # Directed edge u -> v in the first triangle (u, v, a), v -> u in the second (v, u, b): the
+    # flipped pair is (a, b, v) and (b, a, u).
+    first = np.stack([corners[:, 0], corners[:, 1], ends[:, 1]], axis=1)
+    second = np.stack([corners[:, 1], corners[:, 0], ends[:, 0]], axis=1)
+    old_normal = normals(vertices[triangles[pair[:, 0]]]) + normals(vertices[triangles[pair[:, 1]]])
+    size = np.linalg.norm(old_normal, axis=1)
+    allowed = ~exists & ~forbidden(corners[:, 0], corners[:, 1])
+    for new in (first, second):
+        points = vertices[new]
+        normal = normals(points)
+        cosine = np.einsum("ij,ij->i", normal, old_normal)
+        allowed &= cosine > MIN_TURN_COSINE * size * np.linalg.norm(normal, axis=1)
+    select = np.flatnonzero(allowed)
+    value = gain(ends[select], corners[select])
+    select, value = select[value > 0], value[value > 0]
+    if not len(select):
+        return triangles, 0
+    order = np.empty(len(select), np.int64)
+    order[np.argsort(-value, kind="stable")] = np.arange(len(select))
+    best = np.full(len(triangles), len(select), np.int64)
+    for side in (0, 1):
+        np.minimum.at(best, pair[select, side], order)
+    chosen = (best[pair[select, 0]] == order) & (best[pair[select, 1]] == order)
+    select = select[chosen]
+    # Two flips elsewhere could make the same edge twice: keep one.
+    _, unique = np.unique(new_key[select], return_index=True)
+    select = select[unique]
+    result = triangles.copy()
+    result[pair[select, 0]] = first[select]
+    result[pair[select, 1]] = second[select]
+    return result, len(select)
+
+
+def split(
+    vertices: Floats, triangles: Ints, wanted: Callable[[Ints, Ints], Bools]
+) -> tuple[Floats, Ints]:
+    """Split the wanted inner edges at their middles; new vertices follow the old ones.
+
+    `wanted` is called with the (k,) ends of the inner edges; it is not asked about new edges.
+    """
+    count = len(vertices)
+    table = edges(triangles, count)
+    inner = table.triangles[:, 1] >= 0
+    ends = table.ends[inner]
+    todo = ends[wanted(ends[:, 0], ends[:, 1])]
+    middle = 0.5 * (vertices[todo[:, 0]] + vertices[todo[:, 1]])
+    vertices = np.concatenate([vertices, middle])
+    fresh = np.arange(count, len(vertices))
+    while len(todo):
+        # Each triangle takes one split at a time; the others wait for the next round.
+        table = edges(triangles, len(vertices))
+        key = np.sort(table.ends, axis=1) @ np.array([len(vertices), 1])
+        want = np.sort(todo, axis=1) @ np.array([len(vertices), 1])
+        order = np.argsort(key)
+        found = order[np.searchsorted(key[order], want)]
+        pair = table.triangles[found]
+        first = np.full(len(triangles), len(todo))
+        for side in (0, 1):
+            np.minimum.at(first, pair[:, side], np.arange(len(todo)))
+        now = (first[pair] == np.arange(len(todo))[:, None]).all(axis=1)
+        edge, corner, pair = table.ends[found[now]], table.opposite[found[now]], pair[now]
+        new = fresh[now]
+        triangles = triangles.copy()
+        triangles[pair[:, 0]] = np.stack([edge[:, 0], new, corner[:, 0]], axis=1)
+        triangles[pair[:, 1]] = np.stack([edge[:, 1], new, corner[:, 1]], axis=1)
+        triangles = np.concatenate(
+            [
+                triangles,
+                np.stack([new, edge[:, 1], corner[:, 0]], axis=1),
+                np.stack([new, edge[:, 0], corner[:, 1]], axis=1),
+            ]
+        )
+        todo, fresh = todo[~now], fresh[~now]
+    return vertices, triangles

@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A mesh over an implicit surface, and how its vertices are kept on it.
+
+Vertices on an octant's faces move in those faces only, and by what is on the face only, so that
+the neighbour on the other side comes to the same places.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..util.types import Bools, Floats, Ints
+from .sdf import Field, distances_and_gradients
+
+#: Vertices that are not on a face of their octant keep this distance to it, in sampling steps.
+FACE_MARGIN = 1e-3
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """A mesh over an implicit surface.
+
+    Attributes:
+        vertices: (n, 3) float64, mm.
+        triangles: (m, 3) int64.
+        place: (n, 3) int8, per axis 0 on an octant's low face, 2 on its high face, else 1.
+        held: (n, 3) int64, primitives on whose surfaces a vertex must stay: none (-1) for one
+            that is free on the surface, two on a crease, three at a corner.
+        field: the signed distance about each vertex.
+        edge: wanted edge length, mm.
+        step: sampling step of the raw surface, mm.
+        piece: (n,) int64, which of the octants that are meshed together a vertex belongs to.
+        size: of an octant, mm.
+    """
+
+    vertices: Floats
+    triangles: Ints
+    place: NDArray[np.int8]
+    held: Ints
+    field: Field
+    edge: float
+    step: float
+    piece: Ints
+    size: float
+
+    @property
+    def pinned(self) -> Bools:
+        """(n, 3) bool, coordinates that must keep their value: on an octant's face."""
+        result: Bools = self.place != 1
+        return result
+
+    def share_face(self, one: Ints, two: Ints) -> Bools:
+        """Whether vertices lie on a common face of their octant."""
+        result: Bools = ((self.place[one] == self.place[two]) & self.pinned[one]).any(axis=1)
+        return result
+
+    @property
+    def rank(self) -> Ints:
+        """0 free, 1 on a crease, 2 at a corner, 3 on the border."""
+        crease = np.maximum((self.held >= 0).sum(axis=1) - 1, 0)
+        rank: Ints = np.where(self.pinned.any(axis=1), 3, crease)
+        return rank
+
+
+def project(surface: Surface, passes: int = 2) -> Surface:
+    """Every vertex moved onto the exact surface, crease or corner, by Newton's method.
+
+    Those on an octant's edges are left where `_settle_on_edges` put them.
+    """
+    vertices = surface.vertices.copy()
+    loose = ~surface.pinned
+    movable = loose.sum(axis=1) >= 2
+    held = surface.held[:, 0] >= 0
+    free = np.flatnonzero(~held & movable)
+    bound = np.flatnonzero(held & movable)
+    free_field = surface.field.rows(free)
+    for _ in range(passes):
+        value, gradient = free_field.values_and_gradients(vertices[free])
+        gradient = gradient * loose[free]
+        # Where the surface grazes the face that the vertex is pinned to, the step is kept short.
+        size = np.maximum(np.einsum("ij,ij->i", gradient, gradient), 0.05)
+        vertices[free] -= shortened(gradient * (value / size)[:, None], 0.5 * surface.edge)
+        if len(bound):
+            step = step_to_primitives(surface, vertices[bound], surface.held[bound], loose[bound])
+            vertices[bound] += shortened(step, 0.5 * surface.edge)
+    return moved(surface, vertices)
+
+
+def moved(surface: Surface, vertices: Floats) -> Surface:
+    """The surface with its vertices elsewhere, each still in its octant, face or edge.
+
+    A facet that left its octant would run through those of the next one, and a vertex that came
+    next to a face without lying on it could become one with the next octant's in single precision.
+    """
+    margin = FACE_MARGIN * surface.step
+    kept = np.clip(vertices, margin, surface.size - margin)
+    return replace(surface, vertices=np.where(surface.pinned, surface.vertices, kept))
+
+
+def step_to_primitives(
+    surface: Surface, points: Floats, held: Ints, loose: Bools, level: Floats | float = 0.0
+) -> Floats:
+    """(n, 3) shortest step that brings each point onto all of up to three primitives.
+
+    Args:
+        surface: whose primitives they are.
+        points: (n, 3), mm.
+        held: (n, 3) the primitives; -1 for none.
+        loose: (n, 3) coordinates that may change.
+        level: distance that the points are to have from the primitives' surfaces, mm.
+    """
+    flat = np.maximum(held, 0).ravel()
+    value, gradient = distances_and_gradients(
+        np.repeat(points, 3, axis=0), surface.field.primitives.take(flat)
+    )
+    value = value - np.repeat(np.broadcast_to(level, len(points)), 3)
+    none = (held < 0).ravel()
+    value[none] = 0.0
+    gradient[none] = 0.0
+    jacobian: Floats = gradient.reshape(-1, 3, 3) * loose[:, None, :]
+    normal = jacobian @ jacobian.transpose(0, 2, 1) + 1e-6 * np.eye(3)
+    factor = np.linalg.solve(normal, value.reshape(-1, 3, 1))
+    step: Floats = -(jacobian.transpose(0, 2, 1) @ factor)[:, :, 0]
+    return step
+
+
+def shortened(steps: Floats, longest: float) -> Floats:
+    """The (n, 3) steps, none of them longer than `longest`."""
+    size = np.linalg.norm(steps, axis=1)
+    short: Floats = steps * np.minimum(1.0, longest / np.maximum(size, 1e-300))[:, None]
+    return short
+
+
+def neighbour_mean(
+    count: int, pairs: Ints, vertices: Floats, least: int = 1
+) -> tuple[Floats, Bools]:
+    """Mean of the vertices that `pairs` joins each vertex to; whether it has at least so many."""
+    start = np.concatenate([pairs[:, 0], pairs[:, 1]])
+    end = np.concatenate([pairs[:, 1], pairs[:, 0]])
+    number = np.bincount(start, minlength=count)
+    mean = np.stack(
+        [np.bincount(start, vertices[end, axis], minlength=count) for axis in range(3)], axis=1
+    )
+    return mean / np.maximum(number, 1)[:, None], number >= least
+
+
+def between_samples(surface: Surface, index: Ints) -> tuple[Floats, Floats]:
+    """The stretch of an octant's edge that each of its vertices stays on."""
+    points, loose = surface.vertices[index], ~surface.pinned[index]
+    cell = np.floor(points / surface.step)
+    margin = 1e-3
+    low = np.where(loose, (cell + margin) * surface.step, points)
+    high = np.where(loose, (cell + 1.0 - margin) * surface.step, points)
+    return low, high

@@ -1,0 +1,308 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""From marching cubes' surface to even triangles with their edges on the creases.
+
+Marching cubes leaves slivers and cuts the creases where struts meet. Three steps mend that, each a
+few passes over all the pieces at once:
+
+1. even out: collapse short edges, flip, slide the vertices along the surface;
+2. sharpen: where an edge crosses a crease, put its nearer end on the crease, so that edges run
+   along it (the idea of Kobbelt et al., Feature sensitive surface extraction, 2001);
+3. even out again, the vertices on creases sliding along them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from ..mesh import remesh
+from ..util.types import Bools, Floats, Ints
+from .constrained_mesh import (
+    Surface,
+    between_samples,
+    moved,
+    neighbour_mean,
+    project,
+    shortened,
+    step_to_primitives,
+)
+from .sdf import distances_and_gradients
+from .untangle import proper_border
+
+#: Edges shorter than this, in units of the wanted edge, are collapsed.
+COLLAPSE_BELOW = 0.7
+#: No collapse makes an edge longer than this, in units of the wanted edge.
+COLLAPSE_UP_TO = 1.5
+#: Passes of flips at a time.
+FLIP_PASSES = 2
+#: Surfaces that meet at a lesser angle than this (cosine) have no crease worth a vertex.
+CREASE_COSINE = np.cos(np.radians(12.0))
+#: A vertex may move this far, in units of the wanted edge, to reach a crease.
+SNAP_REACH = 1.5
+#: A vertex nearer to a primitive's surface than this, in units of the wanted edge, lies on it.
+ON_SURFACE = 1e-3
+#: Halvings that settle a vertex on an octant's edge.
+BISECTIONS = 30
+
+
+def even_out(raw: Surface, gently: bool = False) -> tuple[Surface, Ints]:
+    """Even triangles with their edges on the creases, the vertices on the exact surface.
+
+    Args:
+        raw: what marching cubes found.
+        gently: inside, all triangles stay, and creases are not looked for; the border comes out
+            the same.
+
+    Returns:
+        The surface, and which of the raw vertices its own were.
+    """
+    origin = np.arange(len(raw.vertices))
+    if not len(raw.triangles):
+        return raw, origin
+    settled = _settle_on_edges(raw)
+    surface = _relax(project(settled), border=True, passes=2)
+    surface = _sharpen_border(_hold_on_edges(surface))
+    surface = proper_border(settled, _relax(surface, border=True, passes=3))
+    if gently:
+        return _relax(surface), origin
+    for _ in range(3):
+        surface, stay = _collapse(surface)
+        origin = origin[stay]
+        surface = _relax(_flip(surface))
+    if surface.field.fillet <= 0.0:
+        for _ in range(3):
+            surface = _flip(_sharpen(surface))
+            surface, stay = _collapse(surface)
+            origin = origin[stay]
+    for _ in range(3):
+        surface = _relax(_flip(surface))
+    return _flip(surface), origin
+
+
+def _relax(surface: Surface, *, border: bool = False, passes: int = 1) -> Surface:
+    """Vertices slid to the middle of their neighbours: the border's own, or all the others."""
+    count = len(surface.vertices)
+    table = remesh.edges(surface.triangles, count)
+    pins = surface.pinned.sum(axis=1)
+    open_pairs = table.ends[table.triangles[:, 1] < 0]
+    rank = surface.rank
+    crease_pairs = table.ends[_same_crease(surface, table.ends)]
+    for _ in range(passes):
+        vertices = surface.vertices
+        if border:
+            target, movable = neighbour_mean(count, open_pairs, vertices, 2)
+            movable &= (pins == 1) & (surface.held[:, 0] < 0)
+        else:
+            target, movable = neighbour_mean(count, table.ends, vertices)
+            movable &= rank == 0
+            along, has_two = neighbour_mean(count, crease_pairs, vertices, 2)
+            has_two &= rank == 1
+            target[has_two] = along[has_two]
+            movable |= has_two
+        step = np.where(movable[:, None], target - vertices, 0.0) * ~surface.pinned
+        surface = project(replace(surface, vertices=vertices + 0.8 * step))
+    return surface
+
+
+def _same_crease(surface: Surface, ends: Ints) -> Bools:
+    """Whether an edge runs along a crease: its ends are held by two common primitives."""
+    one, two = surface.held[ends[:, 0]], surface.held[ends[:, 1]]
+    common = (one[:, :, None] == two[:, None, :]) & (one[:, :, None] >= 0)
+    result: Bools = common.any(axis=2).sum(axis=1) >= 2
+    return result
+
+
+def _collapse(surface: Surface) -> tuple[Surface, Ints]:
+    rank = surface.rank
+
+    def may_slide(gone: Ints, kept: Ints) -> Bools:
+        free = rank[gone] == 0
+        along = (rank[gone] == 1) & _same_crease(surface, np.stack([gone, kept], axis=1))
+        twins = (rank[gone] == 2) & (surface.held[gone] == surface.held[kept]).all(axis=1)
+        result: Bools = free | along | twins
+        return result
+
+    rules = remesh.Rules(rank, may_slide, surface.share_face, remesh.stays_good)
+    vertices, triangles, renumber = remesh.collapse(
+        surface.vertices,
+        surface.triangles,
+        rules,
+        COLLAPSE_BELOW * surface.edge,
+        COLLAPSE_UP_TO * surface.edge,
+    )
+    stay = np.flatnonzero(renumber >= 0)
+    smaller = Surface(
+        vertices,
+        triangles,
+        surface.place[stay],
+        surface.held[stay],
+        surface.field.rows(stay),
+        surface.edge,
+        surface.step,
+        surface.piece[stay],
+        surface.size,
+    )
+    return project(smaller), stay
+
+
+def _flip(surface: Surface) -> Surface:
+    """Flips that make angles better, or that take an edge out of the way of a crease."""
+    field, v = surface.field, surface.vertices
+    nearest = field.nearest(v)[1]
+    # How far the middle of an edge may stray over a strut that is round: its sagitta.
+    sagitta = 0.25 * surface.edge**2 / field.primitives.radius.min()
+
+    def gain(ends: Ints, corners: Ints) -> Floats:
+        a, b, c, d = v[ends[:, 0]], v[ends[:, 1]], v[corners[:, 0]], v[corners[:, 1]]
+        better = _shape(c, d, b, a) - _shape(a, b, c, d) - 1e-3
+        # Only an edge between two primitives can lie across a crease: no other is looked at
+        # unless its flip is wanted.
+        look = np.flatnonzero((better > 0.0) | (nearest[ends[:, 0]] != nearest[ends[:, 1]]))
+        before = np.abs(field.rows(ends[look, 0]).values(0.5 * (a + b)[look]))
+        after = np.abs(field.rows(corners[look, 0]).values(0.5 * (c + d)[look]))
+        nearer = np.maximum(before - sagitta, 0.0) - np.maximum(after - sagitta, 0.0)
+        better[look] += 4.0 * nearer / surface.edge
+        better[look[(after > sagitta) & (after > before)]] = -1.0
+        return better
+
+    triangles = surface.triangles
+    for _ in range(FLIP_PASSES):
+        triangles, flipped = remesh.flip(v, triangles, gain, surface.share_face)
+        if not flipped:
+            break
+    return replace(surface, triangles=triangles)
+
+
+def _shape(a: Floats, b: Floats, left: Floats, right: Floats) -> Floats:
+    """The worse quality of the two triangles on an edge."""
+    one = remesh.qualities(np.stack([a, b, left], axis=1))
+    two = remesh.qualities(np.stack([b, a, right], axis=1))
+    return np.minimum(one, two)
+
+
+def _settle_on_edges(surface: Surface) -> Surface:
+    """Vertices on an octant's edges put where the field is zero, by bisection.
+
+    Each stays between the two samples that it was found between, and so in its place among the
+    others on the edge: Newton's method could jump to the other side of a narrow gap.
+    """
+    index = np.flatnonzero(surface.pinned.sum(axis=1) == 2)
+    if not len(index):
+        return surface
+    field, points = surface.field.rows(index), surface.vertices[index]
+    low, high = between_samples(surface, index)
+    at_low, at_high = field.values(low), field.values(high)
+    positive = at_high > 0.0
+    # Where the zero is (nearly) at a sample there may be no change of sign left in between.
+    stuck = (at_low > 0.0) == positive
+    nearer = np.where((np.abs(at_low) < np.abs(at_high))[:, None], low, high)
+    low, high = (np.where(stuck[:, None], nearer, end) for end in (low, high))
+    for _ in range(BISECTIONS):
+        points = 0.5 * (low + high)
+        to_high = (field.values(points) > 0.0) == positive
+        low = np.where(to_high[:, None], low, points)
+        high = np.where(to_high[:, None], points, high)
+    vertices = surface.vertices.copy()
+    vertices[index] = points
+    return replace(surface, vertices=vertices)
+
+
+def _hold_on_edges(surface: Surface) -> Surface:
+    """Vertices on an octant's edges cannot be moved onto a crease: note which ones are on it."""
+    if surface.field.fillet > 0.0:
+        return surface
+    index = np.flatnonzero(surface.pinned.sum(axis=1) >= 2)
+    held = surface.held.copy()
+    held[index] = surface.field.rows(index).touching(
+        surface.vertices[index], ON_SURFACE * surface.edge
+    )
+    return replace(surface, held=held)
+
+
+def _sharpen_border(surface: Surface) -> Surface:
+    """On the faces: the nearer end of an edge that crosses a crease moved onto it."""
+    if surface.field.fillet > 0.0:
+        return surface
+    table = remesh.edges(surface.triangles, len(surface.vertices))
+    return _snap(surface, table.ends[table.triangles[:, 1] < 0], surface.pinned.sum(axis=1) == 1)
+
+
+def _sharpen(surface: Surface) -> Surface:
+    """Inside: the nearer end of an edge that crosses a crease moved onto it."""
+    table = remesh.edges(surface.triangles, len(surface.vertices))
+    ends = table.ends[table.triangles[:, 1] >= 0]
+    return _snap(surface, ends, surface.rank == 0)
+
+
+def _snap(surface: Surface, ends: Ints, movable: Bools) -> Surface:
+    """Put one end of every edge that crosses a crease on the crease.
+
+    An edge crosses one where its ends lie on different primitives whose surfaces meet at an angle
+    between them. Where a third primitive buries the crossing, the corner of the three is taken.
+    """
+    nearest = surface.field.nearest(surface.vertices)[1]
+    held = np.where(surface.held[:, :1] >= 0, surface.held, -1)
+    held[held[:, 0] < 0, 0] = nearest[held[:, 0] < 0]
+    one, two = held[ends[:, 0]], held[ends[:, 1]]
+    apart = ~((one[:, :, None] == two[:, None, :]) & (one[:, :, None] >= 0)).any(axis=(1, 2))
+    apart &= movable[ends].any(axis=1)
+    ends, one, two = ends[apart], one[apart, 0], two[apart, 0]
+    # An end that touches the other's primitive as well is on the crease already.
+    primitives, tolerance = surface.field.primitives, ON_SURFACE * surface.edge
+    at_one, _ = distances_and_gradients(surface.vertices[ends[:, 0]], primitives.take(two))
+    at_two, _ = distances_and_gradients(surface.vertices[ends[:, 1]], primitives.take(one))
+    apart = np.minimum(at_one, at_two) > tolerance
+    ends, one, two = ends[apart], one[apart], two[apart]
+    if not len(ends):
+        return surface
+    loose = ~(surface.pinned[ends[:, 0]] & surface.pinned[ends[:, 1]])
+    point, held_by, good = _crossing(surface, ends, one, two, loose)
+
+    gap = np.linalg.norm(surface.vertices[ends] - point[:, None], axis=2)
+    gap[~movable[ends]] = np.inf
+    winner = np.argmin(gap, axis=1)
+    vertex = ends[np.arange(len(ends)), winner]
+    distance = gap.min(axis=1)
+    good &= distance < SNAP_REACH * surface.edge
+    vertex, point, held_by, distance = vertex[good], point[good], held_by[good], distance[good]
+    # Each vertex takes the nearest of the places that its edges propose, corners first.
+    corner = held_by[:, 2] >= 0
+    order = np.lexsort((distance, ~corner))
+    vertex, first = np.unique(vertex[order], return_index=True)
+    pick = order[first]
+    vertices, new_held = surface.vertices.copy(), surface.held.copy()
+    vertices[vertex], new_held[vertex] = point[pick], held_by[pick]
+    return replace(moved(surface, vertices), held=new_held)
+
+
+def _crossing(
+    surface: Surface, ends: Ints, one: Ints, two: Ints, loose: Bools
+) -> tuple[Floats, Ints, Bools]:
+    """Where edges between two primitives cross their crease: point, primitives, found."""
+    primitives = surface.field.primitives
+    a, b = surface.vertices[ends[:, 0]], surface.vertices[ends[:, 1]]
+    first, second = primitives.take(one), primitives.take(two)
+    # The two distances are equal about here along the edge.
+    at_a = distances_and_gradients(a, second)[0]
+    at_b = distances_and_gradients(b, first)[0]
+    share = np.clip(at_a / np.maximum(at_a + at_b, 1e-300), 0.0, 1.0)
+    point = a + share[:, None] * (b - a)
+    held = np.stack([one, two, np.full(len(one), -1)], axis=1)
+    for _ in range(5):
+        step = step_to_primitives(surface, point, held, loose)
+        point = point + shortened(step, 0.5 * surface.edge)
+    field = surface.field.rows(ends[:, 0])
+    least, third = field.nearest(point)
+    tolerance = ON_SURFACE * surface.edge
+    buried = least < -tolerance
+    held[buried, 2] = third[buried]
+    for _ in range(6):
+        step = step_to_primitives(surface, point[buried], held[buried], loose[buried])
+        point[buried] += shortened(step, 0.5 * surface.edge)
+    value_one, gradient_one = distances_and_gradients(point, first)
+    value_two, gradient_two = distances_and_gradients(point, second)
+    good = np.einsum("ij,ij->i", gradient_one, gradient_two) < CREASE_COSINE
+    good &= np.maximum(np.abs(value_one), np.abs(value_two)) < tolerance
+    good &= field.values(point) > -tolerance
+    return point, held, good

@@ -1,0 +1,311 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The meshed octants that a lattice is laid from: everything costly, done once a pattern."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..design.cells import UnitCell, joint_radius
+from ..design.spec import LatticeSpec
+from ..util.errors import VolfrepError
+from ..util.progress import Monitor
+from ..util.types import Floats, Ints
+from . import sdf
+from .constrained_mesh import Surface
+from .isotropic_remesh import even_out
+from .octant import OctantKey, RawOctant, octant_primitives, raw_octant, sample_octant
+from .sdf import Field, Primitives
+from .surface_fit import fit
+from .untangle import untangled
+
+#: The sampling step is at most this, in units of r: no strut slips between the samples.
+COARSEST_STEP = 0.75
+#: Primitives are kept near a vertex up to this distance beyond the nearest, in wanted edges:
+#: vertices move by one edge, and a facet reaches another one further, in both distances.
+NEAR_EDGES = 3.0
+#: An octant's mesh does not depend on struts farther from it than this, in wanted edges.
+INFLUENCE_EDGES = 2.0
+#: Vertices lie at whole steps of an octant's edge over this, so that octants which share a vertex
+#: can give it the very same coordinates.
+STEPS = float(1 << 26)
+#: Samples farther from the surface than so many steps say no more than on which side they are.
+SEEN_STEPS = 2.0
+#: Pieces are meshed together up to about this many vertices.
+BATCH_VERTICES = 150_000
+
+
+class FacetsCross(VolfrepError):
+    """Facets of an octant run through each other, whatever is done about it."""
+
+
+@dataclass(frozen=True)
+class OctantSpec:
+    """What a tile depends on, and nothing else.
+
+    Attributes:
+        cell_size: L, mm.
+        strut_radius: r, mm.
+        fillet: joint fillet, mm.
+        facets: facet edges along L.
+    """
+
+    cell_size: float
+    strut_radius: float
+    fillet: float
+    facets: int
+
+    @property
+    def edge(self) -> float:
+        """Wanted edge length, mm."""
+        return self.cell_size / self.facets
+
+    @property
+    def influence(self) -> float:
+        """Struts whose axes are farther than this from an octant do not show in it, mm."""
+        joint = joint_radius(self.strut_radius, self.cell_size)
+        return float(joint + INFLUENCE_EDGES * max(self.edge, self.step) + 2.0 * self.fillet)
+
+    @property
+    def reach(self) -> float:
+        """Struts whose surfaces are farther than this from a vertex do not matter to it, mm."""
+        return NEAR_EDGES * self.edge + 2.0 * self.fillet
+
+    @property
+    def step(self) -> float:
+        """Between the samples, mm."""
+        return 0.5 * self.cell_size / self.steps
+
+    @property
+    def steps(self) -> int:
+        """Sampling steps along an octant."""
+        finest = self.cell_size / (COARSEST_STEP * self.strut_radius)
+        return math.ceil(0.5 * max(self.facets, finest))
+
+
+def octant_spec(spec: LatticeSpec) -> OctantSpec:
+    """What the octants of a lattice are meshed for."""
+    return OctantSpec(spec.cell_size, spec.template_radius, spec.fillet, spec.facets_along_cell)
+
+
+@dataclass(frozen=True, eq=False)
+class Octant:
+    """The finished surface inside one octant, in the octant's frame.
+
+    Attributes:
+        vertices: (n, 3) float64, mm, in whole steps (`STEPS`).
+        triangles: (m, 3) int32, counter-clockwise seen from outside.
+        entity: (n,) int8, 9 px + 3 py + pz with p 0 on the low face, 1 between, 2 on the high
+            face: which face or edge of the octant the vertex is shared on; 13 inside.
+        rank: (n,) int32, number of the vertex among those of its entity; the same number in
+            every octant that shares the entity.
+        solid_corners: (2, 2, 2) bool, whether the octant's corners are inside the lattice.
+    """
+
+    vertices: Floats
+    triangles: NDArray[np.int32]
+    entity: NDArray[np.int8]
+    rank: NDArray[np.int32]
+    solid_corners: NDArray[np.bool_]
+
+    @property
+    def places(self) -> Ints:
+        """(n, 3) per axis 0 on the low face, 1 between, 2 on the high face."""
+        return np.stack(np.unravel_index(self.entity.astype(np.int64), (3, 3, 3)), axis=1)
+
+
+def mesh_octants(
+    cell: UnitCell, spec: OctantSpec, keys: Sequence[OctantKey], monitor: Monitor
+) -> dict[OctantKey, Octant]:
+    """Mesh the octants of the given keys.
+
+    Struts that an octant has and another one lacks are often hidden in its joints: octants whose
+    surfaces are the same are meshed once.
+
+    Raises:
+        FacetsCross: there is an octant whose facets run through each other, however it is meshed.
+    """
+    # What an octant's surface may consist of, as far as its vertices may move.
+    primitives = {
+        key: octant_primitives(cell, key, spec.cell_size, spec.strut_radius, spec.reach)
+        for key in dict.fromkeys(keys)
+    }
+    groups: dict[bytes, list[OctantKey]] = {}
+    for key, own in primitives.items():
+        samples = sample_octant(own, spec.cell_size, spec.steps, spec.fillet)
+        seen = np.clip(samples, -SEEN_STEPS * spec.step, SEEN_STEPS * spec.step)
+        groups.setdefault(hashlib.blake2b(seen.tobytes()).digest(), []).append(key)
+        monitor.tick()
+    result: dict[OctantKey, Octant] = {}
+    firsts = [group[0] for group in groups.values()]
+    _mesh(spec, {key: primitives[key] for key in firsts}, result, monitor)
+    for group in groups.values():
+        octant = result[group[0]]
+        result.update(dict.fromkeys(_alike(spec, octant, group, primitives), octant))
+    rest = {key: own for key, own in primitives.items() if key not in result}
+    _mesh(spec, rest, result, monitor)
+    return result
+
+
+def _mesh(
+    spec: OctantSpec,
+    primitives: Mapping[OctantKey, Primitives],
+    result: dict[OctantKey, Octant],
+    monitor: Monitor,
+) -> None:
+    """Mesh octants, each by itself, and put them to the others.
+
+    Raises:
+        FacetsCross: there is an octant whose facets run through each other, however it is meshed.
+    """
+    monitor.count("kinds of octants meshed", len(primitives))
+    todo, done = list(primitives), 0
+    while done < len(todo):
+        # Octants whose facets crossed come again, after all the others.
+        gently = done >= len(primitives)
+        same = todo[done:] if gently else todo[done : len(primitives)]
+        batch = _Batch.of(spec, {key: primitives[key] for key in same})
+        even, origin = even_out(batch.surface, gently)
+        fitted, crossed = untangled(fit(even), batch.surface.vertices[origin])
+        bad = [batch.keys[k] for k in np.unique(fitted.piece[fitted.triangles[crossed, 0]])]
+        if bad and gently:
+            raise FacetsCross(
+                f"Where struts meet, facets of a {spec.facets}th of a cell run through each other: "
+                "choose another resolution or strut radius, or move the nodes of the cell."
+            )
+        result.update(batch.split(fitted, origin))
+        done += len(batch.keys)
+        todo += bad
+        monitor.tick(done / len(todo))
+
+
+def _alike(
+    spec: OctantSpec,
+    octant: Octant,
+    group: list[OctantKey],
+    primitives: Mapping[OctantKey, Primitives],
+) -> list[OctantKey]:
+    """Which octants have the surface of their group's first one, by the field at its facets.
+
+    The samples said so already; a strut that shows between them only is found here.
+    """
+    first, *others = group
+    if not len(octant.triangles) or not others:
+        return others
+    middles = octant.vertices[octant.triangles].mean(axis=1)
+    points = np.concatenate([octant.vertices, middles])[:, None]
+
+    def values(key: OctantKey) -> Floats:
+        return sdf.union(sdf.distances(points, primitives[key]), spec.fillet)
+
+    wanted = values(first)
+    return [key for key in others if np.array_equal(values(key), wanted)]
+
+
+@dataclass(frozen=True, eq=False)
+class _Batch:
+    """Raw octants laid into one surface, and the step that their vertices are rounded to."""
+
+    keys: list[OctantKey]
+    raw: list[RawOctant]
+    solid_corners: list[NDArray[np.bool_]]
+    surface: Surface
+    step: float
+
+    @staticmethod
+    def of(spec: OctantSpec, todo: Mapping[OctantKey, Primitives]) -> _Batch:
+        """As many of the octants, from the first, as fit in a batch."""
+        used: list[OctantKey] = []
+        raw: list[RawOctant] = []
+        solid: list[NDArray[np.bool_]] = []
+        primitives: list[Primitives] = []
+        counts: list[Ints] = []
+        near: list[Ints] = []
+        total = offset = 0
+        for key, own in todo.items():
+            samples = sample_octant(own, spec.cell_size, spec.steps, spec.fillet)
+            piece = raw_octant(samples, spec.cell_size)
+            if used and total + len(piece.vertices) > BATCH_VERTICES:
+                break
+            used.append(key)
+            raw.append(piece)
+            solid.append(samples[:: spec.steps, :: spec.steps, :: spec.steps] < 0.0)
+            primitives.append(own)
+            if len(piece.vertices):
+                count, index = _near(piece.vertices, own, spec.reach)
+                counts.append(count)
+                near.append(index + offset)
+            total += len(piece.vertices)
+            offset += len(own)
+        first = np.cumsum([0] + [len(piece.vertices) for piece in raw])
+        place = np.concatenate([piece.place for piece in raw])
+        none = np.zeros(0, np.int64)
+        field = Field(
+            sdf.join(*primitives),
+            np.concatenate([[0], np.cumsum(np.concatenate([none, *counts]))]).astype(np.int64),
+            np.concatenate([none, *near]),
+            spec.fillet,
+        )
+        whole = Surface(
+            np.concatenate([piece.vertices for piece in raw]),
+            np.concatenate([piece.triangles + k for piece, k in zip(raw, first[:-1], strict=True)]),
+            place,
+            np.full(place.shape, -1, np.int64),
+            field,
+            spec.edge,
+            spec.step,
+            np.repeat(np.arange(len(raw)), np.diff(first)),
+            0.5 * spec.cell_size,
+        )
+        return _Batch(used, raw, solid, whole, 0.5 * spec.cell_size / STEPS)
+
+    def split(self, refined: Surface, origin: Ints) -> dict[OctantKey, Octant]:
+        """The refined surface cut into the octants again."""
+        first = np.cumsum([0] + [len(piece.vertices) for piece in self.raw])
+        # Vertices stay in order, and so the pieces stay runs of vertices.
+        begin = np.searchsorted(origin, first)
+        owner = np.searchsorted(begin, refined.triangles[:, 0], side="right") - 1
+        order = np.argsort(owner, kind="stable")
+        cuts = np.searchsorted(owner[order], np.arange(len(self.raw) + 1))
+        result = {}
+        for k, (key, piece) in enumerate(zip(self.keys, self.raw, strict=True)):
+            part = slice(begin[k], begin[k + 1])
+            source = origin[part] - first[k]
+            entity = piece.place[source].astype(np.int64) @ np.array([9, 3, 1])
+            vertices = np.rint(refined.vertices[part] / self.step) * self.step
+            triangles = refined.triangles[order[cuts[k] : cuts[k + 1]]] - begin[k]
+            result[key] = Octant(
+                vertices,
+                triangles.astype(np.int32),
+                entity.astype(np.int8),
+                _ranks(entity, piece.order[source]),
+                self.solid_corners[k],
+            )
+        return result
+
+
+def _near(points: Floats, primitives: Primitives, reach: float) -> tuple[Ints, Ints]:
+    """For every point how many and which primitives are up to `reach` beyond the nearest."""
+    counts, index = [], []
+    chunk = max(1, 1_000_000 // max(len(primitives), 1))
+    for k in range(0, len(points), chunk):
+        distance = sdf.distances(points[k : k + chunk, None], primitives)
+        is_near = distance <= distance.min(axis=1, keepdims=True).clip(min=0.0) + reach
+        counts.append(is_near.sum(axis=1))
+        index.append(np.nonzero(is_near)[1])
+    return np.concatenate(counts), np.concatenate(index)
+
+
+def _ranks(entity: Ints, order: Ints) -> NDArray[np.int32]:
+    """Number of every vertex within its entity, by `order`."""
+    sequence = np.lexsort((order, entity))
+    count = np.bincount(entity, minlength=27)
+    start = np.cumsum(count) - count
+    rank = np.empty(len(entity), np.int32)
+    rank[sequence] = np.arange(len(entity)) - start[entity[sequence]]
+    return rank

@@ -1,0 +1,183 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Facets fitted to the exact surface, so that the volume is right.
+
+The facets of a mesh with its vertices on a strut cut inside it: ten round a strut lose 6 % of its
+volume. Here the vertices move to where the mean square distance of the facets to the exact surface
+is least. The facets then stray to both sides alike, and so volume, mass and stiffness are right:
+the normal equations of the fit set the mean distance about every vertex to zero.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..mesh import remesh
+from ..util.types import Floats
+from .constrained_mesh import (
+    Surface,
+    between_samples,
+    moved,
+    neighbour_mean,
+    shortened,
+    step_to_primitives,
+)
+from .sdf import Field
+from .untangle import proper_border
+
+#: Steps of the fit.
+FIT_PASSES = 4
+#: How strongly the fit draws a vertex along the surface, against its hold across it.
+DRIFT = 0.03
+#: The last correction of the volume moves no vertex further than this, in wanted edges.
+BALANCE_REACH = 0.05
+
+# Three points inside a triangle and their weights, exact to degree 2.
+QUADRATURE = np.array([[4, 1, 1], [1, 4, 1], [1, 1, 4]]) / 6.0
+QUADRATURE_WEIGHTS = np.full(3, 1.0 / 3.0)
+
+
+def fit(even: Surface) -> Surface:
+    """The facets fitted to the exact surface.
+
+    Args:
+        even: what `volfrep.octants.isotropic_remesh.even_out` made.
+    """
+    if not len(even.triangles):
+        return even
+    surface = proper_border(even, _offset_border(even))
+    for _ in range(FIT_PASSES):
+        surface = _fit(surface)
+    for _ in range(2):
+        surface = _balance(surface)
+    return surface
+
+
+def _offset_border(surface: Surface) -> Surface:
+    """The border's vertices moved outwards, in their faces, by what the fit gives inside.
+
+    Even facets of edge e on a surface of curvatures k1, k2 stray inwards from their corners by
+    e2 (k1 + k2) / 16 in the mean. Inside the octant the fit finds that by itself; on a face it
+    must not depend on the mesh, which is another one beyond the face.
+    """
+    index = np.flatnonzero(surface.pinned.any(axis=1))
+    if not len(index):
+        return surface
+    field = surface.field.rows(index)
+    points, loose = surface.vertices[index], ~surface.pinned[index]
+    level = surface.edge**2 * _curvature(field, points, surface.edge) / 16.0
+    held = surface.held[index]
+    single = held[:, 0] < 0
+    held = held.copy()
+    if field.fillet <= 0.0:
+        held[single, 0] = field.nearest(points)[1][single]
+        for _ in range(2):
+            points = points + shortened(
+                step_to_primitives(surface, points, held, loose, level), 0.2 * surface.edge
+            )
+    else:
+        for _ in range(2):
+            value, gradient = field.values_and_gradients(points)
+            gradient = gradient * loose
+            size = np.maximum(np.einsum("ij,ij->i", gradient, gradient), 0.05)
+            points = points - shortened(
+                gradient * ((value - level) / size)[:, None], 0.2 * surface.edge
+            )
+    on_edge = (~loose).sum(axis=1) == 2
+    low, high = between_samples(surface, index[on_edge])
+    points[on_edge] = np.clip(points[on_edge], low, high)
+    vertices = surface.vertices.copy()
+    vertices[index] = points
+    return moved(surface, vertices)
+
+
+def _curvature(field: Field, points: Floats, edge: float) -> Floats:
+    """k1 + k2 of the surface at points on it, 1/mm, positive where it is convex."""
+    primitives = field.primitives
+    if field.fillet <= 0.0:
+        nearest = primitives.take(field.nearest(points)[1])
+        # 1 / r round a strut, 2 / r on a sphere.
+        return np.where(nearest.direction.any(axis=1), 1.0, 2.0) / nearest.radius
+    step = 0.2 * edge
+    total = -6.0 * field.values(points)
+    for axis in range(3):
+        for sign in (-step, step):
+            shifted = points.copy()
+            shifted[:, axis] += sign
+            total += field.values(shifted)
+    limit = 2.0 / primitives.radius.min()
+    return np.clip(total / step**2, -limit, limit)
+
+
+def _fit(surface: Surface) -> Surface:
+    """One step of the least squares fit of the facets to the exact surface.
+
+    A facet's point x = sum b_i v_i moves by sum b_i d_i and its distance f by grad f . that. Each
+    vertex solves for its own d as if its neighbours moved alike (row sums for the matrix), which
+    keeps the step from overshooting, and is drawn weakly to the middle of its neighbours along
+    the surface, in the directions that the fit leaves open.
+    """
+    triangles, count = surface.triangles, len(surface.vertices)
+    area, value, gradient = _sampled(surface)
+    products = np.concatenate(
+        [
+            np.einsum("mqi,mqj->mqij", gradient, gradient).reshape(*value.shape, 9),
+            value[:, :, None] * gradient,
+            gradient,
+        ],
+        axis=2,
+    )
+    total = np.zeros((count, 15))
+    for corner in range(3):
+        share = area[:, None] * QUADRATURE_WEIGHTS * QUADRATURE[:, corner]
+        local = np.einsum("mq,mqk->mk", share, products)
+        for k in range(15):
+            total[:, k] += np.bincount(triangles[:, corner], local[:, k], minlength=count)
+    matrix, right, normal = total[:, :9].reshape(-1, 3, 3), total[:, 9:12], total[:, 12:]
+    normal = normal / np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+    pairs = np.concatenate([triangles[:, :2], triangles[:, 1:], triangles[:, ::2]])
+    mean, _ = neighbour_mean(count, pairs, surface.vertices)
+    drift = mean - surface.vertices
+    drift -= normal * np.einsum("ij,ij->i", normal, drift)[:, None]
+    pull = DRIFT * np.trace(matrix, axis1=1, axis2=2) / 3.0
+    matrix = matrix + (pull[:, None, None] + 1e-12) * np.eye(3)
+    step = np.linalg.solve(matrix, (pull[:, None] * drift - right)[:, :, None])[:, :, 0]
+    step = np.where(surface.pinned.any(axis=1)[:, None], 0.0, step)
+    return moved(surface, surface.vertices + shortened(step, 0.2 * surface.edge))
+
+
+def _sampled(surface: Surface) -> tuple[Floats, Floats, Floats]:
+    """(m,) areas of the facets, and (m, q) values and (m, q, 3) gradients of the field in them."""
+    corners = surface.vertices[surface.triangles]
+    points = np.einsum("qi,mik->mqk", QUADRATURE, corners).reshape(-1, 3)
+    rows = np.repeat(surface.triangles[:, 0], len(QUADRATURE))
+    value, gradient = surface.field.rows(rows).values_and_gradients(points)
+    area = 0.5 * np.linalg.norm(remesh.normals(corners), axis=1)
+    return area, value.reshape(len(area), -1), gradient.reshape(len(area), -1, 3)
+
+
+def _balance(surface: Surface) -> Surface:
+    """The volume of every piece put right.
+
+    Its inner vertices move along the surface's normal, all by the same amount, so that the volume
+    that the facets miss (the integral of the distance over them) is zero.
+    """
+    triangles, count, piece = surface.triangles, len(surface.vertices), surface.piece
+    area, value, gradient = _sampled(surface)
+    missed = np.bincount(piece[triangles[:, 0]], area * (value @ QUADRATURE_WEIGHTS))
+    free = ~surface.pinned.any(axis=1)
+    swept = np.bincount(piece[triangles[:, 0]], area * free[triangles].sum(axis=1) / 3.0)
+    amount = np.zeros(piece.max() + 1)
+    some = np.flatnonzero(swept > 0.0)
+    amount[some] = -missed[some] / swept[some]
+    limit = BALANCE_REACH * surface.edge
+    flux = area[:, None] * np.einsum("q,mqk->mk", QUADRATURE_WEIGHTS, gradient)
+    normal = np.stack(
+        [
+            np.bincount(triangles.ravel(), np.repeat(flux[:, k], 3), minlength=count)
+            for k in range(3)
+        ],
+        axis=1,
+    )
+    normal = normal / np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+    step = np.clip(amount, -limit, limit)[piece][:, None] * normal
+    return moved(surface, surface.vertices + np.where(free[:, None], step, 0.0))

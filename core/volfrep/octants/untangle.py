@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Octants' facets that run through each other, and borders that do, drawn apart.
+
+Struts that meet at a small angle or leave a narrow window between them have creases nearer to each
+other than a facet is long. What evens out facets and fits them to one strut may then fold them
+over those of the next.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from ..mesh import remesh
+from ..mesh.triangle_mesh import TriangleMesh
+from ..spatial.self_intersection import close_pairs, crossing_triangles
+from ..util.types import Bools, Floats, Ints
+from .constrained_mesh import Surface, moved, neighbour_mean
+
+#: Facets that stick through others by no more than this, in wanted edges, only touch.
+TOUCHING = 1e-6
+#: Rounds of moving vertices about facets that cross. In the first few they go to the middle of
+#: their neighbours, then half-way back to where they came from; every few rounds more of them.
+ROUNDS = 24
+SMOOTHED = 3
+WIDER_AFTER = 4
+#: An edge of the border that turns by an angle of a lesser cosine has folded over.
+FOLDED = 0.2
+
+
+def crossing_facets(surface: Surface) -> Bools:
+    """(m,) which facets another facet of their own octant runs through."""
+    everywhere = np.ones(len(surface.triangles), bool)
+    mesh = TriangleMesh(_apart(surface), surface.triangles.astype(np.int32))
+    return crossing_triangles(mesh, everywhere, TOUCHING * surface.edge)
+
+
+def untangled(surface: Surface, home: Floats) -> tuple[Surface, Bools]:
+    """The surface with facets that cross drawn apart, where that is possible.
+
+    A vertex goes to the middle of its neighbours, off the exact surface by a part of a facet; and
+    if that does not help, back to where marching cubes found it. Those on the octants' faces stay.
+
+    Args:
+        surface: its facets fitted.
+        home: (n, 3) where marching cubes found its vertices, mm.
+
+    Returns:
+        The surface, and (m,) which facets still cross.
+    """
+    count, triangles = len(surface.vertices), surface.triangles
+    pairs = np.concatenate([triangles[:, :2], triangles[:, 1:], triangles[:, ::2]])
+    border = surface.pinned.any(axis=1)
+    crossed = crossing_facets(surface)
+    for turn in range(ROUNDS):
+        if not crossed.any():
+            break
+        near = np.zeros(count, bool)
+        near[triangles[crossed]] = True
+        for _ in range(turn // WIDER_AFTER):
+            near[triangles[near[triangles].any(axis=1)]] = True
+        goes = (near & ~border)[:, None]
+        if turn < SMOOTHED:
+            target: Floats = neighbour_mean(count, pairs, surface.vertices)[0]
+        else:
+            target = 0.5 * (surface.vertices + home)
+        surface = moved(surface, np.where(goes, target, surface.vertices))
+        crossed = crossing_facets(surface)
+    return surface, crossed
+
+
+def proper_border(before: Surface, after: Surface) -> Surface:
+    """`after` with vertices put back where the border in a face folds over or crosses itself.
+
+    No facet inside could mend that. Only what is in the face decides, so that the octant beyond
+    comes to the same.
+
+    Args:
+        before: the surface, with a proper border.
+        after: the same with vertices moved.
+    """
+    table = remesh.edges(after.triangles, len(after.vertices))
+    ends = table.ends[table.triangles[:, 1] < 0]
+    may_return = after.pinned.sum(axis=1) == 1
+    old = before.vertices[ends[:, 1]] - before.vertices[ends[:, 0]]
+    vertices, held = after.vertices.copy(), after.held.copy()
+    while True:
+        new = vertices[ends[:, 1]] - vertices[ends[:, 0]]
+        cosine = np.einsum("ij,ij->i", old, new)
+        size = np.linalg.norm(old, axis=1) * np.linalg.norm(new, axis=1)
+        wrong = cosine < FOLDED * size
+        wrong[_crossing_edges(replace(after, vertices=vertices), ends)] = True
+        back = np.zeros(len(vertices), bool)
+        back[ends[wrong]] = True
+        back &= may_return
+        if not back.any():
+            return replace(after, vertices=vertices, held=held)
+        vertices[back], held[back] = before.vertices[back], before.held[back]
+        may_return &= ~back
+
+
+def _crossing_edges(surface: Surface, ends: Ints) -> Ints:
+    """Which edges of the border cross another one of their face."""
+    points = _apart(surface)
+    corners = points[ends[:, [0, 1, 1]]]
+    found = [np.zeros(0, np.int64)]
+    place, pinned = surface.place, surface.pinned
+    same = (place[ends[:, 0]] == place[ends[:, 1]]) & pinned[ends[:, 0]]
+    axis, side = same.argmax(axis=1), place[ends[:, 0]]
+    level = side[np.arange(len(ends)), axis]
+    # The two axes along each face.
+    flat = np.array([[1, 2], [2, 0], [0, 1]])[axis]
+    for a, b in close_pairs(corners, np.ones(len(ends), bool)):
+        apart = (ends[a][:, :, None] != ends[b][:, None, :]).all(axis=(1, 2))
+        apart &= (axis[a] == axis[b]) & (level[a] == level[b])
+        a, b = a[apart], b[apart]
+        p, q, u, v = (
+            np.take_along_axis(points[end], flat[a], axis=1)
+            for end in (ends[a, 0], ends[a, 1], ends[b, 0], ends[b, 1])
+        )
+        cross = (_turn(p, q, u) * _turn(p, q, v) <= 0.0) & (_turn(u, v, p) * _turn(u, v, q) <= 0.0)
+        found += [a[cross], b[cross]]
+    return np.unique(np.concatenate(found))
+
+
+def _turn(a: Floats, b: Floats, c: Floats) -> Floats:
+    """Twice the area of flat triangles, positive where they run counter-clockwise."""
+    one, two = b - a, c - a
+    result: Floats = one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]
+    return result
+
+
+def _apart(surface: Surface) -> Floats:
+    """The vertices with the octants side by side, so that no two of them meet."""
+    vertices = surface.vertices.copy()
+    vertices[:, 0] += 2.0 * surface.size * surface.piece
+    return vertices

@@ -1,0 +1,346 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Whether a part suits a printing process: thin struts, narrow gaps, overhangs, trapped powder.
+
+Directions are told as inclinations: the angle to the build plate, 0 degrees for a strut or facet
+that lies flat and 90 for one that stands upright along the build direction.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+
+from ..grid.strut_graph import Wireframe
+from ..mesh.quality import inspect
+from ..mesh.triangle_mesh import TriangleMesh
+from ..spatial.rays import inside_points
+from ..util.errors import VolfrepError
+from ..util.progress import Monitor
+from ..util.types import Bools, Floats
+from .clearance import narrowest_gap
+
+#: Pieces of a strut, each of which counts as inside the part by its middle.
+PIECES = 8
+#: Struts below this inclination lie flat: they are bridges, which nothing grows from below.
+FLAT = 15.0
+#: Gaps up to so many times the limit are looked for.
+LOOK_FOR = 2.0
+#: Width of the classes of inclinations, degrees.
+CLASS = 15
+#: Facets this near to the build plate, in units of the part's height, lie on it.
+ON_PLATE = 1e-4
+
+
+@dataclass(frozen=True)
+class Process:
+    """What a printing process can do, typically; its machine and material may do better or worse.
+
+    Attributes:
+        name: as a user picks it.
+        title: in words.
+        strut: smallest diameter of a strut, mm.
+        gap: smallest gap between two struts, mm.
+        inclination: least inclination that needs no support, degrees; 0: none needs it.
+        bridge: longest flat strut without support, mm; None: no limit.
+        escape_hole: smallest diameter of a hole that empties a closed void of powder or resin,
+            mm; None: nothing is left in a void.
+        source: where the figures are from.
+    """
+
+    name: str
+    title: str
+    strut: float
+    gap: float
+    inclination: float
+    bridge: float | None
+    escape_hole: float | None
+    source: str
+
+
+_RULES = "Hubs (now Protolabs Network), Design rules for 3D printing"
+PROCESSES = {
+    process.name: process
+    for process in (
+        Process("FFF", "fused filament", 2.0, 0.5, 45.0, 10.0, None, _RULES),
+        Process(
+            "SLA", "stereolithography", 0.5, 0.5, 15.0, 2.5, 4.0,
+            f"{_RULES}; inclination and bridge: ETEC, Self-supporting features (Xtreme 8K)",
+        ),
+        Process(
+            "SLS", "polymer powder, laser or multi-jet", 0.8, 1.0, 0.0, None, 5.0,
+            f"{_RULES}; gap: Materialise, Design guidelines PA 12 (MJF), lattice structures",
+        ),
+        Process(
+            "LPBF", "metal powder, laser", 0.6, 0.5, 45.0, 2.0, 5.0,
+            f"{_RULES}; gap and inclination: ARTI90, Design clues for 3D printing (DMLS)",
+        ),
+    )
+}  # fmt: skip
+
+
+def find_process(name: str) -> Process:
+    """The process of that name; case does not matter.
+
+    Raises:
+        VolfrepError: listing the known ones.
+    """
+    process = PROCESSES.get(name.upper())
+    if process is None:
+        raise VolfrepError(f"There is no process '{name}': choose one of {', '.join(PROCESSES)}.")
+    return process
+
+
+@dataclass(frozen=True)
+class PrintReport:
+    """How a part suits a process.
+
+    Attributes:
+        process: its limits.
+        build_direction: unit vector from the build plate up.
+        struts: that lie in the part, wholly or in part.
+        strut_length_mm: their length in the part.
+        thinnest_strut_mm: smallest diameter in the part; None where there is no strut.
+        thinnest_at: where, mm.
+        narrowest_gap_mm: smallest gap between two struts without a common node; None where it is
+            more than `LOOK_FOR` times the limit. Gaps to the skin do not count.
+        narrowest_at: where, mm.
+        inclinations: share of the struts' length by inclination, in classes of `CLASS` degrees.
+        overhanging_share: share of the struts' length below the process's inclination.
+        longest_overhang_mm: length in the part of the longest strut of these.
+        longest_bridge_mm: the same of the struts that lie flat.
+        longest_bridge_at: the middle of that one, mm.
+        overhang_area_mm2: of the downward facets below that inclination, without the build plate.
+        voids: closed cavities.
+        void_volume_mm3: their volume.
+        area_mm2, volume_mm3, mass_g: of the whole part.
+        findings: a sentence for each limit that is not kept.
+    """
+
+    process: Process
+    build_direction: tuple[float, float, float]
+    struts: int
+    strut_length_mm: float
+    thinnest_strut_mm: float | None
+    thinnest_at: tuple[float, float, float] | None
+    narrowest_gap_mm: float | None
+    narrowest_at: tuple[float, float, float] | None
+    inclinations: tuple[float, ...]
+    overhanging_share: float
+    longest_overhang_mm: float
+    longest_bridge_mm: float
+    longest_bridge_at: tuple[float, float, float] | None
+    overhang_area_mm2: float
+    voids: int
+    void_volume_mm3: float
+    area_mm2: float
+    volume_mm3: float
+    mass_g: float
+    findings: tuple[str, ...]
+
+    def as_dict(self) -> dict[str, Any]:
+        """The figures as plain JSON values."""
+        return asdict(self)
+
+    def to_json(self) -> str:
+        """The figures as a JSON text."""
+        return json.dumps(self.as_dict(), indent=2)
+
+    def rows(self) -> list[tuple[str, str]]:
+        """Names and values, for people."""
+        process = self.process
+        thin, gap = self.thinnest_strut_mm, self.narrowest_gap_mm
+        flat = process.inclination
+        rows = [
+            ("process", f"{process.name}, {process.title}"),
+            ("limits from", process.source),
+            ("thinnest strut", _against(thin, process.strut, "none")),
+            ("narrowest gap", _against(gap, process.gap, f"over {LOOK_FOR * process.gap:g} mm")),
+        ]
+        if flat:
+            overhang = f"{100 * self.overhanging_share:.1f} % of the struts' length"
+            rows += [
+                (f"below {flat:g} degrees", f"{overhang}, {self.overhang_area_mm2:,.1f} mm2"),
+                ("longest of these", f"{self.longest_overhang_mm:.3g} mm"),
+            ]
+        if process.bridge is not None:
+            rows.append(
+                ("longest flat", _against(self.longest_bridge_mm or None, process.bridge, "none"))
+            )
+        classes = " ".join(f"{100 * share:.0f}" for share in self.inclinations)
+        return [
+            *rows,
+            ("inclinations", f"{classes} % from 0 to 90 degrees, by {CLASS}"),
+            ("closed voids", f"{self.voids:,} with {self.void_volume_mm3:,.1f} mm3"),
+            ("surface", f"{self.area_mm2:,.1f} mm2"),
+            ("mass", f"{self.mass_g:,.2f} g"),
+            ("findings", f"{len(self.findings)}" if self.findings else "none"),
+            *(("", sentence) for sentence in self.findings),
+        ]
+
+    def to_text(self) -> str:
+        """The rows, one a line."""
+        width = max(len(name) for name, _ in self.rows()) + 2
+        return "\n".join(f"{name:<{width}}{value}" for name, value in self.rows())
+
+
+def print_report(
+    mesh: TriangleMesh,
+    lattice: Wireframe,
+    process: Process,
+    *,
+    build_direction: tuple[float, float, float] = (0.0, 0.0, 1.0),
+    density: float = 1.0,
+    domain: TriangleMesh | None = None,
+) -> PrintReport:
+    """Hold a part against a process.
+
+    Args:
+        mesh: the part as it will be printed, closed, mm.
+        lattice: its nodes and struts.
+        process: the limits.
+        build_direction: from the build plate up, of any length.
+        density: of the material, g/cm3.
+        domain: closed mesh of what the lattice fills; struts outside do not count. None: all do.
+
+    Raises:
+        VolfrepError: the build direction is no direction.
+    """
+    up = unit_direction(build_direction)
+    inspection = inspect(mesh)
+    quality, shells = inspection.quality, inspection.volume
+    ends = lattice.nodes[lattice.struts]
+    pieces = (np.arange(PIECES) + 0.5) / PIECES
+    points = ends[:, :1] + pieces[:, None] * (ends[:, 1:] - ends[:, :1])
+    inside = np.ones(points.shape[:2], bool)
+    if domain is not None:
+        inside = inside_points(domain, points.reshape(-1, 3), Monitor()).reshape(inside.shape)
+    share = inside.mean(axis=1)
+    length = share * np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    present = np.flatnonzero(share > 0)
+
+    thinnest, thinnest_at = None, None
+    if len(present):
+        radius = lattice.radii[:, :1] + pieces * (lattice.radii[:, 1:] - lattice.radii[:, :1])
+        radius = np.where(inside, radius, np.inf)
+        strut, piece = np.unravel_index(radius.argmin(), radius.shape)
+        thinnest, thinnest_at = 2.0 * float(radius[strut, piece]), _point(points[strut, piece])
+    narrowest = narrowest_gap(lattice, present, LOOK_FOR * process.gap)
+
+    angle = inclinations(lattice, up)
+    total = max(float(length.sum()), 1e-300)
+    edges = np.arange(0, 90 + CLASS, CLASS)
+    classes = np.histogram(angle, edges, weights=length)[0] / total
+    overhanging = np.where(angle < process.inclination - 1e-9, length, 0.0)
+    flat = np.where(angle < FLAT, length, 0.0)
+    overhangs = overhanging_facets(mesh, up, process.inclination)
+    report = PrintReport(
+        process=process,
+        build_direction=_point(up),
+        struts=len(present),
+        strut_length_mm=float(length.sum()),
+        thinnest_strut_mm=thinnest,
+        thinnest_at=thinnest_at,
+        narrowest_gap_mm=None if narrowest is None else narrowest[0],
+        narrowest_at=None if narrowest is None else _point(narrowest[1]),
+        inclinations=tuple(float(share) for share in classes),
+        overhanging_share=float(overhanging.sum()) / total,
+        longest_overhang_mm=float(overhanging.max(initial=0.0)),
+        longest_bridge_mm=float(flat.max(initial=0.0)),
+        longest_bridge_at=_point(ends[flat.argmax()].mean(axis=0)) if flat.any() else None,
+        overhang_area_mm2=TriangleMesh(mesh.vertices, mesh.triangles[overhangs]).area,
+        voids=quality.voids,
+        void_volume_mm3=float(np.abs(shells[shells < 0]).sum()),
+        area_mm2=quality.area,
+        volume_mm3=quality.volume,
+        mass_g=quality.volume * density / 1000.0,
+        findings=(),
+    )
+    return PrintReport(**{**vars(report), "findings": tuple(_findings(report))})
+
+
+def unit_direction(direction: tuple[float, float, float]) -> Floats:
+    """The direction as a unit vector (3,).
+
+    Raises:
+        VolfrepError: it has no length, or is not three finite numbers.
+    """
+    vector = np.array(direction, float)
+    size = float(np.linalg.norm(vector))
+    if vector.shape != (3,) or not 0 < size < np.inf:
+        raise VolfrepError(
+            f"The build direction must be three numbers that are not all 0, not {direction}."
+        )
+    return vector / size
+
+
+def inclinations(lattice: Wireframe, up: Floats) -> Floats:
+    """(m,) the angle of every strut to the build plate, degrees from 0 to 90."""
+    ends = lattice.nodes[lattice.struts]
+    along = ends[:, 1] - ends[:, 0]
+    rise = np.abs(along @ up) / np.maximum(np.linalg.norm(along, axis=1), 1e-300)
+    result: Floats = np.degrees(np.arcsin(np.minimum(rise, 1.0)))
+    return result
+
+
+def overhanging_facets(mesh: TriangleMesh, up: Floats, inclination: float) -> Bools:
+    """(m,) the triangles that face down at a lesser inclination, without the build plate's."""
+    a, b, c = mesh.corners()
+    normal = np.cross(b - a, c - a)
+    fall = -(normal @ up) / np.maximum(np.linalg.norm(normal, axis=1), 1e-300)
+    height = mesh.vertices @ up
+    low, high = height.min(initial=np.inf), height.max(initial=-np.inf)
+    on_plate = (height < low + ON_PLATE * (high - low))[mesh.triangles].all(axis=1)
+    # A hair of tolerance, so that facets of just that inclination do not flicker.
+    result: Bools = (fall > np.cos(np.radians(inclination)) + 1e-6) & ~on_plate
+    return result
+
+
+def _point(vector: Floats) -> tuple[float, float, float]:
+    x, y, z = (float(value) for value in vector)
+    return x, y, z
+
+
+def _against(value: float | None, limit: float, otherwise: str) -> str:
+    return f"{otherwise if value is None else f'{value:.3g} mm'} (limit {limit:g} mm)"
+
+
+def _findings(report: PrintReport) -> list[str]:
+    process, found = report.process, []
+    thin, gap = report.thinnest_strut_mm, report.narrowest_gap_mm
+    if thin is not None and thin < process.strut - 1e-9:
+        found.append(
+            f"Struts are down to {thin:.3g} mm thick near {_place(report.thinnest_at)}, and "
+            f"{process.name} wants {process.strut:g} mm: enlarge the radius."
+        )
+    if gap is not None and gap < process.gap - 1e-9:
+        found.append(
+            f"Struts are only {gap:.3g} mm apart near {_place(report.narrowest_at)}, and "
+            f"{process.name} wants {process.gap:g} mm: they may fuse or hold powder; enlarge the "
+            "cells."
+        )
+    if report.overhanging_share > 0:
+        found.append(
+            f"{100 * report.overhanging_share:.0f} % of the struts' length is less than "
+            f"{process.inclination:g} degrees above the build plate: choose another build "
+            "direction or cell, or count on sagging undersides."
+        )
+    if process.bridge is not None and report.longest_bridge_mm > process.bridge + 1e-9:
+        found.append(
+            f"Flat struts hang free over up to {report.longest_bridge_mm:.3g} mm near "
+            f"{_place(report.longest_bridge_at)}, and {process.name} bridges {process.bridge:g} "
+            "mm: make the cells smaller or choose another build direction."
+        )
+    if report.voids and process.escape_hole is not None:
+        found.append(
+            f"{report.voids:,} closed {'void holds' if report.voids == 1 else 'voids hold'} "
+            f"{report.void_volume_mm3:,.0f} mm3 of unused material: open each with a hole of "
+            f"{process.escape_hole:g} mm or more."
+        )
+    return found
+
+
+def _place(point: tuple[float, float, float] | None) -> str:
+    return "-" if point is None else "({:.4g}, {:.4g}, {:.4g})".format(*point)

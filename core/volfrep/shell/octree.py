@@ -1,0 +1,321 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Cubes of several sizes, and the patches of a surface that the signs at their corners tell.
+
+Everything is in whole numbers. A surface separates the negative corners from the others. It
+crosses the *minimal* edges, those that no smaller leaf subdivides; round each of them lie three or
+four leaves. On the face that two leaves share, crossed edges are joined in pairs by segments; the
+segments of a leaf close into loops, and each loop bounds one patch. With one vertex a patch and
+one polygon a crossed edge the dual is a closed 2-manifold, whatever the sizes of neighbours: a
+segment lies in two patches, and joins two edges. (Manifold dual contouring, Schaefer, Ju, Warren
+2007, with the loops found on the leaves' own faces.)
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+
+from ..util.types import Bools, Ints
+
+#: Coordinates are whole numbers of this many bits.
+BITS = 21
+#: The corners of a cube, x slowest.
+CORNERS = np.array([[i, j, k] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
+#: Quadrants round an edge along axis a, counter-clockwise: steps along a + 1 and a + 2.
+QUADRANTS = ((0, 0), (-1, 0), (-1, -1), (0, -1))
+
+
+@dataclass(frozen=True, eq=False)
+class Leaves:
+    """Cubes that do not overlap.
+
+    Attributes:
+        corner: (n, 3) lowest corners, multiples of the size.
+        size: (n,) edges, even powers of two apart: 2, 4, 8 ...
+    """
+
+    corner: Ints
+    size: Ints
+
+    def nodes(self) -> Ints:
+        """(n, 8, 3) corners."""
+        return np.asarray(self.corner[:, None] + self.size[:, None, None] * CORNERS)
+
+    def halved(self) -> Leaves:
+        """Eight leaves for each."""
+        half = np.repeat(self.size // 2, 8)
+        corner = np.repeat(self.corner, 8, axis=0)
+        return Leaves(corner + half[:, None] * np.tile(CORNERS, (len(self.size), 1)), half)
+
+    def chosen(self, which: Bools | slice) -> Leaves:
+        """Some of them."""
+        return Leaves(self.corner[which], self.size[which])
+
+    def joined(self, more: Leaves) -> Leaves:
+        """With others after them."""
+        return Leaves(
+            np.concatenate([self.corner, more.corner]), np.concatenate([self.size, more.size])
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Edges:
+    """Edges of cubes that a surface crosses.
+
+    Attributes:
+        low: (n, 3) lower ends.
+        axis: (n,) directions.
+        size: (n,) lengths.
+        rising: (n,) whether the lower end is the negative one.
+    """
+
+    low: Ints
+    axis: Ints
+    size: Ints
+    rising: Bools
+
+    def at(self, share: int) -> Ints:
+        """(n, 3) nodes half the given number of lengths above the lower ends."""
+        node = self.low.copy()
+        node[np.arange(len(node)), self.axis] += share * self.size // 2
+        return node
+
+    @property
+    def high(self) -> Ints:
+        """(n, 3) upper ends."""
+        return self.at(2)
+
+    @property
+    def names(self) -> Ints:
+        """(n,) the names of the middles: no two edges have the same."""
+        return name(self.at(1))
+
+    def chosen(self, which: Bools | Ints) -> Edges:
+        """Some of them."""
+        return Edges(self.low[which], self.axis[which], self.size[which], self.rising[which])
+
+
+@dataclass(frozen=True, eq=False)
+class Crossings:
+    """The crossed minimal edges of some leaves, and the patches round them.
+
+    Attributes:
+        edges: n of them.
+        leaf: (n, 4) the leaf in each of `QUADRANTS`; of two that follow each other both may be
+            the same, then the edge lies in the middle of its face.
+        patch: (n, 4) the patch in that leaf.
+        segment: (n, 4) the segment between each quadrant and the next one, -1 where there is
+            none: both are the same leaf.
+        leaf_of_patch: (p,) leaves.
+        patches_of_segment: (s, 2) patches.
+    """
+
+    edges: Edges
+    leaf: Ints
+    patch: Ints
+    segment: Ints
+    leaf_of_patch: Ints
+    patches_of_segment: Ints
+
+    def doubled(self) -> Bools:
+        """(s,) whether another segment joins the same two patches.
+
+        One vertex a patch is too few for them: four triangles would share the edge between.
+        """
+        pairs = np.sort(self.patches_of_segment, axis=1)
+        pair = pairs[:, 0] * len(self.leaf_of_patch) + pairs[:, 1]
+        _, number, count = np.unique(pair, return_inverse=True, return_counts=True)
+        return np.asarray(count[number.ravel()] > 1)
+
+
+def name(nodes: Ints) -> Ints:
+    """One number for each node (..., 3)."""
+    return np.asarray((nodes[..., 0] << 2 * BITS) | (nodes[..., 1] << BITS) | nodes[..., 2])
+
+
+def named(names: Ints) -> Ints:
+    """The (n, 3) nodes of (n,) names."""
+    mask = (1 << BITS) - 1
+    return np.stack([names >> 2 * BITS, (names >> BITS) & mask, names & mask], axis=1)
+
+
+def find(names: Ints, wanted: Ints) -> Ints:
+    """Where in sorted names the wanted ones are; -1: nowhere."""
+    if not len(names):
+        return np.full(wanted.shape, -1)
+    place = np.minimum(np.searchsorted(names, wanted), len(names) - 1)
+    return np.where(names[place] == wanted, place, -1)
+
+
+def cross(leaves: Leaves, negative: Bools, *, whole: bool = True) -> Crossings:
+    """The edges between negative corners and others, and the patches they bound.
+
+    Args:
+        leaves: they fill the neighbourhood of every crossed edge, if they are the whole.
+        negative: (n, 8) sign at the corners of each leaf, the same wherever leaves meet.
+        whole: otherwise edges are left out where leaves are missing, and the patches there are
+            incomplete.
+
+    Raises:
+        RuntimeError: the surface reaches a place without leaves.
+    """
+    edges = _minimal_edges(leaves, negative)
+    leaf = _leaves_round(leaves, edges)
+    found = (leaf >= 0).all(axis=1)
+    if whole and not found.all():
+        raise RuntimeError("the wall reaches a place that was not looked at")
+    edges, leaf = edges.chosen(found), leaf[found]
+    first, second, segment = _segments(leaves, edges, leaf)
+    patch = _join(leaf, first, second)
+    of_patch = np.zeros(int(patch.max(initial=-1)) + 1, np.int64)
+    of_patch[patch.ravel()] = leaf.ravel()
+    edge, quadrant = first.T
+    pairs = np.stack([patch[edge, quadrant], patch[edge, (quadrant + 1) % 4]], axis=1)
+    return Crossings(edges, leaf, patch, segment, of_patch, pairs)
+
+
+def _minimal_edges(leaves: Leaves, negative: Bools) -> Edges:
+    """The crossed edges of leaves that no smaller leaf divides.
+
+    Where a smaller leaf divides a crossed edge, one of its own edges there is crossed.
+    """
+    mixed = negative.any(axis=1) & ~negative.all(axis=1)
+    leaves, negative = leaves.chosen(mixed), negative[mixed]
+    nodes = leaves.nodes()
+    parts = []
+    for axis in range(3):
+        for start in np.flatnonzero(CORNERS[:, axis] == 0):
+            rows = np.flatnonzero(negative[:, start] != negative[:, start + (4 >> axis)])
+            axes = np.full(len(rows), axis)
+            parts.append((nodes[rows, start], axes, leaves.size[rows], negative[rows, start]))
+    edges = Edges(*(np.concatenate(values) for values in zip(*parts, strict=True)))
+    names, once = np.unique(edges.names, return_index=True)
+    edges = edges.chosen(once)
+    return edges.chosen(find(_divided(edges), names) < 0)
+
+
+def _divided(edges: Edges) -> Ints:
+    """The names, in ascending order, of all longer edges that some edges are parts of."""
+    largest = int(edges.size.max(initial=0))
+    found = [np.zeros(0, np.int64)]
+    while len(edges.size):
+        rows, size = np.arange(len(edges.size)), 2 * edges.size
+        low = edges.low.copy()
+        low[rows, edges.axis] -= low[rows, edges.axis] % size
+        whole = (low % size[:, None] == 0).all(axis=1) & (size <= largest)
+        edges = Edges(low, edges.axis, size, edges.rising).chosen(whole)
+        names, once = np.unique(edges.names, return_index=True)
+        edges = edges.chosen(once)
+        found.append(names)
+    return np.unique(np.concatenate(found))
+
+
+def _leaves_round(leaves: Leaves, edges: Edges) -> Ints:
+    """(n, 4) the leaf in each quadrant round the edges; -1: none."""
+    # In the order of interleaved bits the cubes of a leaf follow each other.
+    start = _interleaved(leaves.corner)
+    order = np.argsort(start)
+    start = start[order]
+    rows = np.arange(len(edges.low))
+    result = np.empty((len(rows), 4), np.int64)
+    for quadrant, (u, v) in enumerate(QUADRANTS):
+        cube = edges.low.copy()
+        cube[rows, (edges.axis + 1) % 3] += u
+        cube[rows, (edges.axis + 2) % 3] += v
+        leaf = order[np.searchsorted(start, _interleaved(cube), "right") - 1]
+        beside = cube - leaves.corner[leaf]
+        inside = ((beside >= 0) & (beside < leaves.size[leaf][:, None])).all(axis=1)
+        result[:, quadrant] = np.where(inside, leaf, -1)
+    return result
+
+
+def _interleaved(nodes: Ints) -> Ints:
+    """The bits of x, y, z in turn."""
+    result = np.zeros(len(nodes), np.int64)
+    for axis in range(3):
+        bits = nodes[:, axis].copy()
+        for shift, mask in (
+            (32, 0x1F00000000FFFF),
+            (16, 0x1F0000FF0000FF),
+            (8, 0x100F00F00F00F00F),
+            (4, 0x10C30C30C30C30C3),
+            (2, 0x1249249249249249),
+        ):
+            bits = (bits | (bits << shift)) & mask
+        result |= bits << (2 - axis)
+    return result
+
+
+def _segments(leaves: Leaves, edges: Edges, leaf: Ints) -> tuple[Ints, Ints, Ints]:
+    """Crossed edges joined in pairs on the faces between leaves.
+
+    Returns:
+        Two arrays (s, 2) with the edges that each segment joins and, for each, the quadrant
+        before the face, on the same side of it for both; and (n, 4) the segment between each
+        quadrant and the next.
+    """
+    following = np.roll(leaf, -1, axis=1)
+    edge, quadrant = np.nonzero(leaf != following)
+    before, after = leaf[edge, quadrant], following[edge, quadrant]
+    face = np.minimum(before, after) * len(leaves.size) + np.maximum(before, after)
+    order = np.argsort(face, kind="stable")
+    face, edge, quadrant = face[order], edge[order], quadrant[order]
+    count = np.unique(face, return_counts=True)[1]
+    paired = np.repeat(count % 2 == 0, count)  # all of them where no edge is missing
+    face, edge, quadrant = face[paired], edge[paired], quadrant[paired]
+    count = count[count % 2 == 0]
+    several = np.flatnonzero(np.repeat(count > 2, count))
+    if len(several):
+        turned = _round_the_face(
+            leaves, edges, leaf, face[several], edge[several], quadrant[several]
+        )
+        edge[several], quadrant[several] = edge[several][turned], quadrant[several][turned]
+    segment = np.full(leaf.shape, -1)
+    segment[edge, quadrant] = np.arange(len(edge)) // 2
+    first = np.stack([edge[0::2], quadrant[0::2]], axis=1)
+    second = np.stack([edge[1::2], quadrant[1::2]], axis=1)
+    return first, second, segment
+
+
+def _round_the_face(
+    leaves: Leaves, edges: Edges, leaf: Ints, face: Ints, edge: Ints, quadrant: Ints
+) -> Ints:
+    """The order in which pairs of crossed edges enclose the negative parts of their face."""
+    before, after = leaf[edge, quadrant], leaf[edge, (quadrant + 1) % 4]
+    smaller = np.where(leaves.size[before] <= leaves.size[after], before, after)
+    rows = np.arange(len(edge))
+    a = edges.axis[edge]
+    normal = (a + 1 + quadrant % 2) % 3
+    u, v = (normal + 1) % 3, (normal + 2) % 3
+    middle = edges.chosen(edge).at(1) - leaves.corner[smaller] - leaves.size[smaller][:, None] / 2
+    x, y = middle[rows, u], middle[rows, v]
+    # Counter-clockwise the lower side runs along u, the right side along v.
+    forward = np.where(a == u, y < 0, x > 0)
+    leaving = edges.rising[edge] == forward
+    order = np.lexsort((np.arctan2(y, x), face))
+    start = np.flatnonzero(np.concatenate([[True], face[1:] != face[:-1]]))
+    count = np.diff(np.concatenate([start, [len(face)]]))
+    group = np.repeat(np.arange(len(start)), count)
+    place = rows - start[group]
+    # Where the walk starts on a negative part, its first edge belongs to the last one.
+    shifted = (place + leaving[order][start][group]) % count[group]
+    return np.asarray(order[start[group] + shifted])
+
+
+def _join(leaf: Ints, first: Ints, second: Ints) -> Ints:
+    """(n, 4) the loop of segments that each quadrant of each edge belongs to."""
+    count = leaf.size
+    corner = np.arange(count).reshape(leaf.shape)
+    edge, quadrant = np.nonzero(leaf == np.roll(leaf, -1, axis=1))
+    links = [(corner[edge, quadrant], corner[edge, (quadrant + 1) % 4])]
+    (e, q), (f, r) = first.T, second.T
+    same = leaf[e, q] == leaf[f, r]
+    links.append((corner[e, q], corner[f, np.where(same, r, (r + 1) % 4)]))
+    links.append((corner[e, (q + 1) % 4], corner[f, np.where(same, (r + 1) % 4, r)]))
+    start, end = (np.concatenate(ends) for ends in zip(*links, strict=True))
+    graph = coo_matrix((np.ones(len(start), np.int8), (start, end)), shape=(count, count))
+    label = connected_components(graph, directed=False)[1]
+    return np.asarray(label, np.int64).reshape(leaf.shape)

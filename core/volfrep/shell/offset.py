@@ -1,0 +1,151 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The inner wall of a shelled solid: the surface at a given depth below the outer one.
+
+It is the level set of the distance to the outer surface, so it cannot cross itself the way a
+surface of moved faces does. `field` samples the depth at the corners of cubes, `octree` tells the
+patches of surface in them, `contour` makes facets of these, `refine` halves the cubes whose facets
+stray, `simplify` takes the facets away that are not needed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+
+from ..mesh.triangle_mesh import TriangleMesh, compact, empty_mesh
+from ..spatial.proximity import index_surface
+from ..util.errors import VolfrepError
+from ..util.progress import Monitor
+from ..util.types import Bools, Floats
+from .adaptive_contour import find_wall
+from .depth import Depth
+from .open_depth import open_depth
+from .plain_regions import find_plain
+from .sampled_depth import DepthField, cube_grid
+from .wall_decimation import simplified
+
+#: Edge of the coarsest cubes in units of the thickness; and the least number of them along the
+#: part's diagonal.
+CUBE = 0.8
+CUBES_ALONG_DIAGONAL = 50
+#: A wall is good when its thickness is within this at so many random points of it.
+TOLERANCE = 0.05
+MEASURED_POINTS = 20_000
+#: Spacing of the samples on the outer surface in units of the thickness.
+SAMPLE_SPACING = 0.3
+#: Cubes with all that is kept of them need about this much memory, in bytes a coarsest cube that
+#: the wall crosses.
+BYTES_PER_CROSSED_CUBE = 3000
+MEMORY_LIMIT = 6e9
+#: Pockets smaller than a cube of this edge, in units of the coarsest cubes, are left solid.
+SMALLEST_POCKET = 0.75
+
+
+@dataclass(frozen=True, eq=False)
+class InnerWall:
+    """The closed surface at a depth below the surface of a solid, and how near it came.
+
+    Attributes:
+        mesh: oriented outward; empty where no part of the solid is thicker than two walls.
+        worst: largest relative error of the wall's thickness at random points of it.
+        place: (3,) where that is, mm.
+    """
+
+    mesh: TriangleMesh
+    worst: float
+    place: Floats
+
+
+def inner_wall(
+    solid: TriangleMesh, thickness: float, monitor: Monitor, is_open: Bools | None = None
+) -> InnerWall:
+    """The closed surface at depth `thickness` below the surface of a solid.
+
+    Args:
+        solid: checked closed solid (`volfrep.io.solid.check_solid`), mm.
+        thickness: wall thickness, above 0, mm.
+        monitor: for progress and cancel.
+        is_open: (m,) triangles of the solid that have no skin below them; None for none.
+
+    Returns:
+        The boundary of the points of the solid that lie deeper than the thickness, strictly
+        inside it; but beyond open triangles, which do not count for the depth, it reaches out of
+        the solid (`volfrep.shell.open_depth`). The wall is within `TOLERANCE` of its thickness, as
+        long as that does not take too many cubes (`refine.MOST_EDGES`). Where the room between two
+        walls gets narrower than a tenth of the thickness the cavity may end; where facets cross
+        there, they go with a little of the room about them (`plugs`).
+
+    Raises:
+        VolfrepError: the wall is so thin that its cubes would not fit into memory.
+    """
+    low, high = solid.bounds
+    if is_open is None and np.min(high - low) <= 2.0 * thickness:
+        return InnerWall(empty_mesh(), 0.0, np.zeros(3))
+    diagonal = float(np.linalg.norm(high - low))
+    depth: Depth
+    cube = min(CUBE * thickness, diagonal / CUBES_ALONG_DIAGONAL)
+    monitor.tick(0.0)
+    spacing = SAMPLE_SPACING * thickness
+    plain = None
+    if is_open is None:
+        grid = cube_grid(low, high, thickness, cube)
+        most = MEMORY_LIMIT / BYTES_PER_CROSSED_CUBE / 2.0
+        plain = find_plain(solid, grid[0], cube, grid[2], thickness, spacing, most, monitor)
+        _refuse_too_thin(solid, thickness, plain.cubes, cube)
+        sampled = (plain.samples, plain.owner)
+        index = monitor.call(lambda: index_surface(solid, spacing, sampled))
+        depth = Depth(index, thickness, monitor)
+    else:
+        _refuse_too_thin(solid, thickness, solid.area / cube**2, cube)
+        depth = open_depth(solid, is_open, thickness, spacing, monitor)
+    field = DepthField(solid, depth, cube, plain)
+    monitor.tick(0.1)
+    wall = find_wall(field)
+    monitor.tick(0.8)
+    mesh = simplified(wall, field)
+    monitor.tick(0.95)
+    return _measured(_without_small(mesh, (SMALLEST_POCKET * cube) ** 3), depth)
+
+
+def _refuse_too_thin(solid: TriangleMesh, thickness: float, cubes: float, cube: float) -> None:
+    """Refuse a wall whose cubes do not fit into memory."""
+    if 2.0 * cubes * BYTES_PER_CROSSED_CUBE <= MEMORY_LIMIT:
+        return
+    # With cubes of one size everywhere this one would fit.
+    everywhere = 2.0 * solid.area / cube**2 * BYTES_PER_CROSSED_CUBE
+    least = thickness * (everywhere / MEMORY_LIMIT) ** 0.5
+    diagonal = float(np.linalg.norm(np.ptp(solid.bounds, axis=0)))
+    raise VolfrepError(
+        f"A wall of {thickness:g} mm is too thin for a part of {diagonal:.4g} mm: it would "
+        f"take more than {MEMORY_LIMIT / 1e9:g} GB; make it at least {least:.3g} mm."
+    )
+
+
+def _without_small(mesh: TriangleMesh, volume: float) -> TriangleMesh:
+    """Without the closed surfaces that enclose less than the volume."""
+    count = len(mesh.vertices)
+    t = mesh.triangles
+    graph = coo_matrix(
+        (np.ones(2 * len(t), np.int8), (t[:, [0, 1]].ravel(), t[:, [1, 2]].ravel())),
+        shape=(count, count),
+    )
+    label = connected_components(graph, directed=False)[1][t[:, 0]]
+    enclosed = np.bincount(label, weights=mesh.signed_volumes())
+    return compact(TriangleMesh(mesh.vertices, t[np.abs(enclosed)[label] >= volume]))
+
+
+def _measured(mesh: TriangleMesh, depth: Depth) -> InnerWall:
+    """The wall with its largest error at random points, the same for the same wall."""
+    if not len(mesh.triangles):
+        return InnerWall(mesh, 0.0, np.zeros(3))
+    a, b, c = mesh.corners()
+    area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    random = np.random.default_rng(0)
+    pick = random.choice(len(area), MEASURED_POINTS, p=area / area.sum())
+    weight = random.dirichlet((1.0, 1.0, 1.0), MEASURED_POINTS)
+    points = weight[:, :1] * a[pick] + weight[:, 1:2] * b[pick] + weight[:, 2:] * c[pick]
+    error = np.abs(depth.strays(points))
+    return InnerWall(mesh, float(error.max()), points[np.argmax(error)])

@@ -1,0 +1,234 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Where a surface runs through itself."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from ..mesh.triangle_mesh import TriangleMesh
+from ..util.ragged import spread
+from ..util.types import Bools, Floats, Ints
+
+#: Pairs of triangles that one vectorised step takes at a time.
+PAIRS_PER_STEP = 500_000
+#: The finest grid has no more bins along the largest triangle: their names have 21 bits an axis.
+MOST_BINS = 1 << 16
+#: Cells along the longest side of the grid by which triangles near others are picked.
+ABOUT_CELLS = 160
+
+
+def crossing_triangles(mesh: TriangleMesh, among: Bools, depth: float) -> Bools:
+    """The triangles that an edge of another triangle runs through.
+
+    Args:
+        mesh: the surface, mm.
+        among: (m,) bool, triangles to look at; pairs of two others are not tested.
+        depth: an edge has to stick out on both sides of a triangle by more than this, mm.
+
+    Returns:
+        (m,) bool: both the triangles that are run through and those whose edges do it.
+    """
+    one, other, _ = crossing_edges(mesh, among, depth)
+    crossing = np.zeros(len(mesh.triangles), bool)
+    crossing[one] = True
+    crossing[other] = True
+    return crossing
+
+
+def crossing_edges(mesh: TriangleMesh, among: Bools, depth: float) -> tuple[Ints, Ints, Floats]:
+    """Where edges of triangles run through other triangles.
+
+    Args:
+        mesh: the surface, mm.
+        among: (m,) bool, triangles to look at; pairs of two others are not tested.
+        depth: an edge has to stick out on both sides of a triangle by more than this, mm.
+
+    Returns:
+        (k,) triangles whose edge it is, (k,) those that it runs through, and (k, 3) where, mm.
+    """
+    found = [(np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros((0, 3)))]
+    if among.any():
+        rows = _reached_from(mesh, among)
+        part = TriangleMesh(mesh.vertices, mesh.triangles[rows])
+        for one, other, points in _crossing_edges(part, among[rows], depth):
+            found.append((rows[one], rows[other], points))
+    one, other, points = (np.concatenate(column) for column in zip(*found, strict=True))
+    return one, other, points
+
+
+def _reached_from(mesh: TriangleMesh, among: Bools) -> Ints:
+    """The triangles whose boxes reach into cubes that those of the chosen ones reach into."""
+    if among.all():
+        return np.arange(len(among))
+    corners = mesh.vertices[mesh.triangles]
+    low, high = corners.min(axis=1), corners.max(axis=1)
+    first, last = low[among], high[among]
+    size = max(float((last - first).max()), float(np.ptp(corners, axis=(0, 1)).max()) / MOST_BINS)
+    origin = low.min(axis=0)
+    bins = np.unique(boxes_in_bins(first, last, origin, size)[1])
+    # Those of the others that are larger than a cube reach into many: kept without a look.
+    result = among | ((high - low).max(axis=1) > size)
+    rows = np.flatnonzero(~result)
+    box, its_bin = boxes_in_bins(low[rows], high[rows], origin, size)
+    place = np.minimum(np.searchsorted(bins, its_bin), len(bins) - 1)
+    result[rows[box[bins[place] == its_bin]]] = True
+    return np.flatnonzero(result)
+
+
+def _crossing_edges(
+    mesh: TriangleMesh, among: Bools, depth: float
+) -> Iterator[tuple[Ints, Ints, Floats]]:
+    corners = mesh.vertices[mesh.triangles]
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+    for a, b in close_pairs(corners, among):
+        # Neighbours over an edge have no edge that could run through the other.
+        shared = np.zeros(len(a), np.int8)
+        for i in range(3):
+            for j in range(3):
+                shared += mesh.triangles[a, i] == mesh.triangles[b, j]
+        a, b = a[shared < 2], b[shared < 2]
+        for _ in range(2):
+            cut = _on_both_sides(_heights(corners, normal, a, b), 0.0)
+            a, b = b[cut], a[cut]
+        for one, other in ((a, b), (b, a)):
+            heights = _heights(corners, normal, one, other)
+            for hit, points in _edges_cross(mesh, corners, heights, one, other, depth):
+                yield one[hit], other[hit], points
+
+
+def close_pairs(corners: Floats, among: Bools) -> Iterator[tuple[Ints, Ints]]:
+    """Pairs of triangles whose boxes overlap, at least one of them chosen; some of them twice.
+
+    They meet in the bins of several grids, each twice as coarse as the one before: every triangle
+    waits in the bins of its own size, and visits those and all coarser ones.
+    """
+    low, high = corners.min(axis=1), corners.max(axis=1)
+    extent = (high - low).max(axis=1)
+    size = max(float(np.percentile(extent, 50)), float(extent.max()) / MOST_BINS)
+    level = np.ceil(np.log2(np.maximum(extent / size, 1.0))).astype(np.int64)
+    origin = low.min(axis=0)
+    for grid in np.unique(level):
+        waiting = np.flatnonzero(level == grid)
+        visiting = np.flatnonzero(level <= grid)
+        if not among[waiting].any():
+            visiting = visiting[among[visiting]]
+        cell = size * 2.0**grid
+        waits, its_bin = boxes_in_bins(low[waiting], high[waiting], origin, cell)
+        order = np.argsort(its_bin, kind="stable")
+        waits, its_bin = waiting[waits[order]], its_bin[order]
+        visits, bins = boxes_in_bins(low[visiting], high[visiting], origin, cell)
+        visits = visiting[visits]
+        first = np.searchsorted(its_bin, bins)
+        count = np.searchsorted(its_bin, bins, "right") - first
+        if not count.any():
+            continue
+        total = np.cumsum(count)
+        steps = np.searchsorted(total, np.arange(0, int(count.sum()), PAIRS_PER_STEP))
+        for begin, end in zip(steps, [*steps[1:], len(count)], strict=True):
+            row, place = spread(count[begin:end])
+            a, b = visits[begin + row], waits[first[begin + row] + place]
+            # Of two of a size both may visit: once is enough.
+            keep = (among[a] | among[b]) & ((a < b) | (level[a] < grid) | ~among[b])
+            a, b = a[keep], b[keep]
+            for axis in range(3):
+                lo, hi = low[:, axis], high[:, axis]
+                keep = (lo[a] <= hi[b]) & (lo[b] <= hi[a])
+                a, b = a[keep], b[keep]
+            yield a, b
+
+
+def boxes_in_bins(low: Floats, high: Floats, origin: Floats, size: float) -> tuple[Ints, Ints]:
+    """Every box with every bin of a grid that it reaches into, as (box, bin) pairs."""
+    first = np.floor((low - origin) / size).astype(np.int64)
+    span = np.floor((high - origin) / size).astype(np.int64) - first + 1
+    row, place = spread(span.prod(axis=1))
+    place, along_z = np.divmod(place, span[row, 2])
+    along_x, along_y = np.divmod(place, span[row, 1])
+    x, y, z = first[row].T
+    return row, ((x + along_x) << 42) + ((y + along_y) << 21) + z + along_z
+
+
+def _heights(corners: Floats, normal: Floats, a: Ints, b: Ints) -> Floats:
+    """(k, 3) the corners of triangles a above the planes of triangles b."""
+    above: Floats = np.einsum("nij,nj->ni", corners[a] - corners[b, :1], normal[b])
+    return above
+
+
+def _on_both_sides(heights: Floats, depth: float) -> Bools:
+    x, y, z = heights.T
+    above, below = np.maximum(np.maximum(x, y), z), np.minimum(np.minimum(x, y), z)
+    return np.asarray((above > depth) & (below < -depth), np.bool_)
+
+
+def _edges_cross(
+    mesh: TriangleMesh, corners: Floats, height: Floats, a: Ints, b: Ints, depth: float
+) -> Iterator[tuple[Ints, Floats]]:
+    """Where an edge of triangle a, without a vertex in common with b, runs through b."""
+    for k in range(3):
+        following = (k + 1) % 3
+        from_above = (height[:, k] > depth) & (height[:, following] < -depth)
+        from_below = (height[:, k] < -depth) & (height[:, following] > depth)
+        rows = np.flatnonzero(from_above | from_below)
+        edge = mesh.triangles[a[rows]][:, [k, following]]
+        shared = (edge[:, :, None] == mesh.triangles[b[rows]][:, None, :]).any(axis=(1, 2))
+        rows = rows[~shared]
+        p, q = corners[a[rows], k], corners[a[rows], following]
+        sides = []
+        for e in range(3):
+            u, v = corners[b[rows], e], corners[b[rows], (e + 1) % 3]
+            sides.append(np.einsum("ij,ij->i", np.cross(q - p, u - p), v - p))
+        one_side = np.all([s > 0 for s in sides], axis=0) | np.all([s < 0 for s in sides], axis=0)
+        rows, p, q = rows[one_side], p[one_side], q[one_side]
+        share = height[rows, k] / (height[rows, k] - height[rows, following])
+        yield rows, p + share[:, None] * (q - p)
+
+
+def crossing_near(mesh: TriangleMesh, among: Bools, depth: float) -> Bools:
+    """As `crossing_triangles`, for few triangles of many: looks at those about them only."""
+    result = np.zeros(len(mesh.triangles), bool)
+    if not among.any():
+        return result
+    rows = np.flatnonzero(among | _about(mesh, among))
+    part = TriangleMesh(mesh.vertices, mesh.triangles[rows])
+    result[rows] = crossing_triangles(part, among[rows], depth)
+    return result
+
+
+def _about(mesh: TriangleMesh, among: Bools) -> Bools:
+    """(m,) which triangles' boxes reach into the cells of a grid that the chosen ones' boxes do."""
+    columns = [np.ascontiguousarray(mesh.vertices[:, k]) for k in range(3)]
+    corners = np.ascontiguousarray(mesh.triangles.T)
+    least = [column.min() for column in columns]
+    size = max(float(max(np.ptp(column) for column in columns)) / ABOUT_CELLS, 1e-300)
+    # Cells of every vertex first: there are half as many of them as of triangles.
+    cells = [((c - low) / size).astype(np.int16) for c, low in zip(columns, least, strict=True)]
+    low, high = [], []
+    for cell in cells:
+        a, b, c = (cell[row] for row in corners)
+        low.append(np.minimum(np.minimum(a, b), c))
+        high.append(np.maximum(np.maximum(a, b), c))
+    shape = [int(cell.max()) + 2 for cell in cells]
+    # How many boxes begin less end at each cell, summed up: how many cover it.
+    cover = np.zeros(shape, np.int32)
+    chosen = np.flatnonzero(among)
+    ends = [(one[chosen], two[chosen] + 1) for one, two in zip(low, high, strict=True)]
+    for i, j, k in np.ndindex(2, 2, 2):
+        np.add.at(cover, (ends[0][i], ends[1][j], ends[2][k]), 1 - 2 * ((i + j + k) % 2))
+    for axis in range(3):
+        np.cumsum(cover, axis=axis, out=cover)
+    # And again, to count the covered cells in any box.
+    taken = np.pad((cover > 0).astype(np.int32), ((1, 0),) * 3)
+    for axis in range(3):
+        np.cumsum(taken, axis=axis, out=taken)
+    flat, total = taken.ravel(), np.zeros(len(mesh.triangles), np.int32)
+    steps = [taken.shape[1] * taken.shape[2], taken.shape[2], 1]
+    low_at = [one.astype(np.int32) * step for one, step in zip(low, steps, strict=True)]
+    high_at = [(two.astype(np.int32) + 1) * step for two, step in zip(high, steps, strict=True)]
+    sides = list(zip(low_at, high_at, strict=True))
+    for i, j, k in np.ndindex(2, 2, 2):
+        part = flat[sides[0][i] + sides[1][j] + sides[2][k]]
+        total += part if (i + j + k) % 2 else -part
+    return np.asarray(total != 0, np.bool_)

@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What may leave the engine: a solid that every file holds as it is, and figures that are its own.
+
+Octants are proved not to run through themselves when they are meshed (`tile.mesh_octants`), and
+the Boolean hands out what does not; `tidied` looks at what it changes after that, and `finished`
+sends lines through what was moved since.
+"""
+
+from __future__ import annotations
+
+from ..design.spec import LatticeSpec
+from ..mesh.float32_repair import (
+    merging_vertices,
+    separate_vertices,
+    shortest_edge,
+    without_slivers,
+)
+from ..mesh.quality import Quality, measure
+from ..mesh.triangle_mesh import TriangleMesh
+from ..spatial.self_intersection import crossing_near
+from ..util.errors import VolfrepError
+from ..util.progress import Monitor
+
+#: Lines see no crossing where less than this part of the volume is not enclosed once: rounding.
+ROUNDING = 1e-9
+#: A solid of which more than this part is not enclosed once is refused; less is told.
+MOST_CROSSED = 0.05
+#: Vertices that are moved apart change no more than this part of the volume; more is a mesh whose
+#: facets are as small as the steps between the numbers of a file.
+MOST_MOVED = 1e-3
+
+
+def tidied(
+    mesh: TriangleMesh, precision: float, monitor: Monitor, among: int | None = None
+) -> TriangleMesh:
+    """A mesh from a Boolean, without slivers where they can go.
+
+    Args:
+        mesh: closed.
+        precision: `shortest_edge` of the part, mm.
+        monitor: for cancel.
+        among: look for slivers in so many of the first triangles; None: in all.
+    """
+    smooth, new = without_slivers(mesh, precision, among)
+    if monitor.call(lambda: crossing_near(smooth, new, precision)).any():
+        smooth = mesh  # a sliver is better than facets that cross
+    return smooth
+
+
+def finished(
+    mesh: TriangleMesh, quality: Quality, monitor: Monitor, moved: bool
+) -> tuple[TriangleMesh, Quality, tuple[str, ...]]:
+    """A mesh as it is handed out, its quality that of any file of it, and sentences for the user.
+
+    Args:
+        mesh: closed.
+        quality: of the mesh.
+        monitor: for progress and cancel.
+        moved: whether the octants' vertices are elsewhere than they were meshed.
+
+    Raises:
+        VolfrepError: it encloses no volume, runs through itself, or touches itself so that no
+            file can hold it; the text says where.
+    """
+    apart = separate_vertices(mesh, shortest_edge(mesh))
+    if apart is not mesh:
+        again = measure(apart, monitor)
+        if abs(again.volume - quality.volume) > MOST_MOVED * abs(quality.volume):
+            raise _finer_than_files(mesh)
+        refuse_merging(apart)
+        mesh, quality = apart, again
+    refuse_no_solid(quality)
+    if not moved:
+        return mesh, quality, ()
+    from ..spatial.winding import windings  # of no use to most lattices
+
+    met = monitor.call(lambda: windings(mesh))
+    share = met.odd / quality.volume
+    if met.place is None or share <= ROUNDING:
+        return mesh, quality, ()
+    x, y, z = met.place
+    where = (
+        f"Struts have so little room about ({x:.4g}, {y:.4g}, {z:.4g}) that facets run through "
+        f"each other there: {100 * share:.2g} % of the volume is enclosed twice or inside out"
+    )
+    advice = "reduce the radius or let the cells be larger there"
+    if share > MOST_CROSSED:
+        raise VolfrepError(f"{where}, {advice}.")
+    return mesh, quality, (f"{where}; {advice} if that matters.",)
+
+
+def pieces_told(
+    spec: LatticeSpec, quality: Quality, removed: int, volume_removed: float
+) -> tuple[str, ...]:
+    """Sentences on pieces of a lattice without a skin that hang on nothing.
+
+    Args:
+        spec: what was wanted.
+        quality: of what is left.
+        removed: how many pieces were left out.
+        volume_removed: of these, mm3.
+    """
+    if spec.output == "domain" or (spec.output == "part" and spec.shell > 0):
+        return ()
+    sentences = []
+    if removed:
+        share = 100.0 * volume_removed / (volume_removed + quality.volume)
+        what = "piece that hangs" if removed == 1 else "pieces that hang"
+        sentences.append(
+            f"{removed:,} {what} on nothing left out, {share:.2g} % of the lattice's volume: "
+            "smaller cells or another origin may join them, and so does a skin."
+        )
+    if spec.output == "lattice" and quality.bodies > 1:
+        sentences.append(
+            f"The lattice is {quality.bodies:,} bodies that do not touch each other: only the "
+            "part's skin holds them together."
+        )
+    return tuple(sentences)
+
+
+def _finer_than_files(mesh: TriangleMesh) -> VolfrepError:
+    x, y, z = mesh.vertices[merging_vertices(mesh)[0]]
+    return VolfrepError(
+        f"Near ({x:g}, {y:g}, {z:g}) the mesh is finer than the single precision of files there: "
+        "move the part nearer to the origin or use a coarser resolution."
+    )
+
+
+def refuse_merging(mesh: TriangleMesh) -> None:
+    """Raise a `VolfrepError` where a file would make one vertex of two."""
+    twins = merging_vertices(mesh)
+    if not len(twins):
+        return
+    x, y, z = mesh.vertices[twins[0]]
+    raise VolfrepError(
+        f"Near ({x:.6g}, {y:.6g}, {z:.6g}) the surface touches itself within the single precision "
+        "of files: move the part nearer to the origin, or change the lattice's origin or radius "
+        "by a little."
+    )
+
+
+def refuse_no_solid(quality: Quality) -> None:
+    """Raise a `VolfrepError` where a mesh encloses no material."""
+    if quality.volume > 0.0 and quality.bodies > 0:
+        return
+    raise VolfrepError(
+        f"The result would be no solid: {quality.bodies} bodies of {quality.volume:.4g} mm3 "
+        "together. Choose a finer resolution, or another strut radius or cell size."
+    )

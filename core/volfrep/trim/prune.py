@@ -1,0 +1,211 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Struts with a free end: which of a lattice's struts carry nothing and are to be taken away.
+
+It is told on the struts' axes, before anything is meshed. A strut that the wall cuts ends there:
+a skin holds that end, without a skin it is free. So is the end of a strut at a node without other
+struts. Where a strut goes, its neighbours may get a free end: the search is repeated.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..design.cells import UnitCell
+from ..design.openings import lie_on
+from ..design.spec import LatticeSpec
+from ..grid.placement import Placement, graded_wireframe
+from ..grid.strut_graph import CellGraph, Wireframe, chosen, struts_of
+from ..lattice.padded_grid import PaddedGrid
+from ..mesh.triangle_mesh import TriangleMesh
+from ..shell.domain import Domain
+from ..spatial.proximity import closest_points
+from ..util.types import Bools, Ints
+from .boolean_trim import NUDGE
+from .clip_struts import Pieces, pieces_inside
+
+#: A node this far outside a wall without skin, in units of its joint's radius, still holds its
+#: struts together: a wall through the cells' corners leaves half of every joint there.
+NODE_REACH = 0.5
+
+
+@dataclass(frozen=True, eq=False)
+class Remaining:
+    """What is left of a lattice's struts.
+
+    Attributes:
+        kept: (m,) bool, the struts that stay.
+        stubs: struts taken away because they were short and had a free end.
+        dangling: struts taken away because they had a free end, whatever their length.
+    """
+
+    kept: Bools
+    stubs: int
+    dangling: int
+
+
+@dataclass(frozen=True, eq=False)
+class Pruned:
+    """A lattice without its struts with free ends.
+
+    Attributes:
+        graph: of all the cells that its octants see, with all their struts.
+        left: which of these struts stay.
+        frame: those that belong to active cells and stay, in the part.
+    """
+
+    graph: CellGraph
+    left: Remaining
+    frame: Wireframe
+
+    @property
+    def left_graph(self) -> CellGraph:
+        """The graph with the struts that stay; its nodes are numbered as before."""
+        return replace(self.graph, struts=self.graph.struts[self.left.kept])
+
+
+def prune(
+    padded: PaddedGrid,
+    cell: UnitCell,
+    active: Bools,
+    spec: LatticeSpec,
+    placement: Placement,
+    domain: Domain,
+) -> Pruned:
+    """The lattice of the active cells without the struts that the specification has taken away.
+
+    Args:
+        padded: the cells that it is laid on.
+        cell: the unit cell.
+        active: (nx, ny, nz) bool.
+        spec: what is wanted.
+        placement: the setting.
+        domain: what the lattice fills.
+    """
+    graph = padded.graph(cell, active, spec.is_endless)
+    placed = graded_wireframe(graph, spec, placement)
+    nudged = placed
+    if spec.is_cut:  # as `trim` will lay it
+        nudged = replace(placed, nodes=placed.nodes + NUDGE * spec.cell_size)
+    left = remaining(
+        nudged,
+        domain.mesh if spec.shell > 0 or spec.boundary == "trim" else None,
+        held=spec.shell > 0,
+        openings=domain.openings,
+        shortest=spec.shortest_stub,
+        dangling=spec.remove_dangling,
+    )
+    inner = graph.row[tuple(slice(n, -n or None) for n in graph.first.tolist())]
+    own = struts_of(graph, cell, inner[active])
+    return Pruned(graph, left, chosen(placed, own & left.kept))
+
+
+def remaining(
+    lattice: Wireframe,
+    wall: TriangleMesh | None,
+    *,
+    held: bool,
+    shortest: float,
+    dangling: bool,
+    openings: TriangleMesh | None = None,
+) -> Remaining:
+    """The struts that stay when those with free ends go.
+
+    A strut of which the wall leaves several pieces stays as long as one of them is held at both
+    ends. Struts that lie outside the wall altogether stay, and hold nothing.
+
+    Args:
+        lattice: all the struts, mm.
+        wall: closed mesh that cuts them; None for none.
+        held: whether there is a skin behind the wall, which holds what it cuts.
+        shortest: struts with a free end that are shorter than this go, mm.
+        dangling: all struts with a free end go.
+        openings: faces of the wall that have no skin; None for none.
+    """
+    count = len(lattice.struts)
+    if wall is None:
+        every = np.arange(count)
+        pieces = Pieces(every, np.zeros(count), np.ones(count))
+    else:
+        pieces = pieces_inside(lattice, wall)
+        if not held:
+            pieces = _to_near_nodes(pieces, lattice, wall)
+    length = pieces.lengths(lattice)
+    ends, fixed = _ends(pieces, lattice, held, openings)
+    alive = np.ones(len(ends), bool)
+    owners = np.bincount(pieces.owner, minlength=count) > 0
+
+    def gone() -> Bools:
+        left = np.bincount(pieces.owner[alive], minlength=count)
+        return np.asarray(owners & (left == 0))
+
+    alive = _without_free(ends, fixed, alive, length < shortest)
+    stubs = int(gone().sum())
+    if dangling:
+        alive = _without_free(ends, fixed, alive, alive)
+    lost = gone()
+    return Remaining(~lost, stubs, int(lost.sum()) - stubs)
+
+
+def _to_near_nodes(pieces: Pieces, lattice: Wireframe, wall: TriangleMesh) -> Pieces:
+    """Pieces that end just before a node outside the wall, prolonged to it.
+
+    A strut that runs outside between two such nodes is a piece as a whole.
+    """
+    inside = np.zeros(len(lattice.nodes), bool)
+    for side, at_end in ((0, pieces.low == 0.0), (1, pieces.high == 1.0)):
+        inside[lattice.struts[pieces.owner[at_end], side]] = True
+    outside = np.flatnonzero(~inside)
+    near = np.zeros(len(lattice.nodes), bool)
+    if len(outside):
+        distance = closest_points(wall, lattice.nodes[outside])[1]
+        near[outside] = distance < NODE_REACH * lattice.joint_radii[outside]
+    first = np.diff(pieces.owner, prepend=-1) > 0
+    last = np.diff(pieces.owner, append=len(lattice.struts)) > 0
+    low = np.where(first & near[lattice.struts[pieces.owner, 0]], 0.0, pieces.low)
+    high = np.where(last & near[lattice.struts[pieces.owner, 1]], 1.0, pieces.high)
+    along = near[lattice.struts].all(axis=1)
+    along[pieces.owner] = False
+    added = np.flatnonzero(along)
+    owner = np.concatenate([pieces.owner, added])
+    order = np.argsort(owner, kind="stable")
+    none = np.zeros(len(added))
+    return Pieces(
+        owner[order],
+        np.concatenate([low, none])[order],
+        np.concatenate([high, none + 1.0])[order],
+    )
+
+
+def _ends(
+    pieces: Pieces, lattice: Wireframe, held: bool, openings: TriangleMesh | None
+) -> tuple[Ints, Bools]:
+    """(p, 2) numbers of the pieces' ends: of the node, or one of its own; and which are held."""
+    ends = lattice.struts[pieces.owner].astype(np.int64)
+    count = len(lattice.nodes)
+    points = []
+    for side, share, cut in (
+        (0, pieces.low, pieces.low > 0.0),
+        (1, pieces.high, pieces.high < 1.0),
+    ):
+        start, end = lattice.nodes[lattice.struts[pieces.owner[cut]]].swapaxes(0, 1)
+        points.append(start + share[cut, None] * (end - start))
+        ends[cut, side] = count + np.arange(int(cut.sum()))
+        count += int(cut.sum())
+    fixed = np.zeros(count, bool)
+    fixed[len(lattice.nodes) :] = held
+    if held and openings is not None:
+        fixed[len(lattice.nodes) :] = ~lie_on(openings, np.concatenate(points))
+    return ends, fixed
+
+
+def _without_free(ends: Ints, fixed: Bools, alive: Bools, may_go: Bools) -> Bools:
+    """The pieces that are left when those that may go, do so once they have a free end."""
+    while True:
+        degree = np.bincount(ends[alive].ravel(), minlength=len(fixed))
+        free = (degree == 1) & ~fixed
+        going = alive & may_go & free[ends].any(axis=1)
+        if not going.any():
+            return alive
+        alive = alive & ~going

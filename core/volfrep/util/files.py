@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Writing a file so that it is either complete or not there."""
+
+from __future__ import annotations
+
+import os
+import secrets
+import shutil
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import BinaryIO
+
+from .errors import VolfrepError
+
+#: What Windows says of a file that is to be replaced while a program holds it open.
+_WINDOWS_HOLDS = (5, 32)
+
+
+def check_writable(path: str | os.PathLike[str]) -> Path:
+    """The path itself, once it is clear that a file could be put there.
+
+    Raises:
+        VolfrepError: the folder does not exist or is closed to us, or the name is taken by
+            something that is not a file.
+    """
+    target = Path(path)
+    try:
+        folder = target.resolve().parent
+        taken = target.exists()
+        if not folder.is_dir():
+            raise VolfrepError(f"Cannot write '{target}': there is no folder '{folder}'.")
+        if taken and not target.is_file():
+            raise VolfrepError(f"Cannot write '{target}': it exists and is not a file.")
+    except OSError as error:  # a name too long, a loop of links
+        raise VolfrepError(f"Cannot write '{target}': {error.strerror}.") from error
+    if not os.access(folder, os.W_OK) or (taken and not os.access(target, os.W_OK)):
+        raise VolfrepError(f"Cannot write '{target}': permission denied.")
+    return target
+
+
+def same_file(one: str | os.PathLike[str], other: str | os.PathLike[str]) -> bool:
+    """Whether both paths mean one file, through symbolic and hard links too.
+
+    Paths where nothing is yet are compared by where a file written there would be.
+    """
+    try:
+        return os.path.samefile(one, other)
+    except OSError:  # at least one is not there, or cannot be looked at
+        first, second = (os.path.normcase(Path(path).resolve()) for path in (one, other))
+        return first == second
+
+
+def refuse_overwriting(
+    outputs: Mapping[str, str | os.PathLike[str]], inputs: Mapping[str, str | os.PathLike[str]]
+) -> None:
+    """Refuse to write a file over one that the job is made of.
+
+    Args:
+        outputs: paths to be written, by what a user calls them ("output", "report").
+        inputs: paths that are read, the same way ("part", "cell file").
+
+    Raises:
+        VolfrepError: naming the two.
+    """
+    for what, path in outputs.items():
+        for source, read in inputs.items():
+            if same_file(path, read):
+                raise VolfrepError(
+                    f"The {what} '{path}' is the {source} itself: give another name."
+                )
+
+
+@contextmanager
+def replacing(path: str | os.PathLike[str], size: int = 0) -> Iterator[BinaryIO]:
+    """A binary file to write, which takes the target's place only when the block succeeds.
+
+    It is written beside the target (beside what a link points at); after an error or an
+    interruption it is removed, and whatever the target held before is untouched.
+
+    Args:
+        path: of the target.
+        size: bytes that will be written at least, where that is known.
+
+    Raises:
+        VolfrepError: naming the target and why it cannot be written (a full disk included, before
+            anything is written where the size is known).
+    """
+    target = check_writable(path)
+    real = target.resolve()
+    free = shutil.disk_usage(real.parent).free
+    if size > free:
+        raise VolfrepError(
+            f"Cannot write '{target}': it will have {size / 1e9:.3g} GB and the disk has "
+            f"{free / 1e9:.3g} GB left; free some, or use a coarser resolution or fewer cells."
+        )
+    part = real.with_name(f".volfrep-{secrets.token_hex(4)}.part")
+    try:
+        try:
+            with part.open("xb") as file:
+                yield file
+            if real.exists():
+                shutil.copymode(real, part)
+            os.replace(part, real)
+        finally:
+            part.unlink(missing_ok=True)
+    except OSError as error:
+        raise not_written(target, error) from error
+
+
+def not_written(target: Path, error: OSError) -> VolfrepError:
+    """Why a file could not be written or put in another's place."""
+    if getattr(error, "winerror", None) in _WINDOWS_HOLDS:
+        return VolfrepError(
+            f"Cannot write '{target}': {error.strerror}; it may be open in another program."
+        )
+    return VolfrepError(f"Cannot write '{target}': {error.strerror}.")

@@ -1,0 +1,617 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The command: its interface, its one sentence for any bad input, its exit codes."""
+
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import trimesh
+
+from volfrep.cli import command as cli
+from volfrep.cli import files as cli_files
+from volfrep.cli import grading_options
+from volfrep.design import grading, profile
+from volfrep.design.cells import LIBRARY, UnitCell
+from volfrep.design.drawn_cell import save_cell
+from volfrep.io.solid import read_triangles
+from volfrep.io.write.stl import as_read, write_stl
+from volfrep.mesh.quality import measure
+from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
+
+COMMAND = [sys.executable, "-m", "volfrep"]
+
+LATTICE = ["--cell", "Box", "--cell-size", "10", "--strut-radius", "1"]
+
+
+def cube(side: float = 30.0) -> TriangleMesh:
+    shape = trimesh.creation.box((side, side, side))
+    return TriangleMesh(np.array(shape.vertices), np.array(shape.faces).astype(np.int32))
+
+
+@pytest.fixture
+def part(tmp_path: Path) -> Path:
+    path = tmp_path / "part.stl"
+    write_stl(cube(), path)
+    return path
+
+
+def refused(capsys: pytest.CaptureFixture[str], *arguments: object) -> str:
+    """The sentence with which the command refuses."""
+    assert cli.run([str(argument) for argument in arguments]) == 2
+    out, err = capsys.readouterr()
+    assert not out or out.startswith("Expected: about ")
+    assert out.count("\n") <= 1
+    assert err.startswith("volfrep: ")
+    assert err.endswith(".\n")
+    assert err.count("\n") == 1
+    return err
+
+
+# --- without any work ---------------------------------------------------------------------------
+
+
+def test_help_and_version() -> None:
+    for option, expected in (("--help", "fill"), ("--version", "volfrep 0.")):
+        done = subprocess.run([*COMMAND, option], capture_output=True, text=True, check=True)
+        assert expected in done.stdout
+
+
+@pytest.mark.parametrize("arguments", [["--help"], ["--version"], ["fill", "--help"]])
+def test_help_and_version_start_at_once_without_numpy(arguments: list[str]) -> None:
+    code = (
+        "import sys\nfrom volfrep.cli import command as cli\n"
+        f"try:\n    cli.run({arguments!r})\nexcept SystemExit:\n    pass\n"
+        "sys.exit('numpy' in sys.modules)"
+    )
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True).returncode == 0
+
+
+def test_cells(capsys: pytest.CaptureFixture[str]) -> None:
+    assert cli.run(["cells"]) == 0
+    rows = [line.split() for line in capsys.readouterr().out.splitlines()]
+    assert rows[0] == ["name", "nodes", "struts", "Maxwell", "deformation"]
+    assert rows[1:] == [
+        [
+            cell.name,
+            str(len(cell.nodes)),
+            str(len(cell.struts)),
+            str(cell.maxwell_number),
+            cell.deformation_mode,
+        ]
+        for cell in LIBRARY.values()
+    ]
+
+
+@pytest.mark.skipif(os.name == "nt", reason="needs a shell with pipes")
+def test_a_reader_that_stops_early_is_no_error() -> None:
+    done = subprocess.run(
+        f"(sleep 0.5; {' '.join(COMMAND)} cells) | true",
+        shell=True,
+        executable="/bin/bash",
+        capture_output=True,
+        text=True,
+    )
+    assert done.stderr == ""
+
+
+# --- bad input ----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ([], "required: COMMAND"),
+        (["melt"], "invalid choice: 'melt'"),
+        (["fill"], "required: PART, -o, --cell"),
+        (["block", "-o", "x.stl", *LATTICE], "required: --count"),
+        (["block", "-o", "x.stl", *LATTICE, "--count", "1", "2"], "expected 3 arguments"),
+        (
+            ["block", "-o", "x.stl", *LATTICE, "--count", "1", "2", "2.5"],
+            "invalid int value: '2.5'",
+        ),
+        (["block", "-o", "x.stl", *LATTICE, "--count", "1", "2", "3", "--foo"], "--foo"),
+        (["block", "--cell-size", "ten"], "invalid float value: 'ten'"),
+        (["cells", "--all"], "Unrecognized arguments: --all"),
+        (["check"], "required: FILE"),
+    ],
+)
+def test_arguments_that_make_no_sense(
+    capsys: pytest.CaptureFixture[str], arguments: list[str], message: str
+) -> None:
+    assert message in refused(capsys, *arguments)
+
+
+def test_resolution_or_deviation(capsys: pytest.CaptureFixture[str]) -> None:
+    both = ["--resolution", "20", "--deviation", "0.1"]
+    assert "not allowed with" in refused(capsys, "block", "-o", "x.stl", *LATTICE, *both)
+
+
+@pytest.mark.parametrize(
+    ("changed", "message"),
+    [
+        (["--cell", "Gyroid"], "no unit cell named 'Gyroid'"),
+        (["--cell-size", "nan"], "cell size must be a finite number"),
+        (["--cell-size", "-1e1"], "cell size must be above 0 mm, not -10"),
+        (["--strut-radius", "7"], "too thick for a cell"),
+        (["--shell", "-1"], "shell thickness must not be negative"),
+        (["--activation", "near"], "There is no activation 'near'"),
+        (["--boundary", "cut"], "There is no boundary 'cut'"),
+        (["--output", "skin"], "There is no output 'skin'"),
+        (["--origin", "0", "0", "inf"], "origin must be a finite number"),
+        (["--resolution", "1"], "resolution must be a whole number"),
+        (["--deviation", "0"], "deviation must be above 0"),
+        (["--fillet", "9"], "fillet of 9 mm is too large"),
+        (["--density", "0"], "density must be above 0"),
+    ],
+)
+def test_values_that_make_no_sense(
+    capsys: pytest.CaptureFixture[str],
+    tmp_path: Path,
+    part: Path,
+    changed: list[str],
+    message: str,
+) -> None:
+    arguments = ["fill", part, "-o", tmp_path / "out.stl", *LATTICE, "--shell", "2", *changed]
+    assert message in refused(capsys, *arguments)
+    assert not (tmp_path / "out.stl").exists()
+
+
+def test_places_that_cannot_be_written(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, part: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fill_to(out: object, *more: object) -> str:
+        return refused(capsys, "fill", part, "-o", out, *LATTICE, "--shell", "2", *more)
+
+    assert "'.xyz' is not a known mesh format" in fill_to(tmp_path / "out.xyz")
+    assert "name without an extension" in fill_to(tmp_path / "out")
+    assert "there is no folder" in fill_to(tmp_path / "none" / "out.stl")
+    assert "is not a file" in fill_to(tmp_path)
+    good = tmp_path / "out.stl"
+    assert "there is no folder" in fill_to(good, "--report", tmp_path / "none" / "r.json")
+    assert "cannot both be written" in fill_to(good, "--report", good)
+    # As a user without the right to write there (root has every right).
+    monkeypatch.setattr(os, "access", lambda path, mode: False)
+    assert "permission denied" in fill_to(good)
+
+
+def test_the_tables_of_files_hold_every_option_that_takes_one(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    taken = {"part", "cell"}  # PART, and --cell, which takes a name, too
+    for command in ("fill", "block"):
+        with pytest.raises(SystemExit):
+            cli.run([command, "--help"])
+        usage = capsys.readouterr().out
+        flags = re.findall(r"--?([\w-]+) (?:FILE|OUT)\b", usage)
+        assert {"o", "report", "radius-field"} <= set(flags)
+        taken |= {"out" if flag == "o" else flag.replace("-", "_") for flag in flags}
+    assert taken == {*cli_files.INPUTS, *cli_files.OUTPUTS}
+
+
+@pytest.mark.parametrize("way", ["its name", "a symbolic link", "a hard link"])
+@pytest.mark.parametrize("output", cli_files.OUTPUTS)
+@pytest.mark.parametrize(
+    ("command", "source"),
+    [
+        *(("fill", source) for source in cli_files.INPUTS),
+        *(("block", source) for source in cli_files.INPUTS if source != "part"),
+    ],
+)
+def test_no_output_is_an_input(
+    capsys: pytest.CaptureFixture[str],
+    tmp_path: Path,
+    part: Path,
+    command: str,
+    source: str,
+    output: str,
+    way: str,
+) -> None:
+    box = LIBRARY["Box"]
+    files = {"part": part, "cell": tmp_path / "own.json", "radius_field": tmp_path / "field.csv"}
+    save_cell(UnitCell("own", box.nodes, box.struts), files["cell"])
+    files["radius_field"].write_text("x,y,z,v\n0,0,0,1\n9,0,0,2\n")
+    before = {file: file.read_bytes() for file in files.values()}
+    target = files[source]
+    if way != "its name":
+        target = tmp_path / "other.stl"
+        (os.symlink if way == "a symbolic link" else os.link)(files[source], target)
+    outputs = {"out": tmp_path / "new.stl", "report": tmp_path / "new.json", output: target}
+    arguments = [command, *([part, "--shell", 2] if command == "fill" else ["--count", 1, 1, 1])]
+    arguments += ["-o", outputs["out"], "--report", outputs["report"], "--cell", files["cell"]]
+    arguments += ["--cell-size", 10, "--strut-radius", 1, "--radius-grading", "field"]
+    arguments += ["--radius-field", files["radius_field"], "--radius-curve", "1:1,2:0.8"]
+    said = refused(capsys, *arguments)
+    assert f"is the {cli_files.INPUTS[source]} itself" in said
+    assert {file: file.read_bytes() for file in files.values()} == before
+    assert not (tmp_path / "new.stl").exists()
+    assert not (tmp_path / "new.json").exists()
+
+
+def test_a_file_with_the_name_of_a_library_cell_is_no_input(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    report = tmp_path / "Box"
+    report.write_text("old")
+    out = tmp_path / "out.stl"
+    assert (
+        cli.run(["block", "-o", str(out), *LATTICE, "--count", "1", "1", "1", "--report", "Box"])
+        == 0
+    )
+    assert json.loads(report.read_text())["watertight"]
+
+
+def test_a_file_to_check_must_be_readable(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    assert "No such file" in refused(capsys, "check", tmp_path / "missing.stl")
+    assert "not a kind of file" in refused(capsys, "check", tmp_path / "part.txt")
+    (tmp_path / "empty.stl").touch()
+    assert "is empty" in refused(capsys, "check", tmp_path / "empty.stl")
+    (tmp_path / "folder.stl").mkdir()
+    assert "Is a directory" in refused(capsys, "check", tmp_path / "folder.stl")
+
+
+@pytest.mark.parametrize(
+    ("argument", "expected"),
+    [
+        ("-1", "-1"),
+        ("-1.5", "-1.500000000000000"),
+        ("-1e3", "-1000.000000000000000"),
+        ("-.5E-1", "-0.050000000000000"),
+        ("-5.", "-5.000000000000000"),
+        ("-o", "-o"),
+        ("-e5", "-e5"),
+        ("1e3", "1e3"),
+        ("-1-2", "-1-2"),
+        ("-5:0.4,0:1", " -5:0.4,0:1"),
+    ],
+)
+def test_negative_numbers_are_numbers(argument: str, expected: str) -> None:
+    assert cli._plain_number(argument) == expected
+
+
+# --- check --------------------------------------------------------------------------------------
+
+
+def checked(capsys: pytest.CaptureFixture[str], path: Path) -> dict[str, str]:
+    assert cli.run(["check", str(path)]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    return {line[:16].strip(): line[16:].strip() for line in lines}
+
+
+def test_check_of_a_good_file(capsys: pytest.CaptureFixture[str], part: Path) -> None:
+    said = checked(capsys, part)
+    assert said["triangles"] == "12"
+    assert (said["closed"], said["manifold"], said["bodies"]) == ("yes", "yes", "1")
+    assert said["volume"] == "27,000.000 mm3"
+    assert said["box"] == "30.000 x 30.000 x 30.000 mm"
+    assert said["smallest angle"] == "45.00 degrees"
+
+
+def test_check_of_broken_surfaces(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    path = tmp_path / "odd.stl"
+    write_stl(TriangleMesh(cube().vertices, cube().triangles[1:]), path)
+    said = checked(capsys, path)
+    assert (said["closed"], said["manifold"]) == ("no (3 open edges)", "no")
+    assert "genus" not in said
+
+    moved = TriangleMesh(cube().vertices + 30.0, cube().triangles)
+    write_stl(concatenate(cube(), moved), path)
+    said = checked(capsys, path)
+    assert said["closed"] == "yes"
+    assert said["manifold"] == "no (1 vertices where surfaces touch)"
+
+    beside = TriangleMesh(cube().vertices + np.array([30.0, 30.0, 0.0]), cube().triangles)
+    write_stl(concatenate(cube(), beside), path)
+    assert "1 edges of more than two triangles" in checked(capsys, path)["manifold"]
+
+
+# --- the work -----------------------------------------------------------------------------------
+
+
+def test_block(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    out, report = tmp_path / "block.stl", tmp_path / "block.json"
+    arguments = ["block", "-o", out, *LATTICE, "--count", "2", "1", "3", "--report", report]
+    assert cli.run([str(argument) for argument in arguments]) == 0
+    said = capsys.readouterr()
+    assert "cells" in said.out
+    assert said.err == ""
+    figures = json.loads(report.read_text())
+    assert figures["cells_total"] == figures["cells_active"] == 6
+    assert (figures["nodes"], figures["struts"]) == (24, 46)
+    assert figures["genus"] == 46 - 24 + 1
+    assert {"write"} < figures["stages"].keys()
+    quality = measure(as_read(read_triangles(out)))
+    assert quality.watertight
+    assert (quality.bodies, quality.genus) == (1, 23)
+    assert quality.triangles == figures["triangles"]
+    assert quality.volume == pytest.approx(figures["volume_mm3"], rel=1e-5)
+
+
+def test_fill(capsys: pytest.CaptureFixture[str], tmp_path: Path, part: Path) -> None:
+    out, report = tmp_path / "out.stl", tmp_path / "out.json"
+    arguments = ["fill", part, "-o", out, *LATTICE, "--shell", "2", "--report", report, "--quiet"]
+    arguments += ["--density", "2.7", "--origin", "-1e0", "0", "0"]
+    assert cli.run([str(argument) for argument in arguments]) == 0
+    assert capsys.readouterr().out == ""
+    figures = json.loads(report.read_text())
+    expected = {
+        "cells_total", "cells_active", "nodes", "struts", "triangles", "bodies", "genus",
+        "volume_mm3", "relative_density", "mass_g", "watertight", "stages", "peak_memory_mb",
+    }  # fmt: skip
+    assert expected <= figures.keys()
+    assert {"read", "write"} < figures["stages"].keys()
+    assert figures["mass_g"] == pytest.approx(figures["volume_mm3"] * 2.7e-3)
+    assert figures["spec"]["origin"] == [-1, 0, 0]
+    quality = measure(as_read(read_triangles(out)))
+    assert (quality.watertight, quality.bodies) == (True, 1)
+    assert quality.bounds == pytest.approx(np.array([[-15.0] * 3, [15.0] * 3]))
+
+
+# --- graded lattices ----------------------------------------------------------------------------
+
+GRADED_BLOCK = ["block", "--cell", "Box", "--cell-size", "10", "--strut-radius", "0.8"]
+
+
+def said_rows(text: str) -> dict[str, str]:
+    return {line[:18].strip(): line[18:].strip() for line in text.splitlines()}
+
+
+def test_block_of_growing_cells(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    out, report = tmp_path / "block.stl", tmp_path / "block.json"
+    arguments = [*GRADED_BLOCK, "-o", out, "--count", "2", "1", "1", "--resolution", "12"]
+    arguments += ["--size-grading", "linear", "--lambda-max", "2", "--report", report]
+    arguments += ["--grading-direction", "2", "0", "0"]
+    assert cli.run([str(argument) for argument in arguments]) == 0
+    rows = said_rows(capsys.readouterr().out)
+    # x (1 + x / 20) takes the faces at 0, 10, 20 mm to 0, 15, 40 mm.
+    assert rows["cell edges"] == "10 to 25 mm"
+    assert rows["strut lengths"] == "10 to 25 mm"
+    assert rows["strut radii"] == "0.8 to 0.8 mm"
+    figures = json.loads(report.read_text())
+    assert figures["cell_edges_mm"] == pytest.approx([10, 25])
+    assert figures["strut_lengths_mm"] == pytest.approx([10, 25])
+    assert figures["spec"]["size_grading"]["profile"]["end"] == 2
+    mesh = as_read(read_triangles(out))
+    assert np.ptp(mesh.vertices[:, 0]) == pytest.approx(40 + 2 * 0.8 * 1.08, abs=0.25)
+    assert measure(mesh).watertight
+
+
+def test_block_turned_with_conical_struts(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    out = tmp_path / "block.stl"
+    arguments = [*GRADED_BLOCK, "-o", out, "--count", "2", "1", "1", "--resolution", "12"]
+    arguments += ["--radius-grading", "direction", "--radius-max", "1.2", "--radius-min", "0.6"]
+    arguments += ["--rotate", "0", "0", "-1", "90", "--radius-direction", "0", "-1", "0"]
+    arguments += ["--rotate-origin", "0", "0", "0"]
+    assert cli.run([str(argument) for argument in arguments]) == 0
+    rows = said_rows(capsys.readouterr().out)
+    assert rows["cell edges"] == "10 to 10 mm"
+    assert rows["strut radii"] == "0.6 to 1.2 mm"
+    low, high = as_read(read_triangles(out)).bounds
+    # Two cells that lay along x lie along -y; the thick end, its joints r (1 + r / L), is far out.
+    assert high[1] == pytest.approx(0.6 * 1.06, abs=0.1)
+    assert low[1] == pytest.approx(-20 - 1.2 * 1.12, abs=0.2)
+
+
+def test_fill_by_a_field(capsys: pytest.CaptureFixture[str], tmp_path: Path, part: Path) -> None:
+    table = tmp_path / "field.csv"
+    table.write_text("x,y,z,a,b\n-15,0,0,-5,1\n15,0,0,5,1\n")
+    out, report = tmp_path / "out.stl", tmp_path / "out.json"
+    arguments = ["fill", part, "-o", out, *LATTICE, "--shell", "2", "--resolution", "12"]
+    arguments += ["--radius-grading", "field", "--radius-field", table, "--radius-column", "a"]
+    arguments += ["--radius-curve", "-5:0.6,5:1.1", "--report", report]
+    assert cli.run([str(argument) for argument in arguments]) == 0
+    assert capsys.readouterr().err == ""
+    figures = json.loads(report.read_text())
+    least, most = figures["strut_radii_mm"]
+    assert 0.6 <= least < 0.7
+    assert 1.0 < most <= 1.1
+    assert figures["spec"]["radius_grading"]["field"] == f"2 points of {table}"
+    assert measure(as_read(read_triangles(out))).bodies == 1
+
+
+def test_fill_about_an_axis(tmp_path: Path, part: Path) -> None:
+    out, report = tmp_path / "out.stl", tmp_path / "out.json"
+    arguments = ["fill", part, "-o", out, "--cell", "Box", "--cell-size", "10", "--shell", "2"]
+    arguments += ["--strut-radius", "0.6", "--resolution", "12", "--cell-map", "cylindrical"]
+    arguments += ["--map-around", "9", "--map-centre", "0", "0", "5", "--map-axis", "0", "0", "1"]
+    arguments += ["--stretch-struts", "--report", report, "--quiet"]
+    assert cli.run([str(argument) for argument in arguments]) == 0
+    figures = json.loads(report.read_text())
+    assert figures["grid"][1] == 9
+    assert figures["spec"]["keep_radius"] is False
+    # Chords of a ninth of a turn, as far out as the box's corners at the most.
+    assert figures["cell_edges_mm"][1] <= 2 * 30 * np.sin(np.pi / 9)
+    assert measure(as_read(read_triangles(out))).bodies == 1
+
+
+LINEAR = ["--size-grading", "linear", "--lambda-max", "2"]
+BY_X = ["--radius-grading", "direction", "--radius-max", "1.2"]
+BY_FIELD = ["--radius-grading", "field"]
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["--size-grading", "cubic"], "invalid choice: 'cubic'"),
+        (["--size-grading", "linear"], "needs --lambda-max"),
+        (["--size-grading", "scalar"], "needs --lambda-min"),
+        (["--size-grading", "expression"], "needs --lambda"),
+        (["--size-grading", "expression", "--lambda", "1 + t"], "'t'"),
+        (["--size-grading", "linear", "--lambda-max", "0.4"], "folds the lattice at s ="),
+        ([*LINEAR, "--lambda-min", "-1"], "start must be finite and above 0, not -1"),
+        ([*LINEAR, "--grading-direction", "0", "0", "0"], "grading direction must have a length"),
+        (["--lambda-max", "2"], "--lambda-max has no effect without --size-grading"),
+        (["--lambda", "1 + s"], "--lambda has no effect without --size-grading expression"),
+        (["--grading-direction", "1", "0", "0"], "no effect without --size-grading"),
+        (["--stretch-struts"], "--stretch-struts has no effect without --size-grading or"),
+        (["--radius-grading", "direction"], "needs --radius-min or --radius-max"),
+        (["--radius-max", "1.2"], "--radius-max has no effect without --radius-grading"),
+        ([*BY_X, "--radius-reach", "4"], "no effect without --radius-grading skin or core"),
+        ([*BY_X, "--radius-field", "f.csv"], "no effect without --radius-grading field"),
+        ([*BY_X, "--radius-formula", "1"], "no effect without --radius-law expression"),
+        ([*BY_X, "--radius-law", "expression"], "no effect without --radius-law linear"),
+        ([*BY_X[:2], "--radius-law", "expression"], "needs --radius-formula"),
+        ([*BY_X, "--radius-max", "9"], "too thick for a cell"),
+        (["--radius-grading", "skin", "--radius-max", "1.2"], "no skin to grade the radius by"),
+        ([*BY_FIELD, "--radius-max", "1.2"], "a CSV or VTK file"),
+        ([*BY_FIELD, "--radius-field", "none.csv", "--radius-max", "1.2"], "none.csv"),
+        ([*BY_FIELD, "--radius-curve", "1:0.5,2"], "part '2' is no pair"),
+        ([*BY_FIELD, "--radius-curve", "0:1,1:2", "--radius-max", "1"], "--radius-curve, which"),
+        ([*BY_FIELD, "--radius-law", "linear"], "no effect without --radius-grading direction"),
+        (["--rotate", "0", "0", "0", "9"], "axis of the rotation must have a length"),
+        (["--rotate", "0", "0", "9"], "expected 4 arguments"),
+        (["--rotate-origin", "0", "0", "0"], "no effect without --rotate"),
+        (["--cell-map", "toroidal"], "invalid choice: 'toroidal'"),
+        (["--cell-map", "cylindrical", "--map-around", "2"], "whole number from 4"),
+        (["--map-axis", "0", "0", "1"], "no effect without --cell-map"),
+    ],
+)
+def test_gradings_that_make_no_sense(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, options: list[str], message: str
+) -> None:
+    out = tmp_path / "out.stl"
+    said = refused(capsys, *GRADED_BLOCK, "-o", out, "--count", "2", "2", "2", *options)
+    assert message in said
+    assert not out.exists()
+
+
+def test_the_choices_are_those_of_the_engine() -> None:
+    assert grading_options.PROFILES == profile.KINDS
+    assert grading_options.RADIUS_BY == grading.RADIUS_BY
+    assert ("cartesian", *grading_options.MAPS) == grading.MAPS
+
+
+def test_a_part_that_cannot_be_read(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    for name, content in (("missing.stl", None), ("empty.stl", b""), ("text.stl", b"hello\n" * 99)):
+        path = tmp_path / name
+        if content is not None:
+            path.write_bytes(content)
+        out = tmp_path / "out.stl"
+        assert name in refused(capsys, "fill", path, "-o", out, *LATTICE, "--shell", "2")
+
+
+def test_not_enough_memory(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def greedy(*_: Any, **__: Any) -> None:
+        raise MemoryError
+
+    monkeypatch.setattr("volfrep.jobs.blocks.write_block_stl", greedy)
+    arguments = ["block", "-o", tmp_path / "x.stl", *LATTICE, "--count", "1", "1", "1"]
+    assert "not enough memory" in refused(capsys, *arguments)
+
+
+#: The command, which stops for good while it writes, as soon as its unfinished file is there.
+HELD = """
+import pathlib, sys, time
+from volfrep.cli import main
+from volfrep.progress import Monitor
+
+tick = Monitor.tick
+
+def hold(self, fraction=None):
+    tick(self, fraction)
+    if list(pathlib.Path().glob(".volfrep-*.part")):
+        print("writing", flush=True)
+        time.sleep(600)
+
+Monitor.tick = hold
+sys.exit(main())
+"""
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGINT for another process")
+def test_ctrl_c_leaves_nothing(tmp_path: Path) -> None:
+    (tmp_path / "block.stl").write_bytes(b"old")
+    arguments = ["block", "-o", "block.stl", "--quiet", *LATTICE, "--count", "4", "4", "4"]
+    running = subprocess.Popen(
+        [sys.executable, "-c", HELD, *arguments],
+        cwd=tmp_path,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        # A shell starts what it puts into the background with SIGINT ignored, tests included.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )
+    assert running.stdout is not None
+    assert running.stdout.readline() == b"writing\n"
+    assert len(os.listdir(tmp_path)) == 2
+    running.send_signal(signal.SIGINT)
+    _, said = running.communicate(timeout=300)
+    assert running.returncode == 130
+    assert said == b"volfrep: Interrupted, no file was left half-written.\n"
+    assert os.listdir(tmp_path) == ["block.stl"]
+    assert (tmp_path / "block.stl").read_bytes() == b"old"
+
+
+def test_open_planes_and_drain_holes(
+    part: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    report = tmp_path / "report.json"
+    common = ["fill", str(part), *LATTICE, "--shell", "3", "-o", str(tmp_path / "x.stl")]
+    common += ["--report", str(report)]
+    assert cli.run([*common, "--open-plane", "0,0,-15,0,0,-1"]) == 0
+    assert json.loads(report.read_text())["voids"] == 0
+    holes = ["--drain-count", "1", "--drain-diameter", "1.5", "--build-direction", "-1,0,0"]
+    assert cli.run([*common, *holes]) == 0
+    figures = json.loads(report.read_text())
+    assert figures["voids"] == 0
+    ((x, _, _),) = figures["drain_holes"]
+    assert f"1 at ({x:.4g}," in capsys.readouterr().out
+    assert figures["spec"]["drains"]["build_direction"] == [-1.0, 0.0, 0.0]
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["--open-plane", "0,0,0,0,0"], "--open-plane takes 6 numbers"),
+        (["--open-plane", "a,0,0,0,0,1"], "is not numbers between commas"),
+        (["--drain", "0,0", "--drain-diameter", "2"], "--drain takes 3 or 6 numbers"),
+        (["--drain", "0,0,0"], "need a diameter"),
+        (["--drain-diameter", "2"], "needs --drain places or a --drain-count"),
+    ],
+)
+def test_openings_that_make_no_sense(
+    part: Path,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    options: list[str],
+    message: str,
+) -> None:
+    command = ["fill", str(part), *LATTICE, "--shell", "1", "-o", str(tmp_path / "x.stl")]
+    assert cli.run([*command, *options]) == 2
+    assert message in capsys.readouterr().err
+
+
+def test_a_defect_is_one_sentence_and_its_traceback_a_file(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    import volfrep.jobs.blocks
+
+    def broken(*_: object, **__: object) -> None:
+        raise ZeroDivisionError("by accident")
+
+    monkeypatch.setattr(volfrep.jobs.blocks, "write_block_stl", broken)
+    monkeypatch.setenv("TMPDIR", str(tmp_path))
+    monkeypatch.setattr("tempfile.tempdir", None)
+    out = tmp_path / "block.stl"
+    out.write_bytes(b"the old file")
+    arguments = ["block", "-o", str(out), *LATTICE, "--count", "1", "1", "1", "--quiet"]
+    assert cli.run(arguments) == 1
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert "ZeroDivisionError (by accident)" in said
+    log = Path(said.split("'")[-2])
+    assert log.parent == tmp_path
+    assert "in broken" in log.read_text()
+    assert out.read_bytes() == b"the old file"

@@ -1,0 +1,241 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The command's files for CAD and for CalculiX: the extension and one option say which."""
+
+import re
+import shutil
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import command
+import samples
+from volfrep.fem.calculix import solve
+from volfrep.io.write.stl import write_stl
+
+LATTICE = ["--cell", "CVC", "--cell-size", "10", "--strut-radius", "1", "--resolution", "8"]
+needs_freecad = pytest.mark.skipif(
+    shutil.which("freecadcmd") is None, reason="FreeCAD is not installed"
+)
+needs_calculix = pytest.mark.skipif(
+    shutil.which("ccx") is None, reason="CalculiX (ccx) is not installed"
+)
+needs_gmsh = pytest.mark.skipif(shutil.which("gmsh") is None, reason="Gmsh is not installed")
+
+
+@pytest.fixture
+def part(tmp_path: Path) -> Path:
+    path = tmp_path / "part.stl"
+    write_stl(samples.box((24.0, 24.0, 14.0)), path)
+    return path
+
+
+fill, block = partial(command.fill, LATTICE), partial(command.block, LATTICE)
+
+
+def sets_of(deck: Path) -> dict[str, list[int]]:
+    """The node sets of a deck."""
+    found = re.findall(r"\*NSET,NSET=(\w+)\n((?:[\d,]+\n)+)", deck.read_text())
+    return {name: [int(k) for k in re.findall(r"\d+", rows)] for name, rows in found}
+
+
+def test_step_is_faceted_unless_told_otherwise(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert block(tmp_path / "a.step") == 0
+    said = capsys.readouterr().out
+    assert re.search(r"a\.step: [\d,]+ plane faces: about ", said)
+    triangles = re.search(r"triangles +([\d,]+)", said)
+    assert triangles
+    text = (tmp_path / "a.step").read_text()
+    assert text.count("ADVANCED_FACE(") == int(triangles[1].replace(",", ""))
+    assert block(tmp_path / "b.stp", "--step", "faceted", "--quiet") == 0
+    assert (tmp_path / "b.stp").stat().st_size == (tmp_path / "a.step").stat().st_size
+    assert capsys.readouterr().out == ""
+
+
+def test_axes_take_no_mesh(
+    tmp_path: Path,
+    part: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.setattr("volfrep.jobs.blocks.mesh_octants", None)
+    monkeypatch.setattr("volfrep.trim.stage.mesh_octants", None)
+    assert block(tmp_path / "axes.step", "--step", "wireframe") == 0
+    assert (tmp_path / "axes.step").read_text().count("POLYLINE(") == 16
+    said = capsys.readouterr().out
+    assert "16 lines: about" in said
+    assert re.search(r"struts +16 between 14 nodes, as lines", said)
+    assert fill(part, tmp_path / "cut.step", "--step", "wireframe") == 0
+    # All the struts of 2 x 2 x 1 cells, 20 mm wide under a skin of 2 mm, in pieces.
+    assert (tmp_path / "cut.step").read_text().count("POLYLINE(") > 32
+    assert block(tmp_path / "block.inp") == 0
+    assert "160 beams" in capsys.readouterr().out
+
+
+@needs_calculix
+def test_a_deck_of_beams_is_ready_for_a_step(tmp_path: Path, part: Path) -> None:
+    out = tmp_path / "part.inp"
+    assert fill(part, out, "--inp", "beams", "--material", "STEEL,210000,0.3", "--quiet") == 0
+    text = out.read_text()
+    assert "*MATERIAL,NAME=STEEL\n*ELASTIC\n210000,0.3\n" in text
+    assert "*MATERIAL,NAME=STEEL_END\n*ELASTIC\n210000000,0.3\n" in text
+    named = sets_of(out)
+    assert set(named["SKIN"]) < set(named["JOINTS"])
+    # What a user adds: the skin holds the lattice, one joint inside is pulled.
+    inner = min(set(named["JOINTS"]) - set(named["SKIN"]))
+    out.write_text(
+        f"{text}*BOUNDARY\nSKIN,1,6\n*STEP\n*STATIC\n*CLOAD\n{inner},1,10.\n"
+        "*NODE PRINT,NSET=NALL\nU\n*END STEP\n"
+    )
+    moved = solve(out)
+    assert np.abs(moved[np.array(named["SKIN"]) - 1]).max() < 1e-12
+    assert moved[inner - 1, 0] > 1e-9
+
+
+@needs_gmsh
+def test_a_deck_of_tetrahedra(tmp_path: Path, part: Path) -> None:
+    out = tmp_path / "part.inp"
+    assert fill(part, out, "--inp", "tetrahedra", "--density", 7.85, "--quiet") == 0
+    text = out.read_text()
+    assert "*ELEMENT,TYPE=C3D10" in text
+    assert "*DENSITY\n7.85e-09\n" in text
+    assert len(sets_of(out)["SKIN"]) == 8 + 18
+
+
+@needs_freecad
+def test_exact_surfaces_of_a_block(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert block(tmp_path / "block.step", "--step", "exact") == 0
+    captured = capsys.readouterr()
+    assert captured.err == ""
+    assert "16 struts, 13 kinds of joints: about" in captured.out
+    volumes = re.search(r"exact volume +([\d.,]+) mm3 \(mesh: ([\d.,]+) mm3\)", captured.out)
+    assert volumes
+    exact, mesh = (float(text.replace(",", "")) for text in volumes.groups())
+    assert exact == pytest.approx(mesh, rel=5e-3)  # coarse facets
+    text = (tmp_path / "block.step").read_text()
+    assert text.count("CYLINDRICAL_SURFACE(") > 10
+    assert text.count("MANIFOLD_SOLID_BREP(") == 1
+
+
+@needs_freecad
+def test_an_exact_part_is_cut_at_its_inner_wall(
+    tmp_path: Path, part: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert fill(part, tmp_path / "part.step", "--step", "exact") == 0
+    assert capsys.readouterr().err == ""
+    text = (tmp_path / "part.step").read_text()
+    assert text.count("CYLINDRICAL_SURFACE(") > 10
+    assert "BREP_WITH_VOIDS(" in text
+
+
+@needs_freecad
+@pytest.mark.slow
+def test_whole_cells_are_not_cut(
+    tmp_path: Path, part: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    whole = ["--step", "exact", "--activation", "inside", "--boundary", "whole"]
+    lattice = [*whole, "--output", "lattice", "--shell", 0]
+    assert command.run("fill", part, "-o", tmp_path / "a.step", *LATTICE, *lattice) == 0
+    captured = capsys.readouterr()
+    assert "kinds of joints" in captured.out
+    assert captured.err == ""
+    assert (tmp_path / "a.step").read_text().count("CYLINDRICAL_SURFACE(") > 10
+
+
+@needs_freecad
+def test_plane_faces_with_a_message_where_opencascade_does_not_manage(
+    tmp_path: Path, part: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    ball = tmp_path / "ball.stl"
+    write_stl(samples.sphere(11.0, 4), ball)
+    assert fill(ball, tmp_path / "ball.step", "--step", "exact") == 0
+    assert "holds plane faces instead" in capsys.readouterr().err
+    assert "CYLINDRICAL_SURFACE(" not in (tmp_path / "ball.step").read_text()
+    assert "ADVANCED_FACE(" in (tmp_path / "ball.step").read_text()
+
+
+@needs_freecad
+@pytest.mark.slow
+def test_openings_of_the_skin_are_there_or_missed_with_a_message(
+    tmp_path: Path, part: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """An open face is exact too; drain holes are in the mesh only."""
+    exact = ["--step", "exact"]
+    assert fill(part, tmp_path / "a.step", *exact, "--open-plane", "12,12,14,0,0,1") == 0
+    assert capsys.readouterr().err == ""
+    assert "CYLINDRICAL_SURFACE(" in (tmp_path / "a.step").read_text()
+    drains = ["--drain", "12,12,14", "--drain-diameter", 3]
+    assert fill(part, tmp_path / "b.step", *exact, *drains) == 0
+    assert "have no drain holes. The file holds plane faces" in capsys.readouterr().err
+    assert "CYLINDRICAL_SURFACE(" not in (tmp_path / "b.step").read_text()
+
+
+@needs_freecad
+@pytest.mark.slow
+def test_struts_deformed_with_their_cells_are_warned_about(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    stretched = ["--size-grading", "linear", "--lambda-max", 1.5, "--stretch-struts"]
+    for out, more in (("a.step", ["--step", "exact"]), ("a.inp", [])):
+        assert block(tmp_path / out, *more, *stretched) == 0
+        assert "these struts are deformed" in capsys.readouterr().err
+
+
+def test_exact_surfaces_need_freecad(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PATH", str(tmp_path))
+    assert block(tmp_path / "a.step", "--step", "exact") == 2
+    assert "there is no 'freecadcmd' on the PATH" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("name", "more", "message"),
+    [
+        ("x.stl", ["--step", "exact"], "give it the extension .step."),
+        ("x.step", ["--inp", "beams"], "give it the extension .inp."),
+        ("x.stl", ["--material", "A,1,0"], "give it the extension .inp."),
+        ("x.inp", ["--material", "STEEL"], "is not a name and two numbers"),
+        ("x.inp", ["--material", "ST EEL,1,0"], "is not a name and two numbers"),
+        ("x.inp", ["--material", "STEEL,1,0.5"], "Poisson's ratio"),
+        ("x.inp", ["--3mf", "beams"], "give it the extension .3mf"),
+        ("x.inp", ["--report", "r.json"], "which --inp beams does without"),
+        ("x.step", ["--step", "wireframe", "--print-report", "FFF"], "--step wireframe does"),
+        ("x.inp", ["--compact"], "--inp beams has no triangles"),
+        ("x.inp", ["--fillet", "1"], "set the fillet to 0, or choose tetrahedra"),
+        ("x.step", ["--step", "wireframe", "--fillet", "1"], "or choose faceted"),
+        ("x.step", ["--step", "round"], "invalid choice: 'round'"),
+    ],
+)
+def test_what_does_not_go_together(
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+    name: str,
+    more: list[str],
+    message: str,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert block(Path(name), *more) == 2
+    assert message in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_what_only_a_domain_cannot_give(
+    tmp_path: Path, part: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert fill(part, tmp_path / "x.inp", "--output", "domain") == 2
+    assert "holds no lattice" in capsys.readouterr().err
+
+
+def test_absurd_sizes_name_what_would_fit(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "x.inp"
+    assert command.run("block", "-o", out, *LATTICE, "--count", 24, 24, 24) == 2
+    said = capsys.readouterr().err
+    assert "choose a block of 17 x 17 x 17 cells" in said
+    assert not out.exists()

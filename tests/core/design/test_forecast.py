@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What is said before the work against what came out of it."""
+
+import numpy as np
+import pytest
+
+import samples
+from volfrep import block, fill
+from volfrep.design.cells import LIBRARY
+from volfrep.design.forecast import Forecast, expected_triangles, forecast_block, forecast_fill
+from volfrep.design.grading import SizeGrading
+from volfrep.design.profile import Profile
+from volfrep.design.spec import LatticeSpec
+
+#: Promised for triangles, cells and struts: a third to either side, and a little for small parts.
+FACTOR = 1.5
+
+
+def agrees(expected: float, found: float) -> bool:
+    return found / FACTOR < expected < found * FACTOR
+
+
+@pytest.mark.parametrize("cell", LIBRARY)
+def test_a_part(cell):
+    spec = LatticeSpec(cell=cell, cell_size=6.0, strut_radius=0.6, shell=1.5)
+    solid = samples.box((40.0, 30.0, 20.0))
+    expected, report = forecast_fill(solid, spec), fill(solid, spec).report
+    assert agrees(expected.cells, report.cells_active)
+    assert agrees(expected.struts, report.struts)
+    assert agrees(expected.triangles, report.triangles)
+
+
+@pytest.mark.parametrize("cell", LIBRARY)
+@pytest.mark.parametrize("radius", [0.5, 1.0])
+def test_a_block(cell, radius):
+    spec = LatticeSpec(cell=cell, cell_size=10.0, strut_radius=radius, shell=0.0, resolution=16)
+    expected, report = forecast_block(spec, (3, 3, 3)), block(spec, (3, 3, 3)).report
+    assert expected.cells == report.cells_active
+    assert agrees(expected.struts, report.struts)
+    assert agrees(expected.triangles, report.triangles)
+    assert expected.stl_mb == pytest.approx(50e-6 * expected.triangles, rel=1e-4)
+
+
+def test_cells_that_grow_are_fewer():
+    spec = LatticeSpec(
+        cell="CVC", cell_size=5.0, strut_radius=0.5, shell=0.0,
+        size_grading=SizeGrading(Profile("linear", 1.0, 2.0)),
+    )  # fmt: skip
+    solid = samples.sphere(30.0)
+    expected, report = forecast_fill(solid, spec), fill(solid, spec).report
+    assert agrees(expected.cells, report.cells_active)
+    assert agrees(expected.triangles, report.triangles)
+
+
+def test_finer_facets_grow_with_the_square():
+    coarse, fine = (LatticeSpec(cell="BCC", resolution=n) for n in (20, 40))
+    assert expected_triangles(fine, 1e6) == pytest.approx(4 * expected_triangles(coarse, 1e6))
+
+
+def test_memory_and_time_rise_with_the_job():
+    spec = LatticeSpec(cell="BCC", cell_size=5.0, strut_radius=0.5)
+    sizes = [samples.box((side, side, side)) for side in (20.0, 40.0, 80.0)]
+    jobs = [forecast_fill(solid, spec) for solid in sizes]
+    for value in ("cells", "struts", "triangles", "memory_gb", "stl_mb", "seconds"):
+        assert np.all(np.diff([getattr(job, value) for job in jobs]) > 0)
+
+
+@pytest.mark.parametrize(
+    ("seconds", "words"), [(0.1, "1 s"), (12.4, "12 s"), (600.0, "10 min"), (7300.0, "2 h")]
+)
+def test_it_reads_as_a_sentence(seconds, words):
+    text = str(Forecast(1234, 9876, 1_234_567, 1.26, 61.7, seconds))
+    assert text == (
+        "about 1,200 cells, 9,900 struts, 1,200,000 triangles, 1.3 GB of memory, an STL file of "
+        f"62 MB and {words}"
+    )

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Tetrahedra by Gmsh: the mesh's own triangles outside, and a bar that CalculiX stretches."""
+
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import samples
+from volfrep import LatticeSpec, block, fill
+from volfrep.fem.calculix import solve
+from volfrep.fem.model import Material, StaticStep
+from volfrep.fem.tet_mesh import MAX_TRIANGLES, nodes_on, tetrahedra
+from volfrep.io.write.calculix import sides, write_tetrahedra
+from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
+from volfrep.util.errors import Cancelled, VolfrepError
+from volfrep.util.progress import Monitor
+
+needs_gmsh = pytest.mark.skipif(shutil.which("gmsh") is None, reason="Gmsh is not installed")
+needs_both = pytest.mark.skipif(
+    shutil.which("gmsh") is None or shutil.which("ccx") is None,
+    reason="Gmsh or CalculiX is not installed",
+)
+
+
+@needs_gmsh
+def test_a_lattice_keeps_its_triangles():
+    spec = LatticeSpec(cell="CVC", cell_size=10, strut_radius=1)
+    mesh = block(spec, (1, 1, 1)).mesh
+    filled = tetrahedra(mesh)
+    corners = filled.elements[:, :4]
+    assert filled.volumes().sum() == pytest.approx(mesh.volume, rel=1e-9)
+    assert filled.volumes().min() > 0
+    # Faces of a single tetrahedron, seen from outside, are the mesh's triangles.
+    faces = np.concatenate([corners[:, k] for k in ([0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2])])
+    _, index, uses = np.unique(
+        np.sort(faces, axis=1), axis=0, return_index=True, return_counts=True
+    )
+    outside = filled.nodes[faces[index[uses == 1]]]
+    own = mesh.vertices[mesh.triangles]
+    assert np.array_equal(canonical(outside), canonical(own))
+    # The order that solvers ask for: each further node in the middle of its edge.
+    for node, (a, b) in enumerate(((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)), 4):
+        middle = filled.nodes[corners[:, [a, b]]].mean(axis=1)
+        assert np.abs(filled.nodes[filled.elements[:, node]] - middle).max() < 1e-12
+
+
+def canonical(triangles):
+    """Triangles turned to begin with their least corner, then sorted."""
+    rounded = triangles.round(9) + 0.0
+    turns = [np.roll(rounded, k, axis=1).reshape(-1, 9) for k in range(3)]
+    first = np.lexsort(np.stack([t[:, :3] for t in turns]).transpose(2, 0, 1)[::-1], axis=0)[0]
+    chosen = np.stack(turns)[first, np.arange(len(rounded))]
+    return chosen[np.lexsort(chosen.T[::-1])]
+
+
+@needs_both
+def test_a_stretched_bar(tmp_path: Path):
+    bar = samples.box((40.0, 4.0, 4.0))
+    filled = tetrahedra(bar)
+    side = sides(filled.nodes)
+    path = tmp_path / "bar.inp"
+    # Held all over its end the bar cannot contract there: without lateral strain it can.
+    step = StaticStep(side["XMIN"], side["XMAX"], (320.0, 0, 0))
+    write_tetrahedra(filled, path, Material("STEEL", 210_000.0, 0.0, 7.85), step=step)
+    moved = solve(path)[side["XMAX"], 0]
+    assert moved.mean() == pytest.approx(320 * 40 / 210_000 / 16, rel=0.02)
+
+
+@needs_gmsh
+def test_what_gmsh_cannot_fill():
+    box = samples.box((10.0, 10.0, 10.0))
+    with pytest.raises(VolfrepError, match="not closed"):
+        tetrahedra(TriangleMesh(box.vertices, box.triangles[1:]))
+    crossing = samples.sphere(10.0, 2)
+    crossing.vertices[0] *= -1.5  # out at the other side
+    with pytest.raises(VolfrepError, match="Gmsh cannot fill"):
+        tetrahedra(crossing)
+
+
+@needs_gmsh
+def test_a_part_has_its_cavity_and_knows_its_outside():
+    """Also where the wall's Boolean left needles."""
+    solid = samples.box((30.0, 20.0, 20.0))
+    mesh = fill(solid, LatticeSpec(cell="CVC", shell=2, resolution=8)).mesh
+    filled = tetrahedra(mesh)
+    assert filled.volumes().sum() == pytest.approx(mesh.volume, rel=1e-9)
+    outside = filled.nodes[nodes_on(filled, solid)]
+    low, high = solid.bounds
+    assert (np.minimum(outside - low, high - outside).min(axis=1) < 1e-4).all()
+    # The twelve triangles of the box as they are: their corners and the middles of their edges.
+    assert len(outside) == 8 + 18
+
+
+@needs_gmsh
+def test_bodies_that_do_not_touch():
+    one, two = samples.box((4.0, 4.0, 4.0)), samples.box((4.0, 4.0, 4.0), (9.0, 0.0, 0.0))
+    assert tetrahedra(concatenate(one, two)).volumes().sum() == pytest.approx(128)
+
+
+def test_limits(tmp_path: Path, monkeypatch):
+    box = samples.box()
+    many = TriangleMesh(box.vertices, np.tile(box.triangles, (MAX_TRIANGLES // 12 + 1, 1)))
+    if shutil.which("gmsh"):
+        with pytest.raises(VolfrepError, match=r"200,000.*beams"):
+            tetrahedra(many)
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(VolfrepError, match="Gmsh is not installed"):
+        tetrahedra(box)
+
+
+@needs_gmsh
+def test_cancel():
+    with pytest.raises(Cancelled):
+        tetrahedra(samples.sphere(20.0, 6), Monitor(lambda *_: False))

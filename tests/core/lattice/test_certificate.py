@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What is proved on the octants is what is measured on the triangles."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from volfrep.design.cells import LIBRARY, make_cell
+from volfrep.lattice.assembly import lay, lay_out, octant_grid
+from volfrep.lattice.certificate import agree_on_faces, certify
+from volfrep.mesh import quality
+from volfrep.octants.octant_mesh import OctantSpec, mesh_octants
+from volfrep.util.progress import Monitor
+
+SKEW = make_cell("skew", [[0, 0, 0], [1, 1, 1], [0.3, 0.6, 0.45]], [[0, 2], [2, 1]])
+
+
+def layout_of(cell, active, radius=1.0):
+    monitor = Monitor()
+    grid = octant_grid(cell, active, 10.0, np.array([3.0, -40.0, 7.0]))
+    return lay_out(grid, mesh_octants(cell, OctantSpec(10.0, radius, 0.0, 12), grid.keys, monitor))
+
+
+@pytest.mark.parametrize("cell", [*LIBRARY.values(), SKEW], ids=lambda c: c.name)
+@pytest.mark.parametrize("share", [1.0, 0.4])
+def test_the_survey_agrees_with_the_measure(cell, share):
+    active = np.random.default_rng(3).random((3, 4, 2)) <= share
+    layout = layout_of(cell, active)
+    mesh = lay(layout, Monitor())
+    surveyed, measured = certify(layout), quality.measure(mesh)
+    for name in ("triangles", "vertices", "watertight", "shells", "bodies", "voids", "genus"):
+        assert getattr(surveyed, name) == getattr(measured, name), name
+    assert surveyed.volume == pytest.approx(measured.volume, rel=1e-9)
+    assert surveyed.area == pytest.approx(measured.area, rel=1e-9)
+    np.testing.assert_array_equal(surveyed.bounds, measured.bounds)
+
+
+def test_an_octant_with_a_hole_is_found():
+    layout = layout_of(LIBRARY["CVC"], np.ones((2, 2, 2), bool))
+    key = layout.grid.keys[3]
+    holed = replace(layout.octants[key], triangles=layout.octants[key].triangles[1:])
+    layout = replace(layout, octants={**layout.octants, key: holed})
+    with pytest.raises(RuntimeError):
+        certify(layout)
+
+
+def test_an_octant_that_puts_a_shared_vertex_elsewhere_is_found():
+    layout = layout_of(LIBRARY["CVC"], np.ones((2, 2, 2), bool))
+    assert agree_on_faces(layout)
+    key = layout.grid.keys[3]
+    octant = layout.octants[key]
+    vertices = octant.vertices.copy()
+    vertices[np.flatnonzero((octant.places != 1).any(axis=1))[0]] += 1e-9
+    moved = replace(octant, vertices=vertices)
+    layout = replace(layout, octants={**layout.octants, key: moved})
+    assert not agree_on_faces(layout)
+
+
+def test_octants_that_do_not_fit_together_are_found():
+    layout = layout_of(LIBRARY["CVC"], np.ones((2, 2, 2), bool))
+    kind = layout.grid.kind.copy()
+    kind[2, 2, 2] = -1
+    grid = replace(layout.grid, kind=kind)
+    layout = lay_out(grid, layout.octants)
+    with pytest.raises(RuntimeError, match="fit together"):
+        certify(layout)

@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Laid octants brought onto struts of other radii and at other places."""
+
+import numpy as np
+import pytest
+
+from samples import SKEW
+from volfrep import LatticeSpec
+from volfrep.design.cells import LIBRARY, joint_radius
+from volfrep.grid.coordinate_map import identity_map
+from volfrep.grid.node_frames import joints
+from volfrep.grid.strut_graph import cell_graph
+from volfrep.lattice.assembly import coordinates, facets, lay_out, octant_grid
+from volfrep.lattice.deform import conform
+from volfrep.lattice.strut_binding import anchor
+from volfrep.mesh.triangle_mesh import TriangleMesh
+from volfrep.octants.octant_mesh import mesh_octants, octant_spec
+from volfrep.octants.sdf import distances, spheres, struts
+from volfrep.util.errors import VolfrepError
+from volfrep.util.progress import Monitor
+
+SIZE, RADIUS, SHAPE = 10.0, 1.0, (2, 2, 2)
+
+
+class Laid:
+    """A block of equal octants, laid, and the graph that its vertices hang on."""
+
+    def __init__(self, cell):
+        spec = LatticeSpec(cell=cell, cell_size=SIZE, strut_radius=RADIUS, resolution=16)
+        self.cell, self.tile = cell, octant_spec(spec)
+        grid = octant_grid(cell, np.ones(SHAPE, bool), SIZE, np.zeros(3))
+        octants = mesh_octants(cell, self.tile, grid.keys, Monitor())
+        self.layout = lay_out(grid, octants)
+        wide = np.pad(np.ones(SHAPE, bool), 1)
+        self.graph = cell_graph(cell, wide, SIZE, np.full(3, -SIZE), first=(1, 1, 1))
+        self.anchors = {
+            key: anchor(cell, self.tile, key, self.layout.octants[key])
+            for key, place in zip(grid.keys, self.layout.places, strict=True)
+            if len(place) and len(self.layout.octants[key].vertices)
+        }
+
+    def brought(self, points=None, radius=RADIUS):
+        """The vertices on struts of a radius, or of one for each node, between given places."""
+        nodes = self.graph.nodes
+        radii = np.broadcast_to(np.asarray(radius, float), len(nodes)).copy()
+        made = joints(self.graph, nodes if points is None else points, radii, SIZE)
+        return conform(
+            self.layout, self.anchors, self.cell, made, identity_map(SIZE), 0.0, Monitor()
+        )
+
+    def mesh(self, vertices):
+        return TriangleMesh(vertices, facets(self.layout, Monitor()))
+
+    def off(self, points, radius):
+        """Distances of points to the union of the graph's struts and joints of a radius."""
+        ends = self.graph.nodes[self.graph.struts]
+        found = np.full(len(points), np.inf)
+        for one in struts(ends[:, 0], ends[:, 1], radius), \
+                spheres(self.graph.nodes, joint_radius(radius, SIZE)):  # fmt: skip
+            for k in range(len(one)):
+                found = np.minimum(found, distances(points, one.take(np.full(len(points), k))))
+        return found
+
+
+@pytest.fixture(scope="module", params=[LIBRARY["Box"], LIBRARY["CVC"], SKEW], ids=lambda c: c.name)
+def laid(request):
+    return Laid(request.param)
+
+
+def test_with_equal_radii_at_the_same_places_nothing_moves(laid):
+    found = laid.brought()
+    np.testing.assert_allclose(
+        found.vertices, coordinates(laid.layout, Monitor()), atol=1e-3 * SIZE
+    )
+    # Vertices on the octants' edges and corners aside, to the last digits.
+    moved = np.linalg.norm(found.vertices - coordinates(laid.layout, Monitor()), axis=1)
+    assert np.median(moved) < 1e-9
+    assert found.excess < 0.01
+
+
+@pytest.mark.parametrize("radius", [0.6, 1.02])
+def test_vertices_come_onto_struts_of_another_radius(laid, radius):
+    """As far from them as they were from the first ones, in units of the radius."""
+    before = laid.off(coordinates(laid.layout, Monitor()), RADIUS)
+    found = laid.brought(radius=radius).vertices
+    after = laid.off(found, radius)
+    assert np.abs(before).max() < 0.12 * RADIUS
+    assert np.abs(after).max() < 0.15 * max(radius, RADIUS)
+    assert np.median(np.abs(after / radius - before / RADIUS)) < 0.005
+    grown = laid.mesh(found).volume / laid.mesh(coordinates(laid.layout, Monitor())).volume
+    # Between struts alone (r2) and joints alone (r3).
+    low, high = sorted([radius**1.7, radius**2.1])
+    assert low < grown < high
+
+
+def test_moved_nodes_take_their_vertices_along(laid):
+    """A lattice turned and shifted as a whole is its mesh turned and shifted."""
+    shift = np.array([3.0, -4.0, 0.5])
+    first = laid.brought().vertices
+    moved = laid.brought(laid.graph.nodes + shift).vertices
+    on_struts = np.linalg.norm(moved - first - shift, axis=1)
+    # What lies in space (corners of caps) is of the map and not of the nodes.
+    assert np.mean(on_struts < 1e-9) > 0.99
+
+
+def test_struts_that_grow_into_each_other_are_refused(laid):
+    with pytest.raises(VolfrepError, match=r"Near \(.*\) struts of radius 5.2 mm .* grow into"):
+        laid.brought(radius=5.2)
+
+
+def test_a_cancel_is_heard(laid):
+    from volfrep.util.errors import Cancelled
+
+    nodes = laid.graph.nodes
+    made = joints(laid.graph, nodes, np.full(len(nodes), RADIUS), SIZE)
+    with pytest.raises(Cancelled):
+        conform(
+            laid.layout, laid.anchors, laid.cell, made, identity_map(SIZE), 0.0,
+            Monitor(lambda fraction, stage: False),
+        )  # fmt: skip

@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The lattice cut at the wall, and what is removed afterwards."""
+
+import manifold3d
+import numpy as np
+import pytest
+
+import samples
+from contract import assert_same_quality
+from volfrep.design.cells import LIBRARY
+from volfrep.grid.activation import make_grid
+from volfrep.lattice.assembly import OctantGrid, coordinates
+from volfrep.mesh import quality
+from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
+from volfrep.octants.octant import ALL_ACTIVE, OctantKey
+from volfrep.octants.octant_mesh import OctantSpec, mesh_octants
+from volfrep.trim.boolean_trim import clear, cull, octant_roles, trim
+from volfrep.util.progress import Monitor
+
+L = 10.0
+
+
+def trimmed(domain, name="CVC", radius=1.0, cavity=True, grow=0):
+    """The lattice cut at the domain; with `grow`, that many more octants go into the Boolean."""
+    cell, monitor = LIBRARY[name], Monitor()
+    cells = make_grid(domain.bounds, L, (1.3, 2.1, 0.7))
+    roles = octant_roles(domain, cells, monitor)
+    if grow:
+        roles = type(roles)(roles.border | roles.inside, np.zeros_like(roles.inside))
+    key = OctantKey(0, ALL_ACTIVE)
+    grid = OctantGrid([key], np.zeros(roles.border.shape, np.int16), cells.origin, L, True)
+    octants = mesh_octants(cell, OctantSpec(L, radius, 0.0, 15), [key], monitor)
+    kept = cull(grid, roles)
+    layout = kept.lay_out(octants)
+    points = coordinates(layout, monitor)
+    return trim(domain, kept, layout, points, cavity=cavity, monitor=monitor)
+
+
+@pytest.mark.parametrize("name", LIBRARY)
+def test_lattice_and_cavity_share_the_domain_between_them(name):
+    domain = samples.sphere(22.0)
+    lattice = trimmed(domain, name, cavity=False).mesh
+    cavity = trimmed(domain, name, cavity=True).mesh
+    for mesh in (lattice, cavity):
+        assert quality.measure(mesh).watertight
+    # The cavity's surface is seen from the material: its volume counts as negative.
+    assert lattice.volume - cavity.volume == pytest.approx(domain.volume, rel=1e-6)
+
+
+def test_octants_inside_are_put_back_as_the_boolean_would_have_left_them():
+    domain = samples.sphere(25.0)
+    some, everything = trimmed(domain), trimmed(domain, grow=1)
+    assert some.boolean_triangles < 0.8 * everything.boolean_triangles
+    assert some.mesh.volume == pytest.approx(everything.mesh.volume, rel=1e-9)
+    assert quality.measure(some.mesh).genus == quality.measure(everything.mesh).genus
+
+
+def test_the_boolean_takes_only_what_the_wall_crosses():
+    """Twice the size has eight times the octants, but the wall crosses only four times as many."""
+    small, large = (
+        trimmed(samples.box((s, s, s), (1.0, 1.0, 1.0))).boolean_triangles for s in (40.0, 80.0)
+    )
+    assert large < 5.0 * small
+
+
+def test_a_wall_in_the_cells_own_faces_cuts_cleanly():
+    domain = samples.box((40.0, 30.0, 20.0), (1.3, 2.1, 0.7))
+    mesh = trimmed(domain, "Box", cavity=False).mesh
+    found = quality.measure(mesh)
+    assert found.watertight
+    assert found.bodies == 1
+    x = 0.1
+    density = 3 * np.pi * x**2 - 8 * np.sqrt(2) * x**3
+    assert found.volume == pytest.approx(density * 24_000.0, rel=0.005)
+
+
+def _ball(radius, centre):
+    ball = samples.sphere(radius, 2)
+    return TriangleMesh(ball.vertices + centre, ball.triangles)
+
+
+def cleared_of(mesh, smallest, **rules):
+    cleared = clear(mesh, quality.inspect(mesh), smallest, **rules)
+    assert_same_quality(cleared.quality, quality.measure(cleared.mesh))
+    return cleared
+
+
+def test_pieces_that_float_in_a_cavity_go_with_the_voids_in_them():
+    cavity = samples.sphere(20.0).reversed()
+    loose = concatenate(_ball(3.0, (5, 0, 0)), _ball(1.0, (5, 0, 0)).reversed())
+    bubble = _ball(1.0, (-15, 0, 0)).reversed()
+    cleared = cleared_of(concatenate(cavity, loose, bubble), 0.01, floating=True)
+    assert cleared.pieces_removed == 1
+    assert quality.measure(cleared.mesh).shells == 2
+    assert cleared.mesh.volume == pytest.approx(cavity.volume + bubble.volume)
+
+
+def test_without_a_skin_the_largest_body_stays():
+    meshes = [_ball(3.0, (0, 0, 0)), _ball(6.0, (20, 0, 0)), _ball(2.0, (40, 0, 0))]
+    cleared = cleared_of(concatenate(*meshes), 0.01, bodies=1)
+    assert cleared.pieces_removed == 2
+    assert cleared.mesh.volume == pytest.approx(meshes[1].volume)
+
+
+def test_specks_are_removed_and_counted_apart():
+    cleared = cleared_of(concatenate(_ball(5.0, (0, 0, 0)), _ball(0.1, (20, 0, 0))), 0.1)
+    assert (cleared.pieces_removed, cleared.specks_removed) == (0, 1)
+
+
+def test_where_nothing_is_too_small_everything_stays():
+    mesh = concatenate(_ball(5.0, (0, 0, 0)), _ball(1.0, (20, 0, 0)))
+    assert cleared_of(mesh, 0.1).mesh is mesh
+
+
+def test_a_mesh_with_a_hole_is_measured_anew():
+    ball = _ball(5.0, (0, 0, 0))
+    holed = TriangleMesh(ball.vertices, ball.triangles[1:])
+    cleared = cleared_of(concatenate(holed, _ball(0.1, (20, 0, 0))), 0.1)
+    assert cleared.specks_removed == 1
+    assert not cleared.quality.watertight
+
+
+def test_a_mesh_that_is_no_solid_is_refused():
+    open_box = samples.box()
+    open_box = TriangleMesh(open_box.vertices, open_box.triangles[1:])
+    with pytest.raises(ValueError, match="repair the part"):
+        trimmed(open_box)
+
+
+def test_the_trimmed_lattice_has_the_genus_of_a_boolean_by_others():
+    """Second opinion: the same lattice as one closed block, cut by manifold3d as a whole."""
+    domain = samples.sphere(18.0)
+    ours = quality.measure(trimmed(domain, "Octahedron", cavity=False).mesh)
+    everything = trimmed(
+        samples.box((60.0, 60.0, 60.0), (-30.0, -30.0, -30.0)), "Octahedron", cavity=False
+    )
+    block = everything.mesh
+    solid = manifold3d.Manifold(
+        manifold3d.Mesh64(block.vertices, block.triangles.astype(np.uint64))
+    )
+    ball = manifold3d.Manifold(
+        manifold3d.Mesh64(domain.vertices, domain.triangles.astype(np.uint64))
+    )
+    whole = solid ^ ball
+    assert ours.volume == pytest.approx(whole.volume(), rel=1e-6)

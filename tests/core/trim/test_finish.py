@@ -1,0 +1,179 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What leaves the engine is what a reader of its file finds."""
+
+import numpy as np
+import pytest
+import trimesh
+
+import samples
+from volfrep.design.cells import make_cell
+from volfrep.design.grading import CellMap
+from volfrep.design.spec import LatticeSpec
+from volfrep.io.write import write_mesh
+from volfrep.jobs.blocks import block
+from volfrep.jobs.pipeline import fill
+from volfrep.mesh.float32_repair import without_slivers
+from volfrep.mesh.quality import inspect, measure
+from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
+from volfrep.spatial.self_intersection import crossing_near, crossing_triangles
+from volfrep.trim.boolean_trim import clear
+from volfrep.trim.finish import finished, refuse_merging, tidied
+from volfrep.util.errors import VolfrepError
+from volfrep.util.progress import Monitor
+
+
+def moved(mesh, by):
+    return TriangleMesh(mesh.vertices + np.asarray(by, float), mesh.triangles)
+
+
+def shells_read(path):
+    """Bodies and voids of a file by trimesh, which merges equal corners; closed or not."""
+    mesh = trimesh.load(path, force="mesh")
+    volumes = [part.volume for part in mesh.split(only_watertight=False)]
+    return sum(v > 0 for v in volumes), sum(v < 0 for v in volumes), mesh.is_watertight
+
+
+@pytest.mark.parametrize("extension", [".stl", ".ply", ".obj", ".3mf"])
+@pytest.mark.parametrize("gap", [1e-9, 2e-7, 1e-6, 4e-6])
+def test_bodies_that_nearly_touch_stay_two_in_every_file(tmp_path, extension, gap):
+    box = samples.box((10.0, 10.0, 10.0))
+    # At the origin float32 tells more apart than decimals do; far from it, less.
+    pair = concatenate(box, moved(box, (-10.0 - gap, 0.0, 0.0)), moved(box, (60.0, 70.0, 80.0)))
+    mesh, quality, notes = finished(pair, measure(pair), Monitor(), moved=False)
+    path = tmp_path / f"a{extension}"
+    write_mesh(mesh, path)
+    assert shells_read(path) == (quality.bodies, quality.voids, True) == (3, 0, True)
+    assert notes == ()
+
+
+def test_vertices_that_no_file_can_tell_apart_are_refused_with_their_place():
+    box = samples.box((10.0, 10.0, 10.0))
+    with pytest.raises(VolfrepError, match=r"Near \(.*single precision of files"):
+        refuse_merging(concatenate(box, box))
+
+
+def test_what_encloses_nothing_is_refused():
+    for mesh in (samples.box().reversed(), concatenate(samples.box(), samples.box().reversed())):
+        with pytest.raises(VolfrepError, match="no solid"):
+            finished(moved_apart(mesh), measure(mesh), Monitor(), moved=False)
+
+
+def moved_apart(mesh):
+    """No two vertices in one place."""
+    random = np.random.default_rng(1)
+    return TriangleMesh(mesh.vertices + 1e-3 * random.random(mesh.vertices.shape), mesh.triangles)
+
+
+def test_flat_shells_that_go_leave_the_count_of_bodies_as_it_is():
+    # Four corners in a plane: of no volume but rounding, whose sign depends on where it is seen.
+    random = np.random.default_rng(3)
+    faces = np.array([[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]], np.int32)
+    flat = []
+    for _ in range(40):
+        plane = np.linalg.qr(random.normal(size=(3, 3)))[0][:, :2]
+        corners = random.normal(size=(4, 2)) @ plane.T * 0.01
+        flat.append(TriangleMesh(corners + random.uniform(-5.0, 25.0, 3), faces))
+    mesh = concatenate(samples.box(), *flat)
+    cleared = clear(mesh, inspect(mesh), 1e-3)
+    assert len(cleared.mesh.triangles) == 12
+    assert (cleared.quality.bodies, cleared.quality.voids) == (1, 0)
+
+
+@pytest.mark.parametrize("shell", [0.0, 1.0])
+@pytest.mark.parametrize("boundary", ["trim", "whole"])
+def test_the_report_counts_what_a_reader_of_the_file_does(tmp_path, shell, boundary):
+    for k, cell in enumerate(("Box", "BCC", samples.SKEW)):
+        spec = LatticeSpec(cell, 8.0, 0.7, shell=shell, boundary=boundary, resolution=12)
+        result = fill(samples.box((31.0, 26.0, 24.0)), spec)
+        path = tmp_path / f"{k}.stl"
+        write_mesh(result.mesh, path)
+        report = result.report
+        assert shells_read(path) == (report.bodies, report.voids, True)
+        assert trimesh.load(path).volume == pytest.approx(report.volume_mm3, rel=1e-6)
+
+
+#: Three struts that touch neither each other nor the cells beside theirs.
+APART = make_cell(
+    "apart",
+    [[0.2, 0.2, 0.2], [0.2, 0.2, 0.7], [0.5, 0.5, 0.2], [0.5, 0.5, 0.6], [0.8, 0.8, 0.2],
+     [0.8, 0.8, 0.8]],
+    [[0, 1], [2, 3], [4, 5]],
+)  # fmt: skip
+
+
+def test_pieces_that_are_left_out_are_told_with_their_share():
+    spec = LatticeSpec(APART, 10.0, 0.8, shell=0, boundary="whole", activation="inside")
+    report = fill(samples.box((20.0, 10.0, 10.0)), spec).report
+    # Capsules of 5, 4 and 6 mm, twice; one of the longest stays.
+    joint = 0.8 * 1.08
+    volume = [np.pi * 0.64 * length + 4.0 / 3.0 * np.pi * joint**3 for length in (5, 4, 6)]
+    share = 1.0 - report.volume_mm3 / (2 * sum(volume))
+    told = next(text for text in report.warnings if "left out" in text)
+    assert report.pieces_removed == 5
+    assert told.startswith("5 pieces that hang on nothing left out, ")
+    assert float(told.split("left out, ")[1].split(" %")[0]) == pytest.approx(100 * share, abs=2)
+
+
+def test_a_lattice_of_many_bodies_is_told():
+    solid = samples.box((31.0, 26.0, 24.0))
+    cut = fill(solid, LatticeSpec(APART, 10.0, 0.8, shell=2, output="lattice")).report
+    assert cut.bodies > 1
+    assert any(f"{cut.bodies} bodies that do not touch" in text for text in cut.warnings)
+    whole = fill(solid, LatticeSpec("Box", 10.0, 0.8, shell=0)).report
+    assert not any("hang" in text or "touch" in text for text in whole.warnings)
+
+
+def test_graded_struts_that_run_through_each_other_are_told_with_their_place():
+    # Next to the axis the cells of a cylinder are narrower than their struts.
+    spec = LatticeSpec("CVC", 10.0, 1.0, resolution=15, cell_map=CellMap("cylindrical"))
+    result = block(spec, (6, 5, 1))
+    crossing = crossing_triangles(result.mesh, np.ones(len(result.mesh.triangles), bool), 1e-2)
+    assert crossing.any()
+    assert "run through each other there" in result.report.warnings[-1]
+    plain = block(LatticeSpec("CVC", 10.0, 1.0, resolution=15), (2, 2, 1))
+    assert plain.report.warnings == ()
+
+
+def test_slivers_stay_where_facets_would_cross_without_them(monkeypatch):
+    box = samples.box()
+
+    def bad(mesh, tolerance, among=None):
+        vertices = mesh.vertices.copy()
+        vertices[0] += [70.0, 55.0, 40.0]  # a corner through the opposite faces
+        return TriangleMesh(vertices, mesh.triangles), np.ones(len(mesh.triangles), bool)
+
+    monkeypatch.setattr("volfrep.trim.finish.without_slivers", bad)
+    assert tidied(box, 1e-4, Monitor()) is box
+
+
+def test_near_the_few_finds_what_everywhere_does():
+    part = samples.sphere(20.0, 4)
+    vertices = part.vertices.copy()
+    top = int(vertices[:, 2].argmax())
+    vertices[top] = [0.3, 0.2, -25.0]
+    bent = TriangleMesh(vertices, part.triangles)
+    few = (bent.triangles == top).any(axis=1)
+    found = crossing_near(bent, few, 1e-6)
+    assert found.sum() > few.sum()
+    np.testing.assert_array_equal(found, crossing_triangles(bent, few, 1e-6))
+    assert not crossing_near(bent, np.zeros(len(few), bool), 1e-6).any()
+
+
+def test_new_triangles_are_those_that_were_not_there():
+    part = samples.sphere(20.0, 3)
+    # One edge made shorter than the tolerance.
+    a, b = part.triangles[100, :2]
+    vertices = part.vertices.copy()
+    vertices[b] = vertices[a] + 3e-5
+    pinched = TriangleMesh(vertices, part.triangles)
+    mesh, new = without_slivers(pinched, 1e-4)
+    assert len(mesh.triangles) == len(part.triangles) - 2
+
+    def places(mesh, rows):
+        corners = np.sort(mesh.vertices[mesh.triangles[rows]].round(7), axis=1)
+        return {tuple(row.ravel()) for row in corners}
+
+    old = places(pinched, np.ones(len(pinched.triangles), bool))
+    assert 0 < new.sum() < 10
+    assert not places(mesh, new) & old
+    assert places(mesh, ~new) <= old

@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The parallel loops use as many threads as they are told, and make the same of it."""
+
+import os
+
+import numpy as np
+import pytest
+
+from volfrep.design import scattered_field
+from volfrep.design.spec import LatticeSpec
+from volfrep.io.write import stl
+from volfrep.jobs.blocks import block
+from volfrep.mesh import quality
+from volfrep.mesh.quality import measure
+from volfrep.mesh.triangle_mesh import TriangleMesh
+from volfrep.spatial import proximity
+from volfrep.util import threads
+from volfrep.util.errors import VolfrepError
+from volfrep.util.threads import use_threads
+
+
+@pytest.fixture(autouse=True)
+def as_before():
+    yield
+    use_threads(0)
+
+
+@pytest.fixture(scope="module")
+def mesh():
+    spec = LatticeSpec("BCC", 10.0, 1.0, shell=0.0, resolution=10)
+    return block(spec, (2, 2, 2)).mesh
+
+
+def test_untold_it_is_one_on_each_core_of_the_process():
+    use_threads(0)
+    assert 1 <= threads.threads() <= os.cpu_count()
+
+
+def test_a_negative_number_is_refused_and_changes_nothing():
+    use_threads(3)
+    with pytest.raises(VolfrepError, match="cannot be -1 threads"):
+        use_threads(-1)
+    assert threads.threads() == 3
+
+
+@pytest.mark.parametrize("count", [1, 3])
+def test_every_pool_has_the_told_size(mesh, tmp_path, monkeypatch, count):
+    sizes = []
+    for module in (stl, quality):
+        pool = module.ThreadPoolExecutor
+
+        def counting(max_workers, pool=pool, **options):
+            sizes.append(max_workers)
+            return pool(max_workers=max_workers, **options)
+
+        monkeypatch.setattr(module, "ThreadPoolExecutor", counting)
+    use_threads(count)
+    measure(mesh)
+    stl.write_stl(mesh, tmp_path / "block.stl")
+    assert set(sizes) <= {count, min(2, count)}
+    assert count in sizes
+
+
+def test_every_search_has_the_told_number(monkeypatch):
+    asked = []
+
+    def counting():
+        asked.append(2)
+        return 2
+
+    monkeypatch.setattr(proximity, "threads", counting)
+    monkeypatch.setattr(scattered_field, "threads", counting)
+    triangle = TriangleMesh(np.eye(3), np.array([[0, 1, 2]]))
+    point = np.array([[0.2, 0.2, 1.0]])
+    proximity.closest_points(triangle, point)
+    proximity.index_surface(triangle, 0.1).near(point)
+    scattered_field.PointField(np.eye(3), np.arange(3.0))(point)
+    assert asked == [2, 2, 2]
+
+
+def test_the_file_is_the_same_with_any_number(mesh, tmp_path):
+    written = []
+    for count in (1, 4):
+        use_threads(count)
+        path = tmp_path / f"{count}.stl"
+        stl.write_stl(mesh, path)
+        written.append(path.read_bytes())
+    assert written[0] == written[1]

@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Imports go one way: from a room of the engine to those before it, never back, and never round."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+ENGINE = Path(__file__).resolve().parents[2] / "core" / "volfrep"
+#: The rooms, low to high: a room imports from itself and from those before it.
+ROOMS = (
+    "util", "mesh", "design", "shell", "grid", "octants", "trim", "fem", "io", "reports", "jobs",
+    "cli",
+)  # fmt: skip
+MOST_MODULES = 14
+
+
+def modules() -> dict[str, Path]:
+    """Every module of the engine by its dotted name below ``volfrep``; packages by their own."""
+    found = {}
+    for path in sorted(ENGINE.rglob("*.py")):
+        *rooms, name = path.relative_to(ENGINE).with_suffix("").parts
+        found[".".join(rooms if name == "__init__" else [*rooms, name])] = path
+    return found
+
+
+def imports(name: str, path: Path, known: dict[str, Path]) -> Iterator[str]:
+    """The engine's modules that a module imports, wherever in it the import stands."""
+    package = name.split(".") if name else []
+    if path.name != "__init__.py":
+        package = package[:-1]
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if not isinstance(node, ast.ImportFrom) or not node.level:
+            continue
+        base = package[: len(package) - node.level + 1]
+        home = ".".join([*base, *(node.module or "").split(".")]).strip(".")
+        for alias in node.names:
+            inner = f"{home}.{alias.name}".strip(".")
+            yield inner if inner in known else home
+
+
+def test_a_room_imports_from_those_before_it_only() -> None:
+    known = modules()
+    back = [
+        f"{name} -> {target}"
+        for name, path in known.items()
+        if "." in name
+        for target in imports(name, path, known)
+        if target and ROOMS.index(target.split(".")[0]) > ROOMS.index(name.split(".")[0])
+    ]
+    assert back == []
+
+
+def test_no_imports_go_round() -> None:
+    known = modules()
+    targets = {name: set(imports(name, path, known)) - {name, ""} for name, path in known.items()}
+    del targets[""]  # the package itself loads its names when they are first used
+    while True:
+        free = {name for name, needs in targets.items() if not needs & targets.keys()}
+        if not free:
+            break
+        targets = {name: needs for name, needs in targets.items() if name not in free}
+    assert targets == {}
+
+
+@pytest.mark.parametrize("room", [p.name for p in sorted(ENGINE.iterdir()) if p.is_dir()])
+def test_every_folder_is_a_room_that_says_what_lives_there(room: str) -> None:
+    if room == "__pycache__":
+        return
+    assert room in ROOMS
+    for folder in [ENGINE / room, *(p for p in (ENGINE / room).rglob("*") if p.is_dir())]:
+        if folder.name != "__pycache__":
+            assert ast.get_docstring(ast.parse((folder / "__init__.py").read_text("utf-8")))
+
+
+def test_no_room_is_crowded() -> None:
+    folders = [path.parent for path in modules().values()]
+    assert {str(folder) for folder in folders if folders.count(folder) > MOST_MODULES} == set()

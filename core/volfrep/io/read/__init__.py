@@ -11,13 +11,21 @@ import numpy as np
 from ...util.errors import VolfrepError
 from .cad import read_cad
 from .contents import Contents, read_bytes
+from .exchange import read_glb, read_off
 from .obj import read_obj
 from .ply import read_ply
 from .stl import read_stl
 from .threemf import read_3mf
 
 #: A new format of meshes is one module and one line here.
-READERS = {".stl": read_stl, ".obj": read_obj, ".ply": read_ply, ".3mf": read_3mf}
+READERS = {
+    ".stl": read_stl,
+    ".obj": read_obj,
+    ".ply": read_ply,
+    ".3mf": read_3mf,
+    ".off": read_off,
+    ".glb": read_glb,
+}
 CAD_SUFFIXES = (".step", ".stp", ".iges", ".igs", ".brep", ".brp")
 
 
@@ -37,7 +45,7 @@ def read_file(path: str | os.PathLike[str]) -> Contents:
     if suffix not in READERS and suffix not in CAD_SUFFIXES:
         raise VolfrepError(
             f"'{file.name}' is not a kind of file that holds a solid: give an STL, OBJ, PLY, 3MF, "
-            "STEP, IGES or BREP file."
+            "OFF, GLB, STEP, IGES or BREP file."
         )
     data = read_bytes(file)
     contents = read_cad(data, file) if suffix in CAD_SUFFIXES else READERS[suffix](data, file.name)

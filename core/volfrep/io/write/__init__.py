@@ -23,6 +23,8 @@ MESH_WRITERS: dict[str, tuple[str, str]] = {
     ".3mf": ("threemf", "write_3mf"),
     ".ply": ("ply", "write_ply"),
     ".obj": ("obj", "write_obj"),
+    ".off": ("exchange", "write_off"),
+    ".glb": ("exchange", "write_glb"),
     ".step": ("step_faceted", "write_step_faceted"),
     ".stp": ("step_faceted", "write_step_faceted"),
 }

@@ -20,7 +20,7 @@ from pathlib import Path
 
 import numpy as np
 
-from volfrep import LatticeSpec, block
+from volfrep import LatticeSpec
 from volfrep.design.cells import LIBRARY
 from volfrep.fem.beam_mesh import JOINT_LENGTH, beam_model
 from volfrep.fem.calculix import solve
@@ -29,7 +29,7 @@ from volfrep.fem.model import StaticStep
 from volfrep.fem.tet_mesh import TetrahedralMesh, tetrahedra
 from volfrep.grid.strut_graph import Wireframe
 from volfrep.io.write.calculix import write_beams, write_tetrahedra
-from volfrep.jobs.blocks import block_wireframe
+from volfrep.jobs.blocks import block, block_wireframe
 
 ROOT = Path(__file__).resolve().parent.parent
 Floats = np.ndarray

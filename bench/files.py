@@ -16,11 +16,11 @@ import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-from volfrep import LatticeSpec, block
+from volfrep import LatticeSpec
 from volfrep.io.freecad_process import freecad_program, write_exact_step
 from volfrep.io.write.step_faceted import write_step_faceted
 from volfrep.io.write.step_wireframe import write_step_wireframe
-from volfrep.jobs.blocks import block_wireframe
+from volfrep.jobs.blocks import block, block_wireframe
 
 ROOT = Path(__file__).resolve().parent.parent
 _READ = """import json, os, time

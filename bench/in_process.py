@@ -32,8 +32,9 @@ def changes(part: str, cell: str, out: str) -> dict[str, Any]:
 
     Reading the part is not in it, writing the file is.
     """
-    from volfrep import LatticeSpec, StageCache, fill, read_solid
+    from volfrep import LatticeSpec, StageCache, read_solid
     from volfrep.io.write import write_mesh
+    from volfrep.jobs.pipeline import fill
 
     solid, cache = read_solid(part), StageCache()
     runs = []
@@ -55,9 +56,11 @@ def unvoxelised(part: str, cell: str, out: str) -> dict[str, Any]:
     The whole box's mesh goes through the Boolean, solid - (cavity - lattice). Nothing is cleaned
     or proved afterwards, which favours this way.
     """
-    from volfrep import LatticeSpec, StageCache, block, fill, read_solid
+    from volfrep import LatticeSpec, StageCache, read_solid
     from volfrep.grid.activation import make_grid
     from volfrep.io.write import write_mesh
+    from volfrep.jobs.blocks import block
+    from volfrep.jobs.pipeline import fill
     from volfrep.mesh.booleans import difference
     from volfrep.mesh.triangle_mesh import TriangleMesh
     from volfrep.trim.boolean_trim import NUDGE

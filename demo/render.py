@@ -28,7 +28,7 @@ from PIL import Image
 from scipy.spatial import cKDTree
 from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 
-from volfrep import LatticeSpec, block
+from volfrep import LatticeSpec
 from volfrep.design.cells import LIBRARY
 from volfrep.design.grading import CellMap, Orientation, RadiusGrading, SizeGrading
 from volfrep.design.profile import Profile
@@ -36,7 +36,7 @@ from volfrep.fem.calculix import solve
 from volfrep.fem.joint_loads import balls_of, joint_step
 from volfrep.fem.tet_mesh import tetrahedra
 from volfrep.io.write.calculix import write_tetrahedra
-from volfrep.jobs.blocks import block_wireframe
+from volfrep.jobs.blocks import block, block_wireframe
 from volfrep.mesh.triangle_mesh import TriangleMesh
 
 Colour = tuple[float, float, float]

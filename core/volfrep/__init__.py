@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """VOLFREP: strut-and-node lattice infills for solids.
 
-The names below are loaded when first used, so that importing the package costs nothing.
+`fill` and `block` make a `Part`. The names below are loaded when first used, so that importing
+the package costs nothing.
 """
 
 from __future__ import annotations
@@ -10,10 +11,10 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from .api import Part, block, fill
     from .design.spec import LatticeSpec
     from .io.solid import read_solid
-    from .jobs.blocks import block, write_block_stl
-    from .jobs.pipeline import fill
+    from .jobs.blocks import write_block_stl
     from .mesh.triangle_mesh import TriangleMesh
     from .reports.report import Report
     from .reports.result import Result
@@ -28,8 +29,9 @@ _HOMES = {
     "TriangleMesh": "mesh.triangle_mesh",
     "Result": "reports.result",
     "StageCache": "util.cache",
-    "block": "jobs.blocks",
-    "fill": "jobs.pipeline",
+    "Part": "api",
+    "block": "api",
+    "fill": "api",
     "Report": "reports.report",
     "read_solid": "io.solid",
     "LatticeSpec": "design.spec",
@@ -39,6 +41,7 @@ _HOMES = {
 __all__ = [
     "Cancelled",
     "LatticeSpec",
+    "Part",
     "Report",
     "Result",
     "StageCache",

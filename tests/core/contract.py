@@ -5,8 +5,9 @@ from dataclasses import asdict
 
 import pytest
 
-from volfrep import LatticeSpec, StageCache, VolfrepError, fill
+from volfrep import LatticeSpec, StageCache, VolfrepError
 from volfrep.io.write.stl import as_read
+from volfrep.jobs.pipeline import fill
 from volfrep.mesh import quality
 from volfrep.mesh.quality import Quality
 from volfrep.mesh.triangle_mesh import TriangleMesh

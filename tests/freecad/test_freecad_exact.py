@@ -15,8 +15,9 @@ from freecad_volfrep.engine import require_engine
 require_engine()
 
 from freecad_volfrep.bridge.exact import exact_lattice, write_exact  # noqa: E402
-from volfrep import LatticeSpec, block  # noqa: E402
+from volfrep import LatticeSpec  # noqa: E402
 from volfrep.io.write.step_exact import predicted_exact  # noqa: E402
+from volfrep.jobs.blocks import block  # noqa: E402
 from volfrep.util.errors import Cancelled, VolfrepError  # noqa: E402
 from volfrep.util.progress import Monitor  # noqa: E402
 

@@ -9,9 +9,11 @@ from freecad_volfrep.engine import require_engine
 
 require_engine()
 
-from volfrep import LatticeSpec, block, fill  # noqa: E402
+from volfrep import LatticeSpec  # noqa: E402
 from volfrep.io.write.step_faceted import write_step_faceted  # noqa: E402
 from volfrep.io.write.step_wireframe import write_step_wireframe  # noqa: E402
+from volfrep.jobs.blocks import block  # noqa: E402
+from volfrep.jobs.pipeline import fill  # noqa: E402
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate  # noqa: E402
 
 

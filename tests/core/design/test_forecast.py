@@ -5,12 +5,13 @@ import numpy as np
 import pytest
 
 import samples
-from volfrep import block, fill
 from volfrep.design.cells import LIBRARY
 from volfrep.design.forecast import Forecast, expected_triangles, forecast_block, forecast_fill
 from volfrep.design.grading import SizeGrading
 from volfrep.design.profile import Profile
 from volfrep.design.spec import LatticeSpec
+from volfrep.jobs.blocks import block
+from volfrep.jobs.pipeline import fill
 
 #: Promised for triangles, cells and struts: a third to either side, and a little for small parts.
 FACTOR = 1.5

@@ -8,11 +8,12 @@ import pytest
 
 import samples
 from exact import in_lattice
-from volfrep import LatticeSpec, VolfrepError, fill
+from volfrep import LatticeSpec, VolfrepError
 from volfrep.design.cells import LIBRARY
 from volfrep.design.openings import OpenPatch, OpenPlane, open_triangles
 from volfrep.io.write.stl import as_read
 from volfrep.jobs.beam_part import clipped_infill
+from volfrep.jobs.pipeline import fill
 from volfrep.mesh import quality
 from volfrep.mesh.triangle_mesh import TriangleMesh, compact
 from volfrep.shell.offset import inner_wall

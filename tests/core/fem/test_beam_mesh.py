@@ -7,12 +7,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from volfrep import LatticeSpec, block
+from volfrep import LatticeSpec
 from volfrep.fem.beam_mesh import JOINT_LENGTH, beam_model
 from volfrep.fem.calculix import solve
 from volfrep.fem.model import Material, StaticStep
 from volfrep.grid.strut_graph import Wireframe
 from volfrep.io.write.calculix import sides, write_beams
+from volfrep.jobs.blocks import block
 from volfrep.util.errors import VolfrepError
 
 needs_calculix = pytest.mark.skipif(

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from volfrep import LatticeSpec, block
+from volfrep import LatticeSpec
 from volfrep.fem.beam_mesh import beam_model
 from volfrep.fem.calculix import solve
 from volfrep.fem.joint_loads import balls_of, joint_displacements, joint_step
@@ -20,7 +20,7 @@ from volfrep.fem.model import StaticStep
 from volfrep.fem.tet_mesh import TetrahedralMesh, tetrahedra
 from volfrep.io.freecad_process import write_exact_step
 from volfrep.io.write.calculix import write_beams, write_tetrahedra
-from volfrep.jobs.blocks import block_wireframe
+from volfrep.jobs.blocks import block, block_wireframe
 from volfrep.util.errors import VolfrepError
 
 COUNT, FORCE = (3, 2, 1), (200.0, 0.0, 0.0)

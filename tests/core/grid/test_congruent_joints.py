@@ -6,10 +6,11 @@ import dataclasses
 import numpy as np
 import pytest
 
-from volfrep import LatticeSpec, block
+from volfrep import LatticeSpec
 from volfrep.grid.congruent_joints import Joint, distinct_joints, joint_volume, refuse_overlaps
 from volfrep.grid.strut_graph import Wireframe
 from volfrep.io.write.step_exact import predicted_exact
+from volfrep.jobs.blocks import block
 from volfrep.util.errors import VolfrepError
 
 

@@ -10,11 +10,12 @@ import numpy as np
 import pytest
 
 import samples
-from volfrep import LatticeSpec, block
+from volfrep import LatticeSpec
 from volfrep.grid.strut_graph import Wireframe
 from volfrep.io.write.step import quoted
 from volfrep.io.write.step_faceted import MAX_TRIANGLES, predicted_faceted, write_step_faceted
 from volfrep.io.write.step_wireframe import predicted_wireframe, write_step_wireframe
+from volfrep.jobs.blocks import block
 from volfrep.mesh.brep import faceted_brep
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate, empty_mesh
 from volfrep.util.errors import Cancelled, VolfrepError

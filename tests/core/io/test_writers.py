@@ -9,8 +9,9 @@ import pytest
 import trimesh
 
 import samples
-from volfrep import LatticeSpec, block
+from volfrep import LatticeSpec
 from volfrep.io.write import MESH_WRITERS, write_mesh
+from volfrep.jobs.blocks import block
 from volfrep.mesh.precision import as_text, lines, rounded
 from volfrep.mesh.quality import measure
 from volfrep.mesh.triangle_mesh import TriangleMesh, empty_mesh

@@ -7,10 +7,11 @@ import numpy as np
 import pytest
 
 import samples
-from volfrep import LatticeSpec, StageCache, VolfrepError, fill
+from volfrep import LatticeSpec, StageCache, VolfrepError
 from volfrep.design.grading import CellMap, RadiusGrading, SizeGrading
 from volfrep.design.profile import Profile
 from volfrep.jobs.beam_part import beam_model, block_beams
+from volfrep.jobs.pipeline import fill
 from volfrep.mesh import quality
 
 SPEC = LatticeSpec(cell="CVC", cell_size=10, strut_radius=1, shell=2)

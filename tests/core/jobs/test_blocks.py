@@ -10,13 +10,14 @@ import numpy as np
 import pytest
 
 from samples import SKEW
-from volfrep import LatticeSpec, VolfrepError, block, write_block_stl
+from volfrep import LatticeSpec, VolfrepError
 from volfrep.design.cells import LIBRARY
 from volfrep.design.forecast import BYTES_PER_STREAMED_CELL
 from volfrep.design.grading import RadiusGrading
 from volfrep.design.profile import Profile
 from volfrep.io.solid import read_triangles
 from volfrep.io.write.stl import FACET, HEADER_BYTES, MOST_FACETS, as_read, write_stl
+from volfrep.jobs.blocks import block, write_block_stl
 from volfrep.mesh.quality import measure, pinched_vertices
 from volfrep.util.errors import Cancelled
 

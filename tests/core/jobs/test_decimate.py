@@ -8,10 +8,11 @@ import pytest
 from scipy.spatial import cKDTree
 
 import samples
-from volfrep import block, fill
 from volfrep.design.spec import LatticeSpec
 from volfrep.io.write.stl import as_read
+from volfrep.jobs.blocks import block
 from volfrep.jobs.decimate import reduce_triangles
+from volfrep.jobs.pipeline import fill
 from volfrep.mesh import quality
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
 from volfrep.util.errors import VolfrepError

@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 
 from bench.parts import MODELLED, NO_PARTS, PARTS, modelled_file
-from volfrep import LatticeSpec, StageCache, fill, read_solid
+from volfrep import LatticeSpec, StageCache, read_solid
 from volfrep.design.cells import LIBRARY
 from volfrep.io.write.stl import as_read
+from volfrep.jobs.pipeline import fill
 from volfrep.mesh import quality
 from walls import wall_errors
 

@@ -9,9 +9,11 @@ import pytest
 
 import samples
 from exact import BLOCK_VOLUME, DENSITY, in_lattice
-from volfrep import Cancelled, LatticeSpec, StageCache, VolfrepError, block, fill
+from volfrep import Cancelled, LatticeSpec, StageCache, VolfrepError
 from volfrep.design.cells import LIBRARY
 from volfrep.io.write.stl import as_read
+from volfrep.jobs.blocks import block
+from volfrep.jobs.pipeline import fill
 from volfrep.mesh import quality
 
 SMALL = LatticeSpec(cell="CVC", cell_size=8, strut_radius=0.8, shell=2)

@@ -7,8 +7,10 @@ from functools import lru_cache
 import pytest
 
 from samples import box
-from volfrep import LatticeSpec, StageCache, block, fill, write_block_stl
+from volfrep import LatticeSpec, StageCache
 from volfrep.design.cells import LIBRARY
+from volfrep.jobs.blocks import block, write_block_stl
+from volfrep.jobs.pipeline import fill
 
 SPEC = LatticeSpec("CVC", 5.0, 0.5, shell=1.0, resolution=8)
 

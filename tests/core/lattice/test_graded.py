@@ -9,13 +9,15 @@ import samples
 from contract import check_contract
 from exact import in_lattice, in_struts
 from samples import SKEW
-from volfrep import LatticeSpec, VolfrepError, block, fill
+from volfrep import LatticeSpec, VolfrepError
 from volfrep.design.cells import LIBRARY
 from volfrep.design.grading import CellMap, Orientation, RadiusGrading, SizeGrading
 from volfrep.design.profile import Profile
 from volfrep.design.scattered_field import PointField
 from volfrep.grid.placement import block_placement
 from volfrep.io.write.stl import as_read
+from volfrep.jobs.blocks import block
+from volfrep.jobs.pipeline import fill
 from volfrep.lattice.padded_grid import narrowest
 from volfrep.lattice.strut_binding import crease
 from volfrep.mesh import quality

@@ -5,8 +5,9 @@ import numpy as np
 import pytest
 
 import samples
-from volfrep import block, fill
 from volfrep.design.spec import LatticeSpec
+from volfrep.jobs.blocks import block
+from volfrep.jobs.pipeline import fill
 from volfrep.mesh.vertex_cluster import coarse_likeness, is_outside
 from volfrep.spatial.proximity import closest_points
 

@@ -5,10 +5,11 @@ import numpy as np
 import pytest
 
 import samples
-from volfrep import LatticeSpec, fill
+from volfrep import LatticeSpec
 from volfrep.design.grading import RadiusGrading
 from volfrep.design.openings import DrainHoles, DrainPlace, OpenPlane
 from volfrep.design.profile import Profile
+from volfrep.jobs.pipeline import fill
 from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.reports.facet_roles import LATTICE, OUTSIDE, WALL, kinds_of_triangles
 

@@ -7,9 +7,11 @@ import numpy as np
 import pytest
 
 import samples
-from volfrep import LatticeSpec, VolfrepError, block, fill
+from volfrep import LatticeSpec, VolfrepError
 from volfrep.grid.strut_graph import Wireframe
 from volfrep.jobs.beam_part import block_beams
+from volfrep.jobs.blocks import block
+from volfrep.jobs.pipeline import fill
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
 from volfrep.reports.printability import (
     PROCESSES,

@@ -5,9 +5,10 @@ import numpy as np
 import pytest
 
 import samples
-from volfrep import LatticeSpec, block
+from volfrep import LatticeSpec
 from volfrep.grid.strut_graph import Wireframe
 from volfrep.jobs.beam_part import clipped_infill
+from volfrep.jobs.blocks import block
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
 from volfrep.spatial.proximity import closest_points
 from volfrep.spatial.rays import segment_crossings

@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 
 import samples
-from volfrep import LatticeSpec, VolfrepError, fill
+from volfrep import LatticeSpec, VolfrepError
 from volfrep.design.openings import DrainHoles, DrainPlace, OpenPlane
 from volfrep.io.write.stl import as_read
 from volfrep.jobs.beam_part import beam_model
+from volfrep.jobs.pipeline import fill
 from volfrep.mesh import quality
 from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.spatial.rays import inside_points

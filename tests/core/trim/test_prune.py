@@ -8,12 +8,13 @@ import pytest
 
 import samples
 from contract import check_contract
-from volfrep import LatticeSpec, VolfrepError, fill
+from volfrep import LatticeSpec, VolfrepError
 from volfrep.design.cells import LIBRARY
 from volfrep.design.grading import RadiusGrading, SizeGrading
 from volfrep.design.profile import Profile
 from volfrep.grid.strut_graph import Wireframe
 from volfrep.io.write.stl import as_read
+from volfrep.jobs.pipeline import fill
 from volfrep.mesh import quality
 from volfrep.trim.prune import remaining
 

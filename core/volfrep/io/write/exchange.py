@@ -9,11 +9,11 @@ from typing import cast
 import numpy as np
 from numpy.typing import NDArray
 
+from ...mesh.precision import refuse_lost_corners, single_precision
 from ...mesh.triangle_mesh import TriangleMesh
 from ...util.files import replacing
 from ...util.progress import Monitor
 from ..read.exchange import TO_Z_UP
-from .precision import refuse_lost_corners, single_precision
 
 #: Metres in a millimetre.
 METRE = 1e-3

@@ -1,0 +1,280 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What a script's author needs: `fill` a part, make a `block`, and look at, check and save either.
+
+>>> import trimesh, volfrep
+>>> part = volfrep.fill(
+...     trimesh.creation.box((30, 20, 20)), cell="CVC", cell_size=10, strut_radius=1, shell=2
+... )
+>>> part.report.watertight, part.report.bodies
+(True, 1)
+>>> 0.3 < part.mesh.volume / (30 * 20 * 20) < 0.7
+True
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .design.spec import LatticeSpec
+from .grid.strut_graph import Wireframe
+from .io.solid import Solid, check_solid, read_solid
+from .mesh.triangle_mesh import TriangleMesh
+from .reports.report import Report
+from .reports.result import Result
+from .util.cache import StageCache
+from .util.errors import VolfrepError
+from .util.progress import ProgressCallback
+
+if TYPE_CHECKING:
+    import trimesh
+
+    from .reports.printability import PrintReport
+
+
+class MeshLike(Protocol):
+    """Anything with vertices and faces, such as a `trimesh.Trimesh`."""
+
+    @property
+    def vertices(self) -> ArrayLike:
+        """(n, 3) in mm."""
+
+    @property
+    def faces(self) -> ArrayLike:
+        """(m, 3) vertex numbers, counter-clockwise from outside."""
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """A filled part, or a block.
+
+    Attributes:
+        result: the mesh as arrays, its wireframe and its figures.
+        spec: what was asked for.
+        solid: what was filled; None for a block.
+        cache: holds the stages, so that what is asked for later is not computed anew.
+    """
+
+    result: Result
+    spec: LatticeSpec
+    solid: Solid | None
+    cache: StageCache
+
+    @cached_property
+    def mesh(self) -> trimesh.Trimesh:
+        """The mesh, mm; its vertices and faces are those of `result.mesh`, none merged."""
+        import trimesh  # slow to import
+
+        made = self.result.mesh
+        return trimesh.Trimesh(made.vertices, made.triangles, process=False)
+
+    @property
+    def struts(self) -> Wireframe:
+        """The unique nodes and struts of the active cells, with their radii, mm."""
+        return self.result.wireframe
+
+    @property
+    def report(self) -> Report:
+        """The figures: cells, struts, triangles, volume, mass, seconds, warnings."""
+        return self.result.report
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the mesh in the format that the extension names (.stl, .3mf, .ply, .obj, ...).
+
+        Raises:
+            VolfrepError: an unknown extension, or the path cannot be written; what was there
+                before stays.
+        """
+        from .io.write import write_mesh
+
+        write_mesh(self.result.mesh, path)
+
+    def check(
+        self, process: str, build_direction: tuple[float, float, float] = (0.0, 0.0, 1.0)
+    ) -> PrintReport:
+        """Hold the part against the limits of a printing process.
+
+        Args:
+            process: FFF, SLA, SLS or LPBF.
+            build_direction: from the build plate up, of any length.
+
+        Raises:
+            VolfrepError: there is no such process, or the direction is none.
+        """
+        from .jobs.pipeline import fill
+        from .reports.printability import find_process, print_report
+
+        limits = find_process(process)
+        domain = None
+        if self.solid is not None:
+            inner = dataclasses.replace(self.spec, output="domain", drains=None)
+            domain = fill(self.solid, inner, cache=self.cache).mesh
+        return print_report(
+            self.result.mesh,
+            self.struts,
+            limits,
+            build_direction=build_direction,
+            density=self.spec.density,
+            domain=domain,
+        )
+
+    def plot(
+        self,
+        file: str | os.PathLike[str] | None = None,
+        *,
+        cut: bool = True,
+        size: tuple[int, int] | None = None,
+    ) -> None:
+        """Show the part, its eighth towards the viewer cut away; needs the package pyvista.
+
+        Args:
+            file: a PNG to write; None opens a window, or shows the picture in a notebook.
+            cut: False shows it whole.
+            size: of the picture, pixels.
+
+        Raises:
+            VolfrepError: pyvista is missing, or the file cannot be written.
+        """
+        from .reports.picture import SIZE, picture
+
+        picture(
+            self.result.mesh,
+            file,
+            solid=self.solid,
+            shell=self.spec.shell,
+            cut=cut,
+            size=size or SIZE,
+        )
+
+
+def fill(
+    part: str | os.PathLike[str] | TriangleMesh | MeshLike | tuple[ArrayLike, ArrayLike],
+    spec: LatticeSpec | None = None,
+    *,
+    unit: str | None = None,
+    progress: ProgressCallback | None = None,
+    cache: StageCache | None = None,
+    **parameters: Any,
+) -> Part:
+    """Fill a solid with a lattice.
+
+    Args:
+        part: a file (STL, OBJ, PLY, 3MF, OFF, GLB; with FreeCAD at hand STEP, IGES, BREP), a mesh
+            such as a `trimesh.Trimesh`, or its arrays (vertices in mm, triangles). It is repaired
+            where that can mean one thing only, and proved.
+        spec: what to make.
+        unit: of a file's lengths; None for what it says, else mm.
+        progress: called with the fraction done and the stage; returning False cancels.
+        cache: keeps the stages between calls.
+        parameters: of a `LatticeSpec`, in place of one or on top of it.
+
+    Raises:
+        VolfrepError: the part is no closed solid, or the specification makes no sense or does
+            not fit it; one sentence that says what to do.
+        Cancelled: the callback said so.
+
+    >>> import numpy as np, trimesh, volfrep
+    >>> box = trimesh.creation.box((20, 20, 20))
+    >>> part = volfrep.fill((box.vertices, box.faces), cell="BCC", strut_radius=1, shell=0)
+    >>> part.report.cells_active
+    8
+    """
+    from .jobs.pipeline import fill as fill_solid
+
+    wanted = _specification(spec, parameters)
+    solid = as_solid(part, unit)
+    cache = cache or StageCache()
+    result = fill_solid(solid, wanted, progress=progress, cache=cache)
+    return Part(result, wanted, solid, cache)
+
+
+def block(
+    count: Sequence[int],
+    spec: LatticeSpec | None = None,
+    *,
+    progress: ProgressCallback | None = None,
+    **parameters: Any,
+) -> Part:
+    """A free-standing block of whole cells with round struts.
+
+    Args:
+        count: cells along x, y, z.
+        spec: what to make.
+        progress: called with the fraction done and the stage; returning False cancels.
+        parameters: of a `LatticeSpec`, in place of one or on top of it.
+
+    Raises:
+        VolfrepError: the counts or the specification make no sense, or it would not fit into
+            memory.
+        Cancelled: the callback said so.
+
+    >>> import volfrep
+    >>> cube = volfrep.block((2, 2, 2), cell="Octet", cell_size=5, strut_radius=0.4)
+    >>> cube.report.struts - cube.report.nodes + 1 == cube.report.genus
+    True
+    """
+    from .jobs.blocks import block as make_block
+
+    wanted = _specification(spec, parameters)
+    return Part(make_block(wanted, count, progress=progress), wanted, None, StageCache())
+
+
+def as_solid(
+    part: str | os.PathLike[str] | TriangleMesh | MeshLike | tuple[ArrayLike, ArrayLike],
+    unit: str | None = None,
+) -> Solid:
+    """A proved solid of a file, a mesh or its arrays; see `fill`.
+
+    Raises:
+        VolfrepError: it is none.
+    """
+    if isinstance(part, Solid):
+        return part
+    if isinstance(part, (str, os.PathLike)):
+        return read_solid(part, unit)
+    if unit is not None:
+        raise VolfrepError("A unit belongs to a file: give the arrays of a mesh in mm.")
+    if isinstance(part, TriangleMesh):
+        return check_solid(part, "mesh")
+    if isinstance(part, tuple) and len(part) == 2:
+        vertices, triangles = part
+    elif hasattr(part, "vertices") and hasattr(part, "faces"):
+        vertices, triangles = part.vertices, part.faces
+    else:
+        raise VolfrepError(
+            f"A part is a file's path, a mesh with vertices and faces, or a pair of arrays, not "
+            f"{type(part).__name__}."
+        )
+    points, rows = np.asarray(vertices, np.float64), np.asarray(triangles)
+    shapes_fit = points.ndim == 2 and rows.ndim == 2 and points.shape[1] == rows.shape[1] == 3
+    if not shapes_fit or not len(rows) or rows.dtype.kind not in "iu":
+        raise VolfrepError(
+            "A mesh has (n, 3) vertices and (m, 3) triangles of whole numbers, not arrays of the "
+            f"shapes {points.shape} and {rows.shape}."
+        )
+    if rows.min() < 0 or rows.max() >= len(points):
+        raise VolfrepError(f"A triangle names a vertex that is not among the {len(points)}.")
+    if not np.isfinite(points).all():
+        raise VolfrepError("A vertex of the mesh has a coordinate that is not a finite number.")
+    return check_solid(TriangleMesh(points, rows.astype(np.int32)), "mesh")
+
+
+def _specification(spec: LatticeSpec | None, parameters: dict[str, Any]) -> LatticeSpec:
+    known = {field.name for field in dataclasses.fields(LatticeSpec)}
+    unknown = [name for name in parameters if name not in known]
+    if unknown:
+        import difflib
+
+        near = difflib.get_close_matches(unknown[0], known, 1)
+        hint = f"did you mean '{near[0]}'?" if near else f"there are {', '.join(sorted(known))}."
+        raise VolfrepError(f"A lattice has no parameter '{unknown[0]}': {hint}")
+    if spec is None:
+        return LatticeSpec(**parameters)
+    return dataclasses.replace(spec, **parameters) if parameters else spec

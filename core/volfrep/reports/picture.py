@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A part seen cut open: skin, lattice and cut faces, each in a colour of its own.
+
+pyvista draws; it is an optional package (``pip install volfrep[plot]``).
+"""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..mesh.booleans import difference
+from ..mesh.triangle_mesh import TriangleMesh
+from ..spatial.proximity import index_surface
+from ..util.errors import VolfrepError
+from ..util.files import check_writable, replacing
+from ..util.types import Bools, Floats
+
+if TYPE_CHECKING:
+    import pyvista
+
+#: The colours, as the README's picture has them.
+SKIN, WALL, LATTICE, CUT = "#b8c2d1", "#ccd1db", "#3380db", "#fa9429"
+#: The viewer looks from here, with z up; the eighth of the part towards him is cut away.
+VIEW = np.array([1.0, -1.3, 0.8])
+SIZE = (1400, 900)
+#: Places beside the viewer, and how bright.
+LIGHTS = (((-0.5, 1.0, 0.9), 0.95), ((1.0, 0.25, 0.6), 0.42), ((0.0, -0.6, 1.0), 0.3))
+#: Edges sharper than this stay sharp, degrees.
+FEATURE_ANGLE = 40.0
+#: Facets this near to a surface lie on it, in units of the part's diagonal.
+ON_SURFACE = 1e-5
+
+
+def picture(
+    mesh: TriangleMesh,
+    file: str | os.PathLike[str] | None = None,
+    *,
+    solid: TriangleMesh | None = None,
+    shell: float = 0.0,
+    cut: bool = True,
+    size: tuple[int, int] = SIZE,
+) -> None:
+    """Draw a part into a PNG, or show it in a window.
+
+    Args:
+        mesh: closed, mm.
+        file: the PNG to write, beside it first and then renamed; None opens a window, or shows
+            the picture in a notebook.
+        solid: the part before it was filled, by which skin and lattice are told apart; None for a
+            lattice without a skin.
+        shell: thickness of the skin, mm.
+        cut: whether the eighth towards the viewer is cut away.
+        size: of the picture, pixels.
+
+    Raises:
+        VolfrepError: pyvista is missing, the name does not end in .png, or it cannot be written.
+    """
+    library = _library()
+    if file is not None and Path(check_writable(file)).suffix.lower() != ".png":
+        raise VolfrepError(f"Cannot write '{file}': a picture's name ends in .png.")
+    stage = library.Plotter(off_screen=file is not None, window_size=list(size), lighting="none")
+    stage.set_background("white")
+    for place, intensity in LIGHTS:
+        light = library.Light(light_type="camera light", intensity=intensity)
+        light.position = place
+        stage.add_light(light)
+    for triangles, colour, ambient in _coloured(mesh, solid, shell, cut):
+        if len(triangles.triangles):
+            surface = _surface(library, triangles)
+            stage.add_mesh(
+                surface, color=colour, ambient=ambient, diffuse=1.0 - ambient, specular=0.12,
+                specular_power=25, smooth_shading=True, split_sharp_edges=True,
+                feature_angle=FEATURE_ANGLE,
+            )  # fmt: skip
+    stage.enable_anti_aliasing("ssaa")
+    stage.enable_parallel_projection()
+    stage.camera_position = [tuple(VIEW), (0.0, 0.0, 0.0), (0.0, 0.0, 1.0)]
+    stage.reset_camera()
+    stage.camera.zoom(1.35)
+    if file is None:
+        stage.show()
+        return
+    image = stage.screenshot(return_img=True)
+    stage.close()
+    if image.min() == image.max():
+        raise VolfrepError("The picture came out empty: pyvista found no way to draw here.")
+    from PIL import Image  # comes with pyvista
+
+    with replacing(file) as target:
+        Image.fromarray(image).save(target, format="PNG", optimize=True)
+
+
+def _library() -> Any:
+    try:
+        import pyvista
+    except ImportError as error:
+        raise VolfrepError(
+            "Pictures are drawn by the package pyvista, which is not installed: "
+            "run 'pip install pyvista'."
+        ) from error
+    return pyvista
+
+
+def _coloured(
+    mesh: TriangleMesh, solid: TriangleMesh | None, shell: float, cut: bool
+) -> list[tuple[TriangleMesh, str, float]]:
+    """Parts of the mesh, each with its colour and how much of it is not shaded."""
+    near = ON_SURFACE * float(np.linalg.norm(np.ptp(mesh.bounds, axis=0)))
+    faces: Bools = np.zeros(len(mesh.triangles), bool)
+    if cut:
+        low, high = mesh.bounds
+        middle = 0.5 * (low + high)
+        corner = np.where(VIEW > 0.0, high, low)
+        away = corner + 0.1 * (corner - middle)
+        mesh = difference(mesh, _box(np.minimum(middle, away), np.maximum(middle, away)))
+        corners = mesh.vertices[mesh.triangles]
+        # Cut faces lie in the planes through the middle, within the box that went.
+        inside = ((corners - middle) * np.sign(VIEW) > -near).all(axis=(1, 2))
+        flat = (np.abs(corners - middle) < near).all(axis=1).any(axis=1)
+        faces = inside & flat
+    skin: Bools = np.zeros(len(mesh.triangles), bool)
+    wall = skin
+    if solid is not None and shell > 0.0:
+        depth = index_surface(solid, 0.5 * shell).near(mesh.vertices)[1][mesh.triangles]
+        skin = (depth < max(near, 1e-3 * shell)).all(axis=1) & ~faces
+        wall = (np.abs(depth - shell) < 0.1 * shell).all(axis=1) & ~faces
+    lattice = ~(skin | wall | faces)
+    # A flat cut reads better in an even colour than in a shaded one.
+    parts = ((skin, SKIN, 0.25), (wall, WALL, 0.25), (lattice, LATTICE, 0.25), (faces, CUT, 0.75))
+    return [
+        (TriangleMesh(mesh.vertices, mesh.triangles[chosen]), colour, ambient)
+        for chosen, colour, ambient in parts
+    ]
+
+
+def _box(low: Floats, high: Floats) -> TriangleMesh:
+    corners = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
+    sides = np.array(
+        [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+    )
+    triangles = np.concatenate([sides[:, [0, 1, 2]], sides[:, [0, 2, 3]]]).astype(np.int32)
+    return TriangleMesh(low + corners * (high - low), triangles)
+
+
+def _surface(library: Any, mesh: TriangleMesh) -> pyvista.PolyData:
+    used, index = np.unique(mesh.triangles, return_inverse=True)
+    surface: pyvista.PolyData = library.PolyData.from_regular_faces(
+        mesh.vertices[used], index.reshape(-1, 3)
+    )
+    return surface

@@ -146,9 +146,9 @@ class Part:
 
         picture(
             self.result.mesh,
+            self.spec,
             file,
             solid=self.solid,
-            shell=self.spec.shell,
             cut=cut,
             size=size or SIZE,
         )

@@ -12,12 +12,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..design.spec import LatticeSpec
 from ..mesh.booleans import difference
 from ..mesh.triangle_mesh import TriangleMesh
-from ..spatial.proximity import index_surface
 from ..util.errors import VolfrepError
 from ..util.files import check_writable, replacing
 from ..util.types import Bools, Floats
+from . import facet_roles
 
 if TYPE_CHECKING:
     import pyvista
@@ -37,22 +38,22 @@ ON_SURFACE = 1e-5
 
 def picture(
     mesh: TriangleMesh,
+    spec: LatticeSpec,
     file: str | os.PathLike[str] | None = None,
     *,
     solid: TriangleMesh | None = None,
-    shell: float = 0.0,
     cut: bool = True,
     size: tuple[int, int] = SIZE,
 ) -> None:
     """Draw a part into a PNG, or show it in a window.
 
     Args:
-        mesh: closed, mm.
+        mesh: what was made, mm.
+        spec: of what.
         file: the PNG to write, beside it first and then renamed; None opens a window, or shows
             the picture in a notebook.
         solid: the part before it was filled, by which skin and lattice are told apart; None for a
             lattice without a skin.
-        shell: thickness of the skin, mm.
         cut: whether the eighth towards the viewer is cut away.
         size: of the picture, pixels.
 
@@ -68,7 +69,7 @@ def picture(
         light = library.Light(light_type="camera light", intensity=intensity)
         light.position = place
         stage.add_light(light)
-    for triangles, colour, ambient in _coloured(mesh, solid, shell, cut):
+    for triangles, colour, ambient in _coloured(mesh, spec, solid, cut):
         if len(triangles.triangles):
             surface = _surface(library, triangles)
             stage.add_mesh(
@@ -106,7 +107,7 @@ def _library() -> Any:
 
 
 def _coloured(
-    mesh: TriangleMesh, solid: TriangleMesh | None, shell: float, cut: bool
+    mesh: TriangleMesh, spec: LatticeSpec, solid: TriangleMesh | None, cut: bool
 ) -> list[tuple[TriangleMesh, str, float]]:
     """Parts of the mesh, each with its colour and how much of it is not shaded."""
     near = ON_SURFACE * float(np.linalg.norm(np.ptp(mesh.bounds, axis=0)))
@@ -122,13 +123,13 @@ def _coloured(
         inside = ((corners - middle) * np.sign(VIEW) > -near).all(axis=(1, 2))
         flat = (np.abs(corners - middle) < near).all(axis=1).any(axis=1)
         faces = inside & flat
-    skin: Bools = np.zeros(len(mesh.triangles), bool)
-    wall = skin
-    if solid is not None and shell > 0.0:
-        depth = index_surface(solid, 0.5 * shell).near(mesh.vertices)[1][mesh.triangles]
-        skin = (depth < max(near, 1e-3 * shell)).all(axis=1) & ~faces
-        wall = (np.abs(depth - shell) < 0.1 * shell).all(axis=1) & ~faces
-    lattice = ~(skin | wall | faces)
+    kinds = np.full(len(mesh.triangles), facet_roles.LATTICE, np.uint8)
+    if solid is not None:
+        kinds = facet_roles.kinds_of_triangles(mesh, solid, spec)
+    skin, wall, lattice = (
+        (kinds == kind) & ~faces
+        for kind in (facet_roles.OUTSIDE, facet_roles.WALL, facet_roles.LATTICE)
+    )
     # A flat cut reads better in an even colour than in a shaded one.
     parts = ((skin, SKIN, 0.25), (wall, WALL, 0.25), (lattice, LATTICE, 0.25), (faces, CUT, 0.75))
     return [

@@ -97,7 +97,7 @@ def profile(cell: str, out: str, part: str | None = None) -> dict[str, Any]:
     By the functions' own time, without those that they call.
     """
     report = Path(out).with_suffix(".json")
-    job = ["block", "--count", "10", "10", "10"]
+    job = ["block", "--count", "10,10,10"]
     if part is not None:
         job = ["fill", part, "--shell", f"{SHELL:g}"]
     lattice = ["--cell", cell, "--cell-size", f"{SIZE:g}", "--strut-radius", f"{RADIUS:g}"]

@@ -198,7 +198,7 @@ def our_block(
     """
     out, report = context.folder / "block.stl", context.folder / "report.json"
     command = volfrep(
-        "block", "-o", str(out), "--cell", cell, "--count", *[str(count)] * 3,
+        "block", "-o", str(out), "--cell", cell, "--count", ",".join([str(count)] * 3),
         *lattice_options(), *options, "--quiet", "--report", str(report),
     )  # fmt: skip
     done, all_seconds = run_often(command, times, out)

@@ -35,12 +35,12 @@ SPECIFICATIONS = {
     "fillet": ("--cell Octet --cell-size 12 --strut-radius 1.2 --shell 1.5 --fillet 0.5", "obj"),
     "growing": (
         "--cell FCC --cell-size 8 --strut-radius 0.6 --shell 2 --size-grading linear "
-        "--lambda-max 1.5 --grading-direction 0 1 0",
+        "--lambda-end 1.5 --grading-direction 0,1,0",
         "stl",
     ),
     "radius": (
         "--cell BCC --cell-size 10 --strut-radius 1 --shell 2 --radius-grading skin "
-        "--radius-min 0.6 --radius-max 1.2 --radius-reach 6",
+        "--radius-start 0.6 --radius-end 1.2 --radius-reach 6",
         "stl",
     ),
     "pruned": (
@@ -49,7 +49,7 @@ SPECIFICATIONS = {
         "stl",
     ),
     "turned": (
-        "--cell CVC --cell-size 9 --strut-radius 0.8 --shell 1.5 --rotate 0 0 1 30 --3mf both",
+        "--cell CVC --cell-size 9 --strut-radius 0.8 --shell 1.5 --rotate 0,0,1,30 --3mf both",
         "3mf",
     ),
     "drained": (

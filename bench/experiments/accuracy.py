@@ -50,7 +50,7 @@ def measure(context: Context) -> dict[str, Any]:
     for resolution in QUICK_RESOLUTIONS if context.quick else RESOLUTIONS:
         made = context.folder / "cells.stl"
         command = volfrep(
-            "block", "-o", str(made), "--cell", CELL, "--count", *[str(COUNT)] * 3,
+            "block", "-o", str(made), "--cell", CELL, "--count", ",".join([str(COUNT)] * 3),
             *lattice_options(), "--resolution", str(resolution), "--quiet",
         )  # fmt: skip
         done = run(command)

@@ -97,7 +97,7 @@ def _published(context: Context) -> dict[str, Any]:
     domain = context.folder / "domain.stl"
     done = run(
         volfrep("fill", str(bracket()), "-o", str(domain), "--cell", "CVC", *lattice_options(),
-                "--shell", f"{SHELL:g}", "--output", "domain", "--quiet")
+                "--shell", f"{SHELL:g}", "--make", "domain", "--quiet")
     )  # fmt: skip
     if done.failure:
         return {"peers": [{"tool": "published method", "note": done.failure, "failed": True}]}

@@ -16,9 +16,9 @@ from ..tables import Column, Row, bar, table, yes_no
 BAR_SECONDS, FIELD_BAR_SECONDS, BLOCK_BAR_SECONDS = 6.0, 12.0, 5.0
 ROD_OPTIONS = (
     "--cell-size", "2", "--strut-radius", "0.2", "--shell", "1",
-    "--size-grading", "linear", "--lambda-min", "1", "--lambda-max", "2",
+    "--size-grading", "linear", "--lambda-start", "1", "--lambda-end", "2",
 )  # fmt: skip
-THICKER = ("--radius-min", "0.6", "--radius-max", "1.4")
+THICKER = ("--radius-start", "0.6", "--radius-end", "1.4")
 
 
 def measure(context: Context) -> dict[str, Any]:

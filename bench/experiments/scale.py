@@ -71,7 +71,7 @@ def _beams(context: Context) -> Row:
     count = QUICK_BEAM_CELLS if context.quick else MOST_BEAM_CELLS
     out = context.folder / "beams.3mf"
     command = volfrep(
-        "block", "-o", str(out), "--3mf", "beams", "--cell", "CVC", "--count", *[str(count)] * 3,
+        "block", "-o", str(out), "--3mf", "beams", "--cell", "CVC", "--count", ",".join([str(count)] * 3),
         *lattice_options(),
     )  # fmt: skip
     done = run(["/usr/bin/env", "time", "-f", "%M", *command] if _has_time() else command)

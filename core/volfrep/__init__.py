@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .api import Part, block, fill
+    from .design.parameters.spec_file import read_spec, write_spec
     from .design.spec import LatticeSpec
     from .io.solid import read_solid
     from .jobs.blocks import write_block_stl
@@ -35,6 +36,8 @@ _HOMES = {
     "Report": "reports.report",
     "read_solid": "io.solid",
     "LatticeSpec": "design.spec",
+    "read_spec": "design.parameters.spec_file",
+    "write_spec": "design.parameters.spec_file",
     "write_block_stl": "jobs.blocks",
 }
 
@@ -50,7 +53,9 @@ __all__ = [
     "block",
     "fill",
     "read_solid",
+    "read_spec",
     "write_block_stl",
+    "write_spec",
 ]
 
 

@@ -16,4 +16,4 @@ def fill(lattice: list[str], part: object, out: object, *more: object) -> int:
 
 def block(lattice: list[str], out: object, *more: object) -> int:
     """`volfrep block` of two cells."""
-    return run("block", "-o", out, *lattice, "--count", 2, 1, 1, *more)
+    return run("block", "-o", out, *lattice, "--count", "2,1,1", *more)

@@ -10,39 +10,31 @@ from __future__ import annotations
 import argparse
 import dataclasses
 import io
-import json
 import os
-import re
 import sys
 import tempfile
 import time
 import traceback
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, NoReturn
 
 from ..util.errors import VolfrepError
-from . import (
-    domain_options as domain_options,
-)
-from . import (
-    printing_options as printing_options,
-)
-from . import (
-    solver_options as solver_options,
-)
+from . import printing_options, solver_options
 from .files import check_files
-from .grading_options import add_grading_options, gradings
-from .printing_options import print_rows, print_warnings
+from .parameter_options import (
+    add_parameters,
+    specification,
+    write_specification,
+)  # fmt: skip
+from .parser import Parser, Version, refuse_old, three_whole_numbers
+from .telling import Progress, print_rows, tell
 
 if TYPE_CHECKING:
     from ..design.spec import LatticeSpec
     from ..mesh.triangle_mesh import TriangleMesh
-    from ..reports.printability import PrintReport
-    from ..reports.report import Report
     from ..reports.result import Result
     from ..trim.beam_model import BeamModel
-    from ..util.progress import ProgressCallback
     from .solver_options import Writer
 
 EXIT_DEFECT = 1
@@ -71,7 +63,8 @@ def main() -> NoReturn:
 def run(arguments: Sequence[str]) -> int:
     """Run a command and return its exit code; errors of the user become one sentence."""
     try:
-        options = _parser().parse_args([_plain_number(argument) for argument in arguments])
+        refuse_old(arguments)
+        options = _parser().parse_args(arguments)
         command: Callable[[argparse.Namespace], None] = options.command
         command(options)
     except VolfrepError as error:
@@ -108,45 +101,17 @@ def _logged() -> str:
     return file.name
 
 
-class _Parser(argparse.ArgumentParser):
-    """An argument parser whose errors are one sentence, without the usage in front."""
-
-    def error(self, message: str) -> NoReturn:
-        raise VolfrepError(f"{message[:1].upper()}{message[1:]} (see '{self.prog} --help').")
-
-
-class _Version(argparse.Action):
-    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
-        from importlib.metadata import version
-
-        print(f"volfrep {version('volfrep')}")
-        parser.exit()
-
-
-def _plain_number(argument: str) -> str:
-    """Negative numbers such as ``-1e3`` as ``-1000.0``: argparse takes them for options.
-
-    So it does pairs such as ``-5:0.4,0:1`` and directions such as ``-1,0,0``, unless they begin
-    with a blank.
-    """
-    if re.match(r"-[\d.]+(e[-+]?\d+)?[:,]", argument, re.IGNORECASE):
-        return f" {argument}"
-    if not re.fullmatch(r"-(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?", argument):
-        return argument
-    return argument if re.fullmatch(r"-\d+", argument) else f"{float(argument):.15f}"
-
-
 def _parser() -> argparse.ArgumentParser:
-    parser = _Parser(
+    parser = Parser(
         prog="volfrep",
         description="Fill a solid with a strut lattice. Lengths are in mm.",
         allow_abbrev=False,
     )
-    parser.add_argument("--version", action=_Version, nargs=0, help="show the version and exit")
+    parser.add_argument("--version", action=Version, nargs=0, help="show the version and exit")
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
 
-    def add(name: str, command: Callable[[argparse.Namespace], None], text: str) -> _Parser:
-        sub: _Parser = commands.add_parser(name, help=text, description=text, allow_abbrev=False)
+    def add(name: str, command: Callable[[argparse.Namespace], None], text: str) -> Parser:
+        sub: Parser = commands.add_parser(name, help=text, description=text, allow_abbrev=False)
         sub.set_defaults(command=command)
         return sub
 
@@ -157,29 +122,15 @@ def _parser() -> argparse.ArgumentParser:
         help="the closed solid: STL, OBJ, PLY or 3MF, or with FreeCAD at hand STEP, IGES or BREP",
     )
     _add_unit(fill)
-    _add_lattice_options(fill)
-    fill.add_argument(
-        "--shell", type=float, required=True, metavar="MM", help="thickness of the skin, 0 for none"
-    )
-    domain_options.add_options(fill)
-    fill.add_argument(
-        "--output",
-        metavar="WHAT",
-        help="'part' (skin and lattice, default), 'lattice' (trimmed) or 'domain' (what it fills)",
-    )
-    fill.add_argument(
-        "--origin",
-        type=float,
-        nargs=3,
-        metavar=("X", "Y", "Z"),
-        help="a point that is to be a corner of a cell (default: the part's box)",
-    )
+    _add_output(fill)
+    add_parameters(fill)
 
     block = add("block", _block, "Make a free-standing block of whole cells with round struts.")
     block.add_argument(
-        "--count", type=int, nargs=3, required=True, metavar=("NX", "NY", "NZ"), help="cells"
+        "--count", type=three_whole_numbers, required=True, metavar="NX,NY,NZ", help="cells"
     )
-    _add_lattice_options(block)
+    _add_output(block)
+    add_parameters(block, of_block=True)
 
     add("cells", _cells, "List the library of unit cells.")
 
@@ -197,37 +148,26 @@ def _add_unit(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def _add_lattice_options(parser: argparse.ArgumentParser) -> None:
+def _add_output(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
-    add("-o", dest="out", required=True, metavar="OUT", help=".stl, .3mf, .ply, .obj, .step, .inp")
-    add("--cell", required=True, help="a library cell (see 'volfrep cells') or a cell's .json file")
-    add("--cell-size", type=float, required=True, metavar="MM", help="edge L of a cell")
-    add("--strut-radius", type=float, required=True, metavar="MM", help="radius r of the struts")
-    detail = parser.add_mutually_exclusive_group()
-    detail.add_argument("--resolution", type=int, metavar="N", help="facets along L")
-    detail.add_argument(
-        "--deviation", type=float, metavar="MM", help="largest distance from the exact surface"
+    add(
+        "-o",
+        "--output",
+        required=True,
+        metavar="FILE",
+        help="what to write: .stl, .3mf, .ply, .obj, .step or .inp",
     )
-    add("--fillet", type=float, metavar="MM", help="radius of the round at the joints (default 0)")
-    add("--density", type=float, metavar="G_PER_CM3", help="of the material (default 1)")
     add("--report", metavar="FILE.json", help="write the figures of the run as JSON")
+    add("--quiet", action="store_true", help="print nothing but errors")
     printing_options.add_options(parser)
     solver_options.add_options(parser)
-    add("--quiet", action="store_true", help="print nothing but errors")
-    add_grading_options(parser)
 
 
 def _fill(options: argparse.Namespace) -> None:
     part = Path(options.part)
-    _check_targets(options)
-    spec = _spec(
-        options,
-        "shell",
-        "output",
-        "origin",
-        *domain_options.FIELDS,
-        **domain_options.openings(options),
-    )
+    spec = specification(options)
+    _check_targets(options, spec)
+    write_specification(options, spec)
 
     from ..design.forecast import forecast_fill
     from ..io.read.units import refuse_scale
@@ -244,7 +184,7 @@ def _fill(options: argparse.Namespace) -> None:
     if not options.quiet:
         print(f"Expected: {forecast_fill(solid, spec)}.", flush=True)
     cache = StageCache()
-    with _Progress(options.quiet) as progress:
+    with Progress(options.quiet) as progress:
         if solver_options.fill_axes(solid, spec, options, progress, start):
             return
         if options.threemf == "beams":
@@ -265,8 +205,9 @@ def _fill(options: argparse.Namespace) -> None:
 
 
 def _block(options: argparse.Namespace) -> None:
-    _check_targets(options)
-    spec = _spec(options)
+    spec = specification(options)
+    _check_targets(options, spec)
+    write_specification(options, spec)
 
     from ..design.forecast import forecast_block
     from ..jobs.blocks import block, write_block_stl
@@ -287,9 +228,9 @@ def _block(options: argparse.Namespace) -> None:
         from ..jobs.beam_part import block_beams
 
         beams = block_beams(spec, options.count)
-    with _Progress(options.quiet) as progress:
+    with Progress(options.quiet) as progress:
         if _writes_stl(options):
-            _tell(write_block_stl(spec, options.count, options.out, progress=progress), options)
+            tell(write_block_stl(spec, options.count, options.output, progress=progress), options)
             return
         result = block(spec, tuple(options.count), progress=progress)
         if options.compact is not None:
@@ -301,30 +242,19 @@ def _block(options: argparse.Namespace) -> None:
 def _writes_stl(options: argparse.Namespace) -> bool:
     """Whether nothing but an STL file of the mesh as it is was asked for."""
     plain = options.compact is None and options.print_report is None
-    return plain and Path(options.out).suffix.lower() == ".stl"
+    return plain and Path(options.output).suffix.lower() == ".stl"
 
 
-def _check_targets(options: argparse.Namespace) -> None:
+def _check_targets(options: argparse.Namespace, spec: LatticeSpec) -> None:
     """Refuse before the work what could not be written after it."""
     from ..io.write import mesh_writer
 
     check_files(options)
-    out = Path(options.out)
+    out = Path(options.output)
     if not solver_options.is_deck(out):
         mesh_writer(out)
     printing_options.check(options, out)
-    solver_options.check(options, out)
-
-
-def _spec(options: argparse.Namespace, *more: str, **further: Any) -> LatticeSpec:
-    from ..design.spec import LatticeSpec
-
-    names = ("cell", "cell_size", "strut_radius", "resolution", "deviation", "fillet", "density")
-    given = {name: getattr(options, name) for name in (*names, *more)}
-    if given.get("origin") is not None:
-        given["origin"] = tuple(given["origin"])
-    given = {name: value for name, value in given.items() if value is not None}
-    return LatticeSpec(**given, **further, **gradings(options))
+    solver_options.check(options, out, spec)
 
 
 def _finish(
@@ -349,9 +279,9 @@ def _finish(
     if write is not None:
         warnings += write(result)
     elif beams is None:
-        write_mesh(result.mesh, options.out)
+        write_mesh(result.mesh, options.output)
     else:
-        write_3mf_beams(beams, options.out, result.mesh)
+        write_3mf_beams(beams, options.output, result.mesh)
     report = dataclasses.replace(
         result.report,
         stages={**before, **result.report.stages, "write": time.perf_counter() - start},
@@ -360,53 +290,7 @@ def _finish(
     printing = None
     if options.print_report is not None:
         printing = printing_options.report_of(result, options, domain)
-    _tell(dataclasses.replace(report, warnings=warnings), options, printing)
-
-
-def _tell(report: Report, options: argparse.Namespace, printing: PrintReport | None = None) -> None:
-    """Write the report, and say what was made."""
-    from ..util.files import replacing
-
-    if options.report is not None:
-        figures = report.as_dict()
-        if printing is not None:
-            figures["print_report"] = printing.as_dict()
-        with replacing(options.report) as file:
-            file.write(json.dumps(figures, indent=2).encode() + b"\n")
-    print_warnings(report.warnings)
-    if options.quiet:
-        return
-    size = Path(options.out).stat().st_size / 1e6
-    grid = " x ".join(str(n) for n in report.grid)
-    print_rows(
-        ("file", f"{options.out}, {size:.1f} MB"),
-        ("cells", f"{report.cells_active:,} active of {report.cells_total:,} ({grid})"),
-        ("struts", f"{report.struts:,} between {report.nodes:,} nodes"),
-        *_sizes(report),
-        ("triangles", f"{report.triangles:,}"),
-        ("watertight", f"{_yes(report.watertight)}, {_bodies(report.bodies, report.voids)}"),
-        ("volume", f"{report.volume_mm3:,.1f} mm3"),
-        ("relative density", f"{100 * report.relative_density:.2f} %"),
-        ("mass", f"{report.mass_g:,.2f} g"),
-        *domain_options.rows(report),
-        ("time", f"{sum(report.stages.values()):.2f} s, {report.peak_memory_mb:,.0f} MB of memory"),
-        *(printing.rows() if printing is not None else ()),
-    )
-
-
-def _sizes(report: Report) -> list[tuple[str, str]]:
-    """What a grading came to; nothing for a lattice that is the same everywhere."""
-    gradings = ("size_grading", "radius_grading", "cell_map", "orientation")
-    if all(report.spec[name] is None for name in gradings):
-        return []
-    return [
-        (name, f"{least:.4g} to {most:.4g} mm")
-        for name, (least, most) in (
-            ("cell edges", report.cell_edges_mm),
-            ("strut lengths", report.strut_lengths_mm),
-            ("strut radii", report.strut_radii_mm),
-        )
-    ]
+    tell(dataclasses.replace(report, warnings=warnings), options, printing)
 
 
 def _cells(_: argparse.Namespace) -> None:
@@ -426,36 +310,3 @@ def _check(options: argparse.Namespace) -> None:
 
     report = mesh_report(read_triangles(options.file, options.unit))
     print_rows(("file", str(options.file)), *report.rows())
-
-
-def _yes(value: bool) -> str:
-    return "yes" if value else "no"
-
-
-def _bodies(bodies: int, voids: int) -> str:
-    text = f"{bodies:,} " + ("body" if bodies == 1 else "bodies")
-    return text + (f", {voids:,} closed " + ("void" if voids == 1 else "voids")) * bool(voids)
-
-
-class _Progress:
-    """Shows the stage and the fraction done on one line of standard error, if it is a terminal."""
-
-    def __init__(self, quiet: bool) -> None:
-        self._visible = not quiet and sys.stderr.isatty()
-        self._shown = ""
-
-    def __enter__(self) -> ProgressCallback:
-        # Always a callback, shown or not: with one, long compiled calls run beside the main
-        # thread, which can then be interrupted.
-        return self._update
-
-    def __exit__(self, *_: object) -> None:
-        if self._shown:
-            print("\r" + " " * len(self._shown) + "\r", end="", file=sys.stderr, flush=True)
-
-    def _update(self, fraction: float, stage: str) -> None:
-        text = f"{100 * fraction:3.0f} % {stage}"
-        if self._visible and text != self._shown:
-            padding = " " * (len(self._shown) - len(text))
-            print(f"\r{text}{padding}", end="", file=sys.stderr, flush=True)
-            self._shown = text

@@ -9,9 +9,14 @@ from pathlib import Path
 from ..util.errors import VolfrepError
 
 #: What the command calls its input files, by the names of the options that give them.
-INPUTS = {"part": "part", "cell": "cell file", "radius_field": "field file"}
+INPUTS = {
+    "part": "part",
+    "spec": "specification",
+    "cell": "cell file",
+    "radius_field": "field file",
+}
 #: The files that it writes, the same way.
-OUTPUTS = {"out": "output", "report": "report"}
+OUTPUTS = {"output": "output", "report": "report", "write_spec": "written specification"}
 
 
 def check_files(options: argparse.Namespace) -> None:

@@ -9,13 +9,12 @@ from __future__ import annotations
 import argparse
 import dataclasses
 import math
-import sys
 import time
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..util.errors import VolfrepError
+from .telling import print_rows, print_warnings
 
 if TYPE_CHECKING:
     from ..mesh.triangle_mesh import TriangleMesh
@@ -47,13 +46,6 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--print-report",
         metavar="PROCESS",
         help="say how the part suits a printing process: FFF, SLA, SLS or LPBF",
-    )
-    add(
-        "--build-direction",
-        type=_direction,
-        default=(0.0, 0.0, 1.0),
-        metavar="X,Y,Z",
-        help="from the build plate up (default 0,0,1)",
     )
 
 
@@ -134,36 +126,13 @@ def finish_beams(model: BeamModel, options: argparse.Namespace, start: float) ->
     """Write a lattice as beams; say what was made since `start` (of `time.perf_counter`)."""
     from ..io.write.threemf import write_3mf_beams
 
-    write_3mf_beams(model, options.out)
+    write_3mf_beams(model, options.output)
     print_warnings(model.warnings)
     if options.quiet:
         return
     lattice = model.lattice
     print_rows(
-        ("file", f"{options.out}, {Path(options.out).stat().st_size / 1e6:.1f} MB"),
+        ("file", f"{options.output}, {Path(options.output).stat().st_size / 1e6:.1f} MB"),
         ("struts", f"{len(lattice.struts):,} between {len(lattice.nodes):,} nodes, as beams"),
         ("time", f"{time.perf_counter() - start:.2f} s"),
     )
-
-
-def print_rows(*rows: tuple[str, str]) -> None:
-    """Names and values in two columns."""
-    width = max(len(name) for name, _ in rows) + 2
-    for name, value in rows:
-        print(f"{name:<{width}}{value}")
-
-
-def print_warnings(warnings: Sequence[str]) -> None:
-    """A line each, on standard error."""
-    for warning in warnings:
-        print(f"volfrep: warning: {warning}", file=sys.stderr)
-
-
-def _direction(text: str) -> tuple[float, float, float]:
-    """Three numbers between commas."""
-    try:
-        x, y, z = (float(number) for number in text.split(","))
-    except ValueError as error:
-        message = f"'{text}' is not three numbers such as 0,0,1"
-        raise argparse.ArgumentTypeError(message) from error
-    return x, y, z

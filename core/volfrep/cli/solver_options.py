@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..util.errors import VolfrepError
-from .printing_options import print_rows, print_warnings
+from .telling import print_rows, print_warnings
 
 if TYPE_CHECKING:
     import numpy as np
@@ -68,7 +68,7 @@ def is_deck(out: Path) -> bool:
     return out.suffix.lower() == DECK_SUFFIX
 
 
-def check(options: argparse.Namespace, out: Path) -> None:
+def check(options: argparse.Namespace, out: Path, spec: LatticeSpec) -> None:
     """Refuse options that do not go together, before any work; fill in the defaults.
 
     Raises:
@@ -96,12 +96,12 @@ def check(options: argparse.Namespace, out: Path) -> None:
         raise VolfrepError(
             f"A report is made of the mesh, which {asked} does without: leave one of them out."
         )
-    if kind not in (None, "faceted") and getattr(options, "output", None) == "domain":
+    if kind not in (None, "faceted") and spec.output == "domain":
         raise VolfrepError(
-            "The output 'domain' holds no lattice to write: choose part or lattice, or --step "
+            "The domain holds no lattice to write: make the part or the lattice, or choose --step "
             "faceted."
         )
-    if kind in ("exact", "wireframe", "beams") and options.fillet:
+    if kind in ("exact", "wireframe", "beams") and spec.fillet:
         raise VolfrepError(
             f"The form '{kind}' has no fillets between struts: set the fillet to 0, or choose "
             f"{'tetrahedra' if options.inp else 'faceted'}."
@@ -187,18 +187,18 @@ def _write_axes(
     warnings: tuple[str, ...] = ()
     if options.step == "wireframe":
         _announce(estimate_axes(len(frame.struts), _asked(spec, options)), options)
-        write_step_wireframe(frame, options.out)
+        write_step_wireframe(frame, options.output)
     else:
         model = beam_model(frame, on_wall)
         _announce(estimate_beams(model, _asked(spec, options)), options)
-        write_beams(model, options.out, _material_of(options), on_wall=on_wall)
+        write_beams(model, options.output, _material_of(options), on_wall=on_wall)
         warnings = deformed_struts(spec)
     print_warnings(warnings)
     if options.quiet:
         return
     what = "lines" if options.step == "wireframe" else "beams"
     print_rows(
-        ("file", f"{options.out}, {Path(options.out).stat().st_size / 1e6:.1f} MB"),
+        ("file", f"{options.output}, {Path(options.output).stat().st_size / 1e6:.1f} MB"),
         ("struts", f"{len(frame.struts):,} between {len(frame.nodes):,} nodes, as {what}"),
         ("time", f"{time.perf_counter() - start:.2f} s"),
     )
@@ -211,7 +211,7 @@ def _write_faceted(
     from ..reports.estimate import estimate_faceted
 
     _announce(estimate_faceted(len(result.mesh.triangles), _asked(spec, options)), options)
-    write_step_faceted(result.mesh, options.out)
+    write_step_faceted(result.mesh, options.output)
     return ()
 
 
@@ -245,7 +245,7 @@ def _write_exact(
     try:
         refuse_inexact(spec)
         volume = write_exact_step(
-            lattice, options.out, expected, inner=inner, outer=outer, monitor=Monitor(progress)
+            lattice, options.output, expected, inner=inner, outer=outer, monitor=Monitor(progress)
         )
     except VolfrepError as error:
         faceted = _write_faceted(result, options, spec)
@@ -278,7 +278,7 @@ def _write_tetrahedra(
 
             wall = fill(solid, dataclasses.replace(spec, output="domain"), cache=cache).mesh
         sets["SKIN"] = nodes_on(filled, wall)
-    write_tetrahedra(filled, options.out, _material_of(options), sets=sets)
+    write_tetrahedra(filled, options.output, _material_of(options), sets=sets)
     return ()
 
 
@@ -291,7 +291,7 @@ def _asked(spec: LatticeSpec, options: argparse.Namespace) -> Asked:
 def _announce(estimate: Estimate, options: argparse.Namespace) -> None:
     """Say what a file will take before it is made."""
     if not options.quiet:
-        print(f"{options.out}: {estimate}", flush=True)
+        print(f"{options.output}: {estimate}", flush=True)
 
 
 def _material_of(options: argparse.Namespace) -> Material:

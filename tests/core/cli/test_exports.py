@@ -115,7 +115,7 @@ def test_the_build_direction(tmp_path: Path, capsys: pytest.CaptureFixture[str])
         ("x.3mf", ["--3mf", "beams", "--print-report", "FFF"], "does without: use both"),
         ("x.stl", ["--print-report", "EBM"], "no process 'EBM'"),
         ("x.stl", ["--print-report", "FFF", "--build-direction", "0,0,0"], "not all 0"),
-        ("x.stl", ["--print-report", "FFF", "--build-direction", "0,1"], "is not three numbers"),
+        ("x.stl", ["--print-report", "FFF", "--build-direction", "0,1"], "takes 3 numbers"),
         ("x.3mf", ["--3mf", "both", "--fillet", "1"], "no fillets"),
         ("x.3mf", ["--3mf", "beams", "--fillet", "1"], "no fillets"),
     ],

@@ -137,7 +137,7 @@ def test_whole_cells_are_not_cut(
     tmp_path: Path, part: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     whole = ["--step", "exact", "--activation", "inside", "--boundary", "whole"]
-    lattice = [*whole, "--output", "lattice", "--shell", 0]
+    lattice = [*whole, "--make", "lattice", "--shell", 0]
     assert command.run("fill", part, "-o", tmp_path / "a.step", *LATTICE, *lattice) == 0
     captured = capsys.readouterr()
     assert "kinds of joints" in captured.out
@@ -178,7 +178,7 @@ def test_openings_of_the_skin_are_there_or_missed_with_a_message(
 def test_struts_deformed_with_their_cells_are_warned_about(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    stretched = ["--size-grading", "linear", "--lambda-max", 1.5, "--stretch-struts"]
+    stretched = ["--size-grading", "linear", "--lambda-end", 1.5, "--no-keep-radius"]
     for out, more in (("a.step", ["--step", "exact"]), ("a.inp", [])):
         assert block(tmp_path / out, *more, *stretched) == 0
         assert "these struts are deformed" in capsys.readouterr().err
@@ -227,7 +227,7 @@ def test_what_does_not_go_together(
 def test_what_only_a_domain_cannot_give(
     tmp_path: Path, part: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert fill(part, tmp_path / "x.inp", "--output", "domain") == 2
+    assert fill(part, tmp_path / "x.inp", "--make", "domain") == 2
     assert "holds no lattice" in capsys.readouterr().err
 
 
@@ -235,7 +235,7 @@ def test_absurd_sizes_name_what_would_fit(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     out = tmp_path / "x.inp"
-    assert command.run("block", "-o", out, *LATTICE, "--count", 24, 24, 24) == 2
+    assert command.run("block", "-o", out, *LATTICE, "--count", "24,24,24") == 2
     said = capsys.readouterr().err
     assert "choose a block of 17 x 17 x 17 cells" in said
     assert not out.exists()

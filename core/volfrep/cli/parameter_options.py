@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The options that the table of parameters stands for, and the specification they ask for.
+
+The engine is imported where it is needed only, so that ``--help`` answers at once.
+"""
+
+from __future__ import annotations
+
+import argparse
+from typing import TYPE_CHECKING
+
+from ..design.parameters import BY_NAME, GROUPS, PARAMETERS, Parameter
+from ..design.parameters.parameter import REPEATED, SHAPES
+from ..design.parameters.values import option_type
+
+if TYPE_CHECKING:
+    from ..design.spec import LatticeSpec
+
+#: Where an option's value is kept, so that no other option has the same place.
+_PLACE = "parameter_"
+
+
+def add_parameters(parser: argparse.ArgumentParser, *, of_block: bool = False) -> None:
+    """Add an option for each parameter, by groups; each is None where the user leaves it out.
+
+    Args:
+        parser: of a command.
+        of_block: whether the command makes free-standing blocks.
+    """
+    files = parser.add_argument_group("a whole specification")
+    files.add_argument("--spec", metavar="FILE.toml", help="read it; options override its entries")
+    files.add_argument("--write-spec", metavar="FILE.toml", help="write the one in force")
+    for group, title in GROUPS.items():
+        rows = [p for p in PARAMETERS if p.group == group and p.in_command]
+        rows = [p for p in rows if p.of_block or not of_block]
+        if rows:
+            into = parser.add_argument_group(title)
+            for parameter in rows:
+                _add(into, parameter)
+
+
+def specification(options: argparse.Namespace) -> LatticeSpec:
+    """The specification of the file and the options.
+
+    Sets ``options.build_direction``, which the print report wants too, and, as they were given or
+    None, ``options.density``, ``options.cell`` and ``options.radius_field``.
+
+    Raises:
+        VolfrepError: a value that makes no sense, or an option that would have no effect.
+    """
+    from ..design.parameters import specification as made
+    from ..design.parameters.spec_file import read_values
+
+    given = {
+        key.removeprefix(_PLACE): tuple(value) if isinstance(value, list) else value
+        for key, value in vars(options).items()
+        if key.startswith(_PLACE) and value is not None
+    }
+    values = given
+    if options.spec is not None:
+        file = read_values(options.spec)
+        made.refuse_idle(file, lambda name: f"{options.spec}, {name}")
+        values = made.merged(given, file)
+    spec = made.specification(values, option_named)
+    direction = BY_NAME["build_direction"]
+    options.build_direction = values.get(direction.name, direction.default)
+    options.density = values.get("density")
+    options.cell, options.radius_field = values.get("cell"), values.get("radius_field")
+    return spec
+
+
+def write_specification(options: argparse.Namespace, spec: LatticeSpec) -> None:
+    """Write what is in force, where that is asked for.
+
+    Raises:
+        VolfrepError: it holds what no file can say.
+    """
+    if options.write_spec is None:
+        return
+    from ..design.parameters.spec_file import write_values
+    from ..design.parameters.specification import values_of
+
+    values = values_of(spec)
+    if options.build_direction != BY_NAME["build_direction"].default:
+        values["build_direction"] = options.build_direction
+    write_values(values, options.write_spec)
+
+
+def option_named(name: str) -> str:
+    """The option of a parameter."""
+    return BY_NAME[name].option
+
+
+def _add(group: argparse._ArgumentGroup, parameter: Parameter) -> None:
+    name, place = f"--{parameter.name.replace('_', '-')}", _PLACE + parameter.name
+    default = parameter.default_text
+    text = parameter.help + f" (default: {default})" * bool(default)
+    text += " (to be given)" * parameter.required
+    text = text.replace("%", "%%")
+    if parameter.kind == "flag":
+        group.add_argument(
+            name, dest=place, action=argparse.BooleanOptionalAction, default=None, help=text
+        )
+        return
+    metavar = SHAPES.get(parameter.kind, "")
+    if parameter.choices:
+        metavar = "|".join(parameter.choices)
+    group.add_argument(
+        name,
+        dest=place,
+        type=option_type(parameter),
+        metavar=metavar,
+        action="append" if parameter.kind in REPEATED else "store",
+        help=text,
+    )

@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""argparse as the command wants it: one sentence for an error, values that begin with a minus."""
+
+from __future__ import annotations
+
+import argparse
+import re
+from collections.abc import Sequence
+from typing import NoReturn
+
+from ..util.errors import VolfrepError
+
+#: Options of earlier versions, and what they are called now.
+RENAMED = {
+    "--radius-law": "--radius-profile",
+    "--radius-min": "--radius-start",
+    "--radius-max": "--radius-end",
+    "--lambda": "--lambda-formula",
+    "--lambda-min": "--lambda-start",
+    "--lambda-max": "--lambda-end",
+    "--stretch-struts": "--no-keep-radius",
+}
+#: What `--output` once took.
+_ONCE_MADE = ("part", "lattice", "domain")
+
+
+class Parser(argparse.ArgumentParser):
+    """An argument parser whose errors are one sentence, without the usage in front.
+
+    What begins with a minus and a digit is a value, such as -1e3, -5,0,0 or -5:0.4,0:1: no
+    option does.
+    """
+
+    def __init__(self, *args: object, **kwargs: object) -> None:
+        super().__init__(*args, **kwargs)  # type: ignore[arg-type]
+        self._negative_number_matcher = re.compile(r"-\.?\d")
+
+    def error(self, message: str) -> NoReturn:
+        """Refuse the arguments."""
+        raise VolfrepError(f"{message[:1].upper()}{message[1:]} (see '{self.prog} --help').")
+
+
+class Version(argparse.Action):
+    """Prints the version when it is asked for, and not before."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
+        """Print and exit; argparse's signature."""
+        from importlib.metadata import version
+
+        print(f"volfrep {version('volfrep')}")
+        parser.exit()
+
+
+def refuse_old(arguments: Sequence[str]) -> None:
+    """Refuse what an earlier version took, naming what it is written as now.
+
+    Raises:
+        VolfrepError: for the first such argument.
+    """
+    for argument, following in zip(arguments, [*arguments, ""][1:], strict=True):
+        option, _, value = argument.partition("=")
+        if option in RENAMED:
+            raise VolfrepError(f"{option} is called {RENAMED[option]} now.")
+        if option == "--output" and (value or following) in _ONCE_MADE:
+            raise VolfrepError(
+                f"--output takes the file to write, as -o does: choose what to make by --make "
+                f"{value or following}."
+            )
+
+
+def three_whole_numbers(text: str) -> tuple[int, int, int]:
+    """Three whole numbers between commas."""
+    try:
+        x, y, z = (int(number) for number in text.split(","))
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(
+            f"'{text}' is not three whole numbers with commas, NX,NY,NZ, such as 10,10,10"
+        ) from error
+    return x, y, z

@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What the command prints: progress, rows of figures, warnings."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ..reports.printability import PrintReport
+    from ..reports.report import Report
+    from ..util.progress import ProgressCallback
+
+
+class Progress:
+    """Shows the stage and the fraction done on one line of standard error, if it is a terminal."""
+
+    def __init__(self, quiet: bool) -> None:
+        self._visible = not quiet and sys.stderr.isatty()
+        self._shown = ""
+
+    def __enter__(self) -> ProgressCallback:
+        # Always a callback, shown or not: with one, long compiled calls run beside the main
+        # thread, which can then be interrupted.
+        return self._update
+
+    def __exit__(self, *_: object) -> None:
+        if self._shown:
+            print("\r" + " " * len(self._shown) + "\r", end="", file=sys.stderr, flush=True)
+
+    def _update(self, fraction: float, stage: str) -> None:
+        text = f"{100 * fraction:3.0f} % {stage}"
+        if self._visible and text != self._shown:
+            padding = " " * (len(self._shown) - len(text))
+            print(f"\r{text}{padding}", end="", file=sys.stderr, flush=True)
+            self._shown = text
+
+
+def tell(report: Report, options: argparse.Namespace, printing: PrintReport | None = None) -> None:
+    """Write the report, and say what was made."""
+    from ..util.files import replacing
+
+    if options.report is not None:
+        figures = report.as_dict()
+        if printing is not None:
+            figures["print_report"] = printing.as_dict()
+        with replacing(options.report) as file:
+            file.write(json.dumps(figures, indent=2).encode() + b"\n")
+    print_warnings(report.warnings)
+    if options.quiet:
+        return
+    size = Path(options.output).stat().st_size / 1e6
+    grid = " x ".join(str(n) for n in report.grid)
+    print_rows(
+        ("file", f"{options.output}, {size:.1f} MB"),
+        ("cells", f"{report.cells_active:,} active of {report.cells_total:,} ({grid})"),
+        ("struts", f"{report.struts:,} between {report.nodes:,} nodes"),
+        *_sizes(report),
+        ("triangles", f"{report.triangles:,}"),
+        ("watertight", f"{_yes(report.watertight)}, {_bodies(report.bodies, report.voids)}"),
+        ("volume", f"{report.volume_mm3:,.1f} mm3"),
+        ("relative density", f"{100 * report.relative_density:.2f} %"),
+        ("mass", f"{report.mass_g:,.2f} g"),
+        *_removed(report),
+        ("time", f"{sum(report.stages.values()):.2f} s, {report.peak_memory_mb:,.0f} MB of memory"),
+        *(printing.rows() if printing is not None else ()),
+    )
+
+
+def print_rows(*rows: tuple[str, str]) -> None:
+    """Names and values in two columns."""
+    width = max(len(name) for name, _ in rows) + 2
+    for name, value in rows:
+        print(f"{name:<{width}}{value}")
+
+
+def print_warnings(warnings: Sequence[str]) -> None:
+    """A line each, on standard error."""
+    for warning in warnings:
+        print(f"volfrep: warning: {warning}", file=sys.stderr)
+
+
+def _sizes(report: Report) -> list[tuple[str, str]]:
+    """What a grading came to; nothing for a lattice that is the same everywhere."""
+    gradings = ("size_grading", "radius_grading", "cell_map", "orientation")
+    if all(report.spec[name] is None for name in gradings):
+        return []
+    return [
+        (name, f"{least:.4g} to {most:.4g} mm")
+        for name, (least, most) in (
+            ("cell edges", report.cell_edges_mm),
+            ("strut lengths", report.strut_lengths_mm),
+            ("strut radii", report.strut_radii_mm),
+        )
+    ]
+
+
+def _removed(report: Report) -> list[tuple[str, str]]:
+    """What was taken away, and drain holes; nothing where there is nothing."""
+    counts = (
+        (report.struts_dangling_removed, "dangling struts"),
+        (report.stubs_removed, "stubs"),
+        (report.pieces_removed, "loose pieces"),
+    )
+    text = ", ".join(f"{count:,} {what}" for count, what in counts if count)
+    result = [("removed", text)] if text else []
+    if report.drain_holes:
+        places = ", ".join("({:.4g}, {:.4g}, {:.4g})".format(*hole) for hole in report.drain_holes)
+        result.append(("drain holes", f"{len(report.drain_holes)} at {places}"))
+    return result
+
+
+def _yes(value: bool) -> str:
+    return "yes" if value else "no"
+
+
+def _bodies(bodies: int, voids: int) -> str:
+    text = f"{bodies:,} " + ("body" if bodies == 1 else "bodies")
+    return text + (f", {voids:,} closed " + ("void" if voids == 1 else "voids")) * bool(voids)

@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Whole specifications as TOML files: an entry for each parameter of the table, by its name."""
+
+from __future__ import annotations
+
+import difflib
+import json
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from ...util.errors import VolfrepError
+from ...util.files import check_writable, replacing
+from ..spec import LatticeSpec
+from .parameter import GROUPS
+from .specification import specification, values_of
+from .table import BY_NAME, PARAMETERS
+from .values import from_plain, to_plain
+
+#: Keys of a file, in the table's order.
+KEYS = tuple(parameter.name for parameter in PARAMETERS if parameter.in_command)
+#: Bytes of the largest file that is read.
+LARGEST = 1_000_000
+_HEAD = "# A lattice for VOLFREP. Lengths are in mm, angles in degrees, the density in g/cm3."
+
+
+def read_spec(path: str | os.PathLike[str]) -> LatticeSpec:
+    """The specification of a file.
+
+    Raises:
+        VolfrepError: the file cannot be read, or its specification makes no sense.
+    """
+    values = read_values(path)
+    try:
+        return specification(values)
+    except VolfrepError as error:
+        raise VolfrepError(f"{Path(path)}: {error}") from error
+
+
+def write_spec(spec: LatticeSpec, path: str | os.PathLike[str]) -> None:
+    """Write a file that `read_spec` reads the same specification of.
+
+    Raises:
+        VolfrepError: the file cannot be written, or the specification holds what no file can say.
+    """
+    write_values(values_of(spec), path)
+
+
+def read_values(path: str | os.PathLike[str]) -> dict[str, Any]:
+    """The values of a file by name, each of its kind; paths as seen from the present folder.
+
+    Raises:
+        VolfrepError: the file cannot be read, or the first entry that makes no sense.
+    """
+    path = Path(path)
+    try:
+        with path.open("rb") as file:
+            text = file.read(LARGEST + 1)
+    except OSError as error:
+        raise VolfrepError(f"{path} cannot be read: {error.strerror}.") from error
+    if len(text) > LARGEST:
+        raise VolfrepError(f"{path} has more than {LARGEST:,} bytes: that is no specification.")
+    return {name: _value(path, name, value) for name, value in _parsed(path, text).items()}
+
+
+def write_values(values: Mapping[str, Any], path: str | os.PathLike[str]) -> None:
+    """Write a file that `read_values` reads the same values of.
+
+    Raises:
+        VolfrepError: the file cannot be written.
+    """
+    target = check_writable(path)
+    with replacing(target) as file:
+        file.write(_written(values, target.parent).encode())
+
+
+def _written(values: Mapping[str, Any], folder: Path) -> str:
+    """The text of a file in a folder for these values."""
+    lines = [_HEAD]
+    for group in GROUPS:
+        rows = [p for p in PARAMETERS if p.group == group and p.name in values]
+        if rows:
+            lines += ["", f"# {GROUPS[group].capitalize()}"]
+        for parameter in rows:
+            value = to_plain(parameter, values[parameter.name])
+            if _is_path(parameter.name, value):
+                value = _seen_from(folder, value)
+            lines.append(f"{parameter.name} = {_toml(value)}")
+    return "\n".join([*lines, ""])
+
+
+def _parsed(path: Path, text: bytes) -> dict[str, Any]:
+    try:
+        import tomllib
+    except ModuleNotFoundError:  # Python 3.10
+        try:
+            import tomli as tomllib  # type: ignore[import-not-found, no-redef, unused-ignore]
+        except ModuleNotFoundError as error:
+            raise VolfrepError(
+                "Specifications are read by Python 3.11 or later, or with the package tomli: run "
+                "'pip install tomli'."
+            ) from error
+    try:
+        return dict(tomllib.loads(text.decode()))
+    except UnicodeDecodeError as error:
+        raise VolfrepError(f"{path} is no text in UTF-8.") from error
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
+        raise VolfrepError(f"{path} is no TOML: {error}.") from error
+
+
+def _value(path: Path, name: str, value: Any) -> Any:
+    if name not in KEYS:
+        near = difflib.get_close_matches(name, KEYS, 1, 0.0)
+        raise VolfrepError(f"{path} has an unknown entry '{name}': the nearest is '{near[0]}'.")
+    try:
+        result = from_plain(BY_NAME[name], value)
+    except VolfrepError as error:
+        raise VolfrepError(f"{path}, {name}: {error}") from error
+    if _is_path(name, result):
+        return os.path.join(path.parent, result)
+    return result
+
+
+def _is_path(name: str, value: Any) -> bool:
+    return name == "radius_field" or (name == "cell" and str(value).lower().endswith(".json"))
+
+
+def _seen_from(folder: Path, path: str) -> str:
+    """A path relative to a folder where it lies in it or below, absolute elsewhere."""
+    absolute = Path(path).resolve()
+    below = folder.resolve()
+    return (absolute.relative_to(below) if absolute.is_relative_to(below) else absolute).as_posix()
+
+
+def _toml(value: Any) -> str:
+    """A value in TOML's notation; texts are written as in JSON, which TOML reads."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, list):
+        return f"[{', '.join(_toml(item) for item in value)}]"
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+    return repr(value)

@@ -1,0 +1,272 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Specifications made of values by name, and taken apart into them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from ...util.errors import VolfrepError
+from ..cells import LIBRARY, UnitCell
+from ..grading import CellMap, Orientation, RadiusGrading, SizeGrading
+from ..openings import DrainHoles, DrainPlace, OpenPlane
+from ..profile import Profile
+from ..scattered_field import PointField, read_curve, read_point_field
+from ..spec import LatticeSpec
+from .parameter import Need, effective
+from .table import BY_NAME, PARAMETERS, TWO_ENDED
+
+#: How a user calls a parameter: in an option, a file, or a document.
+Naming = Callable[[str], str]
+
+
+def in_file(name: str) -> str:
+    """A parameter as the files of specifications call it."""
+    return name
+
+
+def specification(values: Mapping[str, Any], say: Naming = in_file) -> LatticeSpec:
+    """The specification that the values stand for; what is not given has its default.
+
+    Args:
+        values: by the names of the table. `cell` may be a `UnitCell`, and `radius_field` a
+            `PointField`; `open_faces` are those of `LatticeSpec`, beside the planes.
+        say: how to call a parameter in an error.
+
+    Raises:
+        VolfrepError: a value makes no sense, has no effect, or is missing.
+    """
+    refuse_idle(values, say)
+    used, idle = effective(PARAMETERS, values)
+    for parameter in PARAMETERS:
+        if parameter.required and parameter.name not in idle and used[parameter.name] is None:
+            chooser = parameter.needs[0].names[0]
+            raise VolfrepError(
+                f"{say(chooser)} {used[chooser]} needs {say(parameter.name)}: give it."
+            )
+    return LatticeSpec(
+        cell=used["cell"],
+        cell_size=used["cell_size"],
+        strut_radius=used["strut_radius"],
+        shell=used["shell"],
+        fillet=used["fillet"],
+        origin=used["origin"],
+        activation=used["activation"],
+        boundary=used["boundary"],
+        remove_dangling=used["remove_dangling"],
+        shortest_stub=used["shortest_stub"],
+        open_faces=_open_faces(used),
+        drains=_drains(used),
+        resolution=used["resolution"] or None,
+        deviation=used["deviation"] or None,
+        output=used["make"],
+        density=used["density"],
+        size_grading=_size_grading(used),
+        radius_grading=_radius_grading(used, say),
+        cell_map=_cell_map(used),
+        orientation=_orientation(used),
+        keep_radius=used["keep_radius"],
+    )
+
+
+def refuse_idle(values: Mapping[str, Any], say: Naming = in_file) -> None:
+    """Refuse a value that another one, which it needs, leaves without effect.
+
+    Raises:
+        VolfrepError: naming both.
+    """
+    _, idle = effective(PARAMETERS, values)
+    for name, need in idle.items():
+        if values.get(name) is not None:
+            raise VolfrepError(_useless(name, need, say))
+
+
+def merged(given: Mapping[str, Any], file: Mapping[str, Any]) -> dict[str, Any]:
+    """The values of a file, with those that are given in their place.
+
+    What of the file has no effect any more beside the given values is left out.
+    """
+    replaced = {name for key in given for name in BY_NAME[key].instead_of}
+    result = {key: value for key, value in file.items() if key not in replaced} | dict(given)
+    _, idle = effective(PARAMETERS, result)
+    return {key: value for key, value in result.items() if key in given or key not in idle}
+
+
+def values_of(spec: LatticeSpec) -> dict[str, Any]:
+    """The values by name that `specification` makes the same specification of.
+
+    Only those that differ from their defaults and have an effect, and the sizes.
+
+    Raises:
+        VolfrepError: it holds what no value can say: a cell or a field without a file, or a face
+            picked in FreeCAD.
+    """
+    cell = spec.cell
+    if isinstance(cell, UnitCell):
+        if LIBRARY.get(cell.name) is not cell:
+            raise VolfrepError(
+                f"The cell '{cell.name}' has no file that could be named: save it as .json first."
+            )
+        cell = cell.name
+    found: dict[str, Any] = {
+        "cell": cell, "cell_size": spec.cell_size, "strut_radius": spec.strut_radius,
+        "shell": spec.shell, "fillet": spec.fillet, "origin": spec.origin,
+        "activation": spec.activation, "boundary": spec.boundary,
+        "remove_dangling": spec.remove_dangling, "shortest_stub": spec.shortest_stub,
+        "resolution": spec.resolution, "deviation": spec.deviation, "make": spec.output,
+        "density": spec.density, "keep_radius": spec.keep_radius,
+    }  # fmt: skip
+    if spec.open_faces:
+        planes = [face for face in spec.open_faces if isinstance(face, OpenPlane)]
+        if len(planes) < len(spec.open_faces):
+            raise VolfrepError(
+                "Faces that were picked to be open have no place in a file: leave them out, or "
+                "give planes."
+            )
+        found["open_plane"] = tuple((*face.point, *face.normal) for face in planes)
+    if spec.drains is not None:
+        found["drain_diameter"] = spec.drains.diameter
+        found["drain"] = tuple((*p.point, *(p.direction or ())) for p in spec.drains.places)
+        found["drain_count"] = spec.drains.count
+        found["build_direction"] = spec.drains.build_direction
+    if spec.size_grading is not None:
+        profile = spec.size_grading.profile
+        found["size_grading"] = _word(profile)
+        found["lambda_start"], found["lambda_end"] = profile.start, profile.end
+        found["lambda_formula"] = profile.expression
+        found["grading_direction"] = spec.size_grading.direction
+    if spec.radius_grading is not None:
+        found |= _radius_values(spec.radius_grading)
+    if spec.cell_map is not None:
+        found["cell_map"], found["map_centre"] = spec.cell_map.kind, spec.cell_map.centre
+        found["map_axis"], found["map_around"] = spec.cell_map.axis, spec.cell_map.around
+    if spec.orientation is not None:
+        found["rotate"] = (*spec.orientation.axis, spec.orientation.angle)
+        found["rotate_origin"] = spec.orientation.origin
+    _, idle = effective(PARAMETERS, found)
+    always = ("cell", "cell_size", "strut_radius", "shell")
+    return {
+        name: value
+        for name, value in found.items()
+        if name in always
+        or (name not in idle and value not in (None, (), BY_NAME[name].default))
+    }  # fmt: skip
+
+
+def _useless(name: str, need: Need, say: Naming) -> str:
+    what = " or ".join(say(other) for other in need.names)
+    if need.absent:
+        return f"{say(name)} has no effect with {what}: leave one of them out."
+    if need.values:
+        words = [str(value) for value in need.values]
+        what += " " + " or ".join(filter(None, (", ".join(words[:-1]), words[-1])))
+    return f"{say(name)} has no effect without {what}: add that or leave it."
+
+
+def _open_faces(used: Mapping[str, Any]) -> tuple[Any, ...]:
+    planes = tuple(
+        OpenPlane((x, y, z), (nx, ny, nz)) for x, y, z, nx, ny, nz in used["open_plane"] or ()
+    )
+    return tuple(used["open_faces"] or ()) + planes
+
+
+def _drains(used: Mapping[str, Any]) -> DrainHoles | None:
+    if not used["drain_diameter"]:
+        return None
+    places = [*(used["drain_points"] or ()), *(used["drain"] or ())]
+    return DrainHoles(
+        used["drain_diameter"],
+        tuple(
+            DrainPlace((x, y, z), (way[0], way[1], way[2]) if way else None)
+            for x, y, z, *way in places
+        ),
+        used["drain_count"],
+        used["build_direction"],
+    )
+
+
+def _profile(kind: str, start: float, end: float | None, formula: str | None) -> Profile:
+    if kind == "formula":
+        return Profile("expression", expression=formula or "")
+    return Profile(kind, start, start if end is None else end)
+
+
+def _word(profile: Profile) -> str:
+    """A profile's kind as users call it."""
+    return "formula" if profile.kind == "expression" else profile.kind
+
+
+def _size_grading(used: Mapping[str, Any]) -> SizeGrading | None:
+    kind = used["size_grading"]
+    if kind == "none":
+        return None
+    profile = _profile(kind, used["lambda_start"], used["lambda_end"], used["lambda_formula"])
+    return SizeGrading(profile, used["grading_direction"])
+
+
+def _radius_grading(used: Mapping[str, Any], say: Naming) -> RadiusGrading | None:
+    by = used["radius_grading"]
+    if by == "none":
+        return None
+    # Both are read now, so that what is wrong with them is said before the work.
+    curve = read_curve(used["radius_curve"]) if used["radius_curve"].strip() else ()
+    field, column = used["radius_field"], used["radius_column"] or None
+    if isinstance(field, str):
+        field = read_point_field(field, column)
+    profile, kind = Profile(), used["radius_profile"]  # a curve needs none
+    if not curve:
+        usual, ends = used["strut_radius"], (used["radius_start"], used["radius_end"])
+        if kind in TWO_ENDED and ends == (0.0, 0.0):
+            raise VolfrepError(
+                f"A radius grading needs {say('radius_start')} or {say('radius_end')}: without "
+                "both, every strut has the strut radius."
+            )
+        profile = _profile(kind, ends[0] or usual, ends[1] or usual, used["radius_formula"])
+    return RadiusGrading(
+        by, profile, used["radius_direction"], used["radius_reach"], field, column, curve
+    )
+
+
+def _radius_values(grading: RadiusGrading) -> dict[str, Any]:
+    field = grading.field
+    if isinstance(field, PointField):
+        if not field.source or not _is_file(field.source):
+            raise VolfrepError(
+                "The field that the radius follows has no file that could be named: save it as a "
+                "table of points and values first."
+            )
+        field = field.source
+    curve = ", ".join(f"{value!r}:{radius!r}" for value, radius in grading.curve)
+    return {
+        "radius_grading": grading.by,
+        "radius_field": field,
+        "radius_column": grading.column or "",
+        "radius_curve": curve,
+        "radius_profile": _word(grading.profile),
+        "radius_start": grading.profile.start,
+        "radius_end": grading.profile.end,
+        "radius_formula": grading.profile.expression,
+        "radius_direction": grading.direction,
+        "radius_reach": grading.reach,
+    }
+
+
+def _is_file(source: str) -> bool:
+    from pathlib import Path
+
+    return Path(source).is_file()
+
+
+def _cell_map(used: Mapping[str, Any]) -> CellMap | None:
+    if used["cell_map"] == "cartesian":
+        return None
+    return CellMap(
+        used["cell_map"], used["map_centre"], used["map_axis"], used["map_around"] or None
+    )
+
+
+def _orientation(used: Mapping[str, Any]) -> Orientation | None:
+    if used["rotate"] is None:
+        return None
+    *axis, angle = used["rotate"]
+    return Orientation((axis[0], axis[1], axis[2]), angle, used["rotate_origin"])

@@ -7,6 +7,7 @@ below, which import what they need, when they need it.
 
 import FreeCADGui as Gui
 
+from freecad_volfrep import window
 from freecad_volfrep.gui.preferences_page import register_pages
 from freecad_volfrep.translation import TRANSLATIONS
 
@@ -60,3 +61,4 @@ class VolfrepWorkbench(Gui.Workbench):
 Gui.addWorkbench(VolfrepWorkbench())
 # From the start, whether or not the workbench is ever opened.
 register_pages()
+window.register()

@@ -43,4 +43,6 @@ __all__ = [
 def __getattr__(name: str) -> Any:
     if name not in _EXPORTS:
         raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
+    # What is made is to be seen, whether or not FreeCAD has read InitGui.py.
+    import_module("freecad_volfrep.window").register()
     return getattr(import_module(_EXPORTS[name]), name)

@@ -17,6 +17,7 @@ import re
 import shutil
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -32,7 +33,6 @@ _TABLES = {
     "Kind": ("VolfrepSolids", (1,)),
     "job_title": ("VolfrepJobs", (0,)),
     "Property": ("App::Property", (2, 3)),
-    "_grading": ("App::Property", (2,)),
     "result": ("App::Property", (2,)),
 }
 _HEAD = """<?xml version="1.0" encoding="utf-8"?>
@@ -43,6 +43,7 @@ _HEAD = """<?xml version="1.0" encoding="utf-8"?>
 def texts() -> list[Text]:
     """Every text of the sources that is to be translated, sorted, each once."""
     found: set[Text] = set()
+    found.update(_of_parameters())
     for path in [ROOT / "InitGui.py", *sorted((ROOT / "freecad_volfrep").rglob("*.py"))]:
         tree = ast.parse(path.read_text(encoding="utf-8"))
         constants = {
@@ -57,6 +58,21 @@ def texts() -> list[Text]:
                 values = [_literal(argument, constants) for argument in node.args]
                 found.update(_marked(node.func.id, values))
     return sorted((context, text) for context, text in found if text)
+
+
+def _of_parameters() -> Iterator[Text]:
+    """The texts of the table of parameters that become properties."""
+    sys.path.insert(0, str(ROOT / "core"))
+    from volfrep.design.parameters import PARAMETERS
+
+    for row in PARAMETERS:
+        if row.in_freecad:
+            texts = [row.group, *row.labels]
+            if not row.position_of:
+                texts += [row.help, _spaced(row.property_name)]
+            if row.switch:
+                texts += [row.switch, _spaced(row.switch_name)]
+            yield from (("App::Property", text) for text in texts)
 
 
 def placeholders(text: str) -> list[str]:

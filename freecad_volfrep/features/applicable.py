@@ -5,54 +5,37 @@ from __future__ import annotations
 
 import FreeCAD as App
 
-from .grading import CARTESIAN, CHOICES, OFF
+from volfrep.design.parameters import BY_NAME, PARAMETERS
+from volfrep.design.parameters.parameter import effective
 
-#: The entry of `CellType` that stands for a cell of the user's own, read from `CellFile`.
-CUSTOM_CELL = "Custom"
+from .values import SOURCES, plain_values
+
 #: Properties on which it hangs whether others apply.
-CONTROLS = (
-    "CellType", *CHOICES, "RadiusCurve", "UseMapCentre", "RotationAngle", "UseRotationOrigin",
-)  # fmt: skip
+CONTROLS = tuple(
+    {
+        BY_NAME[name].property_name: None
+        for parameter in PARAMETERS
+        for need in parameter.needs
+        for name in need.names
+    }
+    | {p.switch_name: None for p in PARAMETERS if p.switch}
+)
 _SHOWN, _HIDDEN = 0, 2
 
 
 def show_applicable(obj: App.DocumentObject) -> None:
     """Hide the properties that have no effect; does nothing while some are still missing."""
-    if not set(CONTROLS).issubset(obj.PropertiesList):
+    if not SOURCES.issubset(obj.PropertiesList):
         return
-    for name, applies in _applicable(obj).items():
-        if name in obj.PropertiesList:
-            obj.setEditorMode(name, _SHOWN if applies else _HIDDEN)
+    _, idle = effective(PARAMETERS, plain_values(obj))
+    for parameter in PARAMETERS:
+        applies = parameter.name not in idle
+        if parameter.switch:
+            _show(obj, parameter.switch_name, applies)
+            applies = applies and getattr(obj, parameter.switch_name)
+        _show(obj, parameter.property_name, applies)
 
 
-def _applicable(obj: App.DocumentObject) -> dict[str, bool]:
-    size, radius, mapped = obj.SizeGrading, obj.RadiusGrading, obj.CellMap != CARTESIAN
-    by_law = radius in ("Direction", "Skin", "Core")
-    by_field = radius == "Field"
-    ends = (by_law and obj.RadiusLaw != "Formula") or (by_field and not obj.RadiusCurve.strip())
-    turned = obj.RotationAngle.Value != 0
-    return {
-        "CellFile": obj.CellType == CUSTOM_CELL,
-        "LambdaMin": size not in (OFF, "Formula"),
-        "LambdaMax": size not in (OFF, "Formula", "Scalar"),
-        "LambdaFormula": size == "Formula",
-        "GradingDirection": size != OFF,
-        "KeepRadius": size != OFF or mapped,
-        "RadiusLaw": by_law,
-        "RadiusMin": ends,
-        "RadiusMax": ends,
-        "RadiusFormula": by_law and obj.RadiusLaw == "Formula",
-        "RadiusDirection": radius == "Direction",
-        "RadiusReach": radius in ("Skin", "Core"),
-        "RadiusField": by_field,
-        "RadiusResult": by_field,
-        "RadiusColumn": by_field,
-        "RadiusCurve": by_field,
-        "MapAxis": mapped,
-        "MapAround": mapped,
-        "UseMapCentre": mapped,
-        "MapCentre": mapped and obj.UseMapCentre,
-        "RotationAxis": turned,
-        "UseRotationOrigin": turned,
-        "RotationOrigin": turned and obj.UseRotationOrigin,
-    }
+def _show(obj: App.DocumentObject, name: str, applies: bool) -> None:
+    if name in obj.PropertiesList:
+        obj.setEditorMode(name, _SHOWN if applies else _HIDDEN)

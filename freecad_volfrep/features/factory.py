@@ -13,6 +13,8 @@ from volfrep.util.errors import VolfrepError
 
 from .lattice_infill import LatticeInfill
 from .properties import INPUTS
+from .quantities import set_value
+from .screen import attach_view
 
 #: So many cells are computed in seconds.
 _QUICK_CELLS = 4000
@@ -29,7 +31,7 @@ def make_lattice_infill(
             inside a Body stands for the Body.
         **properties: any of the object's properties by name, such as ``CellType="CVC"``,
             ``CellSize=10``, ``StrutRadius="0.8 mm"``, ``ShellThickness=3``, ``Label="Light"``;
-            lengths in mm where they have no unit.
+            lengths in mm where they have no unit, the density in g/cm3.
 
     Returns:
         The new object, not computed yet.
@@ -56,10 +58,7 @@ def make_lattice_infill(
     except VolfrepError:
         doc.removeObject(obj.Name)
         raise
-    if App.GuiUp:
-        from freecad_volfrep.gui.view_provider import LatticeInfillView
-
-        LatticeInfillView(obj.ViewObject)
+    attach_view(obj)
     return obj
 
 
@@ -109,7 +108,7 @@ def _round_number(value: float) -> float:
 
 def _set(obj: App.DocumentObject, name: str, value: Any) -> None:
     try:
-        setattr(obj, name, value)
+        set_value(obj, name, value)
     except (TypeError, ValueError, ArithmeticError, App.Base.FreeCADError) as error:
         choices = obj.getEnumerationsOfProperty(name)
         hint = f"choose one of {', '.join(choices)}" if choices else str(error).rstrip(".")

@@ -17,6 +17,7 @@ from volfrep.util.errors import VolfrepError
 
 from .exact import inputs_of, warn
 from .progress import job_title, progress_of
+from .quantities import density_of
 from .solver_files import axes_of
 
 if TYPE_CHECKING:
@@ -66,7 +67,7 @@ def make_fem_analysis(
     inputs_of(obj)
     from volfrep.fem.model import Material
 
-    material = material or Material(density=obj.Density)
+    material = material or Material(density=density_of(obj))
     return (_beams if model == "beams" else _tetrahedra)(doc, obj, material)
 
 

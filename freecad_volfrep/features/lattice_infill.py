@@ -12,9 +12,7 @@ import FreeCAD as App
 from freecad_volfrep.engine import require_engine
 from freecad_volfrep.preferences import largest_automatic
 
-from .applicable import CONTROLS, CUSTOM_CELL, show_applicable
-from .grading import gradings_of
-from .openings import openings_of
+from .applicable import CONTROLS, show_applicable
 from .progress import job_title, run_job
 from .properties import (
     PROPERTIES,
@@ -23,6 +21,9 @@ from .properties import (
     refuse_spoiled,
     wrong_types,
 )
+from .quantities import set_value
+from .screen import attach_view, revive_view
+from .values import specification_of
 
 if TYPE_CHECKING:
     from volfrep import LatticeSpec
@@ -144,10 +145,7 @@ class LatticeInfill:
         except VolfrepError as error:
             obj.Status = str(error)
             App.Console.PrintWarning(f"VOLFREP, {obj.Label}: {error}\n")
-        if App.GuiUp and obj.ViewObject.Proxy is None:
-            from freecad_volfrep.gui.view_provider import LatticeInfillView
-
-            LatticeInfillView(obj.ViewObject)
+        attach_view(obj)
 
     def dumps(self) -> None:
         """Nothing to save beside the properties."""
@@ -178,7 +176,7 @@ class LatticeInfill:
         spec, solid = self.read(obj)
         fingerprint = fingerprint_of(spec, solid)
         if obj.Fingerprint == fingerprint and obj.Mesh.CountFacets == obj.Triangles:
-            obj.Mass = obj.Volume.Value * spec.density / 1000.0
+            set_value(obj, "Mass", obj.Volume.Value * spec.density / 1000.0)
             obj.Status = UP_TO_DATE
             return
         forecast = forecast_fill(solid, spec)
@@ -215,7 +213,7 @@ class LatticeInfill:
         from volfrep.util.errors import VolfrepError
 
         refuse_spoiled(obj)
-        spec = spec_of(obj)
+        spec = specification_of(obj)
         if obj.Base is None:
             raise VolfrepError("There is no solid to fill: choose one as Base.")
         self._reader = self._reader or SolidReader()
@@ -237,46 +235,7 @@ def revive_infill(obj: App.DocumentObject) -> None:
         refuse_spoiled(obj)
     except VolfrepError as error:
         obj.Status = str(error)
-    if App.GuiUp:
-        from freecad_volfrep.gui.revived_view import revive_infill_view
-
-        revive_infill_view(obj.ViewObject)
-
-
-def spec_of(obj: App.DocumentObject) -> LatticeSpec:
-    """The specification that the object's properties stand for.
-
-    Raises:
-        VolfrepError: naming the first property that makes no sense.
-    """
-    from volfrep.design.spec import LatticeSpec
-    from volfrep.util.errors import VolfrepError
-
-    cell = obj.CellType
-    if cell == CUSTOM_CELL:
-        cell = obj.CellFile
-        if not cell.lower().endswith(".json"):
-            raise VolfrepError(
-                "The cell type Custom needs a cell: choose its .json file as CellFile."
-            )
-    return LatticeSpec(
-        cell=cell,
-        cell_size=obj.CellSize.Value,
-        strut_radius=obj.StrutRadius.Value,
-        shell=obj.ShellThickness.Value,
-        resolution=None if obj.Resolution == 0 else obj.Resolution,
-        deviation=None if obj.Deviation.Value == 0 else obj.Deviation.Value,
-        activation=obj.Activation,
-        boundary=obj.Boundary,
-        remove_dangling=obj.RemoveDangling,
-        shortest_stub=obj.ShortestStub.Value,
-        output=obj.Output,
-        fillet=obj.JointFillet.Value,
-        origin=tuple(obj.Origin) if obj.UseOrigin else None,
-        density=obj.Density,
-        **openings_of(obj),
-        **gradings_of(obj),
-    )
+    revive_view(obj)
 
 
 def fingerprint_of(spec: LatticeSpec, solid: TriangleMesh) -> str:
@@ -332,7 +291,7 @@ def _write_results(obj: App.DocumentObject, result: Result) -> None:
     results = {prop.name for prop in PROPERTIES if prop.group == "Result"} - {"Status", "Expected"}
     assert values.keys() == results, "the table of properties and the report have drifted apart"
     for name, value in values.items():
-        setattr(obj, name, value)
+        set_value(obj, name, value)
     for sentence in report.warnings:
         App.Console.PrintWarning(f"VOLFREP, {obj.Label}: {sentence}\n")
     App.Console.PrintMessage(

@@ -9,13 +9,13 @@ import FreeCAD as App
 
 
 def openings_of(obj: App.DocumentObject) -> dict[str, Any]:
-    """The fields of the specification for open faces and drain holes.
+    """The values of the parameters for open faces and drain holes.
 
     Raises:
         VolfrepError: a property makes no sense, or a face is no more.
     """
     from freecad_volfrep.bridge.solids import face_facets, face_middle, parent_placement
-    from volfrep.design.openings import DrainHoles, DrainPlace, OpenPatch
+    from volfrep.design.openings import OpenPatch
 
     frame = parent_placement(obj)
     result: dict[str, Any] = {}
@@ -26,12 +26,7 @@ def openings_of(obj: App.DocumentObject) -> dict[str, Any]:
     if obj.DrainDiameter.Value > 0:
         points = [tuple(point) for point in obj.DrainPoints]
         points += [face_middle(owner, name, frame) for owner, name in _each(obj.DrainFaces)]
-        result["drains"] = DrainHoles(
-            obj.DrainDiameter.Value,
-            tuple(DrainPlace(point) for point in points),
-            obj.DrainCount,
-            tuple(obj.BuildDirection),
-        )
+        result["drain_points"] = tuple(points)
     return result
 
 

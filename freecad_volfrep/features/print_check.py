@@ -13,7 +13,9 @@ from volfrep.util.errors import VolfrepError
 
 from .lattice_infill import LatticeInfill
 from .progress import job_title, run_job
-from .properties import Property, add_missing, result
+from .property_table import Property, add_missing, result
+from .quantities import set_value
+from .screen import attach_view, revive_view
 
 if TYPE_CHECKING:
     from volfrep.reports.printability import PrintReport
@@ -40,7 +42,7 @@ PROPERTIES = (
     result("App::PropertyInteger", "Voids", "Closed cavities"),
     result("App::PropertyVolume", "VoidVolume", "Their volume"),
     result("App::PropertyArea", "SurfaceArea", "Of the part"),
-    result("App::PropertyFloat", "Mass", "Of the part, g"),
+    result("App::PropertyMass", "Mass", "Of the part, g"),
     result("App::PropertyString", "Text", "All figures, for people"),
     result("App::PropertyString", "Report", "All figures, as JSON"),
 )
@@ -146,10 +148,7 @@ PrintCheck.__module__ = "freecad_volfrep.features"
 def revive_print_check(obj: App.DocumentObject) -> None:
     """Make a print check of an object that has its properties, but has lost its proxy."""
     PrintCheck(obj)
-    if App.GuiUp:
-        from freecad_volfrep.gui.revived_view import revive_print_check_view
-
-        revive_print_check_view(obj.ViewObject)
+    revive_view(obj)
 
 
 def make_print_check(
@@ -181,10 +180,7 @@ def make_print_check(
     obj.Label = f"{infill.Label} print check"
     obj.Process = name
     obj.BuildDirection = App.Vector(*build_direction)
-    if App.GuiUp:
-        from freecad_volfrep.gui.view_provider import PrintCheckView
-
-        PrintCheckView(obj.ViewObject)
+    attach_view(obj)
     return obj
 
 
@@ -203,7 +199,7 @@ def _write_results(obj: App.DocumentObject, report: PrintReport) -> None:
     obj.Voids = report.voids
     obj.VoidVolume = report.void_volume_mm3
     obj.SurfaceArea = report.area_mm2
-    obj.Mass = report.mass_g
+    set_value(obj, "Mass", report.mass_g)
     obj.Text = report.to_text()
     obj.Report = report.to_json()
     for sentence in report.findings:

@@ -12,6 +12,8 @@ import FreeCAD as App
 from freecad_volfrep.translation import translate
 from volfrep.util.progress import ProgressCallback
 
+from .screen import screen
+
 T = TypeVar("T")
 
 
@@ -29,20 +31,16 @@ def run_job(title: str, work: Callable[[ProgressCallback | None], T]) -> T:
     In the window it runs on a thread of its own, so that the window lives meanwhile: it must
     touch nothing of FreeCAD. Without a screen it is simply called, with None.
     """
-    if not App.GuiUp:
-        return work(None)
-    from freecad_volfrep.gui.progress import run_on_thread
-
-    return run_on_thread(title, work)
+    window = screen()
+    return work(None) if window is None else window.run_on_thread(title, work)
 
 
 @contextmanager
 def progress_of(title: str) -> Iterator[ProgressCallback | None]:
     """A callback for a job that touches FreeCAD, and stays on its thread; None without a screen."""
-    if not App.GuiUp:
+    window = screen()
+    if window is None:
         yield None
         return
-    from freecad_volfrep.gui.progress import progress_bar
-
-    with progress_bar(title) as callback:
+    with window.progress_bar(title) as callback:
         yield callback

@@ -25,6 +25,7 @@ from .exact import (
 from .input_files import refuse_inputs
 from .instances import estimate_instances, write_instances
 from .progress import job_title, progress_of, run_job
+from .quantities import density_of
 
 if TYPE_CHECKING:
     from volfrep.trim.clip_struts import Clipped
@@ -150,7 +151,7 @@ def _write_beams(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
     clipped = axes_of(obj)
     model = beam_model(clipped.wireframe, clipped.on_wall)
     estimate_beams(model)
-    write_beams(model, path, Material(density=obj.Density), on_wall=clipped.on_wall)
+    write_beams(model, path, Material(density=density_of(obj)), on_wall=clipped.on_wall)
     warn(obj, deformed_struts(inputs_of(obj)[1]))
 
 
@@ -166,7 +167,7 @@ def _write_tetrahedra(obj: App.DocumentObject, path: str | os.PathLike[str]) -> 
     with progress_of(job_title("Tetrahedra of {label}", obj)) as progress:
         filled = tetrahedra(mesh_in_document(obj), Monitor(progress))
     sets = {"SKIN": nodes_on(filled, solid)}
-    write_tetrahedra(filled, path, Material(density=obj.Density), sets=sets)
+    write_tetrahedra(filled, path, Material(density=density_of(obj)), sets=sets)
 
 
 #: By content: the extensions that can hold it, and what writes it.

@@ -12,6 +12,7 @@ import FreeCAD as App
 from volfrep.util.errors import VolfrepError
 
 from .lattice_infill import LatticeInfill
+from .quantities import density_of, mass_of
 from .tables import Table
 
 #: Name, and where it stands in the object or in its report.
@@ -20,7 +21,7 @@ _INPUTS: tuple[tuple[str, Callable[[Any], Any]], ...] = (
     ("cell size, mm", lambda obj: obj.CellSize.Value),
     ("strut radius, mm", lambda obj: obj.StrutRadius.Value),
     ("skin, mm", lambda obj: obj.ShellThickness.Value),
-    ("density, g/cm3", lambda obj: obj.Density),
+    ("density, g/cm3", density_of),
     ("output", lambda obj: obj.Output),
     ("status", lambda obj: obj.Status or "Not computed yet"),
 )
@@ -64,7 +65,9 @@ def statistics(infills: list[App.DocumentObject]) -> list[Table]:
         raise VolfrepError("There is no lattice infill: make one of a solid first.")
     reports = [json.loads(obj.Report) if obj.Report else {} for obj in infills]
     header = ("", *(obj.Label for obj in infills))
-    masses = [obj.Mass if report else None for obj, report in zip(infills, reports, strict=True)]
+    masses = [
+        mass_of(obj) if report else None for obj, report in zip(infills, reports, strict=True)
+    ]
     figures = []
     for name, key in _FIGURES:
         values = masses if key == "mass_g" else [_plain(key, report.get(key)) for report in reports]

@@ -10,9 +10,9 @@ from typing import Any
 
 import FreeCADGui as Gui
 
-from freecad_volfrep.features.applicable import CUSTOM_CELL
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 from volfrep.design.cells import LIBRARY, UnitCell, load_cell
+from volfrep.design.parameters.table import CUSTOM_CELL
 from volfrep.util.errors import VolfrepError
 
 from .cell_picture import cell_icon

@@ -30,7 +30,7 @@ class SimplifiedPart:
 
         shown = LivePreview(obj).show()
         self._struts = None
-        if obj.Output != "domain":
+        if obj.Output != "Domain":
             struts = drawing.separate()
             self._struts = Struts(struts, shown.preview)
             node.addChild(struts)

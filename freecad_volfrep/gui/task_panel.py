@@ -9,11 +9,12 @@ from typing import Any
 import FreeCAD as App
 import FreeCADGui as Gui
 
-from freecad_volfrep.features.applicable import CUSTOM_CELL
 from freecad_volfrep.features.live_preview import LivePreview
-from freecad_volfrep.translation import QT_TRANSLATE_NOOP, marked, spaced, translate
+from freecad_volfrep.translation import QT_TRANSLATE_NOOP, spaced, translate
+from volfrep.design import parameters
 from volfrep.design.cells import LIBRARY, load_cell
 from volfrep.design.field_files import TABLE_SUFFIXES, VTK_SUFFIXES
+from volfrep.design.parameters.table import CUSTOM_CELL
 from volfrep.util.errors import VolfrepError
 
 from .cell_library import cell_files
@@ -30,20 +31,16 @@ SETTLED = 120
 PICTURE = 48
 #: What the panel shows, by group: properties of the object. Those that do not apply are hidden.
 GROUPS = {
-    QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Lattice"): (
-        "CellFile", "CellSize", "StrutRadius", "ShellThickness", "JointFillet",
-    ),
-    QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Boundary"): (
-        "Activation", "Boundary", "RemoveDangling", "ShortestStub",
-    ),
-    QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Cell size"): (
-        "SizeGrading", "LambdaMin", "LambdaMax", "LambdaFormula",
-    ),
-    QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Strut radius"): (
-        "RadiusGrading", "RadiusField", "RadiusColumn", "RadiusCurve", "RadiusLaw", "RadiusMin",
-        "RadiusMax", "RadiusFormula", "RadiusReach",
-    ),
-}  # fmt: skip
+    group: names
+    for group in parameters.GROUPS
+    if (
+        names := tuple(
+            row.property_name
+            for row in parameters.PARAMETERS
+            if row.group == group and row.in_panel and row.in_freecad
+        )
+    )
+}
 #: The switches of what is shown in the view.
 PREVIEW = QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Preview")
 CELLS = QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Cells")
@@ -51,11 +48,6 @@ CELLS = QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Cells")
 POINTS = QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Points and values")
 #: Above this group are the figures: what is used most is seen without scrolling.
 SECOND = "Boundary"
-#: Values of the properties that are chosen from lists, marked for translation.
-VALUES = marked(
-    "App::Property", "touching", "centre", "inside", "trim", "whole", "None", "Scalar", "Linear",
-    "Quadratic", "Exponential", "Formula", "Direction", "Skin", "Core", "Field",
-)  # fmt: skip
 #: Least width of a field, px: the panel must fit beside FreeCAD's tree.
 FIELD = 82
 _HIDDEN = "Hidden"
@@ -152,7 +144,7 @@ class TaskPanel:
         for title, names in GROUPS.items():
             if title == SECOND:
                 self._add_figures(column)
-            box = QtWidgets.QGroupBox(translate("VolfrepTaskPanel", title))
+            box = QtWidgets.QGroupBox(_property(title))
             rows = QtWidgets.QFormLayout(box)
             rows.setContentsMargins(6, 4, 6, 4)
             rows.setRowWrapPolicy(QtWidgets.QFormLayout.WrapLongRows)

@@ -11,6 +11,7 @@ import FreeCADGui as Gui
 
 from freecad_volfrep import ICONS, preferences
 from freecad_volfrep.features.skin import is_just_made
+from freecad_volfrep.features.statistics import infills_of
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 from volfrep.util.errors import VolfrepError
 
@@ -135,6 +136,21 @@ class LatticeInfillView:
     def unsetEdit(self, view: Any, mode: int = 0) -> bool:  # noqa: N802
         """Leave the panel to its own buttons."""
         return False
+
+    def claimChildren(self) -> list[Any]:  # noqa: N802
+        """In the tree the solid lies under the infill, where both lie in the same group."""
+        obj, base = self.object, self.object.Base
+        if base is None or base.getParentGroup() != obj.getParentGroup():
+            return []
+        return [base] if base.getParentGeoFeatureGroup() == obj.getParentGeoFeatureGroup() else []
+
+    def onDelete(self, view: Any, names: Any) -> bool:  # noqa: N802
+        """Let the infill go, and show its solid again, unless another infill stands for it."""
+        obj, base = view.Object, view.Object.Base
+        others = [other for other in infills_of(obj.Document) if other != obj]
+        if base is not None and not any(o.Base == base and o.Visibility for o in others):
+            base.Visibility = True
+        return True
 
     def setupContextMenu(self, view: Any, menu: Any) -> None:  # noqa: N802
         """Offer the commands that apply, where another workbench than ours is in front."""

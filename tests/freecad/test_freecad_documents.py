@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Documents with lattice infills: saved, reopened, copied, undone, broken, of older releases."""
 
+import math
 import shutil
 from pathlib import Path
 
@@ -11,7 +12,9 @@ from conftest import said_without_packages
 from freecad_volfrep import make_lattice_infill, preferences
 from freecad_volfrep.features import LatticeInfill, lattice_infill
 from freecad_volfrep.features.lattice_infill import LARGE, UP_TO_DATE
+from freecad_volfrep.features.migration import RENAMED, TURNED
 from freecad_volfrep.features.properties import PROPERTIES, SCHEMA_VERSION
+from freecad_volfrep.features.quantities import density_of
 
 ROOT = Path(__file__).resolve().parents[2]
 FIXTURES = sorted((ROOT / "tests" / "freecad" / "fixtures").glob("*.FCStd"))
@@ -70,6 +73,87 @@ def test_documents_of_older_releases(path, reopened, runs):
     assert plain.Mesh.BoundBox.XMax == pytest.approx(30)
     assert graded.StrutRadii == pytest.approx([0.8, 1.2], abs=0.01)
     assert runs
+
+
+SCHEMA_3 = ROOT / "tests" / "freecad" / "fixtures" / "infill-0.1.0-schema-3.FCStd"
+#: The infills of that document as the release that wrote it computed them: facets, volume.
+WRITTEN = {
+    "Plain": (6048, 4798.55054526248),
+    "Graded": (12088, 1969.5843253753437),
+    "Bound": (10892, 1130.3216073555848),
+    "Turned": (3522, 4057.12619012013),
+}
+
+
+@pytest.fixture
+def earlier(reopened):
+    """The infills of a document before the table of parameters, by their labels."""
+    doc = reopened(SCHEMA_3)
+    return {label: doc.getObjectsByLabel(label)[0] for label in WRITTEN}
+
+
+def test_properties_with_other_names_keep_their_values(earlier):
+    bound, turned = earlier["Bound"], earlier["Turned"]
+    assert (bound.Activation, bound.Boundary, bound.Output) == ("Centre", "Whole", "Lattice")
+    assert bound.RadiusProfile == "Quadratic"
+    assert (bound.RadiusStart.Value, bound.RadiusEnd.Value) == (0.5, 1.0)
+    assert (turned.LambdaStart, turned.LambdaEnd) == (1.0, 1.3)
+    turn = turned.Orientation.Rotation
+    assert turn.isSame(App.Rotation(App.Vector(1, 0, 1), 25), 1e-12)
+    assert turned.UseRotationOrigin
+    assert turned.Orientation.Base == App.Vector(3, 4, 5)
+    for obj in earlier.values():
+        assert not {*RENAMED, *TURNED} & set(obj.PropertiesList)
+        groups = {prop.name: prop.group for prop in PROPERTIES}
+        assert {name: obj.getGroupOfProperty(name) for name in groups} == groups
+
+
+def test_the_same_lattice_is_computed_again(earlier):
+    for label, obj in earlier.items():
+        obj.touch()
+        obj.Document.recompute()
+        assert obj.isValid(), obj.getStatusString()
+        facets, volume = WRITTEN[label]
+        assert obj.Mesh.CountFacets == facets
+        assert obj.Volume.Value == pytest.approx(volume, rel=1e-12)
+
+
+def test_expressions_follow_the_names(earlier):
+    doc = earlier["Plain"].Document
+    doc.recompute()
+    doc.Solid.Length, doc.Solid.Width = 30, 24
+    doc.recompute()
+    bound, turned = earlier["Bound"], earlier["Turned"]
+    assert (bound.RadiusStart.Value, bound.RadiusEnd.Value) == pytest.approx((0.75, 1.2))
+    assert math.degrees(bound.Orientation.Rotation.Angle) == pytest.approx(45)
+    assert density_of(bound) == pytest.approx(2.7)
+    assert turned.LambdaEnd == pytest.approx(1.2)
+    assert turned.Orientation.Base.x == pytest.approx(4.5)
+    doc.Sheet.set("A1", "50")
+    doc.recompute()
+    # A plain number drives an angle in degrees, as before.
+    assert math.degrees(earlier["Graded"].Orientation.Rotation.Angle) == pytest.approx(50)
+    assert doc.Other.Length.Value == pytest.approx(12), "of another object"
+    assert doc.Sheet.B2.Value == pytest.approx(1.5), "and of a spreadsheet's cell"
+
+
+def test_a_migrated_document_is_saved_and_opened_as_it_is(earlier, reopened, runs):
+    doc = earlier["Plain"].Document
+    for obj in earlier.values():
+        obj.touch()
+    doc.recompute()
+    runs.clear()
+    again = reopened(doc)
+    for label, obj in earlier.items():
+        copy = again.getObject(obj.Name)
+        assert digest(copy) == digest(obj)
+        assert sorted(copy.ExpressionEngine) == sorted(obj.ExpressionEngine)
+        before = {prop.name: str(getattr(copy, prop.name)) for prop in PROPERTIES}
+        copy.Proxy.onDocumentRestored(copy)
+        assert {prop.name: str(getattr(copy, prop.name)) for prop in PROPERTIES} == before, label
+        copy.touch()
+    again.recompute()
+    assert runs == [], "nothing has changed"
 
 
 def test_a_copy_in_another_document_brings_its_solid(infill):
@@ -222,7 +306,7 @@ def test_strings_from_strangers_are_not_run(doc, box, tmp_path):
     code = f"__import__('pathlib').Path({str(trap)!r}).touch()"
     settings = [
         {"SizeGrading": "formula", "LambdaFormula": code},
-        {"RadiusGrading": "direction", "RadiusLaw": "formula", "RadiusFormula": code},
+        {"RadiusGrading": "direction", "RadiusProfile": "formula", "RadiusFormula": code},
         {"CellType": "Custom", "CellFile": f"{code}.json"},
         {"RadiusGrading": "field", "RadiusField": f"{code}.csv", "RadiusColumn": code},
     ]

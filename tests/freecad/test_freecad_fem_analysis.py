@@ -100,7 +100,7 @@ def test_an_analysis_of_beams_is_complete_but_for_its_constraints(doc, infill):
 
 def test_struts_of_several_radii_have_several_sections(doc, box):
     infill = make_lattice_infill(
-        doc, box, **SMALL, RadiusGrading="Direction", RadiusMin=0.8, RadiusMax=1.2
+        doc, box, **SMALL, RadiusGrading="Direction", RadiusStart=0.8, RadiusEnd=1.2
     )
     doc.recompute()
     assert infill.isValid(), infill.getStatusString()

@@ -10,17 +10,16 @@ import pytest
 from conftest import SMALL
 from freecad_volfrep import make_lattice_infill
 from freecad_volfrep.bridge.fem_fields import field_of_result
-from freecad_volfrep.features.applicable import CONTROLS, CUSTOM_CELL
-from freecad_volfrep.features.grading import CHOICES
 from freecad_volfrep.features.lattice_infill import UP_TO_DATE
 from freecad_volfrep.features.properties import PROPERTIES
-from volfrep.design import grading, profile
+from volfrep.design.parameters.table import CUSTOM_CELL
 from volfrep.util.errors import VolfrepError
 
 THIN = {**SMALL, "StrutRadius": 0.7, "ShellThickness": 1.5}
-GRADING = [prop.name for prop in PROPERTIES if prop.group == "Grading"]
+GROUPS = ("Cell size", "Strut radius", "Cell map", "Orientation")
+GRADING = [prop.name for prop in PROPERTIES if prop.group in GROUPS]
 #: What is shown where nothing is graded.
-CHOOSERS = {"SizeGrading", "RadiusGrading", "CellMap", "RotationAngle"}
+CHOOSERS = {"SizeGrading", "RadiusGrading", "CellMap", "Orientation"}
 
 
 def shown(obj):
@@ -31,13 +30,15 @@ def digest(obj):
     return obj.Mesh.CountFacets, round(obj.Mesh.Volume, 3), round(obj.Mesh.Area, 3)
 
 
-def test_the_choices_are_those_of_the_engine(infill):
-    from freecad_volfrep.features.grading import PROFILES
+def about(axis, degrees, point=(0, 0, 0)):
+    return App.Placement(App.Vector(*point), App.Rotation(App.Vector(*axis), degrees))
 
-    assert tuple(PROFILES.values()) == profile.KINDS
-    assert tuple(name.lower() for name in CHOICES["CellMap"]) == grading.MAPS
-    assert tuple(name.lower() for name in CHOICES["RadiusGrading"][1:]) == grading.RADIUS_BY
-    assert {*CONTROLS} - {"CellType"} <= set(GRADING)
+
+def test_each_group_stands_together_and_is_short_enough_to_read():
+    groups = [prop.group for prop in PROPERTIES]
+    runs = [group for k, group in enumerate(groups) if k == 0 or groups[k - 1] != group]
+    assert len(runs) == len(set(runs))
+    assert max(groups.count(group) for group in GROUPS) <= 12
 
 
 @pytest.mark.parametrize(
@@ -46,17 +47,17 @@ def test_the_choices_are_those_of_the_engine(infill):
         ({}, set()),
         (
             {"SizeGrading": "Linear"},
-            {"LambdaMin", "LambdaMax", "GradingDirection", "KeepRadius"},
+            {"LambdaStart", "LambdaEnd", "GradingDirection", "KeepRadius"},
         ),
-        ({"SizeGrading": "Scalar"}, {"LambdaMin", "GradingDirection", "KeepRadius"}),
+        ({"SizeGrading": "Scalar"}, {"LambdaStart", "GradingDirection", "KeepRadius"}),
         ({"SizeGrading": "Formula"}, {"LambdaFormula", "GradingDirection", "KeepRadius"}),
         (
             {"RadiusGrading": "Direction"},
-            {"RadiusLaw", "RadiusMin", "RadiusMax", "RadiusDirection"},
+            {"RadiusProfile", "RadiusStart", "RadiusEnd", "RadiusDirection"},
         ),
         (
-            {"RadiusGrading": "Core", "RadiusLaw": "Formula"},
-            {"RadiusLaw", "RadiusFormula", "RadiusReach"},
+            {"RadiusGrading": "Core", "RadiusProfile": "Formula"},
+            {"RadiusProfile", "RadiusFormula", "RadiusReach"},
         ),
         (
             {"RadiusGrading": "Field", "RadiusCurve": "0:1, 1:2"},
@@ -66,7 +67,7 @@ def test_the_choices_are_those_of_the_engine(infill):
             {"CellMap": "Spherical", "UseMapCentre": True},
             {"MapAxis", "MapAround", "UseMapCentre", "MapCentre", "KeepRadius"},
         ),
-        ({"RotationAngle": 10}, {"RotationAxis", "UseRotationOrigin"}),
+        ({"Orientation": about((0, 0, 1), 10)}, {"UseRotationOrigin"}),
     ],
 )
 def test_only_what_applies_is_shown(doc, box, values, more):
@@ -76,7 +77,8 @@ def test_only_what_applies_is_shown(doc, box, values, more):
         setattr(obj, name, value)
     assert shown(obj) == CHOOSERS | more
     for name in values:
-        setattr(obj, name, {p.name: p.default for p in PROPERTIES}[name])
+        default = {p.name: p.default for p in PROPERTIES}[name]
+        setattr(obj, name, App.Placement() if name == "Orientation" else default)
     assert shown(obj) == CHOOSERS
 
 
@@ -92,17 +94,17 @@ def test_the_file_of_a_cell_is_shown_with_a_cell_of_ones_own(doc, box):
 @pytest.mark.parametrize(
     ("values", "edges", "radii"),
     [
-        ({"SizeGrading": "Linear", "LambdaMax": 1.5}, (10, 20), (0.7, 0.7)),
+        ({"SizeGrading": "Linear", "LambdaEnd": 1.5}, (10, 20), (0.7, 0.7)),
         (
             {"SizeGrading": "Formula", "LambdaFormula": "1 + 0.5 * s", "KeepRadius": False},
             (10, 20),
             None,
         ),
-        ({"RadiusGrading": "Direction", "RadiusMax": 1.1}, (10, 10), (0.7, 1.1)),
-        ({"RadiusGrading": "Direction", "RadiusLaw": "Formula"}, (10, 10), (0.8, 1.2)),
-        ({"RadiusGrading": "Skin", "RadiusMax": 1, "RadiusReach": 8}, (10, 10), (0.7, 1)),
-        ({"RadiusGrading": "Core", "RadiusMin": 1, "RadiusReach": 8}, (10, 10), (0.7, 1)),
-        ({"RotationAngle": 30, "RotationAxis": App.Vector(1, 0, 0)}, (10, 10), (0.7, 0.7)),
+        ({"RadiusGrading": "Direction", "RadiusEnd": 1.1}, (10, 10), (0.7, 1.1)),
+        ({"RadiusGrading": "Direction", "RadiusProfile": "Formula"}, (10, 10), (0.8, 1.2)),
+        ({"RadiusGrading": "Skin", "RadiusEnd": 1, "RadiusReach": 8}, (10, 10), (0.7, 1)),
+        ({"RadiusGrading": "Core", "RadiusStart": 1, "RadiusReach": 8}, (10, 10), (0.7, 1)),
+        ({"Orientation": about((1, 0, 0), 30)}, (10, 10), (0.7, 0.7)),
         ({"CellMap": "Cylindrical", "MapAround": 9, "MapAxis": App.Vector(1, 0, 0)}, None, None),
     ],
 )
@@ -124,7 +126,7 @@ def test_each_grading_makes_one_closed_solid(doc, box, values, edges, radii):
 
 def test_the_direction_is_that_of_the_property(doc, box):
     obj = make_lattice_infill(
-        doc, box, **THIN, RadiusGrading="Direction", RadiusMax=1.1, Output="lattice"
+        doc, box, **THIN, RadiusGrading="Direction", RadiusEnd=1.1, Output="Lattice"
     )
     obj.RadiusDirection = App.Vector(0, 0, -1)
     doc.recompute()
@@ -158,7 +160,7 @@ STRESS = [10.0, 10.0, 10.0, 80.0, 80.0, 80.0]
 def test_a_fem_result_drives_the_radius(doc, box):
     result = result_of(doc, STRESS)
     obj = make_lattice_infill(
-        doc, box, **THIN, RadiusGrading="Field", RadiusResult=result, RadiusMax=1.1
+        doc, box, **THIN, RadiusGrading="Field", RadiusResult=result, RadiusEnd=1.1
     )
     doc.recompute()
     assert obj.isValid(), obj.Status
@@ -222,18 +224,17 @@ def test_results_that_are_no_field_are_refused(doc, box):
 @pytest.mark.parametrize(
     ("values", "message"),
     [
-        ({"SizeGrading": "Linear", "LambdaMax": 0.3}, "folds the lattice"),
-        ({"SizeGrading": "Linear", "LambdaMin": -1}, "above 0, not -1"),
+        ({"SizeGrading": "Linear", "LambdaEnd": 0.3}, "folds the lattice"),
+        ({"SizeGrading": "Linear", "LambdaStart": -1}, "above 0, not -1"),
         ({"SizeGrading": "Formula", "LambdaFormula": "1 +"}, "cannot be read"),
         ({"SizeGrading": "Linear", "GradingDirection": App.Vector()}, "must have a length"),
-        ({"RadiusGrading": "Direction", "RadiusMax": 8}, "too thick for a cell"),
+        ({"RadiusGrading": "Direction", "RadiusEnd": 8}, "too thick for a cell"),
         ({"RadiusGrading": "Skin", "RadiusReach": 0}, "above 0 mm"),
         ({"RadiusGrading": "Field"}, "choose a FEM result"),
         ({"RadiusGrading": "Field", "RadiusField": "/nowhere/none.csv"}, "none.csv"),
         ({"RadiusGrading": "Field", "RadiusCurve": "1;2"}, "is no pair"),
         ({"CellMap": "Cylindrical", "MapAround": 2}, "whole number from 4"),
         ({"CellMap": "Cylindrical", "MapAxis": App.Vector()}, "must have a length"),
-        ({"RotationAngle": 5, "RotationAxis": App.Vector()}, "must have a length"),
     ],
 )
 def test_bad_values_are_told_and_the_last_mesh_stays(doc, infill, values, message):
@@ -258,9 +259,9 @@ def test_file_and_result_at_once_are_refused(doc, infill):
 def test_saved_and_reopened(doc, box, runs, tmp_path):
     result = result_of(doc, STRESS)
     obj = make_lattice_infill(
-        doc, box, **THIN, SizeGrading="Exponential", LambdaMax=1.3,
-        RadiusGrading="Field", RadiusResult=result, RadiusMax=0.9, RotationAngle=15,
-        RotationAxis=App.Vector(0, 1, 1),
+        doc, box, **THIN, SizeGrading="Exponential", LambdaEnd=1.3,
+        RadiusGrading="Field", RadiusResult=result, RadiusEnd=0.9,
+        Orientation=about((0, 1, 1), 15),
     )  # fmt: skip
     doc.recompute()
     assert obj.isValid(), obj.Status
@@ -283,7 +284,7 @@ def test_saved_and_reopened(doc, box, runs, tmp_path):
         assert again.isValid(), again.Status
         assert runs == [], "nothing has changed"
         again.SizeGrading = "None"
-        assert "LambdaMax" not in shown(again)
+        assert "LambdaEnd" not in shown(again)
     finally:
         App.closeDocument(copy.Name)
 

@@ -80,8 +80,8 @@ def test_properties_are_grouped_and_described(infill):
         ("CellType", "BCC"),
         ("Resolution", 14),
         ("Origin", App.Vector(3, 0, 0)),
-        ("Output", "lattice"),
-        ("Output", "domain"),
+        ("Output", "Lattice"),
+        ("Output", "Domain"),
     ],
 )
 def test_editing_a_property_recomputes(doc, infill, runs, name, value):
@@ -107,14 +107,14 @@ def test_deviation_instead_of_resolution(doc, infill):
 
 def test_activation_by_centre(doc, box):
     box.Length = 27
-    obj = make_lattice_infill(doc, box, Activation="touching", **SMALL)
+    obj = make_lattice_infill(doc, box, Activation="Touching", **SMALL)
     doc.recompute()
     assert obj.isValid(), obj.getStatusString()
     touching = obj.CellsActive
     obj.UseOrigin = True
     obj.Origin = App.Vector(4, 4, 4)
     doc.recompute()
-    obj.Activation = "centre"
+    obj.Activation = "Centre"
     doc.recompute()
     assert obj.isValid(), obj.getStatusString()
     assert 0 < obj.CellsActive < max(obj.CellsTotal, touching)
@@ -122,7 +122,7 @@ def test_activation_by_centre(doc, box):
 
 def test_whole_cells_without_free_ends(doc, box):
     obj = make_lattice_infill(
-        doc, box, **{**SMALL, "CellType": "CVC", "ShellThickness": 0, "Boundary": "whole"}
+        doc, box, **{**SMALL, "CellType": "CVC", "ShellThickness": 0, "Boundary": "Whole"}
     )
     doc.recompute()
     assert obj.isValid(), obj.getStatusString()

@@ -116,7 +116,7 @@ def test_what_it_cannot_look_at(doc, infill, check):
     doc.recompute()
     assert not check.isValid()
     check.BuildDirection = App.Vector(0, 0, 1)
-    infill.Output = "domain"
+    infill.Output = "Domain"
     doc.recompute()
     assert "no lattice" in check.getStatusString()
     check.Infill = None

@@ -63,7 +63,7 @@ def test_an_exact_part_of_a_box(doc, infill):
 
 @pytest.mark.slow
 def test_the_wall_of_a_round_part_is_round(doc):
-    infill = infill_of(doc, cylinder(doc), Output="lattice")
+    infill = infill_of(doc, cylinder(doc), Output="Lattice")
     shape = make_kind(doc, infill, "exact").Shape
     assert shape.isValid()
     assert shape.Volume == pytest.approx(infill.Volume.Value, rel=1e-2)
@@ -119,11 +119,11 @@ def test_instances_are_read_again_as_links(doc, box, tmp_path):
     infill = infill_of(
         doc,
         box,
-        Output="lattice",
+        Output="Lattice",
         ShellThickness=0,
         CellType="BCC",
-        Activation="inside",
-        Boundary="whole",
+        Activation="Inside",
+        Boundary="Whole",
     )
     export_mesh(infill, tmp_path / "part.step", "instances")
     again = App.newDocument("Again")
@@ -161,7 +161,7 @@ def test_exact_and_wireframe_files(doc, infill, tmp_path):
 @pytest.mark.slow
 def test_a_lattice_of_whole_cells_is_never_built_as_a_shape(doc, box, tmp_path, monkeypatch):
     infill = infill_of(
-        doc, box, Output="lattice", ShellThickness=0, Activation="inside", Boundary="whole"
+        doc, box, Output="Lattice", ShellThickness=0, Activation="Inside", Boundary="Whole"
     )
     monkeypatch.setattr("freecad_volfrep.features.solver_files.exact_shape", None)
     export_mesh(infill, tmp_path / "whole.step", "exact")
@@ -211,7 +211,7 @@ def test_what_is_not_on_offer(doc, box, infill, tmp_path):
         make_kind(doc, infill, "exact")
     with pytest.raises(VolfrepError, match="set the JointFillet"):
         export_mesh(infill, tmp_path / "a.step", "exact")
-    infill.JointFillet, infill.Output = 0, "domain"
+    infill.JointFillet, infill.Output = 0, "Domain"
     doc.recompute()
     with pytest.raises(VolfrepError, match="holds no lattice"):
         export_mesh(infill, tmp_path / "a.inp", "beam deck")

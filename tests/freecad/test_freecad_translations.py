@@ -31,5 +31,5 @@ def test_without_a_translation_a_text_is_itself(box):
 
 
 def test_names_of_properties_are_read_as_words():
-    assert spaced("RadiusMin") == "Radius Min"
+    assert spaced("RadiusStart") == "Radius Start"
     assert spaced("Base") == "Base"

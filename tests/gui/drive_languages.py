@@ -71,7 +71,7 @@ def speak(language, command, word, label, figure):
     figures = panel().findChild(QtGui.QLabel, "Figures").text()
     check(f"{language}: its figures", figure in figures, figures)
     choice = panel().findChild(QtGui.QComboBox, "Activation")
-    check(f"{language}: values stay what they are", choice.currentData() == "touching")
+    check(f"{language}: values stay what they are", choice.currentData() == "Touching")
     check(f"{language}: nothing is cut off in it", cut_off(panel()) == [], cut_off(panel()))
     picture(f"language_{language}_1_panel")
     choose_boundary(obj)
@@ -86,9 +86,9 @@ def speak(language, command, word, label, figure):
 def choose_boundary(obj):
     """What is chosen in the user's words is set in the document's."""
     choice = panel().findChild(QtGui.QComboBox, "Boundary")
-    choice.setCurrentIndex(choice.findData("whole"))
+    choice.setCurrentIndex(choice.findData("Whole"))
     settle()
-    check("a translated choice sets the plain value", obj.Boundary == "whole", obj.Boundary)
+    check("a translated choice sets the plain value", obj.Boundary == "Whole", obj.Boundary)
 
 
 def tables(language, word):

@@ -106,10 +106,10 @@ def fill_the_box(doc, box, fill):
     figures["infill"] = {n: getattr(obj, n) for n in ("CellsActive", "Triangles", "Seconds")}
     picture("1_filled")
 
-    obj.Output = "lattice"
+    obj.Output = "Lattice"
     doc.recompute()
     picture("2_lattice")
-    obj.Output = "part"
+    obj.Output = "Part"
     doc.recompute()
     while doc.UndoCount > undo_before + 1:
         doc.undo()

@@ -5,12 +5,12 @@
   <context>
     <name>App::Property</name>
     <message>
-      <source>A point of the axis, if UseMapCentre is set</source>
-      <translation>Ein Punkt der Achse, wenn UseMapCentre gesetzt ist</translation>
+      <source>A point of the axis, or the centre</source>
+      <translation>Ein Punkt der Achse, oder der Mittelpunkt</translation>
     </message>
     <message>
-      <source>A point of the rotation's axis, if UseRotationOrigin is set</source>
-      <translation>Ein Punkt der Drehachse, wenn UseRotationOrigin gesetzt ist</translation>
+      <source>A point that is to be a corner of a cell</source>
+      <translation>Ein Punkt, der die Ecke einer Zelle sein soll</translation>
     </message>
     <message>
       <source>Activation</source>
@@ -31,10 +31,6 @@
     <message>
       <source>Auto Update</source>
       <translation>Automatisch aktualisieren</translation>
-    </message>
-    <message>
-      <source>Axis of the rotation</source>
-      <translation>Drehachse</translation>
     </message>
     <message>
       <source>Axis that the cells lie about</source>
@@ -61,6 +57,10 @@
       <translation>Baurichtung</translation>
     </message>
     <message>
+      <source>Cartesian</source>
+      <translation>Kartesisch</translation>
+    </message>
+    <message>
       <source>Cell Edges</source>
       <translation>Zellkanten</translation>
     </message>
@@ -81,6 +81,14 @@
       <translation>Zelltyp</translation>
     </message>
     <message>
+      <source>Cell map</source>
+      <translation>Zellanordnung</translation>
+    </message>
+    <message>
+      <source>Cell size</source>
+      <translation>Zellgröße</translation>
+    </message>
+    <message>
       <source>Cells Active</source>
       <translation>Aktive Zellen</translation>
     </message>
@@ -93,8 +101,8 @@
       <translation>Zellen entlang gerader Achsen, um eine Achse oder um einen Mittelpunkt</translation>
     </message>
     <message>
-      <source>Cells around the full turn; 0 for as many as make them CellSize wide half-way out</source>
-      <translation>Zellen auf dem vollen Umfang; 0 für so viele, dass sie auf halbem Radius CellSize breit sind</translation>
+      <source>Cells around the full turn; 0 for as many as make them L wide half-way out</source>
+      <translation>Zellen auf dem vollen Umfang; 0 für so viele, dass sie auf halbem Radius L breit sind</translation>
     </message>
     <message>
       <source>Cells grow along it</source>
@@ -105,12 +113,16 @@
       <translation>Zellen des Rasters</translation>
     </message>
     <message>
-      <source>Cells that grow along a direction: the law of lambda (section 2.5 of the method)</source>
-      <translation>Zellen, die entlang einer Richtung wachsen: das Gesetz von Lambda (Abschnitt 2.5 der Methode)</translation>
+      <source>Cells that grow along a direction: the profile of lambda (section 2.5 of the method)</source>
+      <translation>Zellen, die entlang einer Richtung wachsen: das Profil von Lambda (Abschnitt 2.5 der Methode)</translation>
     </message>
     <message>
       <source>Cells that hold a lattice</source>
       <translation>Zellen, die Gitter enthalten</translation>
+    </message>
+    <message>
+      <source>Centre</source>
+      <translation>Mitte</translation>
     </message>
     <message>
       <source>Closed cavities</source>
@@ -137,6 +149,10 @@
       <translation>Kern</translation>
     </message>
     <message>
+      <source>Cylindrical</source>
+      <translation>Zylindrisch</translation>
+    </message>
+    <message>
       <source>Dangling Removed</source>
       <translation>Lose Streben entfernt</translation>
     </message>
@@ -149,8 +165,8 @@
       <translation>Dichte des Werkstoffs in g/cm3</translation>
     </message>
     <message>
-      <source>Depth at which the law ends</source>
-      <translation>Tiefe, in der das Gesetz endet</translation>
+      <source>Depth at which the profile ends</source>
+      <translation>Tiefe, in der das Profil endet</translation>
     </message>
     <message>
       <source>Deviation</source>
@@ -165,8 +181,8 @@
       <translation>Richtung</translation>
     </message>
     <message>
-      <source>Drain</source>
-      <translation>Entleerung</translation>
+      <source>Domain</source>
+      <translation>Füllraum</translation>
     </message>
     <message>
       <source>Drain Count</source>
@@ -209,7 +225,7 @@
       <translation>Flächen des Volumenkörpers ohne Haut: dort öffnet sich der Hohlraum, Streben sind bündig geschnitten</translation>
     </message>
     <message>
-      <source>Facets along the edge of a cell; 0 to choose it by Deviation</source>
+      <source>Facets along the edge of a cell; 0 to choose it by the deviation</source>
       <translation>Facetten entlang der Kante einer Zelle; 0, um sie nach der Abweichung zu wählen</translation>
     </message>
     <message>
@@ -241,16 +257,12 @@
       <translation>Geschlecht</translation>
     </message>
     <message>
-      <source>Grading</source>
-      <translation>Gradierung</translation>
-    </message>
-    <message>
       <source>Grading Direction</source>
       <translation>Gradierungsrichtung</translation>
     </message>
     <message>
-      <source>Holes for each void that is still closed, at its lowest places along BuildDirection</source>
-      <translation>Löcher für jeden noch geschlossenen Hohlraum, an seinen tiefsten Stellen entlang BuildDirection</translation>
+      <source>Holes for each void that is still closed, at its lowest places along the build direction</source>
+      <translation>Löcher für jeden noch geschlossenen Hohlraum, an seinen tiefsten Stellen entlang der Baurichtung</translation>
     </message>
     <message>
       <source>How it will be printed</source>
@@ -259,6 +271,10 @@
     <message>
       <source>Infill</source>
       <translation>Füllung</translation>
+    </message>
+    <message>
+      <source>Inside</source>
+      <translation>Innen</translation>
     </message>
     <message>
       <source>Internal</source>
@@ -277,16 +293,16 @@
       <translation>L: Kantenlänge der würfelförmigen Zelle</translation>
     </message>
     <message>
+      <source>Lambda End</source>
+      <translation>Lambda am Ende</translation>
+    </message>
+    <message>
       <source>Lambda Formula</source>
       <translation>Lambda-Formel</translation>
     </message>
     <message>
-      <source>Lambda Max</source>
-      <translation>Lambda max</translation>
-    </message>
-    <message>
-      <source>Lambda Min</source>
-      <translation>Lambda min</translation>
+      <source>Lambda Start</source>
+      <translation>Lambda am Anfang</translation>
     </message>
     <message>
       <source>Largest distance between a facet and the exact strut; 0 for a thirty-fifth of the radius</source>
@@ -295,10 +311,6 @@
     <message>
       <source>Lattice</source>
       <translation>Gitter</translation>
-    </message>
-    <message>
-      <source>Law of the radius over s</source>
-      <translation>Gesetz des Radius über s</translation>
     </message>
     <message>
       <source>Length of the longest strut of these</source>
@@ -389,6 +401,14 @@
       <translation>Offene Flächen</translation>
     </message>
     <message>
+      <source>Openings</source>
+      <translation>Öffnungen</translation>
+    </message>
+    <message>
+      <source>Orientation</source>
+      <translation>Ausrichtung</translation>
+    </message>
+    <message>
       <source>Origin</source>
       <translation>Ursprung</translation>
     </message>
@@ -405,6 +425,10 @@
       <translation>Überhanganteil</translation>
     </message>
     <message>
+      <source>Part</source>
+      <translation>Bauteil</translation>
+    </message>
+    <message>
       <source>Pieces Removed</source>
       <translation>Teile entfernt</translation>
     </message>
@@ -419,6 +443,10 @@
     <message>
       <source>Process</source>
       <translation>Verfahren</translation>
+    </message>
+    <message>
+      <source>Profile of the radius over s</source>
+      <translation>Profil des Radius über s</translation>
     </message>
     <message>
       <source>Put a corner of a cell at Origin; otherwise the cells start at the corner of the solid</source>
@@ -445,6 +473,10 @@
       <translation>Radiusrichtung</translation>
     </message>
     <message>
+      <source>Radius End</source>
+      <translation>Radius am Ende</translation>
+    </message>
+    <message>
       <source>Radius Field</source>
       <translation>Radiusfeld</translation>
     </message>
@@ -457,16 +489,8 @@
       <translation>Radiusgradierung</translation>
     </message>
     <message>
-      <source>Radius Law</source>
-      <translation>Radiusgesetz</translation>
-    </message>
-    <message>
-      <source>Radius Max</source>
-      <translation>Radius max</translation>
-    </message>
-    <message>
-      <source>Radius Min</source>
-      <translation>Radius min</translation>
+      <source>Radius Profile</source>
+      <translation>Radiusprofil</translation>
     </message>
     <message>
       <source>Radius Reach</source>
@@ -477,20 +501,24 @@
       <translation>FEM-Ergebnis</translation>
     </message>
     <message>
+      <source>Radius Start</source>
+      <translation>Radius am Anfang</translation>
+    </message>
+    <message>
+      <source>Radius at s = 0, or where the field is smallest; 0 for the strut radius</source>
+      <translation>Radius bei s = 0, oder wo das Feld am kleinsten ist; 0 für den Strebenradius</translation>
+    </message>
+    <message>
+      <source>Radius at s = 1, or where the field is largest; 0 for the strut radius</source>
+      <translation>Radius bei s = 1, oder wo das Feld am größten ist; 0 für den Strebenradius</translation>
+    </message>
+    <message>
       <source>Radius in mm as a formula of s</source>
       <translation>Radius in mm als Formel von s</translation>
     </message>
     <message>
       <source>Radius of the round between struts where they meet; 0 for none</source>
       <translation>Radius der Ausrundung zwischen Streben, wo sie sich treffen; 0 für keine</translation>
-    </message>
-    <message>
-      <source>Radius where s = 0 or the field is smallest; 0 for StrutRadius</source>
-      <translation>Radius, wo s = 0 oder das Feld am kleinsten ist; 0 für StrutRadius</translation>
-    </message>
-    <message>
-      <source>Radius where s = 1 or the field is largest; 0 for StrutRadius</source>
-      <translation>Radius, wo s = 1 oder das Feld am größten ist; 0 für StrutRadius</translation>
     </message>
     <message>
       <source>Relative Density</source>
@@ -515,18 +543,6 @@
     <message>
       <source>Result of a FEM solver, instead of a file</source>
       <translation>Ergebnis eines FEM-Lösers, anstelle einer Datei</translation>
-    </message>
-    <message>
-      <source>Rotation Angle</source>
-      <translation>Drehwinkel</translation>
-    </message>
-    <message>
-      <source>Rotation Axis</source>
-      <translation>Drehachse</translation>
-    </message>
-    <message>
-      <source>Rotation Origin</source>
-      <translation>Drehpunkt</translation>
     </message>
     <message>
       <source>Scalar</source>
@@ -581,6 +597,10 @@
       <translation>Volumenkörper</translation>
     </message>
     <message>
+      <source>Spherical</source>
+      <translation>Kugelförmig</translation>
+    </message>
+    <message>
       <source>Status</source>
       <translation>Status</translation>
     </message>
@@ -597,6 +617,10 @@
       <translation>Strebenradius</translation>
     </message>
     <message>
+      <source>Strut radius</source>
+      <translation>Strebenradius</translation>
+    </message>
+    <message>
       <source>Struts</source>
       <translation>Streben</translation>
     </message>
@@ -605,7 +629,7 @@
       <translation>Streben des Gitters vor dem Beschneiden</translation>
     </message>
     <message>
-      <source>Struts whose radius varies: along a direction, by the depth below the skin (s = 1 at the Skin, or at the Core), or by a field of values</source>
+      <source>Struts whose radius varies: along a direction, by the depth below the skin (s = 1 at the skin, or at the core), or by a field of values</source>
       <translation>Streben mit veränderlichem Radius: entlang einer Richtung, mit der Tiefe unter der Haut (s = 1 an der Haut oder im Kern) oder nach einem Feld von Werten</translation>
     </message>
     <message>
@@ -649,8 +673,8 @@
       <translation>Der zu füllende Volumenkörper: ein Volumenkörper, ein Body, ein Part, eine Verknüpfung darauf oder ein geschlossenes Netz</translation>
     </message>
     <message>
-      <source>The unit cell</source>
-      <translation>Die Einheitszelle</translation>
+      <source>The unit cell: one of the library, or the .json file of your own</source>
+      <translation>Die Einheitszelle: eine der Bibliothek, oder die .json-Datei einer eigenen</translation>
     </message>
     <message>
       <source>Their volume</source>
@@ -669,6 +693,10 @@
       <translation>Durchgangslöcher des Netzes</translation>
     </message>
     <message>
+      <source>Touching</source>
+      <translation>Berührend</translation>
+    </message>
+    <message>
       <source>Triangles</source>
       <translation>Dreiecke</translation>
     </message>
@@ -677,12 +705,16 @@
       <translation>Dreiecke des Netzes</translation>
     </message>
     <message>
-      <source>Turn about RotationOrigin; otherwise about the middle of the solid's box</source>
-      <translation>Um RotationOrigin drehen; sonst um die Mitte des Quaders um den Volumenkörper</translation>
+      <source>Trim</source>
+      <translation>Beschnitt</translation>
     </message>
     <message>
-      <source>Turns the lattice, not the solid</source>
-      <translation>Dreht das Gitter, nicht den Volumenkörper</translation>
+      <source>Turn about the position of Orientation; otherwise about the middle of the solid's box</source>
+      <translation>Um die Position von Orientation drehen; sonst um die Mitte des Quaders um den Volumenkörper</translation>
+    </message>
+    <message>
+      <source>Turns the lattice, not the solid: about this axis, by this angle, counter-clockwise seen against it</source>
+      <translation>Dreht das Gitter, nicht den Volumenkörper: um diese Achse, um diesen Winkel, gegen den Uhrzeigersinn, ihr entgegen gesehen</translation>
     </message>
     <message>
       <source>Use Map Centre</source>
@@ -697,8 +729,8 @@
       <translation>Drehpunkt verwenden</translation>
     </message>
     <message>
-      <source>Values and their radii in mm, such as '0:0.5, 120:1.2', in place of RadiusMin, RadiusMax</source>
-      <translation>Werte und ihre Radien in mm, etwa '0:0.5, 120:1.2', anstelle von RadiusMin, RadiusMax</translation>
+      <source>Values and their radii in mm, such as '0:0.5, 120:1.2', in place of the start and the end</source>
+      <translation>Werte und ihre Radien in mm, etwa '0:0.5, 120:1.2', anstelle von Anfang und Ende</translation>
     </message>
     <message>
       <source>Void Volume</source>
@@ -741,10 +773,6 @@
       <translation>Was man über dieses Ergebnis wissen sollte</translation>
     </message>
     <message>
-      <source>Where a cell has a corner, if UseOrigin is set</source>
-      <translation>Wo eine Zelle eine Ecke hat, wenn UseOrigin gesetzt ist</translation>
-    </message>
-    <message>
       <source>Where cells are stretched or bent, struts stay straight and round; otherwise they are deformed with their cells, as published</source>
       <translation>Wo Zellen gestreckt oder gebogen sind, bleiben Streben gerade und rund; sonst werden sie mit ihren Zellen verformt, wie veröffentlicht</translation>
     </message>
@@ -765,12 +793,8 @@
       <translation>Welche Werte der Datei oder des FEM-Ergebnisses; leer für die einzigen, oder für vonMises</translation>
     </message>
     <message>
-      <source>centre</source>
-      <translation>Mitte</translation>
-    </message>
-    <message>
-      <source>inside</source>
-      <translation>innen</translation>
+      <source>Whole</source>
+      <translation>Ganz</translation>
     </message>
     <message>
       <source>lambda as a formula of s</source>
@@ -793,20 +817,8 @@
       <translation>r: Radius der Streben</translation>
     </message>
     <message>
-      <source>touching</source>
-      <translation>berührend</translation>
-    </message>
-    <message>
-      <source>trim</source>
-      <translation>Beschnitt</translation>
-    </message>
-    <message>
       <source>trim: the lattice is cut at the wall; whole: cells stay whole, and a skin joins what reaches it</source>
       <translation>Beschnitt (trim): das Gitter wird an der Wand geschnitten; ganz (whole): Zellen bleiben ganz, und eine Haut verbindet, was sie erreicht</translation>
-    </message>
-    <message>
-      <source>whole</source>
-      <translation>ganz</translation>
     </message>
   </context>
   <context>
@@ -1811,14 +1823,6 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
   </context>
   <context>
     <name>VolfrepTaskPanel</name>
-    <message>
-      <source>Boundary</source>
-      <translation>Rand</translation>
-    </message>
-    <message>
-      <source>Cell size</source>
-      <translation>Zellgröße</translation>
-    </message>
     <message>
       <source>Cells</source>
       <translation>Zellen</translation>

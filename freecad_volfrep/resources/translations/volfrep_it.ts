@@ -5,12 +5,12 @@
   <context>
     <name>App::Property</name>
     <message>
-      <source>A point of the axis, if UseMapCentre is set</source>
-      <translation>Un punto dell'asse, se UseMapCentre è attivo</translation>
+      <source>A point of the axis, or the centre</source>
+      <translation>Un punto dell'asse, o il centro</translation>
     </message>
     <message>
-      <source>A point of the rotation's axis, if UseRotationOrigin is set</source>
-      <translation>Un punto dell'asse di rotazione, se UseRotationOrigin è attivo</translation>
+      <source>A point that is to be a corner of a cell</source>
+      <translation>Un punto che sarà un vertice di una cella</translation>
     </message>
     <message>
       <source>Activation</source>
@@ -31,10 +31,6 @@
     <message>
       <source>Auto Update</source>
       <translation>Aggiornamento automatico</translation>
-    </message>
-    <message>
-      <source>Axis of the rotation</source>
-      <translation>Asse di rotazione</translation>
     </message>
     <message>
       <source>Axis that the cells lie about</source>
@@ -61,6 +57,10 @@
       <translation>Direzione di stampa</translation>
     </message>
     <message>
+      <source>Cartesian</source>
+      <translation>Cartesiana</translation>
+    </message>
+    <message>
       <source>Cell Edges</source>
       <translation>Spigoli delle celle</translation>
     </message>
@@ -81,6 +81,14 @@
       <translation>Tipo di cella</translation>
     </message>
     <message>
+      <source>Cell map</source>
+      <translation>Disposizione delle celle</translation>
+    </message>
+    <message>
+      <source>Cell size</source>
+      <translation>Dimensione cella</translation>
+    </message>
+    <message>
       <source>Cells Active</source>
       <translation>Celle attive</translation>
     </message>
@@ -93,8 +101,8 @@
       <translation>Celle lungo assi rettilinei, attorno a un asse o attorno a un centro</translation>
     </message>
     <message>
-      <source>Cells around the full turn; 0 for as many as make them CellSize wide half-way out</source>
-      <translation>Celle sull'intero giro; 0 per averne quante servono a renderle larghe CellSize a metà raggio</translation>
+      <source>Cells around the full turn; 0 for as many as make them L wide half-way out</source>
+      <translation>Celle sull'intero giro; 0 per averne quante servono a renderle larghe L a metà raggio</translation>
     </message>
     <message>
       <source>Cells grow along it</source>
@@ -105,12 +113,16 @@
       <translation>Celle della griglia</translation>
     </message>
     <message>
-      <source>Cells that grow along a direction: the law of lambda (section 2.5 of the method)</source>
-      <translation>Celle che crescono lungo una direzione: la legge di lambda (sezione 2.5 del metodo)</translation>
+      <source>Cells that grow along a direction: the profile of lambda (section 2.5 of the method)</source>
+      <translation>Celle che crescono lungo una direzione: il profilo di lambda (sezione 2.5 del metodo)</translation>
     </message>
     <message>
       <source>Cells that hold a lattice</source>
       <translation>Celle che contengono il reticolo</translation>
+    </message>
+    <message>
+      <source>Centre</source>
+      <translation>Centro</translation>
     </message>
     <message>
       <source>Closed cavities</source>
@@ -137,6 +149,10 @@
       <translation>Nucleo</translation>
     </message>
     <message>
+      <source>Cylindrical</source>
+      <translation>Cilindrica</translation>
+    </message>
+    <message>
       <source>Dangling Removed</source>
       <translation>Aste pendenti rimosse</translation>
     </message>
@@ -149,8 +165,8 @@
       <translation>Densità del materiale in g/cm3</translation>
     </message>
     <message>
-      <source>Depth at which the law ends</source>
-      <translation>Profondità alla quale la legge finisce</translation>
+      <source>Depth at which the profile ends</source>
+      <translation>Profondità alla quale il profilo finisce</translation>
     </message>
     <message>
       <source>Deviation</source>
@@ -165,8 +181,8 @@
       <translation>Direzione</translation>
     </message>
     <message>
-      <source>Drain</source>
-      <translation>Scarico</translation>
+      <source>Domain</source>
+      <translation>Dominio</translation>
     </message>
     <message>
       <source>Drain Count</source>
@@ -209,7 +225,7 @@
       <translation>Facce del solido senza guscio: lì la cavità si apre e le aste sono tagliate a filo</translation>
     </message>
     <message>
-      <source>Facets along the edge of a cell; 0 to choose it by Deviation</source>
+      <source>Facets along the edge of a cell; 0 to choose it by the deviation</source>
       <translation>Faccette lungo lo spigolo di una cella; 0 per sceglierle con lo scostamento</translation>
     </message>
     <message>
@@ -241,16 +257,12 @@
       <translation>Genere</translation>
     </message>
     <message>
-      <source>Grading</source>
-      <translation>Gradazione</translation>
-    </message>
-    <message>
       <source>Grading Direction</source>
       <translation>Direzione della gradazione</translation>
     </message>
     <message>
-      <source>Holes for each void that is still closed, at its lowest places along BuildDirection</source>
-      <translation>Fori per ogni vuoto ancora chiuso, nei suoi punti più bassi lungo BuildDirection</translation>
+      <source>Holes for each void that is still closed, at its lowest places along the build direction</source>
+      <translation>Fori per ogni vuoto ancora chiuso, nei suoi punti più bassi lungo la direzione di stampa</translation>
     </message>
     <message>
       <source>How it will be printed</source>
@@ -259,6 +271,10 @@
     <message>
       <source>Infill</source>
       <translation>Riempimento</translation>
+    </message>
+    <message>
+      <source>Inside</source>
+      <translation>Dentro</translation>
     </message>
     <message>
       <source>Internal</source>
@@ -277,16 +293,16 @@
       <translation>L: lunghezza dello spigolo della cella cubica</translation>
     </message>
     <message>
+      <source>Lambda End</source>
+      <translation>Lambda alla fine</translation>
+    </message>
+    <message>
       <source>Lambda Formula</source>
       <translation>Formula di lambda</translation>
     </message>
     <message>
-      <source>Lambda Max</source>
-      <translation>Lambda max</translation>
-    </message>
-    <message>
-      <source>Lambda Min</source>
-      <translation>Lambda min</translation>
+      <source>Lambda Start</source>
+      <translation>Lambda all'inizio</translation>
     </message>
     <message>
       <source>Largest distance between a facet and the exact strut; 0 for a thirty-fifth of the radius</source>
@@ -295,10 +311,6 @@
     <message>
       <source>Lattice</source>
       <translation>Reticolo</translation>
-    </message>
-    <message>
-      <source>Law of the radius over s</source>
-      <translation>Legge del raggio in funzione di s</translation>
     </message>
     <message>
       <source>Length of the longest strut of these</source>
@@ -389,6 +401,14 @@
       <translation>Facce aperte</translation>
     </message>
     <message>
+      <source>Openings</source>
+      <translation>Aperture</translation>
+    </message>
+    <message>
+      <source>Orientation</source>
+      <translation>Orientamento</translation>
+    </message>
+    <message>
       <source>Origin</source>
       <translation>Origine</translation>
     </message>
@@ -405,6 +425,10 @@
       <translation>Quota a sbalzo</translation>
     </message>
     <message>
+      <source>Part</source>
+      <translation>Parte</translation>
+    </message>
+    <message>
       <source>Pieces Removed</source>
       <translation>Pezzi rimossi</translation>
     </message>
@@ -419,6 +443,10 @@
     <message>
       <source>Process</source>
       <translation>Processo</translation>
+    </message>
+    <message>
+      <source>Profile of the radius over s</source>
+      <translation>Profilo del raggio in funzione di s</translation>
     </message>
     <message>
       <source>Put a corner of a cell at Origin; otherwise the cells start at the corner of the solid</source>
@@ -445,6 +473,10 @@
       <translation>Direzione del raggio</translation>
     </message>
     <message>
+      <source>Radius End</source>
+      <translation>Raggio alla fine</translation>
+    </message>
+    <message>
       <source>Radius Field</source>
       <translation>Campo del raggio</translation>
     </message>
@@ -457,16 +489,8 @@
       <translation>Gradazione del raggio</translation>
     </message>
     <message>
-      <source>Radius Law</source>
-      <translation>Legge del raggio</translation>
-    </message>
-    <message>
-      <source>Radius Max</source>
-      <translation>Raggio max</translation>
-    </message>
-    <message>
-      <source>Radius Min</source>
-      <translation>Raggio min</translation>
+      <source>Radius Profile</source>
+      <translation>Profilo del raggio</translation>
     </message>
     <message>
       <source>Radius Reach</source>
@@ -477,20 +501,24 @@
       <translation>Risultato FEM</translation>
     </message>
     <message>
+      <source>Radius Start</source>
+      <translation>Raggio all'inizio</translation>
+    </message>
+    <message>
+      <source>Radius at s = 0, or where the field is smallest; 0 for the strut radius</source>
+      <translation>Raggio in s = 0, o dove il campo è minimo; 0 per il raggio delle aste</translation>
+    </message>
+    <message>
+      <source>Radius at s = 1, or where the field is largest; 0 for the strut radius</source>
+      <translation>Raggio in s = 1, o dove il campo è massimo; 0 per il raggio delle aste</translation>
+    </message>
+    <message>
       <source>Radius in mm as a formula of s</source>
       <translation>Raggio in mm come formula di s</translation>
     </message>
     <message>
       <source>Radius of the round between struts where they meet; 0 for none</source>
       <translation>Raggio del raccordo tra le aste dove si incontrano; 0 per nessuno</translation>
-    </message>
-    <message>
-      <source>Radius where s = 0 or the field is smallest; 0 for StrutRadius</source>
-      <translation>Raggio dove s = 0 o il campo è minimo; 0 per StrutRadius</translation>
-    </message>
-    <message>
-      <source>Radius where s = 1 or the field is largest; 0 for StrutRadius</source>
-      <translation>Raggio dove s = 1 o il campo è massimo; 0 per StrutRadius</translation>
     </message>
     <message>
       <source>Relative Density</source>
@@ -515,18 +543,6 @@
     <message>
       <source>Result of a FEM solver, instead of a file</source>
       <translation>Risultato di un solutore FEM, al posto di un file</translation>
-    </message>
-    <message>
-      <source>Rotation Angle</source>
-      <translation>Angolo di rotazione</translation>
-    </message>
-    <message>
-      <source>Rotation Axis</source>
-      <translation>Asse di rotazione</translation>
-    </message>
-    <message>
-      <source>Rotation Origin</source>
-      <translation>Origine della rotazione</translation>
     </message>
     <message>
       <source>Scalar</source>
@@ -581,6 +597,10 @@
       <translation>Solido</translation>
     </message>
     <message>
+      <source>Spherical</source>
+      <translation>Sferica</translation>
+    </message>
+    <message>
       <source>Status</source>
       <translation>Stato</translation>
     </message>
@@ -597,6 +617,10 @@
       <translation>Raggio delle aste</translation>
     </message>
     <message>
+      <source>Strut radius</source>
+      <translation>Raggio delle aste</translation>
+    </message>
+    <message>
       <source>Struts</source>
       <translation>Aste</translation>
     </message>
@@ -605,7 +629,7 @@
       <translation>Aste del reticolo prima del taglio</translation>
     </message>
     <message>
-      <source>Struts whose radius varies: along a direction, by the depth below the skin (s = 1 at the Skin, or at the Core), or by a field of values</source>
+      <source>Struts whose radius varies: along a direction, by the depth below the skin (s = 1 at the skin, or at the core), or by a field of values</source>
       <translation>Aste di raggio variabile: lungo una direzione, con la profondità sotto il guscio (s = 1 al guscio, o al nucleo), o secondo un campo di valori</translation>
     </message>
     <message>
@@ -649,8 +673,8 @@
       <translation>Il solido da riempire: un solido, un Body, una Part, un link a uno di questi o una mesh chiusa</translation>
     </message>
     <message>
-      <source>The unit cell</source>
-      <translation>La cella unitaria</translation>
+      <source>The unit cell: one of the library, or the .json file of your own</source>
+      <translation>La cella unitaria: una della libreria, o il file .json di una propria</translation>
     </message>
     <message>
       <source>Their volume</source>
@@ -669,6 +693,10 @@
       <translation>Fori passanti della mesh</translation>
     </message>
     <message>
+      <source>Touching</source>
+      <translation>A contatto</translation>
+    </message>
+    <message>
       <source>Triangles</source>
       <translation>Triangoli</translation>
     </message>
@@ -677,12 +705,16 @@
       <translation>Triangoli della mesh</translation>
     </message>
     <message>
-      <source>Turn about RotationOrigin; otherwise about the middle of the solid's box</source>
-      <translation>Ruota attorno a RotationOrigin; altrimenti attorno al centro del parallelepipedo del solido</translation>
+      <source>Trim</source>
+      <translation>Taglio</translation>
     </message>
     <message>
-      <source>Turns the lattice, not the solid</source>
-      <translation>Ruota il reticolo, non il solido</translation>
+      <source>Turn about the position of Orientation; otherwise about the middle of the solid's box</source>
+      <translation>Ruota attorno alla posizione di Orientation; altrimenti attorno al centro del parallelepipedo del solido</translation>
+    </message>
+    <message>
+      <source>Turns the lattice, not the solid: about this axis, by this angle, counter-clockwise seen against it</source>
+      <translation>Ruota il reticolo, non il solido: attorno a questo asse, di questo angolo, in senso antiorario visto contro di esso</translation>
     </message>
     <message>
       <source>Use Map Centre</source>
@@ -697,8 +729,8 @@
       <translation>Usa origine della rotazione</translation>
     </message>
     <message>
-      <source>Values and their radii in mm, such as '0:0.5, 120:1.2', in place of RadiusMin, RadiusMax</source>
-      <translation>Valori e i loro raggi in mm, come '0:0.5, 120:1.2', al posto di RadiusMin, RadiusMax</translation>
+      <source>Values and their radii in mm, such as '0:0.5, 120:1.2', in place of the start and the end</source>
+      <translation>Valori e i loro raggi in mm, come '0:0.5, 120:1.2', al posto dell'inizio e della fine</translation>
     </message>
     <message>
       <source>Void Volume</source>
@@ -741,10 +773,6 @@
       <translation>Ciò che va saputo di questo risultato</translation>
     </message>
     <message>
-      <source>Where a cell has a corner, if UseOrigin is set</source>
-      <translation>Dove una cella ha un vertice, se UseOrigin è attivo</translation>
-    </message>
-    <message>
       <source>Where cells are stretched or bent, struts stay straight and round; otherwise they are deformed with their cells, as published</source>
       <translation>Dove le celle sono stirate o curvate, le aste restano diritte e tonde; altrimenti si deformano con le loro celle, come pubblicato</translation>
     </message>
@@ -765,12 +793,8 @@
       <translation>Quali valori del file o del risultato FEM; vuoto per gli unici, o per vonMises</translation>
     </message>
     <message>
-      <source>centre</source>
-      <translation>centro</translation>
-    </message>
-    <message>
-      <source>inside</source>
-      <translation>dentro</translation>
+      <source>Whole</source>
+      <translation>Intere</translation>
     </message>
     <message>
       <source>lambda as a formula of s</source>
@@ -793,20 +817,8 @@
       <translation>r: raggio delle aste</translation>
     </message>
     <message>
-      <source>touching</source>
-      <translation>a contatto</translation>
-    </message>
-    <message>
-      <source>trim</source>
-      <translation>taglio</translation>
-    </message>
-    <message>
       <source>trim: the lattice is cut at the wall; whole: cells stay whole, and a skin joins what reaches it</source>
       <translation>taglio (trim): il reticolo è tagliato alla parete; intere (whole): le celle restano intere, e un guscio unisce ciò che lo raggiunge</translation>
-    </message>
-    <message>
-      <source>whole</source>
-      <translation>intere</translation>
     </message>
   </context>
   <context>
@@ -1811,14 +1823,6 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
   </context>
   <context>
     <name>VolfrepTaskPanel</name>
-    <message>
-      <source>Boundary</source>
-      <translation>Bordo</translation>
-    </message>
-    <message>
-      <source>Cell size</source>
-      <translation>Dimensione cella</translation>
-    </message>
     <message>
       <source>Cells</source>
       <translation>Celle</translation>

@@ -69,6 +69,9 @@ class Parameter:
         required: must be given where it has an effect.
         initial: what a new document object starts with, where `default` is None.
         freecad_name: of its property; empty for the parameter's in capitals.
+        position_of: the rotation in whose placement, in FreeCAD, this point is the position.
+        switch: of a point whose default is None: what a second property, ``Use`` and its name,
+            chooses between.
         in_command: whether it is an option of the command, and a key of a file.
         in_freecad: whether it is a property in FreeCAD.
         of_block: whether a free-standing block has it too.
@@ -87,6 +90,8 @@ class Parameter:
     required: bool = False
     initial: Any = None
     freecad_name: str = ""
+    position_of: str = ""
+    switch: str = ""
     in_command: bool = True
     in_freecad: bool = True
     of_block: bool = True
@@ -102,6 +107,16 @@ class Parameter:
     def property_name(self) -> str:
         """The property in FreeCAD."""
         return self.freecad_name or "".join(word.capitalize() for word in self.name.split("_"))
+
+    @property
+    def switch_name(self) -> str:
+        """The property in FreeCAD that says whether the point counts."""
+        return f"Use{self.property_name}"
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """The choices as FreeCAD shows and stores them."""
+        return tuple(word.capitalize() for word in self.choices)
 
     @property
     def unit(self) -> str:

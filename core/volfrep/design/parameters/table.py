@@ -92,6 +92,8 @@ PARAMETERS = (
         "Lattice",
         "A point that is to be a corner of a cell",
         otherwise="the corner of the part's box",
+        switch="Put a corner of a cell at Origin; otherwise the cells start at the corner of the "
+        "solid",
         of_block=False,
     ),
     Parameter(
@@ -259,6 +261,7 @@ PARAMETERS = (
         "Cell map",
         "A point of the axis, or the centre",
         otherwise="the middle of the part's box",
+        switch="Put the axis through MapCentre; otherwise through the middle of the solid's box",
         needs=_MAPPED,
     ),
     Parameter(
@@ -301,8 +304,11 @@ PARAMETERS = (
         "Orientation",
         "The point that stays in place when the lattice turns",
         otherwise="the middle of the part's box, or a cell map's centre",
+        switch="Turn about the position of Orientation; otherwise about the middle of the solid's "
+        "box",
         needs=(Need(("rotate",)),),
         freecad_name="RotationOrigin",
+        position_of="rotate",
     ),
     Parameter(
         "radius_grading",
@@ -444,7 +450,7 @@ PARAMETERS = (
         "density",
         "density",
         "Material",
-        "Density of the material",
+        "Density of the material in g/cm3",
         default=1.0,
     ),
 )

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Densities and masses: properties with their unit where FreeCAD has such, plain numbers elsewhere.
+
+FreeCAD 0.20 has neither `App::PropertyDensity` nor `App::PropertyMass`, and no other property that
+can be given their units: there both are numbers, in g/cm3 and g.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import FreeCAD as App
+
+from volfrep.util.errors import VolfrepError
+
+#: The type of property in place of one that this FreeCAD does not have.
+FALLBACK = "App::PropertyFloat"
+#: The unit of the numbers, by the type of the property that has a unit.
+UNITS = {"App::PropertyDensity": "g/cm^3", "App::PropertyMass": "g"}
+#: The properties of these types.
+NAMES = {"Density": "App::PropertyDensity", "Mass": "App::PropertyMass"}
+#: No material is so dense, in g/cm3: a number was meant in another unit.
+DENSEST = 100.0
+
+
+def supported(obj: App.DocumentObject, type_name: str) -> bool:
+    """Whether this FreeCAD has a type of property."""
+    return type_name in obj.supportedProperties()
+
+
+def set_value(obj: App.DocumentObject, name: str, value: Any) -> None:
+    """Set a property; a number for a density is in g/cm3, for a mass in g."""
+    unit = UNITS.get(obj.getTypeIdOfProperty(name))
+    if unit is not None and isinstance(value, (int, float)):
+        value = App.Units.Quantity(f"{value!r} {unit}")
+    setattr(obj, name, value)
+
+
+def mass_of(obj: App.DocumentObject) -> float:
+    """The mass of an object, g."""
+    return _number(obj, "Mass")
+
+
+def density_of(obj: App.DocumentObject) -> float:
+    """The density of an object's material, g/cm3.
+
+    Raises:
+        VolfrepError: nothing is so dense.
+    """
+    density = _number(obj, "Density")
+    if density > DENSEST:
+        raise VolfrepError(
+            f"A density of {density:g} g/cm3 cannot be meant: give it with its unit, such as "
+            "'2.7 g/cm^3'."
+        )
+    return density
+
+
+def _number(obj: App.DocumentObject, name: str) -> float:
+    value = getattr(obj, name)
+    unit = UNITS.get(obj.getTypeIdOfProperty(name))
+    return float(value if unit is None else value.getValueAs(unit))

@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Joins the document objects and the windows, neither of which imports this module."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import FreeCAD as App
+
+from .features.screen import Screen, register_screen
+
+
+def register() -> None:
+    """Say how this FreeCAD's window shows jobs and objects; does nothing without a window.
+
+    What shows them is imported when it is used first.
+    """
+    if App.GuiUp:
+        register_screen(Screen(_run_on_thread, _progress_bar, _attach_view, _revive_view))
+
+
+def _run_on_thread(title: str, work: Callable[..., Any]) -> Any:
+    from .gui.progress import run_on_thread
+
+    return run_on_thread(title, work)
+
+
+def _progress_bar(title: str) -> Any:
+    from .gui.progress import progress_bar
+
+    return progress_bar(title)
+
+
+def _attach_view(obj: App.DocumentObject) -> None:
+    from .gui.view_provider import LatticeInfillView, PrintCheckView
+
+    views = {"LatticeInfill": LatticeInfillView, "PrintCheck": PrintCheckView}
+    views[type(obj.Proxy).__name__](obj.ViewObject)
+
+
+def _revive_view(obj: App.DocumentObject) -> None:
+    from .gui.revived_view import revive_infill_view, revive_print_check_view
+
+    revive = {"LatticeInfill": revive_infill_view, "PrintCheck": revive_print_check_view}
+    revive[type(obj.Proxy).__name__](obj.ViewObject)

@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The workbench's imports go one way: objects know nothing of windows; one module joins the two.
+
+Read from the sources, which only FreeCAD could import.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+PACKAGE = "freecad_volfrep"
+#: Low to high: what stands here imports from itself and from what stands before it. Modules beside
+#: the folders, which only look at FreeCAD and the engine, are the lowest.
+LAYERS = ("", "bridge", "exact_job", "features", "examples", "gui", "window")
+
+
+def modules() -> dict[str, Path]:
+    """Every module of the workbench by its dotted name; packages by their own."""
+    found = {}
+    for path in sorted((ROOT / PACKAGE).rglob("*.py")):
+        parts = path.relative_to(ROOT).with_suffix("").parts
+        found[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path
+    return found
+
+
+def imports(name: str, path: Path, known: dict[str, Path]) -> Iterator[str]:
+    """The workbench's modules that a module imports, wherever in it the import stands."""
+    package = name.split(".") if path.name == "__init__.py" else name.split(".")[:-1]
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names if alias.name in known)
+        if not isinstance(node, ast.ImportFrom):
+            continue
+        base = package[: len(package) - node.level + 1] if node.level else []
+        home = ".".join([*base, *(node.module or "").split(".")]).strip(".")
+        for alias in node.names:
+            inner = f"{home}.{alias.name}"
+            if inner in known or home in known:
+                yield inner if inner in known else home
+
+
+def layer(name: str) -> int:
+    """Where a module stands in `LAYERS`."""
+    part = name.split(".")[1] if "." in name else ""
+    return LAYERS.index(part) if part in LAYERS else 0
+
+
+def test_a_layer_imports_from_those_before_it_only() -> None:
+    known = modules()
+    back = [
+        f"{name} -> {target}"
+        for name, path in known.items()
+        for target in imports(name, path, known)
+        if layer(target) > layer(name)
+    ]
+    assert back == []
+    assert any("bridge" in target for target in imports_of("features.print_check", known))
+
+
+def imports_of(name: str, known: dict[str, Path]) -> set[str]:
+    full = f"{PACKAGE}.{name}"
+    return set(imports(full, known[full], known))
+
+
+def test_no_imports_go_round() -> None:
+    known = modules()
+    targets = {name: set(imports(name, path, known)) - {name} for name, path in known.items()}
+    while True:
+        free = {name for name, needs in targets.items() if not needs & targets.keys()}
+        if not free:
+            break
+        targets = {name: needs for name, needs in targets.items() if name not in free}
+    assert targets == {}
+
+
+def test_objects_are_shown_by_what_the_window_registers() -> None:
+    known = modules()
+    assert f"{PACKAGE}.features.screen" in imports_of("window", known)
+    assert any(target.startswith(f"{PACKAGE}.gui") for target in imports_of("window", known))

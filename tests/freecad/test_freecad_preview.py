@@ -7,12 +7,13 @@ import pytest
 from conftest import SMALL
 from freecad_volfrep import make_lattice_infill
 from freecad_volfrep.features.live_preview import LivePreview
+from freecad_volfrep.features.quantities import mass_of
 from volfrep.util.errors import VolfrepError
 
 
 def test_the_figures_are_those_of_the_computed_infill(doc, infill):
     shown = LivePreview(infill).show()
-    assert shown.preview.mass == pytest.approx(infill.Mass, rel=0.05)
+    assert shown.preview.mass == pytest.approx(mass_of(infill), rel=0.05)
     assert shown.preview.relative_density == pytest.approx(infill.RelativeDensity, rel=0.1)
     assert shown.preview.cells == infill.CellsActive
     assert shown.preview.struts == infill.Struts

@@ -13,6 +13,7 @@ import pytest
 from conftest import SMALL
 from freecad_volfrep import make_lattice_infill
 from freecad_volfrep.features.mesh_check import check_mesh
+from freecad_volfrep.features.quantities import mass_of, set_value
 from freecad_volfrep.features.statistics import infills_of, statistics
 from freecad_volfrep.features.tables import Table, as_csv, as_html
 from freecad_volfrep.translation import TRANSLATIONS
@@ -130,7 +131,7 @@ def test_statistics_stand_beside_each_other(doc, box, infill):
     assert rows["struts"] == (infill.Struts, None)
     assert rows["joints"] == (infill.Nodes, None)
     assert rows["relative density, %"] == (pytest.approx(100 * infill.RelativeDensity), None)
-    assert rows["mass, g"] == (infill.Mass, None)
+    assert rows["mass, g"] == (mass_of(infill), None)
     assert rows["status"] == ("Up to date", "Not computed yet")
     assert seconds.rows[-1][1] == pytest.approx(infill.Seconds)
     assert seconds.rows[-1][2] is None
@@ -138,7 +139,7 @@ def test_statistics_stand_beside_each_other(doc, box, infill):
 
 
 def test_the_mass_is_that_of_the_present_density(doc, infill):
-    infill.Density = 2.7
+    set_value(infill, "Density", 2.7)
     doc.recompute()
     rows = {row[0]: row[1] for row in statistics([infill])[1].rows}
     assert rows["mass, g"] == pytest.approx(2.7 * rows["volume, mm3"] / 1000)

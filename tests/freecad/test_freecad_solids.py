@@ -10,6 +10,7 @@ import pytest
 
 from conftest import SMALL
 from freecad_volfrep import export_mesh, make_lattice_infill
+from freecad_volfrep.features.quantities import set_value
 from freecad_volfrep.features.solids import KINDS, kinds_of, make_kind
 from freecad_volfrep.features.solver_files import CONTENTS, estimate_file
 from volfrep.util.errors import VolfrepError
@@ -174,7 +175,7 @@ def test_a_lattice_of_whole_cells_is_never_built_as_a_shape(doc, box, tmp_path, 
 @needs_gmsh
 def test_decks_for_calculix(doc, infill, tmp_path):
     moved(doc, infill)
-    infill.Density = 7.85
+    set_value(infill, "Density", 7.85)
     for content in ("beam deck", "tetrahedra"):
         path = tmp_path / f"{content}.inp"
         export_mesh(infill, path, content)

@@ -10,8 +10,8 @@ SCREEN := xvfb-run -a -s "-screen 0 1600x1200x24 -dpi 96"
 
 .NOTPARALLEL:
 .PHONY: help setup demo test test-all lint format test-core test-random test-alone test-freecad \
-	test-gui test-in-freecad test-freecad-1 translations test-newest docs-pictures test-escape torture bench \
-	bench-quick clean
+	test-gui test-in-freecad test-freecad-1 translations test-newest docs-pictures docs-tables \
+	test-escape torture bench bench-quick clean
 
 help: ## show this list
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 25
@@ -84,6 +84,9 @@ docs-pictures: ## the tutorial's pictures anew, from those of the last make test
 
 translations: setup ## refresh the .ts files from the sources, and compile them (lrelease)
 	@$(PYTHON) tools/translations.py
+
+docs-tables: setup ## the documentation's tables of parameters anew, from the program's own
+	@$(PYTHON) tools/parameter_tables.py
 
 torture: setup ## every broken, odd and real file beside what it must get
 	@PYTHONPATH=. $(PYTHON) tests/core/torture.py

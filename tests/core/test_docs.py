@@ -5,10 +5,13 @@ The table of commands is read as text: it can be imported inside FreeCAD only.
 """
 
 import ast
+import importlib.util
 import re
 from pathlib import Path
 
 import pytest
+
+from volfrep.design.parameters import GROUPS, PARAMETERS
 
 ROOT = Path(__file__).resolve().parents[2]
 DOCS = ROOT / "docs"
@@ -85,3 +88,36 @@ def test_the_tutorials_pictures_are_small_and_used() -> None:
     texts = "".join(path.read_text(encoding="utf-8") for path in DOCS.rglob("*.md"))
     assert [path.name for path in pictures if path.stat().st_size >= 150_000] == []
     assert [path.name for path in pictures if f"tutorial/{path.name}" not in texts] == []
+
+
+def parameter_tables():
+    """The tool that writes the tables of parameters."""
+    path = ROOT / "tools" / "parameter_tables.py"
+    spec = importlib.util.spec_from_file_location(path.stem, path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.mark.parametrize("page", sorted(DOCS.rglob("*.md")), ids=lambda p: p.name)
+def test_the_tables_of_parameters_are_those_of_the_program(page: Path) -> None:
+    text = page.read_text(encoding="utf-8")
+    assert parameter_tables().refreshed(text) == text, "run make docs-tables"
+
+
+def test_every_parameter_stands_in_one_table() -> None:
+    texts = [page.read_text(encoding="utf-8") for page in sorted(DOCS.rglob("*.md"))]
+    shown = [
+        name.strip()
+        for text in texts
+        for groups in re.findall(r"<!-- parameters: ([^>]*) -->", text)
+        for name in groups.split(",")
+    ]
+    assert sorted(shown) == sorted(GROUPS)
+    tables = "".join(re.findall(r"<!-- parameters.*?<!-- end", "".join(texts), re.DOTALL))
+    assert [p.name for p in PARAMETERS if p.help not in tables] == []
+
+
+def test_a_group_that_there_is_not_is_refused() -> None:
+    with pytest.raises(ValueError, match="no group of parameters 'Grading'"):
+        parameter_tables().refreshed("<!-- parameters: Grading -->\n<!-- end of parameters -->")

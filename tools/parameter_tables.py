@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Writes the documentation's tables of parameters from the table that the program uses.
+
+    .venv/bin/python tools/parameter_tables.py
+
+A table stands between two comments in a page of docs/, the first of which names its groups:
+
+    <!-- parameters: Cell size, Strut radius -->
+    <!-- end of parameters -->
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / "core"))
+
+from volfrep.design.parameters import GROUPS, PARAMETERS, Need, Parameter  # noqa: E402
+from volfrep.design.parameters.parameter import SHAPES  # noqa: E402
+
+_PLACE = re.compile(
+    r"(<!-- parameters: (?P<groups>[^>]*) -->\n).*?(<!-- end of parameters -->)", re.DOTALL
+)
+_HEAD = "| option | property | default | meaning | applies with |\n|---|---|---|---|---|\n"
+
+
+def refreshed(text: str) -> str:
+    """A page with its tables as they should be.
+
+    Raises:
+        ValueError: it asks for a group that there is not.
+    """
+    return _PLACE.sub(lambda found: found[1] + _table(found["groups"]) + found[3], text)
+
+
+def _table(wanted: str) -> str:
+    names = [name.strip() for name in wanted.split(",")]
+    strange = [name for name in names if name not in GROUPS]
+    if strange:
+        raise ValueError(f"There is no group of parameters '{strange[0]}'.")
+    lines = []
+    for name in names:
+        lines.append(f"| **{name}** | | | | |\n")
+        lines += [_row(parameter) for parameter in PARAMETERS if parameter.group == name]
+    return _HEAD + "".join(lines)
+
+
+def _row(row: Parameter) -> str:
+    option = f"`{row.option}{_shape(row)}`" if row.in_command else ""
+    default = row.default_text or ("to be given" if row.required else "")
+    if row.unit and row.default:
+        default += f" {row.unit}"
+    cells = (option.replace("|", "\\|"), _property(row), default, f"{row.help}{_choices(row)}")
+    cells += (", ".join(map(_need, row.needs)),)
+    return f"| {' | '.join(cells)} |\n"
+
+
+def _shape(row: Parameter) -> str:
+    if row.kind == "flag":
+        return ""
+    return f" {SHAPES[row.kind]}" if row.kind in SHAPES else " WORD"
+
+
+def _property(row: Parameter) -> str:
+    """The property or properties, with FreeCAD's first value where the command has none."""
+    if not row.in_freecad:
+        return ""
+    names = [f"`{row.switch_name}`"] if row.switch else []
+    names += [] if row.position_of else [f"`{row.property_name}`"]
+    first = f" ({row.initial})" if row.initial is not None else ""
+    return ", ".join(names) + first
+
+
+def _choices(row: Parameter) -> str:
+    if all(f"{word}:" in row.help for word in row.choices):  # which explains them
+        return ""
+    return f" (`{'`, `'.join(row.choices)}`)"
+
+
+def _need(need: Need) -> str:
+    names = " or ".join(name.replace("_", " ") for name in need.names)
+    if need.absent:
+        return f"no {names}"
+    words = [str(value) for value in need.values]
+    return f"{names} {' or '.join(filter(None, (', '.join(words[:-1]), *words[-1:])))}".strip()
+
+
+def main() -> None:
+    """Refresh every page that has such a table."""
+    for page in sorted((ROOT / "docs").rglob("*.md")):
+        text = page.read_text(encoding="utf-8")
+        now = refreshed(text)
+        if now != text:
+            page.write_text(now, encoding="utf-8")
+            print(f"{page.relative_to(ROOT)}: refreshed")
+
+
+if __name__ == "__main__":
+    main()

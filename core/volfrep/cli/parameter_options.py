@@ -59,7 +59,10 @@ def specification(options: argparse.Namespace) -> LatticeSpec:
     values = given
     if options.spec is not None:
         file = read_values(options.spec)
-        made.refuse_idle(file, lambda name: f"{options.spec}, {name}")
+        try:
+            made.refuse_idle(file)
+        except VolfrepError as error:
+            raise VolfrepError(f"{options.spec}: {error}") from error
         values = made.merged(given, file)
     spec = made.specification(values, option_named)
     direction = BY_NAME["build_direction"]

@@ -52,10 +52,10 @@ class RadiusGrading:
         profile: the radius in mm over s; for a field, its ends are the radii of its smallest
             and largest value.
         direction: of any length.
-        reach: depth in mm at which the law ends.
+        reach: depth in mm at which the profile ends.
         field: the values, or the file that holds them.
         column: which values of the file.
-        curve: (value, radius in mm) pairs, rising in value, to use instead of the law.
+        curve: (value, radius in mm) pairs, rising in value, to use instead of the profile.
     """
 
     by: str

@@ -16,8 +16,8 @@ from ..util.types import Floats
 from .expression import SAMPLES, Expression, check_finite, compile_expression
 
 KINDS = ("scalar", "linear", "quadratic", "exponential", "expression")
-#: Other names of kinds; the paper calls its quadratic law polynomial.
-ALIASES = {"polynomial": "quadratic"}
+#: Other names of kinds; the paper calls its quadratic profile polynomial, users say formula.
+ALIASES = {"polynomial": "quadratic", "formula": "expression"}
 
 
 @dataclass(frozen=True)
@@ -36,7 +36,7 @@ class Profile:
         kind: one of `KINDS`.
         start: the value at s = 0, in whatever unit the quantity has.
         end: the value at s = 1. ``scalar`` takes `start` for it, and ``expression`` takes both
-            from the formula, whatever was given: laws that mean the same are equal.
+            from the formula, whatever was given: profiles that mean the same are equal.
         expression: the formula, for that kind only (see `volfrep.design.expression`).
 
     Raises:
@@ -53,15 +53,17 @@ class Profile:
     def __post_init__(self) -> None:
         kind = ALIASES.get(str(self.kind), self.kind)
         if kind not in KINDS:
-            raise VolfrepError(f"There is no law '{self.kind}': choose one of {', '.join(KINDS)}.")
+            raise VolfrepError(
+                f"There is no profile '{self.kind}': choose one of {', '.join(KINDS)}."
+            )
         object.__setattr__(self, "kind", kind)
         if kind == "expression":
             self._compile()
             return
         if self.expression:
             raise VolfrepError(
-                f"A formula belongs to the law 'expression', not to '{kind}': leave it out or "
-                "change the law."
+                f"A formula belongs to the profile 'formula', not to '{kind}': leave it out or "
+                "change the profile."
             )
         start = _positive("start", self.start)
         object.__setattr__(self, "start", start)
@@ -77,7 +79,7 @@ class Profile:
         object.__setattr__(self, "end", end)
 
     def __call__(self, s: ArrayLike) -> Floats:
-        """The law's values at `s`, float64 of the same shape; s is held to [0, 1].
+        """The profile's values at `s`, float64 of the same shape; s is held to [0, 1].
 
         Raises:
             VolfrepError: a formula is not positive and finite at some s, which is named.
@@ -118,7 +120,7 @@ class Profile:
         return float(min(values.min(), closer.min())), float(max(values.max(), closer.max()))
 
     def as_dict(self) -> dict[str, Any]:
-        """The law as plain JSON values."""
+        """The profile as plain JSON values."""
         return {
             "kind": self.kind,
             "start": self.start,
@@ -128,17 +130,17 @@ class Profile:
 
     @classmethod
     def from_dict(cls, values: Mapping[str, Any]) -> Profile:
-        """The law that `as_dict` wrote; entries left out take their defaults.
+        """The profile that `as_dict` wrote; entries left out take their defaults.
 
         Raises:
-            VolfrepError: an entry that is no part of a law, or a law that makes no sense.
+            VolfrepError: an entry that is no part of a profile, or a profile that makes no sense.
         """
         if not isinstance(values, Mapping):
-            raise VolfrepError(f"A law must be an object with a 'kind', not {values!r}.")
+            raise VolfrepError(f"A profile must be an object with a 'kind', not {values!r}.")
         known = ("kind", "start", "end", "expression")
         strange = [str(name) for name in values if name not in known]
         if strange:
-            raise VolfrepError(f"A law has no entry '{strange[0]}': use {', '.join(known)}.")
+            raise VolfrepError(f"A profile has no entry '{strange[0]}': use {', '.join(known)}.")
         return cls(**values)
 
 
@@ -146,7 +148,7 @@ def _positive(name: str, value: Any) -> float:
     try:
         number = float(value)
     except (TypeError, ValueError) as error:
-        raise VolfrepError(f"The law's {name} must be a number, not {value!r}.") from error
+        raise VolfrepError(f"The profile's {name} must be a number, not {value!r}.") from error
     if not (math.isfinite(number) and number > 0.0):
-        raise VolfrepError(f"The law's {name} must be finite and above 0, not {number:g}.")
+        raise VolfrepError(f"The profile's {name} must be finite and above 0, not {number:g}.")
     return number

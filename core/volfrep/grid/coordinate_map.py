@@ -154,7 +154,7 @@ def part_stretch(direction: Floats, profile: Profile, bounds: Floats, cell_size:
         cell_size: L, mm.
 
     Raises:
-        VolfrepError: the law folds space.
+        VolfrepError: the profile folds space.
     """
     start, length = _extent(direction, bounds)
     before = length / profile.end

@@ -73,7 +73,7 @@ def test_an_entry_without_effect_is_refused(
     block = ["block", "-o", str(tmp_path / "x.stl"), "--count", "1,1,1", "--spec", str(path)]
     assert cli.run(block) == 2
     said = capsys.readouterr().err
-    assert f"{path}, radius_reach has no effect without" in said
+    assert f"{path}: radius_reach has no effect without" in said
     assert said.count("\n") == 1
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The laws of section 2.5 of the paper, by their values, and what no law may be."""
+"""The profiles of section 2.5 of the paper, by their values, and what no profile may be."""
 
 import json
 import math
@@ -123,13 +123,13 @@ def test_a_law_survives_json_and_pickle(profile: Profile) -> None:
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [
-        (("cubic",), "There is no law 'cubic': choose one of scalar, linear"),
+        (("cubic",), "There is no profile 'cubic': choose one of scalar, linear"),
         (("scalar", 0.0), "start must be finite and above 0, not 0"),
         (("linear", 1.0, -1.0), "end must be finite and above 0, not -1"),
         (("exponential", math.inf, 1.0), "start must be finite and above 0, not inf"),
         (("quadratic", 1.0, math.nan), "end must be finite and above 0, not nan"),
         (("linear", "thick", 1.0), "start must be a number, not 'thick'"),
-        (("linear", 1.0, 2.0, "1 + s"), "belongs to the law 'expression'"),
+        (("linear", 1.0, 2.0, "1 + s"), "belongs to the profile 'formula'"),
         (("expression",), "The formula is empty"),
         (("expression", 1, 1, "s"), "gives 0 at s = 0: it must stay above 0"),
         (("expression", 1, 1, "0.5 - s"), "at s = 0.5"),
@@ -153,11 +153,11 @@ def test_a_pole_between_the_samples_is_found_when_it_is_hit() -> None:
 @pytest.mark.parametrize(
     ("values", "sentence"),
     [
-        ({"kind": "linear", "stop": 1.0}, "A law has no entry 'stop': use kind, start, end"),
+        ({"kind": "linear", "stop": 1.0}, "A profile has no entry 'stop': use kind, start, end"),
         (["linear"], "must be an object with a 'kind'"),
         ({"kind": "linear", "start": None}, "start must be a number"),
-        ({"kind": 7}, "There is no law '7'"),
-        ({"kind": []}, "There is no law"),
+        ({"kind": 7}, "There is no profile '7'"),
+        ({"kind": []}, "There is no profile"),
     ],
 )
 def test_what_is_no_law_in_a_file_is_refused(values: Any, sentence: str) -> None:

@@ -110,13 +110,16 @@ def _quantity(parameter: Parameter, value: Any) -> float | int:
             raise VolfrepError(f"'{value}' is no {_called(parameter)}.")
         number, unit = float(match[1]), match[2]
     else:
-        number = value
+        try:
+            number = float(value)
+        except OverflowError as error:  # of a whole number
+            raise VolfrepError("It is too large a number.") from error
     scales = SCALES.get(kind, {})
     if unit and unit not in scales:
         known = f"use {', '.join(scales)}" if scales else "it is a plain number"
         raise VolfrepError(f"'{value}' has the unit '{unit}', which is no unit of it: {known}.")
     if kind != "integer":
-        return float(number) * scales.get(unit, 1.0)
+        return number * scales.get(unit, 1.0)
     if not math.isfinite(number) or number != int(number):
         raise VolfrepError(f"'{value}' is no whole number.")
     return int(number)
@@ -129,7 +132,7 @@ def _numbers(parameter: Parameter, items: list[Any]) -> tuple[float, ...]:
         if any(isinstance(item, bool) for item in items):
             raise ValueError
         numbers = tuple(float(item) for item in items)
-    except (TypeError, ValueError) as error:
+    except (TypeError, ValueError, OverflowError) as error:
         text = ",".join(str(item) for item in items)
         raise VolfrepError(
             f"'{text}' is not numbers with commas, {shape}, as {example}."

@@ -37,7 +37,6 @@ def test_a_row_makes_sense(parameter) -> None:
 
 def test_the_choices_are_those_of_the_engine() -> None:
     words = [profile.ALIASES.get(kind, kind) for kind in BY_NAME["size_grading"].choices[1:]]
-    words = ["expression" if word == "formula" else word for word in words]
     assert tuple(words) == profile.KINDS
     assert BY_NAME["radius_grading"].choices[1:] == grading.RADIUS_BY
     assert BY_NAME["cell_map"].choices == grading.MAPS

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from ..design.parameters import BY_NAME, GROUPS, PARAMETERS, Parameter
 from ..design.parameters.parameter import REPEATED, SHAPES
 from ..design.parameters.values import option_type
+from ..util.errors import VolfrepError
 
 if TYPE_CHECKING:
     from ..design.spec import LatticeSpec

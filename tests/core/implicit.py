@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from volfrep.octants import constrained_mesh as surface
@@ -22,7 +24,7 @@ def field_of(primitives: frep.Primitives, count: int, fillet: float = 0.0) -> fr
     return frep.Field(primitives, len(primitives) * np.arange(count + 1), near, fillet)
 
 
-def surface_of(vertices, triangles, primitives, edge=1.0, place=None) -> surface.Surface:
+def surface_of(vertices, triangles, primitives, edge=1.0, place=None, size=1e6) -> surface.Surface:
     """A mesh over primitives, none of its vertices held; pinned by `place` where it is given."""
     count = len(vertices)
     return surface.Surface(
@@ -33,6 +35,8 @@ def surface_of(vertices, triangles, primitives, edge=1.0, place=None) -> surface
         field_of(primitives, count),
         edge,
         0.5 * edge,
+        np.zeros(count, np.int64),
+        size,
     )
 
 
@@ -41,7 +45,5 @@ def octant_surface(cell, size=10.0, radius=1.0, steps=14) -> surface.Surface:
     primitives = octant_primitives(cell, OctantKey(0, ALL_ACTIVE), size, radius, 2.0)
     raw = raw_octant(sample_octant(primitives, size, steps, 0.0), size)
     step = 0.5 * size / steps
-    made = surface_of(raw.vertices, raw.triangles, primitives, 2.0 * step, raw.place)
-    return surface.Surface(
-        made.vertices, made.triangles, made.place, made.held, made.field, made.edge, step
-    )
+    made = surface_of(raw.vertices, raw.triangles, primitives, 2.0 * step, raw.place, 0.5 * size)
+    return replace(made, step=step)

@@ -6,7 +6,7 @@ import pytest
 
 from samples import SKEW
 from volfrep.design.cells import LIBRARY
-from volfrep.grid.node_frames import joints, shortest
+from volfrep.grid.node_frames import node_frames, shortest
 from volfrep.grid.strut_graph import cell_graph
 
 SIZE = 10.0
@@ -26,7 +26,7 @@ def rotation():
 @pytest.mark.parametrize("cell", [*LIBRARY.values(), SKEW], ids=lambda cell: cell.name)
 def test_every_strut_is_seen_from_both_its_ends(cell):
     graph = graph_of(cell)
-    made = joints(graph, graph.nodes, np.ones(len(graph.nodes)), SIZE)
+    made = node_frames(graph, graph.nodes, np.ones(len(graph.nodes)), SIZE)
     node, column = np.nonzero(made.neighbours >= 0)
     seen = np.stack([node, made.neighbours[node, column]], axis=1)
     expected = np.concatenate([graph.struts, graph.struts[:, ::-1]])
@@ -39,7 +39,7 @@ def test_every_strut_is_seen_from_both_its_ends(cell):
 def test_radii_grow_evenly_along_a_strut():
     graph = graph_of(LIBRARY["Box"])
     radius = 0.5 + 0.02 * graph.nodes[:, 0]
-    made = joints(graph, graph.nodes, radius, SIZE)
+    made = node_frames(graph, graph.nodes, radius, SIZE)
     node, column = np.nonzero(made.neighbours >= 0)
     along_x = made.directions[node, column, 0]
     np.testing.assert_allclose(made.slopes[node, column], 0.02 * along_x, atol=1e-12)
@@ -51,7 +51,7 @@ def test_a_turned_lattice_knows_its_rotation():
     graph, turn = graph_of(), rotation()
     there = graph.nodes @ turn.T
     bends = np.tile(turn, (len(there), 1, 1))
-    made = joints(graph, there, np.ones(len(there)), SIZE, bends)
+    made = node_frames(graph, there, np.ones(len(there)), SIZE, bends)
     np.testing.assert_allclose(made.rotation, bends, atol=1e-12)
     turned = np.einsum("nij,nkj->nki", made.rotation, made.were)
     some = made.neighbours >= 0
@@ -61,7 +61,7 @@ def test_a_turned_lattice_knows_its_rotation():
 def test_a_stretch_is_left_out_of_the_rotation():
     graph, turn = graph_of(), rotation()
     bend = turn @ np.diag([1.0, 1.5, 2.0])
-    made = joints(
+    made = node_frames(
         graph, graph.nodes @ bend.T, np.ones(len(graph.nodes)), SIZE,
         np.tile(bend, (len(graph.nodes), 1, 1)),
     )  # fmt: skip
@@ -79,7 +79,7 @@ def test_in_a_ring_the_last_node_is_beside_the_first():
         LIBRARY["Box"], np.ones((4, 1, 1), bool), SIZE, np.zeros(3), (True, False, False)
     )
     period = np.array([4 * SIZE, np.inf, np.inf])
-    made = joints(graph, graph.nodes, np.ones(len(graph.nodes)), SIZE, None, period)
+    made = node_frames(graph, graph.nodes, np.ones(len(graph.nodes)), SIZE, None, period)
     some = made.neighbours >= 0
     assert np.abs(made.directions[some]).max() == pytest.approx(1.0)
     along = np.abs(made.directions[..., 0]) > 0.5

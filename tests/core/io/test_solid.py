@@ -63,7 +63,7 @@ def test_overlapping_shells_of_a_real_part_are_united():
 def test_other_kinds_of_files_are_explained():
     with pytest.raises(VolfrepError, match="open it in FreeCAD"):
         read_solid("part.FCStd")
-    with pytest.raises(VolfrepError, match="give an STL, OBJ, PLY, 3MF, STEP, IGES or BREP"):
+    with pytest.raises(VolfrepError, match="OBJ, PLY, 3MF, OFF, GLB, STEP, IGES or BREP"):
         read_solid("part.docx")
 
 

@@ -8,11 +8,11 @@ from samples import SKEW
 from volfrep import LatticeSpec
 from volfrep.design.cells import LIBRARY, joint_radius
 from volfrep.grid.coordinate_map import identity_map
-from volfrep.grid.node_frames import joints
+from volfrep.grid.node_frames import node_frames
 from volfrep.grid.strut_graph import cell_graph
 from volfrep.lattice.assembly import coordinates, facets, lay_out, octant_grid
-from volfrep.lattice.deform import conform
-from volfrep.lattice.strut_binding import anchor
+from volfrep.lattice.deform import deform
+from volfrep.lattice.strut_binding import bind
 from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.octants.octant_mesh import mesh_octants, octant_spec
 from volfrep.octants.sdf import distances, spheres, struts
@@ -34,7 +34,7 @@ class Laid:
         wide = np.pad(np.ones(SHAPE, bool), 1)
         self.graph = cell_graph(cell, wide, SIZE, np.full(3, -SIZE), first=(1, 1, 1))
         self.anchors = {
-            key: anchor(cell, self.tile, key, self.layout.octants[key])
+            key: bind(cell, self.tile, key, self.layout.octants[key])
             for key, place in zip(grid.keys, self.layout.places, strict=True)
             if len(place) and len(self.layout.octants[key].vertices)
         }
@@ -43,8 +43,8 @@ class Laid:
         """The vertices on struts of a radius, or of one for each node, between given places."""
         nodes = self.graph.nodes
         radii = np.broadcast_to(np.asarray(radius, float), len(nodes)).copy()
-        made = joints(self.graph, nodes if points is None else points, radii, SIZE)
-        return conform(
+        made = node_frames(self.graph, nodes if points is None else points, radii, SIZE)
+        return deform(
             self.layout, self.anchors, self.cell, made, identity_map(SIZE), 0.0, Monitor()
         )
 
@@ -112,9 +112,9 @@ def test_a_cancel_is_heard(laid):
     from volfrep.util.errors import Cancelled
 
     nodes = laid.graph.nodes
-    made = joints(laid.graph, nodes, np.full(len(nodes), RADIUS), SIZE)
+    made = node_frames(laid.graph, nodes, np.full(len(nodes), RADIUS), SIZE)
     with pytest.raises(Cancelled):
-        conform(
+        deform(
             laid.layout, laid.anchors, laid.cell, made, identity_map(SIZE), 0.0,
             Monitor(lambda fraction, stage: False),
         )  # fmt: skip

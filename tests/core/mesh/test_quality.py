@@ -65,7 +65,9 @@ def test_bodies_and_voids_and_genus_add_up() -> None:
 def test_what_stays_has_the_quality_of_the_whole_less_what_goes() -> None:
     stays = concatenate(box(4.0), box(1.0).reversed(), torus())
     goes = concatenate(box(0.5, (20, 0, 0)), torus().reversed())
-    rest = remaining(measure(concatenate(stays, goes)), measure(goes), stays.bounds)
+    rest = remaining(
+        measure(concatenate(stays, goes)), measure(goes), stays.bounds, np.array([64.0, -1.0, 1.0])
+    )
     assert_same_quality(rest, measure(stays))
 
 

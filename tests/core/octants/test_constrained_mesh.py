@@ -4,6 +4,7 @@
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from implicit import surface_of
 from volfrep.octants import constrained_mesh as surface
@@ -12,6 +13,12 @@ from volfrep.octants import sdf as frep
 BALL = frep.spheres(np.zeros((1, 3)), 5.0)
 #: Two balls of radius 5, whose surfaces meet in the circle of radius 4 about the x axis at x = 0.
 TWO_BALLS = frep.spheres(np.array([[-3.0, 0.0, 0.0], [3.0, 0.0, 0.0]]), 5.0)
+
+
+@pytest.fixture(autouse=True)
+def no_octant_about_these_shapes(monkeypatch):
+    """The shapes lie about the origin, and an octant would hold their vertices in its box."""
+    monkeypatch.setattr(surface, "FACE_MARGIN", -1e6)
 
 
 def near_the_ball(count=200):
@@ -103,3 +110,11 @@ def test_a_vertex_on_an_edge_stays_between_its_samples():
     np.testing.assert_allclose(high, [[0.0, 0.0, 1.5]], atol=1e-3)
     assert low[0, 2] > 1.0
     assert high[0, 2] < 1.5
+
+
+def test_a_vertex_stays_in_its_octant_and_off_its_faces(monkeypatch):
+    monkeypatch.setattr(surface, "FACE_MARGIN", 0.01)
+    inside = surface_of([[1.0, 2.0, 3.0]], [], BALL, size=5.0)
+    kept = surface.moved(inside, np.array([[-1.0, 2.5, 7.0]])).vertices
+    margin = 0.01 * inside.step
+    np.testing.assert_allclose(kept, [[margin, 2.5, 5.0 - margin]])

@@ -8,7 +8,7 @@ from implicit import octant_surface
 from samples import SKEW
 from volfrep.design.cells import LIBRARY
 from volfrep.mesh import remesh
-from volfrep.octants import isotropic_remesh as even
+from volfrep.octants import isotropic_remesh
 from volfrep.octants.sdf import distances
 
 CELLS = [*LIBRARY.values(), SKEW]
@@ -18,7 +18,7 @@ CELLS = [*LIBRARY.values(), SKEW]
 def pair(request):
     """The raw surface of an octant, the even one, and where its vertices come from."""
     raw = octant_surface(request.param)
-    return raw, *even.even_out(raw)
+    return raw, *isotropic_remesh.even_out(raw)
 
 
 def angles(surface):
@@ -81,7 +81,7 @@ def test_nothing_comes_of_nothing():
     whole = octant_surface(LIBRARY["Box"])
     none = type(whole)(
         whole.vertices[:0], whole.triangles[:0], whole.place[:0], whole.held[:0],
-        whole.field.rows(np.zeros(0, np.int64)), whole.edge, whole.step,
+        whole.field.rows(np.zeros(0, np.int64)), whole.edge, whole.step, whole.piece[:0], whole.size,
     )  # fmt: skip
-    found, origin = even.even_out(none)
+    found, origin = isotropic_remesh.even_out(none)
     assert len(found.triangles) == len(origin) == 0

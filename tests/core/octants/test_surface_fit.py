@@ -8,8 +8,7 @@ from implicit import octant_surface
 from samples import SKEW
 from volfrep.design.cells import LIBRARY
 from volfrep.mesh import remesh
-from volfrep.octants import isotropic_remesh as even
-from volfrep.octants import surface_fit as fit
+from volfrep.octants import isotropic_remesh, surface_fit
 
 
 def places(parts=6):
@@ -42,8 +41,8 @@ def missed(surface):
 @pytest.fixture(params=[*LIBRARY.values(), SKEW], ids=lambda cell: cell.name, scope="module")
 def pair(request):
     """The even surface of an octant, and the fitted one."""
-    found, _ = even.even_out(octant_surface(request.param))
-    return found, fit.fit(found, np.zeros(len(found.vertices), np.int64))
+    found, _ = isotropic_remesh.even_out(octant_surface(request.param))
+    return found, surface_fit.fit(found)
 
 
 def test_the_missed_volume_is_put_right(pair):
@@ -58,7 +57,7 @@ def test_the_facets_come_nearer_to_the_surface(pair):
 
 def test_even_facets_stray_as_the_border_is_told():
     """By e2 (k1 + k2) / 16 in the mean: on struts k1 = 1 / r, k2 = 0."""
-    found, _ = even.even_out(octant_surface(LIBRARY["Box"], radius=1.5))
+    found, _ = isotropic_remesh.even_out(octant_surface(LIBRARY["Box"], radius=1.5))
     corners = found.vertices[found.triangles]
     edge2 = ((np.roll(corners, -1, axis=1) - corners) ** 2).sum(axis=2).mean()
     assert -missed(found)[0] == pytest.approx(edge2 / (16.0 * 1.5), rel=0.4)
@@ -75,12 +74,13 @@ def test_only_places_change_and_the_border_stays_in_its_faces(pair):
 
 def test_each_piece_is_right_by_itself():
     """Two octants in one mesh: what one of them misses, the other does not give."""
-    one, _ = even.even_out(octant_surface(LIBRARY["Box"]))
-    two, _ = even.even_out(octant_surface(LIBRARY["Box"], radius=1.4))
+    one, _ = isotropic_remesh.even_out(octant_surface(LIBRARY["Box"]))
+    two, _ = isotropic_remesh.even_out(octant_surface(LIBRARY["Box"], radius=1.4))
     count = len(one.vertices)
     field = type(one.field)
     primitives = one.field.primitives
-    both = fit.Surface(
+    piece = np.repeat([0, 1], [count, len(two.vertices)])
+    both = surface_fit.Surface(
         np.concatenate([one.vertices, two.vertices]),
         np.concatenate([one.triangles, two.triangles + count]),
         np.concatenate([one.place, two.place]),
@@ -98,9 +98,10 @@ def test_each_piece_is_right_by_itself():
         ),
         one.edge,
         one.step,
+        piece,
+        one.size,
     )
-    piece = np.repeat([0, 1], [count, len(two.vertices)])
-    found = fit.fit(both, piece)
+    found = surface_fit.fit(both)
     area, values = distances_of_facets(found)
     for number in (0, 1):
         own = piece[found.triangles[:, 0]] == number

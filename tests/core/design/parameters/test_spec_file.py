@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Specifications as files: read as they were written, and refused in one sentence."""
 
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -141,3 +142,15 @@ def test_lengths_may_have_a_unit(tmp_path: Path, value: str, mm: float) -> None:
     path = tmp_path / "spec.toml"
     path.write_text(f"cell_size = {value}\nstrut_radius = 0.1\n")
     assert read_spec(path).cell_size == pytest.approx(mm)
+
+
+def test_without_a_reader_of_toml_a_sentence_says_what_to_install(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As with Python 3.10, which has none of its own."""
+    path = tmp_path / "spec.toml"
+    path.write_text("cell_size = 8\n")
+    for name in ("tomllib", "tomli"):
+        monkeypatch.setitem(sys.modules, name, None)
+    with pytest.raises(VolfrepError, match="pip install tomli"):
+        read_spec(path)

@@ -28,14 +28,17 @@ def item(text):
     return tree().findItems(text, QtCore.Qt.MatchExactly | QtCore.Qt.MatchRecursive)[0]
 
 
+def editors():
+    """The property editor's views that are seen."""
+    views = Gui.getMainWindow().findChildren(QtGui.QTreeView)
+    names = [view.metaObject().className() for view in views]
+    return [v for v, n in zip(views, names, strict=True) if v.isVisible() and "PropertyEditor" in n]
+
+
 def editor_groups():
     """The titles in the property editor's Data tab: they span both columns."""
-    found = []
-    for view in Gui.getMainWindow().findChildren(QtGui.QTreeView):
-        if view.isVisible() and "PropertyEditor" in view.metaObject().className():
-            model = view.model()
-            found += [model.index(k, 0).data() for k in range(model.rowCount())]
-    return found
+    models = [view.model() for view in editors()]
+    return [model.index(k, 0).data() for model in models for k in range(model.rowCount())]
 
 
 def the_tree(doc, box):
@@ -56,9 +59,11 @@ def the_tree(doc, box):
     shown = [name for name in editor_groups() if name in GROUPS]
     check("the groups are in the editor", set(shown) == set(GROUPS), editor_groups())
     picture("tree_1_properties")
-    for view in Gui.getMainWindow().findChildren(QtGui.QTreeView):
-        if view.isVisible() and "PropertyEditor" in view.metaObject().className():
-            view.verticalScrollBar().setValue(view.verticalScrollBar().maximum() // 3)
+    for view in editors():
+        rows = [view.model().index(k, 0) for k in range(view.model().rowCount())]
+        for row in rows:
+            if row.data() == "Orientation":
+                view.scrollTo(row, QtGui.QAbstractItemView.PositionAtTop)
     wait(200)
     picture("tree_2_properties_below")
     return infill

@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..util.errors import VolfrepError
 from .triangle_mesh import TriangleMesh, compact
@@ -43,12 +44,7 @@ def as_manifold(mesh: TriangleMesh) -> manifold3d.Manifold:
     """
     import manifold3d
 
-    solid = manifold3d.Manifold(
-        manifold3d.Mesh64(
-            np.ascontiguousarray(mesh.vertices),
-            np.ascontiguousarray(mesh.triangles, dtype=np.uint64),
-        )
-    )
+    solid = manifold3d.Manifold(to_library(mesh))
     if solid.status() != manifold3d.Error.NoError:
         raise VolfrepError(
             f"A surface cannot be cut ({solid.status().name}): repair the part's mesh."
@@ -58,11 +54,29 @@ def as_manifold(mesh: TriangleMesh) -> manifold3d.Manifold:
 
 def as_mesh(solid: manifold3d.Manifold) -> TriangleMesh:
     """The library's solid as a mesh, welded."""
-    data = solid.to_mesh64()
+    return compact(from_library(solid.to_mesh64()))
+
+
+def to_library(mesh: TriangleMesh, **more: NDArray[np.uint64 | np.uint32]) -> manifold3d.Mesh64:
+    """A mesh as the library takes it, with what else it may be told of the triangles.
+
+    This and `from_library` are the only ways there and back.
+    """
+    import manifold3d
+
+    return manifold3d.Mesh64(
+        np.ascontiguousarray(mesh.vertices),
+        np.ascontiguousarray(mesh.triangles, dtype=np.uint64),
+        **more,
+    )
+
+
+def from_library(data: manifold3d.Mesh64) -> TriangleMesh:
+    """The library's mesh as ours: triangles and vertices in its order, doubled ones as one."""
     vertices = np.array(data.vert_properties[:, :3], np.float64)
     number = np.arange(len(vertices), dtype=np.int32)
     # Vertices are doubled where inputs meet; the library tells which are the same.
     number[np.asarray(data.merge_from_vert).astype(np.int64)] = np.asarray(
         data.merge_to_vert
     ).astype(np.int32)
-    return compact(TriangleMesh(vertices, number[np.asarray(data.tri_verts).astype(np.int32)]))
+    return TriangleMesh(vertices, number[np.asarray(data.tri_verts).astype(np.int32)])

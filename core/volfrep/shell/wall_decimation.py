@@ -10,6 +10,7 @@ import manifold3d
 import numpy as np
 from scipy.spatial import cKDTree
 
+from ..mesh.booleans import from_library, to_library
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.self_intersection import crossing_triangles
 from ..util.types import Bools, Floats
@@ -111,16 +112,7 @@ def _simplify(mesh: TriangleMesh, locked: Bools, tolerance: float) -> TriangleMe
     """The mesh with fewer triangles, moved by less than the tolerance, as a valid manifold."""
     # Triangles of faces of their own are not merged with others.
     face = np.where(locked, 1 + np.arange(len(locked)), 0).astype(np.uint64)
-    solid: Any = manifold3d.Manifold(
-        manifold3d.Mesh64(
-            np.ascontiguousarray(mesh.vertices),
-            np.ascontiguousarray(mesh.triangles, dtype=np.uint64),
-            face_id=face,
-        )
-    )
+    solid: Any = manifold3d.Manifold(to_library(mesh, face_id=face))
     if solid.status() != manifold3d.Error.NoError:
         raise RuntimeError(f"the inner wall is not manifold: {solid.status()}")
-    result = solid.simplify(tolerance).to_mesh64()
-    return TriangleMesh(
-        np.array(result.vert_properties[:, :3], np.float64), np.array(result.tri_verts, np.int32)
-    )
+    return from_library(solid.simplify(tolerance).to_mesh64())

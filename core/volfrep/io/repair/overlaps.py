@@ -8,7 +8,7 @@ from typing import Any
 import manifold3d
 import numpy as np
 
-from ...mesh.booleans import as_manifold
+from ...mesh.booleans import as_manifold, from_library
 from ...mesh.edge_table import pieces_of, place_text
 from ...mesh.triangle_mesh import TriangleMesh, compact, concatenate
 from ...spatial.winding import Windings, windings
@@ -50,7 +50,7 @@ def unite(mesh: TriangleMesh, body: Ints, name: str) -> tuple[TriangleMesh, list
         same_volume = abs(union.volume() - volume) <= 1e-9 * abs(volume)
         if same_volume and abs(union.surface_area() - area) <= 1e-9 * area:
             continue
-        united.append(_from_manifold(union))
+        united.append(from_library(union.to_mesh64()))
         gone += group.tolist()
     if not gone:
         return mesh, []
@@ -100,7 +100,7 @@ def unite_with_itself(mesh: TriangleMesh, met: Windings, name: str) -> TriangleM
     while waiting:
         whole, cuts = waiting.pop()
         for solid in whole.decompose():
-            piece = _from_manifold(solid)
+            piece = from_library(solid.to_mesh64())
             if len(pieces) + len(waiting) > MOST_PIECES:
                 return None
             if not len(piece.triangles) or windings(piece).odd <= CLEAN * abs(solid.volume()):
@@ -112,15 +112,9 @@ def unite_with_itself(mesh: TriangleMesh, met: Windings, name: str) -> TriangleM
                 middle = float(piece.bounds[:, axis].mean())
                 halves = solid.split_by_plane(np.eye(3)[axis].tolist(), middle)
                 waiting += [(half, cuts + 1) for half in halves]
-    union = _from_manifold(manifold3d.Manifold.batch_boolean(pieces, manifold3d.OpType.Add))
+    whole = manifold3d.Manifold.batch_boolean(pieces, manifold3d.OpType.Add)
+    union = from_library(whole.to_mesh64())
     return union if len(union.triangles) else None
-
-
-def _from_manifold(solid: Any) -> TriangleMesh:
-    data = solid.to_mesh64()
-    return TriangleMesh(
-        np.array(data.vert_properties[:, :3], np.float64), np.array(data.tri_verts, np.int32)
-    )
 
 
 def _to_manifold(mesh: TriangleMesh, rows: Ints, name: str) -> Any:

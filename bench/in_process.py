@@ -13,7 +13,6 @@ import json
 import pstats
 import sys
 import time
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -56,14 +55,14 @@ def unvoxelised(part: str, cell: str, out: str) -> dict[str, Any]:
     The whole box's mesh goes through the Boolean, solid - (cavity - lattice). Nothing is cleaned
     or proved afterwards, which favours this way.
     """
-    from volfrep import LatticeSpec, StageCache, read_solid
+    from volfrep import LatticeSpec, read_solid
     from volfrep.grid.activation import make_grid
+    from volfrep.grid.placement import NUDGE
     from volfrep.io.write import write_mesh
     from volfrep.jobs.blocks import block
-    from volfrep.jobs.pipeline import fill
+    from volfrep.jobs.infill import Infill
     from volfrep.mesh.booleans import difference
     from volfrep.mesh.triangle_mesh import TriangleMesh
-    from volfrep.trim.boolean_trim import NUDGE
 
     stages: dict[str, float] = {}
     start = time.perf_counter()
@@ -79,7 +78,7 @@ def unvoxelised(part: str, cell: str, out: str) -> dict[str, Any]:
     grid = make_grid(solid.bounds, SIZE)
     low = tuple(float(x) for x in grid.origin)
     spec = LatticeSpec(cell=cell, cell_size=SIZE, strut_radius=RADIUS, shell=SHELL, origin=low)
-    cavity = fill(solid, replace(spec, output="domain"), cache=StageCache()).mesh
+    cavity = Infill(solid, spec).cavity
     lap("shell")
     lattice = block(spec, grid.shape).mesh
     lattice = TriangleMesh(lattice.vertices + NUDGE * SIZE, lattice.triangles)

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import FreeCAD as App
@@ -43,7 +43,7 @@ class Ingredients:
     @property
     def with_skin(self) -> bool:
         """Whether skin and lattice are one part."""
-        return self.domain is not None and self.spec.output == "part" and self.spec.shell > 0
+        return self.domain is not None and self.spec.with_skin
 
 
 def inputs_of(obj: App.DocumentObject) -> tuple[TriangleMesh, LatticeSpec, StageCache]:
@@ -74,15 +74,14 @@ def ingredients_of(obj: App.DocumentObject, progress: Any = None) -> Ingredients
         Cancelled: in the window, by the user.
     """
     solid, spec, cache = inputs_of(obj)
-    from volfrep.jobs.beam_part import beam_model, deformed_struts
-    from volfrep.jobs.pipeline import fill
+    from volfrep.jobs.infill import Infill
+    from volfrep.trim.beam_model import deformed_struts
 
-    bare = replace(spec, output="lattice", drains=None)
-    lattice = beam_model(solid, bare, progress=progress, cache=cache).lattice
-    domain = None
-    if spec.is_cut:
-        domain = fill(solid, replace(spec, output="domain"), progress=progress, cache=cache).mesh
-    return Ingredients(spec, lattice, solid, domain, deformed_struts(spec, "Exact struts"))
+    infill = Infill(solid, spec, progress=progress, cache=cache)
+    lattice = infill.lattice_beams.lattice
+    domain = infill.cavity if spec.is_cut else None
+    warnings = deformed_struts(spec.grid, spec.struts, "Exact struts")
+    return Ingredients(spec, lattice, solid, domain, warnings)
 
 
 def estimate_of(made_of: Ingredients) -> Estimate:

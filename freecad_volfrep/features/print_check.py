@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import FreeCAD as App
@@ -107,7 +106,7 @@ class PrintCheck:
         from freecad_volfrep.bridge.beams import place_in_document, placed_lattice
         from freecad_volfrep.bridge.meshes import to_freecad
         from freecad_volfrep.bridge.solids import mesh_in_document, placed
-        from volfrep.jobs.pipeline import fill
+        from volfrep.jobs.infill import Infill
         from volfrep.mesh.triangle_mesh import TriangleMesh, compact
         from volfrep.reports.printability import (
             find_process,
@@ -119,22 +118,24 @@ class PrintCheck:
         solid, spec, cache = infill.Proxy.inputs(infill)
         if spec.output == "domain":
             raise VolfrepError(f"'{infill.Label}' holds no lattice: set its Output to part.")
-        domain = replace(spec, output="domain")
-        filled = run_job(
-            job_title("Print check of {label}", infill),
-            lambda progress: fill(solid, domain, progress=progress, cache=cache),
-        )
+
+        def struts_and_cavity(progress: Any) -> tuple[Any, TriangleMesh]:
+            filled = Infill(solid, spec, progress=progress, cache=cache)
+            return filled.struts, filled.cavity
+
+        title = job_title("Print check of {label}", infill)
+        struts, cavity = run_job(title, struts_and_cavity)
         place = place_in_document(infill)
         mesh = mesh_in_document(infill)
         process = find_process(obj.Process)
         direction = tuple(obj.BuildDirection)
         report = print_report(
             mesh,
-            placed_lattice(filled.wireframe, place),
+            placed_lattice(struts, place),
             process,
             build_direction=direction,
             density=spec.density,
-            domain=placed(filled.mesh, place),
+            domain=placed(cavity, place),
         )
         hanging = overhanging_facets(mesh, unit_direction(direction), process.inclination)
         obj.Mesh = to_freecad(compact(TriangleMesh(mesh.vertices, mesh.triangles[hanging])))

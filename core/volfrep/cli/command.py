@@ -172,9 +172,7 @@ def _fill(options: argparse.Namespace) -> None:
     from ..design.forecast import forecast_fill
     from ..io.read.units import refuse_scale
     from ..io.solid import read_solid
-    from ..jobs.beam_part import beam_model
-    from ..jobs.pipeline import fill
-    from ..util.cache import StageCache
+    from ..jobs.infill import Infill
 
     start = time.perf_counter()
     solid = read_solid(part, options.unit)
@@ -183,24 +181,21 @@ def _fill(options: argparse.Namespace) -> None:
     read_seconds = time.perf_counter() - start
     if not options.quiet:
         print(f"Expected: {forecast_fill(solid, spec)}.", flush=True)
-    cache = StageCache()
     with Progress(options.quiet) as progress:
-        if solver_options.fill_axes(solid, spec, options, progress, start):
+        infill = Infill(solid, spec, progress=progress)
+        if solver_options.fill_axes(infill, options, start):
             return
         if options.threemf == "beams":
-            printing_options.finish_beams(
-                beam_model(solid, spec, progress=progress), options, start
-            )
+            printing_options.finish_beams(infill.beams, options, start)
             return
-        both = options.threemf == "both"
-        beams = beam_model(solid, spec, progress=progress, cache=cache) if both else None
-        result = fill(solid, spec, progress=progress, cache=cache)
+        beams = infill.beams if options.threemf == "both" else None
+        result = infill.result
         if options.compact is not None:
             result = printing_options.compacted(result, options, progress)
         domain = None
         if options.print_report is not None:
-            domain = fill(solid, dataclasses.replace(spec, output="domain"), cache=cache).mesh
-        write = solver_options.writer(options, spec, solid, cache, progress)
+            domain = infill.cavity
+        write = solver_options.writer(options, spec, infill, progress)
         _finish(result, options, {"read": read_seconds}, beams, domain, write)
 
 
@@ -235,7 +230,7 @@ def _block(options: argparse.Namespace) -> None:
         result = block(spec, tuple(options.count), progress=progress)
         if options.compact is not None:
             result = printing_options.compacted(result, options, progress)
-        write = solver_options.writer(options, spec, None, None, progress)
+        write = solver_options.writer(options, spec, None, progress)
         _finish(result, options, {}, beams, write=write)
 
 

@@ -7,7 +7,6 @@ numpy and the engine are imported inside the functions, as in `cli`.
 from __future__ import annotations
 
 import argparse
-import dataclasses
 import re
 import time
 from collections.abc import Callable
@@ -24,10 +23,9 @@ if TYPE_CHECKING:
     from ..design.spec import LatticeSpec
     from ..fem.model import Material
     from ..grid.strut_graph import Wireframe
-    from ..mesh.triangle_mesh import TriangleMesh
+    from ..jobs.infill import Infill
     from ..reports.estimate import Asked, Estimate
     from ..reports.result import Result
-    from ..util.cache import StageCache
     from ..util.progress import ProgressCallback
 
     #: Writes a result's file and returns sentences for the user.
@@ -112,23 +110,15 @@ def check(options: argparse.Namespace, out: Path, spec: LatticeSpec) -> None:
         freecad_program()
 
 
-def fill_axes(
-    solid: TriangleMesh,
-    spec: LatticeSpec,
-    options: argparse.Namespace,
-    progress: ProgressCallback,
-    start: float,
-) -> bool:
+def fill_axes(infill: Infill, options: argparse.Namespace, start: float) -> bool:
     """Write the forms that are made of the struts' axes in a solid; whether it was asked for one.
 
     `start` is when the job began, of `time.perf_counter`.
     """
     if not _needs_axes(options):
         return False
-    from ..jobs.beam_part import clipped_infill
-
-    clipped = clipped_infill(solid, spec, progress=progress)
-    _write_axes(clipped.wireframe, clipped.on_wall, spec, options, start)
+    clipped = infill.axes
+    _write_axes(clipped.wireframe, clipped.on_wall, infill.spec, options, start)
     return True
 
 
@@ -145,8 +135,7 @@ def block_axes(spec: LatticeSpec, options: argparse.Namespace, start: float) -> 
 def writer(
     options: argparse.Namespace,
     spec: LatticeSpec,
-    solid: TriangleMesh | None,
-    cache: StageCache | None,
+    infill: Infill | None,
     progress: ProgressCallback,
 ) -> Writer | None:
     """What writes the result as the options ask for; None where a mesh format does.
@@ -154,16 +143,15 @@ def writer(
     Args:
         options: of the command.
         spec: what was made.
-        solid: that was filled; None for a block.
-        cache: that it was filled with.
+        infill: whose stages they were; None for a block.
         progress: asked for a cancel.
     """
     if options.step == "exact":
-        return lambda result: _write_exact(result, options, spec, solid, cache, progress)
+        return lambda result: _write_exact(result, options, spec, infill, progress)
     if options.step == "faceted":
         return lambda result: _write_faceted(result, options, spec)
     if options.inp == "tetrahedra":
-        return lambda result: _write_tetrahedra(result, options, spec, solid, cache, progress)
+        return lambda result: _write_tetrahedra(result, options, spec, infill, progress)
     return None
 
 
@@ -181,8 +169,8 @@ def _write_axes(
     from ..fem.beam_mesh import beam_model
     from ..io.write.calculix import write_beams
     from ..io.write.step_wireframe import write_step_wireframe
-    from ..jobs.beam_part import deformed_struts
     from ..reports.estimate import estimate_axes, estimate_beams
+    from ..trim.beam_model import deformed_struts
 
     warnings: tuple[str, ...] = ()
     if options.step == "wireframe":
@@ -192,7 +180,7 @@ def _write_axes(
         model = beam_model(frame, on_wall)
         _announce(estimate_beams(model, _asked(spec, options)), options)
         write_beams(model, options.output, _material_of(options), on_wall=on_wall)
-        warnings = deformed_struts(spec)
+        warnings = deformed_struts(spec.grid, spec.struts)
     print_warnings(warnings)
     if options.quiet:
         return
@@ -219,27 +207,24 @@ def _write_exact(
     result: Result,
     options: argparse.Namespace,
     spec: LatticeSpec,
-    solid: TriangleMesh | None,
-    cache: StageCache | None,
+    infill: Infill | None,
     progress: ProgressCallback,
 ) -> tuple[str, ...]:
     """Exact surfaces, or plane faces where OpenCASCADE does not manage them."""
     from ..io.freecad_process import write_exact_step
-    from ..jobs.beam_part import beam_model, deformed_struts
-    from ..jobs.pipeline import fill
     from ..reports.estimate import estimate_exact, refuse_inexact
+    from ..trim.beam_model import deformed_struts
     from ..util.progress import Monitor
 
     lattice, inner, outer = result.wireframe, None, None
-    if solid is not None:
-        bare = dataclasses.replace(spec, output="lattice", drains=None)
-        lattice = beam_model(solid, bare, cache=cache).lattice
+    if infill is not None:
+        lattice = infill.lattice_beams.lattice
         if spec.is_cut:
-            inner = fill(solid, dataclasses.replace(spec, output="domain"), cache=cache).mesh
-            outer = solid if spec.output == "part" and spec.shell > 0 else None
+            inner = infill.cavity
+            outer = infill.solid if spec.with_skin else None
     estimate = estimate_exact(lattice, _asked(spec, options), trimmed=inner is not None)
     _announce(estimate, options)
-    warnings = deformed_struts(spec, "Exact struts")
+    warnings = deformed_struts(spec.grid, spec.struts, "Exact struts")
     measured = result.report.volume_mm3
     expected = None if warnings else measured
     try:
@@ -259,8 +244,7 @@ def _write_tetrahedra(
     result: Result,
     options: argparse.Namespace,
     spec: LatticeSpec,
-    solid: TriangleMesh | None,
-    cache: StageCache | None,
+    infill: Infill | None,
     progress: ProgressCallback,
 ) -> tuple[str, ...]:
     from ..fem.tet_mesh import nodes_on, tetrahedra
@@ -271,12 +255,8 @@ def _write_tetrahedra(
     _announce(estimate_tetrahedra(len(result.mesh.triangles), _asked(spec, options)), options)
     filled = tetrahedra(result.mesh, Monitor(progress))
     sets = {}
-    if solid is not None:
-        wall = solid
-        if spec.output == "lattice":
-            from ..jobs.pipeline import fill
-
-            wall = fill(solid, dataclasses.replace(spec, output="domain"), cache=cache).mesh
+    if infill is not None:
+        wall = infill.cavity if spec.output == "lattice" else infill.solid
         sets["SKIN"] = nodes_on(filled, wall)
     write_tetrahedra(filled, options.output, _material_of(options), sets=sets)
     return ()

@@ -10,13 +10,14 @@ from __future__ import annotations
 import itertools
 import json
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..util.content import content_of, held
 from ..util.errors import VolfrepError
 from ..util.types import Floats
 
@@ -28,9 +29,9 @@ MAX_STRUTS = 2000
 NODE_TOLERANCE = 1e-6
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class UnitCell:
-    """A strut-and-node cell on the unit cube.
+    """A strut-and-node cell on the unit cube; equal to any other of the same name and content.
 
     Attributes:
         name: what a user picks it by.
@@ -39,8 +40,14 @@ class UnitCell:
     """
 
     name: str
-    nodes: NDArray[np.float64]
-    struts: NDArray[np.int64]
+    nodes: NDArray[np.float64] = field(compare=False)
+    struts: NDArray[np.int64] = field(compare=False)
+    _content: bytes = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "nodes", held(self.nodes, np.float64))
+        object.__setattr__(self, "struts", held(self.struts, np.int64))
+        object.__setattr__(self, "_content", content_of(self.nodes, self.struts))
 
     @property
     def maxwell_number(self) -> int:

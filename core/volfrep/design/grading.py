@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -39,6 +39,7 @@ class SizeGrading:
 
     def __post_init__(self) -> None:
         check_vector("grading direction", self.direction)
+        as_tuples(self, "direction")
 
 
 @dataclass(frozen=True)
@@ -53,7 +54,7 @@ class RadiusGrading:
             and largest value.
         direction: of any length.
         reach: depth in mm at which the profile ends.
-        field: the values, or the file that holds them.
+        field: the values; or the file that holds them, which is read here and now.
         column: which values of the file.
         curve: (value, radius in mm) pairs, rising in value, to use instead of the profile.
     """
@@ -62,7 +63,7 @@ class RadiusGrading:
     profile: Profile
     direction: Vector = (1.0, 0.0, 0.0)
     reach: float = 5.0
-    field: PointField | str | None = field(default=None, compare=False)
+    field: PointField | str | None = None
     column: str | None = None
     curve: tuple[tuple[float, float], ...] = ()
 
@@ -72,6 +73,8 @@ class RadiusGrading:
                 f"The radius cannot be graded by '{self.by}': choose {', '.join(RADIUS_BY)}."
             )
         check_vector("radius grading direction", self.direction)
+        as_tuples(self, "direction")
+        object.__setattr__(self, "curve", tuple(tuple(pair) for pair in self.curve))
         if not (math.isfinite(self.reach) and self.reach > 0):
             raise VolfrepError(
                 f"The depth that the radius is graded over must be above 0 mm, not {self.reach:g}."
@@ -81,6 +84,8 @@ class RadiusGrading:
                 "A radius graded by a field needs one: name a CSV or VTK file with x, y, z and a "
                 "value, or choose a FEM result."
             )
+        if self.by == "field" and isinstance(self.field, str):
+            object.__setattr__(self, "field", read_point_field(self.field, self.column))
         if self.curve:
             _ = self._transfer()
 
@@ -111,9 +116,7 @@ class RadiusGrading:
             )
         if self.by == "field":
             values = self.field
-            if isinstance(values, str):
-                values = read_point_field(values, self.column)
-            assert values is not None
+            assert isinstance(values, PointField)
             if self.curve:
                 return self._transfer()(values(points))
             ends = default_curve(values.values, self.profile.start, self.profile.end)
@@ -147,6 +150,7 @@ class CellMap:
         if self.centre is not None:
             check_point("centre of the cell map", self.centre)
         check_vector("axis of the cell map", self.axis)
+        as_tuples(self, "axis", "centre")
         if self.around is not None and (
             self.around != int(self.around) or not LEAST_AROUND <= self.around <= MOST_AROUND
         ):
@@ -176,11 +180,20 @@ class Orientation:
             raise VolfrepError(f"The rotation must be a finite angle, not {self.angle}.")
         if self.origin is not None:
             check_point("origin of the rotation", self.origin)
+        as_tuples(self, "axis", "origin")
 
     @property
     def matrix(self) -> Floats:
         """(3, 3) the rotation."""
         return rotation(np.array(self.axis, float), math.radians(self.angle))
+
+
+def as_tuples(part: object, *names: str) -> None:
+    """Sequences that a part of a specification was given, as tuples, which can be hashed."""
+    for name in names:
+        value = getattr(part, name)
+        if value is not None:
+            object.__setattr__(part, name, tuple(value))
 
 
 def check_point(name: str, point: Sequence[float]) -> None:

@@ -24,12 +24,26 @@ CERTAIN_SHARE = 0.6
 ASSUMED_MEMORY = 8e9
 
 
-def cells_are_full(spec: LatticeSpec) -> VolfrepError:
-    """What is wrong where struts leave no room between them."""
+def cells_are_full(cell_size: float, radius: float) -> VolfrepError:
+    """What is wrong where struts of a radius leave no room between them; mm."""
     return VolfrepError(
-        f"Struts of radius {spec.strut_radius:g} mm fill cells of {spec.cell_size:g} mm "
-        "completely: reduce the radius or enlarge the cells."
+        f"Struts of radius {radius:g} mm fill cells of {cell_size:g} mm completely: reduce the "
+        "radius or enlarge the cells."
     )
+
+
+def refuse_cells(count: int, cell_size: float, bytes_each: int = BYTES_PER_CELL) -> None:
+    """Refuse a grid of so many cells of a size in mm, of which each takes so many bytes.
+
+    Raises:
+        VolfrepError: they need more memory than is free; with the cells that would fit.
+    """
+    needed, free = float(count) * bytes_each, _free_memory()
+    if needed > free:
+        fitting = rounded_up(cell_size * (1.2 * needed / free) ** (1 / 3))
+        raise VolfrepError(
+            f"This lattice would {_takes(needed, free)}: cells of {fitting:g} mm would fit."
+        )
 
 
 def refuse_expected(spec: LatticeSpec, volume: float) -> None:
@@ -41,34 +55,33 @@ def refuse_expected(spec: LatticeSpec, volume: float) -> None:
     refuse_memory(spec, CERTAIN_SHARE * expected_triangles(spec, volume))
 
 
-def refuse_memory(
-    spec: LatticeSpec, triangles: float, in_boolean: float = 0.0, other: float = 0.0
-) -> None:
-    """Refuse a job of so many triangles, some of them in the Boolean, and other bytes.
+def refuse_memory(spec: LatticeSpec, triangles: float, in_boolean: float = 0.0) -> None:
+    """Refuse a job of so many triangles, some of them in the Boolean.
 
     Raises:
         VolfrepError: it needs more memory than is free; with the nearest settings that would fit.
     """
-    needed = triangles * BYTES_PER_TRIANGLE + in_boolean * BYTES_PER_BOOLEAN_TRIANGLE + other
+    needed = triangles * BYTES_PER_TRIANGLE + in_boolean * BYTES_PER_BOOLEAN_TRIANGLE
     free = _free_memory()
     most = np.iinfo(np.int32).max // 3
     if needed <= free and triangles <= most:
         return
     excess = 1.2 * max(needed / free, triangles / most)
-    what = f"have about {triangles / 1e6:.3g} million triangles and " if triangles else ""
     raise VolfrepError(
-        f"This lattice would {what}take {needed / 1e9:.3g} GB of the {free / 1e9:.3g} GB of "
-        f"free memory: {_what_fits(spec, excess, bool(triangles))}."
+        f"This lattice would have about {triangles / 1e6:.3g} million triangles and "
+        f"{_takes(needed, free)}: {_what_fits(spec, excess)}."
     )
 
 
-def _what_fits(spec: LatticeSpec, excess: float, has_triangles: bool) -> str:
+def _takes(needed: float, free: float) -> str:
+    return f"take {needed / 1e9:.3g} GB of the {free / 1e9:.3g} GB of free memory"
+
+
+def _what_fits(spec: LatticeSpec, excess: float) -> str:
     """Settings that take so many times less.
 
     Facets go with the square of their edge, struts in a volume with the square of the cell.
     """
-    if not has_triangles:
-        return f"cells of {rounded_up(spec.cell_size * excess ** (1 / 3)):g} mm would fit"
     cells = f"cells of {rounded_up(spec.cell_size * excess**0.5):g} mm or larger"
     facets = int(spec.facets_along_cell / excess**0.5)
     if facets < spec.coarsest_resolution:

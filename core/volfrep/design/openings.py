@@ -6,12 +6,13 @@ from __future__ import annotations
 import hashlib
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
 from ..mesh.triangle_mesh import TriangleMesh, compact
+from ..util.content import content_of, held
 from ..util.errors import VolfrepError
 from ..util.types import Bools, Floats
 
@@ -58,7 +59,7 @@ class OpenPlane:
         return "the plane through ({:.4g}, {:.4g}, {:.4g})".format(*self.point)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class OpenPatch:
     """The faces of a part near some facets, such as those of a face picked in FreeCAD.
 
@@ -66,7 +67,12 @@ class OpenPatch:
         corners: (k, 3, 3) float64, of the facets, mm.
     """
 
-    corners: Floats
+    corners: Floats = field(compare=False)
+    _content: bytes = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "corners", held(self.corners, np.float64))
+        object.__setattr__(self, "_content", content_of(self.corners))
 
     def contains(self, solid: TriangleMesh) -> Bools:
         """(m,) which triangles of a solid lie on the patch: corners, middle and direction."""

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..util.content import content_of, held
 from ..util.errors import VolfrepError
 from ..util.threads import threads
 from ..util.types import Floats
@@ -27,9 +28,9 @@ FARTHEST = 1e9
 CHUNK = 200_000
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class PointField:
-    """A scalar field interpolated between scattered points.
+    """A scalar field interpolated between scattered points; equal to others of the same content.
 
     The value at a place is the mean of its 8 nearest points weighted by the inverse square of
     their distance (Shepard's interpolation), faded so that a point has no say any more when it
@@ -45,10 +46,11 @@ class PointField:
         VolfrepError: at construction: no points, or numbers that are not finite.
     """
 
-    points: Floats
-    values: Floats
+    points: Floats = field(compare=False)
+    values: Floats = field(compare=False)
     source: str = ""
-    _tree: cKDTree = field(init=False, repr=False)
+    _content: bytes = field(init=False, repr=False)
+    _tree: cKDTree = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         points = np.asarray(self.points, dtype=np.float64)
@@ -70,8 +72,9 @@ class PointField:
                 f"the limit is {FARTHEST:g} mm."
             )
         points, values = _merge(points, values)
-        object.__setattr__(self, "points", points)
-        object.__setattr__(self, "values", values)
+        object.__setattr__(self, "points", held(points, np.float64))
+        object.__setattr__(self, "values", held(values, np.float64))
+        object.__setattr__(self, "_content", content_of(points, values))
         from scipy.spatial import cKDTree  # slow to import, and most jobs have no field
 
         object.__setattr__(self, "_tree", cKDTree(points))

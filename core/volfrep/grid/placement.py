@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Where a lattice lies in its part: its coordinate map, its box, and the radii of its nodes."""
+"""Where a lattice lies in its part: its map, box and nudge, and the radii of its nodes."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..design.spec import LatticeSpec
+from ..design.grading import RadiusGrading
+from ..design.spec_parts import Grid, Struts
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.rays import inside_points
 from ..util.errors import VolfrepError
@@ -18,24 +19,37 @@ from .activation import OPEN, CellGrid
 from .coordinate_map import CoordinateMap, lattice_map, mapped_box
 from .strut_graph import CellGraph, Wireframe, wireframe
 
+#: A lattice that a wall cuts is moved by this, in units of L. Parts and walls like round numbers,
+#: and so do cells: where a wall lies in a plane of the cells' own, struts would touch it along
+#: lines and leave edges of four triangles. No printer or solver sees two microns in 10 mm.
+NUDGE = np.array([2.1e-4, 1.3e-4, 1.7e-4])
+
 
 @dataclass(frozen=True, eq=False)
 class Placement:
-    """What a graded lattice is laid in.
+    """Where a lattice lies in its part: what takes a point of lattice space to one of the part.
 
     Attributes:
+        cell_size: L, mm.
         mapping: from lattice space to the part; None where they are the same.
         bounds: (2, 3) box that directions are measured in, mm.
         depth: gives the depth of (n, 3) points below the part's surface, mm; 0 outside.
+        is_cut: whether a wall cuts the lattice, which is then moved a little (`NUDGE`).
     """
 
+    cell_size: float
     mapping: CoordinateMap | None
     bounds: Floats
     depth: Callable[[Floats], Floats]
+    is_cut: bool = False
+
+    def nudged(self, points: Floats) -> Floats:
+        """(n, 3) places of vertices or nodes in the part, moved as the whole lattice is, mm."""
+        return points + NUDGE * self.cell_size if self.is_cut else points
 
 
-def placement_in(solid: TriangleMesh, spec: LatticeSpec, monitor: Monitor) -> Placement:
-    """The setting of a lattice inside a solid."""
+def placement_in(solid: TriangleMesh, grid: Grid, is_cut: bool, monitor: Monitor) -> Placement:
+    """Where a lattice lies inside a solid, whose wall or skin cuts it or not."""
 
     def depth(points: Floats) -> Floats:
         inside = inside_points(solid, points, monitor)
@@ -45,19 +59,17 @@ def placement_in(solid: TriangleMesh, spec: LatticeSpec, monitor: Monitor) -> Pl
         result[inside] = monitor.call(lambda: closest_points(solid, points[inside])[1])
         return result
 
-    return Placement(part_map(spec, solid.bounds), solid.bounds, depth)
+    return Placement(grid.size, part_map(grid, solid.bounds), solid.bounds, depth, is_cut)
 
 
-def part_map(spec: LatticeSpec, bounds: Floats) -> CoordinateMap | None:
+def part_map(grid: Grid, bounds: Floats) -> CoordinateMap | None:
     """The map of a lattice that fills a part; None where lattice space is the part's own."""
-    mapping = lattice_map(
-        spec.cell_size, bounds, spec.size_grading, spec.cell_map, spec.orientation
-    )
+    mapping = lattice_map(grid.size, bounds, grid.size_grading, grid.cell_map, grid.orientation)
     return None if mapping.is_identity else mapping
 
 
-def block_placement(spec: LatticeSpec, shape: tuple[int, int, int]) -> tuple[CellGrid, Placement]:
-    """The grid and the setting of a free-standing block of so many cells.
+def block_placement(wanted: Grid, shape: tuple[int, int, int]) -> tuple[CellGrid, Placement]:
+    """The grid of a free-standing block of so many cells, and where it lies.
 
     About an axis or a centre, the block is a full turn: as many cells along the angle as the map
     has around, as wide as L half-way out.
@@ -65,9 +77,9 @@ def block_placement(spec: LatticeSpec, shape: tuple[int, int, int]) -> tuple[Cel
     Raises:
         VolfrepError: the block does not close, or is not what a radius can be graded by.
     """
-    size, extent = spec.cell_size, np.array(shape) * spec.cell_size
-    origin = np.array(spec.origin or (0.0, 0.0, 0.0), float)
-    cells, periodic = spec.cell_map, OPEN
+    size, extent = wanted.size, np.array(shape) * wanted.size
+    origin = np.array(wanted.origin or (0.0, 0.0, 0.0), float)
+    cells, periodic = wanted.cell_map, OPEN
     if cells is not None:
         axis = 1 if cells.kind == "cylindrical" else 2
         around = shape[axis] if cells.around is None else cells.around
@@ -88,7 +100,7 @@ def block_placement(spec: LatticeSpec, shape: tuple[int, int, int]) -> tuple[Cel
                 )
             origin[1] = 0.25 * turn - 0.5 * extent[1]
     bounds = np.stack([origin, origin + extent])
-    mapping = lattice_map(size, bounds, spec.size_grading, cells, spec.orientation, block=True)
+    mapping = lattice_map(size, bounds, wanted.size_grading, cells, wanted.orientation, block=True)
     box = mapped_box(mapping.to_part, bounds)
 
     def depth(points: Floats) -> Floats:
@@ -98,26 +110,27 @@ def block_placement(spec: LatticeSpec, shape: tuple[int, int, int]) -> tuple[Cel
         )
 
     grid = CellGrid(origin, size, shape, periodic)
-    return grid, Placement(None if mapping.is_identity else mapping, box, depth)
+    return grid, Placement(size, None if mapping.is_identity else mapping, box, depth)
 
 
-def node_radii(spec: LatticeSpec, points: Floats, placement: Placement) -> Floats:
-    """(n,) radius of the struts at points of the part, mm."""
-    if spec.radius_grading is None:
-        return np.full(len(points), float(spec.strut_radius))
-    return spec.radius_grading.radii(points, placement.bounds, placement.depth)
+def node_radii(struts: Struts, points: Floats, placement: Placement) -> Floats:
+    """(n,) radius of the struts at points of the part, before they are nudged, mm."""
+    if isinstance(struts.radius, RadiusGrading):
+        return struts.radius.radii(points, placement.bounds, placement.depth)
+    return np.full(len(points), float(struts.radius))
 
 
-def graded_wireframe(graph: CellGraph, spec: LatticeSpec, placement: Placement) -> Wireframe:
-    """The lattice as a graph in the part.
+def graded_wireframe(graph: CellGraph, struts: Struts, placement: Placement) -> Wireframe:
+    """The lattice as a graph in the part, where its mesh lies, too.
 
     Struts that are deformed with their cells are given the radius of a circle of their section.
     """
     mapping = placement.mapping
     points = graph.nodes if mapping is None else mapping.to_part(graph.nodes)
-    radius = node_radii(spec, points, placement)
-    result = wireframe(graph, points, radius, spec.cell_size)
-    if mapping is None or mapping.is_rigid or spec.keep_radius:
+    radius = node_radii(struts, points, placement)
+    points = placement.nudged(points)
+    result = wireframe(graph, points, radius, placement.cell_size)
+    if mapping is None or mapping.is_rigid or struts.keep_radius:
         return result
     jacobian = mapping.jacobians(graph.nodes)
     volume = np.linalg.det(jacobian)

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from ..design.forecast import BYTES_PER_STREAMED_CELL
-from ..design.memory_guard import refuse_expected, refuse_memory
+from ..design.memory_guard import refuse_cells, refuse_expected
 from ..design.spec import LatticeSpec
 from ..grid.activation import CellGrid
 from ..grid.placement import Placement, block_placement, graded_wireframe
@@ -32,7 +32,7 @@ from ..lattice.certificate import agree_on_faces, certify
 from ..lattice.padded_grid import keeps_places, vertices_of
 from ..mesh.quality import Quality, inspect, measure
 from ..mesh.triangle_mesh import TriangleMesh
-from ..octants.octant_mesh import mesh_octants, octant_spec
+from ..octants.octant_mesh import OctantSpec, mesh_octants, octant_spec
 from ..reports.report import Report, told
 from ..reports.result import NOTHING_REMOVED, Result, report_of
 from ..trim.finish import finished, refuse_no_solid
@@ -49,6 +49,8 @@ class _Laid:
     placement: Placement
     layout: Layout
     graph: CellGraph
+    tile: OctantSpec
+    notes: tuple[str, ...]
 
 
 def block(
@@ -69,11 +71,7 @@ def block(
         VolfrepError: the counts make no sense or the block would not fit into memory.
         Cancelled: the callback said so.
     """
-    made, notes = until_sound(spec, lambda finer: _block(finer, count, Monitor(progress)))
-    return replace(made, report=told(made.report, notes))
-
-
-def _block(spec: LatticeSpec, count: Sequence[int], monitor: Monitor) -> Result:
+    monitor = Monitor(progress)
     cells, placement = _block_placement(spec, count)
     refuse_expected(spec, float(np.prod(cells.shape, dtype=float)) * spec.cell_size**3)
     laid = _lay(spec, cells, placement, monitor)
@@ -86,25 +84,23 @@ def _meshed(laid: _Laid, spec: LatticeSpec, monitor: Monitor) -> Result:
     cell, layout, placement = spec.unit_cell(), laid.layout, laid.placement
     with monitor.stage("lattice", 0.4, 0.8):
         given = vertices_of(
-            layout, lambda: laid.graph, cell, spec, octant_spec(spec), placement, monitor
+            layout, lambda: laid.graph, cell, spec.struts, laid.tile, placement, monitor
         )
         mesh = TriangleMesh(given.vertices, facets(layout, monitor))
     removed = dict(NOTHING_REMOVED)
     with monitor.stage("check", 0.8, 1.0):
         measured = measure(mesh, monitor) if spec.is_graded else certify(layout)
         if measured.shells > 1 or measured.degenerate_triangles:
-            from ..trim.boolean_trim import (  # of no use to most blocks, and slow to import
-                clear,
-                smallest_shell,
-            )
+            # of no use to most blocks, and slow to import
+            from ..trim.loose_pieces import clear, smallest_shell
 
-            cleared = clear(mesh, inspect(mesh, monitor), smallest_shell(spec))
+            cleared = clear(mesh, inspect(mesh, monitor), smallest_shell(laid.tile))
             mesh, measured = cleared.mesh, cleared.quality
             removed["pieces_removed"] = cleared.pieces_removed
             removed["specks_removed"] = cleared.specks_removed
-        moved = not keeps_places(spec, placement)
+        moved = not keeps_places(spec.struts, placement)
         mesh, measured, notes = finished(mesh, measured, monitor, moved)
-    frame = graded_wireframe(laid.graph, spec, placement)
+    frame = graded_wireframe(laid.graph, spec.struts, placement)
     report = _report(laid, measured, frame, spec, monitor, removed)
     return Result(mesh, frame, told(report, notes))
 
@@ -132,21 +128,11 @@ def write_block_stl(
             disk, or the path cannot be written.
         Cancelled: the callback said so; no file is left behind.
     """
-    made, notes = until_sound(spec, lambda finer: _write_block(finer, count, path, progress))
-    return told(made, notes)
-
-
-def _write_block(
-    spec: LatticeSpec,
-    count: Sequence[int],
-    path: str | os.PathLike[str],
-    progress: ProgressCallback | None,
-) -> Report:
     if spec.is_graded:
-        result = _block(spec, count, Monitor(progress))
+        result = block(spec, count, progress=progress)
     else:
         cells, placement = _block_placement(spec, count)
-        refuse_memory(spec, 0, other=cells.cells * BYTES_PER_STREAMED_CELL)
+        refuse_cells(cells.cells, spec.cell_size, BYTES_PER_STREAMED_CELL)
         monitor = Monitor(progress)
         laid = _lay(spec, cells, placement, monitor)
         with monitor.stage("check", 0.4, 0.5):
@@ -158,7 +144,7 @@ def _write_block(
             monitor.count("triangles laid", laid.layout.triangles)
             with monitor.stage("write", 0.5, 1.0):
                 write_octants_stl(laid.layout, path, monitor)
-            frame = graded_wireframe(laid.graph, spec, placement)
+            frame = graded_wireframe(laid.graph, spec.struts, placement)
             return _report(laid, measured, frame, spec, monitor, NOTHING_REMOVED)
         refuse_too_large(spec, laid.layout.grid, laid.layout.octants, None)
         result = _meshed(laid, spec, monitor)
@@ -177,7 +163,7 @@ def block_wireframe(spec: LatticeSpec, count: Sequence[int]) -> Wireframe:
     cells, placement = _block_placement(spec, count)
     active = np.ones(cells.shape, bool)
     graph = cell_graph(spec.unit_cell(), active, spec.cell_size, cells.origin, cells.periodic)
-    return graded_wireframe(graph, spec, placement)
+    return graded_wireframe(graph, spec.struts, placement)
 
 
 def _block_placement(spec: LatticeSpec, count: Sequence[int]) -> tuple[CellGrid, Placement]:
@@ -185,7 +171,7 @@ def _block_placement(spec: LatticeSpec, count: Sequence[int]) -> tuple[CellGrid,
     shape = tuple(int(n) for n in count)
     if len(shape) != 3 or min(shape) < 1 or any(n != m for n, m in zip(shape, count, strict=True)):
         raise VolfrepError(f"The count must be three whole numbers above 0, not {list(count)}.")
-    return block_placement(spec, (shape[0], shape[1], shape[2]))
+    return block_placement(spec.grid, (shape[0], shape[1], shape[2]))
 
 
 def _lay(spec: LatticeSpec, cells: CellGrid, placement: Placement, monitor: Monitor) -> _Laid:
@@ -194,11 +180,14 @@ def _lay(spec: LatticeSpec, cells: CellGrid, placement: Placement, monitor: Moni
     active = np.ones(cells.shape, bool)
     with monitor.stage("tile", 0.0, 0.4):
         grid = octant_grid(cell, active, spec.cell_size, cells.origin, cells.periodic)
-        octants = mesh_octants(cell, octant_spec(spec), grid.keys, monitor)
-        refuse_solid_cells(octants, spec)
+        octants, tile, notes = until_sound(
+            octant_spec(spec.cell_size, spec.struts, spec.detail),
+            lambda tile: mesh_octants(cell, tile, grid.keys, monitor),
+        )
+        refuse_solid_cells(octants, tile)
         layout = lay_out(grid, octants)
     graph = cell_graph(cell, active, spec.cell_size, cells.origin, cells.periodic)
-    return _Laid(cells, placement, layout, graph)
+    return _Laid(cells, placement, layout, graph, tile, notes)
 
 
 def _report(
@@ -216,5 +205,5 @@ def _report(
     active = np.ones(cells.shape, bool)
     return report_of(
         measured, frame, cells, active, laid.placement, spec, monitor,
-        domain_volume=volume, removed=removed,
+        domain_volume=volume, removed=removed, warnings=laid.notes,
     )  # fmt: skip

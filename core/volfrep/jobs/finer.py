@@ -8,8 +8,8 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TypeVar
 
-from ..design.spec import MAX_RESOLUTION, LatticeSpec
-from ..octants.octant_mesh import FacetsCross
+from ..design.spec_parts import MAX_RESOLUTION
+from ..octants.octant_mesh import FacetsCross, OctantSpec
 
 T = TypeVar("T")
 
@@ -17,34 +17,37 @@ T = TypeVar("T")
 FINER = (1.1, 1.25, 1.4, 1.6, 2.0)
 
 
-def until_sound(spec: LatticeSpec, make: Callable[[LatticeSpec], T]) -> tuple[T, tuple[str, ...]]:
-    """Make a lattice, with finer facets where the facets of its octants would cross.
+def until_sound(
+    tile: OctantSpec, make: Callable[[OctantSpec], T]
+) -> tuple[T, OctantSpec, tuple[str, ...]]:
+    """Mesh octants, with finer facets where those that were asked for would cross.
 
     Args:
-        spec: what is wanted.
-        make: makes it.
+        tile: what the octants are wanted for.
+        make: meshes them.
 
     Returns:
-        What was made, and sentences for the user.
+        What was made, what it was made for, and sentences for the user.
 
     Raises:
         FacetsCross: so they do with all of those that are tried.
     """
     try:
-        return make(spec), ()
+        return make(tile), tile, ()
     except FacetsCross as error:
         first = error
     for factor in FINER:
-        facets = math.ceil(factor * spec.facets_along_cell)
+        facets = math.ceil(factor * tile.facets)
         if facets > MAX_RESOLUTION:
             break
+        finer = replace(tile, facets=facets)
         try:
-            made = make(replace(spec, resolution=facets, deviation=None))
+            made = make(finer)
         except FacetsCross:
             continue
         note = (
-            f"With {spec.facets_along_cell} facets along a cell some would run through each other "
-            f"where struts meet: {facets} are made."
+            f"With {tile.facets} facets along a cell some would run through each other where "
+            f"struts meet: {facets} are made."
         )
-        return made, (note,)
+        return made, finer, (note,)
     raise first

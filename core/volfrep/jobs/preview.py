@@ -16,14 +16,14 @@ from scipy.stats import qmc
 
 from ..design.cells import LIBRARY, UnitCell
 from ..design.forecast import strut_shares
-from ..design.memory_guard import BYTES_PER_CELL, refuse_memory
+from ..design.memory_guard import refuse_cells
 from ..design.openings import OpenFace, open_triangles
 from ..design.spec import LatticeSpec
 from ..grid.activation import CellGrid, make_grid, mapped_grid
 from ..grid.coordinate_map import CoordinateMap
 from ..grid.placement import graded_wireframe, placement_in
 from ..grid.strut_graph import Wireframe, cell_graph
-from ..lattice.padded_grid import padded_grid
+from ..lattice.padded_grid import least_width, padded_grid
 from ..mesh.triangle_mesh import TriangleMesh
 from ..octants import sdf
 from ..octants.octant import ALL_ACTIVE, OctantKey, octant_primitives
@@ -121,20 +121,22 @@ def preview(solid: TriangleMesh, spec: LatticeSpec, depth: PartDepth) -> Preview
         VolfrepError: the specification does not fit the solid.
     """
     cell = spec.unit_cell()
-    placement = placement_in(solid, spec, Monitor())
+    struts = spec.struts
+    placement = placement_in(solid, spec.grid, spec.is_cut, Monitor())
     if placement.mapping is None:
         grid = make_grid(solid.bounds, spec.cell_size, spec.origin)
     else:
         grid = mapped_grid(solid, placement.mapping, spec.cell_size, spec.origin, Monitor())
-    refuse_memory(spec, 0, other=grid.cells * BYTES_PER_CELL)
-    usable = padded_grid(grid, cell, spec, placement).inner_usable
+    refuse_cells(grid.cells, grid.cell_size)
+    least = least_width(cell, grid.cell_size, struts)
+    usable = padded_grid(grid, placement.mapping, least).inner_usable
     active, cells = _active(grid, spec, placement.mapping, depth, usable)
     if int(active.sum()) * len(cell.struts) > MOST_STRUTS:
         raise VolfrepError(
             f"{int(active.sum()):,} cells are too many to be shown as lines: enlarge the cells."
         )
     graph = cell_graph(cell, active, spec.cell_size, grid.origin, grid.periodic)
-    frame = graded_wireframe(graph, spec, placement)
+    frame = graded_wireframe(graph, struts, placement)
     owner, low, high = _inside(frame, spec, depth)
     if not len(owner):
         raise VolfrepError(

@@ -20,7 +20,7 @@ from ..grid.activation import OPEN, Periodic
 from ..mesh.triangle_mesh import TriangleMesh, box_of
 from ..octants import caps
 from ..octants.octant import OctantKey, corner_patterns, octant_mirrors
-from ..octants.octant_mesh import STEPS, Octant
+from ..octants.octant_mesh import STEPS, Octant, OctantSpec
 from ..util.progress import Monitor
 from ..util.types import Floats
 
@@ -305,7 +305,7 @@ def refuse_too_large(
     refuse_memory(spec, triangles, in_boolean)
 
 
-def refuse_solid_cells(octants: dict[OctantKey, Octant], spec: LatticeSpec) -> None:
+def refuse_solid_cells(octants: dict[OctantKey, Octant], spec: OctantSpec) -> None:
     """Raise a `VolfrepError` where no octant has a surface: struts fill everything."""
     if not any(len(octant.triangles) for octant in octants.values()):
-        raise cells_are_full(spec)
+        raise cells_are_full(spec.cell_size, spec.strut_radius)

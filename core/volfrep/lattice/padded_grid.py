@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..design.cells import UnitCell, joint_radius
-from ..design.spec import LatticeSpec
+from ..design.spec_parts import Struts
 from ..grid.activation import CellGrid
-from ..grid.coordinate_map import identity_map
+from ..grid.coordinate_map import CoordinateMap, identity_map
 from ..grid.node_frames import NodeFrames, node_frames
 from ..grid.placement import Placement, node_radii
 from ..grid.strut_graph import CellGraph, cell_graph
@@ -35,16 +35,17 @@ WIDTHS = np.linspace(1.0, 0.15, 18)
 RULINGS = 24
 
 
-def usable_cells(
-    cells: CellGrid, cell: UnitCell, spec: LatticeSpec, placement: Placement
-) -> Bools | None:
-    """(nx, ny, nz) bool, cells about an axis or centre that are wide enough; None: all are."""
-    mapping = placement.mapping
+def least_width(cell: UnitCell, cell_size: float, struts: Struts) -> float:
+    """The width, in units of L, below which a cell that is squeezed holds no lattice."""
+    if struts.keep_radius:
+        return SPARE * narrowest(cell, cell_size, struts.extremes[1])
+    return LEAST_WIDTH_STRETCHED
+
+
+def usable_cells(cells: CellGrid, mapping: CoordinateMap | None, least: float) -> Bools | None:
+    """(nx, ny, nz) bool, cells about an axis or centre at least so wide; None: all are."""
     if mapping is None or mapping.base.kind == "cartesian":
         return None
-    least = LEAST_WIDTH_STRETCHED
-    if spec.keep_radius:
-        least = SPARE * narrowest(cell, spec.cell_size, spec.radius_extremes[1])
     index = np.stack(np.meshgrid(*(np.arange(n + 1) for n in cells.shape), indexing="ij"), axis=-1)
     inside = cells.origin + cells.cell_size * index
     beyond = inside[..., 0] < -1e-9 * cells.cell_size
@@ -171,62 +172,69 @@ class PaddedGrid:
         return cell_graph(cell, wide, self.cells.cell_size, origin, self.cells.periodic, self.first)
 
 
-def padded_grid(
-    cells: CellGrid, cell: UnitCell, spec: LatticeSpec, placement: Placement
-) -> PaddedGrid:
-    """What a lattice on the cells of a part's grid is laid on."""
+def padded_grid(cells: CellGrid, mapping: CoordinateMap | None, least: float) -> PaddedGrid:
+    """What a lattice on the cells of a part's grid is laid on.
+
+    Args:
+        cells: the part's grid.
+        mapping: from lattice space to the part; None where they are the same.
+        least: width in units of L of the narrowest cell that holds a lattice, about an axis or a
+            centre (`least_width`).
+    """
     x, y, z = (0 if closed else SUPPORT for closed in cells.periodic)
     nx, ny, nz = (n + 2 * extra for n, extra in zip(cells.shape, (x, y, z), strict=True))
     origin = cells.origin - cells.cell_size * np.array([x, y, z])
     wide = CellGrid(origin, cells.cell_size, (nx, ny, nz), cells.periodic)
-    return PaddedGrid(cells, (x, y, z), usable_cells(wide, cell, spec, placement))
+    return PaddedGrid(cells, (x, y, z), usable_cells(wide, mapping, least))
 
 
-def keeps_places(spec: LatticeSpec, placement: Placement) -> bool:
+def keeps_places(struts: Struts, placement: Placement) -> bool:
     """Whether the vertices of octants keep their places in lattice space."""
     rigid = placement.mapping is None or placement.mapping.is_rigid
-    return spec.radius_grading is None and (rigid or not spec.keep_radius)
+    return not struts.is_graded and (rigid or not struts.keep_radius)
 
 
 def vertices_of(
     layout: Layout,
     graph: Callable[[], CellGraph],
     cell: UnitCell,
-    spec: LatticeSpec,
+    struts: Struts,
     tile: OctantSpec,
     placement: Placement,
     monitor: Monitor,
 ) -> Deformed:
-    """Where the vertices of the laid octants are in the part.
+    """Where the vertices of the laid octants are in the part, nudged as its wireframe is.
 
     Args:
         layout: the numbered octants.
         graph: gives the nodes and struts that they hang on.
         cell: the unit cell.
-        spec: what is wanted.
+        struts: how thick they are.
         tile: what the octants were meshed for.
-        placement: the setting.
+        placement: where the lattice lies.
         monitor: for progress and cancel.
 
     Raises:
         VolfrepError: struts grow into each other; the text says where.
     """
-    mapping = placement.mapping or identity_map(spec.cell_size)
-    if keeps_places(spec, placement):
+    mapping = placement.mapping or identity_map(placement.cell_size)
+    if keeps_places(struts, placement):
         inside = coordinates(layout, monitor)
-        return Deformed(inside if placement.mapping is None else mapping.to_part(inside), 0.0)
+        inside = inside if placement.mapping is None else mapping.to_part(inside)
+        return Deformed(placement.nudged(inside), 0.0)
     own = graph()
     placed = mapping.to_part(own.nodes)
-    radius = node_radii(spec, placed, placement)
+    radius = node_radii(struts, placed, placement)
     turn = np.where(mapping.base.periodic, mapping.base.turn, np.inf)
-    if spec.keep_radius and not mapping.is_rigid:
+    if struts.keep_radius and not mapping.is_rigid:
         bends = mapping.jacobians(own.nodes)
-        nodes = node_frames(own, placed, radius, spec.cell_size, bends, turn)
+        nodes = node_frames(own, placed, radius, placement.cell_size, bends, turn)
     else:
-        nodes = node_frames(own, own.nodes, radius, spec.cell_size, None, turn)
+        nodes = node_frames(own, own.nodes, radius, placement.cell_size, None, turn)
     bindings = {
         key: bind(cell, tile, key, layout.octants[key])
         for key, place in zip(layout.grid.keys, layout.places, strict=True)
         if len(place) and len(layout.octants[key].vertices)
     }
-    return deform(layout, bindings, cell, nodes, mapping, spec.fillet, monitor)
+    moved = deform(layout, bindings, cell, nodes, mapping, struts.fillet, monitor)
+    return replace(moved, vertices=placement.nudged(moved.vertices))

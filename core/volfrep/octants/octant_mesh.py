@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..design.cells import UnitCell, joint_radius
-from ..design.spec import LatticeSpec
+from ..design.spec_parts import Resolution, Struts
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 from ..util.types import Floats, Ints
@@ -88,9 +88,10 @@ class OctantSpec:
         return math.ceil(0.5 * max(self.facets, finest))
 
 
-def octant_spec(spec: LatticeSpec) -> OctantSpec:
-    """What the octants of a lattice are meshed for."""
-    return OctantSpec(spec.cell_size, spec.template_radius, spec.fillet, spec.facets_along_cell)
+def octant_spec(cell_size: float, struts: Struts, detail: Resolution) -> OctantSpec:
+    """What the octants of a lattice are meshed for, with cells of a size in mm."""
+    facets = detail.along_cell(cell_size, struts)
+    return OctantSpec(cell_size, struts.template_radius, struts.fillet, facets)
 
 
 @dataclass(frozen=True, eq=False)

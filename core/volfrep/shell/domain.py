@@ -6,10 +6,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..design.openings import open_surface, open_triangles
-from ..design.spec import LatticeSpec
+from ..design.spec_parts import Skin
 from ..mesh.booleans import intersection
 from ..mesh.triangle_mesh import TriangleMesh
-from ..util.cache import StageCache
 from ..util.progress import Monitor
 from .offset import TOLERANCE, inner_wall
 
@@ -23,11 +22,13 @@ class Domain:
         wall: closed surface that cuts the lattice: the same, but it reaches out of the part
             beyond faces that are left open.
         openings: the faces that are left open; None where the skin is closed.
+        warnings: sentences for the user about the skin.
     """
 
     mesh: TriangleMesh
     wall: TriangleMesh
     openings: TriangleMesh | None = None
+    warnings: tuple[str, ...] = ()
 
     @property
     def is_open(self) -> bool:
@@ -35,40 +36,30 @@ class Domain:
         return self.openings is not None
 
 
-def find_domain(
-    solid: TriangleMesh, solid_key: str, spec: LatticeSpec, cache: StageCache, monitor: Monitor
-) -> tuple[Domain, tuple[str, ...], tuple[object, ...]]:
-    """The domain of a part, warnings about its skin, and a key of what it depends on.
+def find_domain(solid: TriangleMesh, skin: Skin | None, monitor: Monitor) -> Domain:
+    """What the lattice of a part fills.
 
     Args:
         solid: checked closed mesh, mm.
-        solid_key: tells it from others.
-        spec: thickness of the skin and open faces count.
-        cache: keeps the inner wall.
+        skin: what lies about the domain; None for none.
         monitor: for progress and cancel.
 
     Raises:
         VolfrepError: an open face is not found, or the skin cannot be made.
     """
-    if spec.shell == 0:
-        return Domain(solid, solid), (), (solid_key, 0.0)
-    is_open = open_triangles(solid, spec.open_faces) if spec.open_faces else None
-    key = (solid_key, spec.shell, None if is_open is None else is_open.tobytes())
-
-    def compute() -> tuple[Domain, tuple[str, ...]]:
-        monitor.count("walls found", 1)
-        found = inner_wall(solid, spec.shell, monitor, is_open)
-        warnings: tuple[str, ...] = ()
-        if found.worst > TOLERANCE:
-            x, y, z = found.place
-            warnings = (
-                f"The skin is up to {found.worst:.0%} off its thickness near ({x:.4g}, {y:.4g}, "
-                f"{z:.4g}), where the room between two skins is narrow.",
-            )
-        if is_open is None or not len(found.mesh.triangles):
-            return Domain(found.mesh, found.mesh), warnings
-        room = monitor.call(lambda: intersection(found.mesh, solid))
-        return Domain(room, found.mesh, open_surface(solid, is_open)), warnings
-
-    domain, warnings = cache.get("shell", key, compute)
-    return domain, warnings, key
+    if skin is None:
+        return Domain(solid, solid)
+    is_open = open_triangles(solid, skin.open_faces) if skin.open_faces else None
+    monitor.count("walls found", 1)
+    found = inner_wall(solid, skin.thickness, monitor, is_open)
+    warnings: tuple[str, ...] = ()
+    if found.worst > TOLERANCE:
+        x, y, z = found.place
+        warnings = (
+            f"The skin is up to {found.worst:.0%} off its thickness near ({x:.4g}, {y:.4g}, "
+            f"{z:.4g}), where the room between two skins is narrow.",
+        )
+    if is_open is None or not len(found.mesh.triangles):
+        return Domain(found.mesh, found.mesh, warnings=warnings)
+    room = monitor.call(lambda: intersection(found.mesh, solid))
+    return Domain(room, found.mesh, open_surface(solid, is_open), warnings)

@@ -5,8 +5,18 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
+from ..design.openings import DrainHoles
+from ..design.spec_parts import Grid, Skin, Struts
 from ..grid.strut_graph import Wireframe
-from ..mesh.triangle_mesh import TriangleMesh
+from ..mesh.booleans import difference
+from ..mesh.triangle_mesh import TriangleMesh, concatenate
+from ..spatial.proximity import closest_points
+from ..spatial.rays import inside_points
+from ..util.errors import VolfrepError
+from ..util.progress import Monitor
+from .drains import drain
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,3 +34,71 @@ class BeamModel:
     clip: TriangleMesh | None = None
     skin: TriangleMesh | None = None
     warnings: tuple[str, ...] = ()
+
+
+def part_beams(
+    solid: TriangleMesh,
+    cavity: TriangleMesh,
+    struts: Wireframe,
+    skin: Skin,
+    drains: DrainHoles | None,
+    monitor: Monitor,
+) -> BeamModel:
+    """A skin with the beams that reach into the part.
+
+    Args:
+        solid: the part, mm.
+        cavity: closed mesh of what its skin leaves, mm.
+        struts: of the lattice, where they lie in the part.
+        skin: between the two.
+        drains: holes through it; None for none.
+        monitor: for progress and cancel.
+
+    Raises:
+        VolfrepError: a drain hole cannot be where it is wanted.
+    """
+    lattice = reaching_into(struts, solid)
+    wall = concatenate(solid, cavity.reversed())
+    if skin.open_faces:
+        wall = difference(solid, cavity)
+    if drains is None:
+        return BeamModel(lattice, solid, wall)
+    drained = drain(wall, solid, cavity, lattice, skin.thickness, drains, monitor)
+    return BeamModel(lattice, solid, drained.mesh, drained.warnings)
+
+
+def reaching_into(lattice: Wireframe, solid: TriangleMesh) -> Wireframe:
+    """The lattice without the struts that lie outside a closed mesh altogether."""
+    ends = lattice.nodes[lattice.struts]
+    middle = ends.mean(axis=1)
+    reach = 0.5 * np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    reach += lattice.joint_radii[lattice.struts].max(axis=1)
+    outside = np.flatnonzero(~inside_points(solid, middle, Monitor()))
+    if len(outside):
+        outside = outside[closest_points(solid, middle[outside])[1] > reach[outside]]
+    kept = np.delete(np.arange(len(middle)), outside)
+    used, struts = np.unique(lattice.struts[kept], return_inverse=True)
+    return Wireframe(
+        lattice.nodes[used],
+        struts.reshape(-1, 2).astype(np.int32),
+        lattice.radii[kept],
+        lattice.joint_radii[used],
+    )
+
+
+def refuse_fillets(struts: Struts) -> None:
+    """Raise a `VolfrepError` where there are fillets between struts."""
+    if struts.fillet > 0:
+        raise VolfrepError(
+            "Beams have no fillets between them: set the fillet to 0, or write the mesh only."
+        )
+
+
+def deformed_struts(grid: Grid, struts: Struts, what: str = "Beams") -> tuple[str, ...]:
+    """A sentence where struts are not the straight and round ones that are written of them."""
+    if struts.keep_radius or (grid.size_grading is None and grid.cell_map is None):
+        return ()
+    return (
+        f"{what} are straight and round, and these struts are deformed with their cells: write the "
+        "mesh, or let them keep their radius.",
+    )

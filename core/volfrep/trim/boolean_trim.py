@@ -16,26 +16,20 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from ..design.spec import LatticeSpec
 from ..grid.activation import CellGrid, Periodic, crossed_cells, inside_cells, wall_corners
 from ..grid.coordinate_map import STRAIGHT, CoordinateMap
 from ..lattice.assembly import Layout, OctantGrid, facets, lay_out, neighbour_missing, used_kinds
-from ..mesh.quality import Inspection, Quality, measure, remaining
+from ..mesh.booleans import from_library, to_library
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..octants.caps import with_corners
 from ..octants.octant import OctantKey, wrapped
 from ..octants.octant_mesh import Octant
-from ..spatial.rays import inside_points
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 
 if TYPE_CHECKING:
     import manifold3d
 
-#: The lattice is moved by this before it is cut, in units of L. Parts and walls like round
-#: numbers, and so do cells: where a wall lies in a plane of the cells' own, struts would touch it
-#: along lines and leave edges of four triangles. No printer or solver sees two microns in 10 mm.
-NUDGE = np.array([2.1e-4, 1.3e-4, 1.7e-4])
 #: An octant counts as crossed by the wall when the wall comes this near, in units of its edge:
 #: a wall that lies in an octant's face must cut the lattice on both sides of it.
 CROSSING_MARGIN = 1e-3
@@ -161,7 +155,6 @@ def trim(
     Raises:
         VolfrepError: the domain's mesh is not a solid that can be cut.
     """
-    given, points = points, points + NUDGE * layout.grid.cell_size
     monitor.tick(0.1)
     # Caps towards octants inside are taken off again where these are put back. Those on the
     # outside lie beyond the wall; what a wall that grazes them leaves belongs to the surface.
@@ -192,7 +185,7 @@ def trim(
     if put_back is None:
         # Nothing to weld to: let all the octants go through the Boolean, which takes longer.
         every = KeptOctants(kept.grid, kept.border | kept.inside, np.zeros_like(kept.inside))
-        return trim(domain, every, layout, given, cavity=cavity, monitor=monitor)
+        return trim(domain, every, layout, points, cavity=cavity, monitor=monitor)
     joined, from_inner = put_back
     on_wall = np.concatenate([~np.isin(origin[~is_cap], (ids, ids + 1)), from_inner])
     return Trimmed(
@@ -260,9 +253,8 @@ def _solid(
     import manifold3d as library
 
     ids = library.Manifold.reserve_ids(len(runs)) if first_id is None else first_id
-    source = library.Mesh64(
-        np.ascontiguousarray(mesh.vertices),
-        mesh.triangles.astype(np.uint64),
+    source = to_library(
+        mesh,
         run_index=np.concatenate([[0], np.cumsum(runs)]).astype(np.uint64) * np.uint64(3),
         run_original_id=np.arange(ids, ids + len(runs), dtype=np.uint32),
     )
@@ -271,16 +263,9 @@ def _solid(
 
 def _read(result: manifold3d.Mesh64) -> tuple[TriangleMesh, NDArray[np.int64]]:
     """The Boolean's result, and the run that each triangle came from."""
-    triangles = np.asarray(result.tri_verts).astype(np.int32)
-    vertices = np.asarray(result.vert_properties)[:, :3].copy()
-    # Vertices are doubled where runs meet; the library tells which are the same.
-    number = np.arange(len(vertices), dtype=np.int32)
-    number[np.asarray(result.merge_from_vert).astype(np.int64)] = np.asarray(
-        result.merge_to_vert
-    ).astype(np.int32)
     index = np.asarray(result.run_index).astype(np.int64) // 3
     origin = np.repeat(np.asarray(result.run_original_id).astype(np.int64), np.diff(index))
-    return TriangleMesh(vertices, number[triangles]), origin
+    return from_library(result), origin
 
 
 def _put_back(
@@ -324,99 +309,3 @@ def _shared(one: NDArray[np.int32], two: NDArray[np.int32], count: int) -> NDArr
     in_one[one] = True
     in_two[two] = True
     return np.flatnonzero(in_one & in_two)
-
-
-@dataclass(frozen=True, eq=False)
-class Cleared:
-    """A trimmed mesh without what does not belong to it.
-
-    Attributes:
-        mesh: what is left.
-        quality: of it.
-        pieces_removed: pieces of material that hung on nothing.
-        specks_removed: shells smaller than a facet, which no sample could follow.
-        volume_removed: of the pieces, mm3.
-    """
-
-    mesh: TriangleMesh
-    quality: Quality
-    pieces_removed: int
-    specks_removed: int
-    volume_removed: float = 0.0
-
-
-def smallest_shell(spec: LatticeSpec) -> float:
-    """Volume of half a facet's edge cubed, mm3: no shell smaller than that is meant."""
-    return (0.5 * spec.cell_size / spec.facets_along_cell) ** 3
-
-
-def clear(
-    mesh: TriangleMesh,
-    found: Inspection,
-    smallest: float,
-    *,
-    floating: bool = False,
-    keep: NDArray[np.int64] | None = None,
-    bodies: int = 0,
-) -> Cleared:
-    """Remove what hangs on nothing, and shells too small to mean anything.
-
-    Args:
-        mesh: closed shells.
-        found: the mesh, inspected.
-        smallest: volume in mm3 below which a shell is dropped: less than a facet's size across,
-            it is the remainder of a window or a bubble that the samples could not follow.
-        floating: every piece of material floats (in a cavity's surface, they are not the part).
-        keep: triangles whose shells stay, all other pieces of material go; None: all stay.
-        bodies: so many of the largest pieces of material stay, all others go; 0: all stay.
-    """
-    label, volume = found.shell, found.volume
-    used = np.bincount(label, minlength=len(volume)) > 0
-    solid, void = used & (volume > 0), used & (volume <= 0)
-    tiny = used & (np.abs(volume) < smallest)
-    loose = solid & (tiny | floating)
-    if keep is not None:
-        held = np.zeros(len(volume), bool)
-        held[label[keep]] = True
-        loose |= solid & ~held
-    elif bodies:
-        order = np.argsort(np.where(solid, -volume, np.inf), kind="stable")
-        loose |= solid
-        loose[order[:bodies]] = False
-    if not (loose | tiny).any():
-        return Cleared(mesh, found.quality, 0, 0)
-    # A void inside a loose piece goes with it.
-    inside_loose = np.zeros(len(volume), bool)
-    if (loose & ~tiny).any() and (void & ~tiny).any():
-        inside_loose = void & _enclosed(mesh, label, loose & ~tiny, void & ~tiny)
-    gone = loose | tiny | inside_loose
-    goes = gone[label]
-    left = compact(TriangleMesh(mesh.vertices, mesh.triangles[~goes]))
-    if found.quality.watertight and len(left.triangles):
-        taken = measure(compact(TriangleMesh(mesh.vertices, mesh.triangles[goes])))
-        quality = remaining(found.quality, taken, left.bounds, volume[used & ~gone])
-    else:
-        quality = measure(left)
-    pieces = loose & ~tiny
-    return Cleared(left, quality, int(pieces.sum()), int(tiny.sum()), float(volume[pieces].sum()))
-
-
-def _enclosed(
-    mesh: TriangleMesh,
-    label: NDArray[np.int32],
-    loose: NDArray[np.bool_],
-    void: NDArray[np.bool_],
-) -> NDArray[np.bool_]:
-    """Which of the void shells lie inside a loose one: by the winding number at one vertex."""
-    result = np.zeros(len(void), bool)
-    pieces = compact(TriangleMesh(mesh.vertices, mesh.triangles[loose[label]]))
-    low, high = pieces.bounds
-    quiet = Monitor()
-    for shell, triangle in zip(*np.unique(label, return_index=True), strict=True):
-        if not void[shell]:
-            continue
-        point = mesh.vertices[mesh.triangles[triangle, 0]]
-        if (point < low).any() or (point > high).any():
-            continue
-        result[shell] = inside_points(pieces, point[None], quiet)[0]
-    return result

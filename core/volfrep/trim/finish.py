@@ -8,7 +8,6 @@ sends lines through what was moved since.
 
 from __future__ import annotations
 
-from ..design.spec import LatticeSpec
 from ..mesh.float32_repair import (
     merging_vertices,
     separate_vertices,
@@ -90,18 +89,16 @@ def finished(
 
 
 def pieces_told(
-    spec: LatticeSpec, quality: Quality, removed: int, volume_removed: float
+    quality: Quality, removed: int, volume_removed: float, *, is_in_skin: bool
 ) -> tuple[str, ...]:
     """Sentences on pieces of a lattice without a skin that hang on nothing.
 
     Args:
-        spec: what was wanted.
         quality: of what is left.
         removed: how many pieces were left out.
         volume_removed: of these, mm3.
+        is_in_skin: whether it was cut out of a skin, which would hold all of them.
     """
-    if spec.output == "domain" or (spec.output == "part" and spec.shell > 0):
-        return ()
     sentences = []
     if removed:
         share = 100.0 * volume_removed / (volume_removed + quality.volume)
@@ -110,7 +107,7 @@ def pieces_told(
             f"{removed:,} {what} on nothing left out, {share:.2g} % of the lattice's volume: "
             "smaller cells or another origin may join them, and so does a skin."
         )
-    if spec.output == "lattice" and quality.bodies > 1:
+    if is_in_skin and quality.bodies > 1:
         sentences.append(
             f"The lattice is {quality.bodies:,} bodies that do not touch each other: only the "
             "part's skin holds them together."

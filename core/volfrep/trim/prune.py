@@ -14,7 +14,7 @@ import numpy as np
 
 from ..design.cells import UnitCell
 from ..design.openings import lie_on
-from ..design.spec import LatticeSpec
+from ..design.spec_parts import Boundary, Struts
 from ..grid.placement import Placement, graded_wireframe
 from ..grid.strut_graph import CellGraph, Wireframe, chosen, struts_of
 from ..lattice.padded_grid import PaddedGrid
@@ -22,7 +22,6 @@ from ..mesh.triangle_mesh import TriangleMesh
 from ..shell.domain import Domain
 from ..spatial.proximity import closest_points
 from ..util.types import Bools, Ints
-from .boolean_trim import NUDGE
 from .clip_struts import Pieces, pieces_inside
 
 #: A node this far outside a wall without skin, in units of its joint's radius, still holds its
@@ -69,32 +68,33 @@ def prune(
     padded: PaddedGrid,
     cell: UnitCell,
     active: Bools,
-    spec: LatticeSpec,
+    struts: Struts,
+    boundary: Boundary,
     placement: Placement,
     domain: Domain,
+    has_skin: bool,
 ) -> Pruned:
-    """The lattice of the active cells without the struts that the specification has taken away.
+    """The lattice of the active cells without the struts that its boundary has taken away.
 
     Args:
         padded: the cells that it is laid on.
         cell: the unit cell.
         active: (nx, ny, nz) bool.
-        spec: what is wanted.
-        placement: the setting.
-        domain: what the lattice fills.
+        struts: how thick they are.
+        boundary: which of them go.
+        placement: where the lattice lies.
+        domain: what it fills.
+        has_skin: whether a skin lies about the domain, which holds what its wall cuts.
     """
-    graph = padded.graph(cell, active, spec.is_endless)
-    placed = graded_wireframe(graph, spec, placement)
-    nudged = placed
-    if spec.is_cut:  # as `trim` will lay it
-        nudged = replace(placed, nodes=placed.nodes + NUDGE * spec.cell_size)
+    graph = padded.graph(cell, active, boundary.is_endless)
+    placed = graded_wireframe(graph, struts, placement)
     left = remaining(
-        nudged,
-        domain.mesh if spec.shell > 0 or spec.boundary == "trim" else None,
-        held=spec.shell > 0,
+        placed,
+        domain.mesh if placement.is_cut else None,
+        held=has_skin,
         openings=domain.openings,
-        shortest=spec.shortest_stub,
-        dangling=spec.remove_dangling,
+        shortest=boundary.shortest_stub,
+        dangling=boundary.remove_dangling,
     )
     inner = graph.row[tuple(slice(n, -n or None) for n in graph.first.tolist())]
     own = struts_of(graph, cell, inner[active])

@@ -5,9 +5,22 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any, TypeVar
+from typing import Any, Generic, TypeVar
 
 T = TypeVar("T")
+
+
+@dataclass(frozen=True, eq=False)
+class Kept(Generic[T]):
+    """A value, and what tells it from others where it cannot be compared itself.
+
+    Attributes:
+        value: such as a mesh, or the result of a stage.
+        key: compared in its stead; of a stage's result, the stage and all that went into it.
+    """
+
+    value: T
+    key: object
 
 
 @dataclass
@@ -20,12 +33,20 @@ class StageCache:
 
     _entries: dict[str, tuple[Any, Any]] = field(default_factory=dict)
 
-    def get(self, stage: str, key: object, compute: Callable[[], T]) -> T:
-        """The stage's last value if it was made for an equal key, else a new one."""
+    def run(self, stage: str, function: Callable[..., T], *inputs: object) -> Kept[T]:
+        """The stage's last value if it was made of equal inputs, else a new one.
+
+        Args:
+            stage: its name.
+            function: makes the value; it sees the inputs and nothing else that matters.
+            inputs: values that are compared, such as parts of a specification; or `Kept`, of
+                which the key is compared and the value given to the function.
+        """
+        keys = tuple(value.key if isinstance(value, Kept) else value for value in inputs)
         entry = self._entries.get(stage)
-        if entry is not None and entry[0] == key:
-            value: T = entry[1]
-            return value
-        value = compute()
-        self._entries[stage] = (key, value)
-        return value
+        if entry is None or entry[0] != keys:
+            given = (value.value if isinstance(value, Kept) else value for value in inputs)
+            entry = keys, function(*given)
+            self._entries[stage] = entry
+        value: T = entry[1]
+        return Kept(value, (stage, keys))

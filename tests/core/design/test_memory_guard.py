@@ -6,7 +6,7 @@ import re
 import pytest
 
 from volfrep.design import memory_guard
-from volfrep.design.memory_guard import refuse_expected, refuse_memory
+from volfrep.design.memory_guard import refuse_cells, refuse_expected, refuse_memory
 from volfrep.design.spec import LatticeSpec
 from volfrep.util.errors import VolfrepError
 
@@ -51,9 +51,8 @@ def test_where_no_facets_are_coarse_enough_larger_cells_are_proposed():
 
 
 def test_too_many_cells_are_answered_with_larger_ones():
-    spec = bcc(cell_size=1.0, strut_radius=0.1)
     with pytest.raises(VolfrepError, match=r"take 8 GB .* cells of 2\.2 mm would fit"):
-        refuse_memory(spec, 0, other=8e9)
+        refuse_cells(16_000_000, 1.0)
 
 
 def test_what_fits_is_not_refused():

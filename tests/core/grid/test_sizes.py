@@ -15,10 +15,10 @@ from volfrep.grid.strut_graph import cell_graph
 
 def sizes_of(shape, active=None, **options):
     spec = LatticeSpec(cell="Box", cell_size=10.0, strut_radius=0.5, **options)
-    cells, placement = block_placement(spec, shape)
+    cells, placement = block_placement(spec.grid, shape)
     active = np.ones(shape, bool) if active is None else active
     graph = cell_graph(find_cell("Box"), active, 10.0, cells.origin, cells.periodic)
-    return sizes(cells, active, placement.mapping, graded_wireframe(graph, spec, placement))
+    return sizes(cells, active, placement.mapping, graded_wireframe(graph, spec.struts, placement))
 
 
 def test_equal_cells_are_as_asked_for():
@@ -53,7 +53,7 @@ def test_cells_about_an_axis():
 
 def volume_of(shape, **options):
     spec = LatticeSpec(cell="Box", cell_size=10.0, strut_radius=0.5, **options)
-    cells, placement = block_placement(spec, shape)
+    cells, placement = block_placement(spec.grid, shape)
     return mapped_volume(cells, placement.mapping)
 
 

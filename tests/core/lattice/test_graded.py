@@ -96,7 +96,7 @@ def test_blocks_hold_the_contract(cell, grading):
 def test_struts_are_deformed_with_their_cells_where_the_radius_is_not_kept():
     spec = LatticeSpec(size_grading=SizeGrading(LINEAR), keep_radius=False, resolution=15)
     plain, graded = block(LatticeSpec(resolution=15), (3, 2, 2)), block(spec, (3, 2, 2))
-    _, placement = block_placement(spec, (3, 2, 2))
+    _, placement = block_placement(spec.grid, (3, 2, 2))
     assert np.array_equal(graded.mesh.triangles, plain.mesh.triangles)
     assert graded.mesh.vertices == pytest.approx(placement.mapping.to_part(plain.mesh.vertices))
     cell, active = LIBRARY["CVC"], np.ones((3, 2, 2), bool)

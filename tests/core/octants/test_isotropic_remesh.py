@@ -81,7 +81,8 @@ def test_nothing_comes_of_nothing():
     whole = octant_surface(LIBRARY["Box"])
     none = type(whole)(
         whole.vertices[:0], whole.triangles[:0], whole.place[:0], whole.held[:0],
-        whole.field.rows(np.zeros(0, np.int64)), whole.edge, whole.step, whole.piece[:0], whole.size,
+        whole.field.rows(np.zeros(0, np.int64)), whole.edge, whole.step,
+        whole.piece[:0], whole.size,
     )  # fmt: skip
     found, origin = isotropic_remesh.even_out(none)
     assert len(found.triangles) == len(origin) == 0

@@ -1,0 +1,262 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The parts of a specification: what each stage of a run is given, and nothing else.
+
+Every part is immutable, checked when it is made, and equal to another one if and only if all that
+it holds is equal: the points of a field and the facets of an open face included. So a stage's
+result may be kept under the parts that went into it.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from ..util.errors import VolfrepError
+from ..util.numbers import number
+from .grading import CellMap, Orientation, RadiusGrading, SizeGrading, Vector
+from .openings import OpenFace
+
+ACTIVATIONS = ("touching", "centre", "inside")
+BOUNDARIES = ("trim", "whole")
+
+#: Deviation from the exact surface in units of the strut radius, where the user says nothing.
+#: About nine facets round a strut.
+DEFAULT_RELATIVE_DEVIATION = 1.0 / 35.0
+MIN_RESOLUTION, MAX_RESOLUTION = 4, 400
+#: No facet is longer than this many strut radii: fewer than about six round a strut cannot be
+#: placed so that its volume is right. Nor are there fewer than so many along L, whose edges could
+#: not follow the windows between thick struts.
+LONGEST_FACET = 1.0
+COARSEST = 8
+#: The resolution that is chosen for thick struts, whose windows are smaller than they are.
+MIN_AUTOMATIC_RESOLUTION = 15
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Where the cells lie.
+
+    Attributes:
+        size: L, edge of the cubic cell, mm.
+        origin: a point that is to be a cell's corner, mm; None puts the grid at the part's box.
+        size_grading: cells that grow along a direction; None for equal cells.
+        cell_map: cells about an axis or a centre; None for cells along straight axes.
+        orientation: the lattice turned; None for along x, y, z.
+    """
+
+    size: float
+    origin: Vector | None = None
+    size_grading: SizeGrading | None = None
+    cell_map: CellMap | None = None
+    orientation: Orientation | None = None
+
+    def __post_init__(self) -> None:
+        number("cell size", self.size, "mm", positive=True)
+        if self.origin is not None:
+            if len(self.origin) != 3:
+                raise VolfrepError("The origin must be three coordinates.")
+            for value in self.origin:
+                number("origin", value, "mm", positive=None)
+            x, y, z = self.origin
+            object.__setattr__(self, "origin", (x, y, z))
+
+
+@dataclass(frozen=True)
+class Struts:
+    """How thick struts are, and how they meet.
+
+    Attributes:
+        radius: r in mm, of every strut, or how it varies.
+        fillet: radius of the round between struts at a joint; 0 for none, mm.
+        keep_radius: where cells are stretched or bent, struts stay straight and round. False:
+            they are deformed with their cells, as published.
+    """
+
+    radius: float | RadiusGrading
+    fillet: float = 0.0
+    keep_radius: bool = True
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.radius, RadiusGrading):
+            number("strut radius", self.radius, "mm", positive=True)
+        number("joint fillet", self.fillet, "mm", positive=False)
+
+    @property
+    def is_graded(self) -> bool:
+        """Whether the radius varies."""
+        return isinstance(self.radius, RadiusGrading)
+
+    @property
+    def extremes(self) -> tuple[float, float]:
+        """The smallest and the largest radius of a strut, mm."""
+        if isinstance(self.radius, RadiusGrading):
+            return self.radius.extremes
+        return float(self.radius), float(self.radius)
+
+    @property
+    def template_radius(self) -> float:
+        """The radius that octants are meshed for, between the extremes, mm."""
+        least, most = self.extremes
+        return least if least == most else math.sqrt(least * most)
+
+    def refuse_too_thick(self, size: float) -> None:
+        """Raise a `VolfrepError` where joints reach half-way through a cell of a size in mm."""
+        radius = self.extremes[1]
+        if radius + radius * radius / size + self.fillet < size / 2:
+            return
+        limit = _largest_radius(size, self.fillet)
+        with_fillet = " with this fillet" if self.fillet else ""
+        if limit <= 0:
+            raise VolfrepError(
+                f"A joint fillet of {self.fillet:g} mm is too large for a cell of {size:g} mm: "
+                f"keep it below {size / 2:g} mm less the strut radius."
+            )
+        raise VolfrepError(
+            f"Struts of radius {radius:g} mm are too thick for a cell of {size:g} mm{with_fillet}: "
+            f"keep the radius below {limit:.4g} mm or enlarge the cell."
+        )
+
+
+@dataclass(frozen=True)
+class Skin:
+    """The closed skin of a part.
+
+    Attributes:
+        thickness: above 0, mm.
+        open_faces: faces of the part that have none; the cavity opens there.
+    """
+
+    thickness: float
+    open_faces: tuple[OpenFace, ...] = ()
+
+    def __post_init__(self) -> None:
+        number("shell thickness", self.thickness, "mm", positive=True)
+        object.__setattr__(self, "open_faces", tuple(self.open_faces))
+
+
+@dataclass(frozen=True)
+class Boundary:
+    """Where the lattice ends.
+
+    Attributes:
+        activation: ``touching``, ``centre`` or ``inside``: which cells are active.
+        cut: ``trim`` (at the wall of the lattice's domain) or ``whole`` (active cells stay whole).
+        remove_dangling: take away struts with a free end, until there are none.
+        shortest_stub: struts with a free end that are shorter than this go; 0 for none, mm.
+    """
+
+    activation: str = "touching"
+    cut: str = "trim"
+    remove_dangling: bool = False
+    shortest_stub: float = 0.0
+
+    def __post_init__(self) -> None:
+        if self.activation not in ACTIVATIONS:
+            raise VolfrepError(
+                f"There is no activation '{self.activation}': choose one of "
+                f"{', '.join(ACTIVATIONS)}."
+            )
+        if self.cut not in BOUNDARIES:
+            raise VolfrepError(
+                f"There is no boundary '{self.cut}': choose {' or '.join(BOUNDARIES)}."
+            )
+        number("shortest stub", self.shortest_stub, "mm", positive=False)
+
+    @property
+    def is_trimmed(self) -> bool:
+        """Whether the wall of its domain cuts the lattice, with a skin or without."""
+        return self.cut == "trim"
+
+    @property
+    def is_endless(self) -> bool:
+        """Whether the octants are those of a lattice without end, of which the wall cuts a piece.
+
+        What lies outside is cut off anyway. Otherwise they are those of the active cells, whose
+        struts end round.
+        """
+        return self.activation == "touching" and self.is_trimmed
+
+    @property
+    def removes_struts(self) -> bool:
+        """Whether struts with a free end are looked for."""
+        return self.remove_dangling or self.shortest_stub > 0
+
+
+@dataclass(frozen=True)
+class Resolution:
+    """How fine the facets of struts are.
+
+    Attributes:
+        facets: along L, and never fewer than struts need (`coarsest`); or
+        deviation: largest distance in mm between a facet and the exact strut. With neither, the
+            deviation is `DEFAULT_RELATIVE_DEVIATION` r.
+    """
+
+    facets: int | None = None
+    deviation: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.facets is not None and self.deviation is not None:
+            raise VolfrepError("Give either a resolution or a deviation, not both.")
+        if self.deviation is not None:
+            number("deviation", self.deviation, "mm", positive=True)
+        if self.facets is not None:
+            whole = number("resolution", self.facets, "facets along L", positive=True)
+            if whole != int(whole) or not MIN_RESOLUTION <= whole <= MAX_RESOLUTION:
+                raise VolfrepError(
+                    f"The resolution must be a whole number from {MIN_RESOLUTION} to "
+                    f"{MAX_RESOLUTION}, not {self.facets}."
+                )
+
+    def along_cell(self, size: float, struts: Struts) -> int:
+        """How many facet edges fit along a cell of a size in mm.
+
+        Facets of edge e fitted to a cylinder of radius r in the mean stray from it by up to
+        e2 / (16 r) to either side (the sagitta of a chord, e2 / 8 r, halved by the fit). Where
+        the radius varies, every strut has as many facets round it, and the thickest one strays
+        most.
+
+        Raises:
+            VolfrepError: the deviation, or struts so thin, take more than `MAX_RESOLUTION`.
+        """
+        coarsest = self.coarsest(size, struts)
+        if self.facets is not None:
+            return max(int(self.facets), coarsest)
+        radius = struts.template_radius**2 / struts.extremes[1]
+        if self.deviation is None:
+            radius = struts.template_radius
+        deviation = self.deviation or DEFAULT_RELATIVE_DEVIATION * radius
+        wanted = size / math.sqrt(16.0 * radius * deviation)
+        if wanted > MAX_RESOLUTION:
+            edge = size / MAX_RESOLUTION
+            smallest = edge * edge / (16.0 * radius)
+            raise VolfrepError(
+                f"A deviation of {deviation:.3g} mm needs {wanted:.0f} facets along a cell: the "
+                f"limit is {MAX_RESOLUTION}, which reaches {smallest:.3g} mm."
+            )
+        least = coarsest if self.deviation is not None else MIN_AUTOMATIC_RESOLUTION
+        return max(math.ceil(wanted), least)
+
+    @staticmethod
+    def coarsest(size: float, struts: Struts) -> int:
+        """Facets along a cell of a size in mm below which struts would not have their volume.
+
+        Raises:
+            VolfrepError: struts are so thin that not even the finest resolution follows them.
+        """
+        radius = struts.template_radius
+        needed = math.ceil(size / (LONGEST_FACET * radius) - 1e-9)
+        if needed > MAX_RESOLUTION:
+            thinnest = size / (LONGEST_FACET * MAX_RESOLUTION)
+            raise VolfrepError(
+                f"Struts of radius {radius:.3g} mm are too thin for cells of {size:g} mm: they "
+                f"need {needed} facets along a cell, the limit is {MAX_RESOLUTION}; make them "
+                f"{thinnest:.3g} mm or thicker, or the cells smaller."
+            )
+        return max(needed, COARSEST)
+
+
+def _largest_radius(size: float, fillet: float) -> float:
+    """The r at which joint sphere and fillet reach half a cell: r + r2 / L + fillet = L / 2."""
+    room = size / 2 - fillet
+    return float(size * (math.sqrt(0.25 + max(room, 0.0) / size) - 0.5)) if room > 0 else 0.0

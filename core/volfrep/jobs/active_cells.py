@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Which cells of a part hold a lattice, and where their octants lie with respect to its wall."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..design.memory_guard import refuse_cells
+from ..design.spec_parts import Grid
+from ..grid.activation import active_cells, make_grid, mapped_grid
+from ..grid.placement import part_map
+from ..lattice.padded_grid import PaddedGrid, padded_grid
+from ..mesh.triangle_mesh import TriangleMesh, box_of, concatenate
+from ..shell.domain import Domain
+from ..trim.boolean_trim import OctantRoles, octant_roles
+from ..util.progress import Monitor
+from ..util.types import Bools
+
+
+@dataclass(frozen=True, eq=False)
+class ActiveCells:
+    """The cells that hold a lattice.
+
+    Attributes:
+        padded: the part's grid, and the cells about it that the lattice may be laid on.
+        active: (nx, ny, nz) bool, those of the part's grid that hold one.
+    """
+
+    padded: PaddedGrid
+    active: Bools
+
+
+def activated(
+    solid: TriangleMesh,
+    domain: Domain,
+    grid: Grid,
+    activation: str,
+    least: float,
+    monitor: Monitor,
+) -> ActiveCells:
+    """The cells of a part, and which of them are active.
+
+    Args:
+        solid: the part, mm.
+        domain: what the lattice fills.
+        grid: where the cells lie.
+        activation: which of them are active.
+        least: width of the narrowest one about an axis that can hold a lattice, in units of L.
+        monitor: for progress and cancel.
+    """
+    mapping = part_map(grid, solid.bounds)
+    whole, origin = solid, grid.origin
+    if domain.is_open:  # octants are wanted beyond the part, too; the cells still begin at it
+        whole = concatenate(solid, domain.wall)
+        x, y, z = solid.bounds[0]
+        origin = origin or (float(x), float(y), float(z))
+    if mapping is None:
+        cells = make_grid(box_of(whole.vertices), grid.size, origin)
+    else:
+        cells = mapped_grid(whole, mapping, grid.size, grid.origin, monitor)
+    refuse_cells(cells.cells, grid.size)
+    padded = padded_grid(cells, mapping, least)
+    usable = padded.inner_usable
+    return ActiveCells(
+        padded, active_cells(cells, domain.mesh, activation, monitor, mapping, usable)
+    )
+
+
+def roles_of(
+    solid: TriangleMesh,
+    domain: Domain,
+    cells: ActiveCells,
+    grid: Grid,
+    margin: float,
+    monitor: Monitor,
+) -> OctantRoles:
+    """Where the octants of a part's cells lie with respect to its wall."""
+    mapping = part_map(grid, solid.bounds)
+    return octant_roles(domain.wall, cells.padded.cells, monitor, mapping, margin)

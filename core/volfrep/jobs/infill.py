@@ -1,0 +1,380 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The stages from a solid to a part: each is computed when it is asked for, and kept."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from ..design.memory_guard import refuse_expected
+from ..design.openings import lie_on
+from ..design.spec import LatticeSpec
+from ..grid.placement import Placement, graded_wireframe, placement_in
+from ..grid.strut_graph import CellGraph, Wireframe, cell_graph
+from ..io.solid import Solid
+from ..lattice.assembly import Layout, refuse_solid_cells, refuse_too_large
+from ..lattice.padded_grid import (
+    keeps_places,
+    least_width,
+    vertices_of,
+)
+from ..mesh.float32_repair import shortest_edge
+from ..mesh.quality import Quality, measure
+from ..mesh.triangle_mesh import TriangleMesh
+from ..octants.octant import OctantKey
+from ..octants.octant_mesh import Octant, OctantSpec, mesh_octants, octant_spec
+from ..reports.result import Result, report_of
+from ..shell.domain import Domain, find_domain
+from ..trim.beam_model import (
+    BeamModel,
+    deformed_struts,
+    part_beams,
+    reaching_into,
+    refuse_fillets,
+)
+from ..trim.boolean_trim import KeptOctants
+from ..trim.clip_struts import AT_WALL, Clipped, clip
+from ..trim.drains import Drained, trapped
+from ..trim.finish import finished, pieces_told, tidied
+from ..trim.loose_pieces import Cleared
+from ..trim.prune import Pruned, prune
+from ..trim.stage import (
+    FIRST_MARGIN,
+    Laid,
+    chosen_octants,
+    cut_lattice,
+    drained_part,
+    lay,
+    uncut_lattice,
+)
+from ..util.cache import Kept, StageCache
+from ..util.content import content_of
+from ..util.errors import VolfrepError
+from ..util.progress import Monitor, ProgressCallback
+from .active_cells import ActiveCells, activated, roles_of
+from .finer import until_sound
+
+
+class Infill:
+    """A solid filled with a lattice, stage by stage.
+
+    Every stage is an attribute: `domain`, `cells`, `struts`, `lattice`, `part`, `beams`, `axes`.
+    It is computed when it is first asked for, with those that it needs and no others, and kept;
+    all of them lie where the part lies. What a stage is made of is the key that it is kept under
+    in the cache, too: the solid, earlier stages, and parts of the specification.
+
+    Args:
+        solid: checked closed mesh (from `volfrep.io.solid.read_solid` or `check_solid`), mm.
+        spec: what to fill it with.
+        cache: keeps the costly stages for other infills, as of the same solid with other struts.
+        progress: called with the fraction done and the stage; returning False cancels.
+
+    Attributes:
+        solid: the part.
+        spec: what was asked for.
+        monitor: times every stage that was run so far, and counts its work.
+
+    Raises:
+        VolfrepError: cells larger than the part. Every stage raises it where the specification
+            does not fit the solid, and says what to change; and `Cancelled`.
+    """
+
+    def __init__(
+        self,
+        solid: TriangleMesh,
+        spec: LatticeSpec,
+        *,
+        cache: StageCache | None = None,
+        progress: ProgressCallback | None = None,
+    ) -> None:
+        size = solid.bounds[1] - solid.bounds[0]
+        if spec.cell_size > size.max():
+            raise VolfrepError(
+                f"Cells of {spec.cell_size:g} mm are larger than the part, which measures "
+                f"{size[0]:.4g} x {size[1]:.4g} x {size[2]:.4g} mm: reduce the cell size, "
+                "or see whether the part is in another unit."
+            )
+        self.solid, self.spec = solid, spec
+        self.monitor = Monitor(progress)
+        self._cache = cache or StageCache()
+        self._cell, self._grid, self._struts = spec.unit_cell(), spec.grid, spec.struts
+        self._skin, self._boundary = spec.skin, spec.ending
+        self._tile = octant_spec(spec.cell_size, spec.struts, spec.detail)
+        self._solid = Kept(solid, content_of(solid.vertices, solid.triangles))
+        self._watch = Kept(self.monitor, "no result depends on it")
+        self._laid_octants: dict[bool, Laid] = {}
+        self._notes: tuple[str, ...] = ()
+
+    @property
+    def result(self) -> Result:
+        """The stage that the specification's output names: part, lattice or domain."""
+        if self.spec.output == "domain":
+            return self.cavity_result
+        return self.part if self.spec.output == "part" else self.lattice
+
+    @property
+    def domain(self) -> Domain:
+        """What the lattice fills, with what is to be said of the skin about it."""
+        return self._domain.value
+
+    @cached_property
+    def _domain(self) -> Kept[Domain]:
+        with self.monitor.stage("shell", 0.0, 0.3):
+            found = self._cache.run("shell", find_domain, self._solid, self._skin, self._watch)
+        if not len(found.value.mesh.triangles):
+            raise VolfrepError(
+                f"The part is nowhere thicker than two walls of {self.spec.shell:g} mm, so that "
+                "nothing is left to fill: reduce the shell thickness."
+            )
+        return found
+
+    @property
+    def cavity(self) -> TriangleMesh:
+        """The domain's surface as a file can hold it: float32 takes no triangle of it."""
+        return self._cavity[0]
+
+    @cached_property
+    def _cavity(self) -> tuple[TriangleMesh, Quality]:
+        clean = tidied(self.domain.mesh, shortest_edge(self.solid), self.monitor)
+        mesh, quality, _ = finished(clean, measure(clean), self.monitor, moved=False)
+        return mesh, quality
+
+    @cached_property
+    def placement(self) -> Placement:
+        """Where the lattice lies in the part."""
+        is_cut = self._boundary.is_trimmed or self._skin is not None
+        return placement_in(self.solid, self._grid, is_cut, self.monitor)
+
+    @property
+    def cells(self) -> ActiveCells:
+        """Which cells hold a lattice."""
+        return self._cells.value
+
+    @cached_property
+    def _cells(self) -> Kept[ActiveCells]:
+        domain, rule, least = self._domain, self._boundary.activation, 0.0
+        with self.monitor.stage("voxels", 0.3, 0.4):
+            if self._grid.cell_map is not None:
+                size, struts = self._grid.size, self._struts
+                least = self._cache.run("width", least_width, self._cell, size, struts).value
+            found = self._cache.run(
+                "voxels", activated, self._solid, domain, self._grid, rule, least, self._watch
+            )
+        if not found.value.active.any():
+            where_not = "has its centre" if rule == "centre" else "lies wholly"
+            raise VolfrepError(
+                f"No cell of {self._grid.size:g} mm {where_not} inside the domain: reduce the "
+                "cell size or choose the activation 'touching'."
+            )
+        return found
+
+    @cached_property
+    def pruned(self) -> Pruned | None:
+        """What is left when struts with a free end are taken away; None where none are."""
+        if not self._boundary.removes_struts:
+            return None
+        return prune(
+            self.cells.padded, self._cell, self.cells.active, self._struts, self._boundary,
+            self.placement, self.domain, self._skin is not None,
+        )  # fmt: skip
+
+    @cached_property
+    def struts(self) -> Wireframe:
+        """The nodes and struts of the active cells, whole, where the lattice's mesh has them."""
+        pruned = self.pruned
+        if pruned is not None:
+            frame = pruned.frame
+        else:
+            cells, size = self.cells.padded.cells, self._grid.size
+            active = self.cells.active
+            graph = cell_graph(self._cell, active, size, cells.origin, cells.periodic)
+            frame = graded_wireframe(graph, self._struts, self.placement)
+        if not len(frame.struts):
+            raise VolfrepError(
+                "Every strut has a free end, so that none is left: keep dangling struts, reduce "
+                "the cell size or choose the activation 'touching'."
+            )
+        return frame
+
+    @cached_property
+    def cavity_result(self) -> Result:
+        """The domain as a mesh, with the figures of the cells and struts that it will hold."""
+        return self._reported("domain", Cleared(*self._cavity, 0, 0))
+
+    @cached_property
+    def lattice(self) -> Result:
+        """The lattice without the skin: trimmed to its domain, or its cells whole."""
+        laid = self._laid(is_cut=self._boundary.is_trimmed)
+        with self.monitor.stage("trim", 0.6, 1.0):
+            cleared = self._cut(laid) if self._boundary.is_trimmed else self._uncut(laid)
+        return self._reported("lattice", cleared)
+
+    @cached_property
+    def part(self) -> Result:
+        """Skin and lattice in one; without a skin, the lattice trimmed at the part's surface."""
+        if self._skin is None:
+            return self.lattice
+        laid, frame = self._laid(is_cut=True), self.struts
+        drained = None
+        with self.monitor.stage("trim", 0.6, 1.0):
+            cleared = self._cut(laid, with_skin=True)
+            if self.spec.drains is not None:
+                cleared, drained = drained_part(
+                    cleared, self.solid, self.domain, frame, self._skin, self.spec.drains,
+                    self.monitor,
+                )  # fmt: skip
+        return self._reported("part", cleared, drained)
+
+    @property
+    def beams(self) -> BeamModel:
+        """What the specification's output names, with the lattice as beams; nothing is meshed."""
+        if self.spec.output == "domain":
+            raise VolfrepError(
+                "The output 'domain' holds no lattice to write as beams: choose part or lattice."
+            )
+        return self.part_beams if self.spec.output == "part" else self.lattice_beams
+
+    @cached_property
+    def part_beams(self) -> BeamModel:
+        """The part, with its lattice as beams."""
+        if self._skin is None:
+            return self.lattice_beams
+        refuse_fillets(self._struts)
+        struts, drains = self.struts, self.spec.drains
+        made = part_beams(self.solid, self.cavity, struts, self._skin, drains, self.monitor)
+        return replace(made, warnings=self._beam_warnings + made.warnings)
+
+    @cached_property
+    def lattice_beams(self) -> BeamModel:
+        """The lattice as beams, without a skin."""
+        refuse_fillets(self._struts)
+        struts, clip_at = self.struts, None
+        if self._boundary.is_trimmed:
+            clip_at = self.cavity
+            struts = reaching_into(struts, clip_at)
+        return BeamModel(struts, clip_at, warnings=self._beam_warnings)
+
+    @cached_property
+    def axes(self) -> Clipped:
+        """The struts' axes, cut where they leave the domain."""
+        if not self.placement.is_cut:
+            return Clipped(self.struts, np.zeros(len(self.struts.nodes), bool))
+        clipped = clip(self.struts, self.cavity)
+        openings = self.domain.openings
+        if openings is not None:
+            frame = clipped.wireframe
+            free = lie_on(openings, frame.nodes, AT_WALL * frame.joint_radii)
+            clipped = replace(clipped, on_wall=clipped.on_wall & ~free)
+        if not len(clipped.wireframe.struts):
+            raise VolfrepError(
+                "No strut's axis lies inside the part: reduce the cell size or move the origin."
+            )
+        return clipped
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What is to be said of the solid and of its skin."""
+        notes = self.solid.notes if isinstance(self.solid, Solid) else ()
+        return notes + self.domain.warnings
+
+    @property
+    def _beam_warnings(self) -> tuple[str, ...]:
+        return self.warnings + deformed_struts(self._grid, self._struts)
+
+    def _laid(self, *, is_cut: bool) -> Laid:
+        """The octants laid in the part, as of a lattice that a wall cuts, or as they are."""
+        if is_cut not in self._laid_octants:
+            refuse_expected(self.spec, self.domain.mesh.volume)
+            _ = self.struts  # refused before anything is meshed
+            margin = 0.0 if keeps_places(self._struts, self.placement) else FIRST_MARGIN
+            if not is_cut:
+                margin = np.inf  # no wall that an octant could reach
+            with self.monitor.stage("tile", 0.4, 0.5):
+                first = self._octants(is_cut, margin)
+            with self.monitor.stage("lattice", 0.5, 0.6):
+                self._laid_octants[is_cut] = lay(
+                    first, margin, lambda wider: self._octants(is_cut, wider), self._placed
+                )
+        return self._laid_octants[is_cut]
+
+    def _octants(self, is_cut: bool, margin: float) -> tuple[KeptOctants, dict[OctantKey, Octant]]:
+        """Which octants there are, and their meshes."""
+        cells, roles = self.cells, None
+        if is_cut:
+            roles = self._cache.run(
+                "octants", roles_of, self._solid, self._domain, self._cells, self._grid, margin,
+                self._watch,
+            ).value  # fmt: skip
+        grid = cells.padded.octants(self._cell, cells.active, self._boundary.is_endless)
+        joined = not keeps_places(self._struts, self.placement)
+
+        def meshed(tile: OctantSpec) -> tuple[KeptOctants, dict[OctantKey, Octant]]:
+            kept = chosen_octants(grid, roles, self._cell, self.pruned, tile, joined=joined)
+            keys = tuple(kept.grid.keys)
+            made = self._cache.run("tile", mesh_octants, self._cell, tile, keys, self._watch)
+            return kept, made.value
+
+        (kept, octants), self._tile, notes = until_sound(self._tile, meshed)
+        self._notes += notes
+        refuse_solid_cells(octants, self._tile)
+        refuse_too_large(self.spec, kept.grid, octants, kept.border)
+        return kept, octants
+
+    def _placed(self, layout: Layout) -> Any:
+        """Where the vertices of numbered octants are in the part."""
+        return vertices_of(
+            layout, self._graph, self._cell, self._struts, self._tile, self.placement, self.monitor
+        )
+
+    def _graph(self) -> CellGraph:
+        """The nodes and struts that the octants hang on."""
+        if self.pruned is not None:
+            return self.pruned.left_graph
+        return self.cells.padded.graph(self._cell, self.cells.active, self._boundary.is_endless)
+
+    def _cut(self, laid: Laid, *, with_skin: bool = False) -> Cleared:
+        has_skin = self._skin is not None
+        return cut_lattice(
+            laid, self.solid, self.domain, self._tile, self.monitor,
+            has_skin=has_skin, with_skin=with_skin,
+        )  # fmt: skip
+
+    def _uncut(self, laid: Laid) -> Cleared:
+        return uncut_lattice(laid, self.solid, self._tile, self.monitor)
+
+    def _reported(self, output: str, cleared: Cleared, drained: Drained | None = None) -> Result:
+        """A mesh with the figures of what it is and of how it was made."""
+        domain, pruned, warnings = self.domain, self.pruned, self.warnings
+        mesh, quality = cleared.mesh, cleared.quality
+        if output != "domain":
+            moved = not keeps_places(self._struts, self.placement)
+            mesh, quality, notes = finished(mesh, quality, self.monitor, moved)
+            warnings += self._notes + notes
+        if output == "lattice":
+            warnings += pieces_told(
+                quality, cleared.pieces_removed, cleared.volume_removed,
+                is_in_skin=self._skin is not None,
+            )  # fmt: skip
+        volume = domain.mesh.volume
+        skin_volume = self.solid.volume - volume if output == "part" else 0.0
+        if drained is not None:
+            warnings += drained.warnings
+            skin_volume -= drained.volume
+        elif domain.is_open:
+            warnings += trapped(quality.voids)
+        removed = {
+            "struts_dangling_removed": pruned.left.dangling if pruned is not None else 0,
+            "stubs_removed": pruned.left.stubs if pruned is not None else 0,
+            "pieces_removed": cleared.pieces_removed,
+            "specks_removed": cleared.specks_removed,
+            "drain_holes": drained.places if drained is not None else (),
+        }
+        report = report_of(
+            quality, self.struts, self.cells.padded.cells, self.cells.active,
+            self.placement, self.spec, self.monitor,
+            domain_volume=volume, skin_volume=skin_volume, warnings=warnings, removed=removed,
+        )  # fmt: skip
+        return Result(mesh, self.struts, report)

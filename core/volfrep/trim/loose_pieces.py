@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What is left of a mesh when pieces that hang on nothing and specks are taken away."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh.quality import Inspection, Quality, measure, remaining
+from ..mesh.triangle_mesh import TriangleMesh, compact
+from ..octants.octant_mesh import OctantSpec
+from ..spatial.rays import inside_points
+from ..util.progress import Monitor
+
+
+@dataclass(frozen=True, eq=False)
+class Cleared:
+    """A trimmed mesh without what does not belong to it.
+
+    Attributes:
+        mesh: what is left.
+        quality: of it.
+        pieces_removed: pieces of material that hung on nothing.
+        specks_removed: shells smaller than a facet, which no sample could follow.
+        volume_removed: of the pieces, mm3.
+    """
+
+    mesh: TriangleMesh
+    quality: Quality
+    pieces_removed: int
+    specks_removed: int
+    volume_removed: float = 0.0
+
+
+def smallest_shell(tile: OctantSpec) -> float:
+    """Volume of half a facet's edge cubed, mm3: no shell smaller than that is meant."""
+    return (0.5 * tile.edge) ** 3
+
+
+def clear(
+    mesh: TriangleMesh,
+    found: Inspection,
+    smallest: float,
+    *,
+    floating: bool = False,
+    keep: NDArray[np.int64] | None = None,
+    bodies: int = 0,
+) -> Cleared:
+    """Remove what hangs on nothing, and shells too small to mean anything.
+
+    Args:
+        mesh: closed shells.
+        found: the mesh, inspected.
+        smallest: volume in mm3 below which a shell is dropped: less than a facet's size across,
+            it is the remainder of a window or a bubble that the samples could not follow.
+        floating: every piece of material floats (in a cavity's surface, they are not the part).
+        keep: triangles whose shells stay, all other pieces of material go; None: all stay.
+        bodies: so many of the largest pieces of material stay, all others go; 0: all stay.
+    """
+    label, volume = found.shell, found.volume
+    used = np.bincount(label, minlength=len(volume)) > 0
+    solid, void = used & (volume > 0), used & (volume <= 0)
+    tiny = used & (np.abs(volume) < smallest)
+    loose = solid & (tiny | floating)
+    if keep is not None:
+        held = np.zeros(len(volume), bool)
+        held[label[keep]] = True
+        loose |= solid & ~held
+    elif bodies:
+        order = np.argsort(np.where(solid, -volume, np.inf), kind="stable")
+        loose |= solid
+        loose[order[:bodies]] = False
+    if not (loose | tiny).any():
+        return Cleared(mesh, found.quality, 0, 0)
+    # A void inside a loose piece goes with it.
+    inside_loose = np.zeros(len(volume), bool)
+    if (loose & ~tiny).any() and (void & ~tiny).any():
+        inside_loose = void & _enclosed(mesh, label, loose & ~tiny, void & ~tiny)
+    gone = loose | tiny | inside_loose
+    goes = gone[label]
+    left = compact(TriangleMesh(mesh.vertices, mesh.triangles[~goes]))
+    if found.quality.watertight and len(left.triangles):
+        taken = measure(compact(TriangleMesh(mesh.vertices, mesh.triangles[goes])))
+        quality = remaining(found.quality, taken, left.bounds, volume[used & ~gone])
+    else:
+        quality = measure(left)
+    pieces = loose & ~tiny
+    return Cleared(left, quality, int(pieces.sum()), int(tiny.sum()), float(volume[pieces].sum()))
+
+
+def _enclosed(
+    mesh: TriangleMesh,
+    label: NDArray[np.int32],
+    loose: NDArray[np.bool_],
+    void: NDArray[np.bool_],
+) -> NDArray[np.bool_]:
+    """Which of the void shells lie inside a loose one: by the winding number at one vertex."""
+    result = np.zeros(len(void), bool)
+    pieces = compact(TriangleMesh(mesh.vertices, mesh.triangles[loose[label]]))
+    low, high = pieces.bounds
+    quiet = Monitor()
+    for shell, triangle in zip(*np.unique(label, return_index=True), strict=True):
+        if not void[shell]:
+            continue
+        point = mesh.vertices[mesh.triangles[triangle, 0]]
+        if (point < low).any() or (point > high).any():
+            continue
+        result[shell] = inside_points(pieces, point[None], quiet)[0]
+    return result

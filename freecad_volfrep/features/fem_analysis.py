@@ -91,7 +91,7 @@ def _beams(doc: App.Document, obj: App.DocumentObject, material: Material) -> Ap
     from freecad_volfrep.bridge.fem_meshes import beam_mesh, points_shape, runs_of
     from volfrep.fem.beam_mesh import beam_model
     from volfrep.io.write.calculix import JOINT_STIFFNESS, sides
-    from volfrep.jobs.beam_part import deformed_struts
+    from volfrep.trim.beam_model import deformed_struts
 
     clipped = axes_of(obj)
     model = beam_model(clipped.wireframe, clipped.on_wall, elements_per_strut=ELEMENTS_PER_STRUT)
@@ -105,7 +105,8 @@ def _beams(doc: App.Document, obj: App.DocumentObject, material: Material) -> Ap
     joints = model.nodes[: model.joints]
     on_skin = np.flatnonzero(clipped.on_wall)
     mesh = beam_mesh(model, {"SKIN": on_skin, "JOINTS": np.arange(len(joints)), **sides(joints)})
-    warn(obj, deformed_struts(inputs_of(obj)[1]))
+    spec = inputs_of(obj)[1]
+    warn(obj, deformed_struts(spec.grid, spec.struts))
 
     analysis = _analysis(doc, obj)
     axes = _shape(doc, obj, "Axes", runs.shape)

@@ -112,7 +112,8 @@ def test_3mf_lies_where_the_mesh_does(doc, infill, tmp_path, content):
         assert triangles == (infill.Triangles if content == "both" else 0)
         assert beams == infill.Struts == 8 * 3 * 2 * 2
         if content == "beams":
-            assert bounds == pytest.approx(whole, abs=1e-3)
+            nudge = 2.1e-4 * 10.0  # as the lattice of the mesh is, before it is cut
+            assert bounds == pytest.approx(whole, abs=1.001 * nudge)
 
 
 def test_what_cannot_be_exported_as_beams(doc, infill, tmp_path):

@@ -263,10 +263,3 @@ def _overlap_unit_box(corners: Floats) -> NDArray[np.bool_]:
             apart = (reach.min(axis=1) >= radius) | (reach.max(axis=1) <= -radius)
             overlap &= ~(apart & (radius > 0))
     return overlap
-
-
-#: Along which axes a grid closes upon itself; and none of them.
-Periodic = tuple[bool, bool, bool]
-
-
-OPEN: Periodic = (False, False, False)

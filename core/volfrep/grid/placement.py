@@ -14,8 +14,8 @@ from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.rays import inside_points
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
-from ..util.types import Floats
-from .activation import OPEN, CellGrid
+from ..util.types import OPEN, Floats
+from .activation import CellGrid
 from .coordinate_map import CoordinateMap, lattice_map, mapped_box
 from .strut_graph import CellGraph, Wireframe, wireframe
 

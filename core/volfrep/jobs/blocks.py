@@ -20,18 +20,12 @@ from ..grid.sizes import mapped_volume
 from ..grid.strut_graph import CellGraph, Wireframe, cell_graph
 from ..io.write.stl import write_stl
 from ..io.write.stl_octants import keeps_corners, write_octants_stl
-from ..lattice.assembly import (
-    Layout,
-    facets,
-    lay_out,
-    octant_grid,
-    refuse_solid_cells,
-    refuse_too_large,
-)
+from ..lattice.assembly import Layout, facets, lay_out
 from ..lattice.certificate import agree_on_faces, certify
 from ..lattice.padded_grid import keeps_places, vertices_of
 from ..mesh.quality import Quality, inspect, measure
 from ..mesh.triangle_mesh import TriangleMesh
+from ..octants.octant import octant_grid
 from ..octants.octant_mesh import OctantSpec, mesh_octants, octant_spec
 from ..reports.report import Report, told
 from ..reports.result import NOTHING_REMOVED, Result, report_of
@@ -39,6 +33,7 @@ from ..trim.finish import finished, refuse_no_solid
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor, ProgressCallback, peak_memory_mb
 from .finer import until_sound
+from .octant_guard import refuse_solid_cells, refuse_too_large
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,7 +15,7 @@ from ..design.spec import LatticeSpec
 from ..grid.placement import Placement, graded_wireframe, placement_in
 from ..grid.strut_graph import CellGraph, Wireframe, cell_graph
 from ..io.solid import Solid
-from ..lattice.assembly import Layout, refuse_solid_cells, refuse_too_large
+from ..lattice.assembly import Layout
 from ..lattice.padded_grid import (
     keeps_places,
     least_width,
@@ -56,6 +56,7 @@ from ..util.errors import VolfrepError
 from ..util.progress import Monitor, ProgressCallback
 from .active_cells import ActiveCells, activated, roles_of
 from .finer import until_sound
+from .octant_guard import refuse_solid_cells, refuse_too_large
 
 
 class Infill:

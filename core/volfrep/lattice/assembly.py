@@ -8,86 +8,20 @@ by where it lies. No coordinates are compared.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..design.cells import UnitCell
-from ..design.memory_guard import cells_are_full, refuse_memory
-from ..design.spec import LatticeSpec
-from ..grid.activation import OPEN, Periodic
 from ..mesh.triangle_mesh import TriangleMesh, box_of
 from ..octants import caps
-from ..octants.octant import OctantKey, corner_patterns, octant_mirrors
-from ..octants.octant_mesh import STEPS, Octant, OctantSpec
+from ..octants.octant import OctantGrid, OctantKey, frames
+from ..octants.octant_mesh import STEPS, Octant
 from ..util.progress import Monitor
 from ..util.types import Floats
 
 #: Octants are laid in groups of about so many vertices or triangles: a cancel is soon seen.
 CHUNK_VERTICES = 200_000
-
-
-@dataclass(frozen=True, eq=False)
-class OctantGrid:
-    """Which octant lies where.
-
-    Attributes:
-        keys: the kinds of octant.
-        kind: (nx, ny, nz) int16, index into `keys`; -1 where there is none.
-        origin: (3,) the grid corner about which octant (0, 0, 0) lies on the low side, mm.
-        cell_size: L, mm.
-        symmetric: whether octants are described up to reflection.
-        periodic: axes along which the last octant is followed by the first one.
-    """
-
-    keys: list[OctantKey]
-    kind: NDArray[np.int16]
-    origin: Floats
-    cell_size: float
-    symmetric: bool
-    periodic: Periodic = OPEN
-
-
-def used_kinds(grid: OctantGrid) -> OctantGrid:
-    """The grid without the kinds of octant that lie nowhere in it."""
-    used, kind = np.unique(grid.kind, return_inverse=True)
-    first = int((used < 0).any())
-    return replace(
-        grid,
-        keys=[grid.keys[k] for k in used[first:]],
-        kind=(kind.reshape(grid.kind.shape) - first).astype(np.int16),
-    )
-
-
-def octant_grid(
-    cell: UnitCell,
-    active: NDArray[np.bool_],
-    cell_size: float,
-    origin: Floats,
-    periodic: Periodic = OPEN,
-) -> OctantGrid:
-    """The octants of the active cells, with the half cell about them that their struts reach.
-
-    Args:
-        cell: the unit cell.
-        active: (nx, ny, nz) bool.
-        cell_size: L, mm.
-        origin: (3,) lowest corner of the cells, mm.
-        periodic: axes along which the last cell is followed by the first one.
-    """
-    pattern = corner_patterns(active, periodic)
-    symmetric = cell.is_mirror_symmetric
-    code = pattern.astype(np.int64)
-    if not symmetric:
-        code += octant_mirrors(pattern.shape).astype(np.int64) << 8  # type: ignore[arg-type]
-    code[pattern == 0] = -1
-    values, inverse = np.unique(code, return_inverse=True)
-    kind = inverse.reshape(code.shape).astype(np.int16)
-    if len(values) and values[0] < 0:
-        values, kind = values[1:], kind - np.int16(1)
-    keys = [OctantKey(int(v) >> 8, int(v) & 0xFF) for v in values]
-    return OctantGrid(keys, kind, np.asarray(origin, float), cell_size, symmetric, periodic)
 
 
 @dataclass(frozen=True, eq=False)
@@ -243,11 +177,6 @@ def lay(layout: Layout, monitor: Monitor) -> TriangleMesh:
     return TriangleMesh(coordinates(layout, monitor), facets(layout, monitor))
 
 
-def frames(place: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """The grid corner that octants lie about, and the direction of their axes."""
-    return place // 2, np.where(place % 2 == 0, -1, 1)
-
-
 def _complex_shape(grid: OctantGrid) -> tuple[int, ...]:
     """Entities of the complex of octants along each axis.
 
@@ -279,33 +208,3 @@ def neighbour_missing(
     beyond = np.take(padded, index + 1 + step, axis=axis)
     result: NDArray[np.bool_] = where & ~beyond
     return result
-
-
-def refuse_too_large(
-    spec: LatticeSpec,
-    grid: OctantGrid,
-    octants: dict[OctantKey, Octant],
-    border: NDArray[np.bool_] | None,
-) -> None:
-    """Refuse a lattice that would not fit.
-
-    Args:
-        spec: what to make.
-        grid: which octant lies where.
-        octants: their meshes.
-        border: octants that go through the Boolean; None for none.
-
-    Raises:
-        VolfrepError: it needs more memory than is free.
-    """
-    per_kind = np.array([len(octants[key].triangles) for key in grid.keys])
-    present = grid.kind >= 0
-    triangles = int(per_kind[grid.kind[present]].sum())
-    in_boolean = 0 if border is None else int(per_kind[grid.kind[present & border]].sum())
-    refuse_memory(spec, triangles, in_boolean)
-
-
-def refuse_solid_cells(octants: dict[OctantKey, Octant], spec: OctantSpec) -> None:
-    """Raise a `VolfrepError` where no octant has a surface: struts fill everything."""
-    if not any(len(octant.triangles) for octant in octants.values()):
-        raise cells_are_full(spec.cell_size, spec.strut_radius)

@@ -21,9 +21,10 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
 from ..mesh.quality import Quality
+from ..octants.octant import OctantGrid, frames
 from ..octants.octant_mesh import Octant
 from ..util.types import Floats, Ints
-from .assembly import Layout, OctantGrid, box, frames
+from .assembly import Layout, box
 
 _NO_EDGES = np.zeros((0, 4), np.int64)
 

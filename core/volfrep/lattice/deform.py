@@ -17,12 +17,12 @@ import numpy as np
 from ..design.cells import UnitCell
 from ..grid.coordinate_map import CoordinateMap
 from ..grid.node_frames import NodeFrames, shortest
-from ..octants.octant import OctantKey
+from ..octants.octant import OctantKey, frames
 from ..octants.sdf import Field, join, spheres, struts
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 from ..util.types import Floats, Ints
-from .assembly import Layout, frames, numbers
+from .assembly import Layout, numbers
 from .strut_binding import (
     SPACE,
     SPHERE,

@@ -16,11 +16,11 @@ from ..grid.coordinate_map import CoordinateMap, identity_map
 from ..grid.node_frames import NodeFrames, node_frames
 from ..grid.placement import Placement, node_radii
 from ..grid.strut_graph import CellGraph, cell_graph
-from ..octants.octant import ALL_ACTIVE, OctantKey, octant_mirrors
+from ..octants.octant import ALL_ACTIVE, OctantGrid, OctantKey, octant_grid, octant_mirrors
 from ..octants.octant_mesh import OctantSpec
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats
-from .assembly import Layout, OctantGrid, coordinates, octant_grid
+from .assembly import Layout, coordinates
 from .deform import Deformed, deform
 from .strut_binding import bind, crease
 

@@ -8,12 +8,18 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..design.cells import NODE_TOLERANCE, UnitCell
-from ..grid.activation import Periodic
 from ..grid.strut_graph import CellGraph
-from ..octants.octant import NEIGHBOURS, OctantKey, cell_copies, corner_patterns, reaches_octant
+from ..octants.octant import (
+    NEIGHBOURS,
+    OctantGrid,
+    OctantKey,
+    cell_copies,
+    corner_patterns,
+    frames,
+    reaches_octant,
+)
 from ..util.errors import VolfrepError
-from ..util.types import Bools, Floats, Ints
-from .assembly import OctantGrid, frames
+from ..util.types import Bools, Floats, Ints, Periodic
 
 #: Octants that are told apart at a time.
 CHUNK_OCTANTS = 20_000

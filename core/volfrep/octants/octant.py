@@ -14,15 +14,14 @@ them the vertices on the face, are the same: pieces are joined by counting, neve
 from __future__ import annotations
 
 import itertools
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..design.cells import NODE_TOLERANCE, UnitCell, joint_radius
-from ..grid.activation import OPEN, Periodic
 from ..mesh import remesh
-from ..util.types import Floats, Ints
+from ..util.types import OPEN, Floats, Ints, Periodic
 from . import sdf
 from .sdf import Primitives
 
@@ -239,3 +238,70 @@ def octant_mirrors(shape: tuple[int, int, int]) -> NDArray[np.uint8]:
         bits[0][:, None, None] | bits[1][None, :, None] | bits[2][None, None, :]
     )
     return result
+
+
+@dataclass(frozen=True, eq=False)
+class OctantGrid:
+    """Which octant lies where.
+
+    Attributes:
+        keys: the kinds of octant.
+        kind: (nx, ny, nz) int16, index into `keys`; -1 where there is none.
+        origin: (3,) the grid corner about which octant (0, 0, 0) lies on the low side, mm.
+        cell_size: L, mm.
+        symmetric: whether octants are described up to reflection.
+        periodic: axes along which the last octant is followed by the first one.
+    """
+
+    keys: list[OctantKey]
+    kind: NDArray[np.int16]
+    origin: Floats
+    cell_size: float
+    symmetric: bool
+    periodic: Periodic = OPEN
+
+
+def used_kinds(grid: OctantGrid) -> OctantGrid:
+    """The grid without the kinds of octant that lie nowhere in it."""
+    used, kind = np.unique(grid.kind, return_inverse=True)
+    first = int((used < 0).any())
+    return replace(
+        grid,
+        keys=[grid.keys[k] for k in used[first:]],
+        kind=(kind.reshape(grid.kind.shape) - first).astype(np.int16),
+    )
+
+
+def octant_grid(
+    cell: UnitCell,
+    active: NDArray[np.bool_],
+    cell_size: float,
+    origin: Floats,
+    periodic: Periodic = OPEN,
+) -> OctantGrid:
+    """The octants of the active cells, with the half cell about them that their struts reach.
+
+    Args:
+        cell: the unit cell.
+        active: (nx, ny, nz) bool.
+        cell_size: L, mm.
+        origin: (3,) lowest corner of the cells, mm.
+        periodic: axes along which the last cell is followed by the first one.
+    """
+    pattern = corner_patterns(active, periodic)
+    symmetric = cell.is_mirror_symmetric
+    code = pattern.astype(np.int64)
+    if not symmetric:
+        code += octant_mirrors(pattern.shape).astype(np.int64) << 8  # type: ignore[arg-type]
+    code[pattern == 0] = -1
+    values, inverse = np.unique(code, return_inverse=True)
+    kind = inverse.reshape(code.shape).astype(np.int16)
+    if len(values) and values[0] < 0:
+        values, kind = values[1:], kind - np.int16(1)
+    keys = [OctantKey(int(v) >> 8, int(v) & 0xFF) for v in values]
+    return OctantGrid(keys, kind, np.asarray(origin, float), cell_size, symmetric, periodic)
+
+
+def frames(place: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """The grid corner that octants lie about, and the direction of their axes."""
+    return place // 2, np.where(place % 2 == 0, -1, 1)

@@ -16,16 +16,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from ..grid.activation import CellGrid, Periodic, crossed_cells, inside_cells, wall_corners
+from ..grid.activation import CellGrid, crossed_cells, inside_cells, wall_corners
 from ..grid.coordinate_map import STRAIGHT, CoordinateMap
-from ..lattice.assembly import Layout, OctantGrid, facets, lay_out, neighbour_missing, used_kinds
+from ..lattice.assembly import Layout, facets, lay_out, neighbour_missing
 from ..mesh.booleans import from_library, to_library
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..octants.caps import with_corners
-from ..octants.octant import OctantKey, wrapped
+from ..octants.octant import OctantGrid, OctantKey, used_kinds, wrapped
 from ..octants.octant_mesh import Octant
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
+from ..util.types import Periodic
 
 if TYPE_CHECKING:
     import manifold3d

@@ -14,14 +14,14 @@ from ..design.memory_guard import cells_are_full
 from ..design.openings import DrainHoles
 from ..design.spec_parts import Skin
 from ..grid.strut_graph import Wireframe
-from ..lattice.assembly import Layout, OctantGrid, facets, used_kinds
+from ..lattice.assembly import Layout, facets
 from ..lattice.deform import Deformed
 from ..lattice.strut_masks import without_struts
 from ..mesh.booleans import difference, intersection
 from ..mesh.float32_repair import shortest_edge
 from ..mesh.quality import combined, inspect, measure
 from ..mesh.triangle_mesh import TriangleMesh, compact, concatenate
-from ..octants.octant import OctantKey
+from ..octants.octant import OctantGrid, OctantKey, used_kinds
 from ..octants.octant_mesh import Octant, OctantSpec
 from ..shell.domain import Domain
 from ..spatial.proximity import closest_points

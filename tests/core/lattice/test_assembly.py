@@ -9,19 +9,11 @@ from exact import DENSITY, distances_to_one_cell, in_lattice
 from samples import SKEW
 from volfrep.design.cells import LIBRARY
 from volfrep.grid.strut_graph import cell_graph
-from volfrep.lattice.assembly import (
-    OctantGrid,
-    coordinates,
-    facets,
-    lay,
-    lay_out,
-    neighbour_missing,
-    octant_grid,
-)
+from volfrep.lattice.assembly import coordinates, facets, lay, lay_out, neighbour_missing
 from volfrep.mesh import quality
 from volfrep.mesh.triangle_mesh import TriangleMesh, compact
 from volfrep.octants.caps import with_corners
-from volfrep.octants.octant import ALL_ACTIVE, OctantKey
+from volfrep.octants.octant import ALL_ACTIVE, OctantGrid, OctantKey, octant_grid
 from volfrep.octants.octant_mesh import OctantSpec, mesh_octants
 from volfrep.util.progress import Monitor
 

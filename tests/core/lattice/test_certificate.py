@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 
 from volfrep.design.cells import LIBRARY, make_cell
-from volfrep.lattice.assembly import lay, lay_out, octant_grid
+from volfrep.lattice.assembly import lay, lay_out
 from volfrep.lattice.certificate import agree_on_faces, certify
 from volfrep.mesh import quality
+from volfrep.octants.octant import octant_grid
 from volfrep.octants.octant_mesh import OctantSpec, mesh_octants
 from volfrep.util.progress import Monitor
 

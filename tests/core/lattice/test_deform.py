@@ -10,10 +10,11 @@ from volfrep.design.cells import LIBRARY, joint_radius
 from volfrep.grid.coordinate_map import identity_map
 from volfrep.grid.node_frames import node_frames
 from volfrep.grid.strut_graph import cell_graph
-from volfrep.lattice.assembly import coordinates, facets, lay_out, octant_grid
+from volfrep.lattice.assembly import coordinates, facets, lay_out
 from volfrep.lattice.deform import deform
 from volfrep.lattice.strut_binding import bind
 from volfrep.mesh.triangle_mesh import TriangleMesh
+from volfrep.octants.octant import octant_grid
 from volfrep.octants.octant_mesh import mesh_octants, octant_spec
 from volfrep.octants.sdf import distances, spheres, struts
 from volfrep.util.errors import VolfrepError

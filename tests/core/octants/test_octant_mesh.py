@@ -6,7 +6,7 @@ import pytest
 
 from samples import SKEW
 from volfrep.design.cells import LIBRARY
-from volfrep.lattice.assembly import octant_grid
+from volfrep.octants.octant import octant_grid
 from volfrep.octants.octant_mesh import OctantSpec, mesh_octants
 from volfrep.util.progress import Monitor
 

@@ -9,10 +9,10 @@ import samples
 from volfrep.design.cells import LIBRARY
 from volfrep.grid.activation import make_grid
 from volfrep.grid.placement import NUDGE
-from volfrep.lattice.assembly import OctantGrid, coordinates
+from volfrep.lattice.assembly import coordinates
 from volfrep.mesh import quality
 from volfrep.mesh.triangle_mesh import TriangleMesh
-from volfrep.octants.octant import ALL_ACTIVE, OctantKey
+from volfrep.octants.octant import ALL_ACTIVE, OctantGrid, OctantKey
 from volfrep.octants.octant_mesh import OctantSpec, mesh_octants
 from volfrep.trim.boolean_trim import cull, octant_roles, trim
 from volfrep.util.progress import Monitor

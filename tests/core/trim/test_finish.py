@@ -16,8 +16,8 @@ from volfrep.mesh.float32_repair import without_slivers
 from volfrep.mesh.quality import inspect, measure
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
 from volfrep.spatial.self_intersection import crossing_near, crossing_triangles
-from volfrep.trim.boolean_trim import clear
 from volfrep.trim.finish import finished, refuse_merging, tidied
+from volfrep.trim.loose_pieces import clear
 from volfrep.util.errors import VolfrepError
 from volfrep.util.progress import Monitor
 

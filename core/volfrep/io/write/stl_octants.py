@@ -15,7 +15,8 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from ...lattice.assembly import Layout, OctantGrid, frames, in_steps, placed
+from ...lattice.assembly import Layout, in_steps, placed
+from ...octants.octant import OctantGrid, frames
 from ...octants.octant_mesh import Octant
 from ...util.progress import Monitor
 from .stl import BLOCK_FACETS, FACET, Facets, write_facets

@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Octants that are not worth laying: too many for the memory, or without a surface."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..design.memory_guard import cells_are_full, refuse_memory
+from ..design.spec import LatticeSpec
+from ..octants.octant import OctantGrid, OctantKey
+from ..octants.octant_mesh import Octant, OctantSpec
+
+
+def refuse_too_large(
+    spec: LatticeSpec,
+    grid: OctantGrid,
+    octants: dict[OctantKey, Octant],
+    border: NDArray[np.bool_] | None,
+) -> None:
+    """Refuse a lattice that would not fit.
+
+    Args:
+        spec: what to make.
+        grid: which octant lies where.
+        octants: their meshes.
+        border: octants that go through the Boolean; None for none.
+
+    Raises:
+        VolfrepError: it needs more memory than is free.
+    """
+    per_kind = np.array([len(octants[key].triangles) for key in grid.keys])
+    present = grid.kind >= 0
+    triangles = int(per_kind[grid.kind[present]].sum())
+    in_boolean = 0 if border is None else int(per_kind[grid.kind[present & border]].sum())
+    refuse_memory(spec, triangles, in_boolean)
+
+
+def refuse_solid_cells(octants: dict[OctantKey, Octant], spec: OctantSpec) -> None:
+    """Raise a `VolfrepError` where no octant has a surface: struts fill everything."""
+    if not any(len(octant.triangles) for octant in octants.values()):
+        raise cells_are_full(spec.cell_size, spec.strut_radius)

@@ -167,6 +167,10 @@ class Boundary:
         """Whether the wall of its domain cuts the lattice, with a skin or without."""
         return self.cut == "trim"
 
+    def meets_wall(self, skin: Skin | None) -> bool:
+        """Whether a wall cuts the struts: that of their domain or, of whole cells, the skin's."""
+        return self.is_trimmed or skin is not None
+
     @property
     def is_endless(self) -> bool:
         """Whether the octants are those of a lattice without end, of which the wall cuts a piece.

@@ -146,7 +146,7 @@ class Infill:
     @cached_property
     def placement(self) -> Placement:
         """Where the lattice lies in the part."""
-        is_cut = self._boundary.is_trimmed or self._skin is not None
+        is_cut = self._boundary.meets_wall(self._skin)
         return placement_in(self.solid, self._grid, is_cut, self.monitor)
 
     @property
@@ -378,4 +378,6 @@ class Infill:
             self.placement, self.spec, self.monitor,
             domain_volume=volume, skin_volume=skin_volume, warnings=warnings, removed=removed,
         )  # fmt: skip
+        if self._skin is not None or "domain" in (output, self.spec.output):
+            report = replace(report, spec={**report.spec, "output": output})
         return Result(mesh, self.struts, report)

@@ -122,7 +122,8 @@ def preview(solid: TriangleMesh, spec: LatticeSpec, depth: PartDepth) -> Preview
     """
     cell = spec.unit_cell()
     struts = spec.struts
-    placement = placement_in(solid, spec.grid, spec.is_cut, Monitor())
+    is_cut = spec.ending.meets_wall(spec.skin)
+    placement = placement_in(solid, spec.grid, is_cut, Monitor())
     if placement.mapping is None:
         grid = make_grid(solid.bounds, spec.cell_size, spec.origin)
     else:

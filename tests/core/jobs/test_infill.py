@@ -115,6 +115,12 @@ def test_fill_is_one_call_on_top(solid, output):
     assert filled.report.work == infill.result.report.work
 
 
+def test_a_report_says_which_stage_it_is_of(solid):
+    infill = Infill(solid, SPEC)
+    for stage, output in (("part", "part"), ("lattice", "lattice"), ("cavity_result", "domain")):
+        assert getattr(infill, stage).report.spec == {**SPEC.as_dict(), "output": output}
+
+
 def test_without_a_skin_the_part_is_its_lattice(solid):
     infill = Infill(solid, replace(SPEC, shell=0))
     assert infill.part is infill.lattice

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
@@ -16,6 +15,7 @@ from ..grid.placement import Placement, graded_wireframe, placement_in
 from ..grid.strut_graph import CellGraph, Wireframe, cell_graph
 from ..io.solid import Solid
 from ..lattice.assembly import Layout
+from ..lattice.deform import Deformed
 from ..lattice.padded_grid import (
     keeps_places,
     least_width,
@@ -254,7 +254,7 @@ class Infill:
         refuse_fillets(self._struts)
         struts, clip_at = self.struts, None
         if self._boundary.is_trimmed:
-            clip_at = self.cavity
+            clip_at = self.solid if self._skin is None else self.cavity
             struts = reaching_into(struts, clip_at)
         return BeamModel(struts, clip_at, warnings=self._beam_warnings)
 
@@ -324,7 +324,7 @@ class Infill:
         refuse_too_large(self.spec, kept.grid, octants, kept.border)
         return kept, octants
 
-    def _placed(self, layout: Layout) -> Any:
+    def _placed(self, layout: Layout) -> Deformed:
         """Where the vertices of numbered octants are in the part."""
         return vertices_of(
             layout, self._graph, self._cell, self._struts, self._tile, self.placement, self.monitor

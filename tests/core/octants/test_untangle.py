@@ -5,7 +5,8 @@ import numpy as np
 import pytest
 
 from volfrep.design.cells import LIBRARY, UnitCell
-from volfrep.design.spec_parts import COARSEST, LatticeSpec
+from volfrep.design.spec import LatticeSpec
+from volfrep.design.spec_parts import COARSEST
 from volfrep.jobs.blocks import block, write_block_stl
 from volfrep.jobs.finer import until_sound
 from volfrep.mesh.triangle_mesh import TriangleMesh

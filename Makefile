@@ -11,7 +11,7 @@ SCREEN := xvfb-run -a -s "-screen 0 1600x1200x24 -dpi 96"
 .NOTPARALLEL:
 .PHONY: help setup demo test test-all lint format test-core test-random test-alone test-freecad \
 	test-gui test-in-freecad test-freecad-1 translations test-newest docs-pictures docs-tables \
-	test-escape torture bench bench-quick clean
+	test-escape torture bench bench-quick catalogue clean
 
 help: ## show this list
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 25
@@ -87,6 +87,9 @@ translations: setup ## refresh the .ts files from the sources, and compile them 
 
 docs-tables: setup ## the documentation's tables of parameters anew, from the program's own
 	@$(PYTHON) tools/parameter_tables.py
+
+catalogue: setup ## the cells' properties anew, with the charts of docs/cells.md (10 min)
+	@$(PYTHON) tools/catalogue.py $(CATALOGUE_ARGS)
 
 torture: setup ## every broken, odd and real file beside what it must get
 	@PYTHONPATH=. $(PYTHON) tests/core/torture.py

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from .io.solid import read_solid
     from .jobs.blocks import write_block_stl
     from .mesh.triangle_mesh import TriangleMesh
+    from .properties.summary import CellProperties
     from .reports.report import Report
     from .reports.result import Result
     from .util.cache import StageCache
@@ -29,6 +30,7 @@ _HOMES = {
     "VolfrepError": "util.errors",
     "TriangleMesh": "mesh.triangle_mesh",
     "Result": "reports.result",
+    "CellProperties": "properties.summary",
     "StageCache": "util.cache",
     "Part": "api",
     "block": "api",
@@ -43,6 +45,7 @@ _HOMES = {
 
 __all__ = [
     "Cancelled",
+    "CellProperties",
     "LatticeSpec",
     "Part",
     "Report",
@@ -52,6 +55,7 @@ __all__ = [
     "VolfrepError",
     "block",
     "fill",
+    "properties",
     "read_solid",
     "read_spec",
     "write_block_stl",
@@ -60,6 +64,8 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
+    if name == "properties":  # a package that can be called
+        return import_module(".properties", __name__)
     if name not in _HOMES:
         raise AttributeError(f"module 'volfrep' has no attribute '{name}'")
     return getattr(import_module(f".{_HOMES[name]}", __name__), name)

@@ -89,12 +89,20 @@ def vertices(shape: App.DocumentObject) -> tuple[App.DocumentObject, list[str]]:
 
 def _beams(doc: App.Document, obj: App.DocumentObject, material: Material) -> App.DocumentObject:
     from freecad_volfrep.bridge.fem_meshes import beam_mesh, points_shape, runs_of
-    from volfrep.fem.beam_mesh import beam_model
-    from volfrep.io.write.calculix import JOINT_STIFFNESS, sides
+    from volfrep.fem.beam_mesh import fitted_beams
+    from volfrep.io.write.calculix import sides, stiff_materials, width_of_ends
     from volfrep.trim.beam_model import deformed_struts
 
     clipped = axes_of(obj)
-    model = beam_model(clipped.wireframe, clipped.on_wall, elements_per_strut=ELEMENTS_PER_STRUT)
+    spec = inputs_of(obj)[1]
+    model, said = fitted_beams(
+        clipped.wireframe,
+        clipped.on_wall,
+        spec.unit_cell(),
+        spec.cell_size,
+        section="circle",
+        elements_per_strut=ELEMENTS_PER_STRUT,
+    )
     runs = runs_of(model)
     if len(runs.section) > MOST_EDGES:
         raise VolfrepError(
@@ -105,8 +113,7 @@ def _beams(doc: App.Document, obj: App.DocumentObject, material: Material) -> Ap
     joints = model.nodes[: model.joints]
     on_skin = np.flatnonzero(clipped.on_wall)
     mesh = beam_mesh(model, {"SKIN": on_skin, "JOINTS": np.arange(len(joints)), **sides(joints)})
-    spec = inputs_of(obj)[1]
-    warn(obj, deformed_struts(spec.grid, spec.struts))
+    warn(obj, said + deformed_struts(spec.grid, spec.struts))
 
     analysis = _analysis(doc, obj)
     axes = _shape(doc, obj, "Axes", runs.shape)
@@ -114,12 +121,17 @@ def _beams(doc: App.Document, obj: App.DocumentObject, material: Material) -> Ap
     if len(on_skin):
         _shape(doc, obj, "SkinJoints", points_shape(joints[on_skin]))
     _material(analysis, material, 1.0, material.name, [])
-    if runs.is_joint.any():
-        ends = [(axes, _edges(runs.is_joint))]
-        _material(analysis, material, JOINT_STIFFNESS, f"{material.name}_END", ends)
-    for row, radius in enumerate(model.radii.tolist()):
-        own = [(axes, _edges(runs.section == row))] if len(model.radii) > 1 else []
-        _section(analysis, radius, own)
+    stiffened = stiff_materials(model, material.name)
+    used = np.array([name for name, _ in stiffened])[runs.section]
+    for name, factor in dict.fromkeys(stiffened):
+        chosen = runs.is_joint & (used == name)
+        if chosen.any():
+            _material(analysis, material, factor, name, [(axes, _edges(chosen))])
+    wide = np.array([width_of_ends(ends) for ends in model.ends])
+    radius = model.radii[runs.section] * np.where(runs.is_joint, wide[runs.section], 1.0)
+    for value in np.unique(radius).tolist():
+        chosen = radius == value
+        _section(analysis, value, [] if chosen.all() else [(axes, _edges(chosen))])
     _mesh(analysis, mesh, axes)
     doc.recompute()
     return analysis

@@ -163,7 +163,7 @@ def make_print_check(
     Args:
         doc: the document that holds the infill.
         infill: a lattice infill.
-        process: FFF, SLA, SLS or LPBF.
+        process: FFF, SLA, SLS, MJF, LPBF or EBM.
         build_direction: from the build plate up, in the document's coordinates.
 
     Raises:

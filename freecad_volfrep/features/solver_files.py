@@ -142,18 +142,18 @@ def _write_axes(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
 
 
 def _write_beams(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
-    from volfrep.fem.beam_mesh import beam_model
+    from volfrep.fem.beam_mesh import fitted_beams
     from volfrep.fem.model import Material
     from volfrep.io.write.calculix import write_beams
     from volfrep.reports.estimate import estimate_beams
     from volfrep.trim.beam_model import deformed_struts
 
     clipped = axes_of(obj)
-    model = beam_model(clipped.wireframe, clipped.on_wall)
+    spec = inputs_of(obj)[1]
+    model, said = fitted_beams(clipped.wireframe, clipped.on_wall, spec.unit_cell(), spec.cell_size)
     estimate_beams(model)
     write_beams(model, path, Material(density=density_of(obj)), on_wall=clipped.on_wall)
-    spec = inputs_of(obj)[1]
-    warn(obj, deformed_struts(spec.grid, spec.struts))
+    warn(obj, said + deformed_struts(spec.grid, spec.struts))
 
 
 def _write_tetrahedra(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:

@@ -106,7 +106,7 @@ def test_what_it_refuses(doc, box, infill):
     with pytest.raises(VolfrepError, match="not a lattice infill"):
         make_print_check(doc, box)
     with pytest.raises(VolfrepError, match="no process"):
-        make_print_check(doc, infill, "EBM")
+        make_print_check(doc, infill, "CNC")
     with pytest.raises(VolfrepError, match="direction"):
         make_print_check(doc, infill, build_direction=(0, 0, 0))
     assert [obj.Name for obj in doc.Objects] == [box.Name, infill.Name]

@@ -20,7 +20,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
 from ..util.errors import VolfrepError
-from . import printing_options, solver_options
+from . import material, printing_options, properties, solver_options
 from .files import check_files
 from .parameter_options import (
     add_parameters,
@@ -28,7 +28,7 @@ from .parameter_options import (
     write_specification,
 )  # fmt: skip
 from .parser import Parser, Version, refuse_old, three_whole_numbers
-from .telling import Progress, print_rows, tell
+from .telling import Progress, print_rows, print_warnings, tell
 
 if TYPE_CHECKING:
     from ..design.spec import LatticeSpec
@@ -134,6 +134,8 @@ def _parser() -> argparse.ArgumentParser:
 
     add("cells", _cells, "List the library of unit cells.")
 
+    properties.add_command(add)
+
     check = add("check", _check, "Tell what a reader sees in a mesh file (STL, OBJ, PLY, 3MF).")
     check.add_argument("file", metavar="FILE")
     _add_unit(check)
@@ -159,13 +161,14 @@ def _add_output(parser: argparse.ArgumentParser) -> None:
     )
     add("--report", metavar="FILE.json", help="write the figures of the run as JSON")
     add("--quiet", action="store_true", help="print nothing but errors")
+    material.add_options(parser)
     printing_options.add_options(parser)
     solver_options.add_options(parser)
 
 
 def _fill(options: argparse.Namespace) -> None:
     part = Path(options.part)
-    spec = specification(options)
+    spec = _specified(options)
     _check_targets(options, spec)
     write_specification(options, spec)
 
@@ -200,7 +203,7 @@ def _fill(options: argparse.Namespace) -> None:
 
 
 def _block(options: argparse.Namespace) -> None:
-    spec = specification(options)
+    spec = _specified(options)
     _check_targets(options, spec)
     write_specification(options, spec)
 
@@ -238,6 +241,15 @@ def _writes_stl(options: argparse.Namespace) -> bool:
     """Whether nothing but an STL file of the mesh as it is was asked for."""
     plain = options.compact is None and options.print_report is None
     return plain and Path(options.output).suffix.lower() == ".stl"
+
+
+def _specified(options: argparse.Namespace) -> LatticeSpec:
+    """The specification, with the density of the material where none was given."""
+    spec = specification(options)
+    print_warnings(material.apply(options, Path(options.output)))
+    if options.density is not None:
+        spec = dataclasses.replace(spec, density=options.density)
+    return spec
 
 
 def _check_targets(options: argparse.Namespace, spec: LatticeSpec) -> None:

@@ -14,9 +14,15 @@ INPUTS = {
     "spec": "specification",
     "cell": "cell file",
     "radius_field": "field file",
+    "material": "material file",
 }
 #: The files that it writes, the same way.
-OUTPUTS = {"output": "output", "report": "report", "write_spec": "written specification"}
+OUTPUTS = {
+    "output": "output",
+    "report": "report",
+    "write_spec": "written specification",
+    "json": "figures",
+}
 
 
 def check_files(options: argparse.Namespace) -> None:
@@ -28,8 +34,9 @@ def check_files(options: argparse.Namespace) -> None:
     from ..util.files import check_writable, refuse_overwriting, same_file
 
     inputs, outputs = _given(options, INPUTS), _given(options, OUTPUTS)
-    if not inputs.get("cell file", "").lower().endswith(".json"):
-        inputs.pop("cell file", None)  # the name of a library cell
+    for called, suffixes in (("cell file", (".json",)), ("material file", (".toml", ".json"))):
+        if not inputs.get(called, "").lower().endswith(suffixes):
+            inputs.pop(called, None)  # a name, of the library or the table
     for path in outputs.values():
         check_writable(path)
     refuse_overwriting(outputs, inputs)

@@ -45,7 +45,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add(
         "--print-report",
         metavar="PROCESS",
-        help="say how the part suits a printing process: FFF, SLA, SLS or LPBF",
+        help="say how the part suits a printing process: FFF, SLA, SLS, MJF, LPBF or EBM",
     )
 
 

@@ -7,7 +7,6 @@ numpy and the engine are imported inside the functions, as in `cli`.
 from __future__ import annotations
 
 import argparse
-import re
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -53,12 +52,6 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         help="what an .inp file for CalculiX holds: struts as beams with stiff ends (beams, "
         "default), or the part as second-order tetrahedra by Gmsh (tetrahedra)",
     )
-    add(
-        "--material",
-        type=_material,
-        metavar="NAME,E,NU",
-        help="of an .inp file: Young's modulus in MPa and Poisson's ratio (default PETG,2100,0.38)",
-    )
 
 
 def is_deck(out: Path) -> bool:
@@ -77,11 +70,10 @@ def check(options: argparse.Namespace, out: Path, spec: LatticeSpec) -> None:
         raise VolfrepError(
             f"'{out}' cannot hold what --step asks for: give it the extension .step."
         )
-    for name in ("inp", "material"):
-        if getattr(options, name) is not None and not is_deck(out):
-            raise VolfrepError(
-                f"'{out}' cannot hold what --{name} asks for: give it the extension {DECK_SUFFIX}."
-            )
+    if options.inp is not None and not is_deck(out):
+        raise VolfrepError(
+            f"'{out}' cannot hold what --inp asks for: give it the extension {DECK_SUFFIX}."
+        )
     if suffix in STEP_SUFFIXES and options.step is None:
         options.step = "faceted"
     if is_deck(out) and options.inp is None:
@@ -166,7 +158,7 @@ def _write_axes(
     options: argparse.Namespace,
     start: float,
 ) -> None:
-    from ..fem.beam_mesh import beam_model
+    from ..fem.beam_mesh import fitted_beams
     from ..io.write.calculix import write_beams
     from ..io.write.step_wireframe import write_step_wireframe
     from ..reports.estimate import estimate_axes, estimate_beams
@@ -177,10 +169,10 @@ def _write_axes(
         _announce(estimate_axes(len(frame.struts), _asked(spec, options)), options)
         write_step_wireframe(frame, options.output)
     else:
-        model = beam_model(frame, on_wall)
+        model, warnings = fitted_beams(frame, on_wall, spec.unit_cell(), spec.cell_size)
         _announce(estimate_beams(model, _asked(spec, options)), options)
         write_beams(model, options.output, _material_of(options), on_wall=on_wall)
-        warnings = deformed_struts(spec.grid, spec.struts)
+        warnings += deformed_struts(spec.grid, spec.struts)
     print_warnings(warnings)
     if options.quiet:
         return
@@ -277,19 +269,7 @@ def _announce(estimate: Estimate, options: argparse.Namespace) -> None:
 def _material_of(options: argparse.Namespace) -> Material:
     from ..fem.model import Material
 
-    given = {} if options.material is None else options.material
-    if options.density is not None:
-        given = {**given, "density": options.density}
-    return Material(**given)
-
-
-def _material(text: str) -> dict[str, str | float]:
-    """A name and two numbers between commas."""
-    try:
-        name, young, poisson = text.split(",")
-        if not re.fullmatch(r"[A-Za-z][-\w]{0,70}", name, re.ASCII):
-            raise ValueError(name)
-        return {"name": name, "young": float(young), "poisson": float(poisson)}
-    except ValueError as error:
-        message = f"'{text}' is not a name and two numbers such as PETG,2100,0.38"
-        raise argparse.ArgumentTypeError(message) from error
+    if options.solid is not None:
+        solver: Material = options.solid.for_solver(options.density)
+        return solver
+    return Material() if options.density is None else Material(density=options.density)

@@ -2,7 +2,9 @@
 """A lattice as beams for a finite-element solver: fast where solid elements are out of reach.
 
 Bare beams from node to node are far too soft, because struts of ordinary thickness overlap at
-their joints. So the ends of each strut are stiff over a part of its radius.
+their joints. So the ends of each strut are stiffened. How far and how much depends on the cell and
+the radius, and is fitted to the cell's homogenised stiffness (`properties.joint_fit`); without a
+fit they are rigid over a part of the radius.
 """
 
 from __future__ import annotations
@@ -11,16 +13,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..design.cells import UnitCell
 from ..grid.strut_graph import Wireframe
+from ..properties.frame import Ends, JointLaw
 from ..util.errors import VolfrepError
 from ..util.ragged import spread
 from ..util.types import Bools, Floats, Ints
 
-#: Length of a strut's stiff ends in units of its radius. With it the displacements of all six
-#: cells come nearest to those of solid elements.
+#: Length of a strut's stiff ends in units of its radius, where no fit of the cell is given. With it
+#: the displacements of all six cells come nearest to those of solid elements.
 JOINT_LENGTH = 0.8
-#: ... but never more than this part of a strut.
-LONGEST_JOINT = 0.4
+#: How many times as stiff as the material such ends are: rigid, yet solvable.
+JOINT_STIFFNESS = 1000.0
+#: Ends are never longer than this part of a strut.
+LONGEST_JOINT = 0.45
 #: Elements along a strut between its stiff ends, none shorter than so many radii.
 ELEMENTS_PER_STRUT = 8
 SHORTEST_ELEMENT = 0.4
@@ -41,6 +47,7 @@ class BeamModel:
         section: (e,) int64, rows of `radii`.
         radii: (s,) float64, the sections' radii, mm.
         is_joint: (e,) bool, the stiff ends.
+        ends: (s,) how the stiff ends of each section's radius are stiffened.
     """
 
     nodes: Floats
@@ -50,6 +57,12 @@ class BeamModel:
     section: Ints
     radii: Floats
     is_joint: Bools
+    ends: tuple[Ends, ...]
+
+
+def rigid_ends(length: float) -> JointLaw:
+    """Ends that do not bend, so many radii long, for all radii."""
+    return lambda _: Ends(length, JOINT_STIFFNESS, JOINT_STIFFNESS)
 
 
 def beam_model(
@@ -57,6 +70,7 @@ def beam_model(
     on_wall: Bools | None = None,
     *,
     joint_length: float = JOINT_LENGTH,
+    joint_law: JointLaw | None = None,
     elements_per_strut: int = ELEMENTS_PER_STRUT,
     radius_tolerance: float = RADIUS_TOLERANCE,
 ) -> BeamModel:
@@ -66,7 +80,8 @@ def beam_model(
         wireframe: the struts, mm.
         on_wall: (n,) bool, nodes on a wall: a strut that ends there alone, not in a joint, gets
             no stiff end there. None: all are joints.
-        joint_length: of the stiff ends, in units of the radius there; 0 for bare beams.
+        joint_length: of rigid ends, in units of the radius there; 0 for bare beams.
+        joint_law: the ends that were fitted to the cell, in place of rigid ones.
         elements_per_strut: of the flexible middle.
         radius_tolerance: sections whose radii differ by less than this fraction to either side
             become one; a lattice of one radius keeps it exactly.
@@ -86,7 +101,10 @@ def beam_model(
         )
     start, end = wireframe.nodes[wireframe.struts].swapaxes(0, 1)
     length = np.linalg.norm(end - start, axis=1)
-    stiff = np.minimum(joint_length * wireframe.radii, LONGEST_JOINT * length[:, None])
+    profile = joint_law or rigid_ends(joint_length)
+    section, at_ends = _sections(wireframe.radii.ravel(), radius_tolerance)
+    stretch = np.array([profile(radius).length for radius in at_ends.tolist()])[section]
+    stiff = np.minimum(stretch.reshape(-1, 2) * wireframe.radii, LONGEST_JOINT * length[:, None])
     if on_wall is not None:
         alone = np.bincount(wireframe.struts.ravel(), minlength=len(wireframe.nodes)) == 1
         stiff[(on_wall & alone)[wireframe.struts]] = 0.0
@@ -121,7 +139,44 @@ def beam_model(
     share = 0.5 * (low + high)
     radius = (1.0 - share) * wireframe.radii[strut, 0] + share * wireframe.radii[strut, 1]
     section, radii = _sections(radius, radius_tolerance)
-    return BeamModel(nodes, joints, elements, strut, section, radii, is_joint)
+    ends = tuple(profile(value) for value in radii.tolist())
+    return BeamModel(nodes, joints, elements, strut, section, radii, is_joint, ends)
+
+
+def fitted_beams(
+    wireframe: Wireframe,
+    on_wall: Bools | None,
+    cell: UnitCell,
+    cell_size: float,
+    *,
+    section: str = "square",
+    elements_per_strut: int = ELEMENTS_PER_STRUT,
+) -> tuple[BeamModel, tuple[str, ...]]:
+    """Beams whose ends are those that were fitted to their cell.
+
+    Args:
+        wireframe: the struts, mm.
+        on_wall: as for `beam_model`.
+        cell: the unit cell; one that is not the library's is fitted first, which takes seconds.
+        cell_size: L, mm.
+        section: of the beams, ``square`` or ``circle``.
+        elements_per_strut: of the flexible middle.
+
+    Returns:
+        The beams, and sentences for the user: where the cell by itself carries no load there is
+        nothing to fit to, and the ends are rigid.
+    """
+    from ..properties.catalogue import joint_law
+
+    profile = joint_law(cell, cell_size, section)
+    try:
+        model = beam_model(
+            wireframe, on_wall, joint_law=profile, elements_per_strut=elements_per_strut
+        )
+        return model, ()
+    except VolfrepError as error:
+        model = beam_model(wireframe, on_wall, elements_per_strut=elements_per_strut)
+        return model, (f"The beams have rigid ends of {JOINT_LENGTH:g} radii. {error}",)
 
 
 def _sections(radius: Floats, tolerance: float) -> tuple[Ints, Floats]:

@@ -70,12 +70,22 @@ PROCESSES = {
             f"{_RULES}; inclination and bridge: ETEC, Self-supporting features (Xtreme 8K)",
         ),
         Process(
-            "SLS", "polymer powder, laser or multi-jet", 0.8, 1.0, 0.0, None, 5.0,
+            "SLS", "polymer powder, laser", 0.8, 1.0, 0.0, None, 5.0,
             f"{_RULES}; gap: Materialise, Design guidelines PA 12 (MJF), lattice structures",
+        ),
+        Process(
+            "MJF", "polymer powder, multi-jet", 1.0, 1.0, 0.0, None, 5.0,
+            "3faktur, Basic design requirements (PA12, ribs); gap: Materialise, Design guidelines "
+            "PA 12 (MJF), lattice structures; escape hole: as SLS",
         ),
         Process(
             "LPBF", "metal powder, laser", 0.6, 0.5, 45.0, 2.0, 5.0,
             f"{_RULES}; gap and inclination: ARTI90, Design clues for 3D printing (DMLS)",
+        ),
+        Process(
+            "EBM", "metal powder, electron beam", 0.6, 0.5, 45.0, 2.0, 5.0,
+            "as LPBF; a published table of design rules (Arcam Q20 plus) has 0.4 mm for walls and "
+            "holes and 30 to 45 degrees",
         ),
     )
 }  # fmt: skip

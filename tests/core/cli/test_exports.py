@@ -113,7 +113,7 @@ def test_the_build_direction(tmp_path: Path, capsys: pytest.CaptureFixture[str])
         ("x.3mf", ["--3mf", "struts"], "invalid choice: 'struts'"),
         ("x.3mf", ["--3mf", "beams", "--report", "r.json"], "does without: use both"),
         ("x.3mf", ["--3mf", "beams", "--print-report", "FFF"], "does without: use both"),
-        ("x.stl", ["--print-report", "EBM"], "no process 'EBM'"),
+        ("x.stl", ["--print-report", "CNC"], "no process 'CNC'"),
         ("x.stl", ["--print-report", "FFF", "--build-direction", "0,0,0"], "not all 0"),
         ("x.stl", ["--print-report", "FFF", "--build-direction", "0,1"], "takes 3 numbers"),
         ("x.3mf", ["--3mf", "both", "--fillet", "1"], "no fillets"),

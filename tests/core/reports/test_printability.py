@@ -170,8 +170,9 @@ def test_text_and_json_say_the_same():
 
 def test_processes_are_found_by_name():
     assert find_process("lpbf") is LPBF
-    with pytest.raises(VolfrepError, match="no process 'MJF': choose one of FFF, SLA, SLS, LPBF"):
-        find_process("MJF")
+    assert set(PROCESSES) == {"FFF", "SLA", "SLS", "MJF", "LPBF", "EBM"}
+    with pytest.raises(VolfrepError, match="no process 'CNC': choose one of FFF, SLA, SLS, MJF"):
+        find_process("CNC")
     for process in PROCESSES.values():
         assert process.source
         assert process.strut > 0

@@ -12,12 +12,11 @@ from numpy.typing import NDArray
 from ...fem.beam_mesh import BeamModel
 from ...fem.model import Material, StaticStep
 from ...fem.tet_mesh import TetrahedralMesh
+from ...properties.frame import Ends
 from ...util.files import replacing
 from ...util.types import Floats, Ints
 from .step import rows
 
-#: The stiff ends of beams are this many times as stiff as the material: rigid, yet solvable.
-JOINT_STIFFNESS = 1000.0
 #: Side of the square whose second moment of area is that of a circle of radius 1.
 SQUARE = (3.0 * np.pi) ** 0.25
 #: Nodes this near to the outermost one along an axis, in mm, are on that side.
@@ -86,11 +85,13 @@ def write_beams(
             if own:
                 file.write(f"*ELSET,ELSET={whole}\n{_lines(own)}".encode())
         file.write(_material(material, 1.0, material.name))
-        stiff_name = f"{material.name}_END"
-        file.write(_material(material, JOINT_STIFFNESS, stiff_name))
-        for name, _, stiff, radius, normal in groups:
-            of = stiff_name if stiff else material.name
-            side = SQUARE * radius
+        stiffened = stiff_materials(model, material.name)
+        for stiff_name, factor in dict.fromkeys(stiffened):
+            file.write(_material(material, factor, stiff_name))
+        for name, _, stiff, section, normal in groups:
+            of, side = material.name, SQUARE * float(model.radii[section])
+            if stiff:
+                of, side = stiffened[section][0], side * width_of_ends(model.ends[section])
             file.write(
                 f"*BEAM SECTION,ELSET={name},MATERIAL={of},SECTION=RECT\n"
                 f"{side:.10g},{side:.10g}\n{normal}\n".encode()
@@ -132,8 +133,24 @@ def write_tetrahedra(
             file.writelines(_step(step, rotations=False))
 
 
-def _groups(model: BeamModel) -> list[tuple[str, Ints, bool, float, str]]:
-    """Elements of one section, stiffness and normal: name, rows, stiff, radius, normal."""
+def width_of_ends(ends: Ends) -> float:
+    """How many times as wide as the strut's the section of its stiffened ends is.
+
+    Stiffness when pulled goes with E times the width squared, when bent with the fourth power.
+    """
+    return float(np.sqrt(ends.bending / ends.axial))
+
+
+def stiff_materials(model: BeamModel, name: str) -> list[tuple[str, float]]:
+    """For each section the name of its ends' material, and its E over the struts'."""
+    factors = [f"{ends.axial**2 / ends.bending:.6g}" for ends in model.ends]
+    kinds = list(dict.fromkeys(factors))
+    number = {factor: str(k + 1) if len(kinds) > 1 else "" for k, factor in enumerate(kinds)}
+    return [(f"{name}_END{number[factor]}", float(factor)) for factor in factors]
+
+
+def _groups(model: BeamModel) -> list[tuple[str, Ints, bool, int, str]]:
+    """Elements of one section, stiffness and normal: name, rows, stiff, section, normal."""
     # The normal of a section may be any direction but the beam's own: the axis farthest from it.
     # It must not change along a strut (rounding breaks ties): CalculiX would make a stiff knot.
     ends = model.nodes[model.elements]
@@ -151,7 +168,7 @@ def _groups(model: BeamModel) -> list[tuple[str, Ints, bool, float, str]]:
             f"E{k + 1}",
             chosen,
             bool(value // 3 % 2),
-            float(model.radii[value // 6]),
+            value // 6,
             normals[value % 3],
         )
         for k, (value, chosen) in enumerate(zip(used.tolist(), by_group, strict=True))

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The command's choice of a material and a process: it fills density, print check and deck.
+
+numpy and the engine are imported inside the functions, as in `cli`.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from ..util.errors import VolfrepError
+
+_DECK = ".inp"
+#: Forms that hold no mesh, which a print report is made of.
+_NO_MESH = ("wireframe", "beams")
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """The options of the commands that make a lattice."""
+    add = parser.add_argument_group("what it is printed of, and how").add_argument
+    add(
+        "--material",
+        metavar="M",
+        help="a name of the table in docs/cells.md, or the path of a .toml or .json file: its "
+        "density gives the mass, its modulus goes into an .inp file; of such a file also "
+        "NAME,E,NU in MPa (default PETG,2100,0.38)",
+    )
+    add(
+        "--process",
+        metavar="P",
+        help="FFF, SLA, SLS, MJF, LPBF or EBM: adds its print report where there is a mesh, and "
+        "says if it does not print the material",
+    )
+
+
+def apply(options: argparse.Namespace, out: Path) -> tuple[str, ...]:
+    """Look both up before any work, and fill in what the user has not said himself.
+
+    `options.solid` becomes the material or None.
+
+    Returns:
+        Sentences for the user.
+
+    Raises:
+        VolfrepError: naming what is not known, or cannot be used for this file.
+    """
+    options.solid = None
+    if options.material is not None:
+        from ..properties.materials import find_material
+
+        options.solid = find_material(options.material)
+        if "," in options.material:
+            # Without a density it says something about a deck only.
+            if out.suffix.lower() != _DECK:
+                raise VolfrepError(
+                    f"'{out}' cannot hold what --material asks for: give it the extension {_DECK}, "
+                    "or name a material with a density."
+                )
+        elif options.density is None:
+            options.density = options.solid.density
+    if options.process is None:
+        return ()
+    from ..reports.printability import find_process
+
+    process = find_process(options.process)
+    deck = out.suffix.lower() == _DECK and (options.inp or "beams") in _NO_MESH
+    meshless = deck or options.step in _NO_MESH or options.threemf == "beams"
+    if options.print_report is None and not meshless:
+        options.print_report = process.name
+    if options.solid is None or not options.solid.processes:
+        return ()
+    if process.name in options.solid.processes:
+        return ()
+    return (
+        f"{options.solid.name} is printed by {' or '.join(options.solid.processes)}, not by "
+        f"{process.name}.",
+    )

@@ -1,0 +1,297 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The library's cells over r / L, computed beforehand and shipped, and what lies between.
+
+`python -m volfrep.properties.catalogue` computes it anew (`make catalogue` draws the charts too).
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from ..design.cells import LIBRARY, UnitCell
+from ..util.errors import VolfrepError
+from ..util.types import Floats
+from .frame import CIRCLE, SQUARE_SECTION, Ends, JointLaw
+from .homogenise import homogenise
+from .joint_fit import JointFit, fit_joint
+from .tensor import cubic
+
+FILE = Path(__file__).with_name("catalogue.json")
+POISSON = 0.3
+#: r / L of the catalogue; and the density above which struts are hardly struts any more.
+RATIOS = (0.02, 0.03, 0.04, 0.05, 0.07, 0.1, 0.125, 0.15, 0.2)
+DENSEST = 0.75
+#: What is stored of a cell at each ratio, each with its error: in units of the solid's.
+NAMES = ("relative_density", "C11", "C12", "C44", "strength", "shear_strength", "conductivity")
+#: The sections whose ends are stored: of the deck's two-noded beams, and the round ones of
+#: FreeCAD's three-noded beams; and whether ends may be wider than their strut. Where round beams
+#: of different width meet, CalculiX makes a rigid knot, which on the paper's sample weighs 6 %.
+SECTIONS = {"square": SQUARE_SECTION, "circle": CIRCLE}
+WIDEN = {"square": True, "circle": False}
+
+
+@dataclass(frozen=True, eq=False)
+class CatalogueCell:
+    """A cell of the catalogue, at every r / L between its first and its last.
+
+    Attributes:
+        name: of the library's cell.
+        ratios: (n,) r / L.
+        values: (n, 7) by `NAMES`.
+        errors: (n, 7) by how much each may be off.
+        ends: for each section (n, 3) length, axial and bending of the fitted ends.
+        misfit: for each section (n, 4), see `joint_fit.JointFit`.
+    """
+
+    name: str
+    ratios: Floats
+    values: Floats
+    errors: Floats
+    ends: dict[str, Floats]
+    misfit: dict[str, Floats]
+
+    def at(self, ratio: float) -> dict[str, float]:
+        """The values by name at an r / L: cubic splines through their logarithms.
+
+        C11 and C12 go through the bulk modulus and the shear along a face's diagonal: neither
+        vanishes, nor is a small difference of large ones.
+
+        Raises:
+            VolfrepError: the ratio lies outside the catalogue.
+        """
+        self._refuse(ratio)
+        values = np.exp(_spline(self.ratios, self._logs())(np.log(ratio)))
+        found = dict(zip(NAMES, values.tolist(), strict=True))
+        shear, bulk = found["C11"], found["C12"]
+        found["C11"], found["C12"] = bulk + 4.0 / 3.0 * shear, bulk - 2.0 / 3.0 * shear
+        return {name: float(value) for name, value in found.items()}
+
+    def tensor(self, ratio: float) -> Floats:
+        """(6, 6) stiffness over the solid's E at an r / L."""
+        found = self.at(ratio)
+        return cubic(found["C11"], found["C12"], found["C44"])
+
+    def ratio_of_density(self, density: float) -> float:
+        """The r / L of a relative density.
+
+        Raises:
+            VolfrepError: the density lies outside the catalogue.
+        """
+        known = self.values[:, 0]
+        if not known[0] <= density <= known[-1]:
+            raise VolfrepError(
+                f"The catalogue knows {self.name} at relative densities from {known[0]:.3g} to "
+                f"{known[-1]:.3g}, not {density:.4g}."
+            )
+        places = np.linspace(np.log(self.ratios[0]), np.log(self.ratios[-1]), 2001)
+        logs = _spline(self.ratios, np.log(known))(places)
+        return float(np.exp(np.interp(np.log(density), logs, places)))
+
+    def joint(self, ratio: float, section: str = "circle") -> Ends:
+        """The ends fitted to the cell at an r / L; outside the catalogue those of its border."""
+        place = np.log(np.clip(ratio, self.ratios[0], self.ratios[-1]))
+        logs = [
+            np.interp(place, np.log(self.ratios), column) for column in np.log(self.ends[section]).T
+        ]
+        return Ends(*(float(value) for value in np.exp(logs)))
+
+    def _logs(self) -> Floats:
+        values = self.values.copy()
+        along, across = self.values[:, 1], self.values[:, 2]
+        values[:, 1], values[:, 2] = (along - across) / 2.0, (along + 2.0 * across) / 3.0
+        logs: Floats = np.log(values)
+        return logs
+
+    def _refuse(self, ratio: float) -> None:
+        if not self.ratios[0] * (1 - 1e-9) <= ratio <= self.ratios[-1] * (1 + 1e-9):
+            raise VolfrepError(
+                f"The catalogue knows {self.name} from r / L = {self.ratios[0]:g} to "
+                f"{self.ratios[-1]:g}, not at {ratio:.4g}."
+            )
+
+
+def _spline(ratios: Floats, logs: Floats) -> CubicSpline:
+    return CubicSpline(np.log(ratios), logs, bc_type="natural")
+
+
+@lru_cache(maxsize=1)
+def catalogue() -> dict[str, CatalogueCell]:
+    """The shipped cells by name.
+
+    Raises:
+        VolfrepError: the file that ships with the package is missing or is not its own.
+    """
+    try:
+        data = json.loads(FILE.read_text(encoding="utf-8"))
+        return {
+            name: CatalogueCell(
+                name,
+                np.array(cell["ratios"], float),
+                np.array(cell["values"], float),
+                np.array(cell["errors"], float),
+                {key: np.array(rows, float) for key, rows in cell["ends"].items()},
+                {key: np.array(rows, float) for key, rows in cell["misfit"].items()},
+            )
+            for name, cell in data["cells"].items()
+        }
+    except (OSError, ValueError, KeyError) as error:
+        raise VolfrepError(f"The catalogue '{FILE}' cannot be read: {error}.") from error
+
+
+def known_cell(cell: UnitCell) -> CatalogueCell | None:
+    """The catalogue's entry of a cell, if it is the library's own."""
+    library = LIBRARY.get(cell.name)
+    if library is None or not (
+        np.array_equal(library.nodes, cell.nodes) and np.array_equal(library.struts, cell.struts)
+    ):
+        return None
+    return catalogue().get(cell.name)
+
+
+def joint_law(cell: UnitCell, cell_size: float, section: str = "circle") -> JointLaw:
+    """How a cell stiffens the ends of struts of any radius, mm.
+
+    Of the library's cells as the catalogue has it. Any other cell is homogenised and fitted when
+    a radius is asked for, at the steps of r / L about it; that takes seconds and is kept while the
+    program runs.
+
+    Args:
+        cell: the unit cell.
+        cell_size: L, mm.
+        section: of the beams: ``square`` (the deck's) or ``circle``.
+    """
+    known = known_cell(cell)
+    if known is not None:
+        return lambda radius: known.joint(radius / cell_size, section)
+    key = (cell.nodes.tobytes(), cell.struts.tobytes())
+    return lambda radius: _fitted(cell, key, radius / cell_size, section)
+
+
+#: Fits of cells that are not the library's: by nodes, struts, step and section.
+_FITTED: dict[tuple[bytes, bytes, int, str], Ends] = {}
+#: Steps of r / L at which such cells are fitted: powers of this, within these.
+_STEP, _THINNEST, _THICKEST = 1.4, 0.03, 0.25
+
+
+def _fitted(cell: UnitCell, key: tuple[bytes, bytes], ratio: float, section: str) -> Ends:
+    """Interpolated between the two steps about an r / L."""
+    place = np.log(np.clip(ratio, _THINNEST, _THICKEST)) / np.log(_STEP)
+    below = int(np.floor(place))
+    logs = []
+    for step in (below, below + 1):
+        found = _FITTED.get((*key, step, section))
+        if found is None:
+            at = _STEP**step
+            tensor = homogenise(cell, at, poisson=POISSON).tensor
+            for name, kind in SECTIONS.items():
+                fitted = fit_joint(cell, at, tensor, section=kind, widen=WIDEN[name])
+                _FITTED[(*key, step, name)] = fitted.ends
+            found = _FITTED[(*key, step, section)]
+        logs.append(np.log([found.length, found.axial, found.bending]))
+    share = place - below
+    return Ends(*np.exp((1.0 - share) * logs[0] + share * logs[1]).tolist())
+
+
+def compute(name: str, say: Callable[[str], None] = lambda _: None) -> CatalogueCell:
+    """A cell of the library over `RATIOS`, as far as its density allows."""
+    cell = LIBRARY[name]
+    ratios, values, errors = [], [], []
+    for ratio in RATIOS:
+        row, doubt = point(cell, ratio)
+        if row[0] > DENSEST:
+            break
+        ratios.append(ratio)
+        values.append(row)
+        errors.append(doubt)
+        say(f"{name} r/L {ratio:g}: density {row[0]:.4f}, C11 {row[1]:.5g}, C44 {row[3]:.5g}")
+    return refitted(
+        CatalogueCell(name, np.array(ratios), np.array(values), np.array(errors), {}, {})
+    )
+
+
+def refitted(known: CatalogueCell) -> CatalogueCell:
+    """The same cell with its ends fitted anew, each beginning at those of the radius before."""
+    cell = LIBRARY[known.name]
+    ends: dict[str, Floats] = {}
+    misfit: dict[str, Floats] = {}
+    for key, section in SECTIONS.items():
+        fits: list[JointFit] = []
+        for ratio, row in zip(known.ratios.tolist(), known.values, strict=True):
+            fits.append(
+                fit_joint(
+                    cell,
+                    ratio,
+                    cubic(*row[1:4]),
+                    section=section,
+                    widen=WIDEN[key],
+                    start=fits[-1].ends if fits else None,
+                )
+            )
+        ends[key] = np.array([[f.ends.length, f.ends.axial, f.ends.bending] for f in fits])
+        misfit[key] = np.array([f.misfit for f in fits])
+    return replace(known, ends=ends, misfit=misfit)
+
+
+def point(cell: UnitCell, ratio: float) -> tuple[list[float], list[float]]:
+    """The values by `NAMES` of one cell and r / L, computed, and their errors."""
+    from .summary import cell_properties
+
+    found = cell_properties(cell, 1.0, ratio)
+    places = ((0, 0), (0, 1), (3, 3))
+    values = [found.relative_density, *(float(found.stiffness[place]) for place in places)]
+    errors = [
+        found.errors["relative_density"],
+        *(float(found.errors["stiffness"][place]) for place in places),
+    ]
+    for name in NAMES[4:]:
+        values.append(found.values[name])
+        errors.append(found.errors[name])
+    return values, errors
+
+
+def main(arguments: list[str]) -> None:
+    """Compute the cells named, or all, and write the file anew with the others as they were.
+
+    With ``--fit`` only the ends are fitted anew, to the stiffness that is known.
+    """
+    names = [name for name in arguments if name != "--fit"] or list(LIBRARY)
+    if "--fit" in arguments:
+        computed = {name: refitted(catalogue()[name]) for name in names}
+    else:
+        computed = {name: compute(name, lambda text: print(text, flush=True)) for name in names}
+    cells = {**(catalogue() if FILE.exists() else {}), **computed}
+    data: dict[str, Any] = {
+        "about": "Endless lattices of round struts with joint spheres, no fillet; moduli over the "
+        "solid's E, strengths over its yield stress; made by volfrep.properties.catalogue.",
+        "poisson": POISSON,
+        "names": NAMES,
+        "cells": {
+            name: {
+                "ratios": cells[name].ratios.tolist(),
+                "values": _short(cells[name].values),
+                "errors": _short(cells[name].errors, 2),
+                "ends": {key: _short(rows, 4) for key, rows in cells[name].ends.items()},
+                "misfit": {key: _short(rows, 2) for key, rows in cells[name].misfit.items()},
+            }
+            for name in LIBRARY
+            if name in cells
+        },
+    }
+    FILE.write_text(json.dumps(data, indent=1) + "\n", encoding="utf-8")
+
+
+def _short(rows: Floats, digits: int = 6) -> list[list[float]]:
+    return [[float(f"{value:.{digits}g}") for value in row] for row in rows]
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

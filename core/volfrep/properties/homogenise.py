@@ -1,0 +1,231 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The elastic tensor of the endless lattice, by finite elements on voxels of one cell.
+
+The displacement is that of a uniform strain plus one that repeats from cell to cell. Voxels at the
+surface count with their solid part only, so stiffness falls towards its limit as they become
+smaller; three grids tell the limit, and how far off it still is. A cell that equals its mirror
+images needs an octant: its mid-planes and faces are mirrors under normal strains, and
+anti-mirrors of the two axes of a shear.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..design.cells import UnitCell
+from ..util.errors import VolfrepError
+from ..util.types import Floats
+from .assembly import Nodes, System, assemble, look_back, nodes_of, solve
+from .elements import SHEARS, hexahedron, solid_stiffness
+from .endless import EndlessCell, endless_cell
+from .voxels import Voxels, voxels_of
+
+#: Voxels along a strut's radius on the finest grid: of an octant, and of a whole cell.
+PER_RADIUS = {True: 8.0, False: 4.0}
+#: Fewest and most voxels along L on the finest grid.
+LEAST_ALONG = 40
+MOST_ALONG = {True: 400, False: 96}
+#: What a user may ask for.
+FEWEST, FINEST = 16, 512
+#: Solid voxels that a finest grid should not exceed by itself.
+MOST_VOXELS = {True: 30_000, False: 12_000}
+#: Part of the last step (between the two finest grids, or from there to the limit) that the limit
+#: is in doubt by.
+DOUBT = 1.0 / 3.0
+#: Relative error of solving and of filling voxels, beside that.
+FLOOR = 1e-3
+#: A lattice softer than this in every way, over the solid, carries nothing.
+_NOTHING = 1e-9
+#: The three strains of a cubic cell, and how its moduli follow: 3 K', C' and C44.
+CUBIC_STRAINS = np.array([[1, 1, 1, 0, 0, 0], [1, -0.5, -0.5, 0, 0, 0], [0, 0, 0, 1, 0, 0]], float)
+
+
+@dataclass(frozen=True, eq=False)
+class Grid:
+    """One solution on one grid.
+
+    Attributes:
+        voxels: the solid.
+        nodes: their corners.
+        system: the equations.
+        strains: (cases, 6) the macroscopic strains, Voigt.
+        moved: (n, cases) what is added to the uniform strain, in voxels.
+        energy: (cases, cases) twice the energy of a cell for each pair of strains.
+    """
+
+    voxels: Voxels
+    nodes: Nodes
+    system: System
+    strains: Floats
+    moved: Floats
+    energy: Floats
+
+    @property
+    def tensor(self) -> Floats:
+        """(6, 6) stiffness, Voigt."""
+        if len(self.strains) == 6:
+            return self.energy
+        bulk, deviator, shear = np.diag(self.energy) / (9.0, 1.5, 1.0)
+        tensor = np.diag([0.0, 0.0, 0.0, shear, shear, shear])
+        tensor[:3, :3] = bulk - deviator / 3.0 + np.eye(3) * deviator
+        return tensor
+
+
+@dataclass(frozen=True, eq=False)
+class Homogenised:
+    """The elastic tensor of a lattice of a solid with Young's modulus 1.
+
+    Attributes:
+        tensor: (6, 6) stiffness, Voigt with engineering shear strains.
+        tensors: (3, 6, 6) what the three grids gave, finest last.
+        along: voxels along L of the three grids.
+        finest: the solution on the finest.
+        coarser: the one before, to tell errors by.
+    """
+
+    tensor: Floats
+    tensors: Floats
+    along: tuple[int, ...]
+    finest: Grid
+    coarser: Grid
+
+    def error_of(self, modulus: Callable[[Floats], Floats | float]) -> Floats:
+        """By how much what `modulus` makes of the tensor may be off, in its shape."""
+        limit, finest, coarser = (
+            np.asarray(modulus(tensor)) for tensor in (self.tensor, *self.tensors[:0:-1])
+        )
+        steps = np.maximum(np.abs(limit - finest), np.abs(finest - coarser))
+        result: Floats = DOUBT * steps + FLOOR * np.abs(limit)
+        return result
+
+
+def is_cubic(cell: UnitCell) -> bool:
+    """Whether a cell that is its own mirror image also looks the same along x, y and z."""
+    own = _keys(cell.nodes, cell)
+    return cell.is_mirror_symmetric and _keys(np.roll(cell.nodes, 1, axis=1), cell) == own
+
+
+def _keys(nodes: Floats, cell: UnitCell) -> set[frozenset[tuple[int, ...]]]:
+    places = [tuple(row) for row in np.round(nodes * 1e6).astype(np.int64).tolist()]
+    return {frozenset((places[a], places[b])) for a, b in cell.struts.tolist()}
+
+
+def homogenise(
+    cell: UnitCell,
+    radius: float,
+    fillet: float = 0.0,
+    *,
+    poisson: float = 0.3,
+    along: int | None = None,
+    density: float | None = None,
+) -> Homogenised:
+    """The elastic tensor, extrapolated from three grids.
+
+    Args:
+        cell: the unit cell.
+        radius: of the struts, in units of L.
+        fillet: radius of the round between struts, in units of L.
+        poisson: the solid's ratio.
+        along: voxels along L on the finest grid; None for as many as the radius asks for.
+        density: the exact relative density, which every grid is filled to; None: as it comes.
+
+    Raises:
+        VolfrepError: the cell does not hang together.
+    """
+    endless = endless_cell(cell)
+    octant = cell.is_mirror_symmetric
+    sizes = grid_sizes(endless, radius, octant, along)
+    cubic = octant and is_cubic(cell)
+    grids = []
+    for size in sizes:
+        voxels = voxels_of(endless, radius, fillet, size, octant=octant, density=density)
+        grids.append(solve_grid(voxels, poisson, cubic=cubic))
+    found = np.array([grid.tensor for grid in grids])
+    _refuse_loose(found[-1], cell.name)
+    return Homogenised(extrapolate(found, sizes), found, sizes, grids[-1], grids[-2])
+
+
+def grid_sizes(
+    endless: EndlessCell, radius: float, octant: bool, along: int | None = None
+) -> tuple[int, ...]:
+    """Voxels along L on three grids, each about twice as fine as the one before.
+
+    A whole number of voxels lies along the radius as nearly as can be: a surface along a grid's
+    plane is represented best.
+    """
+    if along is None:
+        wanted = PER_RADIUS[octant] / radius
+        # What struts alone make of the density, without their overlaps.
+        rough = min(np.pi * radius**2 * endless.lengths.sum(), 1.0) / (8 if octant else 1)
+        wanted = min(wanted, (MOST_VOXELS[octant] / rough) ** (1 / 3), MOST_ALONG[octant])
+        along = max(_even(wanted), LEAST_ALONG)
+    if not FEWEST <= along <= FINEST:
+        raise VolfrepError(f"A cell needs {FEWEST} to {FINEST} voxels along its edge, not {along}.")
+    fine = _even(along)
+    return _even(fine / 4), _even(fine / 2), fine
+
+
+def _even(number: float) -> int:
+    return 2 * round(number / 2)
+
+
+def extrapolate(values: Floats, sizes: tuple[int, ...]) -> Floats:
+    """The limit of (3, ...) values on three grids.
+
+    Fits a + b h + c h2 with h the voxel's edge: the second-order error of smooth parts, and the
+    nearly first-order one of the sharp edges between struts (a reentrant edge's exponent is a
+    little above 1/2, and energy goes with its double).
+    """
+    edges = 1.0 / np.array(sizes, float)
+    weights = np.linalg.inv(np.vander(edges, 3, increasing=True))[0]
+    limit: Floats = np.tensordot(weights, values, axes=1)
+    return limit
+
+
+def solve_grid(voxels: Voxels, poisson: float, *, cubic: bool) -> Grid:
+    """All macroscopic strains on one grid: three of a cubic cell, else six."""
+    nodes = nodes_of(voxels)
+    element = hexahedron(poisson)
+    system = assemble(voxels, nodes, element.stiffness, element.load)
+    strains = CUBIC_STRAINS if cubic else np.eye(6)
+    loads = system.loads @ strains.T
+    free = _free(nodes, strains) if voxels.octant else np.ones_like(loads)
+    octants = 8 if voxels.octant else 1
+    energy = strains @ solid_stiffness(1.0, poisson) @ strains.T * voxels.relative_density
+    uniform = np.diag(energy) * voxels.along**3 / octants
+    moved = solve(system, -loads, uniform, free, look_back=look_back(voxels))
+    # Quadratic in what the solution still lacks.
+    crossed = loads.T @ moved
+    inner = crossed + crossed.T + moved.T @ (system.matrix @ moved)
+    energy = energy + octants * inner / voxels.along**3
+    if voxels.octant:
+        # Strains of different symmetry about the mirrors have no energy in common.
+        kinds = (strains[:, 3:] != 0) @ np.array([1, 2, 4])
+        energy *= kinds[:, None] == kinds
+    return Grid(voxels, nodes, system, strains, moved, energy)
+
+
+def _free(nodes: Nodes, strains: Floats) -> Floats:
+    """(3 n, cases) 1 where a displacement in an octant is free.
+
+    On a mirror the displacement across it is held; on an anti-mirror those along it are.
+    """
+    on = (nodes.place == 0) | (nodes.place == nodes.last)  # (n, axes)
+    free = np.ones((len(on), 3, len(strains)))
+    for case, strain in enumerate(strains):
+        sheared = {axis for k in range(3) if strain[3 + k] for axis in SHEARS[k]}
+        for axis in range(3):
+            for component in range(3):
+                if (component == axis) != (axis in sheared):
+                    free[on[:, axis], component, case] = 0.0
+    return free.reshape(-1, len(strains))
+
+
+def _refuse_loose(tensor: Floats, name: str) -> None:
+    if not np.linalg.eigvalsh(tensor)[-1] > _NOTHING:
+        raise VolfrepError(
+            f"The cell '{name}' carries no load: its struts do not reach through it."
+        )

@@ -1,0 +1,190 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Materials to print with, as built: typical figures with their sources, and the user's own.
+
+A printed material depends on machine, parameters, direction and treatment: these are figures to
+begin with, and `source` says whose they are. Where a figure is a Poisson's ratio that no data sheet
+gives, it is the handbook's for the wrought or moulded material.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from ..fem.model import Material
+from ..util.errors import VolfrepError
+
+MAX_FILE_BYTES = 100_000
+_NAME = re.compile(r"[A-Za-z0-9][-\w]{0,70}", re.ASCII)
+
+
+@dataclass(frozen=True)
+class SolidMaterial:
+    """A linear elastic material that yields.
+
+    Attributes:
+        name: as a user picks it; letters, digits, ``-`` and ``_``.
+        density: g/cm3.
+        young: Young's modulus, MPa.
+        poisson: Poisson's ratio.
+        yield_stress: MPa, or the tensile strength where a plastic shows no yield; None: not known.
+        processes: the names of the processes that print it.
+        source: where the figures are from.
+    """
+
+    name: str
+    density: float
+    young: float
+    poisson: float
+    yield_stress: float | None = None
+    processes: tuple[str, ...] = ()
+    source: str = "the user"
+
+    def __post_init__(self) -> None:
+        if not _NAME.fullmatch(self.name):
+            raise VolfrepError(
+                f"The material's name '{self.name}' must consist of letters, digits, '-' and '_'."
+            )
+        numbers = (self.density, self.young, self.yield_stress)
+        if not all(n is None or (math.isfinite(n) and n > 0) for n in numbers):
+            raise VolfrepError(
+                f"The material '{self.name}' must have a density, a Young's modulus and a yield "
+                "stress above 0."
+            )
+        if not -1.0 < self.poisson < 0.5:
+            raise VolfrepError(
+                f"The material '{self.name}' must have a Poisson's ratio between -1 and 0.5, "
+                f"not {self.poisson:g}."
+            )
+
+    def for_solver(self, density: float | None = None) -> Material:
+        """The material of a solver's deck, with another density (g/cm3) if one is given."""
+        return Material(self.name, self.young, self.poisson, density or self.density)
+
+    def as_dict(self) -> dict[str, Any]:
+        """The figures as plain JSON values."""
+        return {**asdict(self), "processes": list(self.processes)}
+
+
+_METAL = ("LPBF",)
+_POWDER = ("SLS", "MJF")
+#: Typical figures along the build direction, as built.
+MATERIALS = {
+    material.name.lower(): material
+    for material in (
+        SolidMaterial("Ti-6Al-4V", 4.41, 110_000, 0.34, 1_000, ("LPBF", "EBM"),
+                      "EOS Titanium Ti64, data sheet (M 290, 30 um)"),
+        SolidMaterial("AlSi10Mg", 2.67, 70_000, 0.33, 240, _METAL,
+                      "EOS Aluminium AlSi10Mg, data sheet (upright)"),
+        SolidMaterial("316L", 7.97, 185_000, 0.30, 480, _METAL,
+                      "EOS StainlessSteel 316L-4441, process data sheet (M 290, 20 um, upright)"),
+        SolidMaterial("IN718", 8.15, 160_000, 0.29, 634, _METAL,
+                      "EOS NickelAlloy IN718, data sheet (M 290, upright)"),
+        SolidMaterial("PA12", 0.93, 1_650, 0.40, 48, _POWDER, "EOS PA 2200, data sheet"),
+        SolidMaterial("PA11", 0.99, 1_600, 0.40, 48, _POWDER, "EOS PA 1101, data sheet"),
+        SolidMaterial("PLA", 1.24, 2_350, 0.36, 49, ("FFF",), "Ultimaker PLA, data sheet"),
+        SolidMaterial("PETG", 1.27, 2_100, 0.38, 47, ("FFF",),
+                      "Prusament PETG, technical data sheet; modulus: the VOLFREP paper's sample"),
+        SolidMaterial("ABS", 1.10, 1_680, 0.39, 39, ("FFF",), "Ultimaker ABS, data sheet"),
+        SolidMaterial("Resin", 1.17, 2_800, 0.40, 65, ("SLA",),
+                      "Formlabs Clear Resin V4 after curing, technical data sheet"),
+    )
+}  # fmt: skip
+_FIELDS = {"name", "density", "young", "poisson", "yield_stress", "processes", "source"}
+
+
+def find_material(text: str) -> SolidMaterial:
+    """The material that a text names.
+
+    Args:
+        text: a name of the table (case does not matter); the path of a .toml or .json file with
+            ``name``, ``density``, ``young``, ``poisson`` and, if known, ``yield_stress``; or
+            ``NAME,E,NU`` in MPa, with a density of 1 g/cm3 until one is given.
+
+    Raises:
+        VolfrepError: there is no such material, or its figures make no sense.
+    """
+    wanted = text.strip()
+    known = MATERIALS.get(wanted.lower())
+    if known is not None:
+        return known
+    if wanted.lower().endswith((".json", ".toml")):
+        return load_material(Path(wanted))
+    parts = wanted.split(",")
+    if len(parts) == 3:
+        try:
+            young, poisson = float(parts[1]), float(parts[2])
+        except ValueError:
+            pass
+        else:
+            listed = MATERIALS.get(parts[0].strip().lower())
+            density = 1.0 if listed is None else listed.density
+            return SolidMaterial(parts[0].strip(), density, young, poisson)
+    names = ", ".join(material.name for material in MATERIALS.values())
+    raise VolfrepError(
+        f"There is no material '{text}': choose one of {names}, give the path of a .toml or .json "
+        "file, or a name and two numbers such as PETG,2100,0.38."
+    )
+
+
+def load_material(path: Path) -> SolidMaterial:
+    """A material from a TOML or JSON file.
+
+    Raises:
+        VolfrepError: naming the file and what is wrong in it.
+    """
+    try:
+        data = path.read_bytes()[: MAX_FILE_BYTES + 1]
+    except OSError as error:
+        raise VolfrepError(
+            f"Cannot read the material file '{path}': {error.strerror or error}."
+        ) from error
+    if len(data) > MAX_FILE_BYTES:
+        raise VolfrepError(f"The material file '{path}' is too large to be one.")
+    try:
+        values = _parsed(data.decode("utf-8"), path)
+    except (ValueError, RecursionError) as error:
+        kind = path.suffix.lstrip(".").upper()
+        raise VolfrepError(f"The material file '{path}' is not valid {kind}: {error}.") from error
+    if not isinstance(values, dict):
+        raise VolfrepError(f"The material file '{path}' must hold names and values.")
+    unknown, missing = values.keys() - _FIELDS, {"density", "young", "poisson"} - values.keys()
+    if unknown or missing:
+        what = f"has no '{min(missing)}'" if missing else f"has an unknown entry '{min(unknown)}'"
+        raise VolfrepError(
+            f"The material file '{path}' {what}: give density (g/cm3), young (MPa), poisson and, "
+            "if known, name, yield_stress (MPa), processes and source."
+        )
+    try:
+        numbers = {k: float(values[k]) for k in ("density", "young", "poisson")}
+        limit = values.get("yield_stress")
+        return SolidMaterial(
+            name=str(values.get("name", re.sub(r"[^-\w]", "_", path.stem))),
+            yield_stress=None if limit is None else float(limit),
+            processes=tuple(str(name) for name in values.get("processes", ())),
+            source=str(values.get("source", path.name)),
+            **numbers,
+        )
+    except (TypeError, ValueError) as error:
+        if isinstance(error, VolfrepError):
+            raise VolfrepError(f"In the material file '{path}': {error}") from error
+        raise VolfrepError(
+            f"In the material file '{path}', density, young, poisson and yield_stress must be "
+            "numbers, processes a list of names."
+        ) from error
+
+
+def _parsed(text: str, path: Path) -> object:
+    if path.suffix.lower() == ".json":
+        return json.loads(text)
+    try:
+        import tomllib
+    except ModuleNotFoundError as error:
+        raise VolfrepError(
+            f"Cannot read '{path}': TOML needs Python 3.11 or later; give the material as JSON."
+        ) from error
+    return tomllib.loads(text)

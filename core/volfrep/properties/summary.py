@@ -1,0 +1,228 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""All that a cell's lattice does, for people and for programs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..design.cells import UnitCell, find_cell
+from ..design.spec import MIN_RESOLUTION, LatticeSpec
+from ..util.errors import VolfrepError
+from ..util.types import Floats
+from .conductance import conductance
+from .density import radius_of_density, relative_density
+from .homogenise import Homogenised, homogenise
+from .materials import SolidMaterial, find_material
+from .strength import STRESSES, stresses
+from .tensor import moduli
+
+#: Poisson's ratio of the solid where no material is given.
+POISSON = 0.3
+#: The moduli of a summary, in the order they are told.
+MODULI = ("E100", "E110", "E111", "G", "bulk")
+RATIOS = ("nu", "zener")
+
+
+@dataclass(frozen=True, eq=False)
+class CellProperties:
+    """The properties of the endless lattice of a cell, each with its error.
+
+    Moduli and stresses are in units of the solid's Young's modulus and yield stress, or in MPa
+    where a material was given. Tensors are in Voigt's order (xx, yy, zz, yz, xz, xy) with
+    engineering shear strains.
+
+    Attributes:
+        cell: its name.
+        cell_size: L, mm.
+        strut_radius: r, mm.
+        fillet: mm.
+        relative_density: solid volume over the cell's.
+        material: the solid; None for one with E = 1 and nu = `POISSON`.
+        stiffness: (6, 6).
+        values: E100, E110, E111, G, bulk, nu, zener; strength: the least macroscopic stress along
+            x, y or z at which the solid yields (all but a hundredth of it stays below);
+            shear_strength: likewise in the planes of the faces; conductivity: mean, over the
+            solid's.
+        errors: by how much each may be off, by the same names, and relative_density and stiffness.
+        von_mises: the solid's stress per unit of each macroscopic stress, by its name.
+        along: voxels along L of the finest grid.
+    """
+
+    cell: str
+    cell_size: float
+    strut_radius: float
+    fillet: float
+    relative_density: float
+    material: SolidMaterial | None
+    stiffness: Floats
+    values: dict[str, float]
+    errors: dict[str, Any]
+    von_mises: dict[str, float]
+    along: int
+
+    def as_dict(self) -> dict[str, Any]:
+        """The figures as plain JSON values; the errors under ``errors``, by the same names."""
+        solid = self.material
+        return {
+            "cell": self.cell,
+            "cell_size_mm": self.cell_size,
+            "strut_radius_mm": self.strut_radius,
+            "fillet_mm": self.fillet,
+            "relative_density": self.relative_density,
+            "material": None if solid is None else solid.as_dict(),
+            "unit": "the solid's Young's modulus" if solid is None else "MPa",
+            "strength_unit": "the solid's yield stress"
+            if solid is None or solid.yield_stress is None
+            else "MPa",
+            "poisson_of_solid": POISSON if solid is None else solid.poisson,
+            "stiffness": self.stiffness.tolist(),
+            **self.values,
+            "von_mises": {
+                name: value if np.isfinite(value) else None
+                for name, value in self.von_mises.items()
+            },
+            "density_g_per_cm3": None if solid is None else self.relative_density * solid.density,
+            "voxels_along_cell": self.along,
+            "errors": {
+                name: value.tolist() if isinstance(value, np.ndarray) else value
+                for name, value in self.errors.items()
+            },
+        }
+
+    def rows(self) -> list[tuple[str, str]]:
+        """Names and values, for people."""
+        solid = self.material
+        unit = "E of the solid" if solid is None else "MPa"
+        yields = solid is not None and solid.yield_stress is not None
+        share = self.errors["relative_density"]
+        rows = [
+            ("cell", f"{self.cell}, L = {self.cell_size:g} mm, r = {self.strut_radius:.5g} mm"),
+            ("relative density", f"{100 * self.relative_density:.3f} +- {100 * share:.3f} %"),
+        ]
+        if solid is not None:
+            density = self.relative_density * solid.density
+            rows.append(("material", f"{solid.name}, {solid.source}"))
+            rows.append(("density", f"{density:.4g} g/cm3"))
+        for name in (*MODULI, *RATIOS, "strength", "shear_strength", "conductivity"):
+            value, error = self.values[name], self.errors[name]
+            text = f"{value:.4g} +- {error:.1g}"
+            if name in MODULI:
+                text += f" {unit}"
+            elif "strength" in name:
+                text += " MPa" if yields else " of the solid's yield stress"
+            elif name == "conductivity":
+                text += " of the solid's"
+            rows.append((name.replace("_", " "), text))
+        return rows
+
+
+def cell_properties(
+    cell: str | UnitCell,
+    cell_size: float,
+    strut_radius: float | None = None,
+    *,
+    relative_density: float | None = None,
+    fillet: float = 0.0,
+    material: str | SolidMaterial | None = None,
+    along: int | None = None,
+) -> CellProperties:
+    """What the endless lattice of a cell does.
+
+    Args:
+        cell: a library cell's name, the path of a cell's file, or the cell.
+        cell_size: L, mm.
+        strut_radius: r, mm; or give `relative_density`.
+        relative_density: in place of the radius, which is then found.
+        fillet: radius of the round between struts, mm.
+        material: the solid, by name, file or itself; None: figures in units of the solid's.
+        along: voxels along L of the finest of three grids; None for what the radius asks for.
+
+    Raises:
+        VolfrepError: a value makes no sense, or the cell carries no load.
+    """
+    unit_cell = cell if isinstance(cell, UnitCell) else find_cell(cell)
+    if (strut_radius is None) == (relative_density is None):
+        raise VolfrepError("Give either a strut radius or a relative density.")
+    solid = find_material(material) if isinstance(material, str) else material
+    if strut_radius is None:
+        _check(unit_cell, cell_size, cell_size * 1e-3, fillet)
+        assert relative_density is not None
+        radius = radius_of_density(unit_cell, float(relative_density), fillet / cell_size)
+        strut_radius = radius * cell_size
+    _check(unit_cell, cell_size, strut_radius, fillet)
+    return _summary(unit_cell, float(cell_size), float(strut_radius), float(fillet), solid, along)
+
+
+def _check(cell: UnitCell, size: float, radius: float, fillet: float) -> None:
+    """Refuse what no lattice can be made of; the number of facets does not matter here."""
+    LatticeSpec(cell, size, radius, fillet=fillet, resolution=MIN_RESOLUTION)
+
+
+def _summary(
+    cell: UnitCell,
+    size: float,
+    radius: float,
+    fillet: float,
+    solid: SolidMaterial | None,
+    along: int | None,
+) -> CellProperties:
+    poisson = POISSON if solid is None else solid.poisson
+    young = 1.0 if solid is None else solid.young
+    limit = 1.0 if solid is None or solid.yield_stress is None else solid.yield_stress
+    density = relative_density(cell, radius / size, fillet / size)
+    found = homogenise(
+        cell, radius / size, fillet / size, poisson=poisson, along=along, density=density.value
+    )
+    names = (*MODULI, *RATIOS)
+
+    def figures(tensor: Floats) -> Floats:
+        figure = moduli(tensor)
+        return np.array([getattr(figure, name) for name in names])
+
+    scale = np.where([name in MODULI for name in names], young, 1.0)
+    values = dict(zip(names, (scale * figures(found.tensor)).tolist(), strict=True))
+    errors: dict[str, Any] = dict(
+        zip(names, (scale * found.error_of(figures)).tolist(), strict=True)
+    )
+    for name, (value, error) in _limits(found, poisson).items():
+        values[name], errors[name] = limit * value, limit * error
+    values["conductivity"], errors["conductivity"] = _conducted(found)
+    errors["relative_density"] = density.error
+    errors["stiffness"] = young * found.error_of(lambda tensor: tensor)
+    stressed = stresses(found.finest, poisson)
+    return CellProperties(
+        cell.name,
+        size,
+        radius,
+        fillet,
+        density.value,
+        solid,
+        young * found.tensor,
+        values,
+        errors,
+        dict(zip(stressed.names, stressed.largest.tolist(), strict=True)),
+        found.along[-1],
+    )
+
+
+def _limits(found: Homogenised, poisson: float) -> dict[str, tuple[float, float]]:
+    """Strength and shear strength, over the solid's yield stress, and their errors."""
+    fine, coarse = (stresses(grid, poisson) for grid in (found.finest, found.coarser))
+    pull = [name in STRESSES[:3] for name in fine.names]
+    result = {}
+    for name, which in (("strength", np.array(pull)), ("shear_strength", ~np.array(pull))):
+        best, before = (1.0 / part.largest[which].max() for part in (fine, coarse))
+        result[name] = (float(best), float(abs(best - before) + 5e-3 * best))
+    return result
+
+
+def _conducted(found: Homogenised) -> tuple[float, float]:
+    """The mean conductivity over the solid's and its error."""
+    fine, coarse = (np.trace(conductance(grid)) / 3.0 for grid in (found.finest, found.coarser))
+    (coarser, finer) = found.along[1:]
+    # Two grids tell the first-order limit.
+    best = fine - (coarse - fine) / (finer / coarser - 1.0) / 2.0
+    return float(best), float(abs(fine - coarse) / 2.0 + 1e-3 * best)

@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What an elastic tensor says: moduli in any direction, averages, lines to compare it with.
+
+Tensors are (6, 6) stiffnesses in Voigt's order (xx, yy, zz, yz, xz, xy) with engineering shear
+strains; directions are unit vectors along the cell's edges x, y, z.
+"""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..util.types import Floats
+
+_VOIGT = ((0, 0), (1, 1), (2, 2), (1, 2), (0, 2), (0, 1))
+#: Stiffness of what carries nothing, over the mean.
+_NOTHING = 1e-9
+#: Row in Voigt's order of each pair of axes.
+_ROW = np.array([[0, 5, 4], [5, 1, 3], [4, 3, 2]])
+
+
+@dataclass(frozen=True)
+class Moduli:
+    """The usual figures of a tensor, in its units where they have any.
+
+    Attributes:
+        E100, E110, E111: Young's modulus along [100], [110] and [111].
+        G: shear modulus in the planes of the cell's faces, mean of the three.
+        nu: Poisson's ratio under a pull along an edge, mean of the six.
+        bulk: modulus of volume change under equal strains.
+        zener: 2 C44 / (C11 - C12) of the mean diagonal entries; 1 for an isotropic tensor.
+    """
+
+    E100: float
+    E110: float
+    E111: float
+    G: float
+    nu: float
+    bulk: float
+    zener: float
+
+
+def compliance(tensor: Floats) -> Floats:
+    """(6, 6) compliance; very large instead of infinite where a lattice carries nothing."""
+    least = _NOTHING * np.trace(tensor) / 6.0
+    result: Floats = np.linalg.inv(tensor + least * np.eye(6))
+    return result
+
+
+def young(tensor: Floats, directions: Floats) -> Floats:
+    """(n,) Young's modulus along (n, 3) directions, of any length."""
+    unit = np.asarray(directions, float)
+    unit = unit / np.linalg.norm(unit, axis=-1, keepdims=True)
+    x, y, z = np.moveaxis(unit, -1, 0)
+    # Engineering shear strains: a unit pull has stress n n, without factors.
+    pull = np.stack([x * x, y * y, z * z, y * z, x * z, x * y], axis=-1)
+    result: Floats = 1.0 / np.einsum("...i,ij,...j->...", pull, compliance(tensor), pull)
+    return result
+
+
+def moduli(tensor: Floats) -> Moduli:
+    """The usual figures of a tensor; of one that is not cubic the means over x, y and z.
+
+    `E100`, `E110` and `E111` are along [100], [110] and [111] themselves.
+    """
+    soft = compliance(tensor)
+    along = young(tensor, np.array([[1, 0, 0], [1, 1, 0], [1, 1, 1]], float))
+    ratios = [-soft[i, j] / soft[j, j] for i, j in itertools.permutations(range(3), 2)]
+    direct = np.trace(tensor[:3, :3]) / 3.0
+    across = (tensor[:3, :3].sum() / 3.0 - direct) / 2.0
+    return Moduli(
+        E100=float(along[0]),
+        E110=float(along[1]),
+        E111=float(along[2]),
+        G=float(np.mean(1.0 / np.diag(soft)[3:])),
+        nu=float(np.mean(ratios)),
+        bulk=float(tensor[:3, :3].sum() / 9.0),
+        zener=float(2.0 * np.trace(tensor[3:, 3:]) / 3.0 / (direct - across)),
+    )
+
+
+def rotated(tensor: Floats, rotation: Floats) -> Floats:
+    """The tensor of the same lattice turned by a (3, 3) rotation matrix."""
+    full = tensor[_ROW[:, :, None, None], _ROW[None, None]]
+    turned = np.einsum("ai,bj,ck,dl,ijkl->abcd", *[rotation] * 4, full, optimize=True)
+    rows, columns = np.array(_VOIGT).T
+    result: Floats = turned[rows[:, None], columns[:, None], rows, columns]
+    return result
+
+
+def cubic(c11: float, c12: float, c44: float) -> Floats:
+    """(6, 6) stiffness of a cubic lattice."""
+    tensor = np.diag([c11 - c12] * 3 + [c44] * 3).astype(float)
+    tensor[:3, :3] += c12
+    return tensor
+
+
+def hashin_shtrikman(density: Floats, poisson: float = 0.3) -> tuple[Floats, Floats]:
+    """Upper bounds of E and G of isotropic porous bodies, for a solid with E = 1.
+
+    Hashin & Shtrikman, J. Mech. Phys. Solids 11 (1963) 127, with voids as the second phase.
+    """
+    density = np.asarray(density, float)
+    solid_bulk = 1.0 / (3.0 * (1.0 - 2.0 * poisson))
+    solid_shear = 1.0 / (2.0 * (1.0 + poisson))
+    void = 1.0 - density
+    shares = 3.0 * density / (3.0 * solid_bulk + 4.0 * solid_shear)
+    bulk = solid_bulk + void / (-1.0 / solid_bulk + shares)
+    factor = 6.0 * (solid_bulk + 2.0 * solid_shear) * density
+    factor = factor / (5.0 * solid_shear * (3.0 * solid_bulk + 4.0 * solid_shear))
+    shear = solid_shear + void / (-1.0 / solid_shear + factor)
+    return 9.0 * bulk * shear / (3.0 * bulk + shear), shear
+
+
+def gibson_ashby(density: Floats) -> tuple[Floats, Floats, Floats]:
+    """E, G (of the solid's E) and plastic strength (of its yield stress) of open-cell foams.
+
+    Gibson & Ashby, Cellular Solids (1997): density squared, 3/8 of that, 0.3 density^1.5.
+    """
+    density = np.asarray(density, float)
+    return density**2, 0.375 * density**2, 0.3 * density**1.5

@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The shipped catalogue: it is what the engine computes, and its fits run through it."""
+
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import plates
+from volfrep import VolfrepError
+from volfrep.design.cells import LIBRARY, make_cell
+from volfrep.fem.beam_mesh import fitted_beams
+from volfrep.jobs.blocks import block_wireframe
+from volfrep.properties import catalogue as shipped
+from volfrep.properties.catalogue import NAMES, SECTIONS, catalogue, joint_law, known_cell
+from volfrep.properties.density import relative_density
+from volfrep.properties.frame import Ends, frame_tensor
+from volfrep.properties.homogenise import homogenise
+from volfrep.properties.joint_fit import LONGEST_END, periodic_frame
+from volfrep.properties.tensor import moduli
+
+needs = [
+    pytest.mark.skipif(shutil.which(name) is None, reason=f"{name} is not installed")
+    for name in ("ccx", "gmsh")
+]
+
+
+def test_every_cell_of_the_library_is_there():
+    assert list(catalogue()) == list(LIBRARY)
+    for cell in catalogue().values():
+        assert (np.diff(cell.ratios) > 0).all()
+        assert (np.diff(cell.values[:, 0]) > 0).all()
+        assert (cell.errors > 0).all()
+        # Stiffness is good to a few percent everywhere.
+        assert (cell.errors[:, [1, 3]] < 0.06 * cell.values[:, [1, 3]]).all()
+
+
+@pytest.mark.parametrize(("name", "row"), [("Box", 5), ("CVC", 6), ("Octahedron", 5)])
+def test_points_computed_again_are_those_shipped(name, row):
+    known = catalogue()[name]
+    ratio = float(known.ratios[row])
+    found = homogenise(LIBRARY[name], ratio).tensor
+    values = dict(zip(NAMES, known.values[row], strict=True))
+    errors = dict(zip(NAMES, known.errors[row], strict=True))
+    density = relative_density(LIBRARY[name], ratio)
+    assert abs(density.value - values["relative_density"]) <= density.error
+    for key, place in (("C11", (0, 0)), ("C12", (0, 1)), ("C44", (3, 3))):
+        assert abs(found[place] - values[key]) <= errors[key]
+
+
+@pytest.mark.parametrize("name", ["Octet", "CVC"])
+def test_fits_run_through_the_points_and_between_them(name):
+    known = catalogue()[name]
+    for row, ratio in enumerate(known.ratios.tolist()):
+        found = known.at(ratio)
+        assert [found[key] for key in NAMES] == pytest.approx(known.values[row].tolist(), rel=1e-6)
+    left = shipped.CatalogueCell(
+        name, np.delete(known.ratios, 4), np.delete(known.values, 4, axis=0),
+        np.delete(known.errors, 4, axis=0), known.ends, known.misfit,
+    )  # fmt: skip
+    ratio = float(known.ratios[4])
+    again, whole = moduli(left.tensor(ratio)), moduli(known.tensor(ratio))
+    stiffness = again.E100, again.G
+    assert stiffness == pytest.approx((whole.E100, whole.G), rel=0.02)
+
+
+def test_the_ratio_of_a_density():
+    known = catalogue()["Octet"]
+    ratio = known.ratio_of_density(0.2)
+    assert relative_density(LIBRARY["Octet"], ratio).value == pytest.approx(0.2, rel=2e-3)
+    with pytest.raises(VolfrepError, match="knows Octet at relative densities"):
+        known.ratio_of_density(0.99)
+    with pytest.raises(VolfrepError, match="knows Octet from r / L"):
+        known.tensor(0.5)
+
+
+@pytest.mark.parametrize("name", list(LIBRARY))
+def test_the_shipped_ends_give_frames_the_moduli_of_the_solid(name):
+    """Up to r / L = 0.1; round ones cannot be wider at their ends and meet G less well."""
+    known = catalogue()[name]
+    for row in np.flatnonzero((known.ratios >= 0.04) & (known.ratios <= 0.1)):
+        ratio = float(known.ratios[row])
+        wanted = moduli(known.tensor(ratio))
+        for key, section in SECTIONS.items():
+            ends = Ends(*known.ends[key][row])
+            found = moduli(
+                frame_tensor(
+                    periodic_frame(LIBRARY[name]), ratio, ends, section=section,
+                    longest=LONGEST_END,
+                )
+            )  # fmt: skip
+            along, shear = found.E100, found.G
+            assert along == pytest.approx(wanted.E100, rel=0.02 if key == "square" else 0.05)
+            assert shear == pytest.approx(wanted.G, rel=0.09 if key == "square" else 0.25)
+
+
+def test_only_the_librarys_own_cells_are_known():
+    octet = LIBRARY["Octet"]
+    assert known_cell(octet) is catalogue()["Octet"]
+    assert known_cell(make_cell("Octet", octet.nodes, octet.struts[:-1])) is None
+    profile = joint_law(octet, 10.0, "square")
+    assert profile(1.0) == catalogue()["Octet"].joint(0.1, "square")
+    assert profile(0.01) == profile(0.1)
+
+
+def test_an_own_cell_is_fitted_when_it_is_first_used(monkeypatch):
+    cell = make_cell("Mine", LIBRARY["CVC"].nodes, LIBRARY["CVC"].struts)
+    count = []
+    exact = shipped.homogenise
+
+    def coarse(*arguments, **named):
+        count.append(arguments[1])
+        return exact(*arguments, along=32, **named)
+
+    monkeypatch.setattr(shipped, "homogenise", coarse)
+    monkeypatch.setattr(shipped, "_FITTED", {})
+    profile = joint_law(cell, 10.0)
+    first = profile(1.0)
+    assert len(count) == 2
+    assert profile(1.0) == first
+    assert len(count) == 2
+    assert first.bending > 1.0
+
+
+def test_a_cell_that_carries_nothing_has_rigid_ends_and_says_so():
+    lonely = make_cell("L", [[0.3, 0.5, 0.5], [0.7, 0.5, 0.5]], [[0, 1]])
+    frame = block_wireframe(plates.spec_of(lonely, 0.1), (2, 2, 2))
+    model, said = fitted_beams(frame, None, lonely, plates.SIZE)
+    assert "carries no load" in said[0]
+    assert model.ends[0].axial == 1000.0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("ratio", [0.05, 0.1, 0.15])
+@pytest.mark.parametrize("name", list(LIBRARY))
+class TestBlocksBetweenPlates:
+    pytestmark = needs
+
+    def test_beams_with_fitted_ends_are_as_stiff_as_the_solid(self, name, ratio, tmp_path: Path):
+        solid, _ = plates.solid_force(name, ratio, tmp_path)
+        profile = joint_law(LIBRARY[name], plates.SIZE, "square")
+        beams = plates.beam_force(plates.beams_of(name, ratio, joint_law=profile), tmp_path)
+        assert beams == pytest.approx(solid, rel=plates.WITHIN.get((name, ratio), 0.05))

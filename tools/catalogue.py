@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""`make catalogue`: the cells' properties anew, with the charts and tables of docs/cells.md.
+
+    python tools/catalogue.py [--charts]
+
+With --charts what is shipped stays, and only pictures and tables are made again. matplotlib comes
+with FreeCAD.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import numpy as np
+from matplotlib import pyplot as plt
+from matplotlib.colors import Normalize
+
+from volfrep.properties import catalogue as shipped
+from volfrep.properties.materials import MATERIALS
+from volfrep.properties.tensor import gibson_ashby, hashin_shtrikman, moduli, young
+
+ROOT = Path(__file__).resolve().parent.parent
+IMAGES = ROOT / "docs" / "images"
+PAGE = ROOT / "docs" / "cells.md"
+COLOURS = ("#0b5cad", "#d95f02", "#1b9e77", "#7570b3", "#e7298a", "#a6761d")
+#: Relative densities of the table, and that of the surfaces.
+DENSITIES = (0.05, 0.1, 0.2, 0.3)
+OF_SURFACES = 0.1
+
+
+def charts() -> None:
+    """E, G and strength over relative density, beside the usual lines."""
+    figure, axes = plt.subplots(1, 3, figsize=(15, 5.6), layout="constrained")
+    density = np.geomspace(0.01, 0.75, 100)
+    bounds, foam = hashin_shtrikman(density), gibson_ashby(density)
+    titles = ("E along an edge [100] / E of the solid", "G / E of the solid",
+              "strength along an edge / yield stress of the solid")  # fmt: skip
+    for (name, cell), colour in zip(shipped.catalogue().items(), COLOURS, strict=True):
+        found = [cell.at(ratio) for ratio in np.geomspace(cell.ratios[0], cell.ratios[-1], 60)]
+        tensors = [
+            cell.tensor(ratio) for ratio in np.geomspace(cell.ratios[0], cell.ratios[-1], 60)
+        ]
+        across = [values["relative_density"] for values in found]
+        figures = [moduli(tensor) for tensor in tensors]
+        columns = (
+            [f.E100 for f in figures],
+            [f.G for f in figures],
+            [v["strength"] for v in found],
+        )
+        known = [moduli(cell.tensor(ratio)) for ratio in cell.ratios]
+        dots = ([f.E100 for f in known], [f.G for f in known], cell.values[:, 4])
+        for plot, column, dot in zip(axes, columns, dots, strict=True):
+            plot.loglog(across, column, "-", color=colour, label=name, linewidth=1.8)
+            plot.loglog(cell.values[:, 0], dot, "o", color=colour, markersize=3.5)
+    for plot, line in zip(axes[:2], bounds, strict=True):
+        plot.loglog(density, line, "k-", linewidth=1, label="Hashin-Shtrikman, upper bound")
+    for plot, line in zip(axes, foam, strict=True):
+        plot.loglog(density, line, "k--", linewidth=1, label="Gibson-Ashby, open foam")
+    for plot, title in zip(axes, titles, strict=True):
+        plot.set_title(title, fontsize=11)
+        plot.set_xlabel("relative density")
+        plot.grid(which="both", linewidth=0.3)
+        plot.set_ylim(bottom=2e-5)
+    axes[0].legend(fontsize=8.5, loc="lower right")
+    figure.savefig(IMAGES / "cells_stiffness.png", dpi=90)
+    plt.close(figure)
+
+
+def surfaces() -> None:
+    """E in every direction, a body for each cell, at one relative density."""
+    polar, around = np.meshgrid(np.linspace(0, np.pi, 91), np.linspace(0, 2 * np.pi, 181))
+    ways = np.stack(
+        [np.sin(polar) * np.cos(around), np.sin(polar) * np.sin(around), np.cos(polar)], axis=-1
+    )
+    figure = plt.figure(figsize=(13, 8.6), layout="constrained")
+    for place, (name, cell) in enumerate(shipped.catalogue().items(), 1):
+        tensor = cell.tensor(cell.ratio_of_density(OF_SURFACES))
+        along = young(tensor, ways)
+        plot = figure.add_subplot(2, 3, place, projection="3d")
+        x, y, z = np.moveaxis(ways * (along / along.max())[..., None], -1, 0)
+        colours = plt.cm.viridis(Normalize(0, along.max())(along))
+        plot.plot_surface(x, y, z, facecolors=colours, rcount=91, ccount=181, linewidth=0,
+                          antialiased=False, shade=True)  # fmt: skip
+        found = moduli(tensor)
+        plot.set_title(
+            f"{name}: {along.min():.2g} to {along.max():.2g}, Zener {found.zener:.2g}", fontsize=12
+        )
+        plot.set_box_aspect((1, 1, 1))
+        plot.set(xlim=(-1, 1), ylim=(-1, 1), zlim=(-1, 1), xticks=[], yticks=[], zticks=[])
+        plot.set_xlabel("[100]", labelpad=-10)
+        plot.set_ylabel("[010]", labelpad=-10)
+        plot.set_zlabel("[001]", labelpad=-10)
+    figure.savefig(IMAGES / "cells_directions.png", dpi=80)
+    plt.close(figure)
+
+
+def properties_table() -> str:
+    """The cells at a few relative densities, as Markdown."""
+    lines = [
+        "| cell | relative density | r / L | E [100] | E [110] | E [111] | G | nu | Zener | "
+        "strength | conductivity |",
+        "|---|---|---|---|---|---|---|---|---|---|---|",
+    ]
+    for name, cell in shipped.catalogue().items():
+        for density in DENSITIES:
+            if density > cell.values[-1, 0]:
+                continue
+            ratio = cell.ratio_of_density(density)
+            found, values = moduli(cell.tensor(ratio)), cell.at(ratio)
+            lines.append(
+                f"| {name} | {density:g} | {ratio:.4f} | {found.E100:.3g} | {found.E110:.3g} | "
+                f"{found.E111:.3g} | {found.G:.3g} | {found.nu:.3f} | {found.zener:.3g} | "
+                f"{values['strength']:.3g} | {values['conductivity']:.3g} |"
+            )
+    return "\n".join(lines)
+
+
+def materials_table() -> str:
+    """The materials, as Markdown."""
+    lines = [
+        "| material | density, g/cm3 | E, MPa | nu | yield, MPa | processes | from |",
+        "|---|---|---|---|---|---|---|",
+    ]
+    lines += [
+        f"| {m.name} | {m.density:g} | {m.young:,.0f} | {m.poisson:g} | {m.yield_stress:g} | "
+        f"{', '.join(m.processes)} | {m.source} |"
+        for m in MATERIALS.values()
+    ]
+    return "\n".join(lines)
+
+
+def write_tables() -> None:
+    """Put the tables between their marks in docs/cells.md."""
+    text = PAGE.read_text(encoding="utf-8")
+    for mark, table in (("properties", properties_table()), ("materials", materials_table())):
+        before, _, rest = text.partition(f"<!-- {mark}: made by make catalogue -->\n")
+        after = rest.partition(f"<!-- end of {mark} -->")[2]
+        marked = f"<!-- {mark}: made by make catalogue -->\n{table}\n<!-- end of {mark} -->"
+        text = before + marked + after
+    PAGE.write_text(text, encoding="utf-8")
+
+
+def main() -> None:
+    """Compute, draw, write."""
+    if "--charts" not in sys.argv[1:]:
+        shipped.main([])
+        shipped.catalogue.cache_clear()
+    charts()
+    surfaces()
+    write_tables()
+
+
+if __name__ == "__main__":
+    main()

@@ -19,9 +19,9 @@ import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.colors import Normalize
 
-from volfrep.properties import catalogue as shipped
-from volfrep.properties.materials import MATERIALS
-from volfrep.properties.tensor import gibson_ashby, hashin_shtrikman, moduli, young
+from volfrep.mechanics import catalogue as shipped
+from volfrep.mechanics.materials import MATERIALS
+from volfrep.mechanics.tensor import gibson_ashby, hashin_shtrikman, moduli, young
 
 ROOT = Path(__file__).resolve().parent.parent
 IMAGES = ROOT / "docs" / "images"

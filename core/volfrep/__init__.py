@@ -16,8 +16,8 @@ if TYPE_CHECKING:
     from .design.spec import LatticeSpec
     from .io.solid import read_solid
     from .jobs.blocks import write_block_stl
+    from .mechanics.summary import CellProperties
     from .mesh.triangle_mesh import TriangleMesh
-    from .properties.summary import CellProperties
     from .reports.report import Report
     from .reports.result import Result
     from .util.cache import StageCache
@@ -25,12 +25,14 @@ if TYPE_CHECKING:
 
 __version__ = "0.1.0"
 
+#: Where each name is, and what it is called there if that is another name.
 _HOMES = {
     "Cancelled": "util.errors",
     "VolfrepError": "util.errors",
     "TriangleMesh": "mesh.triangle_mesh",
     "Result": "reports.result",
-    "CellProperties": "properties.summary",
+    "CellProperties": "mechanics.summary",
+    "properties": "mechanics.summary:cell_properties",
     "StageCache": "util.cache",
     "Part": "api",
     "block": "api",
@@ -64,8 +66,7 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
-    if name == "properties":  # a package that can be called
-        return import_module(".properties", __name__)
     if name not in _HOMES:
         raise AttributeError(f"module 'volfrep' has no attribute '{name}'")
-    return getattr(import_module(f".{_HOMES[name]}", __name__), name)
+    module, _, own = _HOMES[name].partition(":")
+    return getattr(import_module(f".{module}", __name__), own or name)

@@ -47,7 +47,7 @@ def apply(options: argparse.Namespace, out: Path) -> tuple[str, ...]:
     """
     options.solid = None
     if options.material is not None:
-        from ..properties.materials import find_material
+        from ..mechanics.materials import find_material
 
         options.solid = find_material(options.material)
         if "," in options.material:

@@ -42,7 +42,7 @@ def add_command(add: Callable[[str, Callable[[argparse.Namespace], None], str], 
 
 
 def _properties(options: argparse.Namespace) -> None:
-    from ..properties.summary import cell_properties
+    from ..mechanics.summary import cell_properties
     from ..util.files import replacing
 
     check_files(options)

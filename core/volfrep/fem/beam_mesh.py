@@ -15,7 +15,7 @@ import numpy as np
 
 from ..design.cells import UnitCell
 from ..grid.strut_graph import Wireframe
-from ..properties.frame import Ends, JointLaw
+from ..mechanics.frame import Ends, JointLaw
 from ..util.errors import VolfrepError
 from ..util.ragged import spread
 from ..util.types import Bools, Floats, Ints
@@ -166,7 +166,7 @@ def fitted_beams(
         The beams, and sentences for the user: where the cell by itself carries no load there is
         nothing to fit to, and the ends are rigid.
     """
-    from ..properties.catalogue import joint_law
+    from ..mechanics.catalogue import joint_law
 
     profile = joint_law(cell, cell_size, section)
     try:

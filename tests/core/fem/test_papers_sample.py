@@ -22,7 +22,7 @@ from volfrep.fem.tet_mesh import TetrahedralMesh, tetrahedra
 from volfrep.io.freecad_process import write_exact_step
 from volfrep.io.write.calculix import write_beams, write_tetrahedra
 from volfrep.jobs.blocks import block, block_wireframe
-from volfrep.properties.catalogue import joint_law
+from volfrep.mechanics.catalogue import joint_law
 from volfrep.util.errors import VolfrepError
 
 COUNT, FORCE = (3, 2, 1), (200.0, 0.0, 0.0)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ...fem.beam_mesh import BeamModel
 from ...fem.model import Material, StaticStep
 from ...fem.tet_mesh import TetrahedralMesh
-from ...properties.frame import Ends
+from ...mechanics.frame import Ends
 from ...util.files import replacing
 from ...util.types import Floats, Ints
 from .step import rows

@@ -7,9 +7,9 @@ import pytest
 import exact
 from volfrep import VolfrepError
 from volfrep.design.cells import LIBRARY, make_cell
+from volfrep.mechanics.density import radius_of_density, relative_density
+from volfrep.mechanics.endless import all_primitives, endless_cell
 from volfrep.octants import sdf as frep
-from volfrep.properties.density import radius_of_density, relative_density
-from volfrep.properties.endless import all_primitives, endless_cell
 
 
 @pytest.mark.parametrize("name", exact.DENSITY)

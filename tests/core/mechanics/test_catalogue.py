@@ -12,13 +12,13 @@ from volfrep import VolfrepError
 from volfrep.design.cells import LIBRARY, make_cell
 from volfrep.fem.beam_mesh import fitted_beams
 from volfrep.jobs.blocks import block_wireframe
-from volfrep.properties import catalogue as shipped
-from volfrep.properties.catalogue import NAMES, SECTIONS, catalogue, joint_law, known_cell
-from volfrep.properties.density import relative_density
-from volfrep.properties.frame import Ends, frame_tensor
-from volfrep.properties.homogenise import homogenise
-from volfrep.properties.joint_fit import LONGEST_END, periodic_frame
-from volfrep.properties.tensor import moduli
+from volfrep.mechanics import catalogue as shipped
+from volfrep.mechanics.catalogue import NAMES, SECTIONS, catalogue, joint_law, known_cell
+from volfrep.mechanics.density import relative_density
+from volfrep.mechanics.frame import Ends, frame_tensor
+from volfrep.mechanics.homogenise import homogenise
+from volfrep.mechanics.joint_fit import LONGEST_END, periodic_frame
+from volfrep.mechanics.tensor import moduli
 
 needs = [
     pytest.mark.skipif(shutil.which(name) is None, reason=f"{name} is not installed")

@@ -9,9 +9,9 @@ import pytest
 
 from volfrep import VolfrepError
 from volfrep.design.cells import LIBRARY
-from volfrep.properties.frame import CIRCLE, SQUARE_SECTION, Ends, PeriodicFrame, frame_tensor
-from volfrep.properties.joint_fit import fit_joint, periodic_frame
-from volfrep.properties.tensor import cubic, gibson_ashby, hashin_shtrikman, moduli, rotated, young
+from volfrep.mechanics.frame import CIRCLE, SQUARE_SECTION, Ends, PeriodicFrame, frame_tensor
+from volfrep.mechanics.joint_fit import fit_joint, periodic_frame
+from volfrep.mechanics.tensor import cubic, gibson_ashby, hashin_shtrikman, moduli, rotated, young
 
 CATALOGUE = json.loads(Path(__file__).with_name("anisotropic_lattices.json").read_text())[
     "lattices"

@@ -9,7 +9,7 @@ import pytest
 
 import command
 from volfrep import VolfrepError
-from volfrep.properties.materials import MATERIALS, SolidMaterial, find_material
+from volfrep.mechanics.materials import MATERIALS, SolidMaterial, find_material
 from volfrep.reports.printability import PROCESSES
 
 LATTICE = ["--cell", "CVC", "--cell-size", "10", "--strut-radius", "1", "--resolution", "8"]

@@ -11,17 +11,17 @@ import pytest
 import command
 import volfrep
 from volfrep.design.cells import LIBRARY, make_cell
-from volfrep.properties.assembly import nodes_of
-from volfrep.properties.conductance import conductance
-from volfrep.properties.density import radius_of_density
-from volfrep.properties.elements import hexahedron, solid_stiffness
-from volfrep.properties.endless import endless_cell
-from volfrep.properties.frame import frame_tensor
-from volfrep.properties.homogenise import grid_sizes, homogenise, is_cubic, solve_grid
-from volfrep.properties.joint_fit import periodic_frame
-from volfrep.properties.strength import stresses
-from volfrep.properties.tensor import moduli
-from volfrep.properties.voxels import voxels_of
+from volfrep.mechanics.assembly import nodes_of
+from volfrep.mechanics.conductance import conductance
+from volfrep.mechanics.density import radius_of_density
+from volfrep.mechanics.elements import hexahedron, solid_stiffness
+from volfrep.mechanics.endless import endless_cell
+from volfrep.mechanics.frame import frame_tensor
+from volfrep.mechanics.homogenise import grid_sizes, homogenise, is_cubic, solve_grid
+from volfrep.mechanics.joint_fit import periodic_frame
+from volfrep.mechanics.strength import stresses
+from volfrep.mechanics.tensor import moduli
+from volfrep.mechanics.voxels import voxels_of
 
 #: Octet, solid elements, nu = 0.3: the fits of Watts et al., Struct. Multidisc. Optim. 60 (2019)
 #: 1887 (LLNL MultiscaleTopOpt, MIT licence): relative density, E, nu, G. They are cubic in the

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The library's cells over r / L, computed beforehand and shipped, and what lies between.
 
-`python -m volfrep.properties.catalogue` computes it anew (`make catalogue` draws the charts too).
+`python -m volfrep.mechanics.catalogue` computes it anew (`make catalogue` draws the charts too).
 """
 
 from __future__ import annotations
@@ -271,7 +271,7 @@ def main(arguments: list[str]) -> None:
     cells = {**(catalogue() if FILE.exists() else {}), **computed}
     data: dict[str, Any] = {
         "about": "Endless lattices of round struts with joint spheres, no fillet; moduli over the "
-        "solid's E, strengths over its yield stress; made by volfrep.properties.catalogue.",
+        "solid's E, strengths over its yield stress; made by volfrep.mechanics.catalogue.",
         "poisson": POISSON,
         "names": NAMES,
         "cells": {

@@ -21,7 +21,7 @@ from .quantities import density_of
 from .solver_files import axes_of
 
 if TYPE_CHECKING:
-    from volfrep.fem.model import Material
+    from volfrep.mechanics.materials import Material
 
 MODELS = ("beams", "tetrahedra")
 #: Three-noded elements along a strut between its stiff ends: with fewer CalculiX's are too stiff.
@@ -65,7 +65,7 @@ def make_fem_analysis(
     if model not in MODELS:
         raise VolfrepError(f"There is no model '{model}': choose {' or '.join(MODELS)}.")
     inputs_of(obj)
-    from volfrep.fem.model import Material
+    from volfrep.mechanics.materials import Material
 
     material = material or Material(density=density_of(obj))
     return (_beams if model == "beams" else _tetrahedra)(doc, obj, material)

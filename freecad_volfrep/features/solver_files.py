@@ -143,8 +143,8 @@ def _write_axes(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
 
 def _write_beams(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
     from volfrep.fem.beam_mesh import fitted_beams
-    from volfrep.fem.model import Material
     from volfrep.io.write.calculix import write_beams
+    from volfrep.mechanics.materials import Material
     from volfrep.reports.estimate import estimate_beams
     from volfrep.trim.beam_model import deformed_struts
 
@@ -159,9 +159,9 @@ def _write_beams(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
 def _write_tetrahedra(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
     from freecad_volfrep.bridge.beams import place_in_document
     from freecad_volfrep.bridge.solids import mesh_in_document, placed
-    from volfrep.fem.model import Material
     from volfrep.fem.tet_mesh import nodes_on, tetrahedra
     from volfrep.io.write.calculix import write_tetrahedra
+    from volfrep.mechanics.materials import Material
     from volfrep.util.progress import Monitor
 
     solid = placed(inputs_of(obj)[0], place_in_document(obj))

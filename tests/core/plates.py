@@ -13,10 +13,10 @@ import numpy as np
 
 from volfrep import LatticeSpec, VolfrepError, block
 from volfrep.fem.beam_mesh import BeamModel, beam_model
-from volfrep.fem.model import Material
 from volfrep.fem.tet_mesh import TetrahedralMesh, tetrahedra
 from volfrep.io.write.calculix import sides, write_beams, write_tetrahedra
 from volfrep.jobs.blocks import block_wireframe
+from volfrep.mechanics.materials import Material
 from volfrep.mesh.booleans import as_manifold, as_mesh
 from volfrep.mesh.triangle_mesh import TriangleMesh
 

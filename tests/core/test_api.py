@@ -62,7 +62,7 @@ def test_parameters_go_on_top_of_a_specification() -> None:
     spec = LatticeSpec("Box", 10, 1, shell=0)
     cube = volfrep.block((1, 1, 1), spec, strut_radius=2)
     assert cube.spec.strut_radius == 2
-    assert cube.spec.cell == "Box"
+    assert cube.spec.unit_cell().name == "Box"
 
 
 def test_a_misspelt_parameter_is_told_with_the_nearest_one() -> None:

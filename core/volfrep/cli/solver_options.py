@@ -20,9 +20,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..design.spec import LatticeSpec
-    from ..fem.model import Material
     from ..grid.strut_graph import Wireframe
     from ..jobs.infill import Infill
+    from ..mechanics.materials import Material
     from ..reports.estimate import Asked, Estimate
     from ..reports.result import Result
     from ..util.progress import ProgressCallback
@@ -267,7 +267,7 @@ def _announce(estimate: Estimate, options: argparse.Namespace) -> None:
 
 
 def _material_of(options: argparse.Namespace) -> Material:
-    from ..fem.model import Material
+    from ..mechanics.materials import Material
 
     if options.solid is not None:
         solver: Material = options.solid.for_solver(options.density)

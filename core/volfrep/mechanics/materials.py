@@ -15,11 +15,34 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from ..fem.model import Material
 from ..util.errors import VolfrepError
 
 MAX_FILE_BYTES = 100_000
 _NAME = re.compile(r"[A-Za-z0-9][-\w]{0,70}", re.ASCII)
+
+
+@dataclass(frozen=True)
+class Material:
+    """A linear elastic material; the default is PETG.
+
+    Attributes:
+        name: as it appears in the deck; at most 80 letters, digits, ``-`` and ``_``.
+        young: Young's modulus, MPa.
+        poisson: Poisson's ratio.
+        density: g/cm3.
+    """
+
+    name: str = "PETG"
+    young: float = 2100.0
+    poisson: float = 0.38
+    density: float = 1.27
+
+    def __post_init__(self) -> None:
+        if not (self.young > 0 and -1 < self.poisson < 0.5 and self.density > 0):
+            raise VolfrepError(
+                f"The material '{self.name}' must have a modulus and a density above 0 and a "
+                "Poisson's ratio between -1 and 0.5."
+            )
 
 
 @dataclass(frozen=True)

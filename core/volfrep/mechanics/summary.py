@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..design.cells import UnitCell, find_cell
-from ..design.spec import MIN_RESOLUTION, LatticeSpec
+from ..design.spec_parts import Grid, Struts
 from ..util.errors import VolfrepError
 from ..util.types import Floats
 from .conductance import conductance
@@ -148,17 +148,17 @@ def cell_properties(
         raise VolfrepError("Give either a strut radius or a relative density.")
     solid = find_material(material) if isinstance(material, str) else material
     if strut_radius is None:
-        _check(unit_cell, cell_size, cell_size * 1e-3, fillet)
+        _check(cell_size, cell_size * 1e-3, fillet)
         assert relative_density is not None
         radius = radius_of_density(unit_cell, float(relative_density), fillet / cell_size)
         strut_radius = radius * cell_size
-    _check(unit_cell, cell_size, strut_radius, fillet)
+    _check(cell_size, strut_radius, fillet)
     return _summary(unit_cell, float(cell_size), float(strut_radius), float(fillet), solid, along)
 
 
-def _check(cell: UnitCell, size: float, radius: float, fillet: float) -> None:
+def _check(size: float, radius: float, fillet: float) -> None:
     """Refuse what no lattice can be made of; the number of facets does not matter here."""
-    LatticeSpec(cell, size, radius, fillet=fillet, resolution=MIN_RESOLUTION)
+    Struts(radius, fillet).refuse_too_thick(Grid(size).size)
 
 
 def _summary(

@@ -9,7 +9,8 @@ import numpy as np
 
 from ..io.repair.overlaps import CLEAN
 from ..io.write.stl import as_read
-from ..mesh.quality import Quality, ShapeStatistics, measure, pinched_vertices, shape_statistics
+from ..mesh.pinches import pinched_vertices
+from ..mesh.quality import Quality, ShapeStatistics, measure, shape_statistics
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.winding import windings
 from ..util.errors import VolfrepError

@@ -14,7 +14,7 @@ import samples
 from volfrep.fem.calculix import solve
 from volfrep.io.write.stl import write_stl
 
-LATTICE = ["--cell", "CVC", "--cell-size", "10", "--strut-radius", "1", "--resolution", "8"]
+LATTICE = ["--cell", "CVC", "--cell-size", "10", "--strut-radius", "1", "--resolution", "10"]
 needs_freecad = pytest.mark.skipif(
     shutil.which("freecadcmd") is None, reason="FreeCAD is not installed"
 )

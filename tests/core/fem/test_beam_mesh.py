@@ -10,10 +10,11 @@ import pytest
 from volfrep import LatticeSpec
 from volfrep.fem.beam_mesh import JOINT_LENGTH, beam_model
 from volfrep.fem.calculix import solve
-from volfrep.fem.model import Material, StaticStep
+from volfrep.fem.model import StaticStep
 from volfrep.grid.strut_graph import Wireframe
 from volfrep.io.write.calculix import sides, write_beams
 from volfrep.jobs.blocks import block
+from volfrep.mechanics.materials import Material
 from volfrep.util.errors import VolfrepError
 
 needs_calculix = pytest.mark.skipif(

@@ -10,11 +10,12 @@ import pytest
 import samples
 from volfrep import LatticeSpec
 from volfrep.fem.calculix import solve
-from volfrep.fem.model import Material, StaticStep
+from volfrep.fem.model import StaticStep
 from volfrep.fem.tet_mesh import MAX_TRIANGLES, nodes_on, tetrahedra
 from volfrep.io.write.calculix import sides, write_tetrahedra
 from volfrep.jobs.blocks import block
 from volfrep.jobs.pipeline import fill
+from volfrep.mechanics.materials import Material
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
 from volfrep.util.errors import Cancelled, VolfrepError
 from volfrep.util.progress import Monitor

@@ -10,9 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...fem.beam_mesh import BeamModel
-from ...fem.model import Material, StaticStep
+from ...fem.model import StaticStep
 from ...fem.tet_mesh import TetrahedralMesh
 from ...mechanics.frame import Ends
+from ...mechanics.materials import Material
 from ...util.files import replacing
 from ...util.types import Floats, Ints
 from .step import rows

@@ -160,6 +160,7 @@ def _add_output(parser: argparse.ArgumentParser) -> None:
         help="what to write: .stl, .3mf, .ply, .obj, .step or .inp",
     )
     add("--report", metavar="FILE.json", help="write the figures of the run as JSON")
+    add("--picture", metavar="FILE.png", help="write a picture, cut open (needs pyvista)")
     add("--quiet", action="store_true", help="print nothing but errors")
     material.add_options(parser)
     printing_options.add_options(parser)
@@ -200,6 +201,7 @@ def _fill(options: argparse.Namespace) -> None:
             domain = infill.cavity
         write = solver_options.writer(options, spec, infill, progress)
         _finish(result, options, {"read": read_seconds}, beams, domain, write)
+        _picture(result, options, spec, solid)
 
 
 def _block(options: argparse.Namespace) -> None:
@@ -235,11 +237,26 @@ def _block(options: argparse.Namespace) -> None:
             result = printing_options.compacted(result, options, progress)
         write = solver_options.writer(options, spec, None, progress)
         _finish(result, options, {}, beams, write=write)
+        _picture(result, options, spec)
+
+
+def _picture(
+    result: Result,
+    options: argparse.Namespace,
+    spec: LatticeSpec,
+    solid: TriangleMesh | None = None,
+) -> None:
+    """Write the picture that was asked for."""
+    if options.picture is not None:
+        from ..reports.picture import picture
+
+        picture(result.mesh, spec, options.picture, solid=solid)
 
 
 def _writes_stl(options: argparse.Namespace) -> bool:
     """Whether nothing but an STL file of the mesh as it is was asked for."""
-    plain = options.compact is None and options.print_report is None
+    more = (options.compact, options.print_report, options.picture)
+    plain = all(option is None for option in more)
     return plain and Path(options.output).suffix.lower() == ".stl"
 
 

@@ -20,6 +20,7 @@ INPUTS = {
 OUTPUTS = {
     "output": "output",
     "report": "report",
+    "picture": "picture",
     "write_spec": "written specification",
     "json": "figures",
 }

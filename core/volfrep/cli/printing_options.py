@@ -63,6 +63,14 @@ def check(options: argparse.Namespace, out: Path) -> None:
         )
     if options.threemf == "beams" and options.compact is not None:
         raise VolfrepError("Beams have no triangles for --compact to reduce: leave it out.")
+    if options.picture is not None:
+        from ..reports.picture import check_picture
+
+        check_picture(options.picture)
+        if options.threemf == "beams" or options.step == "wireframe" or options.inp == "beams":
+            raise VolfrepError(
+                "A picture is made of the mesh, which beams do without: leave it out."
+            )
     if options.threemf == "beams" and (options.report or options.print_report):
         raise VolfrepError(
             "A report is made of the mesh, which --3mf beams does without: use both."

@@ -7,7 +7,6 @@ pyvista draws; it is an optional package (``pip install volfrep[plot]``).
 from __future__ import annotations
 
 import os
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -61,8 +60,8 @@ def picture(
         VolfrepError: pyvista is missing, the name does not end in .png, or it cannot be written.
     """
     library = _library()
-    if file is not None and Path(check_writable(file)).suffix.lower() != ".png":
-        raise VolfrepError(f"Cannot write '{file}': a picture's name ends in .png.")
+    if file is not None:
+        check_picture(file)
     stage = library.Plotter(off_screen=file is not None, window_size=list(size), lighting="none")
     stage.set_background("white")
     for place, intensity in LIGHTS:
@@ -93,6 +92,17 @@ def picture(
 
     with replacing(file) as target:
         Image.fromarray(image).save(target, format="PNG", optimize=True)
+
+
+def check_picture(file: str | os.PathLike[str]) -> None:
+    """Refuse, before any work, a picture that could not be made.
+
+    Raises:
+        VolfrepError: pyvista is missing, the name does not end in .png, or it cannot be written.
+    """
+    _library()
+    if check_writable(file).suffix.lower() != ".png":
+        raise VolfrepError(f"Cannot write '{file}': a picture's name ends in .png.")
 
 
 def _library() -> Any:

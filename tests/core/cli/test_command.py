@@ -232,6 +232,7 @@ def test_no_output_is_an_input(
     arguments = [command, *([part, "--shell", 2] if command == "fill" else ["--count", "1,1,1"])]
     arguments += ["-o", outputs["output"], "--report", outputs["report"], "--cell", files["cell"]]
     arguments += ["--write-spec", outputs["write_spec"], "--spec", files["spec"]]
+    arguments += ["--picture", outputs["picture"]]
     arguments += ["--material", files["material"], "--strut-radius", 1, "--radius-grading", "field"]
     arguments += ["--radius-field", files["radius_field"], "--radius-curve", "1:1,2:0.8"]
     said = refused(capsys, *arguments)

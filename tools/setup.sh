@@ -23,7 +23,7 @@ refuse() { printf 'setup: %s\n' "$*" >&2; exit 1; }
 
 inputs() {
   printf '%s\n' "$root" "$with_tools"
-  cat tools/setup.sh tools/requirements-dev.txt pyproject.toml
+  cat tools/setup.sh tools/requirements-dev.txt tools/requirements-plot.txt pyproject.toml
 }
 fingerprint=$(inputs | sha256sum)
 stamp=.venv/setup-stamp
@@ -87,6 +87,15 @@ say "Python packages"
 .venv/bin/python -m pip install --quiet --disable-pip-version-check \
   -c .cache/constraints.txt -r tools/requirements-dev.txt -e . ||
   refuse "pip could not install the Python packages: see above."
+
+if [ "$with_tools" = yes ] && ! cmp -s tools/requirements-plot.txt .cache/plot/requirements.txt; then
+  say "pyvista, apart from what FreeCAD sees"
+  rm -rf .cache/plot
+  .venv/bin/python -m pip install --quiet --disable-pip-version-check --no-deps \
+    --target .cache/plot -r tools/requirements-plot.txt ||
+    refuse "pip could not install pyvista: see above."
+  cp tools/requirements-plot.txt .cache/plot/requirements.txt
+fi
 
 site=$(.venv/bin/python -c 'import sysconfig; print(sysconfig.get_paths()["purelib"])')
 # One profile for freecadcmd and one for the windows, which run side by side.

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from hypothesis import settings
 
-sys.path.append(str(Path(__file__).resolve().parents[2] / ".cache" / "plot"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / ".cache" / "plot"))
 
 settings.register_profile("fixed", derandomize=True, database=None, deadline=None)
 settings.register_profile("random", deadline=None, print_blob=True, max_examples=300)

@@ -50,6 +50,8 @@ FORMATS = (
     Format("3MF, beams only", ".3mf", "beams"),
     Format("PLY", ".ply"),
     Format("OBJ", ".obj"),
+    Format("OFF", ".off"),
+    Format("GLB, for viewers", ".glb"),
     Format("STEP, plane faces", ".step"),
     Format("STEP, exact surfaces", ".step", "exact"),
     Format("STEP, axes of the struts", ".step", "wireframe"),

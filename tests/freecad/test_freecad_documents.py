@@ -113,14 +113,19 @@ def test_properties_with_other_names_keep_their_values(earlier):
 
 
 def test_the_same_lattice_is_computed_again(earlier):
+    """Where fewer facets were asked for than struts need, they had lost some of their volume."""
     for label, obj in earlier.items():
         obj.touch()
         obj.Document.recompute()
         assert obj.isValid(), obj.getStatusString()
         facets, volume = WRITTEN[label]
         # The same to the last bit where it was written; elsewhere numpy rounds otherwise.
-        assert obj.Mesh.CountFacets == pytest.approx(facets, rel=0.01)
-        assert obj.Volume.Value == pytest.approx(volume, rel=1e-3)
+        asked_for = not any("too coarse" in warning for warning in obj.Warnings)
+        if asked_for:
+            assert obj.Mesh.CountFacets == pytest.approx(facets, rel=0.01)
+        else:
+            assert obj.Mesh.CountFacets > facets
+        assert obj.Volume.Value == pytest.approx(volume, rel=1e-3 if asked_for else 3e-2)
 
 
 def test_the_same_specification_is_asked_for(earlier):

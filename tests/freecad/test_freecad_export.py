@@ -137,7 +137,8 @@ def test_the_formats_on_offer(doc, box, infill):
     copy = doc.addObject("Mesh::Feature", "Copy")
     assert [form.filter for form in formats_of(copy)] == [
         "STL (*.stl)", "STL, fewer triangles (*.stl)", "3MF (*.3mf)",
-        "3MF, fewer triangles (*.3mf)", "PLY (*.ply)", "OBJ (*.obj)", "STEP, plane faces (*.step)",
+        "3MF, fewer triangles (*.3mf)", "PLY (*.ply)", "OBJ (*.obj)", "OFF (*.off)",
+        "GLB, for viewers (*.glb)", "STEP, plane faces (*.step)",
     ]  # fmt: skip
     offered = formats_of(infill)
     assert {form.content for form in offered} == {

@@ -1165,8 +1165,16 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>CalculiX, Tetraeder</translation>
     </message>
     <message>
+      <source>GLB, for viewers</source>
+      <translation>GLB, für Betrachter</translation>
+    </message>
+    <message>
       <source>OBJ</source>
       <translation>OBJ</translation>
+    </message>
+    <message>
+      <source>OFF</source>
+      <translation>OFF</translation>
     </message>
     <message>
       <source>PLY</source>
@@ -1836,10 +1844,6 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>Schneidet das Teil am Bildschirm auf, entlang einer verschiebbaren Ebene; noch einmal zeigt es ganz</translation>
     </message>
     <message>
-      <source>Lattice</source>
-      <translation>Gitter</translation>
-    </message>
-    <message>
       <source>Look for a file</source>
       <translation>Datei suchen</translation>
     </message>
@@ -1858,10 +1862,6 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
     <message>
       <source>Section</source>
       <translation>Schnitt</translation>
-    </message>
-    <message>
-      <source>Strut radius</source>
-      <translation>Strebenradius</translation>
     </message>
   </context>
   <context>

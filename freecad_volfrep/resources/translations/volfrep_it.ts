@@ -1165,8 +1165,16 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>CalculiX, tetraedri</translation>
     </message>
     <message>
+      <source>GLB, for viewers</source>
+      <translation>GLB, per i visualizzatori</translation>
+    </message>
+    <message>
       <source>OBJ</source>
       <translation>OBJ</translation>
+    </message>
+    <message>
+      <source>OFF</source>
+      <translation>OFF</translation>
     </message>
     <message>
       <source>PLY</source>
@@ -1836,10 +1844,6 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>Apre il pezzo sullo schermo lungo un piano che si può spostare; ancora una volta lo mostra intero</translation>
     </message>
     <message>
-      <source>Lattice</source>
-      <translation>Reticolo</translation>
-    </message>
-    <message>
       <source>Look for a file</source>
       <translation>Cerca un file</translation>
     </message>
@@ -1858,10 +1862,6 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
     <message>
       <source>Section</source>
       <translation>Sezione</translation>
-    </message>
-    <message>
-      <source>Strut radius</source>
-      <translation>Raggio delle aste</translation>
     </message>
   </context>
   <context>

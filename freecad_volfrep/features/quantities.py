@@ -23,9 +23,16 @@ NAMES = {"Density": "App::PropertyDensity", "Mass": "App::PropertyMass"}
 DENSEST = 100.0
 
 
+#: Asked once: to answer, FreeCAD makes a property of each type, FEM meshes among them, of which
+#: it bears some ten thousand.
+_supported: set[str] = set()
+
+
 def supported(obj: App.DocumentObject, type_name: str) -> bool:
     """Whether this FreeCAD has a type of property."""
-    return type_name in obj.supportedProperties()
+    if not _supported:
+        _supported.update(obj.supportedProperties())
+    return type_name in _supported
 
 
 def set_value(obj: App.DocumentObject, name: str, value: Any) -> None:

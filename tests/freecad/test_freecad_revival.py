@@ -178,7 +178,7 @@ def test_a_result_that_was_spoiled_while_open_does_not_stop_it(doc, infill):
     assert infill.Volume.Value == pytest.approx(infill.Mesh.Volume, rel=1e-4)
 
 
-@pytest.mark.parametrize("name", ["StrutRadius", "CellType", "RotationAngle"])
+@pytest.mark.parametrize("name", ["StrutRadius", "CellType", "MapAround"])
 def test_an_input_of_a_wrong_type_is_one_sentence(doc, infill, tmp_path, opened, name):
     before = infill.Mesh.CountFacets
     kind = infill.getTypeIdOfProperty(name)

@@ -268,16 +268,16 @@ def large_ones_look_the_same(obj):
 def a_graded_part(doc, obj):
     """Struts that thicken along the part; then one without a skin."""
     obj.RadiusGrading = "Direction"
-    obj.RadiusMin, obj.RadiusMax = 0.5, 1.8
+    obj.RadiusStart, obj.RadiusEnd = 0.5, 1.8
     doc.recompute()
     check("graded", obj.isValid(), obj.getStatusString())
     look_at_all()
     looks_good("look_9_graded")
     does_not_depend_on_order(obj, "look_9_graded")
-    obj.Output = "lattice"
+    obj.Output = "Lattice"
     doc.recompute()
     looks_good("look_9_lattice", with_skin=False)
-    obj.Output = "part"
+    obj.Output = "Part"
     doc.recompute()
 
 

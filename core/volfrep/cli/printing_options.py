@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The command's options for the printer, and what it prints.
 
-numpy and the engine are imported inside the functions, as in `cli`.
+numpy and the engine are imported inside the functions, as in `command`.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The command's files for CAD and for a solver: STEP in three forms, decks for CalculiX.
 
-numpy and the engine are imported inside the functions, as in `cli`.
+numpy and the engine are imported inside the functions, as in `command`.
 """
 
 from __future__ import annotations

@@ -25,8 +25,8 @@ LEAST_INSIDE = 0.05
 LONGEST_EDGE = 0.85
 #: Triangles that the cut leaves on each area of a facet's edge squared of the wall.
 WALL_TRIANGLES = 1.1
-#: Seconds of every job; for each thickness squared of the wall; for each triangle of a part and of
-#: a block.
+#: Fixed cost, s; cost per (wall area / thickness squared), s; per triangle of a part, s; and of a
+#: block, s.
 SECONDS = 0.5
 SECONDS_PER_WALL = 2.5e-4
 SECONDS_PER_TRIANGLE = 4.5e-6

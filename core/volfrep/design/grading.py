@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What a user may ask of a lattice that is not the same everywhere, and what follows from it."""
+"""Grading: sizes and radii that vary over the part, cells about an axis or a centre, rotation."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What a job would take, and the refusal of one that does not fit into memory."""
+"""Memory guard: what a job would take, and the refusal of one that does not fit."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""How a graded quantity goes from one end of the part to the other (section 2.5 of the paper)."""
+"""Grading profiles: a quantity from one end of the part to the other (section 2.5 of the paper)."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A quantity known at scattered points (a stress, a temperature) and the radius it asks for."""
+"""Scattered-data interpolation of a stress or temperature, and its transfer curve to a radius."""
 
 from __future__ import annotations
 
@@ -33,9 +33,10 @@ class PointField:
     """A scalar field interpolated between scattered points; equal to others of the same content.
 
     The value at a place is the mean of its 8 nearest points weighted by the inverse square of
-    their distance (Shepard's interpolation), faded so that a point has no say any more when it
-    becomes the ninth (Franke and Little's weights): the field is continuous, equals the data at
-    the points, and never leaves their range. Among 8 points or fewer all have their say.
+    their distance (D. Shepard, "A two-dimensional interpolation function for irregularly-spaced
+    data", 1968), faded so that a point has no say any more when it becomes the ninth (Franke and
+    Little's weights: R. Franke, Math. Comp. 38, 1982): the field is continuous, equals the data
+    at the points, and never leaves their range. Among 8 points or fewer all have their say.
 
     Attributes:
         points: (n, 3) float64, mm; where several coincide there is one, with their mean value.

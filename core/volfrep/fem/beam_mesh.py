@@ -3,8 +3,8 @@
 
 Bare beams from node to node are far too soft, because struts of ordinary thickness overlap at
 their joints. So the ends of each strut are stiffened. How far and how much depends on the cell and
-the radius, and is fitted to the cell's homogenised stiffness (`properties.joint_fit`); without a
-fit they are rigid over a part of the radius.
+the radius, and is fitted to the cell's homogenised stiffness (`volfrep.mechanics.joint_fit`);
+without a fit they are rigid over a part of the radius.
 """
 
 from __future__ import annotations

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The grid of cells over a domain, and which of its cells hold a lattice."""
+"""The grid of cells over a domain, and its active cells: those that hold a lattice."""
 
 from __future__ import annotations
 
@@ -242,8 +242,9 @@ def _crossed_around(
 def _overlap_unit_box(corners: Floats) -> NDArray[np.bool_]:
     """Whether each triangle (n, 3, 3) overlaps the open box from -1 to 1.
 
-    Separating axes: the triangle's plane and the cross products of its edges with the box's; the
-    box's own axes were tested when the pair was chosen.
+    Separating axes (T. Akenine-Möller, "Fast 3D triangle-box overlap testing", J. Graphics Tools 6,
+    2001): the triangle's plane and the cross products of its edges with the box's; the box's own
+    axes were tested when the pair was chosen.
     """
     edges = np.roll(corners, -1, axis=1) - corners
     normal = np.cross(edges[:, 0], edges[:, 1])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A lattice as joints: each node with the nearer halves of its struts, equal ones told once.
+"""Congruent joints: each node with the nearer halves of its struts, equal ones told once.
 
 Struts overlap near their joints only. Cut in the middle of every strut, a lattice falls into
 joints that touch in circles, and a block of any size has few kinds of them: what is costly, such

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""From lattice space, where all cells are equal cubes, to the part and back.
+"""Coordinate maps: from lattice space, where all cells are equal cubes, to the part and back.
 
 One map serves the cells' activation, the wireframe and the vertices, so that what is counted, drawn
 and meshed agrees. It is a base (turned Cartesian, cylindrical or spherical cells) followed by the

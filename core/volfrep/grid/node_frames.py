@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The nodes of a lattice as they are to be: where they lie and how thick their struts are."""
+"""Target positions, radii and frames of the nodes of a graded lattice."""
 
 from __future__ import annotations
 

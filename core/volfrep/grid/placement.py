@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Where a lattice lies in its part: its map, box and nudge, and the radii of its nodes."""
+"""Placement of the lattice in the part: coordinate map, box, depth function, nudge.
+
+And what follows from it: the nodes' places in the part, and their radii.
+"""
 
 from __future__ import annotations
 

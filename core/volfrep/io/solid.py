@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Reading a solid from a file, and making sure that it is one.
 
-The formats and the repairs lie in `reading`; here is the order in which they are tried. A repair
-is made where it can mean one thing only, and is told. Whatever was done, the result is proved: it
-is closed, two triangles share each edge and run along it in opposite directions, and lines
-through it find the same volume inside, nearly all of it enclosed once.
+The formats lie in `read`, the repairs in `repair`; here is the order in which they are tried. A
+repair is made where it can mean one thing only, and is told. Whatever was done, the result is
+proved: it is closed, two triangles share each edge and run along it in opposite directions, and
+lines through it find the same volume inside, nearly all of it enclosed once.
 """
 
 from __future__ import annotations
@@ -73,8 +73,8 @@ def read_solid(path: str | os.PathLike[str], unit: str | None = None) -> Solid:
 
     Args:
         path: the file; STEP, IGES and BREP need FreeCAD on the PATH.
-        unit: of its lengths, a name in `reading.units.UNITS`; None for what the file says, and
-            mm where it says nothing.
+        unit: of its lengths, a name in `volfrep.io.read.units.UNITS`; None for what the file says,
+            and mm where it says nothing.
 
     Returns:
         The checked solid in mm, as `check_solid` returns it.

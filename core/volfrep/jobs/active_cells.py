@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Which cells of a part hold a lattice, and where their octants lie with respect to its wall."""
+"""Activation of cells in a part, and their octants sorted: inside, across or outside its wall."""
 
 from __future__ import annotations
 

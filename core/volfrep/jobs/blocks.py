@@ -162,7 +162,7 @@ def block_wireframe(spec: LatticeSpec, count: Sequence[int]) -> Wireframe:
 
 
 def _block_placement(spec: LatticeSpec, count: Sequence[int]) -> tuple[CellGrid, Placement]:
-    """The grid and the setting of a free-standing block, with its counts checked."""
+    """The grid and the placement of a free-standing block, with its counts checked."""
     shape = tuple(int(n) for n in count)
     if len(shape) != 3 or min(shape) < 1 or any(n != m for n, m in zip(shape, count, strict=True)):
         raise VolfrepError(f"The count must be three whole numbers above 0, not {list(count)}.")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Finer facets where those that were asked for cannot be kept apart."""
+"""Retry of the octants' meshing: finer facets where those asked for cannot be kept apart."""
 
 from __future__ import annotations
 

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The stages from a solid to a part: each is computed when it is asked for, and kept."""
+"""The stages from a solid to a part, lazily: domain, active cells, struts, lattice, part, beams.
+
+Each is computed when it is asked for, and kept.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Octants that are not worth laying: too many for the memory, or without a surface."""
+"""Refusals before octants are assembled: too many for the memory, or without a surface."""
 
 from __future__ import annotations
 

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""From a solid and a specification to what it asks for, in one call."""
+"""Run the whole job in one call: offset, activate, mesh, trim, join.
+
+The stages are those of `volfrep.jobs.infill.Infill`, which computes any of them alone.
+"""
 
 from __future__ import annotations
 

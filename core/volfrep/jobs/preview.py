@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The lattice as lines, at once: what a user sees while values change, before anything is meshed.
+"""Wireframe preview: struts clipped to the domain, and its density, before anything is meshed.
 
 The skin's inner wall is not looked for: a point lies in the lattice's domain where its depth
 below the part's surface is more than the skin. Depths come from `SurfaceIndex.near`, struts are

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Laying meshed octants side by side into one welded surface.
+"""Assembly: meshed octants instanced side by side into one welded surface.
 
 Vertices are numbered on the complex of octants: those inside an octant, those on each face and
 those on each edge between octants are counted once, and an octant finds the numbers of its own
@@ -32,8 +32,8 @@ class Layout:
         grid: which octant lies where.
         octants: their meshes.
         places: per key of the grid, (k, 3) where it lies.
-        base: number of the first vertex of every entity of the complex of octants, on a grid
-            twice as fine: even places are planes between octants.
+        base: first vertex number of each vertex, edge, face and cell of the octants' complex, on
+            the doubled grid: even places are planes between octants.
         count: of all vertices.
     """
 

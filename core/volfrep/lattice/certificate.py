@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What we claim about a laid lattice, proved on its octants instead of measured on its triangles.
+"""Topology certificate of an assembled lattice: proved on its octants, not its triangles.
 
 Many octants are copies of few. Every edge of the whole is shared by two triangles if that holds
 inside each kind of octant, and if wherever two kinds meet their open edges on the common face are

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The laid octants brought onto struts of any radii between nodes at any places.
+"""Deformation of assembled octants onto struts of any radii between nodes at any places.
 
 The octants of a graded lattice have the connectivity of a uniform one. Every vertex keeps its
-anchor (see `volfrep.lattice.strut_binding`) and finds its place by it on the cones and spheres
+binding (see `volfrep.lattice.strut_binding`) and finds its place by it on the cones and spheres
 that are really there: in closed form, each vertex for itself, all at once. Vertices on creases
 stay on creases. What would change the connectivity, struts that meet before their middles, is
 refused.
@@ -321,7 +321,7 @@ class _Rounding:
         return _Rounding(nodes, Field(primitives, none, none, fillet), table)
 
     def project(self, points: Floats, own: StrutBinding, rows: Ints) -> Floats:
-        """The points at the distance from the rounded surface that their anchors had."""
+        """The points at the distance from the rounded surface that they had on the template."""
         near, far = rows[:, own.near].ravel(), rows[:, own.far].ravel()
         first = len(self.nodes.graph.struts)
         beyond = np.where((far != near)[:, None], self.table[far], -1)

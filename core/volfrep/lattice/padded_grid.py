@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Where the nodes of a graded lattice lie, how thick its struts are, and its octants laid there."""
+"""Padded cell grid: a graded lattice with cells about the active ones, and its octants deformed.
+
+A lattice that a wall cuts is laid as part of one without end: at its joints, struts of cells beyond
+the active ones count, too, and the padding holds these cells.
+"""
 
 from __future__ import annotations
 

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""How the vertices of an octant hang on the struts: what stays when struts and nodes change.
+"""Strut-local coordinates of template vertices, for deforming them onto graded struts.
 
 A straight line along a strut's side, its ruling, leaves the strut's joint where it leaves the
-last of the other struts and of the joint sphere: at the crease. A vertex is anchored by its ruling,
+last of the other struts and of the joint sphere: at the crease. A vertex is bound by its ruling,
 by how far along it lies between the crease and the strut's middle, and by how far it stands off the
-strut (facets fitted to a round strut have their corners outside it). With the same anchor it has a
-place on any strut: of another radius, a cone, turned or stretched, at a joint of other angles.
+strut (facets fitted to a round strut have their corners outside it). With the same binding it has
+a place on any strut: of another radius, a cone, turned or stretched, at a joint of other angles.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ _CORNER_ENTITIES = np.array([0, 2, 6, 8, 18, 20, 24, 26])
 
 @dataclass(frozen=True, eq=False)
 class StrutBinding:
-    """Where the vertices of one kind of octant are anchored, in the octant's frame.
+    """The strut-local coordinates of the vertices of one kind of octant, in the octant's frame.
 
     Attributes:
         kind: (n,) int8, `STRUT`, `SPHERE` or `SPACE` (a corner of the octant, inside the lattice).
@@ -77,7 +77,7 @@ class StrutBinding:
 
 
 def bind(cell: UnitCell, spec: OctantSpec, key: OctantKey, octant: Octant) -> StrutBinding:
-    """Anchor the vertices of an octant that `tile.mesh_octants` made."""
+    """Bind the vertices of an octant that `octant_mesh.mesh_octants` made to its struts."""
     size, radius = spec.cell_size, spec.strut_radius
     joint = joint_radius(radius, size)
     places, ends = octant_graph(cell, key)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Which nodes and struts of the whole lattice an octant's own are, and octants that lack some."""
+"""Strut masks: which struts of the lattice an octant's own are, and octants that lack some."""
 
 from __future__ import annotations
 

@@ -4,7 +4,7 @@
 The volume of a union is the sum over its bodies of the mean of 1 / (bodies that cover a point),
 with points in each body by itself (Karp, Luby & Madras, J. Algorithms 10, 1989). Struts cover each
 other at their ends only, so most of that is exact; the rest is a smooth integral, done with
-scrambled Sobol points, several sets of which tell the error.
+Sobol' points (1967), scrambled (Matousek, J. Complexity 14, 1998): several sets tell the error.
 """
 
 from __future__ import annotations

@@ -132,7 +132,10 @@ def _bodies(mesh: TriangleMesh, shell: Ints, volumes: Floats) -> Ints:
 
 
 def winding(mesh: TriangleMesh, point: Floats, shell: Ints) -> Floats:
-    """How often each shell winds around a point (Van Oosterom and Strackee's solid angles)."""
+    """How often each shell winds around a point, by its triangles' solid angles.
+
+    A. van Oosterom and J. Strackee, IEEE Trans. Biomedical Engineering 30, 1983.
+    """
     a, b, c = (corner - point for corner in mesh.corners())
     la, lb, lc = (np.linalg.norm(side, axis=1) for side in (a, b, c))
     upper = np.einsum("ij,ij->i", a, np.cross(b, c))

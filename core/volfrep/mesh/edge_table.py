@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The edges of any triangles, closed or not."""
+"""Edge table: the edges of any triangles, closed or not, and what lies on their sides."""
 
 from __future__ import annotations
 

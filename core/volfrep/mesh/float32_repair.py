@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Removing what single precision would lose: edges as short as the steps between its numbers.
+"""Repair for single precision: collapse edges as short as the steps between its numbers.
 
 And slivers as thin: three corners almost on a line may lie on it after rounding.
 """

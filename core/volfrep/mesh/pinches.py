@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Vertices at which a surface is no manifold, though all its edges are shared by two triangles."""
+"""Non-manifold vertices of surfaces whose edges are all shared by two triangles."""
 
 from __future__ import annotations
 

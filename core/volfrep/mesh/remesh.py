@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Mesh surgery in bulk: collapse short edges, flip badly placed ones.
+"""Vectorised remeshing: collapse short edges, flip badly placed ones, split some.
 
 Every operation acts at once on a set of edges that do not touch each other's neighbourhoods, so
 that each is safe by itself (link condition, no triangle turned over) and the whole pass is a few

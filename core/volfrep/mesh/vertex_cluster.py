@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A coarse likeness of a mesh, for looking at."""
+"""Decimation by vertex clustering: a coarse likeness of a mesh, for looking at."""
 
 from __future__ import annotations
 

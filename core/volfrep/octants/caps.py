@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Flat caps: what closes the lattice where it is cut at the face of an octant."""
+"""Face caps: what closes the lattice where it is cut at the face of an octant."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A mesh over an implicit surface, and how its vertices are kept on it.
+"""Constrained mesh over an implicit surface: its vertices are projected onto it.
 
 Vertices on an octant's faces move in those faces only, and by what is on the face only, so that
 the neighbour on the other side comes to the same places.

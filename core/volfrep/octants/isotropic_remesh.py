@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""From marching cubes' surface to even triangles with their edges on the creases.
+"""Isotropic, feature-sensitive remeshing of an octant's surface, all pieces at once.
 
-Marching cubes leaves slivers and cuts the creases where struts meet. Three steps mend that, each a
-few passes over all the pieces at once:
+Marching cubes leaves slivers and cuts the creases where struts meet. Three steps make even
+triangles of its own, with edges on the creases, in a few passes each:
 
-1. even out: collapse short edges, flip, slide the vertices along the surface;
+1. even out: collapse short edges, flip, slide the vertices along the surface (tangential
+   smoothing; the scheme of Botsch and Kobbelt, A remeshing approach to multiresolution modeling,
+   2004, without splits);
 2. sharpen: where an edge crosses a crease, put its nearer end on the crease, so that edges run
    along it (the idea of Kobbelt et al., Feature sensitive surface extraction, 2001);
 3. even out again, the vertices on creases sliding along them.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Octants: the pieces that any set of cells is assembled from.
+"""Octants: the pieces that any set of cells is assembled from; their patterns and symmetry.
 
 Every corner of the cell grid has eight octants about it, boxes of edge L / 2; every cell is made
 of eight. The lattice inside an octant depends only on which of the eight cells about its corner
@@ -159,7 +159,11 @@ def sample_octant(primitives: Primitives, cell_size: float, steps: int, fillet: 
 
 
 def raw_octant(samples: Floats, cell_size: float) -> RawOctant:
-    """The surface inside an octant by marching cubes, open where it crosses the faces."""
+    """The surface inside an octant by marching cubes, open where it crosses the faces.
+
+    W. E. Lorensen and H. E. Cline, SIGGRAPH 1987, with the tables of T. Lewiner et al., J. Graphics
+    Tools 8, 2003, as scikit-image has them.
+    """
     steps = len(samples) - 1
     step = 0.5 * cell_size / steps
     empty = RawOctant(

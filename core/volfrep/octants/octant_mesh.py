@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The meshed octants that a lattice is laid from: everything costly, done once a pattern."""
+"""Octant meshing, done once a pattern: sample, contour, remesh, fit, untangle."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ INFLUENCE_EDGES = 2.0
 #: Vertices lie at whole steps of an octant's edge over this, so that octants which share a vertex
 #: can give it the very same coordinates.
 STEPS = float(1 << 26)
-#: Samples farther from the surface than so many steps say no more than on which side they are.
+#: Samples are clamped to so many steps: farther from the surface only their sign matters.
 SEEN_STEPS = 2.0
 #: Pieces are meshed together up to about this many vertices.
 BATCH_VERTICES = 150_000
@@ -46,7 +46,7 @@ class FacetsCross(VolfrepError):
 
 @dataclass(frozen=True)
 class OctantSpec:
-    """What a tile depends on, and nothing else.
+    """What the mesh of an octant depends on, and nothing else.
 
     Attributes:
         cell_size: L, mm.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The function representation of a strut-and-node lattice (section 2.3 of the VOLFREP paper).
+"""Signed distance of a strut-and-node lattice, its F-rep (section 2.3 of the VOLFREP paper).
 
 A lattice is the union of capped cylinders (Eq. 1-7) and joint spheres (Eq. 8-9), joined by min
 (Eq. 10). A strut whose radius differs at its ends is a cone. Where the paper samples squared

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Facets fitted to the exact surface, so that the volume is right.
+"""Least-squares fit of the facets to the exact surface, so that the volume is right.
 
 The facets of a mesh with its vertices on a strut cut inside it: ten round a strut lose 6 % of its
 volume. Here the vertices move to where the mean square distance of the facets to the exact surface

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Octants' facets that run through each other, and borders that do, drawn apart.
+"""Untangling: octants' facets that run through each other, and borders that do, drawn apart.
 
 Struts that meet at a small angle or leave a narrow window between them have creases nearer to each
 other than a facet is long. What evens out facets and fits them to one strut may then fold them

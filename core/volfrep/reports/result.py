@@ -66,7 +66,7 @@ def report_of(
         frame: the struts of the active cells, in the part.
         cells: the grid.
         active: (nx, ny, nz) bool, the cells that hold a lattice.
-        placement: the setting of a graded lattice.
+        placement: of the lattice in the part.
         spec: what was wanted.
         monitor: of the run.
         domain_volume: of what the lattice fills, mm3.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The surface at a depth, contoured on cubes that are halved until it is where it should be."""
+"""Adaptive dual contouring: cubes are halved until the surface at a depth is where it should be."""
 
 from __future__ import annotations
 
@@ -80,7 +80,7 @@ def find_wall(field: DepthField) -> Wall:
 
 
 def _seen_through(field: DepthField, leaves: Leaves, others: int) -> Leaves:
-    """Some of all leaves, halved until no part of the cavity is hidden that is wide enough."""
+    """Some of all leaves, halved until no cavity wider than `NARROW` thicknesses is missed."""
     room = NARROW * field.depth.thickness
     done = leaves.chosen(slice(0))
     while len(leaves.size):

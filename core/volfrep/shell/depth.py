@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""How deep points lie below the outer surface of a solid, and where its inner wall runs."""
+"""Depth: the distance of points below a solid's surface, and where the offset wall runs."""
 
 from __future__ import annotations
 

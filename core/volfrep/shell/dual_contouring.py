@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Dual contouring: a vertex in each patch where its planes meet, a polygon round each crossed edge.
 
-Ju, Losasso, Schaefer, Warren 2002, "Dual contouring of Hermite data": edges and corners come out
-sharp, not chamfered.
+Ju, Losasso, Schaefer, Warren 2002, "Dual contouring of Hermite data": the vertices minimise
+quadric error functions, so that edges and corners come out sharp, not chamfered.
 """
 
 from __future__ import annotations
@@ -99,7 +99,10 @@ class _Planes:
 
 
 def _meet(planes: _Planes, middle: Floats) -> Floats:
-    """The point nearest to each patch's middle among those that lie best on all its planes."""
+    """The minimum of each patch's quadric error function that is nearest to its middle.
+
+    Directions that the planes leave open are cut off, as in the pseudo-inverse of Ju et al. 2002.
+    """
     values, vectors = np.linalg.eigh(planes.squares())
     keep = values > WEAK * values[:, 2:]
     inverse = np.where(keep, 1.0 / np.where(keep, values, 1.0), 0.0)

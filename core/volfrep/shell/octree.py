@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Cubes of several sizes, and the patches of a surface that the signs at their corners tell.
+"""Octree leaves, and the patches of a surface that the signs at their corners tell.
 
 Everything is in whole numbers. A surface separates the negative corners from the others. It
 crosses the *minimal* edges, those that no smaller leaf subdivides; round each of them lie three or
@@ -233,7 +233,7 @@ def _leaves_round(leaves: Leaves, edges: Edges) -> Ints:
 
 
 def _interleaved(nodes: Ints) -> Ints:
-    """The bits of x, y, z in turn."""
+    """Morton codes: the bits of x, y, z in turn (G. M. Morton, 1966)."""
     result = np.zeros(len(nodes), np.int64)
     for axis in range(3):
         bits = nodes[:, axis].copy()

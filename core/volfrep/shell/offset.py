@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The inner wall of a shelled solid: the surface at a given depth below the outer one.
+"""Offset surface: the inner wall of a shelled solid, at a given depth below the outer one.
 
 It is the level set of the distance to the outer surface, so it cannot cross itself the way a
-surface of moved faces does. `field` samples the depth at the corners of cubes, `octree` tells the
-patches of surface in them, `contour` makes facets of these, `refine` halves the cubes whose facets
-stray, `simplify` takes the facets away that are not needed.
+surface of moved faces does. `sampled_depth` samples the depth at the corners of cubes, `octree`
+tells the patches of surface in them, `dual_contouring` makes facets of these, `adaptive_contour`
+halves the cubes whose facets stray, `wall_decimation` takes the facets away that are not needed.
 """
 
 from __future__ import annotations
@@ -74,9 +74,9 @@ def inner_wall(
         The boundary of the points of the solid that lie deeper than the thickness, strictly
         inside it; but beyond open triangles, which do not count for the depth, it reaches out of
         the solid (`volfrep.shell.open_depth`). The wall is within `TOLERANCE` of its thickness, as
-        long as that does not take too many cubes (`refine.MOST_EDGES`). Where the room between two
-        walls gets narrower than a tenth of the thickness the cavity may end; where facets cross
-        there, they go with a little of the room about them (`plugs`).
+        long as that does not take too many cubes (`adaptive_contour.MOST_EDGES`). Where the room
+        between two walls gets narrower than a tenth of the thickness the cavity may end; where
+        facets cross there, they go with a little of the room about them (`crossing_plugs`).
 
     Raises:
         VolfrepError: the wall is so thin that its cubes would not fit into memory.

@@ -165,7 +165,7 @@ class DepthField:
         return leaves
 
     def hide(self, leaves: Leaves, least: float) -> Bools:
-        """(n,) whether a tongue of the cavity may lie in a leaf that its corners do not tell.
+        """(n,) whether the surface may enter a leaf whose corner signs agree.
 
         Along an edge or a diagonal the planes below both ends meet at the deepest point. Where it
         lies deeper than the thickness and `least` (mm) and the ends do not, there is one.

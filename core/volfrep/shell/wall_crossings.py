@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Where meshes that differ little from each other run through themselves."""
+"""Self-intersection of the wall, looked for again only where a mesh has changed."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Fewer facets for a contoured wall, and none that run through each other."""
+"""Decimation of a contoured wall, which leaves no facets that run through each other."""
 
 from __future__ import annotations
 

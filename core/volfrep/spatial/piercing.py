@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Which triangles of a mesh run through each other, decided exactly.
+"""Exact self-intersection: which triangles of a mesh run through each other.
 
 A part's facets lie as close as a millionth of a millimetre to each other where the Boolean has cut
 needles. Rounding then decides what a test of floating-point numbers finds: FreeCAD's, in single

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Distances from points to a triangle mesh.
 
-Two ways, both vectorised: `closest_points` is exact and meant for measuring; `SurfaceIndex.near`
-is many times faster for the millions of points of a distance field, and its error has a bound.
+Two ways, both vectorised: `closest_points` descends a tree of boxes; it is exact and meant for
+measuring. `SurfaceIndex.near` is many times faster for the millions of points of a distance field,
+and its error has a bound.
 """
 
 from __future__ import annotations
@@ -73,13 +74,16 @@ def closest_points(mesh: TriangleMesh, points: Floats) -> tuple[Floats, Floats, 
 
 
 def _box_tree(corners: Floats) -> tuple[list[Floats], Ints]:
-    """Boxes (k, 2, 3) of a binary tree, root first, and the triangle of each leaf (-1: none)."""
+    """Boxes (k, 2, 3) of a binary tree, root first, and the triangle of each leaf (-1: none).
+
+    The leaves follow the Morton codes (G. M. Morton, 1966) of the triangles' middles.
+    """
     low, high = corners.min(axis=1), corners.max(axis=1)
     centre = (low + high) / 2
     span = np.maximum(np.ptp(centre, axis=0), 1e-300)
     grid = ((centre - centre.min(axis=0)) / span * 1023).astype(np.int64)
     code = np.zeros(len(grid), np.int64)
-    for bit in range(10):  # interleave the bits: neighbours in space become neighbours in order
+    for bit in range(10):  # neighbours in space become neighbours in order
         for axis in range(3):
             code |= ((grid[:, axis] >> bit) & 1) << (3 * bit + axis)
     leaves = 1 << max(int(len(code) - 1).bit_length(), 0)
@@ -127,6 +131,9 @@ def _descend(
 
 def closest_on_triangles(corners: Floats, points: Floats) -> tuple[Floats, Ints]:
     """The closest point of triangle k to point k.
+
+    By barycentric coordinates (C. Ericson, Real-Time Collision Detection, 2005, 3.4); where these
+    lie outside the triangle, or it is a sliver, the closest point of its three edges (5.1.2).
 
     Args:
         corners: (n, 3, 3) corner coordinates, by triangle and corner; slivers are allowed.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Lines through closed meshes: where they cross, and which points lie inside."""
+"""Ray casting through closed meshes: where lines cross them, and which points lie inside."""
 
 from __future__ import annotations
 
@@ -82,7 +82,8 @@ def column_crossings(
     """Where lines along z through the points (xs[i], ys[j]) cross the mesh.
 
     A line through a vertex or an edge is taken as moved by an infinitely small amount, the same
-    for every triangle, so that the crossings of a closed mesh always balance.
+    for every triangle, so that the crossings of a closed mesh always balance: simulation of
+    simplicity (H. Edelsbrunner and E. P. Mücke, ACM Trans. Graphics 9, 1990).
 
     Returns:
         i, j: indices of the column; z: height of the crossing, mm; step: +1 where a line going

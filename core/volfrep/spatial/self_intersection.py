@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Where a surface runs through itself."""
+"""Self-intersection: where a surface runs through itself, by edges against triangles in bins."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""How often a closed surface winds round places, found along straight lines through it.
+"""Winding numbers of a closed surface, found along straight lines through it.
 
 A line that crosses the surface goes in where it meets a face from outside and out where it meets
 one from inside. Counted along a line, that is the winding number of every place on it, without
@@ -24,7 +24,7 @@ PAIRS_PER_STEP = 2_000_000
 
 
 def _general_frame() -> Floats:
-    """Three perpendicular directions that no part's faces are likely to share (columns)."""
+    """Three generic, perpendicular directions (columns), parallel to no usual face."""
     axis = np.array([0.267, 0.535, 0.802])
     turned, _ = np.linalg.qr(np.stack([axis, [0.83, -0.41, 0.11], [0.2, 0.7, -0.6]], axis=1))
     return np.asarray(turned[:, [1, 2, 0]], np.float64)

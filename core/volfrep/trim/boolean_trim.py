@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Trimming the lattice to its domain and joining it to the skin.
+"""The Boolean that trims the lattice to its domain and joins it to the skin.
 
 part = outer - (inner - lattice). The cavity (inner - lattice) lies strictly inside the part, so
 that the outer minus adds a reversed surface and intersects nothing. Only octants that the wall

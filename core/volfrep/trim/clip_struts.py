@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The struts' axes cut where they leave the domain: what beams, not meshes, need of a trimming."""
+"""Clipping of the struts' axes at the domain's wall: what beams, not meshes, are trimmed by."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What may leave the engine: a solid that every file holds as it is, and figures that are its own.
 
-Octants are proved not to run through themselves when they are meshed (`tile.mesh_octants`), and
+Octants are proved not to run through themselves when they are meshed (`octant_mesh`), and
 the Boolean hands out what does not; `tidied` looks at what it changes after that, and `finished`
 sends lines through what was moved since.
 """

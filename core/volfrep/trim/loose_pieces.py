@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What is left of a mesh when pieces that hang on nothing and specks are taken away."""
+"""Removal of loose pieces and specks: shells of a mesh that hang on nothing."""
 
 from __future__ import annotations
 

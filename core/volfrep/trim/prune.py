@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Struts with a free end: which of a lattice's struts carry nothing and are to be taken away.
+"""Pruning of dangling struts: those with a free end carry nothing and are to be taken away.
 
 It is told on the struts' axes, before anything is meshed. A strut that the wall cuts ends there:
 a skin holds that end, without a skin it is free. So is the end of a strut at a node without other

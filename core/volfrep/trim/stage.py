@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""From active cells to the lattice in its part: octants chosen, laid, cut, cleared."""
+"""The trimming stage: octants culled, assembled, cut at the wall, cleared of loose pieces."""
 
 from __future__ import annotations
 

@@ -11,7 +11,7 @@ import pytest
 
 ENGINE = Path(__file__).resolve().parents[2] / "core"
 WITH_EXAMPLES = sorted(
-    ".".join(path.relative_to(ENGINE).with_suffix("").parts)
+    ".".join(path.relative_to(ENGINE).with_suffix("").parts).removesuffix(".__init__")
     for path in ENGINE.rglob("*.py")
     if ">>> " in path.read_text(encoding="utf-8")
 )

@@ -37,6 +37,10 @@ class UnitCell:
         name: what a user picks it by.
         nodes: N, (n, 3) float64, in units of the cell size L, each coordinate in [0, 1].
         struts: M, (m, 2) int64, rows of `nodes`.
+
+    >>> cell = find_cell("BCC")
+    >>> len(cell.nodes), len(cell.struts), cell.maxwell_number, cell.deformation_mode
+    (9, 20, -1, 'bending')
     """
 
     name: str
@@ -126,6 +130,9 @@ def find_cell(name: str) -> UnitCell:
 
     Raises:
         VolfrepError: no such cell, or the file is not a valid cell.
+
+    >>> find_cell("octet").name
+    'Octet'
     """
     for cell in LIBRARY.values():
         if cell.name.lower() == name.strip().lower():
@@ -177,6 +184,10 @@ def make_cell(name: str, nodes: object, struts: object, where: str = "unit cell"
 
     Raises:
         VolfrepError: naming the first node or strut that is wrong.
+
+    >>> cell = make_cell("Tent", [[0, 0, 0], [1, 0, 0], [0.5, 0.5, 1]], [[0, 1], [1, 2], [2, 0]])
+    >>> cell.nodes.shape, cell.is_mirror_symmetric
+    ((3, 3), False)
     """
     points = _rows(nodes, 3, MAX_NODES, "node", where)
     index = _rows(struts, 2, MAX_STRUTS, "strut", where)
@@ -235,5 +246,9 @@ Number = TypeVar("Number", float, Floats)
 
 
 def joint_radius(strut_radius: Number, cell_size: float) -> Number:
-    """Radius of a joint sphere, r (1 + r / L), mm (Eq. 8)."""
+    """Radius of a joint sphere, r (1 + r / L), mm (Eq. 8).
+
+    >>> joint_radius(1.0, 10.0)
+    1.1
+    """
     return strut_radius * (1.0 + strut_radius / cell_size)

@@ -53,6 +53,11 @@ def cell_from_lines(name: str, lines: Floats) -> DrawnCell:
 
     Raises:
         VolfrepError: there are no lines, too many, one without length, or they make no cell.
+
+    >>> lines = np.array([[[0, 0, 0], [8, 8, 8]], [[0, 8, 0], [8, 0, 8]]], float)
+    >>> drawn = cell_from_lines("Cross", lines)
+    >>> drawn.size, len(drawn.cell.nodes), len(drawn.cell.struts)  # a node where they cross
+    (8.0, 5, 4)
     """
     if not len(lines):
         raise VolfrepError("There is no line to make a cell of: draw its struts as straight lines.")

@@ -151,6 +151,9 @@ def compile_expression(text: str) -> Expression:
 
     Raises:
         VolfrepError: naming the part that cannot be read or is not allowed, and what is.
+
+    >>> compile_expression("2 - s ** 2")([0, 0.5, 1]).tolist()
+    [2.0, 1.75, 1.0]
     """
     if not isinstance(text, str):
         raise VolfrepError(f"A formula must be a text such as '1 + s', not {text!r}.")

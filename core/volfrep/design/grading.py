@@ -32,6 +32,9 @@ class SizeGrading:
     Attributes:
         profile: lambda over s, the place along the direction from 0 to 1.
         direction: g, of any length.
+
+    >>> SizeGrading(Profile("linear", 1, 2), (0, 0, 1)).profile.end
+    2.0
     """
 
     profile: Profile
@@ -168,6 +171,9 @@ class Orientation:
         axis: of the rotation, of any length.
         angle: in degrees, counter-clockwise seen against the axis.
         origin: a point of the axis; None: the middle of the part's box.
+
+    >>> (Orientation(axis=(0, 0, 1), angle=90).matrix @ [1, 0, 0]).round(9).tolist()
+    [0.0, 1.0, 0.0]
     """
 
     axis: Vector = (0.0, 0.0, 1.0)

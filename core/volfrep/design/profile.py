@@ -42,6 +42,13 @@ class Profile:
     Raises:
         VolfrepError: at construction: an unknown kind, a value that is not finite and positive,
             or a formula that is not so somewhere on [0, 1], naming the s.
+
+    >>> Profile("linear", 1, 3)([0, 0.5, 1]).tolist()
+    [1.0, 2.0, 3.0]
+    >>> float(Profile("exponential", 1, 4)(0.5))
+    2.0
+    >>> Profile("formula", expression="1 + s * (1 - s)").extremes()
+    (1.0, 1.25)
     """
 
     kind: str = "scalar"

@@ -45,6 +45,10 @@ class PointField:
 
     Raises:
         VolfrepError: at construction: no points, or numbers that are not finite.
+
+    >>> field = PointField([[0, 0, 0], [10, 0, 0]], [1, 3])
+    >>> field([[0, 0, 0], [5, 0, 0]]).tolist(), field.range
+    ([1.0, 2.0], (1.0, 3.0))
     """
 
     points: Floats = field(compare=False)
@@ -150,6 +154,9 @@ class TransferCurve:
 
     Raises:
         VolfrepError: at construction, naming the first pair that makes no sense.
+
+    >>> TransferCurve((0, 120), (0.5, 1.5))([-10, 60, 120]).tolist()
+    [0.5, 1.0, 1.5]
     """
 
     values: tuple[float, ...]
@@ -201,6 +208,9 @@ def read_curve(text: str) -> tuple[tuple[float, float], ...]:
 
     Raises:
         VolfrepError: the text is no list of pairs; it names the first that is none.
+
+    >>> read_curve("0:0.5, 120:1.2")
+    ((0.0, 0.5), (120.0, 1.2))
     """
     pairs = []
     for part in text.split(","):

@@ -79,6 +79,15 @@ class LatticeSpec:
 
     Raises:
         VolfrepError: at construction, naming the first value that makes no sense.
+
+    >>> spec = LatticeSpec(cell="Octet", cell_size=8, strut_radius=0.6, shell=1.5)
+    >>> spec.cell.name, spec.struts.radius, spec.skin.thickness
+    ('Octet', 0.6, 1.5)
+    >>> spec == LatticeSpec(cell="octet", cell_size=8.0, strut_radius=0.6, shell=1.5)
+    True
+    >>> LatticeSpec(cell_size=8, strut_radius=0)
+    Traceback (most recent call last):
+    volfrep.util.errors.VolfrepError: The strut radius must be above 0 mm, not 0.
     """
 
     cell: str | UnitCell = "CVC"

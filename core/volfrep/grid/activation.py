@@ -62,6 +62,10 @@ def make_grid(
 
     Raises:
         VolfrepError: the grid would have more than `MAX_CELLS` cells.
+
+    >>> grid = make_grid(np.array([[0, 0, 0], [25, 10, 10]], float), 10.0)
+    >>> grid.shape, grid.centres(0).tolist()
+    ((3, 1, 1), [5.0, 15.0, 25.0])
     """
     low, high = np.asarray(bounds, float)
     if origin is not None:

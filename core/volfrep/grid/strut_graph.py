@@ -38,6 +38,14 @@ class Wireframe(Graph):
         radii: (m, 2) float64, radius of each strut at its two ends, mm: it is a cone where they
             differ.
         joint_radii: (n,) float64, radius of the joint sphere of each node, mm.
+
+    >>> from volfrep.design.cells import find_cell
+    >>> graph = cell_graph(find_cell("Box"), np.ones((2, 1, 1), bool), 10.0, np.zeros(3))
+    >>> lattice = wireframe(graph, graph.nodes, np.full(len(graph.nodes), 1.0), 10.0)
+    >>> lattice.nodes.shape, lattice.struts.shape, lattice.genus
+    ((12, 3), (20, 2), 9)
+    >>> float(lattice.joint_radii.max())
+    1.1
     """
 
     radii: Floats

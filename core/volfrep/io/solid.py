@@ -81,6 +81,14 @@ def read_solid(path: str | os.PathLike[str], unit: str | None = None) -> Solid:
 
     Raises:
         VolfrepError: the file is missing, damaged, of another kind, or holds no closed solid.
+
+    >>> import tempfile, trimesh
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = Path(folder) / "box.stl"
+    ...     _ = trimesh.creation.box((3, 2, 1)).export(file)
+    ...     solid = read_solid(file, unit="cm")
+    >>> round(solid.volume, 3), solid.notes
+    (6000.0, ())
     """
     mesh, notes, states_unit = _in_mm(path, unit)
     solid = check_solid(mesh, Path(path).name)
@@ -118,6 +126,13 @@ def check_solid(mesh: TriangleMesh, name: str) -> Solid:
 
     Raises:
         VolfrepError: naming what keeps it from being a solid, and where.
+
+    >>> import trimesh
+    >>> box = trimesh.creation.box((3, 2, 1))
+    >>> turned = TriangleMesh(box.vertices, box.faces.astype(np.int32)).reversed()
+    >>> solid = check_solid(turned, "box")
+    >>> round(solid.volume, 6), len(solid.repairs)
+    (6.0, 1)
     """
     if not len(mesh.triangles):
         raise VolfrepError(f"'{name}' holds no triangles: export the solid again.")

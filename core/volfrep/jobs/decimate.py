@@ -77,6 +77,13 @@ def reduce_triangles(
         VolfrepError: the deviation is not a length or larger than the mesh allows, or the mesh is
             not closed.
         Cancelled: the monitor said so.
+
+    >>> import trimesh
+    >>> ball = trimesh.creation.icosphere(3, 5.0)
+    >>> fine = TriangleMesh(ball.vertices, ball.faces.astype(np.int32))
+    >>> reduced = reduce_triangles(fine, 0.1)
+    >>> len(reduced.mesh.triangles) < 640 < reduced.triangles_before, reduced.deviation <= 0.1
+    (True, True)
     """
     if not 0.0 < deviation < np.inf:
         raise VolfrepError(f"The deviation must be a length above 0 mm, not {deviation:g}.")

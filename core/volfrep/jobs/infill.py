@@ -84,6 +84,15 @@ class Infill:
     Raises:
         VolfrepError: cells larger than the part. Every stage raises it where the specification
             does not fit the solid, and says what to change; and `Cancelled`.
+
+    >>> import trimesh
+    >>> box = trimesh.creation.box((24, 16, 16))
+    >>> solid = TriangleMesh(box.vertices, box.faces.astype(np.int32))
+    >>> infill = Infill(solid, LatticeSpec("BCC", cell_size=8, strut_radius=0.8, shell=1))
+    >>> round(infill.domain.mesh.volume, 6) == 22 * 14 * 14  # the skin is 1 mm thick
+    True
+    >>> int(infill.cells.active.sum()), len(infill.struts.struts)
+    (12, 171)
     """
 
     def __init__(

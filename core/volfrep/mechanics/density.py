@@ -59,6 +59,10 @@ def relative_density(cell: UnitCell, radius: float, fillet: float = 0.0) -> Dens
 
     Raises:
         VolfrepError: the struts are too thick for the cell.
+
+    >>> from volfrep.design.cells import find_cell
+    >>> round(relative_density(find_cell("BCC"), 0.1).value, 3)
+    0.243
     """
     if not 0.0 < radius + radius**2 + fillet < 0.5 or fillet < 0.0:
         raise VolfrepError(

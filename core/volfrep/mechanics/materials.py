@@ -130,6 +130,9 @@ def find_material(text: str) -> SolidMaterial:
 
     Raises:
         VolfrepError: there is no such material, or its figures make no sense.
+
+    >>> find_material("pa12").young, find_material("Mine,2000,0.3").poisson
+    (1650, 0.3)
     """
     wanted = text.strip()
     known = MATERIALS.get(wanted.lower())

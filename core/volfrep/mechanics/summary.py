@@ -142,6 +142,12 @@ def cell_properties(
 
     Raises:
         VolfrepError: a value makes no sense, or the cell carries no load.
+
+    >>> found = cell_properties("BCC", 10, 1, material="PA12", along=16)
+    >>> round(found.relative_density, 3), found.stiffness.shape
+    (0.243, (6, 6))
+    >>> 70 < found.values["E100"] < 100  # MPa, on grids as coarse as these
+    True
     """
     unit_cell = cell if isinstance(cell, UnitCell) else find_cell(cell)
     if (strut_radius is None) == (relative_density is None):

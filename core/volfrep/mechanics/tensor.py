@@ -91,7 +91,12 @@ def rotated(tensor: Floats, rotation: Floats) -> Floats:
 
 
 def cubic(c11: float, c12: float, c44: float) -> Floats:
-    """(6, 6) stiffness of a cubic lattice."""
+    """(6, 6) stiffness of a cubic lattice.
+
+    >>> isotropic = cubic(3.0, 1.0, 1.0)  # its Zener ratio 2 C44 / (C11 - C12) is 1
+    >>> young(isotropic, np.array([[1, 0, 0], [1, 1, 1]]) / [[1.0], [3.0**0.5]]).round(6).tolist()
+    [2.5, 2.5]
+    """
     tensor = np.diag([c11 - c12] * 3 + [c44] * 3).astype(float)
     tensor[:3, :3] += c12
     return tensor

@@ -118,6 +118,12 @@ def measure(mesh: TriangleMesh, monitor: Monitor | None = None) -> Quality:
 
     Raises:
         Cancelled: when the monitor says so.
+
+    >>> import trimesh
+    >>> ring = trimesh.creation.torus(10.0, 2.0)
+    >>> quality = measure(TriangleMesh(ring.vertices, ring.faces.astype(np.int32)))
+    >>> quality.watertight, quality.bodies, quality.genus
+    (True, 1, 1)
     """
     return inspect(mesh, monitor).quality
 

@@ -16,6 +16,11 @@ class TriangleMesh:
     Attributes:
         vertices: (n, 3) float64 coordinates.
         triangles: (m, 3) int32 vertex indices, counter-clockwise seen from outside.
+
+    >>> corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], float)
+    >>> facets = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]], np.int32)
+    >>> round(TriangleMesh(corners, facets).volume, 9)
+    0.166666667
     """
 
     vertices: NDArray[np.float64]

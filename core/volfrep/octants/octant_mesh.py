@@ -53,6 +53,10 @@ class OctantSpec:
         strut_radius: r, mm.
         fillet: joint fillet, mm.
         facets: facet edges along L.
+
+    >>> spec = OctantSpec(cell_size=10.0, strut_radius=1.0, fillet=0.0, facets=20)
+    >>> spec.edge, spec.steps, spec.step
+    (0.5, 10, 0.5)
     """
 
     cell_size: float

@@ -98,6 +98,10 @@ def distances(points: Floats, primitives: Primitives) -> Floats:
     """(n,) signed distance of the i-th point to the i-th primitive; shapes broadcast.
 
     `points` is (…, 3) against the primitives' (…, 3): pass ``points[:, None]`` for all pairs.
+
+    >>> strut = struts(np.array([[0.0, 0.0, 0.0]]), np.array([[10.0, 0.0, 0.0]]), 1.0)
+    >>> distances(np.array([[5.0, 3.0, 0.0], [5.0, 0.0, 0.0]]), strut).tolist()
+    [2.0, -1.0]
     """
     offset = points - primitives.middle
     axial = np.einsum("...i,...i->...", offset, primitives.direction)

@@ -42,6 +42,13 @@ class Report:
         peak_memory_mb: of the process.
         spec: the specification, as plain values.
         warnings: sentences for the user.
+
+    >>> import volfrep
+    >>> report = volfrep.block((2, 1, 1), cell="CVC", cell_size=10, strut_radius=1).report
+    >>> report.cells_active, report.nodes, report.struts, report.bodies, report.genus
+    (2, 14, 16, 1, 3)
+    >>> report.as_dict()["watertight"]
+    True
     """
 
     cells_total: int

@@ -49,6 +49,12 @@ def closest_points(mesh: TriangleMesh, points: Floats) -> tuple[Floats, Floats, 
 
     Raises:
         VolfrepError: the mesh is empty.
+
+    >>> corners = np.array([[0, 0, 0], [4, 0, 0], [0, 4, 0]], float)
+    >>> facet = TriangleMesh(corners, np.array([[0, 1, 2]], np.int32))
+    >>> place, distance, _ = closest_points(facet, np.array([[1.0, 1.0, 3.0], [4.0, 4.0, 0.0]]))
+    >>> place.tolist(), distance.round(6).tolist()
+    ([[1.0, 1.0, 0.0], [2.0, 2.0, 0.0]], [3.0, 2.828427])
     """
     if not len(mesh.triangles):
         raise VolfrepError("The distance to an empty mesh is not defined: give it triangles.")

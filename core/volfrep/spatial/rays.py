@@ -18,6 +18,12 @@ def inside_points(mesh: TriangleMesh, points: Floats, monitor: Monitor) -> NDArr
 
     A line goes up from every point; points and triangles meet in the bins of a grid seen along z.
     Lines through vertices and edges, and points of the surface, count as in `column_crossings`.
+
+    >>> import trimesh
+    >>> box = trimesh.creation.box((2, 2, 2))
+    >>> mesh = TriangleMesh(box.vertices, box.faces.astype(np.int32))
+    >>> inside_points(mesh, np.array([[0.0, 0.0, 0.9], [0.0, 0.0, 1.1]]), Monitor()).tolist()
+    [True, False]
     """
     winding = np.zeros(len(points), np.int64)
     corners = mesh.vertices[mesh.triangles]

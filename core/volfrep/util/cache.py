@@ -29,6 +29,15 @@ class StageCache:
 
     Give the same cache to run after run: a new strut radius then repeats neither the shelling
     nor the voxelisation. It holds meshes; drop it to free them.
+
+    >>> cache = StageCache()
+    >>> def squared(x):
+    ...     print("squaring", x)
+    ...     return x * x
+    >>> [cache.run("square", squared, x).value for x in (3, 3, 4)]
+    squaring 3
+    squaring 4
+    [9, 9, 16]
     """
 
     _entries: dict[str, tuple[Any, Any]] = field(default_factory=dict)

@@ -11,7 +11,12 @@ from .types import Ints
 
 
 def spread(counts: Ints) -> tuple[Ints, Ints]:
-    """For counts (2, 3): owners (0, 0, 1, 1, 1) and places (0, 1, 0, 1, 2)."""
+    """The owner of each entry of rows laid end to end, and its place in the owner's row.
+
+    >>> owner, place = spread(np.array([2, 3]))
+    >>> owner.tolist(), place.tolist()
+    ([0, 0, 1, 1, 1], [0, 1, 0, 1, 2])
+    """
     owner = np.repeat(np.arange(len(counts)), counts)
     place = np.arange(len(owner)) - np.repeat(np.cumsum(counts) - counts, counts)
     return owner, place

@@ -43,6 +43,14 @@ def write_spec(spec: LatticeSpec, path: str | os.PathLike[str]) -> None:
 
     Raises:
         VolfrepError: the file cannot be written, or the specification holds what no file can say.
+
+    >>> import tempfile
+    >>> spec = LatticeSpec(cell="Octet", cell_size=8, strut_radius=0.6, shell=1.5)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = Path(folder) / "lattice.toml"
+    ...     write_spec(spec, file)
+    ...     print("cell_size = 8.0" in file.read_text(), read_spec(file) == spec)
+    True True
     """
     write_values(values_of(spec), path)
 

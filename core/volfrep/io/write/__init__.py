@@ -57,5 +57,13 @@ def write_mesh(
     Raises:
         VolfrepError: unknown extension, unwritable path, or a mesh the format cannot hold.
         Cancelled: when the monitor says so; no file is left behind.
+
+    >>> import tempfile, volfrep
+    >>> mesh = volfrep.block((1, 1, 1), cell="BCC", cell_size=10, strut_radius=1).result.mesh
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = Path(folder) / "cell.stl"
+    ...     write_mesh(mesh, file)
+    ...     print(file.stat().st_size == 84 + 50 * len(mesh.triangles))
+    True
     """
     mesh_writer(path)(mesh, path, monitor)

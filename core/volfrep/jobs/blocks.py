@@ -44,7 +44,7 @@ class _Laid:
     placement: Placement
     layout: Layout
     graph: CellGraph
-    tile: OctantSpec
+    octant_spec: OctantSpec
     notes: tuple[str, ...]
 
 
@@ -79,7 +79,7 @@ def _meshed(laid: _Laid, spec: LatticeSpec, monitor: Monitor) -> Result:
     cell, layout, placement = spec.unit_cell(), laid.layout, laid.placement
     with monitor.stage("lattice", 0.4, 0.8):
         given = vertices_of(
-            layout, lambda: laid.graph, cell, spec.struts, laid.tile, placement, monitor
+            layout, lambda: laid.graph, cell, spec.struts, laid.octant_spec, placement, monitor
         )
         mesh = TriangleMesh(given.vertices, facets(layout, monitor))
     removed = dict(NOTHING_REMOVED)
@@ -89,7 +89,7 @@ def _meshed(laid: _Laid, spec: LatticeSpec, monitor: Monitor) -> Result:
             # of no use to most blocks, and slow to import
             from ..trim.loose_pieces import clear, smallest_shell
 
-            cleared = clear(mesh, inspect(mesh, monitor), smallest_shell(laid.tile))
+            cleared = clear(mesh, inspect(mesh, monitor), smallest_shell(laid.octant_spec))
             mesh, measured = cleared.mesh, cleared.quality
             removed["pieces_removed"] = cleared.pieces_removed
             removed["specks_removed"] = cleared.specks_removed
@@ -175,14 +175,14 @@ def _lay(spec: LatticeSpec, cells: CellGrid, placement: Placement, monitor: Moni
     active = np.ones(cells.shape, bool)
     with monitor.stage("tile", 0.0, 0.4):
         grid = octant_grid(cell, active, spec.cell_size, cells.origin, cells.periodic)
-        octants, tile, notes = until_sound(
+        octants, used, notes = until_sound(
             octant_spec(spec.cell_size, spec.struts, spec.detail),
-            lambda tile: mesh_octants(cell, tile, grid.keys, monitor),
+            lambda wanted: mesh_octants(cell, wanted, grid.keys, monitor),
         )
-        refuse_solid_cells(octants, tile)
+        refuse_solid_cells(octants, used)
         layout = lay_out(grid, octants)
     graph = cell_graph(cell, active, spec.cell_size, cells.origin, cells.periodic)
-    return _Laid(cells, placement, layout, graph, tile, notes)
+    return _Laid(cells, placement, layout, graph, used, notes)
 
 
 def _report(

@@ -18,12 +18,12 @@ FINER = (1.1, 1.25, 1.4, 1.6, 2.0)
 
 
 def until_sound(
-    tile: OctantSpec, make: Callable[[OctantSpec], T]
+    octant_spec: OctantSpec, make: Callable[[OctantSpec], T]
 ) -> tuple[T, OctantSpec, tuple[str, ...]]:
     """Mesh octants, with finer facets where those that were asked for would cross.
 
     Args:
-        tile: what the octants are wanted for.
+        octant_spec: what the octants are wanted for.
         make: meshes them.
 
     Returns:
@@ -33,21 +33,21 @@ def until_sound(
         FacetsCross: so they do with all of those that are tried.
     """
     try:
-        return make(tile), tile, ()
+        return make(octant_spec), octant_spec, ()
     except FacetsCross as error:
         first = error
     for factor in FINER:
-        facets = math.ceil(factor * tile.facets)
+        facets = math.ceil(factor * octant_spec.facets)
         if facets > MAX_RESOLUTION:
             break
-        finer = replace(tile, facets=facets)
+        finer = replace(octant_spec, facets=facets)
         try:
             made = make(finer)
         except FacetsCross:
             continue
         note = (
-            f"With {tile.facets} facets along a cell some would run through each other where "
-            f"struts meet: {facets} are made."
+            f"With {octant_spec.facets} facets along a cell some would run through each other "
+            f"where struts meet: {facets} are made."
         )
         return made, finer, (note,)
     raise first

@@ -154,11 +154,11 @@ def preview(solid: TriangleMesh, spec: LatticeSpec, depth: PartDepth) -> Preview
     lattice = float(np.pi * (length * piece_radii.prod(axis=1)).sum()) * _joints_share(
         cell, spec.template_radius / spec.cell_size, spec.fillet / spec.cell_size
     )
-    room = depth.volume_below(spec.shell)
-    skin = abs(solid.volume) - room if spec.output == "part" else 0.0
+    domain = depth.volume_below(spec.shell)
+    skin = abs(solid.volume) - domain if spec.output == "part" else 0.0
     return Preview(
         start, end, piece_radii, cells, len(np.unique(owner)), grid,
-        lattice / max(room, 1e-300), lattice + skin, (lattice + skin) * spec.density / 1000.0,
+        lattice / max(domain, 1e-300), lattice + skin, (lattice + skin) * spec.density / 1000.0,
         _edges(active, spec, grid, placement.mapping),
     )  # fmt: skip
 

@@ -63,7 +63,7 @@ class Deformed:
 
 def deform(
     layout: Layout,
-    anchors: dict[OctantKey, StrutBinding],
+    bindings: dict[OctantKey, StrutBinding],
     cell: UnitCell,
     nodes: NodeFrames,
     mapping: CoordinateMap,
@@ -74,7 +74,7 @@ def deform(
 
     Args:
         layout: the numbered octants; their grid lies on that of `nodes.graph`.
-        anchors: of all its kinds of octant.
+        bindings: of all its kinds of octant.
         cell: the unit cell.
         nodes: the nodes as they are to be: in the part (round struts), or in lattice space, to be
             mapped into the part as a whole (stretched struts).
@@ -94,7 +94,7 @@ def deform(
     for key, place in zip(grid.keys, layout.places, strict=True):
         if not len(place) or not len(layout.octants[key].vertices):
             continue
-        octant, own = layout.octants[key], anchors[key]
+        octant, own = layout.octants[key], bindings[key]
         size = max(1, CHUNK_VERTICES // len(own.kind))
         lookup = NodeLookup.of(cell, key, own.copy, own.place)
         is_corner = own.kind == SPACE
@@ -178,9 +178,9 @@ def _on_struts(
     strut = _struts(near, far, nodes)
     start, axis = strut.start, strut.axis
     if nodes.rotation is not None:
-        even = (1.0 - along)[:, None, None] * nodes.rotation[near]
-        even += along[:, None, None] * nodes.rotation[far]
-        radial = _across(np.einsum("nij,nj->ni", even, radial), axis)
+        turned = (1.0 - along)[:, None, None] * nodes.rotation[near]
+        turned += along[:, None, None] * nodes.rotation[far]
+        radial = _across(np.einsum("nij,nj->ni", turned, radial), axis)
         # At the joint a ruling lies between the same struts, and as far between them, as it did;
         # towards the middle it is just turned with the strut.
         off = np.flatnonzero(left != near)

@@ -203,7 +203,7 @@ def vertices_of(
     graph: Callable[[], CellGraph],
     cell: UnitCell,
     struts: Struts,
-    tile: OctantSpec,
+    octant_spec: OctantSpec,
     placement: Placement,
     monitor: Monitor,
 ) -> Deformed:
@@ -214,7 +214,7 @@ def vertices_of(
         graph: gives the nodes and struts that they hang on.
         cell: the unit cell.
         struts: how thick they are.
-        tile: what the octants were meshed for.
+        octant_spec: what the octants were meshed for.
         placement: where the lattice lies.
         monitor: for progress and cancel.
 
@@ -236,7 +236,7 @@ def vertices_of(
     else:
         nodes = node_frames(own, own.nodes, radius, placement.cell_size, None, turn)
     bindings = {
-        key: bind(cell, tile, key, layout.octants[key])
+        key: bind(cell, octant_spec, key, layout.octants[key])
         for key, place in zip(layout.grid.keys, layout.places, strict=True)
         if len(place) and len(layout.octants[key].vertices)
     }

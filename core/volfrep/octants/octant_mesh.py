@@ -175,8 +175,8 @@ def _mesh(
         gently = done >= len(primitives)
         same = todo[done:] if gently else todo[done : len(primitives)]
         batch = _Batch.of(spec, {key: primitives[key] for key in same})
-        even, origin = even_out(batch.surface, gently)
-        fitted, crossed = untangled(fit(even), batch.surface.vertices[origin])
+        remeshed, origin = even_out(batch.surface, gently)
+        fitted, crossed = untangled(fit(remeshed), batch.surface.vertices[origin])
         bad = [batch.keys[k] for k in np.unique(fitted.piece[fitted.triangles[crossed, 0]])]
         if bad and gently:
             raise FacetsCross(

@@ -36,15 +36,15 @@ QUADRATURE = np.array([[4, 1, 1], [1, 4, 1], [1, 1, 4]]) / 6.0
 QUADRATURE_WEIGHTS = np.full(3, 1.0 / 3.0)
 
 
-def fit(even: Surface) -> Surface:
+def fit(remeshed: Surface) -> Surface:
     """The facets fitted to the exact surface.
 
     Args:
-        even: what `volfrep.octants.isotropic_remesh.even_out` made.
+        remeshed: what `volfrep.octants.isotropic_remesh.even_out` made.
     """
-    if not len(even.triangles):
-        return even
-    surface = proper_border(even, _offset_border(even))
+    if not len(remeshed.triangles):
+        return remeshed
+    surface = proper_border(remeshed, _offset_border(remeshed))
     for _ in range(FIT_PASSES):
         surface = _fit(surface)
     for _ in range(2):

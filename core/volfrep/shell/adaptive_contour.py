@@ -81,10 +81,10 @@ def find_wall(field: DepthField) -> Wall:
 
 def _seen_through(field: DepthField, leaves: Leaves, others: int) -> Leaves:
     """Some of all leaves, halved until no cavity wider than `NARROW` thicknesses is missed."""
-    room = NARROW * field.depth.thickness
+    narrow = NARROW * field.depth.thickness
     done = leaves.chosen(slice(0))
     while len(leaves.size):
-        hide = field.hide(leaves, room / 2.0) & (leaves.size * field.unit > room)
+        hide = field.hide(leaves, narrow / 2.0) & (leaves.size * field.unit > narrow)
         if others + len(done.size) + len(leaves.size) + 7 * hide.sum() > MOST_LEAVES:
             return done.joined(leaves)
         done = done.joined(leaves.chosen(~hide))

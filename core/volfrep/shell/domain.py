@@ -61,5 +61,5 @@ def find_domain(solid: TriangleMesh, skin: Skin | None, monitor: Monitor) -> Dom
         )
     if is_open is None or not len(found.mesh.triangles):
         return Domain(found.mesh, found.mesh, warnings=warnings)
-    room = monitor.call(lambda: intersection(found.mesh, solid))
-    return Domain(room, found.mesh, open_surface(solid, is_open), warnings)
+    trimmed = monitor.call(lambda: intersection(found.mesh, solid))
+    return Domain(trimmed, found.mesh, open_surface(solid, is_open), warnings)

@@ -62,7 +62,7 @@ class Drained:
 def drain(
     part: TriangleMesh,
     solid: TriangleMesh,
-    room: TriangleMesh,
+    domain: TriangleMesh,
     lattice: Wireframe,
     thickness: float,
     wanted: DrainHoles,
@@ -76,7 +76,7 @@ def drain(
     Args:
         part: closed mesh of skin and lattice, mm.
         solid: its outside.
-        room: closed mesh of what the lattice fills.
+        domain: closed mesh of what the lattice fills.
         lattice: its struts.
         thickness: of the skin, mm.
         wanted: the holes.
@@ -85,7 +85,7 @@ def drain(
     Raises:
         VolfrepError: a given hole does not reach the cavity; the text says which.
     """
-    site = _Site(solid, room, thickness, 0.5 * wanted.diameter)
+    site = _Site(solid, domain, thickness, 0.5 * wanted.diameter)
     holes = _given(site, wanted)
     before = part.volume
     mesh = part
@@ -163,13 +163,13 @@ class _Site:
 
     Attributes:
         solid: the part's outside.
-        room: what the lattice fills.
+        domain: what the lattice fills.
         thickness: of the skin between, mm.
         radius: of the holes, mm.
     """
 
     solid: TriangleMesh
-    room: TriangleMesh
+    domain: TriangleMesh
     thickness: float
     radius: float
 
@@ -196,7 +196,7 @@ class _Site:
         way = np.tile(axis, (RAYS + 1, 1))
         reach = np.tile(above + deepest, RAYS + 1)
         # Inward: where every ray enters the cavity, and where the first one leaves it again.
-        enters, leaves = _first_two(self.room, origin, origin + reach[:, None] * way)
+        enters, leaves = _first_two(self.domain, origin, origin + reach[:, None] * way)
         depth = (reach * enters).reshape(-1, count).max(axis=0) - above
         far = (reach * leaves).reshape(-1, count).min(axis=0) - above
         depth += OVERLAP * 2.0 * self.radius
@@ -326,7 +326,7 @@ def _lowest(
         holes, inside = holes.chosen(good), inside[good]
         # Where struts are farthest off, and other holes far enough.
         height = inside @ up
-        room = _clearance(lattice, inside + site.radius * holes.axis)
+        clearance = _clearance(lattice, inside + site.radius * holes.axis)
         while len(chosen.start) < wanted.count:
             taken = np.concatenate([others.start, chosen.start])
             gap = np.linalg.norm(holes.start[:, None] - taken[None], axis=2)
@@ -334,7 +334,7 @@ def _lowest(
             if not free.any():
                 break
             low = free & (height <= height[free].min() + SAME_HEIGHT * 2.0 * site.radius)
-            best = int(np.argmax(np.where(low, room, -np.inf)))
+            best = int(np.argmax(np.where(low, clearance, -np.inf)))
             chosen = chosen.joined(holes.chosen(np.array([best])))
     return chosen
 
@@ -347,7 +347,7 @@ def _on_wall(site: _Site, void: TriangleMesh) -> Floats:
     pick = random.choice(len(area), CANDIDATES, p=area / area.sum())
     weight = random.dirichlet((1.0, 1.0, 1.0), CANDIDATES)
     points = weight[:, :1] * a[pick] + weight[:, 1:2] * b[pick] + weight[:, 2:] * c[pick]
-    near = closest_points(site.room, points)[1] < ON_WALL * site.thickness
+    near = closest_points(site.domain, points)[1] < ON_WALL * site.thickness
     return np.asarray(points[near])
 
 

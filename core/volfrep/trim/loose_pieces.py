@@ -34,9 +34,9 @@ class Cleared:
     volume_removed: float = 0.0
 
 
-def smallest_shell(tile: OctantSpec) -> float:
+def smallest_shell(octant_spec: OctantSpec) -> float:
     """Volume of half a facet's edge cubed, mm3: no shell smaller than that is meant."""
-    return (0.5 * tile.edge) ** 3
+    return (0.5 * octant_spec.edge) ** 3
 
 
 def clear(

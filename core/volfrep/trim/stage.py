@@ -66,7 +66,7 @@ def chosen_octants(
     roles: OctantRoles | None,
     cell: UnitCell,
     pruned: Pruned | None,
-    tile: OctantSpec,
+    octant_spec: OctantSpec,
     *,
     joined: bool,
 ) -> KeptOctants:
@@ -77,7 +77,7 @@ def chosen_octants(
         roles: where they lie with respect to the wall; None where nothing cuts the lattice.
         cell: the unit cell.
         pruned: what is left when struts are taken away; None where none is.
-        tile: what the octants are meshed for.
+        octant_spec: what the octants are meshed for.
         joined: whether their vertices are moved with the struts, so that none may hang on one
             that is gone.
     """
@@ -85,7 +85,7 @@ def chosen_octants(
     if pruned is None:
         return kept
     fewer = without_struts(
-        kept.grid, cell, pruned.graph, pruned.left.kept, tile.influence, joined=joined
+        kept.grid, cell, pruned.graph, pruned.left.kept, octant_spec.influence, joined=joined
     )
     return replace(kept, grid=used_kinds(fewer))
 
@@ -126,7 +126,7 @@ def cut_lattice(
     laid: Laid,
     solid: TriangleMesh,
     domain: Domain,
-    tile: OctantSpec,
+    octant_spec: OctantSpec,
     monitor: Monitor,
     *,
     has_skin: bool,
@@ -138,7 +138,7 @@ def cut_lattice(
         laid: the octants.
         solid: the part, mm.
         domain: what the lattice fills; its wall cuts it.
-        tile: what the octants were meshed for.
+        octant_spec: what the octants were meshed for.
         monitor: for progress and cancel.
         has_skin: whether a skin lies about the domain, which holds the lattice.
         with_skin: whether the lattice is joined to it.
@@ -149,7 +149,7 @@ def cut_lattice(
     wall = domain.wall
     trimmed = trim(wall, laid.kept, laid.layout, laid.points, cavity=with_skin, monitor=monitor)
     mesh, cut, removed, lost = trimmed.mesh, trimmed.cut, 0, 0.0
-    smallest, precision = smallest_shell(tile), shortest_edge(solid)
+    smallest, precision = smallest_shell(octant_spec), shortest_edge(solid)
     if has_skin and not with_skin:
         on_wall = np.flatnonzero(trimmed.on_wall)
         held = clear(mesh, inspect(mesh, monitor), smallest, keep=on_wall)
@@ -165,7 +165,7 @@ def cut_lattice(
     cleared = clear(mesh, found, smallest, floating=with_skin, bodies=bodies)
     if not len(cleared.mesh.triangles):
         if with_skin:
-            raise cells_are_full(tile.cell_size, tile.strut_radius)
+            raise cells_are_full(octant_spec.cell_size, octant_spec.strut_radius)
         raise VolfrepError(
             "No strut lies inside the part: reduce the cell size or move the origin."
         )
@@ -252,13 +252,15 @@ def _on_skin(
     return near[beyond]
 
 
-def uncut_lattice(laid: Laid, solid: TriangleMesh, tile: OctantSpec, monitor: Monitor) -> Cleared:
+def uncut_lattice(
+    laid: Laid, solid: TriangleMesh, octant_spec: OctantSpec, monitor: Monitor
+) -> Cleared:
     """The lattice of whole cells as it is, without loose pieces, and its quality."""
     whole = compact(TriangleMesh(laid.points, facets(laid.layout, monitor)))
     mesh = tidied(whole, shortest_edge(whole), monitor)
     found = inspect(mesh, monitor)
     bodies = max(1, inspect(solid).quality.bodies)
-    return clear(mesh, found, smallest_shell(tile), bodies=bodies)
+    return clear(mesh, found, smallest_shell(octant_spec), bodies=bodies)
 
 
 def _nothing_holds() -> VolfrepError:

@@ -222,11 +222,11 @@ def _beam_lattice(lattice: Wireframe, clip: int | None) -> Iterator[bytes]:
     ).encode()
     cone = radii[:, 0] != radii[:, 1]
     usual = ~cone & (radii[:, 0] == radius)
-    even = ~cone & ~usual
+    plain = ~cone & ~usual
     struts = lattice.struts
     yield from lines('<b:beam v1="%d" v2="%d"/>', struts[usual])
     yield from lines(
-        '<b:beam v1="%d" v2="%d" r1="%.9g"/>', np.hstack([struts[even], radii[even, :1]])
+        '<b:beam v1="%d" v2="%d" r1="%.9g"/>', np.hstack([struts[plain], radii[plain, :1]])
     )
     yield from lines(
         '<b:beam v1="%d" v2="%d" r1="%.9g" r2="%.9g"/>', np.hstack([struts[cone], radii[cone]])

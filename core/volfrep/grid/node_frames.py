@@ -14,7 +14,7 @@ from .strut_graph import CellGraph, neighbour_table
 
 @dataclass(frozen=True, eq=False)
 class NodeFrames:
-    """The nodes of a lattice as they are to be.
+    """Target positions, radii and frames of the nodes of a lattice.
 
     Attributes:
         graph: which nodes and struts there are.

@@ -342,7 +342,7 @@ class Infill:
         )  # fmt: skip
 
     def _graph(self) -> CellGraph:
-        """The nodes and struts that the octants hang on."""
+        """The nodes and struts that the octants are bound to."""
         if self.pruned is not None:
             return self.pruned.left_graph
         return self.cells.padded.graph(self._cell, self.cells.active, self._boundary.is_endless)

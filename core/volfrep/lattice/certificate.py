@@ -56,7 +56,7 @@ class _Kind:
 
 
 def certify(layout: Layout) -> Quality:
-    """Topology, volume and size of the surface of a whole layout.
+    """The certificate: topology, volume and size of the surface of a whole layout.
 
     Args:
         layout: the numbered octants, all of whose facets are the surface.

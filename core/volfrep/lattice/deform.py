@@ -50,7 +50,7 @@ LONGEST_STEP = 0.3
 
 @dataclass(frozen=True, eq=False)
 class Deformed:
-    """The vertices of a layout on the struts that are really there.
+    """The vertices of a layout, deformed onto the struts of a graded lattice.
 
     Attributes:
         vertices: (n, 3), mm.
@@ -70,7 +70,7 @@ def deform(
     fillet: float,
     monitor: Monitor,
 ) -> Deformed:
-    """Place the vertices of a layout.
+    """Deform the vertices of a layout onto the struts of a graded lattice.
 
     Args:
         layout: the numbered octants; their grid lies on that of `nodes.graph`.

@@ -119,7 +119,7 @@ def _has_room(
 
 @dataclass(frozen=True, eq=False)
 class PaddedGrid:
-    """The cells that a lattice may be laid on, some way beyond the part's.
+    """The part's cell grid with `SUPPORT` more cells on every side where it does not close.
 
     Attributes:
         cells: the part's grid.
@@ -159,7 +159,7 @@ class PaddedGrid:
         return OctantGrid(keys, kind, cells.origin, size, symmetric, cells.periodic)
 
     def graph(self, cell: UnitCell, active: Bools, endless: bool) -> CellGraph:
-        """The graph of all the cells whose struts the octants of the active ones hang on."""
+        """The graph of all the cells whose struts the octants of the active ones are bound to."""
         around = [(n, n) if n else (SUPPORT, SUPPORT) for n in self.first]
         wide = active
         for axis, width in enumerate(around):
@@ -177,7 +177,7 @@ class PaddedGrid:
 
 
 def padded_grid(cells: CellGrid, mapping: CoordinateMap | None, least: float) -> PaddedGrid:
-    """What a lattice on the cells of a part's grid is laid on.
+    """Pad the cell grid of a part.
 
     Args:
         cells: the part's grid.
@@ -207,7 +207,7 @@ def vertices_of(
     placement: Placement,
     monitor: Monitor,
 ) -> Deformed:
-    """Where the vertices of the laid octants are in the part, nudged as its wireframe is.
+    """Where the vertices of the assembled octants are in the part, nudged as its wireframe is.
 
     Args:
         layout: the numbered octants.

@@ -49,7 +49,7 @@ BISECTIONS = 30
 
 
 def even_out(raw: Surface, gently: bool = False) -> tuple[Surface, Ints]:
-    """Even triangles with their edges on the creases, the vertices on the exact surface.
+    """Remesh: even triangles with their edges on the creases, vertices on the exact surface.
 
     Args:
         raw: what marching cubes found.

@@ -99,7 +99,7 @@ class Trimmed:
 
 @dataclass(frozen=True, eq=False)
 class KeptOctants:
-    """What is left of a lattice where octants outside are dropped.
+    """Culled octants: what is left of a lattice without those outside.
 
     Attributes:
         grid: the octants that are left.
@@ -119,7 +119,7 @@ class KeptOctants:
 
 
 def cull(grid: OctantGrid, roles: OctantRoles) -> KeptOctants:
-    """Drop the octants outside; `roles` is shaped as the grid."""
+    """Cull the octants outside; `roles` is shaped as the grid."""
     present = grid.kind >= 0
     border, inside = roles.border & present, roles.inside & present
     border = _without_pinches(border, present, grid.periodic)

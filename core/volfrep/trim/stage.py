@@ -70,7 +70,7 @@ def chosen_octants(
     *,
     joined: bool,
 ) -> KeptOctants:
-    """The octants that are laid.
+    """The octants that are assembled: without those outside, and without pruned struts.
 
     Args:
         grid: of all the octants of the lattice.

@@ -28,14 +28,14 @@ class Laid:
 
     def __init__(self, cell):
         spec = LatticeSpec(cell=cell, cell_size=SIZE, strut_radius=RADIUS, resolution=16)
-        self.cell, self.tile = cell, octant_spec(spec)
+        self.cell, self.octant_spec = cell, octant_spec(spec.cell_size, spec.struts, spec.detail)
         grid = octant_grid(cell, np.ones(SHAPE, bool), SIZE, np.zeros(3))
-        octants = mesh_octants(cell, self.tile, grid.keys, Monitor())
+        octants = mesh_octants(cell, self.octant_spec, grid.keys, Monitor())
         self.layout = lay_out(grid, octants)
         wide = np.pad(np.ones(SHAPE, bool), 1)
         self.graph = cell_graph(cell, wide, SIZE, np.full(3, -SIZE), first=(1, 1, 1))
-        self.anchors = {
-            key: bind(cell, self.tile, key, self.layout.octants[key])
+        self.bindings = {
+            key: bind(cell, self.octant_spec, key, self.layout.octants[key])
             for key, place in zip(grid.keys, self.layout.places, strict=True)
             if len(place) and len(self.layout.octants[key].vertices)
         }
@@ -46,7 +46,7 @@ class Laid:
         radii = np.broadcast_to(np.asarray(radius, float), len(nodes)).copy()
         made = node_frames(self.graph, nodes if points is None else points, radii, SIZE)
         return deform(
-            self.layout, self.anchors, self.cell, made, identity_map(SIZE), 0.0, Monitor()
+            self.layout, self.bindings, self.cell, made, identity_map(SIZE), 0.0, Monitor()
         )
 
     def mesh(self, vertices):
@@ -116,6 +116,6 @@ def test_a_cancel_is_heard(laid):
     made = node_frames(laid.graph, nodes, np.full(len(nodes), RADIUS), SIZE)
     with pytest.raises(Cancelled):
         deform(
-            laid.layout, laid.anchors, laid.cell, made, identity_map(SIZE), 0.0,
+            laid.layout, laid.bindings, laid.cell, made, identity_map(SIZE), 0.0,
             Monitor(lambda fraction, stage: False),
         )  # fmt: skip

@@ -14,7 +14,7 @@ SIZE, ORIGIN = 10.0, np.array([3.0, -2.0, 1.0])
 CELLS = [*LIBRARY.values(), SKEW]
 
 
-def ground(cell, active):
+def grid_and_graph(cell, active):
     """The octants of active cells, and the graph of these and of empty ones around."""
     grid = octant_grid(cell, active, SIZE, ORIGIN)
     wide = np.pad(active, 1)
@@ -27,7 +27,7 @@ def cell(request):
 
 
 def test_a_node_is_of_a_cell_that_has_it(cell):
-    grid, _ = ground(cell, np.random.default_rng(1).random((3, 3, 2)) < 0.6)
+    grid, _ = grid_and_graph(cell, np.random.default_rng(1).random((3, 3, 2)) < 0.6)
     for key in grid.keys:
         nodes, _ = cell_copies(cell, NEIGHBOURS[key.active], key.mirror)
         found = cells_of_nodes(cell, key, nodes)
@@ -38,7 +38,7 @@ def test_a_node_is_of_a_cell_that_has_it(cell):
 
 
 def test_the_nodes_of_the_whole_lie_where_the_octants_are(cell):
-    grid, graph = ground(cell, np.random.default_rng(4).random((3, 2, 3)) < 0.7)
+    grid, graph = grid_and_graph(cell, np.random.default_rng(4).random((3, 2, 3)) < 0.7)
     seen = 0
     for number, key in enumerate(grid.keys):
         nodes, _ = cell_copies(cell, NEIGHBOURS[key.active], key.mirror)
@@ -54,7 +54,7 @@ def test_the_nodes_of_the_whole_lie_where_the_octants_are(cell):
 
 
 def test_with_all_struts_kept_nothing_changes(cell):
-    grid, graph = ground(cell, np.ones((3, 3, 3), bool))
+    grid, graph = grid_and_graph(cell, np.ones((3, 3, 3), bool))
     kept = np.ones(len(graph.struts), bool)
     found = without_struts(grid, cell, graph, kept, 2.0, joined=True)
     np.testing.assert_array_equal(found.kind, grid.kind)
@@ -64,7 +64,7 @@ def test_with_all_struts_kept_nothing_changes(cell):
 @pytest.mark.parametrize("joined", [False, True])
 def test_octants_lack_the_struts_that_reach_them(cell, joined):
     """Those that lack one lie by the strut; farther ones stay what they were."""
-    grid, graph = ground(cell, np.ones((3, 3, 3), bool))
+    grid, graph = grid_and_graph(cell, np.ones((3, 3, 3), bool))
     middle = graph.nodes[graph.struts].mean(axis=1)
     gone = int(np.linalg.norm(middle - (ORIGIN + 1.5 * SIZE), axis=1).argmin())
     kept = np.arange(len(graph.struts)) != gone
@@ -89,7 +89,7 @@ def test_octants_lack_the_struts_that_reach_them(cell, joined):
 
 
 def test_one_missing_strut_of_a_box_is_one_bit():
-    grid, graph = ground(LIBRARY["Box"], np.ones((3, 3, 3), bool))
+    grid, graph = grid_and_graph(LIBRARY["Box"], np.ones((3, 3, 3), bool))
     kept = np.ones(len(graph.struts), bool)
     kept[40] = False
     found = without_struts(grid, LIBRARY["Box"], graph, kept, 1.0, joined=False)

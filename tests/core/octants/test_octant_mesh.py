@@ -26,14 +26,14 @@ def border_of(octant):
 @pytest.mark.parametrize("cell", [*LIBRARY.values(), SKEW], ids=lambda cell: cell.name)
 def test_an_octant_that_shares_a_mesh_has_the_border_it_would_have_alone(cell, radius):
     """So it fits to all its neighbours; inside, either mesh follows the same surface."""
-    tile = OctantSpec(10.0, radius, 0.0, 8)
+    spec = OctantSpec(10.0, radius, 0.0, 8)
     active = np.random.default_rng(5).random((3, 3, 3)) < 0.6
     keys = kinds_of(cell, active)
     monitor = Monitor()
-    together = mesh_octants(cell, tile, keys, monitor)
+    together = mesh_octants(cell, spec, keys, monitor)
     assert monitor.work["kinds of octants meshed"] < len(keys)
     for key in keys[::17]:
-        alone = mesh_octants(cell, tile, [key], Monitor())[key]
+        alone = mesh_octants(cell, spec, [key], Monitor())[key]
         for shared, own in zip(border_of(together[key]), border_of(alone), strict=True):
             np.testing.assert_array_equal(shared, own)
         np.testing.assert_array_equal(together[key].solid_corners, alone.solid_corners)

@@ -110,8 +110,8 @@ def test_fill_is_one_call_on_top(solid, output):
     stage = {"part": "part", "lattice": "lattice", "domain": "cavity_result"}[output]
     assert infill.result is getattr(infill, stage)
     filled = fill(solid, spec)
-    assert np.array_equal(filled.mesh.vertices, infill.result.mesh.vertices)
-    assert np.array_equal(filled.mesh.triangles, infill.result.mesh.triangles)
+    assert np.array_equal(filled.result.mesh.vertices, infill.result.mesh.vertices)
+    assert np.array_equal(filled.result.mesh.triangles, infill.result.mesh.triangles)
     assert filled.report.work == infill.result.report.work
 
 

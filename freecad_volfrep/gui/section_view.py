@@ -20,7 +20,6 @@ from freecad_volfrep.translation import translate
 from . import drawing
 from .preview_view import PreviewView
 from .qt import QtCore, QtWidgets
-from .view_provider import LatticeInfillView
 
 #: Name of the plane in the infill's scene, and of the dock.
 NODE = "VolfrepSection"
@@ -59,7 +58,7 @@ class Section:
         """Fill what is cut through: a view of ours does it itself, an opaque mesh gets it here."""
         view = self._obj.ViewObject
         self._drop_cut_faces()
-        if isinstance(view.Proxy, LatticeInfillView) and view.Proxy.show_cut(True):
+        if _draws_cuts(view) and view.Proxy.show_cut(True):
             return
         if view.DisplayMode not in OPAQUE_MODES or view.Transparency > 0:
             return
@@ -85,7 +84,7 @@ class Section:
         self._root.removeChild(self._plane)
         if self._preview is not None:
             self._preview.cut_by(None)
-        if isinstance(self._obj.ViewObject.Proxy, LatticeInfillView):
+        if _draws_cuts(self._obj.ViewObject):
             self._obj.ViewObject.Proxy.show_cut(False)
 
     def _drop_cut_faces(self) -> None:
@@ -262,3 +261,8 @@ def _docks() -> list[SectionDock]:
     """Those that are open."""
     found = Gui.getMainWindow().findChildren(QtWidgets.QDockWidget, DOCK)
     return [dock for dock in found if isinstance(dock, SectionDock) and dock.isVisible()]
+
+
+def _draws_cuts(view: Any) -> bool:
+    """Whether an object's own view draws cut faces (`view_provider.LatticeInfillView`)."""
+    return hasattr(view.Proxy, "show_cut")

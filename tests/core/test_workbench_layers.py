@@ -14,7 +14,7 @@ ROOT = Path(__file__).resolve().parents[2]
 PACKAGE = "freecad_volfrep"
 #: Low to high: what stands here imports from itself and from what stands before it. Modules beside
 #: the folders, which only look at FreeCAD and the engine, are the lowest.
-LAYERS = ("", "bridge", "exact_job", "features", "examples", "gui", "window")
+LAYERS = ("", "bridge", "exact_job", "features", "revival", "examples", "gui", "window")
 
 
 def modules() -> dict[str, Path]:

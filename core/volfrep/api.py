@@ -24,6 +24,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .design.spec import LatticeSpec
+from .design.spec_parts import first_radius
+from .design.target import AIMS, Target, read_stiffness
 from .grid.strut_graph import Wireframe
 from .io.solid import Solid, check_solid, read_solid
 from .mesh.triangle_mesh import TriangleMesh
@@ -159,6 +161,7 @@ def fill(
     spec: LatticeSpec | None = None,
     *,
     unit: str | None = None,
+    material: str | None = None,
     progress: ProgressCallback | None = None,
     cache: StageCache | None = None,
     **parameters: Any,
@@ -171,9 +174,13 @@ def fill(
             where that can mean one thing only, and proved.
         spec: what to make.
         unit: of a file's lengths; None for what it says, else mm.
+        material: a name of the table in docs/cells.md, or a file: its density gives the mass where
+            none is given, its modulus makes a `stiffness` one in MPa.
         progress: called with the fraction done and the stage; returning False cancels.
         cache: keeps the stages between calls.
-        parameters: of a `LatticeSpec`, in place of one or on top of it.
+        parameters: of a `LatticeSpec`, in place of one or on top of it; in place of `strut_radius`
+            also `relative_density`, `mass` (g, of the finished part) or `stiffness` (such as
+            "500:111": a modulus, and 100, 110, 111 or X,Y,Z).
 
     Raises:
         VolfrepError: the part is no closed solid, or the specification makes no sense or does
@@ -186,19 +193,20 @@ def fill(
     >>> part.report.cells_active
     8
     """
-    from .jobs.pipeline import fill as fill_solid
+    from .jobs.targets import filled
 
-    wanted = _specification(spec, parameters)
+    wanted = _specification(spec, parameters, material)
     solid = as_solid(part, unit)
     cache = cache or StageCache()
-    result = fill_solid(solid, wanted, progress=progress, cache=cache)
-    return Part(result, wanted, solid, cache)
+    result, found = filled(solid, wanted, progress=progress, cache=cache)
+    return Part(result, found, solid, cache)
 
 
 def block(
     count: Sequence[int],
     spec: LatticeSpec | None = None,
     *,
+    material: str | None = None,
     progress: ProgressCallback | None = None,
     **parameters: Any,
 ) -> Part:
@@ -207,8 +215,9 @@ def block(
     Args:
         count: cells along x, y, z.
         spec: what to make.
+        material: as of `fill`.
         progress: called with the fraction done and the stage; returning False cancels.
-        parameters: of a `LatticeSpec`, in place of one or on top of it.
+        parameters: as of `fill`.
 
     Raises:
         VolfrepError: the counts or the specification make no sense, or it would not fit into
@@ -221,8 +230,9 @@ def block(
     True
     """
     from .jobs.blocks import block as make_block
+    from .jobs.targets import aimed_block
 
-    wanted = _specification(spec, parameters)
+    wanted = aimed_block(_specification(spec, parameters, material), count, progress=progress)
     return Part(make_block(wanted, count, progress=progress), wanted, None, StageCache())
 
 
@@ -266,8 +276,10 @@ def as_solid(
     return check_solid(TriangleMesh(points, rows.astype(np.int32)), "mesh")
 
 
-def _specification(spec: LatticeSpec | None, parameters: dict[str, Any]) -> LatticeSpec:
-    known = {field.name for field in dataclasses.fields(LatticeSpec)}
+def _specification(
+    spec: LatticeSpec | None, parameters: dict[str, Any], material: str | None
+) -> LatticeSpec:
+    known = {field.name for field in dataclasses.fields(LatticeSpec)} | set(AIMS)
     unknown = [name for name in parameters if name not in known]
     if unknown:
         import difflib
@@ -275,6 +287,38 @@ def _specification(spec: LatticeSpec | None, parameters: dict[str, Any]) -> Latt
         near = difflib.get_close_matches(unknown[0], known, 1)
         hint = f"did you mean '{near[0]}'?" if near else f"there are {', '.join(sorted(known))}."
         raise VolfrepError(f"A lattice has no parameter '{unknown[0]}': {hint}")
+    young = 1.0
+    if material is not None:
+        from .mechanics.materials import find_material
+
+        solid = find_material(material)
+        young = solid.young
+        parameters = {"density": solid.density, **parameters}
+    parameters = _with_target(parameters, spec, young)
     if spec is None:
         return LatticeSpec(**parameters)
     return dataclasses.replace(spec, **parameters) if parameters else spec
+
+
+def _with_target(
+    parameters: dict[str, Any], spec: LatticeSpec | None, young: float
+) -> dict[str, Any]:
+    """The parameters with a `Target` in place of what one is given by."""
+    given = [name for name in ("strut_radius", *AIMS, "target") if parameters.get(name) is not None]
+    if len(given) > 1:
+        raise VolfrepError(
+            f"{', '.join(given[:-1])} and {given[-1]} each say how thick the struts are: give one "
+            "of them."
+        )
+    rest = {name: value for name, value in parameters.items() if name not in AIMS}
+    if given == ["strut_radius"] and spec is not None:
+        rest["target"] = None
+    if not given or given[0] not in AIMS:
+        return rest
+    aim = given[0]
+    value = parameters[aim]
+    rest["target"] = read_stiffness(value, young) if aim == "stiffness" else Target(aim, value)
+    usual = spec or LatticeSpec()
+    size, fillet = (parameters.get(n, getattr(usual, n)) for n in ("cell_size", "fillet"))
+    rest["strut_radius"] = first_radius(size, fillet)
+    return rest

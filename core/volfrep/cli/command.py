@@ -176,7 +176,7 @@ def _fill(options: argparse.Namespace) -> None:
     from ..design.forecast import forecast_fill
     from ..io.read.units import refuse_scale
     from ..io.solid import read_solid
-    from ..jobs.infill import Infill
+    from ..jobs.targets import aimed
 
     start = time.perf_counter()
     solid = read_solid(part, options.unit)
@@ -185,8 +185,10 @@ def _fill(options: argparse.Namespace) -> None:
     read_seconds = time.perf_counter() - start
     if not options.quiet:
         print(f"Expected: {forecast_fill(solid, spec)}.", flush=True)
+    meshed = options.threemf != "beams" and not solver_options.needs_axes(options)
     with Progress(options.quiet) as progress:
-        infill = Infill(solid, spec, progress=progress)
+        infill = aimed(solid, spec, progress=progress, meshed=meshed)
+        spec = infill.spec
         if solver_options.fill_axes(infill, options, start):
             return
         if options.threemf == "beams":
@@ -211,8 +213,11 @@ def _block(options: argparse.Namespace) -> None:
 
     from ..design.forecast import forecast_block
     from ..jobs.blocks import block, write_block_stl
+    from ..jobs.targets import aimed_block
 
     start = time.perf_counter()
+    meshed = options.threemf != "beams" and not solver_options.needs_axes(options)
+    spec = aimed_block(spec, options.count, meshed=meshed)
     if solver_options.block_axes(spec, options, start):
         return
     if options.threemf == "beams":
@@ -266,6 +271,9 @@ def _specified(options: argparse.Namespace) -> LatticeSpec:
     print_warnings(material.apply(options, Path(options.output)))
     if options.density is not None:
         spec = dataclasses.replace(spec, density=options.density)
+    if options.solid is not None and spec.target is not None and spec.target.aim == "stiffness":
+        target = dataclasses.replace(spec.target, young=options.solid.young)
+        spec = dataclasses.replace(spec, target=target)
     return spec
 
 

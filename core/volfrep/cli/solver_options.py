@@ -107,7 +107,7 @@ def fill_axes(infill: Infill, options: argparse.Namespace, start: float) -> bool
 
     `start` is when the job began, of `time.perf_counter`.
     """
-    if not _needs_axes(options):
+    if not needs_axes(options):
         return False
     clipped = infill.axes
     _write_axes(clipped.wireframe, clipped.on_wall, infill.spec, options, start)
@@ -116,7 +116,7 @@ def fill_axes(infill: Infill, options: argparse.Namespace, start: float) -> bool
 
 def block_axes(spec: LatticeSpec, options: argparse.Namespace, start: float) -> bool:
     """As `fill_axes`, of a block of whole cells."""
-    if not _needs_axes(options):
+    if not needs_axes(options):
         return False
     from ..jobs.blocks import block_wireframe
 
@@ -147,7 +147,8 @@ def writer(
     return None
 
 
-def _needs_axes(options: argparse.Namespace) -> bool:
+def needs_axes(options: argparse.Namespace) -> bool:
+    """Whether a form is asked for that is made of the struts' axes, without a mesh."""
     return bool(options.step == "wireframe" or options.inp == "beams")
 
 

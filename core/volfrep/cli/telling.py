@@ -65,6 +65,7 @@ def tell(report: Report, options: argparse.Namespace, printing: PrintReport | No
         ("volume", f"{report.volume_mm3:,.1f} mm3"),
         ("relative density", f"{100 * report.relative_density:.2f} %"),
         ("mass", f"{report.mass_g:,.2f} g"),
+        *_target(report),
         *_removed(report),
         ("time", f"{sum(report.stages.values()):.2f} s, {report.peak_memory_mb:,.0f} MB of memory"),
         *(printing.rows() if printing is not None else ()),
@@ -82,6 +83,20 @@ def print_warnings(warnings: Sequence[str]) -> None:
     """A line each, on standard error."""
     for warning in warnings:
         print(f"volfrep: warning: {warning}", file=sys.stderr)
+
+
+def _target(report: Report) -> list[tuple[str, str]]:
+    """What the radius was chosen for, and what was reached; nothing where it was given."""
+    target = report.target
+    if target is None:
+        return []
+    along = "along " + ",".join(f"{part:g}" for part in target.get("direction", ()))
+    along = f" {along} in {target['unit']}" if "direction" in target else ""
+    aim = target["aim"].replace("_", " ")
+    return [
+        ("strut radius", f"{target['strut_radius_mm']:.5g} mm"),
+        ("target", f"{aim}{along}: {target['value']:.5g}, {target['reached']:.5g} reached"),
+    ]
 
 
 def _sizes(report: Report) -> list[tuple[str, str]]:

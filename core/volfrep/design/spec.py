@@ -23,6 +23,7 @@ from .spec_parts import (
     Skin,
     Struts,
 )
+from .target import Target
 
 __all__ = [
     "ACTIVATIONS",
@@ -76,6 +77,8 @@ class LatticeSpec:
         orientation: the lattice turned; None for along x, y, z.
         keep_radius: where cells are stretched or bent, struts stay straight and round: the nodes
             are moved and joined anew. False: they are deformed with their cells, as published.
+        target: what `strut_radius` is to be chosen for (`volfrep.jobs.targets` does); None where
+            it counts as it is.
 
     Raises:
         VolfrepError: at construction, naming the first value that makes no sense.
@@ -111,6 +114,7 @@ class LatticeSpec:
     cell_map: CellMap | None = None
     orientation: Orientation | None = None
     keep_radius: bool = True
+    target: Target | None = None
 
     def __post_init__(self) -> None:
         if isinstance(self.cell, str):
@@ -123,6 +127,11 @@ class LatticeSpec:
         number("density", self.density, "g/cm3", positive=True)
         self.struts.refuse_too_thick(grid.size)
         _ = self.facets_along_cell, self.ending
+        if self.target is not None and self.radius_grading is not None:
+            raise VolfrepError(
+                f"A target of {self.target.called} chooses one radius for every strut: leave the "
+                "radius grading out."
+            )
         if self.output not in OUTPUTS:
             raise VolfrepError(
                 f"There is no output '{self.output}': choose one of {', '.join(OUTPUTS)}."

@@ -104,7 +104,7 @@ class Struts:
         radius = self.extremes[1]
         if radius + radius * radius / size + self.fillet < size / 2:
             return
-        limit = _largest_radius(size, self.fillet)
+        limit = largest_radius(size, self.fillet)
         with_fillet = " with this fillet" if self.fillet else ""
         if limit <= 0:
             raise VolfrepError(
@@ -260,7 +260,12 @@ class Resolution:
         return max(needed, COARSEST)
 
 
-def _largest_radius(size: float, fillet: float) -> float:
+def largest_radius(size: float, fillet: float) -> float:
     """The r at which joint sphere and fillet reach half a cell: r + r2 / L + fillet = L / 2."""
     room = size / 2 - fillet
     return float(size * (math.sqrt(0.25 + max(room, 0.0) / size) - 0.5)) if room > 0 else 0.0
+
+
+def first_radius(size: float, fillet: float) -> float:
+    """A radius to begin with where another one is sought, mm; any if no radius goes with both."""
+    return 0.25 * largest_radius(size, fillet) or size / 10

@@ -34,6 +34,7 @@ from ..util.errors import VolfrepError
 from ..util.progress import Monitor, ProgressCallback, peak_memory_mb
 from .finer import until_sound
 from .octant_guard import refuse_solid_cells, refuse_too_large
+from .target_report import judged
 
 
 @dataclass(frozen=True, eq=False)
@@ -149,6 +150,30 @@ def write_block_stl(
     return replace(result.report, stages=stages, peak_memory_mb=peak_memory_mb())
 
 
+def measured_block(
+    spec: LatticeSpec, count: Sequence[int], *, progress: ProgressCallback | None = None
+) -> Report:
+    """The figures of a block; one of equal cells is not meshed as a whole for them.
+
+    Raises:
+        VolfrepError: as `block`.
+        Cancelled: the callback said so.
+    """
+    if spec.is_graded:
+        return block(spec, count, progress=progress).report
+    cells, placement = _block_placement(spec, count)
+    monitor = Monitor(progress)
+    laid = _lay(spec, cells, placement, monitor)
+    frame = graded_wireframe(laid.graph, spec.struts, placement)
+    return _report(laid, certify(laid.layout), frame, spec, monitor, NOTHING_REMOVED)
+
+
+def block_volume(spec: LatticeSpec, count: Sequence[int]) -> float:
+    """The volume of a block's cells, mm3."""
+    cells, placement = _block_placement(spec, count)
+    return _volume_of(cells, placement)
+
+
 def block_wireframe(spec: LatticeSpec, count: Sequence[int]) -> Wireframe:
     """The nodes and struts of a free-standing block.
 
@@ -193,12 +218,18 @@ def _report(
     monitor: Monitor,
     removed: Mapping[str, Any],
 ) -> Report:
-    cells, mapping = laid.cells, laid.placement.mapping
-    volume = float(np.prod(cells.shape, dtype=float)) * spec.cell_size**3
-    if mapping is not None and not mapping.is_rigid:
-        volume = mapped_volume(cells, mapping)
+    cells = laid.cells
+    volume = _volume_of(cells, laid.placement)
     active = np.ones(cells.shape, bool)
-    return report_of(
+    report = report_of(
         measured, frame, cells, active, laid.placement, spec, monitor,
         domain_volume=volume, removed=removed, warnings=laid.notes,
     )  # fmt: skip
+    return judged(report, spec)
+
+
+def _volume_of(cells: CellGrid, placement: Placement) -> float:
+    mapping = placement.mapping
+    if mapping is not None and not mapping.is_rigid:
+        return float(mapped_volume(cells, mapping))
+    return float(np.prod(cells.shape, dtype=float)) * cells.cell_size**3

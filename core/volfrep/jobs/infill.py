@@ -60,6 +60,7 @@ from ..util.progress import Monitor, ProgressCallback
 from .active_cells import ActiveCells, activated, roles_of
 from .finer import until_sound
 from .octant_guard import refuse_solid_cells, refuse_too_large
+from .target_report import judged
 
 
 class Infill:
@@ -75,6 +76,7 @@ class Infill:
         spec: what to fill it with.
         cache: keeps the costly stages for other infills, as of the same solid with other struts.
         progress: called with the fraction done and the stage; returning False cancels.
+        monitor: of a job that this is a part of, in place of one of its own.
 
     Attributes:
         solid: the part.
@@ -100,6 +102,7 @@ class Infill:
         *,
         cache: StageCache | None = None,
         progress: ProgressCallback | None = None,
+        monitor: Monitor | None = None,
     ) -> None:
         size = solid.bounds[1] - solid.bounds[0]
         if spec.cell_size > size.max():
@@ -109,7 +112,7 @@ class Infill:
                 "or see whether the part is in another unit."
             )
         self.solid, self.spec = solid, spec
-        self.monitor = Monitor(progress)
+        self.monitor = monitor or Monitor(progress)
         self._cache = cache or StageCache()
         self._cell, self._grid, self._struts = spec.unit_cell(), spec.grid, spec.struts
         self._skin, self._boundary = spec.skin, spec.ending
@@ -391,4 +394,6 @@ class Infill:
         )  # fmt: skip
         if self._skin is not None or "domain" in (output, self.spec.output):
             report = replace(report, spec={**report.spec, "output": output})
+        if output != "domain":
+            report = judged(report, self.spec)
         return Result(mesh, self.struts, report)

@@ -11,7 +11,7 @@ from ..mesh.triangle_mesh import TriangleMesh
 from ..reports.result import Result
 from ..util.cache import StageCache
 from ..util.progress import ProgressCallback
-from .infill import Infill
+from .targets import filled
 
 
 def fill(
@@ -22,6 +22,8 @@ def fill(
     cache: StageCache | None = None,
 ) -> Result:
     """Fill a solid with a lattice: the stage of `Infill` that the specification's output names.
+
+    Where the specification has a target, its radius is found first (`targets`).
 
     Args:
         solid: checked closed mesh (from `volfrep.io.solid.read_solid` or `check_solid`), mm;
@@ -34,4 +36,4 @@ def fill(
         VolfrepError: the specification does not fit the solid; the text says what to change.
         Cancelled: the callback said so.
     """
-    return Infill(solid, spec, progress=progress, cache=cache).result
+    return filled(solid, spec, progress=progress, cache=cache)[0]

@@ -41,6 +41,8 @@ class Report:
             triangles into the Boolean, bytes written; what was not done is not there.
         peak_memory_mb: of the process.
         spec: the specification, as plain values.
+        target: what the radius was chosen for, what was reached, and `strut_radius_mm`; None
+            where the radius was given.
         warnings: sentences for the user.
 
     >>> import volfrep
@@ -81,6 +83,7 @@ class Report:
     peak_memory_mb: float
     spec: dict[str, Any] = field(default_factory=dict)
     warnings: tuple[str, ...] = ()
+    target: dict[str, Any] | None = None
 
     def as_dict(self) -> dict[str, Any]:
         """The figures as plain JSON values."""

@@ -14,6 +14,7 @@ from volfrep.design.openings import DrainHoles, DrainPlace, OpenPatch, OpenPlane
 from volfrep.design.profile import Profile
 from volfrep.design.scattered_field import PointField
 from volfrep.design.spec_parts import Boundary, Grid, Resolution, Skin, Struts
+from volfrep.design.target import Target
 
 POINTS = np.eye(3)
 FIELD = PointField(POINTS, np.array([1.0, 2.0, 3.0]))
@@ -104,6 +105,7 @@ OTHERS = [
             "cell_map": CellMap("cylindrical"),
             "orientation": Orientation(angle=30.0),
             "keep_radius": False,
+            "target": Target("mass", 5.0),
         },
     ),
 ]

@@ -22,13 +22,15 @@ GROUPS = {
 }
 
 #: The unit of a kind of parameter, where it has one.
-UNITS = {"length": "mm", "angle": "degrees", "density": "g/cm3", "point": "mm", "points": "mm"}
+UNITS = {"length": "mm", "angle": "degrees", "density": "g/cm3", "point": "mm", "points": "mm",
+         "mass": "g"}  # fmt: skip
 #: How a value of a kind is written in a command, where its unit does not say it.
 SHAPES = {
     "number": "NUMBER", "integer": "N", "text": "TEXT", "formula": "FORMULA", "file": "FILE",
     "cell": "CELL", "direction": "X,Y,Z", "point": "X,Y,Z", "rotation": "X,Y,Z,DEGREES",
     "planes": "X,Y,Z,NX,NY,NZ", "places": "X,Y,Z[,NX,NY,NZ]", "curve": "V:MM,V:MM,...",
     "length": "MM", "angle": "DEGREES", "density": "G_PER_CM3",
+    "mass": "G", "stiffness": "E:DIRECTION",
 }  # fmt: skip
 #: Kinds that may be given several times; their value is a tuple.
 REPEATED = ("planes", "places")
@@ -55,7 +57,8 @@ class Parameter:
 
     Attributes:
         name: in a specification's file; the option is the same with hyphens.
-        kind: ``length``, ``angle``, ``density``, ``number``, ``integer``, ``flag``, ``choice``,
+        kind: ``length``, ``angle``, ``density``, ``mass``, ``stiffness``, ``number``,
+            ``integer``, ``flag``, ``choice``,
             ``text``, ``formula``, ``file``, ``cell``, ``curve``, ``direction``, ``point``,
             ``rotation`` (axis and degrees), ``planes`` or ``places`` (lists of numbers); of a
             document only: ``link``, ``faces``, ``points``.

@@ -13,6 +13,8 @@ from ..openings import DrainHoles, DrainPlace, OpenPlane
 from ..profile import Profile
 from ..scattered_field import PointField, read_curve, read_point_field
 from ..spec import LatticeSpec
+from ..spec_parts import first_radius
+from ..target import AIMS, Target, read_stiffness, stiffness_text
 from .parameter import Need, effective
 from .table import BY_NAME, PARAMETERS, TWO_ENDED
 
@@ -44,10 +46,14 @@ def specification(values: Mapping[str, Any], say: Naming = in_file) -> LatticeSp
             raise VolfrepError(
                 f"{say(chooser)} {used[chooser]} needs {say(parameter.name)}: give it."
             )
+    target = _target(values, used, say)
+    radius = used["strut_radius"]
+    if target is not None:
+        radius = first_radius(used["cell_size"], used["fillet"])
     return LatticeSpec(
         cell=used["cell"],
         cell_size=used["cell_size"],
-        strut_radius=used["strut_radius"],
+        strut_radius=radius,
         shell=used["shell"],
         fillet=used["fillet"],
         origin=used["origin"],
@@ -66,6 +72,7 @@ def specification(values: Mapping[str, Any], say: Naming = in_file) -> LatticeSp
         cell_map=_cell_map(used),
         orientation=_orientation(used),
         keep_radius=used["keep_radius"],
+        target=target,
     )
 
 
@@ -143,6 +150,10 @@ def values_of(spec: LatticeSpec) -> dict[str, Any]:
     if spec.orientation is not None:
         found["rotate"] = (*spec.orientation.axis, spec.orientation.angle)
         found["rotate_origin"] = spec.orientation.origin
+    if spec.target is not None:
+        aim = spec.target.aim
+        found[aim] = stiffness_text(spec.target) if aim == "stiffness" else spec.target.value
+        del found["strut_radius"]
     _, idle = effective(PARAMETERS, found)
     always = ("cell", "cell_size", "strut_radius", "shell")
     return {
@@ -151,6 +162,32 @@ def values_of(spec: LatticeSpec) -> dict[str, Any]:
         if name in always
         or (name not in idle and value not in (None, (), BY_NAME[name].default))
     }  # fmt: skip
+
+
+def _target(values: Mapping[str, Any], used: Mapping[str, Any], say: Naming) -> Target | None:
+    """What the radius is to be chosen for; None where it is given or has its default.
+
+    Raises:
+        VolfrepError: several values say how thick struts are, or there are none to be chosen.
+    """
+    given = [name for name in ("strut_radius", *AIMS) if values.get(name) is not None]
+    aims = [name for name in given if name in AIMS]
+    if not aims:
+        return None
+    if len(given) > 1:
+        both = f"{', '.join(say(name) for name in given[:-1])} and {say(given[-1])}"
+        raise VolfrepError(f"{both} each say how thick the struts are: give one of them.")
+    aim = aims[0]
+    for other, word in (("radius_grading", "none"), ("make", None)):
+        value = used[other]
+        if value != word and (word or value == "domain"):
+            raise VolfrepError(
+                f"{say(aim)} chooses one radius for all struts, and has no effect with "
+                f"{say(other)} {value}: leave one of them out."
+            )
+    if aim == "stiffness":
+        return read_stiffness(used[aim])
+    return Target(aim, float(used[aim]))
 
 
 def _useless(name: str, need: Need, say: Naming) -> str:

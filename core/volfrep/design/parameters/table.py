@@ -50,7 +50,23 @@ PARAMETERS = (
     Parameter(
         "strut_radius", "length", "Lattice",
         "r: radius of the struts",
-        default=1.0, in_panel=True,
+        default=1.0, in_panel=True, instead_of=("relative_density", "mass", "stiffness"),
+    ),
+    Parameter(
+        "relative_density", "number", "Lattice",
+        "In place of the radius: volume of the lattice over that of what it fills, between 0 and 1",
+        in_freecad=False, instead_of=("strut_radius", "mass", "stiffness"),
+    ),
+    Parameter(
+        "mass", "mass", "Lattice",
+        "In place of the radius: mass of the finished part, with its skin",
+        in_freecad=False, instead_of=("strut_radius", "relative_density", "stiffness"),
+    ),
+    Parameter(
+        "stiffness", "stiffness", "Lattice",
+        "In place of the radius: Young's modulus of the lattice along 100, 110, 111 or X,Y,Z of "
+        "its cell, in MPa where a material is given, else in units of the solid's",
+        in_freecad=False, instead_of=("strut_radius", "relative_density", "mass"),
     ),
     Parameter(
         "shell", "length", "Lattice",

@@ -15,6 +15,7 @@ from .parameter import REPEATED, SHAPES, Parameter
 SCALES: dict[str, dict[str, float]] = {
     "length": {"mm": 1.0, "um": 1e-3, "cm": 10.0, "m": 1e3, "in": 25.4, "ft": 304.8},
     "angle": {"degrees": 1.0, "deg": 1.0, "rad": math.degrees(1.0)},
+    "mass": {"g": 1.0, "kg": 1e3, "mg": 1e-3},
     "density": {"g/cm3": 1.0, "kg/m3": 1e-3, "g/cm^3": 1.0, "kg/m^3": 1e-3},
 }
 #: How many numbers a list may have, and an example.

@@ -154,3 +154,21 @@ def test_without_a_reader_of_toml_a_sentence_says_what_to_install(
         monkeypatch.setitem(sys.modules, name, None)
     with pytest.raises(VolfrepError, match="pip install tomli"):
         read_spec(path)
+
+
+@pytest.mark.parametrize(
+    "text", ["relative_density = 0.2", "mass = 45.5", 'stiffness = "0.02:111"']
+)
+def test_a_target_takes_the_radius_place_in_a_file(tmp_path: Path, text: str) -> None:
+    path, again = tmp_path / "spec.toml", tmp_path / "again.toml"
+    path.write_text(f"cell_size = 4.0\n{text}\n")
+    write_spec(read_spec(path), again)
+    assert read_spec(again) == read_spec(path)
+    assert read_spec(path).target is not None
+    assert "strut_radius" not in again.read_text()
+    path.write_text(f"strut_radius = 1.0\n{text}\n")
+    with pytest.raises(VolfrepError, match=r"strut_radius and .* give one of them"):
+        read_spec(path)
+    path.write_text(f'radius_grading = "skin"\nradius_end = 2.0\n{text}\n')
+    with pytest.raises(VolfrepError, match=r"one radius for all struts.*radius_grading skin"):
+        read_spec(path)

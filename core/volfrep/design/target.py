@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What a lattice is to come to, in place of the radius of its struts."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from ..util.errors import VolfrepError
+from ..util.numbers import number
+
+#: What can be aimed at, as parameters and files call it.
+AIMS = ("relative_density", "mass", "stiffness")
+_AXES = {"100": (1.0, 0.0, 0.0), "110": (1.0, 1.0, 0.0), "111": (1.0, 1.0, 1.0)}
+
+
+@dataclass(frozen=True)
+class Target:
+    """What the radius of the struts is chosen for.
+
+    Attributes:
+        aim: ``relative_density`` (of the lattice in what it fills), ``mass`` (of the finished
+            part) or ``stiffness`` (Young's modulus of the endless lattice).
+        value: the density as a share of 1; g; MPa or, without a material, in units of the solid's
+            modulus.
+        direction: of the modulus, in the cell's axes, of any length; None for the others.
+        young: the solid's Young's modulus, MPa; 1 where the value is in units of it.
+    """
+
+    aim: str
+    value: float
+    direction: tuple[float, float, float] | None = None
+    young: float = 1.0
+
+    def __post_init__(self) -> None:
+        if self.aim not in AIMS:
+            raise VolfrepError(f"There is no target '{self.aim}': choose {', '.join(AIMS)}.")
+        unit = {"mass": "g", "stiffness": "MPa"}.get(self.aim, "")
+        number(self.called, self.value, unit, positive=True)
+        number("Young's modulus of the solid", self.young, "MPa", positive=True)
+        if self.aim == "relative_density" and self.value >= 1.0:
+            raise VolfrepError(
+                f"A relative density must be between 0 and 1, not {self.value:g}: 0.2 is 20 %."
+            )
+        if (self.direction is None) == (self.aim == "stiffness"):
+            raise VolfrepError("A stiffness, and nothing else, is aimed at along a direction.")
+        if self.direction is not None:
+            length = math.hypot(*self.direction)
+            if not (math.isfinite(length) and length > 0.0):
+                raise VolfrepError("The direction of a stiffness must have a length.")
+
+    @property
+    def called(self) -> str:
+        """What is aimed at, in words."""
+        return self.aim.replace("_", " ")
+
+    def as_plain(self) -> dict[str, Any]:
+        """The target as plain JSON values."""
+        result: dict[str, Any] = {"aim": self.aim, "value": self.value}
+        if self.direction is not None:
+            result["direction"] = list(self.direction)
+            result["unit"] = "the solid's Young's modulus" if self.young == 1.0 else "MPa"
+        return result
+
+
+def read_stiffness(text: str, young: float = 1.0) -> Target:
+    """The target of a text such as ``500:100``, a modulus and the direction it is along.
+
+    Raises:
+        VolfrepError: it is none.
+    """
+    modulus, _, way = str(text).partition(":")
+    try:
+        value = float(modulus)
+        x, y, z = _AXES.get(way.strip()) or (float(part) for part in way.split(","))
+    except ValueError as error:
+        raise VolfrepError(
+            f"'{text}' is no stiffness: write the modulus and its direction, E:100, E:110, E:111 "
+            "or E:X,Y,Z, such as 500:111."
+        ) from error
+    return Target("stiffness", value, (x, y, z), young)
+
+
+def stiffness_text(target: Target) -> str:
+    """What `read_stiffness` reads the target of."""
+    assert target.direction is not None
+    return f"{target.value!r}:{','.join(repr(float(part)) for part in target.direction)}"

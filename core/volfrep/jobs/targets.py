@@ -1,0 +1,249 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The strut radius of a target: the part that comes out has the density, mass or stiffness.
+
+The radius of a density or a mass is read off `lattice.strut_volume`, in the very domain that the
+lattice is cut by. The mesh is then measured; where it misses by more than `CLOSE` it is made again,
+with what it missed by.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+import numpy as np
+from scipy.optimize import brentq
+
+from ..design.spec import LatticeSpec
+from ..design.spec_parts import MAX_RESOLUTION, largest_radius
+from ..design.target import Target
+from ..io.solid import Solid
+from ..lattice.strut_volume import (
+    FINE,
+    ROUGH,
+    VolumeByRadius,
+    points_about,
+    points_inside,
+    volume_by_radius,
+)
+from ..mechanics.density import relative_density
+from ..mesh.triangle_mesh import TriangleMesh
+from ..reports.report import Report
+from ..reports.result import Result
+from ..util.cache import StageCache
+from ..util.errors import VolfrepError
+from ..util.progress import ProgressCallback
+from .blocks import block_volume, block_wireframe, measured_block
+from .infill import Infill
+from .stiffness_target import ratio_of_stiffness
+
+#: A mesh that misses its target by more, relative, is made again; so many are made at most.
+CLOSE = 3e-3
+MESHES = 3
+#: The first guess is this near, relative; a radius is sought up to so much above it.
+_ROUGHLY = 1.12
+#: A joint sphere's radius over the strut's is less.
+_REACH = 1.5
+
+
+def aimed(
+    solid: TriangleMesh | Solid,
+    spec: LatticeSpec,
+    *,
+    progress: ProgressCallback | None = None,
+    cache: StageCache | None = None,
+    meshed: bool = True,
+) -> Infill:
+    """The infill of a solid whose struts have the radius of the specification's target.
+
+    Args:
+        solid: checked closed mesh, mm.
+        spec: with a target, or without one: then nothing is sought.
+        progress: called with the fraction done and the stage; returning False cancels.
+        cache: keeps the stages; the wall is found once.
+        meshed: whether its result is made and measured; otherwise the radius is the first one,
+            as for beams.
+
+    Raises:
+        VolfrepError: no radius meets the target (the text says what can be had), or the
+            specification does not fit the solid.
+        Cancelled: the callback said so.
+    """
+    cache = cache or StageCache()
+    infill = Infill(solid, spec, progress=progress, cache=cache)
+    target = spec.target
+    if target is None or spec.output == "domain":
+        return infill
+    if target.aim == "stiffness":
+        return Infill(solid, _stiff(spec, target), progress=progress, cache=cache)
+    monitor, domain = infill.monitor, infill.domain.mesh.volume
+    frame = infill.struts
+    with monitor.stage("target", 0.4, 0.4):
+        skin = abs(solid.volume) - domain if spec.with_skin else 0.0
+
+        def table(fineness: int, largest: float) -> VolumeByRadius:
+            if spec.is_cut:
+                points, weights = points_inside(infill.domain.mesh, fineness, monitor)
+            else:
+                points, weights = points_about(frame, _REACH * largest, fineness)
+            return volume_by_radius(
+                frame, spec.strut_radius, spec.cell_size, points, weights, largest
+            )
+
+        search = _Search(spec, target, table, domain, skin)
+    wanted = search.volume
+    for made in range(1, MESHES + 1):
+        infill = Infill(
+            solid, search.specification(wanted), cache=cache, progress=progress, monitor=monitor
+        )
+        if not meshed:
+            return infill
+        report = infill.result.report
+        missing = search.missing(report)
+        if abs(missing) <= CLOSE * search.scale or made == MESHES:
+            break
+        wanted += missing
+    return infill
+
+
+def filled(
+    solid: TriangleMesh | Solid,
+    spec: LatticeSpec,
+    *,
+    progress: ProgressCallback | None = None,
+    cache: StageCache | None = None,
+) -> tuple[Result, LatticeSpec]:
+    """The result of `aimed`, and the specification with the radius that was found."""
+    infill = aimed(solid, spec, progress=progress, cache=cache)
+    return infill.result, infill.spec
+
+
+def aimed_block(
+    spec: LatticeSpec,
+    count: Sequence[int],
+    *,
+    progress: ProgressCallback | None = None,
+    meshed: bool = True,
+) -> LatticeSpec:
+    """The specification of a block, with the radius of its target; see `aimed`.
+
+    Args:
+        spec: with a target, or without one: then it is returned as it is.
+        count: cells along x, y, z.
+        progress: called with the fraction done and the stage; returning False cancels.
+        meshed: whether its octants, or the mesh of a graded block, are made and measured;
+            otherwise the radius is the first one, as for beams.
+
+    Raises:
+        VolfrepError: as `aimed`.
+    """
+    target = spec.target
+    if target is None:
+        return spec
+    if target.aim == "stiffness":
+        return _stiff(spec, target)
+    size = spec.cell_size
+    block_wireframe(spec, count)  # the counts are checked
+    repeats = not spec.is_graded
+    # The volume of equal cells grows by the same with every further layer.
+    shape = tuple(min(int(n), 2) for n in count) if repeats else tuple(int(n) for n in count)
+    frame = block_wireframe(spec, shape)
+
+    def table(fineness: int, largest: float) -> VolumeByRadius:
+        points, weights = points_about(frame, _REACH * largest, fineness)
+        if repeats:
+            inner = points - np.array(spec.origin or (0.0, 0.0, 0.0)) - size / 2.0
+            middle = (inner >= 0.0) & (inner < size)
+            times = np.where(middle & (np.array(count) > 1), np.array(count) - 1.0, 1.0)
+            weights = weights * times.prod(axis=1)
+        return volume_by_radius(frame, spec.strut_radius, size, points, weights, largest)
+
+    search = _Search(spec, target, table, block_volume(spec, count), 0.0)
+    wanted = search.volume
+    made = search.specification(wanted)
+    for _ in range(MESHES - 1 if meshed else 0):
+        missing = search.missing(measured_block(made, count, progress=progress))
+        if abs(missing) <= CLOSE * search.scale:
+            break
+        wanted += missing
+        made = search.specification(wanted)
+    return made
+
+
+def _stiff(spec: LatticeSpec, target: Target) -> LatticeSpec:
+    size = spec.cell_size
+    ratio = ratio_of_stiffness(spec.unit_cell(), target, spec.fillet / size)
+    return replace(spec, strut_radius=ratio * size)
+
+
+#: A table as exact as 2^k points, up to a radius.
+_Table = Callable[[int, float], VolumeByRadius]
+
+
+class _Search:
+    """Radii of volumes, within what can be made."""
+
+    def __init__(
+        self, spec: LatticeSpec, target: Target, table: _Table, domain: float, skin: float
+    ) -> None:
+        self._spec, self._target = spec, target
+        self._domain, self._skin = domain, skin
+        size = spec.cell_size
+        self._low = size / MAX_RESOLUTION * 1.5
+        self._high = largest_radius(size, spec.fillet) * (1.0 - 1e-6)
+        if target.aim == "mass":
+            self.volume = target.value * 1000.0 / spec.density - skin
+            self.scale = target.value * 1000.0 / spec.density
+        else:
+            self.volume = self.scale = target.value * domain
+        self._table = table(ROUGH, self._high)
+        least, most = self._volume(self._low), self._volume(self._high)
+        if not least <= self.volume <= most:
+            raise VolfrepError(self._refusal(least, most))
+        self._high = min(self._high, _ROUGHLY * self._radius(self.volume))
+        self._table = table(FINE, self._high)
+
+    def missing(self, report: Report) -> float:
+        """The volume that a mesh lacks, mm3."""
+        if self._target.aim == "mass":
+            return self.scale - report.volume_mm3
+        return (self._target.value - report.relative_density) * self._domain
+
+    def specification(self, volume: float) -> LatticeSpec:
+        """With the radius of a volume of the lattice, mm3."""
+        return replace(self._spec, strut_radius=self._radius(volume))
+
+    def _radius(self, volume: float) -> float:
+        low, high = self._low, self._high
+        if not self._spec.fillet:
+            return float(np.clip(self._table.radius_of(volume), low, high))
+        if self._volume(high) <= volume:
+            return high
+        return float(brentq(lambda r: self._volume(r) - volume, low, high, xtol=1e-5 * high))
+
+    def _volume(self, radius: float) -> float:
+        """The lattice's, with its fillets as the endless lattice has them."""
+        volume = self._table.at(radius)
+        if not self._spec.fillet:
+            return volume
+        cell, size = self._spec.unit_cell(), self._spec.cell_size
+        plain = relative_density(cell, radius / size).value
+        return (
+            volume * relative_density(cell, radius / size, self._spec.fillet / size).value / plain
+        )
+
+    def _refusal(self, least: float, most: float) -> str:
+        spec, target = self._spec, self._target
+        if target.aim == "relative_density":
+            unit, span = "", (least / self._domain, most / self._domain)
+        else:
+            factor = spec.density / 1000.0
+            unit, span = " g", ((self._skin + least) * factor, (self._skin + most) * factor)
+        text = (
+            f"No strut radius gives a {target.called} of {target.value:.4g}{unit} with cells "
+            f"'{spec.unit_cell().name}' of {spec.cell_size:g} mm: choose one from {span[0]:.4g} "
+            f"to {span[1]:.4g}{unit}"
+        )
+        if target.aim == "mass" and self._skin:
+            text += f", of which the skin is {self._skin * spec.density / 1000.0:.4g} g"
+        return text + "."

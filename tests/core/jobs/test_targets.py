@@ -12,7 +12,8 @@ import samples
 import volfrep
 from volfrep import VolfrepError
 from volfrep.design.cells import LIBRARY
-from volfrep.design.grading import Orientation, Profile, SizeGrading
+from volfrep.design.grading import Orientation, SizeGrading
+from volfrep.design.profile import Profile
 from volfrep.design.openings import DrainHoles
 from volfrep.design.spec import LatticeSpec
 from volfrep.design.target import Target

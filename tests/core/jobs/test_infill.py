@@ -83,7 +83,7 @@ def test_later_stages_use_earlier_ones(solid):
         ({"shell": 1.5}, {"tile"}),
         ({"open_faces": (OpenPlane((0, 0, 0), (0, 0, 1)),)}, {"tile"}),
     ],
-    ids=lambda value: "-".join(value),
+    ids=lambda value: "-".join(sorted(value)),
 )
 def test_a_change_of_the_specification_repeats_the_stages_it_goes_to(solid, changes, kept):
     cache = StageCache()

@@ -10,7 +10,7 @@ from __future__ import annotations
 import itertools
 import json
 import os
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TypeVar
 
@@ -37,6 +37,7 @@ class UnitCell:
         name: what a user picks it by.
         nodes: N, (n, 3) float64, in units of the cell size L, each coordinate in [0, 1].
         struts: M, (m, 2) int64, rows of `nodes`.
+        source: the file that it was read from; empty for none.
 
     >>> cell = find_cell("BCC")
     >>> len(cell.nodes), len(cell.struts), cell.maxwell_number, cell.deformation_mode
@@ -46,6 +47,7 @@ class UnitCell:
     name: str
     nodes: NDArray[np.float64] = field(compare=False)
     struts: NDArray[np.int64] = field(compare=False)
+    source: str = field(default="", compare=False, repr=False)
     _content: bytes = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -176,7 +178,8 @@ def load_cell(path: str | os.PathLike[str]) -> UnitCell:
     name = data.get("name", file.stem)
     if not isinstance(name, str) or not name.strip():
         raise VolfrepError(f"In the cell file '{file}', 'name' must be a text.")
-    return make_cell(name.strip(), data["nodes"], data["struts"], f"cell file '{file}'")
+    cell = make_cell(name.strip(), data["nodes"], data["struts"], f"cell file '{file}'")
+    return replace(cell, source=str(file))
 
 
 def make_cell(name: str, nodes: object, struts: object, where: str = "unit cell") -> UnitCell:

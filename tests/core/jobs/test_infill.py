@@ -7,11 +7,12 @@ import numpy as np
 import pytest
 
 import samples
-from volfrep import Cancelled, LatticeSpec, StageCache, VolfrepError, block, fill
+from volfrep import Cancelled, LatticeSpec, StageCache, VolfrepError
 from volfrep.design.openings import DrainHoles, OpenPlane
 from volfrep.grid.placement import NUDGE
-from volfrep.jobs.blocks import block_wireframe
+from volfrep.jobs.blocks import block, block_wireframe
 from volfrep.jobs.infill import Infill
+from volfrep.jobs.pipeline import fill
 
 SPEC = LatticeSpec(cell="BCC", cell_size=8, strut_radius=0.8, shell=2, resolution=12)
 
@@ -110,8 +111,8 @@ def test_fill_is_one_call_on_top(solid, output):
     stage = {"part": "part", "lattice": "lattice", "domain": "cavity_result"}[output]
     assert infill.result is getattr(infill, stage)
     filled = fill(solid, spec)
-    assert np.array_equal(filled.result.mesh.vertices, infill.result.mesh.vertices)
-    assert np.array_equal(filled.result.mesh.triangles, infill.result.mesh.triangles)
+    assert np.array_equal(filled.mesh.vertices, infill.result.mesh.vertices)
+    assert np.array_equal(filled.mesh.triangles, infill.result.mesh.triangles)
     assert filled.report.work == infill.result.report.work
 
 

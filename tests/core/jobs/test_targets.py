@@ -13,8 +13,8 @@ import volfrep
 from volfrep import VolfrepError
 from volfrep.design.cells import LIBRARY
 from volfrep.design.grading import Orientation, SizeGrading
-from volfrep.design.profile import Profile
 from volfrep.design.openings import DrainHoles
+from volfrep.design.profile import Profile
 from volfrep.design.spec import LatticeSpec
 from volfrep.design.target import Target
 from volfrep.io.solid import check_solid
@@ -116,6 +116,7 @@ def test_the_lattice_has_the_stiffness_asked_for(direction) -> None:
     assert found.report.target["reached"] == pytest.approx(40.0, rel=1e-4)
 
 
+@pytest.mark.slow
 def test_a_cell_of_ones_own_is_homogenised_for_its_stiffness(monkeypatch) -> None:
     monkeypatch.setattr(stiffness_target, "LEAST", 0.04)  # thin struts take many voxels
     spec = LatticeSpec(

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Coarse facets and crowded joints: the volume is right, and nothing runs through itself."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -11,7 +13,7 @@ from volfrep.jobs.blocks import block, write_block_stl
 from volfrep.jobs.finer import until_sound
 from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.octants.octant import OctantKey
-from volfrep.octants.octant_mesh import FacetsCross, mesh_octants, octant_spec
+from volfrep.octants.octant_mesh import FacetsCross, OctantSpec, mesh_octants, octant_spec
 from volfrep.spatial.self_intersection import crossing_triangles
 from volfrep.util.errors import VolfrepError
 from volfrep.util.progress import Monitor
@@ -63,7 +65,9 @@ def test_struts_too_thin_for_any_facets_are_refused():
 def test_struts_that_cross_anyhow_leave_no_facets_that_do(resolution):
     spec = LatticeSpec(crowded_cell(), 7.0, 0.4, resolution=resolution)
     keys = [OctantKey(mirror, 0xFF) for mirror in range(8)]
-    octants = mesh_octants(spec.unit_cell(), octant_spec(spec), keys, Monitor())
+    octants = mesh_octants(
+        spec.unit_cell(), octant_spec(spec.cell_size, spec.struts, spec.detail), keys, Monitor()
+    )
     for octant in octants.values():
         assert not crossings(TriangleMesh(octant.vertices, octant.triangles))
         # What lies in its own box meets its neighbours in their common faces only.
@@ -79,21 +83,24 @@ def test_narrow_windows_leave_no_facets_that_cross():
 
 
 def test_where_facets_cross_however_they_are_meshed_finer_ones_are_tried():
-    def make(spec):
-        if spec.facets_along_cell < 20:
-            raise FacetsCross("they cross")
-        return spec.facets_along_cell
+    tile = OctantSpec(10.0, 1.0, 0.0, 12)
 
-    made, notes = until_sound(LatticeSpec(), make)
-    assert made >= 20
+    def make(spec):
+        if spec.facets < 20:
+            raise FacetsCross("they cross")
+        return spec.facets
+
+    made, finer, notes = until_sound(tile, make)
+    assert made == finer.facets >= 20
     assert f"{made} are made" in notes[0]
-    assert until_sound(LatticeSpec(resolution=20), make) == (20, ())
+    fine = replace(tile, facets=20)
+    assert until_sound(fine, make) == (20, fine, ())
 
     def never(spec):
         raise FacetsCross("they cross")
 
     with pytest.raises(FacetsCross):
-        until_sound(LatticeSpec(), never)
+        until_sound(tile, never)
 
 
 def test_a_written_block_tells_the_same(tmp_path):

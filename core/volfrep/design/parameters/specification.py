@@ -110,11 +110,12 @@ def values_of(spec: LatticeSpec) -> dict[str, Any]:
     """
     cell = spec.cell
     if isinstance(cell, UnitCell):
-        if LIBRARY.get(cell.name) is not cell:
+        own = LIBRARY.get(cell.name) != cell
+        if own and not (cell.source and _is_file(cell.source)):
             raise VolfrepError(
                 f"The cell '{cell.name}' has no file that could be named: save it as .json first."
             )
-        cell = cell.name
+        cell = cell.source if own else cell.name
     found: dict[str, Any] = {
         "cell": cell, "cell_size": spec.cell_size, "strut_radius": spec.strut_radius,
         "shell": spec.shell, "fillet": spec.fillet, "origin": spec.origin,

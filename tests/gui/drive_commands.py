@@ -6,6 +6,7 @@ Writes pictures (among them those of the tutorial) and ``commands.json`` to GUI_
 """
 
 import json
+import shutil
 import sys
 from pathlib import Path
 
@@ -45,7 +46,9 @@ from freecad_volfrep.compat import version
 HOME = "VolfrepWorkbench"
 #: Of the files that are typed into dialogs: pictures of it go into the documentation.
 FOLDER = OUT / "typed"
-FOLDER.mkdir(exist_ok=True)
+# A dialog asks before it replaces a file, and no one would answer.
+shutil.rmtree(FOLDER, ignore_errors=True)
+FOLDER.mkdir()
 
 
 def filled():

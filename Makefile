@@ -55,8 +55,8 @@ test-alone: export VOLFREP_PARTS := $(CURDIR)/build/no-parts
 test-alone: export VOLFREP_TORTURE := $(CURDIR)/build/no-torture
 test-alone: setup ## the tests and jobs that take real parts, as in a checkout with nothing beside it
 	@$(PYTHON) -m pytest -q -rs -n auto -k "not modelled" -m "not slow" tests/core/test_bench.py \
-		tests/core/test_parts.py tests/core/test_shell.py tests/core/test_slicers.py \
-		tests/core/test_solid.py tests/core/test_torture.py
+		tests/core/jobs/test_parts.py tests/core/shell/test_offset.py \
+		tests/core/io/test_slicers.py tests/core/io/test_solid.py tests/core/io/test_torture.py
 	@PYTEST_ARGS='-q -rs -m "not slow" tests/freecad/test_freecad_parts.py' \
 		freecadcmd tools/run_in_freecad.py < /dev/null
 	@$(PYTHON) -m bench --quick --only rod
@@ -70,9 +70,10 @@ test-in-freecad: setup ## both of these side by side: each keeps one core busy
 	status=0; $(MAKE) --no-print-directory QUICK='$(QUICK)' test-freecad || status=$$?; \
 	wait $$windows || status=$$?; cat build/test-gui.log; exit $$status
 
+GUI_SCRIPTS := $(sort $(wildcard tests/gui/drive_*.py))
 test-gui: export FREECAD_USER_HOME := $(CURDIR)/.cache/fchome-gui
 test-gui: setup ## the real FreeCAD window on a virtual screen
-	@status=0; for script in tests/gui/drive_*.py; do \
+	@status=0; for script in $(GUI_SCRIPTS); do \
 	tools/run_gui.sh "$$script" < /dev/null || status=$$?; done; exit $$status
 
 test-escape: export FREECAD_USER_HOME := $(CURDIR)/.cache/fchome-gui

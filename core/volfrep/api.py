@@ -7,7 +7,7 @@
 ... )
 >>> part.report.watertight, part.report.bodies
 (True, 1)
->>> 0.3 < part.mesh.volume / (30 * 20 * 20) < 0.7
+>>> bool(0.3 < part.mesh.volume / (30 * 20 * 20) < 0.7)
 True
 """
 

@@ -8,6 +8,7 @@ from typing import Any
 import manifold3d
 import numpy as np
 
+from ..mesh.booleans import from_library, to_library
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.types import Floats
 from .wall_crossings import Judged, judged
@@ -61,18 +62,10 @@ def _boxes(known: Judged, reach: float) -> tuple[Floats, Floats]:
 
 
 def _less(mesh: TriangleMesh, low: Floats, high: Floats) -> TriangleMesh:
-    solid: Any = manifold3d.Manifold(
-        manifold3d.Mesh64(
-            np.ascontiguousarray(mesh.vertices),
-            np.ascontiguousarray(mesh.triangles, dtype=np.uint64),
-        )
-    )
+    solid: Any = manifold3d.Manifold(to_library(mesh))
     boxes = [
         manifold3d.Manifold.cube((b - a).tolist()).translate(a.tolist())
         for a, b in zip(low, high, strict=True)
     ]
     union = manifold3d.Manifold.batch_boolean(boxes, manifold3d.OpType.Add)
-    result = (solid - union).to_mesh64()
-    return TriangleMesh(
-        np.array(result.vert_properties[:, :3], np.float64), np.array(result.tri_verts, np.int32)
-    )
+    return from_library((solid - union).to_mesh64())

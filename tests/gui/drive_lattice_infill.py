@@ -300,8 +300,9 @@ def cancel_soon(pressed, by_click=False):
 
     def look():
         bar = Gui.getMainWindow().findChild(QtGui.QWidget, "VolfrepProgress")
-        if bar is not None and bar.isVisible():
-            looks.append(bar.text.text())
+        if pressed or bar is None or not bar.isVisible():
+            return
+        looks.append(bar.text.text())
         if len(looks) == 3:  # by now it is drawn
             subprocess.run(["import", "-window", "root", str(OUT / "4_progress.png")], check=True)
             figures["progress text"] = looks[-1]

@@ -93,18 +93,22 @@ def cutaway(part_file: str, solid_file: str, shell: float, picture: str) -> None
 
 def cells(picture: str) -> None:
     """Picture every cell of the library as a free-standing block of one, with its name."""
-    size, columns = 10.0, 3
-    scene = _Scene((1200, 760))
+    size, columns = 10.0, 7
+    scene = _Scene((1600, 1000))
     for k, name in enumerate(LIBRARY):
         row, column = divmod(k, columns)
-        spec = LatticeSpec(cell=name, cell_size=size, strut_radius=0.8, resolution=40)
+        radius = 0.8 if len(LIBRARY[name].struts) < 40 else 0.5
+        spec = LatticeSpec(cell=name, cell_size=size, strut_radius=radius, resolution=40)
         mesh = block(spec, (1, 1, 1)).mesh
-        place = np.array([1.9 * size * column, -2.05 * size * row, 0.0])
-        # Turned in place, so that every cell is seen from the same side.
-        turned = (mesh.vertices - mesh.bounds.mean(axis=0)) @ _turn(-28.0, 20.0).T + place
-        scene.add(TriangleMesh(turned, mesh.triangles), None, CELL, ambient=0.0)
-        scene.label(name, place + np.array([0.0, -1.02 * size, 0.0]))
-    scene.look(direction=(0.0, 0.0, 1.0), up=(0.0, 1.0, 0.0), zoom=1.5)
+        place = np.array([2.0 * size * column, -2.25 * size * row, 0.0])
+        # Turned in place, so that every cell is seen from the same side, with z upwards.
+        upright = np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]])
+        turned = (mesh.vertices - mesh.bounds.mean(axis=0)) @ (_turn(-28.0, 20.0) @ upright).T
+        scene.add(TriangleMesh(turned + place, mesh.triangles), None, CELL, ambient=0.0)
+        label = name.replace(" ", "\n").replace("cubo", "cubo-\n") if len(name) > 13 else name
+        below = 0.95 + 0.17 * label.count("\n") + 0.1
+        scene.label(label, place + np.array([0.0, -below * size, 0.0]))
+    scene.look(direction=(0.0, 0.0, 1.0), up=(0.0, 1.0, 0.0), zoom=1.62)
     scene.save(picture)
 
 

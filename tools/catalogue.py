@@ -19,7 +19,9 @@ import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.colors import Normalize
 
+from volfrep.design.cells import LIBRARY, PAPERS, USES
 from volfrep.mechanics import catalogue as shipped
+from volfrep.mechanics.endless import strains_held
 from volfrep.mechanics.materials import MATERIALS
 from volfrep.mechanics.tensor import gibson_ashby, hashin_shtrikman, moduli, young
 
@@ -39,7 +41,8 @@ def charts() -> None:
     bounds, foam = hashin_shtrikman(density), gibson_ashby(density)
     titles = ("E along an edge [100] / E of the solid", "G / E of the solid",
               "strength along an edge / yield stress of the solid")  # fmt: skip
-    for (name, cell), colour in zip(shipped.catalogue().items(), COLOURS, strict=True):
+    for name, colour in zip(PAPERS, COLOURS, strict=True):
+        cell = shipped.catalogue()[name]
         found = [cell.at(ratio) for ratio in np.geomspace(cell.ratios[0], cell.ratios[-1], 60)]
         tensors = [
             cell.tensor(ratio) for ratio in np.geomspace(cell.ratios[0], cell.ratios[-1], 60)
@@ -77,7 +80,8 @@ def surfaces() -> None:
         [np.sin(polar) * np.cos(around), np.sin(polar) * np.sin(around), np.cos(polar)], axis=-1
     )
     figure = plt.figure(figsize=(13, 8.6), layout="constrained")
-    for place, (name, cell) in enumerate(shipped.catalogue().items(), 1):
+    for place, name in enumerate(PAPERS, 1):
+        cell = shipped.catalogue()[name]
         tensor = cell.tensor(cell.ratio_of_density(OF_SURFACES))
         along = young(tensor, ways)
         plot = figure.add_subplot(2, 3, place, projection="3d")
@@ -98,6 +102,26 @@ def surfaces() -> None:
     plt.close(figure)
 
 
+def cells_table() -> str:
+    """The library, sorted by what its cells are for, as Markdown."""
+    lines = []
+    for use, text in USES.items():
+        lines += [
+            f"**{text[0].upper()}{text[1:]}**\n",
+            "| cell | nodes | struts | Maxwell | carries load by | what it is | also called |",
+            "|---|---|---|---|---|---|---|",
+        ]
+        lines += [
+            f"| {cell.name} | {len(cell.nodes)} | {len(cell.struts)} | {cell.maxwell_number} | "
+            f"{'stretching' if strains_held(cell) == 6 else 'bending'} | {cell.about} | "
+            f"{', '.join(cell.also)} |"
+            for cell in LIBRARY.values()
+            if cell.use == use
+        ]
+        lines.append("")
+    return "\n".join(lines[:-1])
+
+
 def properties_table() -> str:
     """The cells at a few relative densities, as Markdown."""
     lines = [
@@ -107,7 +131,7 @@ def properties_table() -> str:
     ]
     for name, cell in shipped.catalogue().items():
         for density in DENSITIES:
-            if density > cell.values[-1, 0]:
+            if not cell.values[0, 0] <= density <= cell.values[-1, 0]:
                 continue
             ratio = cell.ratio_of_density(density)
             found, values = moduli(cell.tensor(ratio)), cell.at(ratio)
@@ -136,7 +160,12 @@ def materials_table() -> str:
 def write_tables() -> None:
     """Put the tables between their marks in docs/cells.md."""
     text = PAGE.read_text(encoding="utf-8")
-    for mark, table in (("properties", properties_table()), ("materials", materials_table())):
+    tables = {
+        "cells": cells_table(),
+        "properties": properties_table(),
+        "materials": materials_table(),
+    }
+    for mark, table in tables.items():
         before, _, rest = text.partition(f"<!-- {mark}: made by make catalogue -->\n")
         after = rest.partition(f"<!-- end of {mark} -->")[2]
         marked = f"<!-- {mark}: made by make catalogue -->\n{table}\n<!-- end of {mark} -->"

@@ -13,6 +13,7 @@ import FreeCADGui as Gui
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 from volfrep.design.cells import LIBRARY, UnitCell, load_cell
 from volfrep.design.parameters.table import CUSTOM_CELL
+from volfrep.mechanics.endless import strains_held
 from volfrep.util.errors import VolfrepError
 
 from .cell_picture import cell_icon
@@ -25,9 +26,15 @@ from .selection import selected_infill, selected_with_edges
 SMALL, LARGE = 84, 220
 _CONTEXT = "VolfrepCells"
 FILTER = QT_TRANSLATE_NOOP("VolfrepCells", "Unit cell (*.json)")
-_MODES = {
-    "stretch": QT_TRANSLATE_NOOP("VolfrepCells", "stretching"),
-    "bending": QT_TRANSLATE_NOOP("VolfrepCells", "bending"),
+_STRETCHING = QT_TRANSLATE_NOOP("VolfrepCells", "stretching")
+_BENDING = QT_TRANSLATE_NOOP("VolfrepCells", "bending")
+#: What cells are for, as `volfrep.design.cells.USES` has it.
+_USES = {
+    "stiff": QT_TRANSLATE_NOOP("VolfrepCells", "stiff in every direction"),
+    "axial": QT_TRANSLATE_NOOP("VolfrepCells", "stiff along its columns"),
+    "soft": QT_TRANSLATE_NOOP("VolfrepCells", "soft: energy, vibration"),
+    "open": QT_TRANSLATE_NOOP("VolfrepCells", "open: flow, bone, foams"),
+    "auxetic": QT_TRANSLATE_NOOP("VolfrepCells", "auxetic: wider when pulled"),
 }
 _ENTRY = QtCore.Qt.UserRole
 
@@ -61,6 +68,7 @@ class CellLibrary(QtWidgets.QDialog):
         self.setWindowTitle(translate("VOLFREP_CellLibrary", "Cell Library"))
         self.setAttribute(QtCore.Qt.WA_DeleteOnClose)
         self._list = self._picker()
+        self._use = self._chooser()
         self._picture, self._figures, self._note = (QtWidgets.QLabel() for _ in range(3))
         self._picture.setFixedSize(LARGE, LARGE)
         self._figures.setObjectName("Figures")
@@ -196,8 +204,31 @@ class CellLibrary(QtWidgets.QDialog):
         picker.setIconSize(QtCore.QSize(SMALL, SMALL))
         picker.setMovement(QtWidgets.QListView.Static)
         picker.setResizeMode(QtWidgets.QListView.Adjust)
+        picker.setGridSize(QtCore.QSize(SMALL + 32, SMALL + 46))
+        picker.setWordWrap(True)
         picker.setMinimumSize(3 * (SMALL + 28), 2 * (SMALL + 44))
         return picker
+
+    def _chooser(self) -> Any:
+        """What the shown cells are for."""
+        chooser = QtWidgets.QComboBox()
+        chooser.setObjectName("Use")
+        chooser.addItem(translate(_CONTEXT, "All cells"), "")
+        for use, text in _USES.items():
+            chooser.addItem(translate(_CONTEXT, text), use)
+        chooser.currentIndexChanged.connect(lambda _: self._filter())
+        return chooser
+
+    def _filter(self) -> None:
+        """Show the library's cells for the chosen use, and all of one's own."""
+        use = self._use.currentData()
+        for row in range(self._list.count()):
+            item = self._list.item(row)
+            entry: Entry = item.data(_ENTRY)
+            item.setHidden(bool(use) and not entry.is_own and entry.cell.use != use)
+        if self._list.currentItem() is not None and self._list.currentItem().isHidden():
+            shown = (self._list.item(row) for row in range(self._list.count()))
+            self._list.setCurrentItem(next(item for item in shown if not item.isHidden()))
 
     def _button(self, name: str, tip: str, act: Any) -> Any:
         button = QtWidgets.QPushButton(translate(_CONTEXT, name))
@@ -212,8 +243,11 @@ class CellLibrary(QtWidgets.QDialog):
         right.addWidget(self._picture)
         right.addWidget(self._figures)
         right.addStretch()
+        left = QtWidgets.QVBoxLayout()
+        left.addWidget(self._use)
+        left.addWidget(self._list, 1)
         both = QtWidgets.QHBoxLayout()
-        both.addWidget(self._list, 1)
+        both.addLayout(left, 1)
         both.addLayout(right)
         line = QtWidgets.QHBoxLayout()
         for button in self._buttons.values():
@@ -222,7 +256,7 @@ class CellLibrary(QtWidgets.QDialog):
         column.addLayout(both, 1)
         column.addWidget(self._note)
         column.addLayout(line)
-        self.resize(640, 420)
+        self.resize(860, 560)
 
     def _add(self, entry: Entry, pick: bool = False) -> None:
         item = QtWidgets.QListWidgetItem(cell_icon(entry.cell, SMALL), entry.cell.name, self._list)
@@ -238,6 +272,7 @@ class CellLibrary(QtWidgets.QDialog):
             return
         for item in self._list.findItems(name, QtCore.Qt.MatchExactly):
             self._list.setCurrentItem(item)
+            self._list.scrollToItem(item)
 
     def _entry(self) -> Entry:
         entry: Entry = self._list.currentItem().data(_ENTRY)
@@ -253,8 +288,13 @@ class CellLibrary(QtWidgets.QDialog):
             (translate(_CONTEXT, "Maxwell number"), cell.maxwell_number),
             (
                 translate(_CONTEXT, "Carries load by"),
-                translate(_CONTEXT, _MODES[cell.deformation_mode]),
+                translate(_CONTEXT, _STRETCHING if strains_held(cell) == 6 else _BENDING),
             ),
+            (
+                translate(_CONTEXT, "Good for"),
+                translate(_CONTEXT, _USES[cell.use]) if cell.use else "-",
+            ),
+            (translate(_CONTEXT, "Also known as"), "\n".join(cell.also) or "-"),
             (
                 translate(_CONTEXT, "File"),
                 Path(entry.path).name
@@ -263,7 +303,9 @@ class CellLibrary(QtWidgets.QDialog):
             ),
         )
         lines = "".join(
-            f"<tr><td>{name}&nbsp;&nbsp;</td><td>{html.escape(str(value))}</td></tr>"
+            "<tr><td>{}&nbsp;&nbsp;</td><td>{}</td></tr>".format(
+                name, html.escape(str(value)).replace("\n", "<br>")
+            )
             for name, value in rows
         )
         self._figures.setText(f"<b>{html.escape(cell.name)}</b><table>{lines}</table>")

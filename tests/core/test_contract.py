@@ -8,7 +8,7 @@ import samples
 from contract import check_contract
 from samples import SKEW
 from volfrep import LatticeSpec
-from volfrep.design.cells import LIBRARY
+from volfrep.design.cells import PAPERS, find_cell
 
 SOLIDS = (
     lambda: samples.box(),
@@ -25,7 +25,7 @@ def random_case(seed):
     size = np.sort(np.ptp(solid.bounds, axis=0))
     cell_size = float(np.round(random.uniform(0.15, 0.6) * size[1], random.integers(0, 3)))
     return solid, LatticeSpec(
-        cell=random.choice([*LIBRARY.values(), SKEW]),
+        cell=random.choice([*map(find_cell, PAPERS), SKEW]),
         cell_size=cell_size,
         strut_radius=cell_size * float(np.round(random.uniform(0.05, 0.2), random.integers(2, 4))),
         shell=float(random.choice([0.0, 0.05, 0.08, 0.15]) * size[0]),

@@ -18,7 +18,7 @@ from freecad_volfrep.features.lattice_infill import (
 )
 from freecad_volfrep.features.properties import PROPERTIES, SCHEMA_VERSION, ensure_properties
 from freecad_volfrep.features.quantities import mass_of, set_value
-from volfrep.design.cells import LIBRARY
+from volfrep.design.cells import PAPERS
 from volfrep.util.errors import Cancelled, VolfrepError
 
 
@@ -49,7 +49,7 @@ def test_result_is_one_closed_light_solid(infill, box):
         assert getattr(infill.Mesh.BoundBox, face) == pytest.approx(outer, abs=1e-4)
 
 
-@pytest.mark.parametrize("cell", LIBRARY)
+@pytest.mark.parametrize("cell", PAPERS)
 def test_every_cell_of_the_library(doc, box, cell):
     obj = make_lattice_infill(doc, box, CellType=cell, **SMALL)
     doc.recompute()

@@ -326,14 +326,21 @@ def _finish(
 
 
 def _cells(_: argparse.Namespace) -> None:
-    from ..design.cells import LIBRARY
+    from ..design.cells import LIBRARY, USES
+    from ..mechanics.endless import strains_held
 
-    print(f"{'name':<12}{'nodes':>6}{'struts':>8}{'Maxwell':>9}  deformation")
+    print(f"{'name':<25}{'nodes':>6}{'struts':>8}{'Maxwell':>9}  {'carries by':<13}also known as")
+    use = None
     for cell in LIBRARY.values():
-        print(
-            f"{cell.name:<12}{len(cell.nodes):>6}{len(cell.struts):>8}"
-            f"{cell.maxwell_number:>9}  {cell.deformation_mode}"
+        if cell.use != use:
+            use = cell.use
+            print(f"\n{USES[use]}")
+        carries = "stretching" if strains_held(cell) == 6 else "bending"
+        row = (
+            f"{cell.name:<25}{len(cell.nodes):>6}{len(cell.struts):>8}"
+            f"{cell.maxwell_number:>9}  {carries:<13}{', '.join(cell.also)}"
         )
+        print(row.rstrip())
 
 
 def _check(options: argparse.Namespace) -> None:

@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Unit cells: the nodes N and the struts M of section 2.2 of the VOLFREP paper.
 
-A cell is added to the library in one place: `LIBRARY`. A user's own cell comes from a JSON file
-through `load_cell`.
+The library is a folder of files, `cell_library`, in the format of a user's own: a new cell is one
+more file. All are read by `load_cell`.
 """
 
 from __future__ import annotations
 
-import itertools
 import json
 import os
 from dataclasses import dataclass, field, replace
@@ -38,16 +37,22 @@ class UnitCell:
         nodes: N, (n, 3) float64, in units of the cell size L, each coordinate in [0, 1].
         struts: M, (m, 2) int64, rows of `nodes`.
         source: the file that it was read from; empty for none.
+        use: what it is for, a key of `USES`; empty where nobody said.
+        about: what it is, in a few words.
+        also: names that others know it by.
 
     >>> cell = find_cell("BCC")
-    >>> len(cell.nodes), len(cell.struts), cell.maxwell_number, cell.deformation_mode
-    (9, 20, -1, 'bending')
+    >>> len(cell.nodes), len(cell.struts), cell.maxwell_number
+    (9, 20, -1)
     """
 
     name: str
     nodes: NDArray[np.float64] = field(compare=False)
     struts: NDArray[np.int64] = field(compare=False)
     source: str = field(default="", compare=False, repr=False)
+    use: str = field(default="", compare=False, repr=False)
+    about: str = field(default="", compare=False, repr=False)
+    also: tuple[str, ...] = field(default=(), compare=False, repr=False)
     _content: bytes = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -59,11 +64,6 @@ class UnitCell:
     def maxwell_number(self) -> int:
         """Maxwell number b - 3 j + 6 for b struts and j nodes (pin-jointed frames in 3D)."""
         return len(self.struts) - 3 * len(self.nodes) + 6
-
-    @property
-    def deformation_mode(self) -> str:
-        """``stretch`` where Maxwell's number is not negative, else ``bending``."""
-        return "stretch" if self.maxwell_number >= 0 else "bending"
 
     @property
     def is_mirror_symmetric(self) -> bool:
@@ -85,50 +85,30 @@ def _strut_keys(
     return {frozenset((keys[a], keys[b])) for a, b in struts}
 
 
-def _from_rule(
-    name: str,
-    points: list[tuple[float, ...]],
-    squared_lengths: set[float],
-    from_first: int | None = None,
-) -> UnitCell:
-    """Join every pair of points whose squared distance, in L2, is in the set.
-
-    With `from_first`, at least one end must be among that many first points.
-    """
-    nodes = np.array(points, float)
-    pairs = [
-        (a, b)
-        for a, b in itertools.combinations(range(len(points)), 2)
-        if (from_first is None or a < from_first)
-        and any(abs(float(((nodes[a] - nodes[b]) ** 2).sum()) - s) < 1e-9 for s in squared_lengths)
-    ]
-    return UnitCell(name, nodes, np.array(pairs, np.int64))
-
-
-_CORNERS: list[tuple[float, ...]] = [
-    tuple(map(float, p)) for p in itertools.product((0, 1), repeat=3)
-]
-_FACES: list[tuple[float, ...]] = [
-    tuple(side if axis == k else 0.5 for k in range(3)) for axis in range(3) for side in (0.0, 1.0)
-]
-_CENTRE: list[tuple[float, ...]] = [(0.5, 0.5, 0.5)]
-
-#: The paper's six (section 2.2), by name. A new built-in cell is one more line here.
-LIBRARY: dict[str, UnitCell] = {
-    cell.name: cell
-    for cell in (
-        _from_rule("Box", _CORNERS, {1.0}),
-        _from_rule("FCC", _CORNERS + _FACES, {1.0, 0.5}, from_first=8),
-        _from_rule("BCC", _CORNERS + _CENTRE, {1.0, 0.75}),
-        _from_rule("Octet", _CORNERS + _FACES, {0.5}),
-        _from_rule("Octahedron", _FACES, {0.5}),
-        _from_rule("CVC", _CORNERS + _CENTRE, {0.75}),
-    )
+#: The paper's six (section 2.2).
+PAPERS = ("Box", "FCC", "BCC", "Octet", "Octahedron", "CVC")
+#: What cells are for, in the order of the library, and how that is said.
+USES = {
+    "stiff": "stiff in every direction",
+    "axial": "stiff along its columns",
+    "soft": "soft: energy, vibration",
+    "open": "open: flow, bone, foams",
+    "auxetic": "auxetic: wider when pulled",
 }
+_FOLDER = Path(__file__).with_name("cell_library")
+
+
+def _library() -> dict[str, UnitCell]:
+    cells = [replace(load_cell(file), source="") for file in _FOLDER.glob("*.json")]
+    uses = list(USES)
+    cells.sort(key=lambda cell: (uses.index(cell.use), len(cell.struts), cell.name))
+    return {cell.name: cell for cell in cells}
 
 
 def find_cell(name: str) -> UnitCell:
     """The library's cell of that name (case does not matter), or the cell of a JSON file.
+
+    A library's cell is found by the names that others know it by, too.
 
     Raises:
         VolfrepError: no such cell, or the file is not a valid cell.
@@ -136,8 +116,9 @@ def find_cell(name: str) -> UnitCell:
     >>> find_cell("octet").name
     'Octet'
     """
+    wanted = name.strip().lower()
     for cell in LIBRARY.values():
-        if cell.name.lower() == name.strip().lower():
+        if wanted in (cell.name.lower(), *(other.lower() for other in cell.also)):
             return cell
     if name.lower().endswith(".json"):
         return load_cell(name)
@@ -150,7 +131,8 @@ def find_cell(name: str) -> UnitCell:
 def load_cell(path: str | os.PathLike[str]) -> UnitCell:
     """Read a custom cell: ``{"name": …, "nodes": [[x, y, z], …], "struts": [[i, j], …]}``.
 
-    Nodes are in units of L within [0, 1], struts are pairs of node indices from 0.
+    Nodes are in units of L within [0, 1], struts are pairs of node indices from 0. It may tell a
+    ``use``, a key of `USES`, a few words ``about`` it, and in ``also`` a list of other names.
 
     Raises:
         VolfrepError: naming the file and what is wrong in it.
@@ -178,8 +160,17 @@ def load_cell(path: str | os.PathLike[str]) -> UnitCell:
     name = data.get("name", file.stem)
     if not isinstance(name, str) or not name.strip():
         raise VolfrepError(f"In the cell file '{file}', 'name' must be a text.")
+    use, about, also = data.get("use", ""), data.get("about", ""), data.get("also", [])
+    if use not in ("", *USES):
+        raise VolfrepError(
+            f"In the cell file '{file}', 'use' must be one of {', '.join(USES)}, or left out."
+        )
+    if not isinstance(about, str):
+        raise VolfrepError(f"In the cell file '{file}', 'about' must be a text.")
+    if not isinstance(also, list) or not all(isinstance(other, str) for other in also):
+        raise VolfrepError(f"In the cell file '{file}', 'also' must be a list of names.")
     cell = make_cell(name.strip(), data["nodes"], data["struts"], f"cell file '{file}'")
-    return replace(cell, source=str(file))
+    return replace(cell, source=str(file), use=use, about=about, also=tuple(also))
 
 
 def make_cell(name: str, nodes: object, struts: object, where: str = "unit cell") -> UnitCell:
@@ -244,6 +235,9 @@ def _rows(value: object, width: int, most: int, noun: str, where: str) -> NDArra
         raise VolfrepError(f"In the {where}, a {noun} holds a number that is not finite.")
     return rows
 
+
+#: The library's cells by name, sorted by what they are for.
+LIBRARY: dict[str, UnitCell] = _library()
 
 Number = TypeVar("Number", float, Floats)
 

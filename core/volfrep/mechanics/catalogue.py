@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from ..design.cells import LIBRARY, UnitCell
+from ..design.cells import LIBRARY, PAPERS, UnitCell
 from ..util.errors import VolfrepError
 from ..util.types import Floats
 from .frame import CIRCLE, SQUARE_SECTION, Ends, JointLaw
@@ -30,6 +30,10 @@ POISSON = 0.3
 #: r / L of the catalogue; and the density above which struts are hardly struts any more.
 RATIOS = (0.02, 0.03, 0.04, 0.05, 0.07, 0.1, 0.125, 0.15, 0.2)
 DENSEST = 0.75
+#: The paper's six are known at all of these, the others at fewer.
+FEWER_RATIOS = (0.03, 0.05, 0.07, 0.1, 0.15)
+#: A cell is listed where its tensor differs from a cubic one by less than this share of C11.
+CUBIC_WITHIN = 0.03
 #: What is stored of a cell at each ratio, each with its error: in units of the solid's.
 NAMES = ("relative_density", "C11", "C12", "C44", "strength", "shear_strength", "conductivity")
 #: The sections whose ends are stored: of the deck's two-noded beams, and the round ones of
@@ -201,11 +205,25 @@ def _fitted(cell: UnitCell, key: tuple[bytes, bytes], ratio: float, section: str
     return Ends(*np.exp((1.0 - share) * logs[0] + share * logs[1]).tolist())
 
 
+def is_listed(cell: UnitCell) -> bool:
+    """Whether three constants say all of a cell's stiffness: it is cubic, and carries in shear."""
+    try:
+        found = homogenise(cell, FEWER_RATIOS[1], poisson=POISSON, along=32).tensor
+    except VolfrepError:  # it does not hang together
+        return False
+    cubic_part = cubic(
+        found[:3, :3].trace() / 3.0,
+        (found[0, 1] + found[0, 2] + found[1, 2]) / 3.0,
+        found[3:, 3:].trace() / 3.0,
+    )
+    return bool(np.abs(found - cubic_part).max() < CUBIC_WITHIN * found[0, 0])
+
+
 def compute(name: str, say: Callable[[str], None] = lambda _: None) -> CatalogueCell:
-    """A cell of the library over `RATIOS`, as far as its density allows."""
+    """A cell of the library over its ratios, as far as its density allows."""
     cell = LIBRARY[name]
     ratios, values, errors = [], [], []
-    for ratio in RATIOS:
+    for ratio in RATIOS if name in PAPERS else FEWER_RATIOS:
         row, doubt = point(cell, ratio)
         if row[0] > DENSEST:
             break
@@ -263,7 +281,9 @@ def main(arguments: list[str]) -> None:
 
     With ``--fit`` only the ends are fitted anew, to the stiffness that is known.
     """
-    names = [name for name in arguments if name != "--fit"] or list(LIBRARY)
+    names = [name for name in arguments if name != "--fit"] or [
+        name for name, cell in LIBRARY.items() if is_listed(cell)
+    ]
     if "--fit" in arguments:
         computed = {name: refitted(catalogue()[name]) for name in names}
     else:

@@ -20,6 +20,8 @@ from ..util.types import Floats, Ints
 #: Points that are looked up together: blocks of so many voxels along an edge.
 BLOCK = 4
 _STEPS = round(1.0 / NODE_TOLERANCE)
+#: A stiffness below this, over that of all struts side by side, is none.
+_HINGED = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,6 +69,34 @@ def endless_cell(cell: UnitCell) -> EndlessCell:
     return EndlessCell(
         places / _STEPS, number[first], ends[first, 0] / _STEPS, ends[first, 1] / _STEPS
     )
+
+
+def strains_held(cell: UnitCell) -> int:
+    """How many of the six strains stretch the struts of the endless lattice, were they hinged.
+
+    All six: the lattice carries whatever comes by pulling and pressing its struts (it is stretching
+    dominated). Where struts need not change their lengths, they bend: the lattice is softer, and
+    takes up more energy. The rank of a periodic pin-jointed frame, R. G. Hutchinson and
+    N. A. Fleck, J. Mech. Phys. Solids 54, 2006.
+
+    >>> from volfrep.design.cells import find_cell
+    >>> strains_held(find_cell("Octet")), strains_held(find_cell("Box"))
+    (6, 3)
+    """
+    endless = endless_cell(cell)
+    length = endless.lengths
+    along = (endless.end - endless.start) / length[:, None]
+    rows = np.arange(len(length))
+    # The strut's elongation by its ends' displacements, and by a strain of the whole.
+    moved = np.zeros((len(length), len(endless.nodes), 3))
+    np.add.at(moved, (rows, endless.struts[:, 1]), along)
+    np.add.at(moved, (rows, endless.struts[:, 0]), -along)
+    root = np.sqrt(length)[:, None]
+    moved = moved.reshape(len(length), -1) / root
+    strained = np.concatenate([along**2, along * np.roll(along, 1, axis=1)], axis=1) * root
+    left = strained - moved @ np.linalg.lstsq(moved, strained, rcond=1e-9)[0]
+    stiffness = np.linalg.eigvalsh(left.T @ left) / length.sum()
+    return int((stiffness > _HINGED).sum())
 
 
 def _first_sign(rows: Ints) -> Ints:

@@ -1000,6 +1000,14 @@
   <context>
     <name>VolfrepCells</name>
     <message>
+      <source>All cells</source>
+      <translation>Alle Zellen</translation>
+    </message>
+    <message>
+      <source>Also known as</source>
+      <translation>Auch bekannt als</translation>
+    </message>
+    <message>
       <source>Apply</source>
       <translation>Anwenden</translation>
     </message>
@@ -1030,6 +1038,10 @@
     <message>
       <source>Give the picked cell to the selected lattice infill</source>
       <translation>Gibt die gewählte Zelle der ausgewählten Gitterfüllung</translation>
+    </message>
+    <message>
+      <source>Good for</source>
+      <translation>Gut für</translation>
     </message>
     <message>
       <source>Load Cell</source>
@@ -1080,12 +1092,32 @@
       <translation>Schreibt die gewählte Zelle in eine JSON-Datei</translation>
     </message>
     <message>
+      <source>auxetic: wider when pulled</source>
+      <translation>auxetisch: wird beim Ziehen breiter</translation>
+    </message>
+    <message>
       <source>bending</source>
       <translation>Biegung</translation>
     </message>
     <message>
       <source>not saved</source>
       <translation>nicht gespeichert</translation>
+    </message>
+    <message>
+      <source>open: flow, bone, foams</source>
+      <translation>offen: Strömung, Knochen, Schäume</translation>
+    </message>
+    <message>
+      <source>soft: energy, vibration</source>
+      <translation>weich: Energie, Schwingungen</translation>
+    </message>
+    <message>
+      <source>stiff along its columns</source>
+      <translation>steif längs ihrer Säulen</translation>
+    </message>
+    <message>
+      <source>stiff in every direction</source>
+      <translation>steif in jeder Richtung</translation>
     </message>
     <message>
       <source>stretching</source>

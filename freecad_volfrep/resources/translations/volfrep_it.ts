@@ -1000,6 +1000,14 @@
   <context>
     <name>VolfrepCells</name>
     <message>
+      <source>All cells</source>
+      <translation>Tutte le celle</translation>
+    </message>
+    <message>
+      <source>Also known as</source>
+      <translation>Nota anche come</translation>
+    </message>
+    <message>
       <source>Apply</source>
       <translation>Applica</translation>
     </message>
@@ -1030,6 +1038,10 @@
     <message>
       <source>Give the picked cell to the selected lattice infill</source>
       <translation>Assegna la cella scelta al riempimento reticolare selezionato</translation>
+    </message>
+    <message>
+      <source>Good for</source>
+      <translation>Adatta per</translation>
     </message>
     <message>
       <source>Load Cell</source>
@@ -1080,12 +1092,32 @@
       <translation>Scrive la cella scelta in un file JSON</translation>
     </message>
     <message>
+      <source>auxetic: wider when pulled</source>
+      <translation>auxetica: si allarga se tirata</translation>
+    </message>
+    <message>
       <source>bending</source>
       <translation>flessione</translation>
     </message>
     <message>
       <source>not saved</source>
       <translation>non salvata</translation>
+    </message>
+    <message>
+      <source>open: flow, bone, foams</source>
+      <translation>aperta: flusso, osso, schiume</translation>
+    </message>
+    <message>
+      <source>soft: energy, vibration</source>
+      <translation>cedevole: energia, vibrazioni</translation>
+    </message>
+    <message>
+      <source>stiff along its columns</source>
+      <translation>rigida lungo le colonne</translation>
+    </message>
+    <message>
+      <source>stiff in every direction</source>
+      <translation>rigida in ogni direzione</translation>
     </message>
     <message>
       <source>stretching</source>

@@ -11,7 +11,7 @@ from bench import parts
 from bench.parts import NO_PARTS, PARTS
 from contract import check_contract
 from volfrep import LatticeSpec, StageCache, read_solid
-from volfrep.design.cells import LIBRARY
+from volfrep.design.cells import PAPERS, find_cell
 from volfrep.design.openings import DrainHoles, OpenPlane
 
 REAL = (
@@ -69,7 +69,7 @@ def random_spec(solid, name, number):
     if shell > 0.0 and output == "part" and random.random() < 0.25:
         openings["drains"] = DrainHoles(0.4 * shell + 0.02 * size[0], count=1)
     return LatticeSpec(
-        cell=random.choice([*LIBRARY.values(), samples.SKEW]),
+        cell=random.choice([*map(find_cell, PAPERS), samples.SKEW]),
         cell_size=cell_size,
         strut_radius=cell_size * float(random.uniform(0.05, 0.18)),
         shell=shell,

@@ -9,7 +9,7 @@ import pytest
 
 from bench.parts import MODELLED, NO_PARTS, PARTS, modelled_file
 from volfrep import LatticeSpec, StageCache, read_solid
-from volfrep.design.cells import LIBRARY
+from volfrep.design.cells import PAPERS
 from volfrep.io.write.stl import as_read
 from volfrep.jobs.pipeline import fill
 from volfrep.mesh import quality
@@ -119,7 +119,7 @@ def test_a_modelled_part_keeps_its_bodies(name, tmp_path):
 
 
 @needs_parts
-@pytest.mark.parametrize("cell", LIBRARY)
+@pytest.mark.parametrize("cell", PAPERS)
 def test_every_cell_fills_the_bracket(cell):
     spec = LatticeSpec(cell=cell, cell_size=10, strut_radius=1, shell=3)
     result = check("ge_bracket.stl", spec)

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import samples
-from volfrep.design.cells import LIBRARY
+from volfrep.design.cells import PAPERS
 from volfrep.design.grading import CellMap, Orientation, RadiusGrading, SizeGrading
 from volfrep.design.openings import OpenPlane
 from volfrep.design.profile import Profile
@@ -19,7 +19,7 @@ def both(solid, spec):
     return preview(solid, spec, PartDepth(solid, spec.open_faces)), fill(solid, spec).report
 
 
-@pytest.mark.parametrize("cell", LIBRARY)
+@pytest.mark.parametrize("cell", PAPERS)
 def test_its_figures_are_those_of_the_part(cell):
     spec = LatticeSpec(cell=cell, cell_size=8.0, strut_radius=0.8, shell=2.0, density=1.2)
     shown, report = both(samples.sphere(20.0), spec)

@@ -8,7 +8,7 @@ import pytest
 
 from samples import box
 from volfrep import LatticeSpec, StageCache
-from volfrep.design.cells import LIBRARY
+from volfrep.design.cells import PAPERS
 from volfrep.jobs.blocks import block, write_block_stl
 from volfrep.jobs.pipeline import fill
 
@@ -22,7 +22,7 @@ def work(cells):
     return fill(box((5.0 * cells,) * 3), spec).report.work
 
 
-@pytest.mark.parametrize("cell", LIBRARY)
+@pytest.mark.parametrize("cell", PAPERS)
 def test_a_block_takes_eight_kinds_of_octants_however_large_it_is(cell):
     """Of 27 patterns of neighbours: struts that end in a joint do not show beyond it."""
     spec = LatticeSpec(cell, 10.0, 1.0, resolution=8)

@@ -9,11 +9,11 @@ import pytest
 
 import plates
 from volfrep import VolfrepError
-from volfrep.design.cells import LIBRARY, make_cell
+from volfrep.design.cells import LIBRARY, PAPERS, make_cell
 from volfrep.fem.beam_mesh import fitted_beams
 from volfrep.jobs.blocks import block_wireframe
 from volfrep.mechanics import catalogue as shipped
-from volfrep.mechanics.catalogue import NAMES, SECTIONS, catalogue, joint_law, known_cell
+from volfrep.mechanics.catalogue import NAMES, SECTIONS, catalogue, is_listed, joint_law, known_cell
 from volfrep.mechanics.density import relative_density
 from volfrep.mechanics.frame import Ends, frame_tensor
 from volfrep.mechanics.homogenise import homogenise
@@ -26,8 +26,8 @@ needs = [
 ]
 
 
-def test_every_cell_of_the_library_is_there():
-    assert list(catalogue()) == list(LIBRARY)
+def test_every_cubic_cell_of_the_library_is_there():
+    assert set(PAPERS) <= set(catalogue()) <= {n for n, cell in LIBRARY.items() if is_listed(cell)}
     for cell in catalogue().values():
         assert (np.diff(cell.ratios) > 0).all()
         assert (np.diff(cell.values[:, 0]) > 0).all()
@@ -75,7 +75,7 @@ def test_the_ratio_of_a_density():
         known.tensor(0.5)
 
 
-@pytest.mark.parametrize("name", list(LIBRARY))
+@pytest.mark.parametrize("name", PAPERS)
 def test_the_shipped_ends_give_frames_the_moduli_of_the_solid(name):
     """Up to r / L = 0.1; round ones cannot be wider at their ends and meet G less well."""
     known = catalogue()[name]
@@ -133,7 +133,7 @@ def test_a_cell_that_carries_nothing_has_rigid_ends_and_says_so():
 
 @pytest.mark.slow
 @pytest.mark.parametrize("ratio", [0.05, 0.1, 0.15])
-@pytest.mark.parametrize("name", list(LIBRARY))
+@pytest.mark.parametrize("name", PAPERS)
 class TestBlocksBetweenPlates:
     pytestmark = needs
 

@@ -236,6 +236,42 @@ def block(
     return Part(make_block(wanted, count, progress=progress), wanted, None, StageCache())
 
 
+def network(
+    graph: str | os.PathLike[str] | tuple[Any, ...],
+    spec: LatticeSpec | None = None,
+    *,
+    progress: ProgressCallback | None = None,
+    **parameters: Any,
+) -> Part:
+    """The nodes and struts of any graph, meshed as they are in free space.
+
+    To fill a part with it, give ``network=volfrep.design.networks.make_network(...)``, or a
+    ``RandomNetwork``, to `fill`.
+
+    Args:
+        graph: a file (see `volfrep.design.networks.read_network`), or arrays: nodes (n, 3) in
+            mm, struts (m, 2), and, if they differ, radii (m,), (m, 2) or (n,) in mm.
+        spec: what to make.
+        progress: as of `fill`.
+        parameters: as of `fill`.
+
+    Raises:
+        VolfrepError: the graph or the specification makes no sense.
+        Cancelled: the callback said so.
+
+    >>> import volfrep
+    >>> made = volfrep.network(([[0, 0, 0], [9, 0, 0], [0, 9, 0]], [(0, 1), (0, 2), (1, 2)]))
+    >>> made.report.genus, made.report.bodies
+    (1, 1)
+    """
+    from .design.networks import make_network, read_network
+    from .jobs.network_infill import network_alone
+
+    found = make_network(*graph[:3]) if isinstance(graph, tuple) else read_network(graph)
+    wanted = _specification(spec, {**parameters, "network": found}, None)
+    return Part(network_alone(wanted, progress=progress), wanted, None, StageCache())
+
+
 def as_solid(
     part: str | os.PathLike[str] | TriangleMesh | MeshLike | tuple[ArrayLike, ArrayLike],
     unit: str | None = None,

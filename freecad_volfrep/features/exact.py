@@ -74,10 +74,10 @@ def ingredients_of(obj: App.DocumentObject, progress: Any = None) -> Ingredients
         Cancelled: in the window, by the user.
     """
     solid, spec, cache = inputs_of(obj)
-    from volfrep.jobs.infill import Infill
+    from volfrep.jobs.network_infill import infill_of
     from volfrep.trim.beam_model import deformed_struts
 
-    infill = Infill(solid, spec, progress=progress, cache=cache)
+    infill = infill_of(solid, spec, progress=progress, cache=cache)
     lattice = infill.lattice_beams.lattice
     domain = infill.cavity if spec.is_cut else None
     warnings = deformed_struts(spec.grid, spec.struts, "Exact struts")

@@ -106,7 +106,7 @@ class PrintCheck:
         from freecad_volfrep.bridge.beams import place_in_document, placed_lattice
         from freecad_volfrep.bridge.meshes import to_freecad
         from freecad_volfrep.bridge.solids import mesh_in_document, placed
-        from volfrep.jobs.infill import Infill
+        from volfrep.jobs.network_infill import infill_of
         from volfrep.mesh.triangle_mesh import TriangleMesh, compact
         from volfrep.reports.printability import (
             find_process,
@@ -120,7 +120,7 @@ class PrintCheck:
             raise VolfrepError(f"'{infill.Label}' holds no lattice: set its Output to part.")
 
         def struts_and_cavity(progress: Any) -> tuple[Any, TriangleMesh]:
-            filled = Infill(solid, spec, progress=progress, cache=cache)
+            filled = infill_of(solid, spec, progress=progress, cache=cache)
             return filled.struts, filled.cavity
 
         title = job_title("Print check of {label}", infill)

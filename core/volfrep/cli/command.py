@@ -132,6 +132,13 @@ def _parser() -> argparse.ArgumentParser:
     _add_output(block)
     add_parameters(block, of_block=True)
 
+    network = add("network", _network, "Mesh the nodes and struts of a file as they are.")
+    network.add_argument(
+        "file", metavar="FILE", help=".json, .csv, lines of .obj or .vtk, beams of .3mf"
+    )
+    _add_output(network)
+    add_parameters(network, of_block=True)
+
     add("cells", _cells, "List the library of unit cells.")
 
     properties.add_command(add)
@@ -242,6 +249,31 @@ def _block(options: argparse.Namespace) -> None:
             result = printing_options.compacted(result, options, progress)
         write = solver_options.writer(options, spec, None, progress)
         _finish(result, options, {}, beams, write=write)
+        _picture(result, options, spec)
+
+
+def _network(options: argparse.Namespace) -> None:
+    from ..design.networks import read_network
+    from ..jobs.network_infill import network_alone
+    from ..trim.beam_model import BeamModel
+
+    options.network_file = options.file
+    spec = _specified(options)
+    options.network_file = options.file
+    _check_targets(options, spec)
+    if solver_options.needs_axes(options):
+        raise VolfrepError("A network alone is written as a mesh or as beams: choose such a file.")
+    spec = dataclasses.replace(spec, network=read_network(options.file))
+    with Progress(options.quiet) as progress:
+        result = network_alone(spec, progress=progress)
+        start = time.perf_counter()
+        beams = None if options.threemf is None else BeamModel(result.wireframe)
+        if options.threemf == "beams" and beams is not None:
+            printing_options.finish_beams(beams, options, start)
+            return
+        if options.compact is not None:
+            result = printing_options.compacted(result, options, progress)
+        _finish(result, options, {}, beams)
         _picture(result, options, spec)
 
 

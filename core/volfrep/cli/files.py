@@ -14,6 +14,7 @@ INPUTS = {
     "spec": "specification",
     "cell": "cell file",
     "radius_field": "field file",
+    "network_file": "network file",
     "material": "material file",
 }
 #: The files that it writes, the same way.

@@ -44,7 +44,8 @@ def specification(options: argparse.Namespace) -> LatticeSpec:
     """The specification of the file and the options.
 
     Sets ``options.build_direction``, which the print report wants too, and, as they were given or
-    None, ``options.density``, ``options.cell`` and ``options.radius_field``.
+    None, ``options.density``, ``options.cell``, ``options.radius_field`` and
+    ``options.network_file``.
 
     Raises:
         VolfrepError: a value that makes no sense, or an option that would have no effect.
@@ -70,6 +71,7 @@ def specification(options: argparse.Namespace) -> LatticeSpec:
     options.build_direction = values.get(direction.name, direction.default)
     options.density = values.get("density")
     options.cell, options.radius_field = values.get("cell"), values.get("radius_field")
+    options.network_file = values.get("network_file")
     return spec
 
 

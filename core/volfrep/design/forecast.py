@@ -15,6 +15,7 @@ import numpy as np
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.types import Floats
 from .cells import UnitCell
+from .networks import RandomNetwork
 from .spec import LatticeSpec
 
 #: At a joint a strut's surface is buried in the others up to so many radii from the node.
@@ -31,6 +32,10 @@ SECONDS = 0.5
 SECONDS_PER_WALL = 2.5e-4
 SECONDS_PER_TRIANGLE = 4.5e-6
 SECONDS_PER_BLOCK_TRIANGLE = 4e-7
+#: Struts for each point of a random network once short ones are drawn together, and facets of each.
+STRUTS_PER_POINT = {"voronoi": 9.0, "delaunay": 7.5}
+TRIANGLES_PER_STRUT = 110.0
+SECONDS_PER_NETWORK_TRIANGLE = 1e-5
 #: Bytes at the peak: of every job, and for each triangle of a part and of a block.
 BYTES = 1.5e8
 BYTES_PER_TRIANGLE = 800.0
@@ -74,6 +79,8 @@ def forecast_fill(solid: TriangleMesh, spec: LatticeSpec) -> Forecast:
     volume = abs(solid.volume)
     area = solid.area
     inside = max(volume - area * spec.shell, LEAST_INSIDE * volume)
+    if spec.network is not None:
+        return _forecast_network(solid, spec, inside)
     cell_volume, edge = _cell_volume(spec), spec.cell_size / spec.facets_along_cell
     triangles = expected_triangles(spec, inside) + WALL_TRIANGLES * area / edge**2
     if spec.output == "domain":
@@ -86,6 +93,21 @@ def forecast_fill(solid: TriangleMesh, spec: LatticeSpec) -> Forecast:
     cells = min(cells, float(grid) * spec.cell_size**3 / cell_volume)
     seconds = SECONDS + wall + SECONDS_PER_TRIANGLE * triangles
     return _forecast(cells, strut_shares(spec.unit_cell()), triangles, BYTES_PER_TRIANGLE, seconds)
+
+
+def _forecast_network(solid: TriangleMesh, spec: LatticeSpec, inside: float) -> Forecast:
+    wanted = spec.network
+    if isinstance(wanted, RandomNetwork):
+        points = wanted.points or max(1.0, inside / spec.cell_size**3)
+        struts = points * STRUTS_PER_POINT[wanted.kind]
+    else:
+        assert wanted is not None
+        points, struts = 1.0, float(len(wanted.struts))
+    triangles = TRIANGLES_PER_STRUT * struts + len(solid.triangles)
+    wall = SECONDS_PER_WALL * solid.area / spec.shell**2 if spec.shell > 0 else 0.0
+    seconds = SECONDS + wall + SECONDS_PER_NETWORK_TRIANGLE * triangles
+    share = np.array([struts / points])
+    return _forecast(points, share, triangles, BYTES_PER_TRIANGLE, seconds)
 
 
 def forecast_block(spec: LatticeSpec, count: Sequence[int], *, streamed: bool = False) -> Forecast:

@@ -10,6 +10,7 @@ from ..util.errors import VolfrepError
 from ..util.numbers import number
 from .cells import UnitCell, find_cell, joint_radius
 from .grading import CellMap, Orientation, RadiusGrading, SizeGrading, as_plain
+from .networks import GivenNetwork, RandomNetwork
 from .openings import DrainHoles, OpenFace
 from .spec_parts import (
     ACTIVATIONS,
@@ -77,6 +78,8 @@ class LatticeSpec:
         orientation: the lattice turned; None for along x, y, z.
         keep_radius: where cells are stretched or bent, struts stay straight and round: the nodes
             are moved and joined anew. False: they are deformed with their cells, as published.
+        network: nodes and struts in place of cells (`volfrep.design.networks`); None for cells.
+            `cell_size` is then how far apart random points lie where their number is not given.
         target: what `strut_radius` is to be chosen for (`volfrep.jobs.targets` does); None where
             it counts as it is.
 
@@ -115,6 +118,7 @@ class LatticeSpec:
     orientation: Orientation | None = None
     keep_radius: bool = True
     target: Target | None = None
+    network: GivenNetwork | RandomNetwork | None = None
 
     def __post_init__(self) -> None:
         if isinstance(self.cell, str):
@@ -125,8 +129,12 @@ class LatticeSpec:
         number("strut radius", self.strut_radius, "mm", positive=True)
         number("shell thickness", self.shell, "mm", positive=False)
         number("density", self.density, "g/cm3", positive=True)
-        self.struts.refuse_too_thick(grid.size)
-        _ = self.facets_along_cell, self.ending
+        if self.network is None:
+            self.struts.refuse_too_thick(grid.size)
+            _ = self.facets_along_cell
+        else:
+            self._refuse_beside_network()
+        _ = self.ending
         if self.target is not None and self.radius_grading is not None:
             raise VolfrepError(
                 f"A target of {self.target.called} chooses one radius for every strut: leave the "
@@ -142,6 +150,20 @@ class LatticeSpec:
             )
         if self.drains is not None and self.output == "lattice":
             raise VolfrepError("Drain holes go through the skin of a part: choose the output part.")
+
+    def _refuse_beside_network(self) -> None:
+        """Refuse what is about cells, of which a network has none."""
+        given = {
+            "size grading": self.size_grading is not None,
+            "cell map": self.cell_map is not None,
+            "orientation": self.orientation is not None,
+            "fillet": self.fillet > 0.0,
+            "removal of dangling struts": self.remove_dangling or self.shortest_stub > 0.0,
+            "target": self.target is not None,
+        }
+        for what, is_given in given.items():
+            if is_given:
+                raise VolfrepError(f"A {what} is for cells and not for a network: leave it out.")
 
     @property
     def grid(self) -> Grid:
@@ -208,8 +230,10 @@ class LatticeSpec:
     @property
     def notes(self) -> tuple[str, ...]:
         """Sentences on what is made otherwise than it was asked for."""
+        if self.resolution is None or self.network is not None:
+            return ()
         facets = self.facets_along_cell
-        if self.resolution is None or facets <= self.resolution:
+        if facets <= self.resolution:
             return ()
         return (
             f"A resolution of {self.resolution} is too coarse for struts of radius "

@@ -12,7 +12,7 @@ from ..trim.clip_struts import Clipped
 from ..util.cache import StageCache
 from ..util.progress import ProgressCallback
 from .blocks import block_wireframe
-from .infill import Infill
+from .network_infill import infill_of
 
 
 def beam_model(
@@ -28,7 +28,7 @@ def beam_model(
         VolfrepError: as `fill`; or there are fillets, or no lattice (the output ``domain``).
         Cancelled: the callback said so.
     """
-    return Infill(solid, spec, progress=progress, cache=cache).beams
+    return infill_of(solid, spec, progress=progress, cache=cache).beams
 
 
 def clipped_infill(
@@ -44,7 +44,7 @@ def clipped_infill(
         VolfrepError: the specification does not fit the solid, or no strut lies inside.
         Cancelled: the callback said so.
     """
-    return Infill(solid, spec, progress=progress, cache=cache).axes
+    return infill_of(solid, spec, progress=progress, cache=cache).axes
 
 
 def block_beams(spec: LatticeSpec, count: Sequence[int]) -> BeamModel:

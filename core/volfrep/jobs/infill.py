@@ -105,7 +105,7 @@ class Infill:
         monitor: Monitor | None = None,
     ) -> None:
         size = solid.bounds[1] - solid.bounds[0]
-        if spec.cell_size > size.max():
+        if spec.network is None and spec.cell_size > size.max():
             raise VolfrepError(
                 f"Cells of {spec.cell_size:g} mm are larger than the part, which measures "
                 f"{size[0]:.4g} x {size[1]:.4g} x {size[2]:.4g} mm: reduce the cell size, "
@@ -116,7 +116,8 @@ class Infill:
         self._cache = cache or StageCache()
         self._cell, self._grid, self._struts = spec.unit_cell(), spec.grid, spec.struts
         self._skin, self._boundary = spec.skin, spec.ending
-        self._meshing = octant_spec(spec.cell_size, spec.struts, spec.detail)
+        if spec.network is None:
+            self._meshing = octant_spec(spec.cell_size, spec.struts, spec.detail)
         self._solid = Kept(solid, content_of(solid.vertices, solid.triangles))
         self._watch = Kept(self.monitor, "no result depends on it")
         self._laid_octants: dict[bool, Laid] = {}

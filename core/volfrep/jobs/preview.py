@@ -120,6 +120,8 @@ def preview(solid: TriangleMesh, spec: LatticeSpec, depth: PartDepth) -> Preview
     Raises:
         VolfrepError: the specification does not fit the solid.
     """
+    if spec.network is not None:
+        raise VolfrepError("A network is shown once it is computed; there is no preview of it.")
     cell = spec.unit_cell()
     struts = spec.struts
     is_cut = spec.ending.meets_wall(spec.skin)

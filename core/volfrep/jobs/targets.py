@@ -35,6 +35,7 @@ from ..util.errors import VolfrepError
 from ..util.progress import ProgressCallback
 from .blocks import block_volume, block_wireframe, measured_block
 from .infill import Infill
+from .network_infill import infill_of
 from .stiffness_target import ratio_of_stiffness
 
 #: A mesh that misses its target by more, relative, is made again; so many are made at most.
@@ -70,12 +71,12 @@ def aimed(
         Cancelled: the callback said so.
     """
     cache = cache or StageCache()
-    infill = Infill(solid, spec, progress=progress, cache=cache)
+    infill = infill_of(solid, spec, progress=progress, cache=cache)
     target = spec.target
     if target is None or spec.output == "domain":
         return infill
     if target.aim == "stiffness":
-        return Infill(solid, _stiff(spec, target), progress=progress, cache=cache)
+        return infill_of(solid, _stiff(spec, target), progress=progress, cache=cache)
     monitor, domain = infill.monitor, infill.domain.mesh.volume
     frame = infill.struts
     with monitor.stage("target", 0.4, 0.4):
@@ -93,7 +94,7 @@ def aimed(
         search = _Search(spec, target, table, domain, skin)
     wanted = search.volume
     for made in range(1, MESHES + 1):
-        infill = Infill(
+        infill = infill_of(
             solid, search.specification(wanted), cache=cache, progress=progress, monitor=monitor
         )
         if not meshed:

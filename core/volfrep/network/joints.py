@@ -18,7 +18,6 @@ import numpy as np
 from scipy.spatial import ConvexHull, cKDTree
 
 from ..grid.strut_graph import Wireframe
-from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
 from .half_struts import HalfStruts, ball_directions, ball_scale
@@ -119,7 +118,7 @@ def joint_pieces(
     seat: Floats,
     of_node: Bools,
     monitor: Monitor,
-) -> tuple[Floats, Ints]:
+) -> tuple[Floats, Ints, Ints, Ints]:
     """The surfaces of some nodes' pieces, welded at their discs, open where the next is not one.
 
     Args:
@@ -131,7 +130,8 @@ def joint_pieces(
         monitor: for cancel.
 
     Returns:
-        vertices, of which the first m * sides are the discs' corners strut by strut, and triangles.
+        vertices, of which the first m * sides are the discs' corners strut by strut; triangles
+        and the node of each; and the nodes that could not be meshed, which have none.
     """
     sides, count = halves.rays.shape[1], len(seat)
     places = seat[:, None, None]
@@ -164,13 +164,14 @@ def joint_pieces(
     node = np.concatenate([np.repeat(halves.node[taking], sides), free_node])
     disc = np.concatenate([np.repeat(taking, sides), np.full(len(free), -1)])
     order = np.argsort(node, kind="stable")
-    rows = _triangulated(place[order], node[order], disc[order], monitor)
+    rows, failed = _triangulated(place[order], node[order], disc[order], monitor)
     surface = Pieces(place[order], node[order], frame, halves)
     rows = surface.flipped(rows)
     moved = surface.fitted(rows, disc[order] < 0)
     free[vertex[order][disc[order] < 0] - count * sides] = moved[disc[order] < 0]
     triangles = vertex[order][rows]
-    return np.concatenate([rings.reshape(-1, 3), frame.nodes[free_node] + free]), triangles
+    points = np.concatenate([rings.reshape(-1, 3), frame.nodes[free_node] + free])
+    return points, triangles, node[order][rows[:, 0]], failed
 
 
 def _levels(halves: HalfStruts, crease: Floats, seat: Floats, taking: Ints) -> tuple[Floats, Ints]:
@@ -266,8 +267,10 @@ def _apart(points: Floats, node: Ints, balls: Floats, edge: float) -> Bools:
     return kept
 
 
-def _triangulated(place: Floats, node: Ints, disc: Ints, monitor: Monitor) -> Ints:
+def _triangulated(place: Floats, node: Ints, disc: Ints, monitor: Monitor) -> tuple[Ints, Ints]:
     """The triangles of pieces, given all their vertices, piece by piece; the discs are left open.
+
+    And the nodes at which that failed.
 
     Qhull takes one joint at a time; joints that look alike are triangulated once.
     """
@@ -279,30 +282,33 @@ def _triangulated(place: Floats, node: Ints, disc: Ints, monitor: Monitor) -> In
     shaken = random.uniform(-_JITTER, _JITTER, (longest, 3))
     rounded = np.round(ways, 6) + 0.0
     known: dict[bytes, Ints] = {}
-    found = []
+    found, failed = [], []
     for k, (low, high) in enumerate(zip(begin.tolist(), end.tolist(), strict=True)):
         if k % 256 == 0:
             monitor.tick(k / len(begin))
         key = rounded[low:high].tobytes()
         if key not in known:
             known[key] = _hull(ways[low:high] + shaken[: high - low], disc[low:high])
-        found.append(known[key] + low)
-    return np.concatenate(found)
+        rows = known[key]
+        if not len(rows):
+            failed.append(int(node[low]))
+        found.append(rows + low)
+    return np.concatenate(found), np.array(failed, np.int64)
 
 
 def _hull(ways: Floats, disc: Ints) -> Ints:
-    """Triangles over the sphere of directions, counter-clockwise from outside, without discs."""
+    """Triangles over the sphere of directions, counter-clockwise from outside, without discs.
+
+    None where they would not be those of a joint.
+    """
     rows = ConvexHull(ways / np.linalg.norm(ways, axis=1, keepdims=True)).simplices.astype(np.int64)
     a, b, c = ways[rows].swapaxes(0, 1)
     inward = (a * np.cross(b, c)).sum(axis=1) < 0.0
     rows[inward] = rows[inward][:, ::-1]
     of = disc[rows]
     flat = (of[:, 0] >= 0) & (of[:, 0] == of[:, 1]) & (of[:, 1] == of[:, 2])
-    arms, corners = np.unique(disc[disc >= 0], return_counts=True)
+    _, corners = np.unique(disc[disc >= 0], return_counts=True)
     if len(rows) != 2 * len(ways) - 4 or flat.sum() != (corners - 2).sum():
-        raise VolfrepError(
-            f"A joint of {len(arms)} struts could not be meshed: they leave it at angles too small "
-            "for their radius; make the struts thinner, or take some of them away."
-        )
+        return np.zeros((0, 3), np.int64)  # another strut is seen through one of the discs
     left: Ints = rows[~flat]
     return left

@@ -14,10 +14,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.spatial import ConvexHull
+from scipy.spatial import ConvexHull, cKDTree
 
 from ..grid.strut_graph import Wireframe
 from ..mesh.booleans import from_library, to_library
+from ..mesh.edge_table import edges_of
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
@@ -31,6 +32,8 @@ if TYPE_CHECKING:
 
 #: Corners round a strut: no fewer keep the volume, and no more are worth their triangles.
 FEWEST_SIDES, MOST_SIDES = 10, 64
+#: How often what is united is made larger, where a union has cut a disc.
+_GROWTHS = 8
 #: More overlapping struts and balls than this take too long to unite.
 MOST_UNITED = 20_000
 
@@ -92,16 +95,36 @@ def network_surface(frame: Wireframe, sides: int, monitor: Monitor) -> NetworkSu
     both = overlapping.ravel()
     solo[frame.struts[both[both < count]]] = False
     solo[both[both >= count] - count] = False
-    points, rows = np.zeros((0, 3)), np.zeros((0, 3), np.int64)
+    points, rows, owner = np.zeros((0, 3)), np.zeros((0, 3), np.int64), np.zeros(0, np.int64)
     if solo.any():
-        points, rows = joint_pieces(frame, halves, crease, seat, solo, monitor)
+        points, rows, owner, failed = joint_pieces(frame, halves, crease, seat, solo, monitor)
+        solo[failed] = False
     monitor.tick(0.9)
+    united, lost = None, np.zeros(0, np.int64)
+    if not solo.all():
+        for _ in range(_GROWTHS):
+            united = _united(frame, halves, seat, solo, sides, monitor)
+            lost = _lost_discs(points, united, frame, solo, sides)
+            if not len(lost):
+                break
+            solo[frame.struts[lost]] = False
+    if len(lost):
+        x, y, z = frame.nodes[frame.struts[lost[0]]].mean(axis=0)
+        raise VolfrepError(
+            f"Struts overlap so much about ({x:.4g}, {y:.4g}, {z:.4g}) that they cannot be united: "
+            "make them thinner."
+        )
     found = (int((~solo).sum()), np.flatnonzero(crowded), overlapping)
-    if solo.all():
+    rows = rows[solo[owner]]
+    if united is None:
         return NetworkSurface(compact(TriangleMesh(points, rows.astype(np.int32))), *found)
-    united = _united(frame, halves, seat, solo, sides, monitor)
-    mesh = _welded(points, rows, united, count * sides)
-    return NetworkSurface(mesh, *found)
+    number = _same_places(points[: count * sides], united)
+    number = np.where(number >= 0, number, np.arange(len(number)) + len(points))
+    joined = TriangleMesh(
+        np.concatenate([points, united.vertices]),
+        np.concatenate([rows, number[united.triangles]]).astype(np.int32),
+    )
+    return NetworkSurface(compact(joined), *found)
 
 
 def _united(
@@ -188,17 +211,33 @@ def _outward(ways: Floats) -> Ints:
     return rows
 
 
-def _welded(points: Floats, rows: Ints, united: TriangleMesh, discs: int) -> TriangleMesh:
-    """Both as one: the first `discs` points are corners of discs, which the other may have too.
+def _same_places(discs: Floats, united: TriangleMesh) -> Ints:
+    """(n,) the corner of a disc that each vertex of a union is; -1 for none.
 
-    What the Boolean does not cut has exactly the coordinates that it was given.
+    What a Boolean does not cut has exactly the coordinates that it was given.
     """
-    used = np.unique(rows[rows < discs])
-    known = {place.tobytes(): int(k) for k, place in zip(used, points[used], strict=True)}
-    number = np.arange(len(united.vertices)) + len(points)
-    for k, place in enumerate(united.vertices):
-        same = known.get(place.tobytes())
-        if same is not None:
-            number[k] = same
-    joined = np.concatenate([rows, number[united.triangles]])
-    return compact(TriangleMesh(np.concatenate([points, united.vertices]), joined.astype(np.int32)))
+    known = {place.tobytes(): k for k, place in enumerate(discs)}
+    found = [known.get(place.tobytes(), -1) for place in united.vertices]
+    return np.array(found, np.int64)
+
+
+def _lost_discs(
+    points: Floats, united: TriangleMesh, frame: Wireframe, solo: Bools, sides: int
+) -> Ints:
+    """The struts whose discs a union has cut, so that the joint beyond would not fit."""
+    ends = solo[frame.struts]
+    wanted = np.flatnonzero(ends.any(axis=1) & ~ends.all(axis=1))
+    discs = points[: len(frame.struts) * sides]
+    corner = _same_places(discs, united)
+    edges = edges_of(united)
+    open_at = edges.sides[edges.open_sides]
+    strut = corner[open_at] // sides
+    is_rim = (corner[open_at] >= 0).all(axis=1) & (strut[:, 0] == strut[:, 1])
+    whole = np.bincount(strut[is_rim, 0], minlength=len(frame.struts))
+    lost: Ints = wanted[whole[wanted] != sides]
+    # What comes through the middle of a disc leaves its rim, and opens the union there.
+    holes = united.vertices[open_at[~is_rim].ravel()]
+    if len(holes):
+        middles = discs.reshape(-1, sides, 3)[wanted].mean(axis=1)
+        lost = np.union1d(lost, wanted[np.unique(cKDTree(middles).query(holes)[1])])
+    return lost

@@ -194,6 +194,34 @@ def trim(
     )
 
 
+def trim_mesh(
+    domain: TriangleMesh, lattice: TriangleMesh, *, cavity: bool, monitor: Monitor
+) -> Trimmed:
+    """Cut a lattice that is one closed mesh at the domain's wall; as `trim` does octants.
+
+    Raises:
+        VolfrepError: one of the two is not a solid that can be cut.
+    """
+    import manifold3d
+
+    wall = _solid(domain, [len(domain.triangles)], monitor)
+    ids = manifold3d.Manifold.reserve_ids(1)
+    cutter = _solid(lattice, [len(lattice.triangles)], monitor, ids)
+    for solid, what in ((wall, "domain"), (cutter, "lattice")):
+        if solid.status() != manifold3d.Error.NoError:
+            raise VolfrepError(
+                f"The {what}'s surface cannot be cut ({solid.status().name}): repair the part's "
+                "mesh, or make the struts thinner."
+            )
+    count = len(lattice.triangles) + len(domain.triangles)
+    monitor.count("triangles into the Boolean", count)
+    result = monitor.call(lambda: (wall - cutter if cavity else wall ^ cutter).to_mesh64())
+    mesh, origin = _read(result)
+    if cavity:
+        mesh = mesh.reversed()
+    return Trimmed(mesh, origin != ids, len(mesh.triangles), count)
+
+
 def _without_pinches(
     border: NDArray[np.bool_], present: NDArray[np.bool_], periodic: Periodic
 ) -> NDArray[np.bool_]:

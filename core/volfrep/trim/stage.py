@@ -28,7 +28,7 @@ from ..spatial.proximity import closest_points
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 from ..util.types import Floats
-from .boolean_trim import KeptOctants, OctantRoles, cull, keep_all, trim
+from .boolean_trim import KeptOctants, OctantRoles, Trimmed, cull, keep_all, trim
 from .drains import Drained, drain
 from .finish import tidied
 from .loose_pieces import Cleared, clear, smallest_shell
@@ -148,8 +148,42 @@ def cut_lattice(
     """
     wall = domain.wall
     trimmed = trim(wall, laid.kept, laid.layout, laid.points, cavity=with_skin, monitor=monitor)
+    full = cells_are_full(octant_spec.cell_size, octant_spec.strut_radius)
+    smallest = smallest_shell(octant_spec)
+    return cleared_cut(
+        trimmed, solid, domain, smallest, full, monitor, has_skin=has_skin, with_skin=with_skin
+    )
+
+
+def cleared_cut(
+    trimmed: Trimmed,
+    solid: TriangleMesh,
+    domain: Domain,
+    smallest: float,
+    full: VolfrepError,
+    monitor: Monitor,
+    *,
+    has_skin: bool,
+    with_skin: bool,
+) -> Cleared:
+    """A part or lattice that was cut, without loose pieces and slivers, and its quality.
+
+    Args:
+        trimmed: the cavity's surface, or the lattice.
+        solid: the part, mm.
+        domain: what the lattice fills.
+        smallest: volume of the smallest shell that is meant, mm3.
+        full: what to raise where the lattice leaves no room.
+        monitor: for progress and cancel.
+        has_skin: whether a skin lies about the domain, which holds the lattice.
+        with_skin: whether the lattice is joined to it.
+
+    Raises:
+        VolfrepError: nothing is left, or nothing would hold it.
+    """
+    wall = domain.wall
     mesh, cut, removed, lost = trimmed.mesh, trimmed.cut, 0, 0.0
-    smallest, precision = smallest_shell(octant_spec), shortest_edge(solid)
+    precision = shortest_edge(solid)
     if has_skin and not with_skin:
         on_wall = np.flatnonzero(trimmed.on_wall)
         held = clear(mesh, inspect(mesh, monitor), smallest, keep=on_wall)
@@ -165,7 +199,7 @@ def cut_lattice(
     cleared = clear(mesh, found, smallest, floating=with_skin, bodies=bodies)
     if not len(cleared.mesh.triangles):
         if with_skin:
-            raise cells_are_full(octant_spec.cell_size, octant_spec.strut_radius)
+            raise full
         raise VolfrepError(
             "No strut lies inside the part: reduce the cell size or move the origin."
         )

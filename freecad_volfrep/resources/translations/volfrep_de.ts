@@ -29,6 +29,10 @@
       <translation>Alle Zahlen, zum Lesen</translation>
     </message>
     <message>
+      <source>Another seed draws other points</source>
+      <translation>Ein anderer Startwert zieht andere Punkte</translation>
+    </message>
+    <message>
       <source>Auto Update</source>
       <translation>Automatisch aktualisieren</translation>
     </message>
@@ -87,6 +91,10 @@
     <message>
       <source>Cell size</source>
       <translation>Zellgröße</translation>
+    </message>
+    <message>
+      <source>Cells</source>
+      <translation>Zellen</translation>
     </message>
     <message>
       <source>Cells Active</source>
@@ -157,12 +165,20 @@
       <translation>Lose Streben entfernt</translation>
     </message>
     <message>
+      <source>Delaunay</source>
+      <translation>Delaunay</translation>
+    </message>
+    <message>
       <source>Density</source>
       <translation>Dichte</translation>
     </message>
     <message>
       <source>Density of the material in g/cm3</source>
       <translation>Dichte des Werkstoffs in g/cm3</translation>
+    </message>
+    <message>
+      <source>Density of the points as a formula of s, 0 at the wall and 1 at the deepest place, such as '3 - 2 * s'; empty for an even one</source>
+      <translation>Dichte der Punkte als Formel von s, 0 an der Wand und 1 an der tiefsten Stelle, etwa '3 - 2 * s'; leer für eine gleichmäßige</translation>
     </message>
     <message>
       <source>Depth at which the profile ends</source>
@@ -233,6 +249,10 @@
       <translation>Feld</translation>
     </message>
     <message>
+      <source>File</source>
+      <translation>Datei</translation>
+    </message>
+    <message>
       <source>File of points and values: .csv, .txt, .vtu, .vtk</source>
       <translation>Datei mit Punkten und Werten: .csv, .txt, .vtu, .vtk</translation>
     </message>
@@ -267,6 +287,14 @@
     <message>
       <source>How it will be printed</source>
       <translation>Wie es gedruckt wird</translation>
+    </message>
+    <message>
+      <source>How many points lie in the part; 0 for as many as lie a cell size apart</source>
+      <translation>Wie viele Punkte im Teil liegen; 0 für so viele, dass sie eine Zellengröße auseinander liegen</translation>
+    </message>
+    <message>
+      <source>How often each point moves to the middle of its cell, which evens them out</source>
+      <translation>Wie oft jeder Punkt in die Mitte seiner Zelle rückt, was sie gleichmäßiger macht</translation>
     </message>
     <message>
       <source>Infill</source>
@@ -365,8 +393,44 @@
       <translation>Engster Spalt</translation>
     </message>
     <message>
+      <source>Network</source>
+      <translation>Netz</translation>
+    </message>
+    <message>
+      <source>Network Angle</source>
+      <translation>Netz: Winkel</translation>
+    </message>
+    <message>
+      <source>Network Density</source>
+      <translation>Netz: Dichte</translation>
+    </message>
+    <message>
+      <source>Network File</source>
+      <translation>Netz: Datei</translation>
+    </message>
+    <message>
+      <source>Network Points</source>
+      <translation>Netz: Punkte</translation>
+    </message>
+    <message>
+      <source>Network Relax</source>
+      <translation>Netz: Ausgleich</translation>
+    </message>
+    <message>
+      <source>Network Seed</source>
+      <translation>Netz: Startwert</translation>
+    </message>
+    <message>
+      <source>Network Shortest</source>
+      <translation>Netz: kürzester Stab</translation>
+    </message>
+    <message>
       <source>Nodes</source>
       <translation>Knoten</translation>
+    </message>
+    <message>
+      <source>Nodes and struts: .json, .csv, lines of .obj or .vtk, beams of .3mf</source>
+      <translation>Knoten und Stäbe: .json, .csv, Linien aus .obj oder .vtk, Balken aus .3mf</translation>
     </message>
     <message>
       <source>Nodes of the lattice before trimming</source>
@@ -395,6 +459,10 @@
     <message>
       <source>Of the struts' length, too flat</source>
       <translation>Der Strebenlänge, zu flach</translation>
+    </message>
+    <message>
+      <source>Of two struts that meet at less than so many degrees the longer one goes</source>
+      <translation>Von zwei Stäben, die sich unter weniger Grad treffen, fällt der längere weg</translation>
     </message>
     <message>
       <source>Open Faces</source>
@@ -629,6 +697,10 @@
       <translation>Streben des Gitters vor dem Beschneiden</translation>
     </message>
     <message>
+      <source>Struts shorter than this are drawn together into one node; 0 for four radii</source>
+      <translation>Kürzere Stäbe werden zu einem Knoten zusammengezogen; 0 für vier Radien</translation>
+    </message>
+    <message>
       <source>Struts whose radius varies: along a direction, by the depth below the skin (s = 1 at the skin, or at the core), or by a field of values</source>
       <translation>Streben mit veränderlichem Radius: entlang einer Richtung, mit der Tiefe unter der Haut (s = 1 an der Haut oder im Kern) oder nach einem Feld von Werten</translation>
     </message>
@@ -753,6 +825,10 @@
       <translation>Volumen des Gitters im Verhältnis zum gefüllten Raum</translation>
     </message>
     <message>
+      <source>Voronoi</source>
+      <translation>Voronoi</translation>
+    </message>
+    <message>
       <source>Warnings</source>
       <translation>Warnungen</translation>
     </message>
@@ -767,6 +843,10 @@
     <message>
       <source>What does not suit the process</source>
       <translation>Was nicht zum Verfahren passt</translation>
+    </message>
+    <message>
+      <source>What the lattice consists of: cells, the Voronoi or the Delaunay edges of random points, or the nodes and struts of a file</source>
+      <translation>Woraus das Gitter besteht: Zellen, die Voronoi- oder Delaunay-Kanten zufälliger Punkte, oder die Knoten und Stäbe einer Datei</translation>
     </message>
     <message>
       <source>What to know about this result</source>

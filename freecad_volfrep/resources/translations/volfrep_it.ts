@@ -29,6 +29,10 @@
       <translation>Tutti i dati, da leggere</translation>
     </message>
     <message>
+      <source>Another seed draws other points</source>
+      <translation>Un altro seme estrae altri punti</translation>
+    </message>
+    <message>
       <source>Auto Update</source>
       <translation>Aggiornamento automatico</translation>
     </message>
@@ -87,6 +91,10 @@
     <message>
       <source>Cell size</source>
       <translation>Dimensione cella</translation>
+    </message>
+    <message>
+      <source>Cells</source>
+      <translation>Celle</translation>
     </message>
     <message>
       <source>Cells Active</source>
@@ -157,12 +165,20 @@
       <translation>Aste pendenti rimosse</translation>
     </message>
     <message>
+      <source>Delaunay</source>
+      <translation>Delaunay</translation>
+    </message>
+    <message>
       <source>Density</source>
       <translation>Densità</translation>
     </message>
     <message>
       <source>Density of the material in g/cm3</source>
       <translation>Densità del materiale in g/cm3</translation>
+    </message>
+    <message>
+      <source>Density of the points as a formula of s, 0 at the wall and 1 at the deepest place, such as '3 - 2 * s'; empty for an even one</source>
+      <translation>Densità dei punti come formula di s, 0 alla parete e 1 nel punto più profondo, come '3 - 2 * s'; vuota se uniforme</translation>
     </message>
     <message>
       <source>Depth at which the profile ends</source>
@@ -233,6 +249,10 @@
       <translation>Campo</translation>
     </message>
     <message>
+      <source>File</source>
+      <translation>File</translation>
+    </message>
+    <message>
       <source>File of points and values: .csv, .txt, .vtu, .vtk</source>
       <translation>File di punti e valori: .csv, .txt, .vtu, .vtk</translation>
     </message>
@@ -267,6 +287,14 @@
     <message>
       <source>How it will be printed</source>
       <translation>Come sarà stampato</translation>
+    </message>
+    <message>
+      <source>How many points lie in the part; 0 for as many as lie a cell size apart</source>
+      <translation>Quanti punti stanno nel pezzo; 0 per quanti distano una cella</translation>
+    </message>
+    <message>
+      <source>How often each point moves to the middle of its cell, which evens them out</source>
+      <translation>Quante volte ogni punto va al centro della sua cella, il che li rende più uniformi</translation>
     </message>
     <message>
       <source>Infill</source>
@@ -365,8 +393,44 @@
       <translation>Luce minima</translation>
     </message>
     <message>
+      <source>Network</source>
+      <translation>Rete</translation>
+    </message>
+    <message>
+      <source>Network Angle</source>
+      <translation>Rete: angolo</translation>
+    </message>
+    <message>
+      <source>Network Density</source>
+      <translation>Rete: densità</translation>
+    </message>
+    <message>
+      <source>Network File</source>
+      <translation>Rete: file</translation>
+    </message>
+    <message>
+      <source>Network Points</source>
+      <translation>Rete: punti</translation>
+    </message>
+    <message>
+      <source>Network Relax</source>
+      <translation>Rete: rilassamento</translation>
+    </message>
+    <message>
+      <source>Network Seed</source>
+      <translation>Rete: seme</translation>
+    </message>
+    <message>
+      <source>Network Shortest</source>
+      <translation>Rete: asta minima</translation>
+    </message>
+    <message>
       <source>Nodes</source>
       <translation>Nodi</translation>
+    </message>
+    <message>
+      <source>Nodes and struts: .json, .csv, lines of .obj or .vtk, beams of .3mf</source>
+      <translation>Nodi e aste: .json, .csv, linee di .obj o .vtk, travi di .3mf</translation>
     </message>
     <message>
       <source>Nodes of the lattice before trimming</source>
@@ -395,6 +459,10 @@
     <message>
       <source>Of the struts' length, too flat</source>
       <translation>Della lunghezza delle aste, troppo piatta</translation>
+    </message>
+    <message>
+      <source>Of two struts that meet at less than so many degrees the longer one goes</source>
+      <translation>Di due aste che si incontrano a meno di tanti gradi la più lunga viene tolta</translation>
     </message>
     <message>
       <source>Open Faces</source>
@@ -629,6 +697,10 @@
       <translation>Aste del reticolo prima del taglio</translation>
     </message>
     <message>
+      <source>Struts shorter than this are drawn together into one node; 0 for four radii</source>
+      <translation>Le aste più corte sono riunite in un nodo; 0 per quattro raggi</translation>
+    </message>
+    <message>
       <source>Struts whose radius varies: along a direction, by the depth below the skin (s = 1 at the skin, or at the core), or by a field of values</source>
       <translation>Aste di raggio variabile: lungo una direzione, con la profondità sotto il guscio (s = 1 al guscio, o al nucleo), o secondo un campo di valori</translation>
     </message>
@@ -753,6 +825,10 @@
       <translation>Volume del reticolo su quello che riempie</translation>
     </message>
     <message>
+      <source>Voronoi</source>
+      <translation>Voronoi</translation>
+    </message>
+    <message>
       <source>Warnings</source>
       <translation>Avvisi</translation>
     </message>
@@ -767,6 +843,10 @@
     <message>
       <source>What does not suit the process</source>
       <translation>Ciò che non si adatta al processo</translation>
+    </message>
+    <message>
+      <source>What the lattice consists of: cells, the Voronoi or the Delaunay edges of random points, or the nodes and struts of a file</source>
+      <translation>Di che cosa è fatto il reticolo: celle, i lati di Voronoi o di Delaunay di punti casuali, o i nodi e le aste di un file</translation>
     </message>
     <message>
       <source>What to know about this result</source>

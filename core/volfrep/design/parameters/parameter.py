@@ -11,6 +11,7 @@ from typing import Any
 GROUPS = {
     "Solid": "the solid",
     "Lattice": "the lattice and its skin",
+    "Network": "a network in place of cells",
     "Boundary": "where the lattice ends",
     "Openings": "what is open in the skin",
     "Cell size": "cells that grow along a direction",

@@ -9,6 +9,7 @@ from typing import Any
 from ...util.errors import VolfrepError
 from ..cells import LIBRARY, UnitCell
 from ..grading import CellMap, Orientation, RadiusGrading, SizeGrading
+from ..networks import GivenNetwork, RandomNetwork, read_network
 from ..openings import DrainHoles, DrainPlace, OpenPlane
 from ..profile import Profile
 from ..scattered_field import PointField, read_curve, read_point_field
@@ -73,6 +74,7 @@ def specification(values: Mapping[str, Any], say: Naming = in_file) -> LatticeSp
         orientation=_orientation(used),
         keep_radius=used["keep_radius"],
         target=target,
+        network=_network(used, say),
     )
 
 
@@ -151,6 +153,16 @@ def values_of(spec: LatticeSpec) -> dict[str, Any]:
     if spec.orientation is not None:
         found["rotate"] = (*spec.orientation.axis, spec.orientation.angle)
         found["rotate_origin"] = spec.orientation.origin
+    if isinstance(spec.network, GivenNetwork):
+        if not spec.network.source or not _is_file(spec.network.source):
+            raise VolfrepError(
+                "The network has no file that could be named: save it as .json first."
+            )
+        found["network"], found["network_file"] = "file", spec.network.source
+    elif spec.network is not None:
+        found |= {
+            name: getattr(spec.network, attribute) for name, attribute in _NETWORK_VALUES.items()
+        }
     if spec.target is not None:
         aim = spec.target.aim
         found[aim] = stiffness_text(spec.target) if aim == "stiffness" else spec.target.value
@@ -301,6 +313,28 @@ def _cell_map(used: Mapping[str, Any]) -> CellMap | None:
     return CellMap(
         used["cell_map"], used["map_centre"], used["map_axis"], used["map_around"] or None
     )
+
+
+#: Parameters of random networks, and what `RandomNetwork` calls them.
+_NETWORK_VALUES = {
+    "network": "kind",
+    "network_points": "points",
+    "network_seed": "seed",
+    "network_relax": "relax",
+    "network_density": "density",
+    "network_shortest": "shortest",
+    "network_angle": "least_angle",
+}
+
+
+def _network(used: Mapping[str, Any], say: Naming) -> GivenNetwork | RandomNetwork | None:
+    if used["network"] == "cells":
+        return None
+    if used["network"] == "file":
+        if not used["network_file"]:
+            raise VolfrepError(f"{say('network')} file needs {say('network_file')}: give it.")
+        return read_network(used["network_file"])
+    return RandomNetwork(**{key: used[name] for name, key in _NETWORK_VALUES.items()})
 
 
 def _orientation(used: Mapping[str, Any]) -> Orientation | None:

@@ -63,8 +63,9 @@ def test_every_field_of_the_specification_can_be_asked_for() -> None:
     }  # fmt: skip
     made, plain = specification(values), LatticeSpec()
     same = {f.name for f in fields(plain) if getattr(made, f.name) == getattr(plain, f.name)}
-    assert same == {"resolution", "output", "target"}, (
-        "resolution excludes deviation, drains need a part, a target a radius grading"
+    assert same == {"resolution", "output", "target", "network"}, (
+        "resolution excludes deviation, drains need a part, a target a radius grading, a network "
+        "stands in place of cells"
     )
     assert specification(values_of(made)).as_dict() == made.as_dict()
 

@@ -66,7 +66,14 @@ class Shown:
             size=f.stl_mb,
             seconds=max(1.0, f.seconds),
         )
-        return "\n".join((str(figures), *self.advice))
+        found = ()
+        if p.spec.target is not None:
+            found = (
+                translate("VolfrepFigures", "strut radius {radius:.4g} mm").format(
+                    radius=p.spec.strut_radius
+                ),
+            )
+        return "\n".join((*found, figures, *self.advice))
 
     def figure(self, driver: str) -> float | None:
         """What is shown of what a driver of the radius aims at: a share of 1, g or MPa."""

@@ -11,7 +11,7 @@ import FreeCADGui as Gui
 
 from freecad_volfrep.features.live_preview import TARGETS, LivePreview, Shown
 from freecad_volfrep.features.quantities import set_value
-from freecad_volfrep.translation import QT_TRANSLATE_NOOP, spaced, translate
+from freecad_volfrep.translation import QT_TRANSLATE_NOOP, marked, spaced, translate
 from volfrep.design import parameters
 from volfrep.design.cells import LIBRARY, load_cell
 from volfrep.design.field_files import TABLE_SUFFIXES, VTK_SUFFIXES
@@ -49,6 +49,8 @@ CELLS = QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Cells")
 #: What the files of a field hold.
 POINTS = QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Points and values")
 MATERIAL = QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Material")
+#: What the list of materials holds beside their names.
+ENTRIES = marked("App::Property", "None", "Custom", "Of the solid")
 #: Above this group are the figures: what is used most is seen without scrolling.
 SECOND = "Boundary"
 #: Least width of a field, px: the panel must fit beside FreeCAD's tree.

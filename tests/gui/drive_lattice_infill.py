@@ -252,6 +252,81 @@ def give_it_an_own_cell(doc, obj):
     check("and the mesh", obj.Mesh.CountFacets == facets)
 
 
+def in_sight(widget):
+    """Scroll the panel until a widget is seen; the buttons above are with its first one."""
+    for area in Gui.getMainWindow().findChildren(QtGui.QScrollArea):
+        if area.isAncestorOf(widget):
+            first = widget.objectName() == "CellType"
+            area.ensureWidgetVisible(widget)
+            if first:
+                area.verticalScrollBar().setValue(0)
+    settle()
+
+
+def choose(name, text):
+    """Really choose an entry of one of the panel's lists by typing it."""
+    field = panel_part(name)
+    in_sight(field)
+    click(field)
+    xdotool("type", text)
+    xdotool("key", "Return")
+    wait_until(lambda: field.currentText().startswith(text), 5)
+    settle()
+
+
+def drive_the_radius(doc, obj):
+    """Density, mass and stiffness in place of the radius: the preview shows the one found."""
+    open_to_edit(obj)
+    shown = panel_part("StrutRadius")
+    check("no target is asked for a radius", not panel_part("TargetDensity").isVisible())
+    before = obj.StrutRadius.Value
+    choose("RadiusDrivenBy", "Relative")
+    check("density drives", obj.RadiusDrivenBy == "Relative density", obj.RadiusDrivenBy)
+    check("its field is shown", panel_part("TargetDensity").isVisible())
+    found = shown.property("rawValue")
+    check("it begins with what there is", abs(found / before - 1) < 0.02, (found, before))
+    type_value("TargetDensity", "0.3")
+    check("a typed density is set", abs(obj.TargetDensity - 0.3) < 1e-9, obj.TargetDensity)
+    found = shown.property("rawValue")
+    check("the radius found is shown", found > 1.1 * before, (found, before))
+    check("and cannot be typed over", not shown.isEnabled())
+    check("the property waits for the mesh", obj.StrutRadius.Value == before)
+    figures = panel_part("Figures").text()
+    check("the figures are the target's", "relative density 30 %" in figures, figures)
+    picture("panel_6_density")
+    choose("PrintMaterial", "AlSi10Mg")
+    choose("PrintProcess", "LPBF")
+    check("a material and a process", (obj.PrintMaterial, obj.PrintProcess) == ("AlSi10Mg", "LPBF"))
+    choose("RadiusDrivenBy", "Mass")
+    mass = float(panel_part("TargetMass").property("rawValue"))
+    check("a mass begins with what there is", mass > 0, mass)
+    choose("RadiusDrivenBy", "Stiffness")
+    type_value("StiffnessDirection", "111")
+    check("a direction is set", tuple(obj.StiffnessDirection) == (1, 1, 1))
+    type_value("TargetStiffness", "3000 MPa")
+    settle()
+    stiff = shown.property("rawValue")
+    check("a stiffness finds a radius", stiff != found, (stiff, found))
+    picture("panel_7_stiffness")
+    type_value("StiffnessDirection", "along")
+    check("no direction is said", "no direction" in panel_part("Figures").text())
+    choose("RadiusDrivenBy", "Relative")
+    type_value("TargetDensity", "0.3")
+    click(panel_part("Compute"))
+    met = wait_until(lambda: abs(obj.RelativeDensity - 0.3) < 0.0015, 60)
+    check("the mesh is the target's", met, obj.RelativeDensity)
+    shown_mm = shown.property("rawValue")
+    check("by the radius shown", abs(shown_mm - obj.StrutRadius.Value) < 6e-3,
+          (shown_mm, obj.StrutRadius))  # fmt: skip
+    picture("panel_8_met")
+    in_sight(panel_part("CellType"))
+    answer_panel("Cancel")
+    wait_until(lambda: panel() is None, 10)
+    settle()
+    check("Cancel gives the radius back",
+          (obj.RadiusDrivenBy, obj.StrutRadius.Value) == ("Radius", before))  # fmt: skip
+
+
 def run_a_job():
     """A job has a thread of its own, is alone, and what it raises arrives."""
     import threading
@@ -485,6 +560,7 @@ run_checks(
         fill_the_box: boxed,
         edit_in_the_panel: filled,
         give_it_an_own_cell: filled,
+        drive_the_radius: filled,
         run_a_job: None,
         cancel_an_edit: filled,
         cancel_a_creation: boxed,

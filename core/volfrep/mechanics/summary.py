@@ -48,7 +48,7 @@ class CellProperties:
             solid's.
         errors: by how much each may be off, by the same names, and relative_density and stiffness.
         von_mises: the solid's stress per unit of each macroscopic stress, by its name.
-        along: voxels along L of the finest grid.
+        along: voxels along L of the finest grid; 0 where the catalogue was read.
     """
 
     cell: str

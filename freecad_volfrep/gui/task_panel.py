@@ -10,7 +10,7 @@ import FreeCAD as App
 import FreeCADGui as Gui
 
 from freecad_volfrep.features.live_preview import TARGETS, LivePreview, Shown
-from freecad_volfrep.features.quantities import set_value
+from freecad_volfrep.features.quantities import number_of, set_value
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, marked, spaced, translate
 from volfrep.design import parameters
 from volfrep.design.cells import LIBRARY, load_cell
@@ -56,8 +56,9 @@ SECOND = "Boundary"
 #: Least width of a field, px: the panel must fit beside FreeCAD's tree.
 FIELD = 82
 _HIDDEN, _READ_ONLY = "Hidden", "ReadOnly"
-#: Units of the fields that have one, by the property's type.
-UNITS = {"App::PropertyLength": "mm", "App::PropertyMass": "g", "App::PropertyPressure": "MPa"}
+#: Fields of plain numbers with a unit. FreeCAD's own take no "M" of MPa, and 0.20 has no masses.
+UNITS = {"TargetMass": "g", "TargetStiffness": "MPa"}
+_LARGEST = 1e9
 
 
 class TaskPanel:
@@ -272,12 +273,14 @@ class TaskPanel:
             return line
         if kind == "App::PropertyFile":
             return FileField(getattr(self._obj, name), _files(name), self._setter(name))
+        if name in UNITS:
+            return self._number_field(name)
         if kind == "App::PropertyVector":
             way = QtWidgets.QLineEdit(_direction_text(getattr(self._obj, name)))
             way.editingFinished.connect(lambda: self._set_direction(name, way.text()))
             return way
         spin = Gui.UiLoader().createWidget("Gui::QuantitySpinBox")
-        spin.setProperty("unit", UNITS.get(kind, ""))
+        spin.setProperty("unit", "mm" if kind == "App::PropertyLength" else "")
         spin.setProperty("minimum", 0.0)
         present = getattr(self._obj, name)
         spin.setProperty("rawValue", getattr(present, "Value", present))
@@ -290,13 +293,34 @@ class TaskPanel:
         self._bindings.append(binding)
         return spin
 
+    def _number_field(self, name: str) -> Any:
+        """A number of the unit that `quantities` have for the property."""
+        field = QtWidgets.QDoubleSpinBox()
+        field.setRange(0.0, _LARGEST)
+        field.setDecimals(3)
+        field.setStepType(QtWidgets.QAbstractSpinBox.AdaptiveDecimalStepType)
+        field.setSuffix(f" {UNITS[name]}")
+        field.setValue(number_of(self._obj, name))
+        field.setEnabled(not self._is_driven(name))
+
+        def changed(value: float) -> None:
+            if not self._is_driven(name) and value != number_of(self._obj, name):
+                set_value(self._obj, name, value)
+                self._timer.start(SETTLED)
+
+        field.valueChanged.connect(changed)
+        return field
+
+    def _is_driven(self, name: str) -> bool:
+        """Whether an expression says what the property is."""
+        return any(path.strip(".") == name for path, _ in self._obj.ExpressionEngine)
+
     def _setter(self, name: str) -> Callable[[Any], None]:
         """Sets a property that the user has changed, and asks for a new preview."""
 
         def set_value(value: Any) -> None:
-            driven = any(path.strip(".") == name for path, _ in self._obj.ExpressionEngine)
             present = getattr(self._obj, name)
-            if driven or _READ_ONLY in self._obj.getEditorMode(name):
+            if self._is_driven(name) or _READ_ONLY in self._obj.getEditorMode(name):
                 return
             if value == getattr(present, "Value", present):
                 return
@@ -328,8 +352,8 @@ class TaskPanel:
         if value is None:
             return
         set_value(self._obj, name, float(f"{value:.3g}"))
-        present = getattr(self._obj, name)
-        self._rows[name][1].setProperty("rawValue", getattr(present, "Value", present))
+        field = self._rows[name][1]
+        field.setProperty("value" if name in UNITS else "rawValue", number_of(self._obj, name))
 
     def _set_direction(self, name: str, text: str) -> None:
         """Take a direction over; what is none is said, and the last one shown again."""

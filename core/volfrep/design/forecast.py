@@ -71,7 +71,9 @@ class Forecast:
 
 def forecast_fill(solid: TriangleMesh, spec: LatticeSpec) -> Forecast:
     """What `pipeline.fill` will come to; takes no longer than to add up the solid's triangles."""
-    area, inside = solid.area, volume_inside(solid, spec)
+    volume = abs(solid.volume)
+    area = solid.area
+    inside = max(volume - area * spec.shell, LEAST_INSIDE * volume)
     one, edge = cell_volume(spec), spec.cell_size / spec.facets_along_cell
     triangles = expected_triangles(spec, inside) + WALL_TRIANGLES * area / edge**2
     if spec.output == "domain":
@@ -84,12 +86,6 @@ def forecast_fill(solid: TriangleMesh, spec: LatticeSpec) -> Forecast:
     cells = min(cells, float(grid) * spec.cell_size**3 / one)
     seconds = SECONDS + wall + SECONDS_PER_TRIANGLE * triangles
     return _forecast(cells, strut_shares(spec.unit_cell()), triangles, BYTES_PER_TRIANGLE, seconds)
-
-
-def volume_inside(solid: TriangleMesh, spec: LatticeSpec) -> float:
-    """Volume within the skin, mm3, about."""
-    volume = abs(solid.volume)
-    return max(volume - solid.area * spec.shell, LEAST_INSIDE * volume)
 
 
 def forecast_block(spec: LatticeSpec, count: Sequence[int], *, streamed: bool = False) -> Forecast:

@@ -115,7 +115,7 @@ class CellProperties(QtWidgets.QWidget):
 
         self._material.blockSignals(True)
         self._material.clear()
-        self._material.addItem(translate("App::Property", NOTHING), None)
+        self._material.addItem(translate("App::Property", NOTHING))
         for material in MATERIALS.values():
             self._material.addItem(material.name, material)
         if self._solid is not None:

@@ -277,10 +277,10 @@ def fingerprint_of(spec: LatticeSpec, solid: TriangleMesh) -> str:
 
 
 def _with_radius(spec: LatticeSpec, found: dict[str, Any] | None) -> LatticeSpec:
-    """The specification with the radius that a report says was found for its target."""
+    """The specification with the radius that a report says was found, in place of its target."""
     if spec.target is None or found is None:
         return spec
-    return replace(spec, strut_radius=found["strut_radius_mm"])
+    return replace(spec, strut_radius=found["strut_radius_mm"], target=None)
 
 
 def _tell_driven(obj: App.DocumentObject, name: str, value: float) -> None:

@@ -140,7 +140,8 @@ def test_nothing_to_check_is_one_sentence(doc, box):
 def test_statistics_stand_beside_each_other(doc, box, infill):
     waiting = make_lattice_infill(doc, box, **SMALL, Label="Waiting")
     assert infills_of(doc) == [infill, waiting]
-    inputs, result, seconds, memory = statistics([infill, waiting])
+    inputs, result, does, seconds, memory = statistics([infill, waiting])
+    assert all(row[1] and row[2] is None for row in does.rows)
     assert inputs.header == ("", infill.Label, "Waiting")
     rows = {row[0]: row[1:] for table in (inputs, result) for row in table.rows}
     assert rows["cell size, mm"] == (10.0, 10.0)

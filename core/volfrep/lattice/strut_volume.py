@@ -23,7 +23,7 @@ from ..util.types import Floats
 
 #: Points for a first guess and for the radius itself, as powers of two; a
 #: sixteenth as many upright lines carry the points of a domain.
-ROUGH, FINE = 15, 19
+ROUGH, FINE = 15, 20
 #: Marks along a strut, in cell sizes, by which the struts near a point are found; and how many of
 #: the nearest marks are asked.
 _MARKS = 0.06

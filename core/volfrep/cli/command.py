@@ -20,15 +20,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
 from ..util.errors import VolfrepError
-from . import material, printing_options, properties, solver_options
+from . import layers, material, printing_options, properties, solver_options
 from .files import check_files
-from .parameter_options import (
-    add_parameters,
-    specification,
-    write_specification,
-)  # fmt: skip
+from .parameter_options import add_parameters, write_specification
 from .parser import Parser, Version, refuse_old, three_whole_numbers
-from .telling import Progress, print_rows, print_warnings, tell
+from .telling import Progress, print_rows, tell
 
 if TYPE_CHECKING:
     from ..design.spec import LatticeSpec
@@ -134,6 +130,7 @@ def _parser() -> argparse.ArgumentParser:
 
     add("cells", _cells, "List the library of unit cells.")
 
+    _add_unit(layers.add_command(add))
     properties.add_command(add)
 
     check = add("check", _check, "Tell what a reader sees in a mesh file (STL, OBJ, PLY, 3MF).")
@@ -169,7 +166,7 @@ def _add_output(parser: argparse.ArgumentParser) -> None:
 
 def _fill(options: argparse.Namespace) -> None:
     part = Path(options.part)
-    spec = _specified(options)
+    spec = material.specified(options)
     _check_targets(options, spec)
     write_specification(options, spec)
 
@@ -207,7 +204,7 @@ def _fill(options: argparse.Namespace) -> None:
 
 
 def _block(options: argparse.Namespace) -> None:
-    spec = _specified(options)
+    spec = material.specified(options)
     _check_targets(options, spec)
     write_specification(options, spec)
 
@@ -263,18 +260,6 @@ def _writes_stl(options: argparse.Namespace) -> bool:
     more = (options.compact, options.print_report, options.picture)
     plain = all(option is None for option in more)
     return plain and Path(options.output).suffix.lower() == ".stl"
-
-
-def _specified(options: argparse.Namespace) -> LatticeSpec:
-    """The specification, with the density of the material where none was given."""
-    spec = specification(options)
-    print_warnings(material.apply(options, Path(options.output)))
-    if options.density is not None:
-        spec = dataclasses.replace(spec, density=options.density)
-    if options.solid is not None and spec.target is not None and spec.target.aim == "stiffness":
-        target = dataclasses.replace(spec.target, young=options.solid.young)
-        spec = dataclasses.replace(spec, target=target)
-    return spec
 
 
 def _check_targets(options: argparse.Namespace, spec: LatticeSpec) -> None:

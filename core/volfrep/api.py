@@ -112,7 +112,8 @@ class Part:
             VolfrepError: there is no such process, or the direction is none.
         """
         from .jobs.pipeline import fill
-        from .reports.printability import find_process, print_report
+        from .reports.printability import print_report
+        from .reports.processes import find_process
 
         limits = find_process(process)
         domain = None

@@ -173,6 +173,7 @@ def _fill(options: argparse.Namespace) -> None:
     from ..design.forecast import forecast_fill
     from ..io.read.units import refuse_scale
     from ..io.solid import read_solid
+    from ..jobs.rough_radius import roughly_aimed
     from ..jobs.targets import aimed
 
     start = time.perf_counter()
@@ -181,7 +182,7 @@ def _fill(options: argparse.Namespace) -> None:
         refuse_scale(solid.bounds, spec.cell_size, part.name)
     read_seconds = time.perf_counter() - start
     if not options.quiet:
-        print(f"Expected: {forecast_fill(solid, spec)}.", flush=True)
+        print(f"Expected: {forecast_fill(solid, roughly_aimed(solid, spec))}.", flush=True)
     meshed = options.threemf != "beams" and not solver_options.needs_axes(options)
     with Progress(options.quiet) as progress:
         infill = aimed(solid, spec, progress=progress, meshed=meshed)

@@ -68,7 +68,7 @@ def apply(options: argparse.Namespace, out: Path) -> tuple[str, ...]:
             options.density = options.solid.density
     if options.process is None:
         return ()
-    from ..reports.printability import find_process
+    from ..reports.processes import find_process
 
     process = find_process(options.process)
     deck = out.suffix.lower() == _DECK and (options.inp or "beams") in _NO_MESH

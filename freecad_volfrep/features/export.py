@@ -125,7 +125,7 @@ def export_mesh(
         job_title("Beams of {label}", obj),
         lambda progress: beam_model(solid, spec, progress=progress, cache=cache),
     )
-    for sentence in model.warnings:
+    for sentence in model.warnings + (model.loose if content == "beams" else ()):
         App.Console.PrintWarning(f"VOLFREP, {obj.Label}: {sentence}\n")
     model = placed_beams(model, place_in_document(obj))
     write_3mf_beams(model, path, mesh_in_document(obj) if content == "both" else None)

@@ -307,7 +307,9 @@ def _finish(
     from ..util.progress import peak_memory_mb
 
     start = time.perf_counter()
-    warnings = result.report.warnings if beams is None else beams.warnings
+    warnings = result.report.warnings
+    if beams is not None:
+        warnings = tuple(dict.fromkeys((*warnings, *beams.warnings)))
     if write is not None:
         warnings += write(result)
     elif beams is None:

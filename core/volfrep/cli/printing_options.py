@@ -135,7 +135,7 @@ def finish_beams(model: BeamModel, options: argparse.Namespace, start: float) ->
     from ..io.write.threemf import write_3mf_beams
 
     write_3mf_beams(model, options.output)
-    print_warnings(model.warnings)
+    print_warnings(model.warnings + model.loose)
     if options.quiet:
         return
     lattice = model.lattice

@@ -110,6 +110,7 @@ def fill_axes(infill: Infill, options: argparse.Namespace, start: float) -> bool
     if not needs_axes(options):
         return False
     clipped = infill.axes
+    print_warnings(clipped.warnings)
     _write_axes(clipped.wireframe, clipped.on_wall, infill.spec, options, start)
     return True
 

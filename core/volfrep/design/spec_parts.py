@@ -149,6 +149,7 @@ class Boundary:
     cut: str = "trim"
     remove_dangling: bool = False
     shortest_stub: float = 0.0
+    keep_pieces: bool = False
 
     def __post_init__(self) -> None:
         if self.activation not in ACTIVATIONS:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Refusals before octants are assembled: too many for the memory, or without a surface."""
+"""Refusals before octants are assembled: cells too large, too many, or without a surface."""
 
 from __future__ import annotations
 
@@ -8,8 +8,10 @@ from numpy.typing import NDArray
 
 from ..design.memory_guard import cells_are_full, refuse_memory
 from ..design.spec import LatticeSpec
+from ..mesh.triangle_mesh import TriangleMesh
 from ..octants.octant import OctantGrid, OctantKey
 from ..octants.octant_mesh import Octant, OctantSpec
+from ..util.errors import VolfrepError
 
 
 def refuse_too_large(
@@ -40,3 +42,14 @@ def refuse_solid_cells(octants: dict[OctantKey, Octant], spec: OctantSpec) -> No
     """Raise a `VolfrepError` where no octant has a surface: struts fill everything."""
     if not any(len(octant.triangles) for octant in octants.values()):
         raise cells_are_full(spec.cell_size, spec.strut_radius)
+
+
+def refuse_larger_cells(solid: TriangleMesh, cell_size: float) -> None:
+    """Raise a `VolfrepError` where a cell is larger than the part."""
+    size = solid.bounds[1] - solid.bounds[0]
+    if cell_size > size.max():
+        raise VolfrepError(
+            f"Cells of {cell_size:g} mm are larger than the part, which measures "
+            f"{size[0]:.4g} x {size[1]:.4g} x {size[2]:.4g} mm: reduce the cell size, "
+            "or see whether the part is in another unit."
+        )

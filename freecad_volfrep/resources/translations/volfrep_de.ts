@@ -285,8 +285,16 @@
       <translation>Knotenausrundung</translation>
     </message>
     <message>
+      <source>Keep Pieces</source>
+      <translation>Lose Teile behalten</translation>
+    </message>
+    <message>
       <source>Keep Radius</source>
       <translation>Radius beibehalten</translation>
+    </message>
+    <message>
+      <source>Keep pieces of the lattice that hang on nothing; otherwise they are left out, and told</source>
+      <translation>Teile des Gitters behalten, die an nichts hängen; sonst werden sie weggelassen und gemeldet</translation>
     </message>
     <message>
       <source>L: edge length of the cubic cell</source>

@@ -285,8 +285,16 @@
       <translation>Raccordo dei nodi</translation>
     </message>
     <message>
+      <source>Keep Pieces</source>
+      <translation>Mantieni pezzi staccati</translation>
+    </message>
+    <message>
       <source>Keep Radius</source>
       <translation>Mantieni raggio</translation>
+    </message>
+    <message>
+      <source>Keep pieces of the lattice that hang on nothing; otherwise they are left out, and told</source>
+      <translation>Mantiene i pezzi del reticolo che non sono attaccati a nulla; altrimenti vengono tolti e segnalati</translation>
     </message>
     <message>
       <source>L: edge length of the cubic cell</source>

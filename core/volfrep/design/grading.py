@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..util.errors import VolfrepError
-from ..util.linalg import rotation
+from ..util.linalg import along, rotation
 from ..util.types import Floats
 from .profile import Profile
 from .scattered_field import PointField, TransferCurve, default_curve, read_point_field
@@ -115,7 +115,7 @@ class RadiusGrading:
         if self.by == "direction":
             ends = np.sort(bounds * np.asarray(self.direction), axis=0).sum(axis=1)
             return self.profile(
-                (points @ np.asarray(self.direction) - ends[0]) / (ends[1] - ends[0])
+                (along(points, np.asarray(self.direction)) - ends[0]) / (ends[1] - ends[0])
             )
         if self.by == "field":
             values = self.field

@@ -14,6 +14,7 @@ import numpy as np
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..util.content import content_of, held
 from ..util.errors import VolfrepError
+from ..util.linalg import along
 from ..util.types import Bools, Floats
 
 Vector = tuple[float, float, float]
@@ -51,9 +52,9 @@ class OpenPlane:
         """(m,) which triangles of a solid lie in the plane."""
         normal = np.array(self.normal, float) / np.linalg.norm(self.normal)
         size = float(np.linalg.norm(np.ptp(solid.bounds, axis=0)))
-        off = np.abs((solid.vertices - np.array(self.point)) @ normal) < IN_PLANE * size
-        along = np.abs(_normals(solid) @ normal) > ALONG_PLANE
-        return np.asarray(off[solid.triangles].all(axis=1) & along)
+        off = np.abs(along(solid.vertices - np.array(self.point), normal)) < IN_PLANE * size
+        level = np.abs(along(_normals(solid), normal)) > ALONG_PLANE
+        return np.asarray(off[solid.triangles].all(axis=1) & level)
 
     def __str__(self) -> str:
         return "the plane through ({:.4g}, {:.4g}, {:.4g})".format(*self.point)

@@ -20,6 +20,7 @@ from ..mesh.quality import Quality, measure
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.proximity import closest_points
 from ..util.errors import VolfrepError
+from ..util.linalg import solved
 from ..util.progress import Monitor
 from ..util.ragged import rows_of
 from ..util.types import Bools, Floats, Ints
@@ -209,7 +210,7 @@ class _Stars:
         # Planes of the one end go through middle + half, those of the other through middle - half.
         right = np.einsum("kij,kj->ki", _matrices(self._planes[gone] - self._planes[kept]), half)
         matrix = _matrices(planes) + (SPRING * planes[:, 6])[:, None, None] * np.eye(3)
-        place = middle + np.linalg.solve(matrix, right[:, :, None])[:, :, 0]
+        place = middle + solved(matrix, right)
         moved = np.zeros(len(gone))
         for end, corner in ((gone, a), (kept, b)):
             rows, owner = rows_of(self._start, end)

@@ -58,7 +58,7 @@ def ratio_of_stiffness(cell: UnitCell, target: Target, fillet: float = 0.0) -> f
             + (", or name the solid's material." if target.young == 1.0 else ".")
         )
     if known:
-        return float(np.exp(brentq(missing, least, most, xtol=1e-9)))
+        return _rounded(brentq(missing, least, most, xtol=1e-9))
     # Nearly a power law: false position in logarithms.
     for _ in range(_STEPS):
         place = least + (most - least) * at_least / (at_least - at_most)
@@ -69,4 +69,9 @@ def ratio_of_stiffness(cell: UnitCell, target: Target, fillet: float = 0.0) -> f
             least, at_least = place, off
         else:
             most, at_most = place, off
-    return float(np.exp(place))
+    return _rounded(place)
+
+
+def _rounded(place: float) -> float:
+    """The ratio at a logarithm, without the digits that hang on the solver's number of threads."""
+    return float(f"{np.exp(place):.6g}")

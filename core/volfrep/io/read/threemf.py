@@ -23,6 +23,7 @@ import numpy as np
 
 from ...mesh.triangle_mesh import TriangleMesh, concatenate, empty_mesh
 from ...util.errors import VolfrepError
+from ...util.linalg import determinants, times
 from ...util.types import Floats
 from .contents import Contents, as_numbers, as_words, damaged
 from .units import unit_named
@@ -299,6 +300,6 @@ def _assembled(place: _Component, objects: Objects, budget: _Budget, depth: int)
         return empty_mesh()
     inside = [_assembled(part, objects, budget, depth + 1) for part in item.components]
     mesh = concatenate(item.mesh, *inside)
-    moved = TriangleMesh(mesh.vertices @ place.matrix[:3] + place.matrix[3], mesh.triangles)
-    mirrors = np.linalg.det(place.matrix[:3]) < 0.0
+    moved = TriangleMesh(times(mesh.vertices, place.matrix[:3]) + place.matrix[3], mesh.triangles)
+    mirrors = determinants(place.matrix[:3]) < 0.0
     return moved.reversed() if mirrors else moved

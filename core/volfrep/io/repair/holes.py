@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ...mesh.edge_table import areas_of, edges_of, pieces_of, place_text, plural
 from ...mesh.triangle_mesh import TriangleMesh, compact
+from ...util.linalg import along
 from ...util.types import Floats, Ints
 from .polygons import cut_loops, mean_normal
 from .weld import ROUNDING
@@ -170,7 +171,7 @@ def _hole(mesh: TriangleMesh, rim: Ints) -> _Hole:
     centred = points - points.mean(axis=0)
     width = 2.0 * float(np.linalg.norm(centred, axis=1).max())
     length = float(np.linalg.norm(normal))
-    stray = float(np.abs(centred @ normal).max()) / length if length > 0.0 else np.inf
+    stray = float(np.abs(along(centred, normal)).max()) / length if length > 0.0 else np.inf
     return _Hole(rim, normal, width, stray if len(rim) > 3 else 0.0)
 
 
@@ -187,12 +188,12 @@ def _faces(holes: list[_Hole], mesh: TriangleMesh) -> list[list[_Hole]]:
             outer = face[0]
             unit = outer.normal / max(float(np.linalg.norm(outer.normal)), 1e-300)
             points, around = mesh.vertices[hole.rim], mesh.vertices[outer.rim]
-            above = np.abs((points - around.mean(axis=0)) @ unit).max()
+            above = np.abs(along(points - around.mean(axis=0), unit)).max()
             inside = (points >= around.min(axis=0) - above).all() and (
                 points <= around.max(axis=0) + above
             ).all()
             flat = outer.stray <= FLAT * outer.width and above <= FLAT * outer.width
-            if flat and inside and float(hole.normal @ unit) < 0.0:
+            if flat and inside and float(along(hole.normal, unit)) < 0.0:
                 face.append(hole)
                 break
         else:

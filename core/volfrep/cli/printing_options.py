@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import argparse
 import dataclasses
-import math
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..util.errors import VolfrepError
+from ..util.numbers import number
 from .telling import print_rows, print_warnings
 
 if TYPE_CHECKING:
@@ -57,10 +57,8 @@ def check(options: argparse.Namespace, out: Path) -> None:
     """
     if options.threemf is not None and out.suffix.lower() != ".3mf":
         raise VolfrepError(f"'{out}' cannot hold what --3mf asks for: give it the extension .3mf.")
-    if options.compact is not None and not 0.0 < options.compact < math.inf:
-        raise VolfrepError(
-            f"The deviation of --compact must be above 0 mm, not {options.compact:g}."
-        )
+    if options.compact is not None:
+        number("deviation of --compact", options.compact, "mm", positive=True)
     if options.threemf == "beams" and options.compact is not None:
         raise VolfrepError("Beams have no triangles for --compact to reduce: leave it out.")
     if options.picture is not None:

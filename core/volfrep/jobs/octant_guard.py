@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -19,6 +21,7 @@ def refuse_too_large(
     grid: OctantGrid,
     octants: dict[OctantKey, Octant],
     border: NDArray[np.bool_] | None,
+    count: Sequence[int] | None = None,
 ) -> None:
     """Refuse a lattice that would not fit.
 
@@ -27,6 +30,7 @@ def refuse_too_large(
         grid: which octant lies where.
         octants: their meshes.
         border: octants that go through the Boolean; None for none.
+        count: cells of a block along x, y, z; None for a part.
 
     Raises:
         VolfrepError: it needs more memory than is free.
@@ -35,7 +39,7 @@ def refuse_too_large(
     present = grid.kind >= 0
     triangles = int(per_kind[grid.kind[present]].sum())
     in_boolean = 0 if border is None else int(per_kind[grid.kind[present & border]].sum())
-    refuse_memory(spec, triangles, in_boolean)
+    refuse_memory(spec, triangles, in_boolean, count)
 
 
 def refuse_solid_cells(octants: dict[OctantKey, Octant], spec: OctantSpec) -> None:

@@ -9,18 +9,16 @@ from __future__ import annotations
 
 import argparse
 import dataclasses
-import io
-import os
 import sys
 import tempfile
 import time
 import traceback
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, NoReturn
+from typing import TYPE_CHECKING
 
 from ..util.errors import VolfrepError
-from . import material, printing_options, properties, solver_options
+from . import material, printing_options, process, properties, solver_options
 from .files import check_files
 from .parameter_options import (
     add_parameters,
@@ -39,25 +37,6 @@ if TYPE_CHECKING:
 
 EXIT_DEFECT = 1
 EXIT_BAD_INPUT = 2
-EXIT_INTERRUPTED = 130
-
-
-def main() -> NoReturn:
-    """Run the command of this process's arguments and exit with its code."""
-    for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, io.TextIOWrapper):
-            stream.reconfigure(errors="backslashreplace")  # a file's name may be any bytes
-    try:
-        code = run(sys.argv[1:])
-        sys.stdout.flush()
-    except BrokenPipeError:  # the reader of the text, such as `head`, has had enough
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        code = 0
-    sys.stderr.flush()
-    if code == EXIT_INTERRUPTED:
-        # A compiled call may still be busy on a thread: an ordinary exit would wait for it.
-        os._exit(code)
-    sys.exit(code)
 
 
 def run(arguments: Sequence[str]) -> int:
@@ -78,11 +57,10 @@ def run(arguments: Sequence[str]) -> int:
         )
         return EXIT_BAD_INPUT
     except KeyboardInterrupt:
-        print("volfrep: Interrupted, no file was left half-written.", file=sys.stderr)
-        return EXIT_INTERRUPTED
-    except BrokenPipeError:
-        raise
+        return process.say_interrupted()
     except Exception as error:  # whatever it is, the user gets a sentence
+        if process.interrupted():
+            return process.say_interrupted()
         print(
             f"volfrep: The engine failed with a {type(error).__name__} ({error}), which is a "
             f"defect of VOLFREP: please report it with the traceback in '{_logged()}'.",

@@ -25,6 +25,8 @@ MOST_FLAT_AREA = 0.1
 #: cut off or added by a flat closing is then a small part of a small area.
 NEARLY_FLAT = 0.2
 MOST_CURVED_AREA = 0.01
+#: How often the farthest point of a rim is gone to.
+ROUNDS = 8
 #: Sheets that are cut off make up no more than this part of the area.
 MOST_SHEET_AREA = 0.1
 
@@ -169,10 +171,20 @@ def _hole(mesh: TriangleMesh, rim: Ints) -> _Hole:
     points = mesh.vertices[rim]
     normal = mean_normal(points)
     centred = points - points.mean(axis=0)
-    width = 2.0 * float(np.linalg.norm(centred, axis=1).max())
+    width = _farthest_apart(points)
     length = float(np.linalg.norm(normal))
     stray = float(np.abs(along(centred, normal)).max()) / length if length > 0.0 else np.inf
     return _Hole(rim, normal, width, stray if len(rim) > 3 else 0.0)
+
+
+def _farthest_apart(points: Floats) -> float:
+    """Distance of the two points of a rim that are farthest apart, by going to and fro, mm."""
+    width, here = 0.0, points.mean(axis=0)
+    for _ in range(ROUNDS):
+        away = np.linalg.norm(points - here, axis=1)
+        here = points[away.argmax()]
+        width = max(width, float(np.linalg.norm(points - here, axis=1).max()))
+    return width
 
 
 def _faces(holes: list[_Hole], mesh: TriangleMesh) -> list[list[_Hole]]:

@@ -26,7 +26,7 @@ class Format:
     Attributes:
         title: for the file dialog.
         suffix: of the file.
-        content: ``mesh``; ``compact``, the mesh with fewer triangles; ``beams`` or ``both``, which
+        content: ``mesh``; ``beams`` or ``both``, which
             are for lattice infills, as are those of `solver_files.CONTENTS`.
     """
 
@@ -43,9 +43,7 @@ class Format:
 #: In the order of the file dialog's list.
 FORMATS = (
     Format("STL", ".stl"),
-    Format("STL, fewer triangles", ".stl", "compact"),
     Format("3MF", ".3mf"),
-    Format("3MF, fewer triangles", ".3mf", "compact"),
     Format("3MF, mesh and beams", ".3mf", "both"),
     Format("3MF, beams only", ".3mf", "beams"),
     Format("PLY", ".ply"),
@@ -64,7 +62,7 @@ FORMATS = (
 def formats_of(obj: App.DocumentObject) -> list[Format]:
     """The formats in which this mesh object can be written."""
     infill = isinstance(getattr(obj, "Proxy", None), LatticeInfill)
-    return [form for form in FORMATS if infill or form.content in ("mesh", "compact")]
+    return [form for form in FORMATS if infill or form.content == "mesh"]
 
 
 def export_mesh(
@@ -75,9 +73,9 @@ def export_mesh(
     Args:
         obj: a lattice infill, or any mesh object.
         path: the file to write; one that exists is replaced only when the new one is complete.
-        content: ``mesh``; ``compact`` for fewer triangles, moved by up to 0.02 mm; and in a 3MF
-            file of a lattice infill ``beams`` (of the beam lattice extension) or ``both``. Of a
-            lattice infill in .step or .inp, too: one of `solver_files.CONTENTS`.
+        content: ``mesh``; and in a 3MF file of a lattice infill ``beams`` (of the beam lattice
+            extension) or ``both``. Of a lattice infill in .step or .inp, too: one of
+            `solver_files.CONTENTS`.
 
     Raises:
         VolfrepError: there is no mesh, the file cannot be written, cannot hold that content, or is
@@ -86,10 +84,8 @@ def export_mesh(
     """
     require_engine()
     from freecad_volfrep.bridge.solids import mesh_in_document
-    from volfrep.io.write import mesh_writer, write_mesh
+    from volfrep.io.write import write_mesh
     from volfrep.io.write.threemf import write_3mf_beams
-    from volfrep.jobs.decimate import reduce_triangles
-    from volfrep.util.progress import Monitor
 
     if not obj.isDerivedFrom("Mesh::Feature") or not obj.Mesh.CountFacets:
         raise VolfrepError(f"'{obj.Label}' has no mesh to export: update it first.")
@@ -99,19 +95,6 @@ def export_mesh(
         return
     if content in CONTENTS:
         write_solver_file(obj, path, content)
-        return
-    if content == "compact":
-        mesh_writer(path)  # refuses a path that no mesh can be written to before the work
-        mesh = mesh_in_document(obj)
-        reduced = run_job(
-            job_title("Fewer triangles for {label}", obj),
-            lambda progress: reduce_triangles(mesh, monitor=Monitor(progress)),
-        )
-        write_mesh(reduced.mesh, path)
-        App.Console.PrintMessage(
-            f"VOLFREP, {obj.Label}: {reduced.quality.triangles} of {reduced.triangles_before} "
-            f"triangles written, moved by up to {reduced.deviation:.2g} mm\n"
-        )
         return
     if Path(path).suffix.lower() != ".3mf" or content not in ("beams", "both"):
         raise VolfrepError(f"'{path}' cannot hold {content}: only a 3MF file holds beams or both.")

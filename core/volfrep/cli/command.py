@@ -174,8 +174,6 @@ def _fill(options: argparse.Namespace) -> None:
             return
         beams = infill.beams if options.threemf == "both" else None
         result = infill.result
-        if options.compact is not None:
-            result = printing_options.compacted(result, options, progress)
         domain = None
         if options.print_report is not None:
             domain = infill.cavity
@@ -216,8 +214,6 @@ def _block(options: argparse.Namespace) -> None:
             tell(write_block_stl(spec, options.count, options.output, progress=progress), options)
             return
         result = block(spec, tuple(options.count), progress=progress)
-        if options.compact is not None:
-            result = printing_options.compacted(result, options, progress)
         write = solver_options.writer(options, spec, None, progress)
         _finish(result, options, {}, beams, write=write)
         _picture(result, options, spec)
@@ -238,7 +234,7 @@ def _picture(
 
 def _writes_stl(options: argparse.Namespace) -> bool:
     """Whether nothing but an STL file of the mesh as it is was asked for."""
-    more = (options.compact, options.print_report, options.picture)
+    more = (options.print_report, options.picture)
     plain = all(option is None for option in more)
     return plain and Path(options.output).suffix.lower() == ".stl"
 

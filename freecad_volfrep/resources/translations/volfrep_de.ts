@@ -1157,10 +1157,6 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>3MF, nur Balken</translation>
     </message>
     <message>
-      <source>3MF, fewer triangles</source>
-      <translation>3MF, weniger Dreiecke</translation>
-    </message>
-    <message>
       <source>3MF, mesh and beams</source>
       <translation>3MF, Netz und Balken</translation>
     </message>
@@ -1208,10 +1204,6 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <source>STL</source>
       <translation>STL</translation>
     </message>
-    <message>
-      <source>STL, fewer triangles</source>
-      <translation>STL, weniger Dreiecke</translation>
-    </message>
   </context>
   <context>
     <name>VolfrepHelp</name>
@@ -1237,10 +1229,6 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
     <message>
       <source>Exact surfaces of {label}</source>
       <translation>Exakte Flächen von {label}</translation>
-    </message>
-    <message>
-      <source>Fewer triangles for {label}</source>
-      <translation>Weniger Dreiecke für {label}</translation>
     </message>
     <message>
       <source>Filling {label}</source>
@@ -1466,10 +1454,6 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
     <message>
       <source>check</source>
       <translation>Prüfung</translation>
-    </message>
-    <message>
-      <source>compact</source>
-      <translation>Verdichten</translation>
     </message>
     <message>
       <source>crossings</source>

@@ -1157,10 +1157,6 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>3MF, solo travi</translation>
     </message>
     <message>
-      <source>3MF, fewer triangles</source>
-      <translation>3MF, meno triangoli</translation>
-    </message>
-    <message>
       <source>3MF, mesh and beams</source>
       <translation>3MF, mesh e travi</translation>
     </message>
@@ -1208,10 +1204,6 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <source>STL</source>
       <translation>STL</translation>
     </message>
-    <message>
-      <source>STL, fewer triangles</source>
-      <translation>STL, meno triangoli</translation>
-    </message>
   </context>
   <context>
     <name>VolfrepHelp</name>
@@ -1237,10 +1229,6 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
     <message>
       <source>Exact surfaces of {label}</source>
       <translation>Superfici esatte di {label}</translation>
-    </message>
-    <message>
-      <source>Fewer triangles for {label}</source>
-      <translation>Meno triangoli per {label}</translation>
     </message>
     <message>
       <source>Filling {label}</source>
@@ -1466,10 +1454,6 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
     <message>
       <source>check</source>
       <translation>controllo</translation>
-    </message>
-    <message>
-      <source>compact</source>
-      <translation>riduzione</translation>
     </message>
     <message>
       <source>crossings</source>

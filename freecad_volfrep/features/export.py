@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from dataclasses import dataclass
 from pathlib import Path
@@ -85,13 +86,13 @@ def export_mesh(
     require_engine()
     from freecad_volfrep.bridge.solids import mesh_in_document
     from volfrep.io.write import write_mesh
-    from volfrep.io.write.threemf import write_3mf_beams
+    from volfrep.io.write.threemf import BEAMS_ONLY, write_3mf_beams
 
     if not obj.isDerivedFrom("Mesh::Feature") or not obj.Mesh.CountFacets:
         raise VolfrepError(f"'{obj.Label}' has no mesh to export: update it first.")
     refuse_inputs(path, obj)
     if content == "mesh":
-        write_mesh(mesh_in_document(obj), path)
+        write_mesh(mesh_in_document(obj), path, figures=_figures(obj))
         return
     if content in CONTENTS:
         write_solver_file(obj, path, content)
@@ -108,7 +109,22 @@ def export_mesh(
         job_title("Beams of {label}", obj),
         lambda progress: beam_model(solid, spec, progress=progress, cache=cache),
     )
-    for sentence in model.warnings + (model.loose if content == "beams" else ()):
+    for sentence in model.warnings + ((*model.loose, BEAMS_ONLY) if content == "beams" else ()):
         App.Console.PrintWarning(f"VOLFREP, {obj.Label}: {sentence}\n")
     model = placed_beams(model, place_in_document(obj))
-    write_3mf_beams(model, path, mesh_in_document(obj) if content == "both" else None)
+    mesh = mesh_in_document(obj) if content == "both" else None
+    write_3mf_beams(model, path, mesh, figures=_figures(obj))
+
+
+def _figures(obj: App.DocumentObject) -> dict[str, str]:
+    """The figures of the run that made an infill's mesh; nothing for another mesh, or an older
+    version's report.
+    """
+    from dataclasses import fields
+
+    from volfrep.reports.report import Report
+
+    kept = json.loads(getattr(obj, "Report", "") or "{}")
+    if kept.keys() != {field.name for field in fields(Report)}:
+        return {}
+    return Report(**kept).figures

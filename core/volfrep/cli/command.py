@@ -287,9 +287,10 @@ def _finish(
     if write is not None:
         warnings += write(result)
     elif beams is None:
-        write_mesh(result.mesh, options.output)
+        write_mesh(result.mesh, options.output, figures=result.report.figures)
     else:
-        write_3mf_beams(beams, options.output, result.mesh)
+        figures = result.report.figures
+        write_3mf_beams(beams, options.output, result.mesh, figures=figures)
     report = dataclasses.replace(
         result.report,
         stages={**before, **result.report.stages, "write": time.perf_counter() - start},

@@ -83,10 +83,10 @@ def report_of(
 
 def finish_beams(model: BeamModel, options: argparse.Namespace, start: float) -> None:
     """Write a lattice as beams; say what was made since `start` (of `time.perf_counter`)."""
-    from ..io.write.threemf import write_3mf_beams
+    from ..io.write.threemf import BEAMS_ONLY, write_3mf_beams
 
     write_3mf_beams(model, options.output)
-    print_warnings(model.warnings + model.loose)
+    print_warnings((*model.warnings, *model.loose, BEAMS_ONLY))
     if options.quiet:
         return
     lattice = model.lattice

@@ -309,6 +309,9 @@ WIDE = "".join(
 )
 
 
+BEAMS = "<beamlattice/>"
+
+
 @pytest.mark.parametrize(
     ("data", "words"),
     [
@@ -334,13 +337,22 @@ WIDE = "".join(
         ),
         (package(model_xml(BOX + " " * 30_000_000, ITEM)), "unpacks to more than"),
         (
-            package(model_xml(BOX.replace("</mesh>", "<beamlattice/></mesh>"), ITEM)),
+            package(model_xml(re.sub(r"<triangles>.*</triangles>", BEAMS, BOX, flags=re.S), ITEM)),
             "lattice of beams",
         ),
     ],
 )
 def test_damaged_or_hostile_3mf_is_refused(tmp_path, data, words):
     refused(written(tmp_path, "part.3mf", data), words)
+
+
+def test_the_triangles_of_a_file_of_both_are_read(tmp_path):
+    data = package(model_xml(BOX.replace("</mesh>", BEAMS + "</mesh>"), ITEM))
+    solid = read_solid(written(tmp_path, "both.3mf", data))
+    assert solid.volume == pytest.approx(read_solid(written(tmp_path, "box.3mf", package(
+        model_xml(BOX, ITEM)
+    ))).volume)  # fmt: skip
+    assert any("beams beside its triangles" in note for note in solid.notes)
 
 
 def test_an_assembly_that_holds_itself_is_refused(tmp_path):

@@ -97,7 +97,7 @@ class Part:
         """
         from .io.write import write_mesh
 
-        write_mesh(self.result.mesh, path)
+        write_mesh(self.result.mesh, path, figures=self.report.figures)
 
     def check(
         self, process: str, build_direction: tuple[float, float, float] = (0.0, 0.0, 1.0)

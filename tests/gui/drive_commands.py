@@ -378,12 +378,12 @@ def read_what_a_cell_does(library):
     xdotool("key", "ctrl+a")
     xdotool("type", "0.7 mm")
     xdotool("key", "Tab")
-    check("it follows the radius", wait_until(lambda: does.text() != before, 5), before)
+    check("it follows the radius", wait_until(lambda: does.text() != before), before)
     material = library.findChild(QtGui.QComboBox, "Material")
     click(material)
     xdotool("type", "316L")
     xdotool("key", "Return")
-    check("and the material", wait_until(lambda: "MPa" in does.text(), 5), does.text())
+    check("and the material", wait_until(lambda: "MPa" in does.text()), does.text())
     check("with its density", "g/cm3" in does.text(), does.text())
 
 

@@ -272,7 +272,7 @@ def choose(name, text):
     click(field)
     xdotool("type", text)
     xdotool("key", "Return")
-    wait_until(lambda: field.currentText().startswith(text), 5)
+    wait_until(lambda: field.currentText().startswith(text))
     settle()
 
 
@@ -332,7 +332,7 @@ def drive_the_radius(doc, obj):
     picture("panel_8_met")
     in_sight(panel_part("CellType"))
     answer_panel("Cancel")
-    wait_until(lambda: panel() is None, 10)
+    wait_until(lambda: panel() is None)
     settle()
     check("Cancel gives the radius back",
           (obj.RadiusDrivenBy, obj.StrutRadius.Value) == ("Radius", before))  # fmt: skip

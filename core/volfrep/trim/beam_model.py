@@ -28,12 +28,14 @@ class BeamModel:
         clip: closed mesh; what of the lattice lies outside it is cut off. None: nothing is.
         skin: closed mesh that the lattice is joined to; None for none.
         warnings: sentences for the user.
+        loose: what is to be said of pieces that hang on nothing, where no mesh says it.
     """
 
     lattice: Wireframe
     clip: TriangleMesh | None = None
     skin: TriangleMesh | None = None
     warnings: tuple[str, ...] = ()
+    loose: tuple[str, ...] = ()
 
 
 def part_beams(

@@ -49,6 +49,7 @@ def axes_of(obj: App.DocumentObject) -> Clipped:
         job_title("Struts of {label}", obj),
         lambda progress: clipped_infill(solid, spec, progress=progress, cache=cache),
     )
+    warn(obj, clipped.warnings)
     return replace(clipped, wireframe=placed_lattice(clipped.wireframe, place_in_document(obj)))
 
 

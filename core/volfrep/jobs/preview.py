@@ -23,9 +23,12 @@ from ..grid.coordinate_map import CoordinateMap
 from ..grid.placement import graded_wireframe, placement_in
 from ..grid.strut_graph import Wireframe, cell_graph
 from ..lattice.padded_grid import least_width, padded_grid
+from ..mesh.quality import inspect
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.proximity import index_surface
 from ..spatial.rays import inside_points
+from ..trim.clip_struts import Pieces
+from ..trim.held_struts import largest
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
@@ -36,6 +39,8 @@ from .stiffness_target import ratio_of_stiffness
 SAMPLES_ALONG = 150.0
 #: Pieces that a strut near the wall is looked at in.
 PIECES = 8
+#: A corner of a cell this far outside, in units of L, lies on the wall.
+ON_WALL = 1e-6
 #: Points by which the volume within a skin is measured (a power of 2).
 VOLUME_POINTS = 14
 #: More struts than this are no preview.
@@ -79,6 +84,9 @@ class PartDepth:
     Args:
         solid: checked closed mesh, mm.
         open_faces: faces that have no skin, as `LatticeSpec` has them.
+
+    Attributes:
+        bodies: how many the part has.
     """
 
     def __init__(self, solid: TriangleMesh, open_faces: tuple[OpenFace, ...] = ()) -> None:
@@ -91,6 +99,7 @@ class PartDepth:
         low, high = solid.bounds
         points = low + qmc.Sobol(3, seed=1).random_base2(VOLUME_POINTS) * (high - low)
         points = points[inside_points(solid, points, Monitor())]
+        self.bodies = max(1, inspect(solid).quality.bodies)
         self._sampled = (self._skinned or self._surface).near(points)[1]
 
     def below_skin(self, points: Floats, shell: float) -> Floats:
@@ -145,6 +154,9 @@ def preview(solid: TriangleMesh, spec: LatticeSpec, depth: PartDepth) -> Preview
             f"No strut of cells of {spec.cell_size:g} mm lies inside the skin: reduce the cell "
             "size or the shell thickness."
         )
+    if spec.skin is None and not spec.keep_pieces:
+        stays = largest(Pieces(owner, low, high), frame, depth.bodies)
+        owner, low, high = owner[stays], low[stays], high[stays]
     ends = frame.nodes[frame.struts[owner]]
     span = ends[:, 1] - ends[:, 0]
     radii = frame.radii[owner]
@@ -206,7 +218,8 @@ def _active(
     corner_of = np.argwhere(np.ones((2, 2, 2), bool))
     around = np.stack([at_corner[i : i + nx, j : j + ny, k : k + nz] for i, j, k in corner_of])
     if spec.activation == "inside":
-        active = (np.minimum(around.min(axis=0), at_centre) > 0.0) & every
+        least = np.minimum(around.min(axis=0), at_centre)
+        active = (least > -ON_WALL * size) & every  # a cell may lie at the wall
         return active, int(active.sum())
     # No point of a cell lies deeper than its centre by more than its corners are away.
     reach = np.maximum(np.abs(around - at_centre).max(axis=0), 0.5 * np.sqrt(3.0) * size)

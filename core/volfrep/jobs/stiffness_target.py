@@ -83,14 +83,14 @@ def ratio_of_stiffness(
 
     place = place_of(target.value)
     if known or rough:
-        return float(np.exp(place))
+        return _rounded(place)
     # By how much the fine grids differ from the coarse hardly hangs on the radius.
     for _ in range(_STEPS):
         fine = modulus(cell, float(np.exp(place)), target, fillet)
         if abs(fine / target.value - 1.0) < _CLOSE:
             break
         place = place_of(target.value * float(np.exp(moduli(place))) / fine)
-    return float(np.exp(place))
+    return _rounded(place)
 
 
 def coarse_ratios(fillet: float) -> Floats:
@@ -132,3 +132,8 @@ def _tensor(cell: UnitCell, ratio: float, fillet: float, coarse: bool = False) -
 
 def _even(number: float) -> int:
     return 2 * round(float(number) / 2.0)
+
+
+def _rounded(place: float) -> float:
+    """The ratio at a logarithm, without the digits that hang on the solver's number of threads."""
+    return float(f"{np.exp(place):.6g}")

@@ -10,13 +10,13 @@ that no data sheet gives, it is the handbook's for the wrought or moulded materi
 from __future__ import annotations
 
 import json
-import math
 import re
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
 from ..util.errors import VolfrepError
+from ..util.numbers import number
 
 MAX_FILE_BYTES = 100_000
 _NAME = re.compile(r"[A-Za-z0-9][-\w]{0,70}", re.ASCII)
@@ -73,12 +73,10 @@ class SolidMaterial:
             raise VolfrepError(
                 f"The material's name '{self.name}' must consist of letters, digits, '-' and '_'."
             )
-        numbers = (self.density, self.young, self.yield_stress)
-        if not all(n is None or (math.isfinite(n) and n > 0) for n in numbers):
-            raise VolfrepError(
-                f"The material '{self.name}' must have a density, a Young's modulus and a yield "
-                "stress above 0."
-            )
+        number(f"density of '{self.name}'", self.density, "g/cm3", positive=True)
+        number(f"Young's modulus of '{self.name}'", self.young, "MPa", positive=True)
+        if self.yield_stress is not None:
+            number(f"yield stress of '{self.name}'", self.yield_stress, "MPa", positive=True)
         if not -1.0 < self.poisson < 0.5:
             raise VolfrepError(
                 f"The material '{self.name}' must have a Poisson's ratio between -1 and 0.5, "

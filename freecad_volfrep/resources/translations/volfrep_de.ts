@@ -297,8 +297,16 @@
       <translation>Knotenausrundung</translation>
     </message>
     <message>
+      <source>Keep Pieces</source>
+      <translation>Lose Teile behalten</translation>
+    </message>
+    <message>
       <source>Keep Radius</source>
       <translation>Radius beibehalten</translation>
+    </message>
+    <message>
+      <source>Keep pieces of the lattice that hang on nothing; otherwise they are left out, and told</source>
+      <translation>Teile des Gitters behalten, die an nichts hängen; sonst werden sie weggelassen und gemeldet</translation>
     </message>
     <message>
       <source>L: edge length of the cubic cell</source>
@@ -1265,10 +1273,6 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>3MF, nur Balken</translation>
     </message>
     <message>
-      <source>3MF, fewer triangles</source>
-      <translation>3MF, weniger Dreiecke</translation>
-    </message>
-    <message>
       <source>3MF, mesh and beams</source>
       <translation>3MF, Netz und Balken</translation>
     </message>
@@ -1316,10 +1320,6 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <source>STL</source>
       <translation>STL</translation>
     </message>
-    <message>
-      <source>STL, fewer triangles</source>
-      <translation>STL, weniger Dreiecke</translation>
-    </message>
   </context>
   <context>
     <name>VolfrepHelp</name>
@@ -1345,10 +1345,6 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
     <message>
       <source>Exact surfaces of {label}</source>
       <translation>Exakte Flächen von {label}</translation>
-    </message>
-    <message>
-      <source>Fewer triangles for {label}</source>
-      <translation>Weniger Dreiecke für {label}</translation>
     </message>
     <message>
       <source>Filling {label}</source>
@@ -1578,10 +1574,6 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
     <message>
       <source>check</source>
       <translation>Prüfung</translation>
-    </message>
-    <message>
-      <source>compact</source>
-      <translation>Verdichten</translation>
     </message>
     <message>
       <source>crossings</source>

@@ -297,8 +297,16 @@
       <translation>Raccordo dei nodi</translation>
     </message>
     <message>
+      <source>Keep Pieces</source>
+      <translation>Mantieni pezzi staccati</translation>
+    </message>
+    <message>
       <source>Keep Radius</source>
       <translation>Mantieni raggio</translation>
+    </message>
+    <message>
+      <source>Keep pieces of the lattice that hang on nothing; otherwise they are left out, and told</source>
+      <translation>Mantiene i pezzi del reticolo che non sono attaccati a nulla; altrimenti vengono tolti e segnalati</translation>
     </message>
     <message>
       <source>L: edge length of the cubic cell</source>
@@ -1265,10 +1273,6 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>3MF, solo travi</translation>
     </message>
     <message>
-      <source>3MF, fewer triangles</source>
-      <translation>3MF, meno triangoli</translation>
-    </message>
-    <message>
       <source>3MF, mesh and beams</source>
       <translation>3MF, mesh e travi</translation>
     </message>
@@ -1316,10 +1320,6 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <source>STL</source>
       <translation>STL</translation>
     </message>
-    <message>
-      <source>STL, fewer triangles</source>
-      <translation>STL, meno triangoli</translation>
-    </message>
   </context>
   <context>
     <name>VolfrepHelp</name>
@@ -1345,10 +1345,6 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
     <message>
       <source>Exact surfaces of {label}</source>
       <translation>Superfici esatte di {label}</translation>
-    </message>
-    <message>
-      <source>Fewer triangles for {label}</source>
-      <translation>Meno triangoli per {label}</translation>
     </message>
     <message>
       <source>Filling {label}</source>
@@ -1578,10 +1574,6 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
     <message>
       <source>check</source>
       <translation>controllo</translation>
-    </message>
-    <message>
-      <source>compact</source>
-      <translation>riduzione</translation>
     </message>
     <message>
       <source>crossings</source>

@@ -41,7 +41,9 @@ def density(value: float) -> Target:
     ("solid", "settings"),
     [
         (samples.box(), {"cell": "Octet", "shell": 1.5}),
-        (samples.box(), {"cell": "CVC", "shell": 0.0, "fillet": 0.4}),
+        pytest.param(
+            samples.box(), {"cell": "CVC", "shell": 0.0, "fillet": 0.4}, marks=pytest.mark.slow
+        ),
         (samples.bracket(33.0), {"cell": "CVC", "shell": 2.0}),
         (samples.bracket(33.0), {"cell": "BCC", "shell": 2.0, "orientation": TURNED}),
         (samples.bracket(33.0), {"cell": samples.SKEW, "shell": 1.0, "activation": "centre"}),
@@ -141,7 +143,10 @@ def test_the_volume_inside_whole_cells_is_that_of_the_endless_lattice() -> None:
         assert table.radius_of(table.at(radius)) == pytest.approx(radius, rel=1e-4)
 
 
-@pytest.mark.parametrize("direction", ["100", "110", "111", "1,2,0"])
+@pytest.mark.parametrize(
+    "direction",
+    ["1,2,0", *(pytest.param(d, marks=pytest.mark.slow) for d in ("100", "110", "111"))],
+)
 def test_the_lattice_has_the_stiffness_asked_for(direction) -> None:
     found = volfrep.block(
         (1, 1, 1), cell="BCC", cell_size=6, stiffness=f"40:{direction}", material="PA12"

@@ -146,6 +146,11 @@ PARAMETERS = (
         default=0.0, of_block=False, in_panel=True,
     ),
     Parameter(
+        "keep_pieces", "flag", "Boundary",
+        "Keep pieces of the lattice that hang on nothing; otherwise they are left out, and told",
+        default=False, of_block=False,
+    ),
+    Parameter(
         "open_faces", "faces", "Openings",
         "Faces of the solid that have no skin: the cavity opens there, struts are cut flush",
         in_command=False,

@@ -116,8 +116,8 @@ MATERIALS = {
         SolidMaterial("PLA", 1.24, 2_350, 0.36, 49.5, ("FFF",),
                       "Ultimaker PLA, not checked"),
         SolidMaterial("PETG", 1.27, 2_100, 0.38, 47, ("FFF",),
-                      "Prusament PETG, data sheet as others quote it: density; modulus: the VOLFREP "
-                      "paper's sample; yield not checked"),
+                      "Prusament PETG, data sheet as others quote it: density; modulus: the "
+                      "VOLFREP paper's sample; yield not checked"),
         SolidMaterial("ABS", 1.10, 1_680, 0.39, 39, ("FFF",), "Ultimaker ABS, not checked"),
         SolidMaterial("Resin", 1.17, 2_800, 0.40, 65, ("SLA",),
                       "Formlabs Clear Resin V4 after curing, not checked"),

@@ -285,10 +285,16 @@ def look_at_all(from_below=False):
 
     In FreeCAD's isometric view the struts along the diagonals of cells would hide each other.
     """
-    turn = App.Rotation(25, 0, 118 if from_below else 62)
-    Gui.activeDocument().activeView().setCameraOrientation(turn.Q)
+    look_along(App.Rotation(25, 0, 118 if from_below else 62))
     Gui.SendMsgToActiveView("ViewFit")
     settle()
+
+
+def look_along(turn):
+    """Turn the camera of the view in front, and see that it has turned."""
+    view = Gui.activeDocument().activeView()
+    view.setCameraOrientation(turn.Q)
+    wait_until(lambda: view.getCameraOrientation().isSame(turn, 1e-5))
 
 
 def view_3d():
@@ -649,6 +655,9 @@ def _run(drive, name):
         watch = UnexpectedMessages()
         try:
             wait_until(Gui.getMainWindow().isVisible)
+            # FreeCAD 1.0 turns the camera by and by, and a picture would catch it on its way.
+            view = App.ParamGet("User parameter:BaseApp/Preferences/View")
+            view.SetBool("UseNavigationAnimations", False)
             Gui.activateWorkbench("VolfrepWorkbench")
             settle()
             drive()

@@ -8,7 +8,6 @@ all with fillets, are homogenised on the way.
 from __future__ import annotations
 
 import numpy as np
-from scipy.optimize import brentq
 
 from ..design.cells import UnitCell
 from ..design.target import Target
@@ -58,6 +57,8 @@ def ratio_of_stiffness(cell: UnitCell, target: Target, fillet: float = 0.0) -> f
             + (", or name the solid's material." if target.young == 1.0 else ".")
         )
     if known:
+        from scipy.optimize import brentq  # slow to load, and every job loads this module
+
         return float(np.exp(brentq(missing, least, most, xtol=1e-9)))
     # Nearly a power law: false position in logarithms.
     for _ in range(_STEPS):

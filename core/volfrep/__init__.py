@@ -11,7 +11,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .api import Part, block, fill
+    from .api import Part, block, fill, slice_layers
     from .design.parameters.spec_file import read_spec, write_spec
     from .design.spec import LatticeSpec
     from .io.solid import read_solid
@@ -37,6 +37,7 @@ _HOMES = {
     "Part": "api",
     "block": "api",
     "fill": "api",
+    "slice_layers": "api",
     "Report": "reports.report",
     "read_solid": "io.solid",
     "LatticeSpec": "design.spec",
@@ -60,6 +61,7 @@ __all__ = [
     "properties",
     "read_solid",
     "read_spec",
+    "slice_layers",
     "write_block_stl",
     "write_spec",
 ]

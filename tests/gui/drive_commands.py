@@ -335,7 +335,8 @@ def read_the_statistics(doc, obj):
     click(toolbar_button("Statistics"))
     check("statistics open", wait_until(lambda: window("VolfrepReport") is not None))
     text = window("VolfrepReport").text.toPlainText()
-    for figure in ("joints", "relative density", "Seconds by stage", "Peak memory"):
+    for figure in ("joints", "relative density", "What the lattice does", "E111", "strength",
+                   "Seconds by stage", "Peak memory"):  # fmt: skip
         check(f"statistics tell: {figure}", figure in text, text)
     check("of this infill", obj.Label in text and f"{obj.Triangles:,}" in text, text)
     picture("statistics")
@@ -366,6 +367,27 @@ def draw_a_cell(doc):
     return cube, diagonal, arc
 
 
+def read_what_a_cell_does(library):
+    """The figures of the picked cell follow size, radius and material at once."""
+    does = library.findChild(QtGui.QLabel, "Properties")
+    check("what the cell does is told", "E100" in does.text() and "E of the solid" in does.text(),
+          does.text())  # fmt: skip
+    before = does.text()
+    radius = library.findChild(QtGui.QWidget, "StrutRadius")
+    click(radius)
+    xdotool("key", "ctrl+a")
+    xdotool("type", "0.7 mm")
+    xdotool("key", "Tab")
+    check("it follows the radius", wait_until(lambda: does.text() != before), before)
+    material = library.findChild(QtGui.QComboBox, "Material")
+    click(material)
+    wait_until(lambda: material.view().isVisible())
+    xdotool("type", "316L")
+    xdotool("key", "Return")
+    check("and the material", wait_until(lambda: "MPa" in does.text()), does.text())
+    check("with its density", "g/cm3" in does.text(), does.text())
+
+
 def use_the_cell_library(doc, obj):
     """The library shows cells, refuses wrong ones, makes one of a drawing, and applies it."""
     select(obj)
@@ -379,6 +401,7 @@ def use_the_cell_library(doc, obj):
     check("the infill's is picked", cells.currentItem().text() == "CVC")
     click_item(cells, cells.findItems("Octet", QtCore.Qt.MatchExactly)[0])
     check("a click shows its figures", wait_until(lambda: "stretching" in told.text()))
+    read_what_a_cell_does(library)
     picture("cell_library")
     check(
         "the picture shows the window: cell_library",

@@ -254,6 +254,91 @@ def give_it_an_own_cell(doc, obj):
     check("and the mesh", obj.Mesh.CountFacets == facets)
 
 
+def in_sight(widget):
+    """Scroll the panel until a widget is seen; the buttons above are with its first one."""
+    for area in Gui.getMainWindow().findChildren(QtGui.QScrollArea):
+        if area.isAncestorOf(widget):
+            first = widget.objectName() == "CellType"
+            area.ensureWidgetVisible(widget)
+            if first:
+                area.verticalScrollBar().setValue(0)
+    settle()
+
+
+def choose(name, text):
+    """Really choose an entry of one of the panel's lists by typing it."""
+    field = panel_part(name)
+    in_sight(field)
+    click(field)
+    wait_until(lambda: field.view().isVisible())
+    xdotool("type", text)
+    xdotool("key", "Return")
+    wait_until(lambda: field.currentText().startswith(text))
+    settle()
+
+
+def drive_the_radius(doc, obj):
+    """Density, mass and stiffness in place of the radius: the preview shows the one found."""
+    from freecad_volfrep.features.quantities import number_of
+
+    open_to_edit(obj)
+    shown = panel_part("StrutRadius")
+    check("no target is asked for a radius", not panel_part("TargetDensity").isVisible())
+    before = obj.StrutRadius.Value
+    choose("RadiusDrivenBy", "Relative")
+    check("density drives", obj.RadiusDrivenBy == "Relative density", obj.RadiusDrivenBy)
+    check("its field is shown", panel_part("TargetDensity").isVisible())
+    found = shown.property("rawValue")
+    check("it begins with what there is", abs(found / before - 1) < 0.02, (found, before))
+    type_value("TargetDensity", "0.3")
+    check("a typed density is set", abs(obj.TargetDensity - 0.3) < 1e-9, obj.TargetDensity)
+    found = shown.property("rawValue")
+    check("the radius found is shown", found > 1.1 * before, (found, before))
+    check("and cannot be typed over", not shown.isEnabled())
+    check("the property waits for the mesh", obj.StrutRadius.Value == before)
+    figures = panel_part("Figures").text()
+    check("the figures are the target's", "relative density 30 %" in figures, figures)
+    picture("panel_6_density")
+    choose("PrintMaterial", "AlSi10Mg")
+    choose("PrintProcess", "LPBF")
+    check("a material and a process", (obj.PrintMaterial, obj.PrintProcess) == ("AlSi10Mg", "LPBF"))
+    choose("RadiusDrivenBy", "Mass")
+    mass = panel_part("TargetMass").value()
+    figures = panel_part("Figures").text()
+    begun = f"mass {mass:.3g}"[:8] in figures
+    check("a mass begins with what there is", begun, (mass, figures))
+    choose("RadiusDrivenBy", "Stiffness")
+    type_value("StiffnessDirection", "111")
+    check("a direction is set", tuple(obj.StiffnessDirection) == (1, 1, 1))
+    begins = panel_part("TargetStiffness").value()
+    check("a stiffness begins with what there is", begins > 100, begins)
+    same = shown.property("rawValue")
+    type_value("TargetStiffness", "3000")
+    check("a typed stiffness is set", number_of(obj, "TargetStiffness") == 3000)
+    stiff = shown.property("rawValue")
+    check("a stiffness finds a radius", (stiff > same) == (begins < 3000), (begins, same, stiff))
+    check("without an error", "strut radius" in panel_part("Figures").text(),
+          panel_part("Figures").text())  # fmt: skip
+    picture("panel_7_stiffness")
+    type_value("StiffnessDirection", "along")
+    check("no direction is said", "no direction" in panel_part("Figures").text())
+    choose("RadiusDrivenBy", "Relative")
+    type_value("TargetDensity", "0.3")
+    click(panel_part("Compute"))
+    met = wait_until(lambda: abs(obj.RelativeDensity - 0.3) < 0.0015)
+    check("the mesh is the target's", met, obj.RelativeDensity)
+    shown_mm = shown.property("rawValue")
+    check("by the radius shown", abs(shown_mm - obj.StrutRadius.Value) < 6e-3,
+          (shown_mm, obj.StrutRadius))  # fmt: skip
+    picture("panel_8_met")
+    in_sight(panel_part("CellType"))
+    answer_panel("Cancel")
+    wait_until(lambda: panel() is None)
+    settle()
+    check("Cancel gives the radius back",
+          (obj.RadiusDrivenBy, obj.StrutRadius.Value) == ("Radius", before))  # fmt: skip
+
+
 def run_a_job():
     """A job has a thread of its own, is alone, and what it raises arrives."""
     from freecad_volfrep.features.progress import run_job
@@ -504,6 +589,7 @@ run_checks(
         fill_the_box: boxed,
         edit_in_the_panel: filled,
         give_it_an_own_cell: filled,
+        drive_the_radius: filled,
         run_a_job: None,
         cancel_an_edit: filled,
         cancel_a_creation: boxed,

@@ -215,9 +215,18 @@ def click(widget):
         over = QtGui.QApplication.widgetAt(middle(widget))
         return over is not None and (over is widget or widget.isAncestorOf(over))
 
+    in_sight(widget)
     wait_until(lambda: widget.isVisible() and is_on_top())
     move_mouse(middle(widget))
     press_button()
+    settle()
+
+
+def in_sight(widget):
+    """Scroll what a widget is in, so that it is seen: FreeCAD 1.1 leaves panels less room."""
+    for area in Gui.getMainWindow().findChildren(QtGui.QScrollArea):
+        if area.isAncestorOf(widget):
+            area.ensureWidgetVisible(widget)
     settle()
 
 

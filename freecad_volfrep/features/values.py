@@ -60,6 +60,16 @@ def specification_of(obj: App.DocumentObject) -> LatticeSpec:
         VolfrepError: naming the first property that makes no sense.
     """
     from volfrep.design.parameters.specification import specification
+
+    return specification(values_in_effect(obj), lambda name: BY_NAME[name].property_name)
+
+
+def values_in_effect(obj: App.DocumentObject) -> dict[str, Any]:
+    """The values that have an effect, as `specification` takes them.
+
+    Raises:
+        VolfrepError: naming the first property that makes no sense.
+    """
     from volfrep.util.errors import VolfrepError
 
     from .openings import openings_of
@@ -78,7 +88,7 @@ def specification_of(obj: App.DocumentObject) -> LatticeSpec:
             values[name] = values[name] or values["strut_radius"]
     if "radius_field" in values:
         values["radius_field"] = _field(obj)
-    return specification(values, lambda name: BY_NAME[name].property_name)
+    return values
 
 
 def _plain(obj: App.DocumentObject, parameter: Parameter) -> Any:

@@ -20,7 +20,6 @@ import numpy as np
 from ..util.files import replacing
 from ..util.types import Bools
 from .designs import Design, Designs, command_of
-from .records import PARTS
 from .study import Study
 from .table import SECONDS, Table
 
@@ -164,7 +163,7 @@ def _cards(
             for name in dict.fromkeys(shown)
             if row[name] is not None
         )
-        command = command_of(design, study, _source(folder, design), f"{key}{study.export}")
+        command = command_of(design, study, _source(design), f"{key}{study.export}")
         parts.append(
             f'<div class="card" id="{key}">{_picture(folder, row)}<h3>{key}</h3>'
             f"<table>{lines}</table><pre>{_text(command)}</pre></div>"
@@ -179,11 +178,9 @@ _MORE = (
 )  # fmt: skip
 
 
-def _source(folder: Path, design: Design) -> str:
-    """The part's file; of a solid that came without one, that in the study's folder."""
-    if design.part.source:
-        return os.path.abspath(design.part.source)
-    return str(folder / PARTS / f"{design.part.content}.npz")
+def _source(design: Design) -> str:
+    """The part's file; a word for a solid that came without one."""
+    return os.path.abspath(design.part.source) if design.part.source else "PART"
 
 
 def _picture(folder: Path, row: Mapping[str, Any]) -> str:

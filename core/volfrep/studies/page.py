@@ -38,7 +38,7 @@ AGAINST_MASS = (
     "print.findings", "print.overhang_area_mm2", f"{SECONDS}fill", "forecast.seconds",
 )  # fmt: skip
 MASSES = ("fill.mass_g", "forecast.mass_g")
-MOST_PLOTS = 8
+MOST_PLOTS = 12
 
 _STYLE = """
 body{font:14px/1.45 system-ui,sans-serif;margin:1.5rem auto;max-width:1500px;padding:0 1rem;
@@ -49,7 +49,8 @@ figure{margin:0;border:1px solid #d5dae3;border-radius:6px;padding:.4rem;backgro
 .plots img{width:460px;max-width:100%}
 .card{border:1px solid #d5dae3;border-radius:6px;padding:.6rem;width:440px;max-width:100%}
 .card img{width:100%;border-radius:4px}.card h3{margin:.2rem 0;font-size:1rem}
-.card table{width:100%}pre{white-space:pre-wrap;overflow-wrap:anywhere;background:#f3f5f9;
+.card table{width:100%}.card td{white-space:normal}
+pre{white-space:pre-wrap;overflow-wrap:anywhere;background:#f3f5f9;
 padding:.5rem;border-radius:4px;font-size:12px;margin:.4rem 0 0;user-select:all}
 .scroll{overflow:auto;max-height:75vh;border:1px solid #d5dae3;border-radius:6px}
 table{border-collapse:collapse}td,th{padding:.2rem .55rem;text-align:left;white-space:nowrap}

@@ -29,7 +29,7 @@ inputs() {
 fingerprint=$(inputs | sha256sum)
 stamp=.venv/setup-stamp
 if [ -e "$stamp" ] && [ "$(cat "$stamp")" = "$fingerprint" ] && [ -x .venv/bin/volfrep ] &&
-  [ -e .cache/fchome-gui/Mod/VOLFREP ] && .venv/bin/python -c '' 2>/dev/null; then
+  [ -e .cache/fchome/Mod/VOLFREP ] && .venv/bin/python -c '' 2>/dev/null; then
   exit 0
 fi
 
@@ -101,11 +101,9 @@ for kind in plot study; do
 done
 
 site=$(.venv/bin/python -c 'import sysconfig; print(sysconfig.get_paths()["purelib"])')
-# One profile for freecadcmd and one for the windows, which run side by side.
-for profile in .cache/fchome .cache/fchome-gui; do
-  mkdir -p "$profile/Mod"
-  ln -sfn "$root" "$profile/Mod/VOLFREP"
-  ln -sfn "$site" "$profile/AdditionalPythonPackages"
-done
+# The profile of freecadcmd; every run of a window has a copy of it.
+mkdir -p .cache/fchome/Mod
+ln -sfn "$root" .cache/fchome/Mod/VOLFREP
+ln -sfn "$site" .cache/fchome/AdditionalPythonPackages
 printf '%s\n' "$fingerprint" >"$stamp"
 say "ready: FreeCAD $(dpkg-query -W -f='${Version}' freecad), $(.venv/bin/python --version)"

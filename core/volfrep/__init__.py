@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from .util.version import VERSION
 
 if TYPE_CHECKING:
-    from .api import Part, as_solid, block, fill
+    from .api import Part, as_solid, block, fill, slice_layers
     from .design.parameters.spec_file import read_spec, write_spec
     from .design.spec import LatticeSpec
     from .io.solid import read_solid
@@ -49,6 +49,7 @@ _HOMES = {
     "Study": "studies.study",
     "read_study": "studies.study",
     "fill": "api",
+    "slice_layers": "api",
     "Report": "reports.report",
     "read_solid": "io.solid",
     "LatticeSpec": "design.spec",
@@ -78,6 +79,7 @@ __all__ = [
     "read_solid",
     "read_spec",
     "read_study",
+    "slice_layers",
     "sweep",
     "write_block_stl",
     "write_spec",

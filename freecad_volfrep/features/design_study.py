@@ -17,9 +17,11 @@ from volfrep.design.cells import LIBRARY
 from volfrep.design.parameters import BY_NAME, PARAMETERS, Parameter
 from volfrep.design.parameters.parameter import effective
 from volfrep.design.parameters.values import from_text
+from volfrep.design.target import stiffness_text
 from volfrep.util.errors import Cancelled, VolfrepError
 
 from .lattice_infill import LatticeInfill
+from .materials import material_of
 from .progress import job_title, run_job
 from .property_table import Property, add_missing, result
 from .quantities import set_value
@@ -30,7 +32,13 @@ if TYPE_CHECKING:
     from volfrep.studies.study import Study
 
 #: Kinds of parameters that can vary.
-_VARIED = ("length", "number", "integer", "choice", "cell")
+_VARIED = ("length", "number", "integer", "mass", "choice", "cell")
+#: Properties of a document that say otherwise what a study's own parameters do.
+_OF_THE_DOCUMENT = frozenset(
+    p.name for p in PARAMETERS if p.name.startswith(("target_", "print_", "material_"))
+) | {"radius_driven_by", "stiffness_direction"}
+#: What a target is called in a study, by the property that gives it.
+_AIMED = {"target_density": "relative_density", "target_mass": "mass"}
 #: So many times its present value, a number begins with.
 _AROUND = (0.8, 0.9, 1.0, 1.1, 1.25)
 _RANGE = re.compile(r"\s*(.+?)\s+to\s+(.+?)\s+in\s+(\d+)\s*")
@@ -46,12 +54,6 @@ PROPERTIES = (
         "Properties and their values: 'CellSize: 6, 8, 10' or 'ShellThickness: 1 to 3 in 5'",
     ),
     Property("App::PropertyBool", "Fill", "Study", "Make and measure every design, too", False),
-    Property(
-        "App::PropertyString",
-        "Material",
-        "Study",
-        "Whose stiffness counts; empty for units of the solid's",
-    ),
     result("App::PropertyInteger", "Designs", "Designs with figures"),
     result("App::PropertyStringList", "Refused", "Why combinations were passed over, or failed"),
     result("App::PropertyString", "Folder", "Where the records and the page of the study are"),
@@ -125,21 +127,28 @@ def make_design_study(
 
 def variable(infill: App.DocumentObject) -> list[Parameter]:
     """The parameters of an infill that can vary: those that have an effect now."""
-    _, idle = effective(PARAMETERS, plain_values(infill))
+    values = plain_values(infill)
+    _, idle = effective(PARAMETERS, values)
+    left_out = _OF_THE_DOCUMENT - _AIMED.keys()
+    if values["radius_driven_by"] != "radius":
+        left_out |= {"strut_radius"}
     return [
         parameter
         for parameter in PARAMETERS
-        if parameter.in_freecad and parameter.kind in _VARIED and parameter.name not in idle
+        if parameter.in_freecad
+        and parameter.kind in _VARIED
+        and parameter.name not in idle
+        and parameter.name not in left_out
     ]
 
 
 def suggested(infill: App.DocumentObject) -> list[str]:
     """What a new study varies: the library's cells, the cell size, and the radius if there is one.
 
-    A radius is varied with the size: the same cell, larger, is as dense and as stiff.
+    The size is not among them: the same cell, larger, is as dense and as stiff.
     """
     names = {parameter.property_name: parameter for parameter in variable(infill)}
-    wanted = ("CellType", "StrutRadius", "ShellThickness")
+    wanted = ("CellType", "StrutRadius", "TargetDensity", "TargetMass", "ShellThickness")
     return [f"{name}: {values_about(infill, names[name])}" for name in wanted if name in names]
 
 
@@ -170,21 +179,20 @@ def variations(infill: App.DocumentObject, lines: list[str]) -> dict[str, Any]:
         if name not in known:
             raise VolfrepError(f"'{name}' cannot vary here: choose from {', '.join(known)}.")
         parameter = known[name]
+        called = _AIMED.get(parameter.name, parameter.name)
         span = _RANGE.fullmatch(text)
         try:
             if span is not None and parameter.kind not in ("cell", "choice"):
                 low, high = (from_text(parameter, end) for end in span.group(1, 2))
-                found[parameter.name] = Range(
-                    low, high, int(span[3]), whole=parameter.kind == "integer"
-                )
-                found[parameter.name].values(name)
+                found[called] = Range(low, high, int(span[3]), whole=parameter.kind == "integer")
+                found[called].values(name)
             else:
                 words = [word.strip() for word in text.split(",") if word.strip()]
                 read = _cell if parameter.kind == "cell" else partial(from_text, parameter)
-                found[parameter.name] = tuple(read(word) for word in words)
+                found[called] = tuple(read(word) for word in words)
         except VolfrepError as error:
             raise VolfrepError(f"{name}: {error}") from error
-        if found[parameter.name] == ():
+        if found[called] == ():
             raise VolfrepError(f"{name} has no values: write them as 6, 8, 10 or as 6 to 10 in 5.")
     return found
 
@@ -203,8 +211,16 @@ def study_of(obj: App.DocumentObject) -> Study:
         raise VolfrepError("There is nothing to vary: choose a lattice infill as Infill.")
     vary = variations(infill, obj.Vary)
     spec, solid = infill.Proxy.read(infill)
-    values = {name: v for name, v in values_in_effect(infill).items() if v is not None}
-    fixed = {name: value for name, value in values.items() if name in BY_NAME and name not in vary}
+    values, target = values_in_effect(infill)
+    if target is not None:
+        values.pop("strut_radius")
+        is_stiffness = target.aim == "stiffness"
+        values[target.aim] = stiffness_text(target) if is_stiffness else target.value
+    fixed = {
+        name: value
+        for name, value in values.items()
+        if value is not None and name not in vary and name not in _OF_THE_DOCUMENT
+    }
     do = ("forecast",) if spec.is_graded else ("forecast", "properties")
     goals = {"forecast.mass_g": "least"}
     goals |= {} if spec.is_graded else {"properties.E100": "most"}
@@ -214,7 +230,7 @@ def study_of(obj: App.DocumentObject) -> Study:
         fixed=fixed,
         do=(*do, "fill") if obj.Fill else do,
         front=Front(goals),
-        material=obj.Material.strip() or None,
+        material=material_of(infill),
     )
 
 
@@ -286,8 +302,9 @@ def apply_design(obj: App.DocumentObject, key: str) -> bool:
     infill = obj.Infill
     if not isinstance(getattr(infill, "Proxy", None), LatticeInfill):
         raise VolfrepError("The infill of this study has gone: choose another one as Infill.")
+    properties = {aim: name for name, aim in _AIMED.items()}
     for name in varied_of_study(obj):
-        parameter, value = BY_NAME[name], rows[key][name]
+        parameter, value = BY_NAME[properties.get(name, name)], rows[key][name]
         if parameter.kind == "choice":
             value = str(value).capitalize()
         set_value(infill, parameter.property_name, value)

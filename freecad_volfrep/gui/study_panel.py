@@ -19,7 +19,6 @@ from freecad_volfrep.features.design_study import (
     varied_of_study,
 )
 from freecad_volfrep.translation import spaced, translate
-from volfrep.mechanics.materials import MATERIALS
 from volfrep.util.errors import VolfrepError
 
 from .command import undo_step
@@ -106,14 +105,8 @@ class StudyPanel:
         self._fill = QtWidgets.QCheckBox(translate("VolfrepStudy", "Make every design (slow)"))
         self._fill.setObjectName("Fill")
         self._fill.setChecked(self._obj.Fill)
-        column.addWidget(self._fill)
         line = QtWidgets.QHBoxLayout()
-        line.addWidget(QtWidgets.QLabel(translate("VolfrepStudy", "Material")))
-        self._material = QtWidgets.QComboBox()
-        self._material.setObjectName("Material")
-        self._material.addItems(["", *(material.name for material in MATERIALS.values())])
-        self._material.setCurrentText(self._obj.Material)
-        line.addWidget(self._material, 1)
+        line.addWidget(self._fill, 1)
         self._button(line, "Start", translate("VolfrepStudy", "Start"), self.start)
         column.addLayout(line)
         self._plot = StudyPlot(self._pick)
@@ -190,7 +183,6 @@ class StudyPanel:
         more = self._obj.Vary[ROWS:]  # written by hand, and not shown
         self._obj.Vary = lines + list(more)
         self._obj.Fill = self._fill.isChecked()
-        self._obj.Material = self._material.currentText()
 
     def _show_table(self) -> None:
         """The axes that the table has figures for, and the plot."""

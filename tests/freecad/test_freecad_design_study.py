@@ -106,3 +106,19 @@ def test_a_study_without_its_infill_says_so(doc, study):
     with pytest.raises(VolfrepError, match="choose a lattice infill"):
         run_study(study)
     assert study.Designs == 6, "the last table stays"
+
+
+def test_a_study_varies_what_drives_the_radius(doc, infill):
+    infill.RadiusDrivenBy = "Relative density"
+    infill.TargetDensity = 0.2
+    infill.PrintMaterial = "PA12"
+    study = make_design_study(doc, infill, TargetDensity="0.15, 0.25")
+    with pytest.raises(VolfrepError, match="'StrutRadius' cannot vary here"):
+        make_design_study(doc, infill, StrutRadius="1, 2")
+    run_study(study)
+    thin, thick = designs_of_study(study)
+    assert (thin["relative_density"], thick["relative_density"]) == (0.15, 0.25)
+    assert 1.0 < thin["properties.E100"] < thick["properties.E100"] < 1650.0, "MPa of PA12"
+    assert apply_design(study, thick["key"])
+    assert infill.TargetDensity == 0.25
+    assert infill.RelativeDensity == pytest.approx(0.25, rel=0.005)

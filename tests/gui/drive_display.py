@@ -7,10 +7,22 @@ from pathlib import Path
 
 import FreeCAD as App
 import FreeCADGui as Gui
-from PySide import QtCore, QtGui
+from PySide import QtGui
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from driving import OUT, check, click, figures, picture, run_checks, settle, toolbar_button, view_3d
+from driving import (
+    OUT,
+    check,
+    click,
+    figures,
+    picture,
+    run_checks,
+    section_docks,
+    seen,
+    settle,
+    toolbar_button,
+    view_3d,
+)
 
 FIXTURE = Path(__file__).resolve().parents[1] / "freecad" / "fixtures" / "infill-0.1.0.FCStd"
 OURS = "Skin and Lattice"
@@ -138,8 +150,7 @@ def saved_modes(obj):
 
 def dock():
     """The section's dock, or None."""
-    found = Gui.getMainWindow().findChildren(QtGui.QDockWidget, "VolfrepSectionView")
-    return next((widget for widget in found if widget.isVisible()), None)
+    return next(iter(section_docks()), None)
 
 
 def planes(obj):
@@ -151,11 +162,8 @@ def planes(obj):
 
 def background_changes(name):
     """Whether FreeCAD's background goes from one colour to another down the left of the view."""
-    image = QtGui.QImage(str(OUT / f"{name}.png"))
-    corner = view_3d().mapToGlobal(QtCore.QPoint(4, 0))
-    height = view_3d().height()
-    rows = range(corner.y() + 10, corner.y() + height - 10, 10)
-    return len({image.pixel(corner.x(), y) for y in rows}) > len(rows) // 2
+    border = seen(name, view_3d())[10:-10:10, 4]
+    return len({tuple(colour) for colour in border}) > len(border) // 2
 
 
 def section(obj):

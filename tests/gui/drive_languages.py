@@ -6,19 +6,23 @@ from pathlib import Path
 
 import FreeCAD as App
 import FreeCADGui as Gui
-from PySide import QtCore, QtGui
+from PySide import QtGui
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from driving import (
     answer_panel,
     check,
+    comes_true,
     lightness,
     panel,
     picture,
+    preferences_open,
     run_checks,
     select,
     settle,
+    turn_to,
     wait_until,
+    window,
 )
 
 GROUP = "User parameter:BaseApp/Preferences/Mod/VOLFREP"
@@ -62,7 +66,7 @@ def speak(language, command, word, label, figure):
     check(f"{language}: the commands", word in commands().get(command, ""), commands())
     select(box)
     Gui.runCommand("VOLFREP_LatticeInfill", 0)
-    check(f"{language}: the panel opens", wait_until(lambda: panel() is not None, 20))
+    check(f"{language}: the panel opens", wait_until(lambda: panel() is not None))
     obj = App.ActiveDocument.getObject("LatticeInfill")
     obj.RadiusGrading = "Direction"
     settle()
@@ -75,11 +79,10 @@ def speak(language, command, word, label, figure):
     check(f"{language}: nothing is cut off in it", cut_off(panel()) == [], cut_off(panel()))
     picture(f"language_{language}_1_panel")
     choose_boundary(obj)
-    for button in Gui.getMainWindow().findChildren(QtGui.QDialogButtonBox):
-        if button.isVisible() and button.button(QtGui.QDialogButtonBox.Cancel):
-            button.button(QtGui.QDialogButtonBox.Cancel).click()
-            break
-    check(f"{language}: the panel closes", wait_until(lambda: panel() is None, 10))
+    boxes = Gui.getMainWindow().findChildren(QtGui.QDialogButtonBox)
+    buttons = [box.button(QtGui.QDialogButtonBox.Cancel) for box in boxes if box.isVisible()]
+    next(filter(None, buttons)).click()
+    check(f"{language}: the panel closes", wait_until(lambda: panel() is None))
     preferences(language)
 
 
@@ -100,12 +103,11 @@ def tables(language, word):
     doc.recompute()
     select(obj)
     Gui.runCommand("VOLFREP_Statistics", 0)
-    settle()
-    window = Gui.getMainWindow().findChild(QtGui.QDialog, "VolfrepReport")
-    text = window.findChild(QtGui.QTextBrowser).toPlainText()
+    wait_until(lambda: window("VolfrepReport") is not None)
+    text = window("VolfrepReport").findChild(QtGui.QTextBrowser).toPlainText()
     check(f"{language}: the tables' names", word in text, text[:200])
     picture(f"language_{language}_3_statistics")
-    window.close()
+    window("VolfrepReport").close()
     doc.removeObject(obj.Name)
     settle()
 
@@ -113,25 +115,14 @@ def tables(language, word):
 def preferences(language):
     """Both pages, with room for their words."""
 
-    def look():
-        dialog = QtGui.QApplication.activeModalWidget()
-        if dialog is None or dialog.findChild(QtGui.QWidget, "DisplayPage") is None:
-            QtCore.QTimer.singleShot(50, look)
-            return
+    def look(dialog):
         for name in ("NewInfillPage", "DisplayPage"):
             page = dialog.findChild(QtGui.QWidget, name)
-            for kind in (QtGui.QTabWidget, QtGui.QStackedWidget):
-                for holder in dialog.findChildren(kind):
-                    for number in range(holder.count()):
-                        if holder.widget(number).isAncestorOf(page):
-                            holder.setCurrentIndex(number)
-            settle()
+            turn_to(page, dialog)
             check(f"{language}: nothing is cut off in {name}", cut_off(page) == [], cut_off(page))
             picture(f"language_{language}_2_{name}")
-        dialog.reject()
 
-    QtCore.QTimer.singleShot(50, look)
-    Gui.showPreferences("VOLFREP", 0)
+    preferences_open(look, keep=False)
 
 
 def wear_dark():
@@ -148,7 +139,7 @@ def wear_dark():
     worn = {name: group.GetString(name) for name in ("Theme", "StyleSheet")}
     group.SetString("Theme", "FreeCAD Dark")
     group.SetString("StyleSheet", "FreeCAD.qss")
-    wait_until(lambda: application.styleSheet() != before, 10)
+    comes_true(lambda: application.styleSheet() != before, 10)
 
     def take_off():
         for name, value in worn.items():
@@ -160,10 +151,18 @@ def wear_dark():
 def go_dark():
     """The panel in one of FreeCAD's own dark themes."""
     take_off = wear_dark()
+    try:
+        look_at_the_dark()
+    finally:
+        take_off()
+
+
+def look_at_the_dark():
+    """The panel, what it refuses, and the library."""
     settle()
     select(App.ActiveDocument.getObject("Block"))
     Gui.runCommand("VOLFREP_LatticeInfill", 0)
-    wait_until(lambda: panel() is not None, 20)
+    wait_until(lambda: panel() is not None)
     obj = App.ActiveDocument.getObject("LatticeInfill")
     settle()
     check("dark: nothing is cut off", cut_off(panel()) == [], cut_off(panel()))
@@ -177,9 +176,8 @@ def go_dark():
     answer_panel("Cancel")
     settle()
     Gui.runCommand("VOLFREP_CellLibrary", 0)
-    settle()
+    wait_until(lambda: window("VolfrepCellLibrary") is not None)
     picture("dark_3_cells")
-    take_off()
 
 
 def boxed():
@@ -195,24 +193,31 @@ def boxed():
     return ()
 
 
+def in_language(language):
+    """The window in a language; it is left in English whatever comes of it."""
+    try:
+        speak(language, *LANGUAGES[language])
+        if language == "German":
+            tables(language, "Zellen des Rasters")
+    finally:
+        Gui.setLocale("English")
+
+
 def italian():
     """The whole window in Italian."""
-    speak("Italian", *LANGUAGES["Italian"])
-    Gui.setLocale("English")
+    in_language("Italian")
 
 
 def german():
     """The whole window in German, and the tables."""
-    speak("German", *LANGUAGES["German"])
-    tables("German", "Zellen des Rasters")
-    Gui.setLocale("English")
+    in_language("German")
 
 
 def english():
     """Back to the texts of the sources."""
     Gui.setLocale("German")
     settle()
-    speak("English", *LANGUAGES["English"])
+    in_language("English")
 
 
 run_checks("languages", {italian: boxed, german: boxed, english: boxed, go_dark: boxed})

@@ -19,13 +19,13 @@ from ..io.write import MESH_WRITERS, mesh_writer
 from ..jobs.infill import Infill
 from ..jobs.preview import PartDepth
 from ..jobs.targets import aimed
-from ..mechanics.catalogue import known_cell
+from ..mechanics.catalogue import known_properties
 from ..mechanics.materials import SolidMaterial
 from ..mechanics.summary import MODULI, RATIOS, cell_properties
-from ..mechanics.tensor import moduli
 from ..reports.mesh_report import mesh_report
 from ..reports.picture import drawing_library, picture
-from ..reports.printability import Process, find_process, print_report
+from ..reports.printability import print_report
+from ..reports.processes import Process, find_process
 from ..util.cache import StageCache
 from ..util.errors import VolfrepError
 from ..util.progress import ProgressCallback
@@ -178,21 +178,13 @@ def _properties(bench: Bench) -> dict[str, Figure]:
 def _endless(place: tuple[Any, float, float], material: SolidMaterial | None) -> dict[str, Figure]:
     """Read off the catalogue where it has the cell, else homogenised."""
     cell, ratio, fillet = place
-    known = None if fillet else known_cell(cell)
-    if known is not None and known.ratios[0] <= ratio <= known.ratios[-1]:
-        at = known.at(ratio)
-        young = 1.0 if material is None else material.young
-        limit = 1.0 if material is None else material.yield_stress or 1.0
-        figures = moduli(known.tensor(ratio))
-        told: dict[str, Figure] = {"relative_density": at["relative_density"]}
-        told |= {name: young * getattr(figures, name) for name in MODULI}
-        told |= {name: getattr(figures, name) for name in RATIOS}
-        told |= {name: (limit if "strength" in name else 1.0) * at[name] for name in LIMITS}
-        return {**told, "from": "catalogue"}
-    found = cell_properties(cell, 1.0, ratio, fillet=fillet, material=material)
-    names = (*MODULI, *RATIOS, *LIMITS)
-    told = {"relative_density": found.relative_density}
-    return {**told, **{name: found.values[name] for name in names}, "from": "homogenised"}
+    found = None if fillet else known_properties(cell, 1.0, ratio, material)
+    source = "catalogue" if found is not None else "homogenised"
+    if found is None:
+        found = cell_properties(cell, 1.0, ratio, fillet=fillet, material=material)
+    told: dict[str, Figure] = {"relative_density": found.relative_density}
+    told |= {name: found.values[name] for name in (*MODULI, *RATIOS, *LIMITS)}
+    return {**told, "from": source}
 
 
 def _fill(bench: Bench) -> dict[str, Figure]:

@@ -195,7 +195,8 @@ def command_of(design: Design, study: Study, source: str, output: str) -> str:
         else:
             words += [option, _written(parameter.kind, value)]
     if study.material is not None:
-        words += ["--material", study.material]
+        named = study.material
+        words += ["--material", named if isinstance(named, str) else named.name]
     if study.unit is not None:
         words += ["--unit", study.unit]
     return shlex.join(words)

@@ -6,12 +6,10 @@ from __future__ import annotations
 import dataclasses
 from dataclasses import dataclass
 
-import numpy as np
-
-from ..design.forecast import Forecast, forecast_fill, strut_shares
+from ..design.forecast import Forecast, forecast_fill
 from ..design.spec import LatticeSpec
-from ..design.spec_parts import largest_radius
 from ..jobs.preview import PartDepth, preview
+from ..jobs.rough_radius import roughly_aimed
 from ..jobs.stiffness_target import ratio_of_stiffness
 from ..mechanics.catalogue import known_cell
 from ..mechanics.density import radius_of_density, relative_density
@@ -119,18 +117,9 @@ def density_of(spec: LatticeSpec) -> float:
 
 
 def planned(solid: TriangleMesh, spec: LatticeSpec) -> Forecast:
-    """What the job will come to, for the planning of many: nothing is sought or sampled.
-
-    A target's radius is guessed from its density (a mass counts as a fifth, a stiffness as a
-    tenth), as struts that do not meet have it.
-    """
-    target = spec.target
-    if target is not None:
-        share = {"mass": 0.2, "stiffness": 0.1}.get(target.aim, target.value)
-        cell = spec.unit_cell()
-        ends = cell.nodes[cell.struts]
-        length = float(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1) @ strut_shares(cell))
-        radius = spec.cell_size * float(np.sqrt(share / np.pi / length))
-        radius = min(radius, 0.9 * largest_radius(spec.cell_size, spec.fillet))
-        spec = dataclasses.replace(spec, strut_radius=radius, target=None)
+    """What the job will come to, for the planning of many: nothing is sampled."""
+    try:
+        spec = roughly_aimed(solid, spec)
+    except VolfrepError:
+        return forecast_fill(solid, spec)  # the run itself will say that no radius meets the target
     return forecast_fill(solid, spec)

@@ -120,9 +120,10 @@ def write_page(
 
 
 def _units(study: Study) -> str:
-    if study.material is None:
+    material = study.solid_material()
+    if material is None:
         return "Stiffness and strength are in units of the solid's; lengths in mm."
-    return f"The material is {study.material}: stiffness and strength in MPa; lengths in mm."
+    return f"The material is {material.name}: stiffness and strength in MPa; lengths in mm."
 
 
 def _drawings(plots: list[Plot]) -> list[str]:

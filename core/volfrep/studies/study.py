@@ -15,7 +15,7 @@ from ..design.parameters.table import BY_NAME
 from ..design.parameters.values import SCALES, from_plain
 from ..io.solid import Solid
 from ..mechanics.materials import SolidMaterial, find_material
-from ..reports.printability import Process, find_process
+from ..reports.processes import Process, find_process
 from ..util.errors import VolfrepError
 from .actions import check_actions
 from .sampling import SAMPLINGS, Range
@@ -77,8 +77,8 @@ class Study:
         seed: of a hypercube; the same one gives the same designs.
         do: names of actions (`studies.actions.ACTIONS`).
         front: what is best; None for no front.
-        material: the solid's, as `find_material` takes it: its density where none is given, its
-            modulus and yield stress in the properties.
+        material: the solid's, itself or as `find_material` takes it: its density where none is
+            given, its modulus and yield stress in the properties.
         process: of the print check.
         export: extension of the files that the action ``export`` writes.
         unit: of the files' lengths; None for what they say.
@@ -96,7 +96,7 @@ class Study:
     seed: int = 0
     do: tuple[str, ...] = ("forecast", "properties")
     front: Front | None = None
-    material: str | None = None
+    material: str | SolidMaterial | None = None
     process: str | None = None
     export: str = ".stl"
     unit: str | None = None
@@ -133,8 +133,7 @@ class Study:
                     f"The objective '{name}' is of no action that is done with every design: those "
                     f"are {', '.join(self.do)}."
                 )
-        if self.material is not None:
-            find_material(self.material)
+        self.solid_material()
 
     @property
     def all_actions(self) -> tuple[str, ...]:
@@ -151,7 +150,9 @@ class Study:
 
     def solid_material(self) -> SolidMaterial | None:
         """The material itself."""
-        return None if self.material is None else find_material(self.material)
+        if isinstance(self.material, str):
+            return find_material(self.material)
+        return self.material
 
     def print_process(self) -> Process | None:
         """The process itself."""

@@ -526,7 +526,7 @@ def test_not_enough_memory(
 #: The command, which stops for good while it writes, as soon as its unfinished file is there.
 HELD = """
 import pathlib, sys, time
-from volfrep.cli.command import main
+from volfrep.__main__ import main
 from volfrep.util.progress import Monitor
 
 tick = Monitor.tick

@@ -33,11 +33,13 @@ SETTINGS = {
     "piston_rod.stl": (2.0, 0.2, 1.0),
     "trimesh_angle_block.STL": (0.2, 0.02, 0.05),
 }
-#: Thin skins on large parts: half a minute each.
+#: Thin skins on large parts: up to half a minute each.
 SLOW = {
     "fw_ExpansionCard_SelfTapping.stl",
     "numpystl_rear_case.stl",
     "odri_electronics_box_base.STL",
+    "odri_lower_leg_v2.STL",
+    "piston_rod.stl",
 }
 STEP = {
     "nist_ctc_01_asme1_rd.stp", "nist_ctc_02_asme1_rc.stp", "nist_ctc_03_asme1_rc.stp",

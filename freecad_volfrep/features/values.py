@@ -64,6 +64,18 @@ def specification_of(obj: App.DocumentObject) -> LatticeSpec:
         VolfrepError: naming the first property that makes no sense.
     """
     from volfrep.design.parameters.specification import specification
+
+    values, target = values_in_effect(obj)
+    spec = specification(values, lambda name: BY_NAME[name].property_name)
+    return spec if target is None else replace(spec, target=target)
+
+
+def values_in_effect(obj: App.DocumentObject) -> tuple[dict[str, Any], Target | None]:
+    """The values that have an effect, as `specification` takes them, and what the radius is for.
+
+    Raises:
+        VolfrepError: naming the first property that makes no sense.
+    """
     from volfrep.design.spec_parts import first_radius
     from volfrep.util.errors import VolfrepError
 
@@ -88,8 +100,7 @@ def specification_of(obj: App.DocumentObject) -> LatticeSpec:
             values[name] = values[name] or values["strut_radius"]
     if "radius_field" in values:
         values["radius_field"] = _field(obj)
-    spec = specification(values, lambda name: BY_NAME[name].property_name)
-    return spec if target is None else replace(spec, target=target)
+    return values, target
 
 
 def _target(values: dict[str, Any], material: SolidMaterial | None) -> Target | None:

@@ -177,6 +177,18 @@
       <translation>Tiefe, in der das Profil endet</translation>
     </message>
     <message>
+      <source>Designs</source>
+      <translation>Entwürfe</translation>
+    </message>
+    <message>
+      <source>Designs and their figures, as JSON</source>
+      <translation>Entwürfe und ihre Zahlen, als JSON</translation>
+    </message>
+    <message>
+      <source>Designs with figures</source>
+      <translation>Entwürfe mit Zahlen</translation>
+    </message>
+    <message>
       <source>Deviation</source>
       <translation>Abweichung</translation>
     </message>
@@ -245,8 +257,16 @@
       <translation>Datei mit Punkten und Werten: .csv, .txt, .vtu, .vtk</translation>
     </message>
     <message>
+      <source>Fill</source>
+      <translation>Füllen</translation>
+    </message>
+    <message>
       <source>Findings</source>
       <translation>Befunde</translation>
+    </message>
+    <message>
+      <source>Folder</source>
+      <translation>Ordner</translation>
     </message>
     <message>
       <source>Formula</source>
@@ -351,6 +371,10 @@
     <message>
       <source>Loose fragments that were dropped</source>
       <translation>Lose Bruchstücke, die entfernt wurden</translation>
+    </message>
+    <message>
+      <source>Make and measure every design, too</source>
+      <translation>Jeden Entwurf auch herstellen und messen</translation>
     </message>
     <message>
       <source>Map Around</source>
@@ -489,6 +513,10 @@
       <translation>Profil des Radius über s</translation>
     </message>
     <message>
+      <source>Properties and their values: 'CellSize: 6, 8, 10' or 'ShellThickness: 1 to 3 in 5'</source>
+      <translation>Eigenschaften und ihre Werte: 'CellSize: 6, 8, 10' oder 'ShellThickness: 1 to 3 in 5'</translation>
+    </message>
+    <message>
       <source>Put a corner of a cell at Origin; otherwise the cells start at the corner of the solid</source>
       <translation>Eine Zellecke an Origin legen; sonst beginnen die Zellen an der Ecke des Volumenkörpers</translation>
     </message>
@@ -567,6 +595,10 @@
     <message>
       <source>Radius of the round between struts where they meet; 0 for none</source>
       <translation>Radius der Ausrundung zwischen Streben, wo sie sich treffen; 0 für keine</translation>
+    </message>
+    <message>
+      <source>Refused</source>
+      <translation>Abgelehnt</translation>
     </message>
     <message>
       <source>Relative Density</source>
@@ -701,8 +733,16 @@
       <translation>Stummel entfernt</translation>
     </message>
     <message>
+      <source>Study</source>
+      <translation>Studie</translation>
+    </message>
+    <message>
       <source>Surface Area</source>
       <translation>Oberfläche</translation>
+    </message>
+    <message>
+      <source>Table</source>
+      <translation>Tabelle</translation>
     </message>
     <message>
       <source>Take away struts with a free end that are shorter than this; 0 for none</source>
@@ -739,6 +779,10 @@
     <message>
       <source>The lattice infill to look at</source>
       <translation>Die Gitterfüllung, die betrachtet wird</translation>
+    </message>
+    <message>
+      <source>The lattice infill whose designs these are</source>
+      <translation>Die Gitterfüllung, deren Entwürfe es sind</translation>
     </message>
     <message>
       <source>The radius varies along it</source>
@@ -809,6 +853,10 @@
       <translation>Werte und ihre Radien in mm, etwa '0:0.5, 120:1.2', anstelle von Anfang und Ende</translation>
     </message>
     <message>
+      <source>Vary</source>
+      <translation>Variiert</translation>
+    </message>
+    <message>
       <source>Void Volume</source>
       <translation>Hohlraumvolumen</translation>
     </message>
@@ -853,6 +901,10 @@
       <translation>Was bestimmt, wie dick die Streben sind: ihr Radius, oder was Gitter oder Teil erreichen sollen; der Radius dafür wird gefunden</translation>
     </message>
     <message>
+      <source>What the figures are of</source>
+      <translation>Wovon die Zahlen sind</translation>
+    </message>
+    <message>
       <source>What the part is made of: its density gives the mass, its stiffness goes into solver decks</source>
       <translation>Woraus das Teil besteht: die Dichte ergibt die Masse, die Steifigkeit geht in die Dateien für Löser</translation>
     </message>
@@ -869,6 +921,10 @@
       <translation>Wo Löcher durch die Haut gehen</translation>
     </message>
     <message>
+      <source>Where the records and the page of the study are</source>
+      <translation>Wo die Aufzeichnungen und die Seite der Studie liegen</translation>
+    </message>
+    <message>
       <source>Whether the mesh fits the properties, or why not</source>
       <translation>Ob das Netz den Eigenschaften entspricht, oder warum nicht</translation>
     </message>
@@ -883,6 +939,10 @@
     <message>
       <source>Whole</source>
       <translation>Ganz</translation>
+    </message>
+    <message>
+      <source>Why combinations were passed over, or failed</source>
+      <translation>Warum Kombinationen übergangen wurden oder scheiterten</translation>
     </message>
     <message>
       <source>Young's modulus of the lattice along StiffnessDirection, of the chosen material</source>
@@ -933,6 +993,21 @@
     <message>
       <source>Report on the selected mesh: closed, bodies, volume, angles, triangles that cross, and what a file keeps of it</source>
       <translation>Bericht über das gewählte Netz: geschlossen, Körper, Volumen, Winkel, sich kreuzende Dreiecke, und was eine Datei davon behält</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_DesignStudy</name>
+    <message>
+      <source>Apply Design</source>
+      <translation>Entwurf anwenden</translation>
+    </message>
+    <message>
+      <source>Design Study</source>
+      <translation>Entwurfsstudie</translation>
+    </message>
+    <message>
+      <source>Try many values of the selected lattice infill's properties, see mass against stiffness, and give it the best</source>
+      <translation>Viele Werte der Eigenschaften der gewählten Gitterfüllung versuchen, Masse gegen Steifigkeit sehen und ihr die besten geben</translation>
     </message>
   </context>
   <context>
@@ -1365,6 +1440,10 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
     <message>
       <source>Struts of {label}</source>
       <translation>Streben von {label}</translation>
+    </message>
+    <message>
+      <source>Studying {label}</source>
+      <translation>{label} wird untersucht</translation>
     </message>
     <message>
       <source>Tetrahedra of {label}</source>
@@ -1991,6 +2070,45 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
     <message>
       <source>One solid of plane faces</source>
       <translation>Ein Volumenkörper aus ebenen Facetten</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepStudy</name>
+    <message>
+      <source>Apply</source>
+      <translation>Anwenden</translation>
+    </message>
+    <message>
+      <source>Give this design to the infill, as one undo step</source>
+      <translation>Der Füllung diesen Entwurf geben, als ein Schritt zum Rückgängigmachen</translation>
+    </message>
+    <message>
+      <source>Make every design (slow)</source>
+      <translation>Jeden Entwurf herstellen (langsam)</translation>
+    </message>
+    <message>
+      <source>Page</source>
+      <translation>Seite</translation>
+    </message>
+    <message>
+      <source>Show the table and all plots in the browser</source>
+      <translation>Die Tabelle und alle Diagramme im Browser zeigen</translation>
+    </message>
+    <message>
+      <source>Start</source>
+      <translation>Start</translation>
+    </message>
+    <message>
+      <source>The infill of this study has gone: choose another one.</source>
+      <translation>Die Füllung dieser Studie gibt es nicht mehr: eine andere wählen.</translation>
+    </message>
+    <message>
+      <source>Values: 6, 8, 10, or 6 to 10 in 5</source>
+      <translation>Werte: 6, 8, 10, oder 6 to 10 in 5</translation>
+    </message>
+    <message>
+      <source>What varies</source>
+      <translation>Was sich ändert</translation>
     </message>
   </context>
   <context>

@@ -177,6 +177,18 @@
       <translation>Profondità alla quale il profilo finisce</translation>
     </message>
     <message>
+      <source>Designs</source>
+      <translation>Progetti</translation>
+    </message>
+    <message>
+      <source>Designs and their figures, as JSON</source>
+      <translation>Progetti e i loro valori, come JSON</translation>
+    </message>
+    <message>
+      <source>Designs with figures</source>
+      <translation>Progetti con valori</translation>
+    </message>
+    <message>
       <source>Deviation</source>
       <translation>Scostamento</translation>
     </message>
@@ -245,8 +257,16 @@
       <translation>File di punti e valori: .csv, .txt, .vtu, .vtk</translation>
     </message>
     <message>
+      <source>Fill</source>
+      <translation>Riempi</translation>
+    </message>
+    <message>
       <source>Findings</source>
       <translation>Rilievi</translation>
+    </message>
+    <message>
+      <source>Folder</source>
+      <translation>Cartella</translation>
     </message>
     <message>
       <source>Formula</source>
@@ -351,6 +371,10 @@
     <message>
       <source>Loose fragments that were dropped</source>
       <translation>Frammenti isolati eliminati</translation>
+    </message>
+    <message>
+      <source>Make and measure every design, too</source>
+      <translation>Crea e misura anche ogni progetto</translation>
     </message>
     <message>
       <source>Map Around</source>
@@ -489,6 +513,10 @@
       <translation>Profilo del raggio in funzione di s</translation>
     </message>
     <message>
+      <source>Properties and their values: 'CellSize: 6, 8, 10' or 'ShellThickness: 1 to 3 in 5'</source>
+      <translation>Proprietà e i loro valori: 'CellSize: 6, 8, 10' oppure 'ShellThickness: 1 to 3 in 5'</translation>
+    </message>
+    <message>
       <source>Put a corner of a cell at Origin; otherwise the cells start at the corner of the solid</source>
       <translation>Mette un vertice di una cella in Origin; altrimenti le celle partono dallo spigolo del solido</translation>
     </message>
@@ -567,6 +595,10 @@
     <message>
       <source>Radius of the round between struts where they meet; 0 for none</source>
       <translation>Raggio del raccordo tra le aste dove si incontrano; 0 per nessuno</translation>
+    </message>
+    <message>
+      <source>Refused</source>
+      <translation>Rifiutati</translation>
     </message>
     <message>
       <source>Relative Density</source>
@@ -701,8 +733,16 @@
       <translation>Monconi rimossi</translation>
     </message>
     <message>
+      <source>Study</source>
+      <translation>Studio</translation>
+    </message>
+    <message>
       <source>Surface Area</source>
       <translation>Area della superficie</translation>
+    </message>
+    <message>
+      <source>Table</source>
+      <translation>Tabella</translation>
     </message>
     <message>
       <source>Take away struts with a free end that are shorter than this; 0 for none</source>
@@ -739,6 +779,10 @@
     <message>
       <source>The lattice infill to look at</source>
       <translation>Il riempimento reticolare da esaminare</translation>
+    </message>
+    <message>
+      <source>The lattice infill whose designs these are</source>
+      <translation>Il riempimento reticolare di cui questi sono i progetti</translation>
     </message>
     <message>
       <source>The radius varies along it</source>
@@ -809,6 +853,10 @@
       <translation>Valori e i loro raggi in mm, come '0:0.5, 120:1.2', al posto dell'inizio e della fine</translation>
     </message>
     <message>
+      <source>Vary</source>
+      <translation>Varia</translation>
+    </message>
+    <message>
       <source>Void Volume</source>
       <translation>Volume dei vuoti</translation>
     </message>
@@ -853,6 +901,10 @@
       <translation>Che cosa determina lo spessore delle aste: il loro raggio, o ciò che reticolo o pezzo devono raggiungere; il raggio adatto viene trovato</translation>
     </message>
     <message>
+      <source>What the figures are of</source>
+      <translation>A che cosa si riferiscono i valori</translation>
+    </message>
+    <message>
       <source>What the part is made of: its density gives the mass, its stiffness goes into solver decks</source>
       <translation>Di che cosa è fatto il pezzo: la densità dà la massa, la rigidezza va nei file per i solutori</translation>
     </message>
@@ -869,6 +921,10 @@
       <translation>Dove i fori attraversano il guscio</translation>
     </message>
     <message>
+      <source>Where the records and the page of the study are</source>
+      <translation>Dove sono le registrazioni e la pagina dello studio</translation>
+    </message>
+    <message>
       <source>Whether the mesh fits the properties, or why not</source>
       <translation>Se la mesh corrisponde alle proprietà, o perché no</translation>
     </message>
@@ -883,6 +939,10 @@
     <message>
       <source>Whole</source>
       <translation>Intere</translation>
+    </message>
+    <message>
+      <source>Why combinations were passed over, or failed</source>
+      <translation>Perché alcune combinazioni sono state saltate o sono fallite</translation>
     </message>
     <message>
       <source>Young's modulus of the lattice along StiffnessDirection, of the chosen material</source>
@@ -933,6 +993,21 @@
     <message>
       <source>Report on the selected mesh: closed, bodies, volume, angles, triangles that cross, and what a file keeps of it</source>
       <translation>Rapporto sulla mesh selezionata: chiusura, corpi, volume, angoli, triangoli che si incrociano e ciò che ne resta in un file</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_DesignStudy</name>
+    <message>
+      <source>Apply Design</source>
+      <translation>Applica progetto</translation>
+    </message>
+    <message>
+      <source>Design Study</source>
+      <translation>Studio di progetto</translation>
+    </message>
+    <message>
+      <source>Try many values of the selected lattice infill's properties, see mass against stiffness, and give it the best</source>
+      <translation>Prova molti valori delle proprietà del riempimento reticolare selezionato, confronta massa e rigidezza e applica i migliori</translation>
     </message>
   </context>
   <context>
@@ -1365,6 +1440,10 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
     <message>
       <source>Struts of {label}</source>
       <translation>Aste di {label}</translation>
+    </message>
+    <message>
+      <source>Studying {label}</source>
+      <translation>Studio di {label}</translation>
     </message>
     <message>
       <source>Tetrahedra of {label}</source>
@@ -1991,6 +2070,45 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
     <message>
       <source>One solid of plane faces</source>
       <translation>Un solido di facce piane</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepStudy</name>
+    <message>
+      <source>Apply</source>
+      <translation>Applica</translation>
+    </message>
+    <message>
+      <source>Give this design to the infill, as one undo step</source>
+      <translation>Dà questo progetto al riempimento, come un solo passo annullabile</translation>
+    </message>
+    <message>
+      <source>Make every design (slow)</source>
+      <translation>Crea ogni progetto (lento)</translation>
+    </message>
+    <message>
+      <source>Page</source>
+      <translation>Pagina</translation>
+    </message>
+    <message>
+      <source>Show the table and all plots in the browser</source>
+      <translation>Mostra la tabella e tutti i grafici nel browser</translation>
+    </message>
+    <message>
+      <source>Start</source>
+      <translation>Avvia</translation>
+    </message>
+    <message>
+      <source>The infill of this study has gone: choose another one.</source>
+      <translation>Il riempimento di questo studio non c'è più: sceglierne un altro.</translation>
+    </message>
+    <message>
+      <source>Values: 6, 8, 10, or 6 to 10 in 5</source>
+      <translation>Valori: 6, 8, 10, oppure 6 to 10 in 5</translation>
+    </message>
+    <message>
+      <source>What varies</source>
+      <translation>Che cosa varia</translation>
     </message>
   </context>
   <context>

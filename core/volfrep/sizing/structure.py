@@ -128,51 +128,47 @@ class Structure:
         return self._assembled(self.beams.mass(radii), "mass")
 
     def displacements(
-        self, radii: Floats, cases: Sequence[Case], more: Floats | None = None
-    ) -> tuple[Floats, Floats | None, list[Factored]]:
+        self, radii: Floats, cases: Sequence[Case]
+    ) -> tuple[Floats, list[Factored]]:
         """How the nodes move in every load case.
 
         Args:
             radii: (m, 2) of the struts, mm.
             cases: what they carry.
-            more: (n, 6, j) further loads, solved with the first case's supports.
 
         Returns:
-            (n, 6, cases) mm and radians; the same of `more`; each case's factored stiffness
-            (cases with equal supports share one).
+            (n, 6, cases) mm and radians; and each case's factored stiffness, of which cases with
+            equal supports share one.
 
         Raises:
             VolfrepError: a part of the structure can move without resistance.
         """
-        result = np.zeros((len(self.nodes), 6, len(cases)))
+        mass = self.mass(radii) if any(any(case.acceleration) for case in cases) else None
         factors: list[Factored] = []
-        mass = None
-        if any(any(case.acceleration) for case in cases):
-            mass = self.mass(radii)
-        alike: list[list[int]] = []
         for k, case in enumerate(cases):
-            same = next((g for g in alike if np.array_equal(cases[g[0]].held, case.held)), None)
-            if same is None:
-                alike.append([k])
-            else:
-                same.append(k)
-        made: dict[int, Factored] = {}
-        extra = None
-        for group in alike:
-            factor = self.factored(radii, cases[group[0]].held)
-            loads = [self.led(self.loads_of(cases[k], mass)) for k in group]
-            given = [cases[k].moved for k in group]
-            moved = None
-            if any(entry is not None for entry in given):
-                moved = np.stack([np.zeros_like(loads[0]) if g is None else g for g in given], -1)
-            solved = factor.displacements(np.stack(loads, axis=-1), moved)
-            for place, k in enumerate(group):
-                result[:, :, k] = solved[:, :, place]
-                made[k] = factor
-            if 0 in group and more is not None:
-                extra = self.followed(factor.displacements(self.led(more)))
-        factors = [made[k] for k in range(len(cases))]
-        return self.followed(result), extra, factors
+            held = case.held
+            same = next((j for j in range(k) if np.array_equal(cases[j].held, held)), None)
+            factors.append(self.factored(radii, held) if same is None else factors[same])
+        loads = np.stack([self.loads_of(case, mass) for case in cases], axis=-1)
+        moved = None
+        if any(case.moved is not None for case in cases):
+            still = np.zeros((len(self.nodes), 6))
+            given = [still if case.moved is None else case.moved for case in cases]
+            moved = np.stack(given, axis=-1)
+        return self.answers(factors, loads, moved), factors
+
+    def answers(
+        self, factors: Sequence[Factored], loads: Floats, moved: Floats | None = None
+    ) -> Floats:
+        """(n, 6, k) displacements under loads (n, 6, k), each with its factored stiffness."""
+        loads = self.led(loads)
+        result = np.zeros_like(loads)
+        kinds = {id(factor): factor for factor in factors}
+        for name, factor in kinds.items():
+            own = np.array([id(each) == name for each in factors])
+            given = None if moved is None else moved[:, :, own]
+            result[:, :, own] = factor.displacements(loads[:, :, own], given)
+        return self.followed(result)
 
     def loads_of(self, case: Case, mass: sparse.csc_matrix | None) -> Floats:
         """(n, 6) a case's loads with what acceleration adds."""
@@ -210,13 +206,23 @@ class Structure:
         np.add.at(result, ties.leaders, shares)
         return result if loads.ndim == 3 else result[:, :, 0]
 
-    def modes(self, radii: Floats, held: Bools, count: int = 6) -> tuple[Floats, Floats]:
+    def modes(
+        self,
+        radii: Floats,
+        held: Bools,
+        count: int = 6,
+        *,
+        factor: Factored | None = None,
+        tolerance: float = 1e-8,
+    ) -> tuple[Floats, Floats]:
         """Natural frequencies and their modes.
 
         Args:
             radii: (m, 2) of the struts, mm.
             held: (n, 6) bool.
             count: how many of the lowest.
+            factor: the stiffness of these radii and supports, if it is there.
+            tolerance: of the eigenvalues, relative.
 
         Returns:
             (count,) Hz, and (n, 6, count) modes of unit mass.
@@ -224,13 +230,13 @@ class Structure:
         Raises:
             VolfrepError: a part of the structure can move without resistance.
         """
-        factor = self.factored(radii, held)
+        factor = factor or self.factored(radii, held)
         mass = masked(self.mass(radii), factor.free, 0.0)
         size = mass.shape[0]
         inverse = LinearOperator((size, size), lambda b: factor.solve(np.asarray(b, float)))
         start = np.where(factor.free, np.cos(np.arange(size)), 0.0)
         values, vectors = eigsh(
-            factor.matrix, count, mass, sigma=0.0, OPinv=inverse, v0=start, tol=1e-8
+            factor.matrix, count, mass, sigma=0.0, OPinv=inverse, v0=start, tol=tolerance
         )
         order = np.argsort(values)
         modes = self.followed(self._pattern.restored(vectors[:, order]))

@@ -152,7 +152,7 @@ def _room(
     )  # fmt: skip
     near.data[:] = 1.0
     about = np.asarray(near @ result).ravel() / np.maximum(np.asarray(near.sum(axis=1)).ravel(), 1)
-    return np.maximum(np.minimum(result, about), 0.02 * far)
+    return np.maximum(np.where(result < far, result, about), 0.02 * far)
 
 
 def _inwards(

@@ -106,7 +106,7 @@ def test_where_the_part_is_thin_both_sides_make_one_solid_plate():
     """A clamped strip of 3 mm under a skin of 2 mm bends as a plate of 3 mm."""
     length, width, thick = 60.0, 12.0, 3.0
     skin = skin_model(box(length, width, thick), 2.0, 2.5, STEEL)
-    assert np.median(skin.shells.thickness) == pytest.approx(thick / 2)
+    assert np.median(skin.shells.thickness) == pytest.approx(thick / 2, rel=0.06)
     structure = Structure(skin.middle, NO_STRUTS, fixed_blocks=skin.blocks)
     x = skin.outside.vertices[:, 0]
     held = np.repeat((x < -length / 2 + 1e-6)[:, None], 6, axis=1)

@@ -39,7 +39,7 @@ from ..trim.beam_model import (
     refuse_fillets,
 )
 from ..trim.boolean_trim import KeptOctants
-from ..trim.clip_struts import AT_WALL, Clipped, clip
+from ..trim.clip_struts import AT_WALL, Clipped, clip, unclipped
 from ..trim.drains import Drained, trapped
 from ..trim.finish import finished, pieces_told, tidied
 from ..trim.loose_pieces import Cleared
@@ -275,7 +275,7 @@ class Infill:
     def axes(self) -> Clipped:
         """The struts' axes, cut where they leave the domain."""
         if not self.placement.is_cut:
-            return Clipped(self.struts, np.zeros(len(self.struts.nodes), bool))
+            return unclipped(self.struts)
         clipped = clip(self.struts, self.cavity)
         openings = self.domain.openings
         if openings is not None:

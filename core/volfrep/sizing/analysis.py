@@ -6,12 +6,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.sparse import csr_matrix
 
 from ..util.errors import VolfrepError
 from ..util.types import Bools, Floats
 from .node_radii import NodeRadii
-from .strut_results import buckling_loads, stresses
 from .structure import Case, Structure
+from .strut_results import buckling_loads, stresses
 from .tapered_beams import energies
 
 
@@ -57,6 +58,8 @@ class Problem:
         low: (n,) mm, the thinnest that each node's radius may be.
         high: (n,) mm, the thickest.
         watched: (nodes,) bool, where displacements are limited.
+        smoother: (n, n) by which each step's radii are evened out with their neighbours'; None for
+            not at all.
     """
 
     structure: Structure
@@ -65,6 +68,13 @@ class Problem:
     low: Floats
     high: Floats
     watched: Bools
+    smoother: csr_matrix | None = None
+
+    def smoothed(self, radii: Floats) -> Floats:
+        """The radii, evened out."""
+        if self.smoother is None:
+            return radii
+        return np.asarray(np.clip(self.smoother @ radii, self.low, self.high))
 
 
 @dataclass(frozen=True, eq=False)
@@ -167,8 +177,8 @@ def analysed(
         uses["frequency"] = limits.frequency / frequency
         worst["frequency"] = -1, -1
     analysis = Analysis(
-        radii, problem.radii.volume(radii), compliance, moved, size.max(axis=0), forces, stress, buckling,
-        frequency, uses, worst,
+        radii, problem.radii.volume(radii), compliance, moved, size.max(axis=0), forces,
+        stress, buckling, frequency, uses, worst,
     )  # fmt: skip
     if not with_changes:
         return analysis, None
@@ -225,4 +235,3 @@ def _mass_change(problem: Problem, of_struts: Floats, mode: Floats) -> Floats:
         change = felt(of_struts + step) - felt(of_struts - step)
         result[:, end] = change / (2.0 * step[:, end])
     return problem.radii.to_nodes(result)
-

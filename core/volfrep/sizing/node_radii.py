@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Radii at nodes as what is varied: what struts get of them, what volume they make, their bounds."""
+"""Radii at nodes as what is varied: what struts get of them, their volume, their bounds."""
 
 from __future__ import annotations
 
@@ -131,7 +131,7 @@ def largest_radii(nodes: Floats, struts: Ints, most: float) -> Floats:
     shortest = np.full(len(nodes), np.inf)
     for end in (0, 1):
         np.minimum.at(shortest, struts[:, end], length)
-    return np.minimum(most, MEET_BEFORE * shortest * slope[of_node])
+    return np.asarray(np.minimum(most, MEET_BEFORE * shortest * slope[of_node]))
 
 
 def smoothing(struts: Ints, count: int, share: float) -> sparse.csr_matrix:

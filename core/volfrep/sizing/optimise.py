@@ -37,7 +37,7 @@ _PATIENCE, _BETTER, _FEWEST = 8, 2e-3, 15
 #: So many of the lightest designs are brought to their limits in the end.
 _KEPT = 3
 #: Steps towards the limits by one factor.
-_SCALINGS = 6
+_SCALINGS = 14
 
 
 @dataclass(frozen=True)
@@ -138,7 +138,7 @@ def stiffest(
         merit = gain / cost
         merit = np.maximum(merit / max(float(merit.max()), 1e-300), 1e-6)
         wanted = np.clip(merit**_CRITERION, 1e-3, None)
-        radii = _moved(problem, radii, wanted, volume)
+        radii = _moved(problem, radii, problem.smoothed(radii * wanted) / radii, volume)
     assert best is not None
     return Sized(best, tuple(steps), stopped, True)
 
@@ -171,7 +171,7 @@ def lightest(
         VolfrepError: there is no limit, or the structure moves freely.
     """
     if not limits.any:
-        raise VolfrepError("Least mass needs a limit: of stress, displacement, buckling, frequency.")
+        raise VolfrepError("Least mass needs a limit: stress, displacement, buckling, frequency.")
     radii = np.clip(start, problem.low, problem.high)
     steps: list[Step] = []
     best: list[tuple[float, Floats]] = []
@@ -194,7 +194,7 @@ def lightest(
         if since >= _PATIENCE and number >= _FEWEST:
             stopped = "converged"
             break
-        radii = _lighter(problem, found, changes, limits)
+        radii = problem.smoothed(_lighter(problem, found, changes, limits))
     tried = [scaled_to_limits(problem, limits, chosen) for _, chosen in best or [(0.0, radii)]]
     final, holds = min(tried, key=lambda entry: (not entry[1], entry[0].volume))
     return Sized(final, tuple(steps), stopped, holds)
@@ -211,25 +211,48 @@ def uniform(problem: Problem, limits: Limits) -> tuple[Analysis, bool]:
 
 def scaled_to_limits(problem: Problem, limits: Limits, radii: Floats) -> tuple[Analysis, bool]:
     """A design brought to its limits by one factor for all radii, and whether it holds them."""
-    found, _ = analysed(problem, np.clip(radii, problem.low, problem.high), limits)
-    lightest_found = found if found.most_used <= HOLDS else None
+    radii = np.clip(radii, problem.low, problem.high)
+
+    def at(log: float) -> Analysis:
+        scaled = np.clip(radii * np.exp(log), problem.low, problem.high)
+        return analysed(problem, scaled, limits)[0]
+
+    # From radii that hold, or do not, to the other side in growing steps; then between the two.
+    place, found = 0.0, at(0.0)
+    most = float(np.log((problem.high / radii).max()))
+    least = float(np.log((problem.low / radii).min()))
+    light = heavy = None
     for _ in range(_SCALINGS):
-        radii = np.clip(found.radii * _factor(found), problem.low, problem.high)
-        if np.allclose(radii, found.radii, rtol=2e-4):
+        if found.most_used <= 1.0:
+            heavy = place, found
+        else:
+            light = place, found
+        if 1.0 - 5e-4 <= found.most_used <= 1.0:
             break
-        found, _ = analysed(problem, radii, limits)
-        if found.most_used <= HOLDS and (
-            lightest_found is None or found.volume < lightest_found.volume
-        ):
-            lightest_found = found
-    if lightest_found is None:
-        return found, False
-    return lightest_found, True
+        if light is None:
+            if place <= least:
+                break
+            place = max(least, min(place + np.log(_factor(found)), place - 0.02) - 0.01)
+        elif heavy is None:
+            if place >= most:
+                return found, found.most_used <= HOLDS
+            place = min(most, max(place + np.log(_factor(found)), place + 0.02) + 0.01)
+        else:
+            (low, one), (high, other) = light, heavy
+            over, under = np.log(one.most_used), np.log(other.most_used)
+            if high - low < 1e-4:
+                break
+            share = np.clip(over / (over - under), 0.1, 0.9)
+            place = low + share * (high - low)
+        found = at(place)
+    if heavy is not None:
+        return heavy[1], True
+    return found, found.most_used <= HOLDS
 
 
 def _factor(found: Analysis) -> float:
     """That for all radii which is expected to bring the worst use to 1."""
-    return max(use ** (1.0 / _POWERS[name]) for name, use in found.uses.items())
+    return float(max(use ** (1.0 / _POWERS[name]) for name, use in found.uses.items()))
 
 
 def _lighter(problem: Problem, found: Analysis, changes: Changes, limits: Limits) -> Floats:
@@ -289,7 +312,7 @@ def cheapest(
     def chosen(prices: Floats) -> Floats:
         gain = helps @ prices
         share = _POWER * gain / (radii * (cost / scale + hurts @ prices))
-        return np.clip(radii * share ** (1.0 / (_POWER + 1.0)), low, high)
+        return np.asarray(np.clip(radii * share ** (1.0 / (_POWER + 1.0)), low, high))
 
     def dual(prices: Floats) -> tuple[float, Floats]:
         at = chosen(prices)

@@ -127,9 +127,7 @@ class Structure:
         """The consistent mass, t and t mm2, in the pattern's order."""
         return self._assembled(self.beams.mass(radii), "mass")
 
-    def displacements(
-        self, radii: Floats, cases: Sequence[Case]
-    ) -> tuple[Floats, list[Factored]]:
+    def displacements(self, radii: Floats, cases: Sequence[Case]) -> tuple[Floats, list[Factored]]:
         """How the nodes move in every load case.
 
         Args:

@@ -173,9 +173,12 @@ def size(
     before, _ = analysed(problem, same, goal.limits)
     seconds["sizing"] = time.perf_counter() - start
     proof = None
-    if prove_it:
-        with monitor.stage("proof", 0.95, 1.0):
-            proof = _proved(model, spec, final, loads.material, notes, monitor)
+    if prove_it and sized.stopped != "cancelled":
+        try:
+            with monitor.stage("proof", 0.95, 1.0):
+                proof = _proved(model, spec, final, loads.material, notes, monitor)
+        except Cancelled:
+            notes.append("CalculiX was cancelled: no other solver has proved this design.")
     points = model.wireframe.nodes
     if infill.placement.is_cut:
         points = points - NUDGE * spec.cell_size
@@ -187,6 +190,37 @@ def size(
         loads, model, sized, before, even, proof, seconds=seconds, notes=tuple(notes)
     )
     return SizedPart(graded, points, radii, model, sized, before, even, report)
+
+
+def solved(
+    solid: TriangleMesh,
+    spec: LatticeSpec,
+    loads: LoadCases,
+    *,
+    progress: ProgressCallback | None = None,
+    cache: StageCache | None = None,
+) -> tuple[SizingModel, Analysis]:
+    """What a part's struts do as they are: nothing is sized.
+
+    Args:
+        solid: checked closed mesh, mm.
+        spec: what it is filled with, graded or not.
+        loads: the material, and what the part carries.
+        progress: called with the fraction done and the stage; returning False cancels.
+        cache: keeps the costly stages of the part.
+
+    Raises:
+        VolfrepError: as `size`.
+        Cancelled: the callback said so.
+    """
+    infill = Infill(solid, spec, monitor=Monitor(progress), cache=cache)
+    frame = infill.struts
+    radii = np.zeros(len(frame.nodes))
+    radii[frame.struts] = frame.radii
+    used = radii[radii > 0.0]
+    goal = Goal(radius_min=0.999 * float(used.min()), radius_max=1.001 * float(used.max()))
+    model = _model(infill, loads, goal)
+    return model, analysed(model.problem, np.maximum(radii, goal.radius_min or 0.0), Limits())[0]
 
 
 def radius_field(points: Floats, radii: Floats) -> RadiusGrading:

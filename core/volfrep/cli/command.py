@@ -20,7 +20,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
 from ..util.errors import VolfrepError
-from . import material, printing_options, properties, solver_options
+from . import material, printing_options, properties, sizing, solver_options
 from .files import check_files
 from .parameter_options import (
     add_parameters,
@@ -135,6 +135,8 @@ def _parser() -> argparse.ArgumentParser:
     add("cells", _cells, "List the library of unit cells.")
 
     properties.add_command(add)
+
+    sizing.add_command(add)
 
     check = add("check", _check, "Tell what a reader sees in a mesh file (STL, OBJ, PLY, 3MF).")
     check.add_argument("file", metavar="FILE")

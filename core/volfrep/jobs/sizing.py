@@ -29,7 +29,7 @@ from ..sizing.analysis import Analysis, Limits, Problem, analysed
 from ..sizing.load_cases import LoadCases
 from ..sizing.model import SizingModel, elastic, sizing_model
 from ..sizing.node_radii import smoothing
-from ..sizing.optimise import Sized, Step, Watch, lightest, stiffest, uniform
+from ..sizing.optimise import Sized, Step, Watch, lightest, scaled_to_limits, stiffest, uniform
 from ..sizing.proof import end_stresses, prove
 from ..sizing.skin import skin_model
 from ..sizing.structure import Case
@@ -47,6 +47,8 @@ SKIN_EDGE, SKIN_EDGE_LEAST = 0.6, 1.5
 RADIUS_STEP = 1e-6
 #: Beams of more struts are not solved by CalculiX unless it is asked for.
 MOST_PROVED = 6_000
+#: A limit that CalculiX finds used more than this makes the design a little thicker.
+PROVED = 1.003
 
 
 @dataclass(frozen=True)
@@ -163,8 +165,22 @@ def size(
         )
     if sized.stopped == "cancelled":
         notes.append("The search was cancelled: this is the best design so far.")
-    radii = np.ceil(sized.analysis.radii / RADIUS_STEP - 1e-6) * RADIUS_STEP
-    final, _ = analysed(problem, radii, goal.limits)
+    final = _stored(problem, sized.analysis.radii, goal.limits)
+    proof = None
+    if prove_it and sized.stopped != "cancelled":
+        try:
+            with monitor.stage("proof", 0.95, 1.0):
+                proof = _proved(model, spec, final, loads.material, notes, monitor)
+                stricter = _stricter(goal.limits, final, proof)
+                if proof is not None and stricter != goal.limits and sized.holds:
+                    # Where CalculiX finds more than is allowed, the limits are that much stricter.
+                    found, _ = scaled_to_limits(problem, stricter, final.radii)
+                    final = _stored(problem, found.radii, goal.limits)
+                    proof = _proved(model, spec, final, loads.material, notes, monitor)
+        except Cancelled:
+            proof = None
+            notes.append("CalculiX was cancelled: no other solver has proved this design.")
+    radii = final.radii
     sized = replace(sized, analysis=final)
     same = shape.scaled_to(
         np.full(len(radii), float(first.mean())),
@@ -172,13 +188,6 @@ def size(
     )  # fmt: skip
     before, _ = analysed(problem, same, goal.limits)
     seconds["sizing"] = time.perf_counter() - start
-    proof = None
-    if prove_it and sized.stopped != "cancelled":
-        try:
-            with monitor.stage("proof", 0.95, 1.0):
-                proof = _proved(model, spec, final, loads.material, notes, monitor)
-        except Cancelled:
-            notes.append("CalculiX was cancelled: no other solver has proved this design.")
     points = model.wireframe.nodes
     if infill.placement.is_cut:
         points = points - NUDGE * spec.cell_size
@@ -221,6 +230,29 @@ def solved(
     goal = Goal(radius_min=0.999 * float(used.min()), radius_max=1.001 * float(used.max()))
     model = _model(infill, loads, goal)
     return model, analysed(model.problem, np.maximum(radii, goal.radius_min or 0.0), Limits())[0]
+
+
+def _stored(problem: Problem, radii: Floats, limits: Limits) -> Analysis:
+    """A design as files keep it: radii in whole steps, not thinner than they were."""
+    steps = np.ceil(radii / RADIUS_STEP - 1e-6) * RADIUS_STEP
+    return analysed(problem, steps, limits)[0]
+
+
+def _stricter(limits: Limits, final: Analysis, proof: dict[str, Any] | None) -> Limits:
+    """Limits with which a design holds the given ones when CalculiX solves it."""
+    if proof is None or proof["given_the_skin"]:
+        return limits
+    wanted = limits
+    if limits.stress is not None and final.uses["stress"] * proof["largest_stress"] > PROVED:
+        wanted = replace(wanted, stress=limits.stress / proof["largest_stress"])
+    moved = max(proof["largest_displacement"])
+    if limits.displacement is not None and final.uses["displacement"] * moved > PROVED:
+        wanted = replace(wanted, displacement=limits.displacement / moved)
+    if limits.frequency is not None:
+        ratio = proof["lowest_frequency"]
+        if final.uses["frequency"] / ratio > PROVED:
+            wanted = replace(wanted, frequency=limits.frequency / ratio)
+    return wanted
 
 
 def radius_field(points: Floats, radii: Floats) -> RadiusGrading:

@@ -1,16 +1,14 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The state of struts, and their picture."""
+"""The state of struts under each load case."""
 
 import numpy as np
 import pytest
 
-from volfrep.reports.strut_picture import strut_picture, tubes
 from volfrep.sizing.analysis import Limits, Problem, analysed
 from volfrep.sizing.node_radii import NodeRadii, whole_struts
 from volfrep.sizing.structure import Case, Structure
-from volfrep.sizing.strut_state import QUANTITIES, drawn_factor, strut_states, value_range
+from volfrep.sizing.strut_state import drawn_factor, strut_states, value_range
 from volfrep.sizing.tapered_beams import Elastic, beams_of
-from volfrep.util.errors import VolfrepError
 
 YOUNG, LENGTH, RADIUS = 2000.0, 100.0, 2.0
 AREA, INERTIA = np.pi * RADIUS**2, 0.25 * np.pi * RADIUS**4
@@ -58,25 +56,3 @@ def test_all_cases_have_one_scale_and_one_enlargement(states):
     most = max(state.displacement.max() for state in states)
     assert 0.02 * LENGTH <= factor * most <= 0.0501 * LENGTH
     assert f"{factor:e}"[0] in "125"
-
-
-def test_tubes_have_the_radii_of_their_struts(states):
-    points, quads = tubes(states[0].ends, np.array([[1.0, 2.0], [3.0, 4.0]]))
-    off = np.hypot(points[:, 1], points[:, 2]).reshape(4, -1)
-    assert off == pytest.approx(np.repeat([[1.0], [2.0], [3.0], [4.0]], off.shape[1], axis=1))
-    assert len(quads) == len(points) / 2
-
-
-def test_a_picture_has_the_colours_of_its_legend(states, tmp_path):
-    pytest.importorskip("pyvista", reason="pictures need the optional package pyvista")
-    from PIL import Image
-
-    strut_picture(states, "stress", tmp_path / "struts.png", case=1, deformed=True, size=(500, 400))
-    picture = np.asarray(Image.open(tmp_path / "struts.png").convert("RGB")).astype(int)
-    struts = picture[:, 150:]
-    red, green, blue = struts.reshape(-1, 3).T
-    assert ((red > green + 60) & (green > blue)).mean() < 0.001  # neither orange nor red
-    assert ((blue > green + 20) & (green < 120)).mean() > 0.001  # the free end
-    assert (green > blue + 40).mean() > 0.001  # towards the held one
-    with pytest.raises(VolfrepError, match=f"coloured by 'heat': choose {', '.join(QUANTITIES)}"):
-        strut_picture(states, "heat", tmp_path / "struts.png")

@@ -20,7 +20,7 @@ from .tables import Table
 
 if TYPE_CHECKING:
     from volfrep.jobs.sizing import SizedPart
-    from volfrep.sizing.load_cases import LoadCases
+    from volfrep.loads.load_cases import LoadCases
     from volfrep.sizing.optimise import Step
     from volfrep.sizing.strut_state import StrutState
 

@@ -21,12 +21,12 @@ from ..design.spec_parts import largest_radius
 from ..fem.beam_mesh import beam_model
 from ..grid.placement import NUDGE
 from ..grid.strut_graph import Wireframe
+from ..loads.load_cases import LoadCases
 from ..mechanics.catalogue import joint_law
 from ..mechanics.materials import SolidMaterial
 from ..mesh.triangle_mesh import TriangleMesh
 from ..reports.sizing_report import sizing_report
 from ..sizing.analysis import Analysis, Limits, Problem, analysed
-from ..sizing.load_cases import LoadCases
 from ..sizing.model import SizingModel, elastic, sizing_model
 from ..sizing.node_radii import smoothing
 from ..sizing.optimise import Sized, Step, Watch, lightest, scaled_to_limits, stiffest, uniform

@@ -7,11 +7,11 @@ import trimesh
 
 from volfrep.design.spec import LatticeSpec
 from volfrep.jobs.sizing import Goal, size, solved
+from volfrep.loads.load_cases import Force, LoadCase, LoadCases, Support
+from volfrep.loads.regions import InPlane
 from volfrep.mechanics.materials import find_material
 from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.sizing.analysis import Limits
-from volfrep.sizing.load_cases import Force, LoadCase, LoadCases, Support
-from volfrep.sizing.regions import InPlane
 from volfrep.sizing.strut_state import strut_states
 from volfrep.util.errors import Cancelled
 

@@ -52,6 +52,7 @@ class Wish:
         mass: of the struts, g, for the goal stiffness.
         smallest: radius, mm.
         largest: radius, mm.
+        prove: let CalculiX solve the design, where it is installed.
     """
 
     goal: str
@@ -62,6 +63,7 @@ class Wish:
     mass: float
     smallest: float
     largest: float
+    prove: bool = True
 
 
 @dataclass(frozen=True, eq=False)
@@ -244,7 +246,14 @@ def size_struts(
     part = run_job(
         job_title("Sizing {label}", obj),
         lambda progress: size(
-            solid, spec, loads, goal, progress=progress, cache=cache, watch=watch
+            solid,
+            spec,
+            loads,
+            goal,
+            prove_it=wish.prove,
+            progress=progress,
+            cache=cache,
+            watch=watch,
         ),
         keeps_best=True,
     )

@@ -237,6 +237,16 @@ class SizePanel:
         self._goal.setCurrentIndex(self._goal.findData(wish.goal))
         self._goal.currentIndexChanged.connect(lambda _: self._show_fields())
         rows.addRow(QtWidgets.QLabel(translate("VolfrepSizePanel", "Goal")), self._goal)
+        self._prove = QtWidgets.QCheckBox(translate("VolfrepSizePanel", "Check with CalculiX"))
+        self._prove.setObjectName("Prove")
+        self._prove.setChecked(wish.prove)
+        self._prove.setToolTip(
+            translate(
+                "VolfrepSizePanel",
+                "Let CalculiX solve the design, where it is installed, and say how far it agrees; "
+                "where it finds more than a limit allows, the struts are made thicker",
+            )
+        )
         self._fields: dict[str, tuple[Any, Any]] = {}
         for name, text, unit, tip in FIELDS:
             spin = Gui.UiLoader().createWidget("Gui::QuantitySpinBox")
@@ -249,6 +259,7 @@ class SizePanel:
             label = QtWidgets.QLabel(translate("VolfrepSizePanel", text))
             rows.addRow(label, spin)
             self._fields[name] = label, spin
+        rows.addRow(self._prove)
         return box
 
     def _show_fields(self) -> None:
@@ -269,7 +280,7 @@ class SizePanel:
         numbers = {
             name: float(spin.property("rawValue")) for name, (_, spin) in self._fields.items()
         }
-        return Wish(goal=self._goal.currentData(), **numbers)
+        return Wish(goal=self._goal.currentData(), **numbers, prove=self._prove.isChecked())
 
     def _show_steps(self) -> None:
         """Bring the table up to the steps that were made."""

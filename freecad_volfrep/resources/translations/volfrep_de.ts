@@ -1967,6 +1967,10 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>Vor dem ersten Schritt abgebrochen.</translation>
     </message>
     <message>
+      <source>Check with CalculiX</source>
+      <translation>Mit CalculiX prüfen</translation>
+    </message>
+    <message>
       <source>Displacement</source>
       <translation>Verschiebung</translation>
     </message>
@@ -1993,6 +1997,10 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
     <message>
       <source>Least mass</source>
       <translation>Geringste Masse</translation>
+    </message>
+    <message>
+      <source>Let CalculiX solve the design, where it is installed, and say how far it agrees; where it finds more than a limit allows, the struts are made thicker</source>
+      <translation>Den Entwurf von CalculiX lösen lassen, wo es installiert ist, und sagen, wie weit es übereinstimmt; wo es mehr findet, als eine Grenze erlaubt, werden die Streben dicker</translation>
     </message>
     <message>
       <source>Load cases</source>

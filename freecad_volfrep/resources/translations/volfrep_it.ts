@@ -1967,6 +1967,10 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>Annullato prima del primo passo.</translation>
     </message>
     <message>
+      <source>Check with CalculiX</source>
+      <translation>Verifica con CalculiX</translation>
+    </message>
+    <message>
       <source>Displacement</source>
       <translation>Spostamento</translation>
     </message>
@@ -1993,6 +1997,10 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
     <message>
       <source>Least mass</source>
       <translation>Massa minima</translation>
+    </message>
+    <message>
+      <source>Let CalculiX solve the design, where it is installed, and say how far it agrees; where it finds more than a limit allows, the struts are made thicker</source>
+      <translation>Fai risolvere il progetto a CalculiX, dove è installato, e di' quanto concorda; dove trova più di quanto un limite consenta, le aste diventano più spesse</translation>
     </message>
     <message>
       <source>Load cases</source>

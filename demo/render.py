@@ -333,8 +333,8 @@ def loads(picture: str) -> None:
     root = Path(__file__).resolve().parents[1]
     sys.path[:0] = [str(root), str(root / ".cache" / "plot")]
     from bench.parts import lug_bracket
+    from volfrep.loads.load_file import read_load_cases
     from volfrep.reports.load_picture import load_picture
-    from volfrep.sizing.load_file import read_load_cases
 
     bracket = lug_bracket()
     cases = read_load_cases(Path(__file__).with_name("bracket_loads.toml"), bracket).cases

@@ -11,9 +11,9 @@ from typing import Any
 import FreeCAD as App
 
 from freecad_volfrep.compat import gravity_of, in_unit, prescribed, prescribed_turn
+from volfrep.loads.load_cases import Force, Load, LoadCase, LoadCases, Pressure, Support
+from volfrep.loads.regions import AnyOf, NearPoint, OnFacets, OnLine, Region, Vector
 from volfrep.mechanics.materials import SolidMaterial
-from volfrep.sizing.load_cases import Force, Load, LoadCase, LoadCases, Pressure, Support
-from volfrep.sizing.regions import AnyOf, NearPoint, OnFacets, OnLine, Region, Vector
 from volfrep.util.errors import VolfrepError
 
 from .solids import edge_points, face_facets, vertex_point

@@ -11,10 +11,10 @@ import pytest
 
 from freecad_volfrep.bridge.fem_loads import has_loads, is_analysis, load_cases_of
 from freecad_volfrep.bridge.solids import SolidReader, parent_placement
+from volfrep.loads.load_cases import Force, Pressure
+from volfrep.loads.nodal_loads import Body, nodal_case, nodes_in, resultant
+from volfrep.loads.regions import AnyOf, NearPoint, OnFacets, OnLine
 from volfrep.mechanics.materials import find_material
-from volfrep.sizing.load_cases import Force, Pressure
-from volfrep.sizing.nodal_loads import Body, nodal_case, nodes_in, resultant
-from volfrep.sizing.regions import AnyOf, NearPoint, OnFacets, OnLine
 from volfrep.util.errors import VolfrepError
 
 OLD = hasattr(ObjectsFem.makeConstraintSelfWeight(App.newDocument("Probe")), "Gravity_x")
@@ -281,6 +281,6 @@ def test_the_loads_are_those_that_freecad_writes_for_calculix(doc, box, case_of,
 
 
 def _shares(body, forces):
-    from volfrep.sizing.nodal_loads import nodal_loads
+    from volfrep.loads.nodal_loads import nodal_loads
 
     return [nodal_loads(body, load) for load in forces]

@@ -93,8 +93,8 @@ def _size(options: argparse.Namespace) -> None:
     from ..io.solid import read_solid
     from ..jobs.infill import Infill
     from ..jobs.sizing import size, write_radii
+    from ..loads.load_file import read_load_cases
     from ..reports.sizing_report import sizing_rows
-    from ..sizing.load_file import read_load_cases
     from ..util.cache import StageCache
     from ..util.files import replacing
 

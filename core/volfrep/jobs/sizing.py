@@ -21,12 +21,12 @@ from ..design.spec_parts import largest_radius
 from ..fem.beam_mesh import beam_model
 from ..grid.placement import NUDGE
 from ..grid.strut_graph import Wireframe
+from ..loads.load_cases import LoadCases
 from ..mechanics.catalogue import joint_law
 from ..mechanics.materials import SolidMaterial
 from ..mesh.triangle_mesh import TriangleMesh
 from ..reports.sizing_report import sizing_report
 from ..sizing.analysis import Analysis, Limits, Problem, analysed
-from ..sizing.load_cases import LoadCases
 from ..sizing.model import SizingModel, elastic, sizing_model
 from ..sizing.node_radii import smoothing
 from ..sizing.optimise import Sized, Step, Watch, lightest, scaled_to_limits, stiffest, uniform
@@ -167,15 +167,19 @@ def size(
         notes.append("The search was cancelled: this is the best design so far.")
     final = _stored(problem, sized.analysis.radii, goal.limits)
     proof = None
-    if prove_it:
-        with monitor.stage("proof", 0.95, 1.0):
-            proof = _proved(model, spec, final, loads.material, notes, monitor)
-            stricter = _stricter(goal.limits, final, proof)
-            if proof is not None and stricter != goal.limits and sized.holds:
-                # Where CalculiX finds more than is allowed, the limits are that much stricter.
-                found, _ = scaled_to_limits(problem, stricter, final.radii)
-                final = _stored(problem, found.radii, goal.limits)
+    if prove_it and sized.stopped != "cancelled":
+        try:
+            with monitor.stage("proof", 0.95, 1.0):
                 proof = _proved(model, spec, final, loads.material, notes, monitor)
+                stricter = _stricter(goal.limits, final, proof)
+                if proof is not None and stricter != goal.limits and sized.holds:
+                    # Where CalculiX finds more than is allowed, the limits are that much stricter.
+                    found, _ = scaled_to_limits(problem, stricter, final.radii)
+                    final = _stored(problem, found.radii, goal.limits)
+                    proof = _proved(model, spec, final, loads.material, notes, monitor)
+        except Cancelled:
+            proof = None
+            notes.append("CalculiX was cancelled: no other solver has proved this design.")
     radii = final.radii
     sized = replace(sized, analysis=final)
     same = shape.scaled_to(
@@ -195,6 +199,37 @@ def size(
         loads, model, sized, before, even, proof, seconds=seconds, notes=tuple(notes)
     )
     return SizedPart(graded, points, radii, model, sized, before, even, report)
+
+
+def solved(
+    solid: TriangleMesh,
+    spec: LatticeSpec,
+    loads: LoadCases,
+    *,
+    progress: ProgressCallback | None = None,
+    cache: StageCache | None = None,
+) -> tuple[SizingModel, Analysis]:
+    """What a part's struts do as they are: nothing is sized.
+
+    Args:
+        solid: checked closed mesh, mm.
+        spec: what it is filled with, graded or not.
+        loads: the material, and what the part carries.
+        progress: called with the fraction done and the stage; returning False cancels.
+        cache: keeps the costly stages of the part.
+
+    Raises:
+        VolfrepError: as `size`.
+        Cancelled: the callback said so.
+    """
+    infill = Infill(solid, spec, monitor=Monitor(progress), cache=cache)
+    frame = infill.struts
+    radii = np.zeros(len(frame.nodes))
+    radii[frame.struts] = frame.radii
+    used = radii[radii > 0.0]
+    goal = Goal(radius_min=0.999 * float(used.min()), radius_max=1.001 * float(used.max()))
+    model = _model(infill, loads, goal)
+    return model, analysed(model.problem, np.maximum(radii, goal.radius_min or 0.0), Limits())[0]
 
 
 def _stored(problem: Problem, radii: Floats, limits: Limits) -> Analysis:

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from ..loads.load_cases import LoadCases
 from ..sizing.analysis import Analysis
-from ..sizing.load_cases import LoadCases
 from ..sizing.model import SizingModel
 from ..sizing.optimise import Sized
 

@@ -13,6 +13,9 @@ from scipy.sparse.csgraph import connected_components
 
 from ..design.cells import UnitCell
 from ..grid.strut_graph import Wireframe
+from ..loads.load_cases import LoadCase
+from ..loads.nodal_loads import Body, nodal_case
+from ..loads.regions import AnyOf, Region, simple_regions
 from ..mechanics.catalogue import joint_law
 from ..mechanics.frame import SQUARE_SECTION
 from ..mechanics.materials import SolidMaterial
@@ -22,10 +25,7 @@ from ..trim.clip_struts import Clipped
 from ..util.errors import VolfrepError
 from ..util.types import Bools, Floats, Ints
 from .analysis import Problem
-from .load_cases import LoadCase
-from .nodal_loads import Body, nodal_case
 from .node_radii import NodeRadii, joint_overlap, largest_radii
-from .regions import AnyOf, Region, simple_regions
 from .skin import SkinModel, ties_to
 from .structure import NO_TIES, Case, Structure
 from .tapered_beams import Elastic, beams_of, end_table

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 from bench.parts import lug_bracket
+from volfrep.loads.load_cases import Force, LoadCase, Support
+from volfrep.loads.load_file import read_load_cases
+from volfrep.loads.nodal_loads import Body, nodal_case
+from volfrep.loads.regions import InPlane, NearPoint
 from volfrep.reports.load_picture import load_picture
-from volfrep.sizing.load_cases import Force, LoadCase, Support
-from volfrep.sizing.load_file import read_load_cases
-from volfrep.sizing.nodal_loads import Body, nodal_case
-from volfrep.sizing.regions import InPlane, NearPoint
 from volfrep.util.errors import VolfrepError
 
 LOADS = Path(__file__).resolve().parents[3] / "demo" / "bracket_loads.toml"

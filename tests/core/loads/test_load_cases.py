@@ -9,11 +9,9 @@ import trimesh
 from hypothesis import given
 from hypothesis import strategies as st
 
-from volfrep.mesh.smooth_faces import smooth_faces
-from volfrep.mesh.triangle_mesh import TriangleMesh
-from volfrep.sizing.load_cases import Force, LoadCase, Moment, Pressure, Support
-from volfrep.sizing.load_file import read_load_cases
-from volfrep.sizing.nodal_loads import (
+from volfrep.loads.load_cases import Force, LoadCase, Moment, Pressure, Support
+from volfrep.loads.load_file import read_load_cases
+from volfrep.loads.nodal_loads import (
     Body,
     nodal_case,
     nodal_loads,
@@ -21,7 +19,7 @@ from volfrep.sizing.nodal_loads import (
     resultant,
     share_of,
 )
-from volfrep.sizing.regions import (
+from volfrep.loads.regions import (
     AllOf,
     AnyOf,
     InBox,
@@ -31,6 +29,8 @@ from volfrep.sizing.regions import (
     OnFacets,
     OnLine,
 )
+from volfrep.mesh.smooth_faces import smooth_faces
+from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.util.errors import VolfrepError
 
 LEFT = InPlane((0.0, 0.0, 0.0), (1.0, 0.0, 0.0))

@@ -163,6 +163,16 @@ def size(
             f"The limit of {worst} cannot be held: with the thickest struts that the cells bear "
             f"and that were allowed, {uses[worst]:.0%} of it is used."
         )
+    if model.skin is not None and goal.limits.stress is not None:
+        shells, count = model.skin.shells, model.frame_nodes
+        felt = shells.stresses(sized.analysis.displacements[count:]).max(axis=1)
+        over = float(shells.area[felt > goal.limits.stress].sum() / shells.area.sum())
+        if over > 0.0:
+            notes.append(
+                f"The skin, which is not sized, is stressed by more than {goal.limits.stress:.4g} "
+                f"MPa on {over:.1%} of its area (up to {felt.max():.4g} MPa, mostly where it is "
+                "held and loaded): make it thicker, or look at those places with solid elements."
+            )
     if sized.stopped == "cancelled":
         notes.append("The search was cancelled: this is the best design so far.")
     final = _stored(problem, sized.analysis.radii, goal.limits)

@@ -10,9 +10,10 @@ from typing import Any
 import numpy as np
 
 from ..design.cells import UnitCell
-from ..fem.beam_mesh import beam_model
+from ..fem.beam_mesh import JOINT_STIFFNESS, BeamModel, beam_model
 from ..grid.strut_graph import Wireframe
 from ..mechanics.catalogue import joint_law
+from ..mechanics.frame import Ends
 from ..mechanics.materials import SolidMaterial
 from ..util.progress import Monitor
 from ..util.types import Bools, Ints
@@ -30,11 +31,13 @@ PROVED = 1.003
 
 def stricter_limits(limits: Limits, final: Analysis, proof: dict[str, Any] | None) -> Limits:
     """Limits with which a design holds the given ones when CalculiX solves it."""
-    if proof is None or proof["given_the_skin"]:
+    if proof is None:
         return limits
     wanted = limits
     if limits.stress is not None and final.uses["stress"] * proof["largest_stress"] > PROVED:
         wanted = replace(wanted, stress=limits.stress / proof["largest_stress"])
+    if proof["given_the_skin"]:
+        return wanted  # the rest is the skin's
     moved = max(proof["largest_displacement"])
     if limits.displacement is not None and final.uses["displacement"] * moved > PROVED:
         wanted = replace(wanted, displacement=limits.displacement / moved)
@@ -97,19 +100,29 @@ def proved(
         frame, None if beams.joined.all() else _free_ends(beams.joined, beams.struts, count),
         joint_law=law, elements_per_strut=8, radius_tolerance=0.003,
     )  # fmt: skip
+    arms = np.empty(0, np.int64)
+    if model.skin is not None:
+        arms = np.flatnonzero(model.on_wall)
+        deck = with_arms(deck, arms, float(of_struts.mean()))
+    tips = len(deck.nodes) - 3 * len(arms)
     cases = []
     for k, case in enumerate(problem.cases):
-        held, moved = case.held[:count].copy(), np.zeros((count, 6))
+        held, loads, moved = (np.zeros((len(deck.nodes), 6), kind) for kind in (bool, float, float))
+        held[:count], loads[:count] = case.held[:count], case.loads[:count]
+        held[:count][~there] = True
         if case.moved is not None:
-            moved = case.moved[:count].copy()
-        held[~there] = True
-        if model.skin is not None:
-            held[model.on_wall] = True
-            moved[model.on_wall] = final.displacements[:count][model.on_wall][:, :, k]
+            moved[:count] = case.moved[:count]
+        if len(arms):
+            skin = final.displacements[arms, :, k]
+            reach = (deck.nodes[tips:] - np.repeat(deck.nodes[arms], 3, axis=0)).reshape(-1, 3, 3)
+            turned = np.cross(skin[:, None, 3:], reach)
+            held[tips:, :3] = True
+            moved[tips:, :3] = (skin[:, None, :3] + turned).reshape(-1, 3)
         x, y, z = case.acceleration
-        cases.append(Case(held, case.loads[:count], moved if moved.any() else None, (x, y, z)))
+        cases.append(Case(held, loads, moved if moved.any() else None, (x, y, z)))
     modes = 3 if "frequency" in final.uses and model.skin is None else 0
     found = prove(deck, material.for_solver(), cases, modes=modes, monitor=monitor)
+    there[arms] = False
     mine = final.displacements[:count, :3][there]
     theirs = found.displacements[:count][there]
     off = np.linalg.norm(theirs - mine, axis=(0, 1)) / np.linalg.norm(theirs, axis=(0, 1))
@@ -131,6 +144,29 @@ def proved(
         result["frequencies_hz"] = found.frequencies.tolist()
         result["lowest_frequency"] = float(found.frequencies[0] / final.frequency)
     return result
+
+
+def with_arms(model: BeamModel, nodes: Ints, length: float) -> BeamModel:
+    """Beams with three rigid arms at some nodes, along x, y and z; their tips are the last nodes.
+
+    Whoever moves the tips moves and turns the node: CalculiX takes a given turn right about the
+    axes of a beam's section only.
+    """
+    count, own = len(model.nodes), len(nodes)
+    tips = np.repeat(model.nodes[nodes], 3, axis=0) + length * np.tile(np.eye(3), (own, 1))
+    elements = np.stack([np.repeat(nodes, 3), count + np.arange(3 * own)], axis=1)
+    strut = model.strut.max() + 1 + np.arange(3 * own)
+    rigid = Ends(1.0, JOINT_STIFFNESS, JOINT_STIFFNESS)
+    return replace(
+        model,
+        nodes=np.concatenate([model.nodes, tips]),
+        elements=np.concatenate([model.elements, elements]),
+        strut=np.concatenate([model.strut, strut]),
+        section=np.concatenate([model.section, np.full(3 * own, len(model.radii))]),
+        radii=np.append(model.radii, length),
+        is_joint=np.concatenate([model.is_joint, np.ones(3 * own, bool)]),
+        ends=(*model.ends, rigid),
+    )
 
 
 def _free_ends(joined: Bools, struts: Ints, count: int) -> Bools:

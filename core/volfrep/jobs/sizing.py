@@ -158,8 +158,8 @@ def size(
         if over > PEAKS:
             notes.append(
                 f"The skin, which is not sized, is stressed by more than {goal.limits.stress:.4g} "
-                f"MPa on {over:.1%} of its area, mostly where it is held and loaded: make it thicker, "
-                "or look at those places with solid elements."
+                f"MPa on {over:.1%} of its area, mostly where it is held and loaded: make it "
+                "thicker, or look at those places with solid elements."
             )
     if sized.stopped == "cancelled":
         notes.append("The search was cancelled: this is the best design so far.")

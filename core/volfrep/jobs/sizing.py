@@ -4,51 +4,39 @@
 from __future__ import annotations
 
 import os
-import shutil
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..design.grading import RadiusGrading
 from ..design.profile import Profile
 from ..design.scattered_field import PointField
 from ..design.spec import LatticeSpec
 from ..design.spec_parts import largest_radius
-from ..fem.beam_mesh import beam_model
 from ..grid.placement import NUDGE
-from ..grid.strut_graph import Wireframe
 from ..loads.load_cases import LoadCases
-from ..mechanics.catalogue import joint_law
-from ..mechanics.materials import SolidMaterial
 from ..mesh.triangle_mesh import TriangleMesh
 from ..reports.sizing_report import sizing_report
 from ..sizing.analysis import Analysis, Limits, Problem, analysed
+from ..sizing.design_proof import proved, stricter_limits
 from ..sizing.model import SizingModel, elastic, sizing_model
 from ..sizing.node_radii import smoothing
 from ..sizing.optimise import Sized, Step, Watch, lightest, scaled_to_limits, stiffest, uniform
-from ..sizing.proof import end_stresses, prove
 from ..sizing.skin import skin_model
-from ..sizing.structure import Case
-from ..sizing.strut_results import stresses
 from ..util.cache import StageCache
 from ..util.errors import Cancelled, VolfrepError
 from ..util.files import replacing
 from ..util.progress import Monitor, ProgressCallback
-from ..util.types import Floats, Ints
+from ..util.types import Floats
 from .infill import Infill
 
 #: Edges of the skin's triangles over the cell size, and over its thickness at least.
 SKIN_EDGE, SKIN_EDGE_LEAST = 0.6, 1.5
 #: Radii are stored in steps of this, mm, as files keep them.
 RADIUS_STEP = 1e-6
-#: Beams of more struts are not solved by CalculiX unless it is asked for.
-MOST_PROVED = 6_000
-#: A limit that CalculiX finds used more than this makes the design a little thicker.
-PROVED = 1.003
 
 
 @dataclass(frozen=True)
@@ -163,20 +151,35 @@ def size(
             f"The limit of {worst} cannot be held: with the thickest struts that the cells bear "
             f"and that were allowed, {uses[worst]:.0%} of it is used."
         )
+    if model.skin is not None and goal.limits.stress is not None:
+        shells, count = model.skin.shells, model.frame_nodes
+        felt = shells.stresses(sized.analysis.displacements[count:]).max(axis=1)
+        over = float(shells.area[felt > goal.limits.stress].sum() / shells.area.sum())
+        if over > 0.0:
+            notes.append(
+                f"The skin, which is not sized, is stressed by more than {goal.limits.stress:.4g} "
+                f"MPa on {over:.1%} of its area (up to {felt.max():.4g} MPa, mostly where it is "
+                "held and loaded): make it thicker, or look at those places with solid elements."
+            )
     if sized.stopped == "cancelled":
         notes.append("The search was cancelled: this is the best design so far.")
     final = _stored(problem, sized.analysis.radii, goal.limits)
+
+    def solve_again(design: Analysis) -> dict[str, Any] | None:
+        cell, size = spec.unit_cell(), spec.cell_size
+        return proved(model, cell, size, design, loads.material, notes, monitor)
+
     proof = None
     if prove_it and sized.stopped != "cancelled":
         try:
             with monitor.stage("proof", 0.95, 1.0):
-                proof = _proved(model, spec, final, loads.material, notes, monitor)
-                stricter = _stricter(goal.limits, final, proof)
+                proof = solve_again(final)
+                stricter = stricter_limits(goal.limits, final, proof)
                 if proof is not None and stricter != goal.limits and sized.holds:
                     # Where CalculiX finds more than is allowed, the limits are that much stricter.
                     found, _ = scaled_to_limits(problem, stricter, final.radii)
                     final = _stored(problem, found.radii, goal.limits)
-                    proof = _proved(model, spec, final, loads.material, notes, monitor)
+                    proof = solve_again(final)
         except Cancelled:
             proof = None
             notes.append("CalculiX was cancelled: no other solver has proved this design.")
@@ -236,23 +239,6 @@ def _stored(problem: Problem, radii: Floats, limits: Limits) -> Analysis:
     """A design as files keep it: radii in whole steps, not thinner than they were."""
     steps = np.ceil(radii / RADIUS_STEP - 1e-6) * RADIUS_STEP
     return analysed(problem, steps, limits)[0]
-
-
-def _stricter(limits: Limits, final: Analysis, proof: dict[str, Any] | None) -> Limits:
-    """Limits with which a design holds the given ones when CalculiX solves it."""
-    if proof is None or proof["given_the_skin"]:
-        return limits
-    wanted = limits
-    if limits.stress is not None and final.uses["stress"] * proof["largest_stress"] > PROVED:
-        wanted = replace(wanted, stress=limits.stress / proof["largest_stress"])
-    moved = max(proof["largest_displacement"])
-    if limits.displacement is not None and final.uses["displacement"] * moved > PROVED:
-        wanted = replace(wanted, displacement=limits.displacement / moved)
-    if limits.frequency is not None:
-        ratio = proof["lowest_frequency"]
-        if final.uses["frequency"] / ratio > PROVED:
-            wanted = replace(wanted, frequency=limits.frequency / ratio)
-    return wanted
 
 
 def radius_field(points: Floats, radii: Floats) -> RadiusGrading:
@@ -326,74 +312,3 @@ def _designed(
         )
     made = stiffest(problem, volume, first, weights=weights, most_steps=most_steps, watch=watch)
     return made, None
-
-
-def _proved(
-    model: SizingModel, spec: LatticeSpec, final: Analysis, material: SolidMaterial,
-    notes: list[str], monitor: Monitor,
-) -> dict[str, Any] | None:  # fmt: skip
-    """How far CalculiX agrees on the final design; with a skin, given how the skin moves."""
-    problem = model.problem
-    beams, count = problem.structure.beams, model.frame_nodes
-    if shutil.which("ccx") is None:
-        notes.append("CalculiX (ccx) is not installed: no other solver has proved this design.")
-        return None
-    if len(beams.struts) > MOST_PROVED:
-        notes.append(
-            f"CalculiX was not asked: it takes minutes for more than {MOST_PROVED:,} struts."
-        )
-        return None
-    of_struts = problem.radii.of_struts(final.radii)
-    nodes = problem.structure.nodes[:count]
-    joints = np.zeros(count)
-    for end in (0, 1):
-        np.maximum.at(joints, beams.struts[:, end], of_struts[:, end])
-    frame = Wireframe(nodes, beams.struts.astype(np.int32), of_struts, joints)
-    there = np.zeros(count, bool)
-    there[beams.struts.ravel()] = True
-    law = joint_law(spec.unit_cell(), spec.cell_size, "square")
-    deck = beam_model(
-        frame, None if beams.joined.all() else _free_ends(beams.joined, beams.struts, count),
-        joint_law=law, elements_per_strut=8, radius_tolerance=0.003,
-    )  # fmt: skip
-    cases = []
-    for k, case in enumerate(problem.cases):
-        held, moved = case.held[:count].copy(), np.zeros((count, 6))
-        if case.moved is not None:
-            moved = case.moved[:count].copy()
-        held[~there] = True
-        if model.skin is not None:
-            held[model.on_wall] = True
-            moved[model.on_wall] = final.displacements[:count][model.on_wall][:, :, k]
-        x, y, z = case.acceleration
-        cases.append(Case(held, case.loads[:count], moved if moved.any() else None, (x, y, z)))
-    modes = 3 if "frequency" in final.uses and model.skin is None else 0
-    found = prove(deck, material.for_solver(), cases, modes=modes, monitor=monitor)
-    mine = final.displacements[:count, :3][there]
-    theirs = found.displacements[:count][there]
-    off = np.linalg.norm(theirs - mine, axis=(0, 1)) / np.linalg.norm(theirs, axis=(0, 1))
-    own = stresses(beams, of_struts, final.forces)
-    summed = np.abs(own.axial) + own.bending
-    felt = end_stresses(found, deck, beams, of_struts)
-    known = np.isfinite(felt)
-    worst = float(np.where(known, felt, summed).max() / summed.max())
-    result: dict[str, Any] = {
-        "displacements_off": [float(value) for value in off],
-        "largest_displacement": (
-            np.linalg.norm(theirs, axis=1).max(axis=0) / np.linalg.norm(mine, axis=1).max(axis=0)
-        ).tolist(),
-        "largest_stress": worst,
-        "struts_compared": float(known.mean()),
-        "given_the_skin": model.skin is not None,
-    }
-    if modes:
-        result["frequencies_hz"] = found.frequencies.tolist()
-        result["lowest_frequency"] = float(found.frequencies[0] / final.frequency)
-    return result
-
-
-def _free_ends(joined: NDArray[np.bool_], struts: Ints, count: int) -> NDArray[np.bool_]:
-    """(n,) nodes at which a strut ends that no joint stiffens."""
-    result = np.zeros(count, bool)
-    result[struts[~joined]] = True
-    return result

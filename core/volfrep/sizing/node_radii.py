@@ -9,14 +9,15 @@ import numpy as np
 from scipy import sparse
 from scipy.stats import qmc
 
+from ..lattice.deform import LEAST_ROOM
 from ..util.types import Floats, Ints
 
 #: Points in the ball about a joint by which its struts' overlap is found, and how far that is
 #: looked at, in radii.
 _POINTS = 4096
 _FARTHEST = 6.0
-#: Struts whose sides meet at more than this part of their length from the node are too thick.
-MEET_BEFORE = 0.42
+#: Of the radius at which the mesh of struts would have no room between their joints.
+_SAFE = 0.9
 #: Directions of struts that differ by less are the same.
 _SAME = 1e-4
 _ODD = np.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9], np.uint64)
@@ -114,7 +115,8 @@ def joint_overlap(nodes: Floats, struts: Ints, sphere: float) -> Floats:
 def largest_radii(nodes: Floats, struts: Ints, most: float) -> Floats:
     """(n,) mm: the largest radius at each node with which its struts part before their middles.
 
-    Two struts that meet at an angle of t part at r / tan(t / 2) from the node.
+    Two struts that meet at an angle of t part at r / tan(t / 2) from the node; from there to the
+    middle the mesh needs a little room.
 
     Args:
         nodes: (n, 3) mm.
@@ -122,16 +124,22 @@ def largest_radii(nodes: Floats, struts: Ints, most: float) -> Floats:
         most: no radius is larger, mm.
     """
     stars, of_node = _stars(nodes, struts)
-    slope = np.full(len(stars), np.inf)
+    reach = np.zeros(len(stars))
     for k, ways in enumerate(stars):
         if len(ways) > 1:
             cosine = np.sort(ways @ ways.T - 3.0 * np.eye(len(ways)), axis=1)[:, -1]
-            slope[k] = np.tan(0.5 * np.arccos(np.clip(cosine.max(), -1.0, 1.0)))
+            half = 0.5 * np.arccos(np.clip(cosine.max(), -1.0, 1.0))
+            reach[k] = 1.0 / np.tan(half)
     length = np.linalg.norm(nodes[struts[:, 1]] - nodes[struts[:, 0]], axis=1)
     shortest = np.full(len(nodes), np.inf)
     for end in (0, 1):
         np.minimum.at(shortest, struts[:, end], length)
-    return np.asarray(np.minimum(most, MEET_BEFORE * shortest * slope[of_node]))
+    own = _SAFE * 0.5 * shortest / (reach[of_node] + LEAST_ROOM)
+    # A node on the outside has few struts, but the octants there are cut from whole cells.
+    result = own.copy()
+    for end, other in ((0, 1), (1, 0)):
+        np.minimum.at(result, struts[:, end], own[struts[:, other]])
+    return np.asarray(np.minimum(most, result))
 
 
 def smoothing(struts: Ints, count: int, share: float) -> sparse.csr_matrix:

@@ -151,8 +151,11 @@ def _room(
         )), shape=(len(result),) * 2,
     )  # fmt: skip
     near.data[:] = 1.0
-    about = np.asarray(near @ result).ravel() / np.maximum(np.asarray(near.sum(axis=1)).ravel(), 1)
-    return np.maximum(np.minimum(result, about), 0.02 * far)
+    known = (result < far).astype(float)
+    number = np.asarray(near @ known).ravel()
+    about = np.asarray(near @ (result * known)).ravel() / np.maximum(number, 1.0)
+    rim = (result >= far) & (number > 0.0)
+    return np.maximum(np.where(rim, about, result), 0.02 * far)
 
 
 def _inwards(

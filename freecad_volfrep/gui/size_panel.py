@@ -107,12 +107,15 @@ class SizePanel:
 
     Args:
         obj: the infill.
+
+    Raises:
+        VolfrepError: at construction: the document has no analysis with loads.
     """
 
     def __init__(self, obj: App.DocumentObject) -> None:
         self._obj, self._doc = obj, obj.Document
-        self._doc.openTransaction(translate("VOLFREP_SizeLattice", "Size Lattice"))
         self._analyses = analyses_of(obj)
+        self._doc.openTransaction(translate("VOLFREP_SizeLattice", "Size Lattice"))
         self._steps: list[tuple[str, ...]] = []
         self._outcome: Outcome | None = None
         close_struts(obj)

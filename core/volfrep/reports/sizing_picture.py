@@ -34,6 +34,7 @@ def sizing_picture(
     case: int = 0,
     deformed: float = 0.0,
     size: tuple[int, int] = SIZE,
+    y_up: bool = False,
 ) -> None:
     """Draw the struts of a design into a PNG, or show them in a window; a skin is transparent.
 
@@ -45,6 +46,7 @@ def sizing_picture(
         case: the number of the load case.
         deformed: how many times as large displacements are drawn; 0 for none.
         size: of the picture, pixels.
+        y_up: whether y is up in it, and not z.
 
     Raises:
         VolfrepError: pyvista is missing, or the file cannot be written.
@@ -73,7 +75,7 @@ def sizing_picture(
         outside = model.skin.outside
         skin = pyvista.PolyData.from_regular_faces(outside.vertices + shift, outside.triangles)
         stage.add_mesh(skin, color=_SKIN, opacity=0.15)
-    show_stage(stage, file, zoom=1.25)
+    show_stage(stage, file, y_up=y_up, zoom=1.25)
 
 
 def _values(

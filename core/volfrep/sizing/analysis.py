@@ -148,7 +148,7 @@ def analysed(
     of_struts = problem.radii.of_struts(radii)
     moved, factors = structure.displacements(of_struts, problem.cases)
     forces = structure.forces(of_struts, moved)
-    loads = np.stack([case.loads for case in problem.cases], axis=-1)
+    loads = structure.all_loads(of_struts, problem.cases)
     compliance = np.einsum("nik,nik->k", loads, moved)
     stress = stresses(beams, of_struts, forces).mises
     critical = buckling_loads(beams, of_struts, len(structure.nodes))
@@ -196,6 +196,16 @@ def analysed(
             axis=1,
         )
 
+    def heavier(other: Floats) -> Floats:
+        """(n, k) of the work of what acceleration pulls with in displacements (nodes, 6, k)."""
+        result = np.zeros((len(radii), len(problem.cases)))
+        for k, case in enumerate(problem.cases):
+            if any(case.acceleration):
+                pull = np.zeros(moved.shape[:2])
+                pull[:, :3] = case.acceleration
+                result[:, k] = _mass_change(problem, of_struts, other[:, :, k], pull)
+        return result
+
     of_displacement = of_frequency = None
     if limits.displacement is not None:
         way = np.zeros((len(moved), 6, len(factors)))
@@ -204,28 +214,34 @@ def analysed(
         way[far, :3, every] = moved[far, :3, every] / np.maximum(size[far, every], 1e-300)[:, None]
         back = structure.answers(factors, way)
         virtual = structure.forces(of_struts, back)
-        of_displacement = change(virtual, forces) / limits.displacement
+        of_displacement = change(virtual, forces) + heavier(back)
+        of_displacement = of_displacement / limits.displacement
     if limits.frequency is not None and mode is not None:
         strained = structure.forces(of_struts, mode)
         rate = (2.0 * np.pi * frequency) ** 2
         # d w2 = mode (dK - w2 dM) mode, and dK is - K dF K.
         stiffer = -change(strained, strained)[:, 0]
-        heavier = _mass_change(problem, of_struts, mode)
-        of_frequency = -0.5 * (stiffer - rate * heavier) / rate * limits.frequency / frequency
-    return analysis, Changes(change(forces, forces), of_displacement, of_frequency)
+        mass = _mass_change(problem, of_struts, mode[:, :, 0], mode[:, :, 0])
+        of_frequency = -0.5 * (stiffer - rate * mass) / rate * limits.frequency / frequency
+    of_compliance = change(forces, forces) + 2.0 * heavier(moved)
+    return analysis, Changes(of_compliance, of_displacement, of_frequency)
 
 
-def _mass_change(problem: Problem, of_struts: Floats, mode: Floats) -> Floats:
-    """(n,) derivative of a mode's mass to the radii at the nodes, by a step at each strut's end."""
+def _mass_change(problem: Problem, of_struts: Floats, left: Floats, right: Floats) -> Floats:
+    """(n,) derivative of left M right to the radii at the nodes, by a step at each strut's end.
+
+    Of motions (nodes, 6); the mass is the struts'.
+    """
     beams = problem.structure.beams
-    first, second = mode[beams.struts[:, 0], :, 0], mode[beams.struts[:, 1], :, 0]
+    first, second = beams.struts.T
 
     def felt(radii: Floats) -> Floats:
         one, between, two = beams.mass(radii)
         return np.asarray(
-            np.einsum("mi,mij,mj->m", first, one, first)
-            + 2.0 * np.einsum("mi,mij,mj->m", first, between, second)
-            + np.einsum("mi,mij,mj->m", second, two, second)
+            np.einsum("mi,mij,mj->m", left[first], one, right[first])
+            + np.einsum("mi,mij,mj->m", left[first], between, right[second])
+            + np.einsum("mi,mij,mj->m", right[first], between, left[second])
+            + np.einsum("mi,mij,mj->m", left[second], two, right[second])
         )
 
     result = np.empty(of_struts.shape)

@@ -103,7 +103,8 @@ def stiffest(
         watch: told of every step.
 
     Raises:
-        VolfrepError: the volume lies outside what the bounds allow, or the structure moves freely.
+        VolfrepError: the volume lies outside what the bounds allow, a case has no forces, or the
+            structure moves freely.
     """
     shape, low, high = problem.radii, problem.low, problem.high
     least, most = shape.volume(low), shape.volume(high)
@@ -120,6 +121,11 @@ def stiffest(
     for number in range(most_steps):
         found, changes = analysed(problem, radii, none, with_changes=True)
         assert changes is not None
+        if not (found.compliance > 0.0).all():
+            raise VolfrepError(
+                "Stiffness is how little a part gives way to forces, and a load case has none: "
+                "give limits instead, or forces."
+            )
         if weights is None:
             weights = 1.0 / np.maximum(np.abs(found.compliance), 1e-300) / len(found.compliance)
         value = float(weights @ found.compliance)

@@ -141,13 +141,12 @@ class Structure:
         Raises:
             VolfrepError: a part of the structure can move without resistance.
         """
-        mass = self.mass(radii) if any(any(case.acceleration) for case in cases) else None
         factors: list[Factored] = []
         for k, case in enumerate(cases):
             held = case.held
             same = next((j for j in range(k) if np.array_equal(cases[j].held, held)), None)
             factors.append(self.factored(radii, held) if same is None else factors[same])
-        loads = np.stack([self.loads_of(case, mass) for case in cases], axis=-1)
+        loads = self.all_loads(radii, cases)
         moved = None
         if any(case.moved is not None for case in cases):
             still = np.zeros((len(self.nodes), 6))
@@ -168,13 +167,17 @@ class Structure:
             result[:, :, own] = factor.displacements(loads[:, :, own], given)
         return self.followed(result)
 
-    def loads_of(self, case: Case, mass: sparse.csc_matrix | None) -> Floats:
-        """(n, 6) a case's loads with what acceleration adds."""
-        if mass is None or not any(case.acceleration):
-            return case.loads
-        pull = np.zeros_like(case.loads)
-        pull[:, :3] = case.acceleration
-        return case.loads + self._pattern.restored(mass @ self._pattern.ordered(pull))
+    def all_loads(self, radii: Floats, cases: Sequence[Case]) -> Floats:
+        """(n, 6, cases) N and N mm, with what accelerations add."""
+        loads = np.stack([case.loads for case in cases], axis=-1)
+        if any(any(case.acceleration) for case in cases):
+            mass = self.mass(radii)
+            for k, case in enumerate(cases):
+                pull = np.zeros_like(case.loads)
+                pull[:, :3] = case.acceleration
+                # On leaders already: what follows them has no unknowns of its own.
+                loads[:, :, k] += self._pattern.restored(mass @ self._pattern.ordered(pull))
+        return loads
 
     def forces(self, radii: Floats, displacements: Floats) -> Floats:
         """(m, 6, k) in the struts, see `Beams.forces`, of displacements (n, 6, k)."""

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Radii at nodes: volume, bounds, derivatives, and designs that are better than one radius."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -98,6 +100,8 @@ def test_a_lattice_whose_radii_jump_between_their_bounds_has_a_mesh(cell):
 
 def test_derivatives_are_those_of_differences():
     problem, radii = cantilever(count=(4, 2, 2), cases=3)
+    heavy = replace(problem.cases[1], acceleration=(2e8, -3e8, 1e8))
+    problem = replace(problem, cases=(problem.cases[0], heavy, problem.cases[2]))
     radii = radii * (1.0 + 0.3 * np.sin(np.arange(len(radii))) ** 2)
     limits = Limits(stress=100.0, displacement=1.0, frequency=100.0)
     found, changes = analysed(problem, radii, limits, with_changes=True)
@@ -158,6 +162,10 @@ def test_limits_that_cannot_be_held_are_told():
     assert not made.holds
     with pytest.raises(VolfrepError, match="needs a limit"):
         lightest(problem, Limits(), radii)
+    case = problem.cases[0]
+    pushed = replace(case, loads=0.0 * case.loads, moved=np.where(case.held, 0.1, 0.0))
+    with pytest.raises(VolfrepError, match="has none"):
+        stiffest(replace(problem, cases=(pushed,)), 300.0, radii)
     with pytest.raises(VolfrepError, match="cannot be reached"):
         stiffest(problem, 1e9, radii)
     with pytest.raises(VolfrepError, match="above 0"):

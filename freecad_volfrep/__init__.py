@@ -28,6 +28,7 @@ _EXPORTS = {
     "export_mesh": "freecad_volfrep.features.export",
     "make_print_check": "freecad_volfrep.features.print_check",
     "make_fem_analysis": "freecad_volfrep.features.fem_analysis",
+    "size_lattice": "freecad_volfrep.features.sizing",
 }
 __all__ = [
     "ICONS",
@@ -37,6 +38,7 @@ __all__ = [
     "make_lattice_infill",
     "make_print_check",
     "make_solid",
+    "size_lattice",
 ]
 
 

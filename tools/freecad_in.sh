@@ -23,7 +23,7 @@ root=${FREECAD_ROOTS:-/var/tmp}/volfrep-$name
 targets=("$@")
 # The scripts of the window that hold in this FreeCAD. Those of the part's look, of reaching every
 # command and of the tree know the menus, lists and pictures of FreeCAD 0.20 only so far.
-windows=(commands display languages lattice_infill preferences)
+windows=(commands display languages lattice_infill preferences sizing)
 [ ${#targets[@]} -gt 0 ] ||
   targets=("GUI_SCRIPTS=$(printf 'tests/gui/drive_%s.py ' "${windows[@]}")" test-in-freecad)
 

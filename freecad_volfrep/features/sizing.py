@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING, Any
 
 import FreeCAD as App
@@ -16,6 +16,7 @@ from freecad_volfrep.translation import QT_TRANSLATE_NOOP, marked, translate
 from volfrep.util.errors import VolfrepError
 
 from .progress import job_title, run_job
+from .sized_radii import store_radii
 from .tables import Table
 
 if TYPE_CHECKING:
@@ -201,6 +202,39 @@ def analyses_of(obj: App.DocumentObject) -> list[App.DocumentObject]:
     if not found:
         raise VolfrepError(NO_ANALYSIS)
     return found
+
+
+def size_lattice(
+    obj: App.DocumentObject,
+    analyses: Sequence[App.DocumentObject] | None = None,
+    **wish: Any,
+) -> Outcome:
+    """Size an infill's struts and store the radii; ``doc.recompute()`` then makes the mesh.
+
+    Args:
+        obj: a lattice infill.
+        analyses: of the FEM workbench, the load cases; None for all of the document.
+        **wish: attributes of a `Wish`, in place of those that the panel begins with: such as
+            ``goal="stiffness"``, ``safety=2``, ``displacement=0.1``, ``smallest=0.4``.
+
+    Raises:
+        VolfrepError: there is no such attribute, or as `size_struts`.
+        Cancelled: as `size_struts`.
+    """
+    unknown = wish.keys() - {part.name for part in fields(Wish)}
+    if unknown:
+        names = ", ".join(part.name for part in fields(Wish))
+        raise VolfrepError(f"A wish has no '{min(unknown)}': choose from {names}.")
+    asked = replace(first_wish(obj), **wish)
+    outcome = size_struts(obj, analyses_of(obj) if analyses is None else analyses, asked)
+    store_outcome(obj, outcome)
+    return outcome
+
+
+def store_outcome(obj: App.DocumentObject, outcome: Outcome) -> None:
+    """Give an infill the radii that were found, and what is to be known of them."""
+    store_radii(obj, outcome.part.points, outcome.part.radii)
+    obj.SizingReport = outcome.to_json()
 
 
 def first_wish(obj: App.DocumentObject) -> Wish:

@@ -8,7 +8,6 @@ from typing import Any
 import FreeCAD as App
 import FreeCADGui as Gui
 
-from freecad_volfrep.features.sized_radii import store_radii
 from freecad_volfrep.features.sizing import (
     GOALS,
     Outcome,
@@ -16,6 +15,7 @@ from freecad_volfrep.features.sizing import (
     analyses_of,
     first_wish,
     size_struts,
+    store_outcome,
 )
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 from volfrep.util.errors import Cancelled, VolfrepError
@@ -32,8 +32,8 @@ FIELD, CASES = 82, 62
 HEADER = (
     QT_TRANSLATE_NOOP("VolfrepSizePanel", "Step"),
     QT_TRANSLATE_NOOP("VolfrepSizePanel", "Mass, g"),
-    QT_TRANSLATE_NOOP("VolfrepSizePanel", "Work of the loads, N mm"),
-    QT_TRANSLATE_NOOP("VolfrepSizePanel", "Most used limit"),
+    QT_TRANSLATE_NOOP("VolfrepSizePanel", "Work, N mm"),
+    QT_TRANSLATE_NOOP("VolfrepSizePanel", "Limit"),
 )
 #: Fields of a wish: name, label, decimals, unit, what it means.
 FIELDS = (
@@ -107,12 +107,15 @@ class SizePanel:
 
     Args:
         obj: the infill.
+
+    Raises:
+        VolfrepError: at construction: the document has no analysis with loads.
     """
 
     def __init__(self, obj: App.DocumentObject) -> None:
         self._obj, self._doc = obj, obj.Document
-        self._doc.openTransaction(translate("VOLFREP_SizeLattice", "Size Lattice"))
         self._analyses = analyses_of(obj)
+        self._doc.openTransaction(translate("VOLFREP_SizeLattice", "Size Lattice"))
         self._steps: list[tuple[str, ...]] = []
         self._outcome: Outcome | None = None
         close_struts(obj)
@@ -132,8 +135,7 @@ class SizePanel:
         outcome = self._outcome
         assert outcome is not None
         close_struts(self._obj)
-        store_radii(self._obj, outcome.part.points, outcome.part.radii)
-        self._obj.SizingReport = outcome.to_json()
+        store_outcome(self._obj, outcome)
         if not self._obj.Proxy.update(self._obj):
             self._say(self._obj.Status, wrong=True)
             return False
@@ -290,6 +292,7 @@ class SizePanel:
             self._table.insertRow(row)
             for column, text in enumerate(self._steps[row]):
                 self._table.setItem(row, column, QtWidgets.QTableWidgetItem(text))
+        self._table.resizeColumnsToContents()
         self._table.scrollToBottom()
 
     def _say(self, text: str, wrong: bool = False) -> None:

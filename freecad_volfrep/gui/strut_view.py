@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 #: Name of what hangs in the view's scene, and of the dock.
 NODE = "VolfrepStrutResults"
 DOCK = "VolfrepStrutView"
+#: Colour of the solid's edges.
+OUTLINE = (0.75, 0.75, 0.75)
 #: What struts may be coloured by, marked for translation: `volfrep.sizing.strut_state.QUANTITIES`.
 QUANTITY_NAMES = marked(
     "VolfrepStrutView",
@@ -57,6 +59,8 @@ class StrutDock(QtWidgets.QDockWidget):
         }
         for shown in self._was_visible:
             shown.ViewObject.Visibility = False
+        solid = obj.Proxy.wanted(obj)[0]
+        self._outline = drawing.separate(drawing.material(OUTLINE), drawing.edges(solid))
         self._root = coin.SoSeparator()
         self._root.setName(NODE)
         self._scene = Gui.getDocument(obj.Document.Name).activeView().getSceneGraph()
@@ -102,7 +106,7 @@ class StrutDock(QtWidgets.QDockWidget):
         turn.matrix.setValue(*[a[4 * column + row] for row in range(4) for column in range(4)])
         most_prisms = preferences.read(preferences.MOST_PRISMS)
         struts = coloured_struts(ends[:, 0], ends[:, 1], state.radii, colours, most_prisms)
-        self._root.addChild(drawing.separate(turn, drawing.unpickable(), struts))
+        self._root.addChild(drawing.separate(turn, drawing.unpickable(), struts, self._outline))
         self._root.addChild(legend(translate("VolfrepStrutView", QUANTITIES[name]), low, high))
 
     def shows(self, obj: App.DocumentObject) -> bool:

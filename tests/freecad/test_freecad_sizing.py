@@ -8,7 +8,7 @@ from dataclasses import replace
 import pytest
 from test_freecad_fem_loads import add, analysis_of, face_at
 
-from freecad_volfrep import make_lattice_infill
+from freecad_volfrep import make_lattice_infill, size_lattice
 from freecad_volfrep.features.sized_radii import store_radii
 from freecad_volfrep.features.sizing import (
     GOALS,
@@ -135,6 +135,17 @@ def test_what_cannot_be_sized_is_told(doc, infill):
     outcome = size_struts(infill, [analysis], wish(safety=0, displacement=1e-5))
     assert not outcome.holds
     assert "The limit of displacement cannot be held" in outcome.summary()
+
+
+def test_a_script_sizes_in_one_call(infill):
+    loaded(infill)
+    outcome = size_lattice(infill, safety=2, smallest=0.3, largest=1.6, prove=False)
+    assert outcome.holds
+    assert infill.RadiusGrading == "Field"
+    assert list(infill.SizedRadii) == pytest.approx(outcome.part.radii)
+    assert json.loads(infill.SizingReport)["holds"] is True
+    with pytest.raises(VolfrepError, match="A wish has no 'safty': choose from goal, safety"):
+        size_lattice(infill, safty=2)
 
 
 def test_an_infill_stays_as_it_is_until_radii_are_stored(infill):

@@ -149,6 +149,8 @@ def cancel_the_panel(doc, obj):
     settle()
     shown = {name: part(name).isVisible() for name in ("safety", "mass")}
     check("limits go with another goal", shown == {"safety": False, "mass": True}, shown)
+    click(part("Prove"))
+    check("a check by CalculiX may be left out", not part("Prove").isChecked())
     click(part("Size"))
     check("it is stiffer", wait_until(lambda: "times as stiff" in part("Said").text(), 90),
           part("Said").text())  # fmt: skip
@@ -220,6 +222,21 @@ def show_results(doc, obj):
     check("and leaves nothing in the view", "VolfrepStrutResults" not in names, names)
 
 
+def without_an_analysis(doc, obj):
+    """Where nothing says what the part carries, both commands say so and change nothing."""
+    for analysis in [one for one in doc.Objects if one.isDerivedFrom("Fem::FemAnalysis")]:
+        for member in analysis.Group:
+            doc.removeObject(member.Name)
+        doc.removeObject(analysis.Name)
+    steps = doc.UndoCount
+    for name in ("Size Lattice", "Strut Results"):
+        select(obj)
+        click(toolbar_button(name))
+        check(f"{name} opens nothing", sizing_panel() is None and dock() is None)
+    check("no step either", doc.UndoCount == steps and not doc.HasPendingTransaction)
+    check("the infill is shown", obj.ViewObject.Visibility)
+
+
 def close_the_document(doc, obj):
     """What is shown goes with its document, and with its object."""
     select(obj)
@@ -236,6 +253,7 @@ run_checks(
         cancel_the_panel: loaded,
         escape_keeps_the_best: lambda: loaded((120, 40, 40)),
         show_results: loaded,
+        without_an_analysis: loaded,
         close_the_document: loaded,
     },
 )

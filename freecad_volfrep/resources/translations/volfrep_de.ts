@@ -2003,6 +2003,10 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>Den Entwurf von CalculiX lösen lassen, wo es installiert ist, und sagen, wie weit es übereinstimmt; wo es mehr findet, als eine Grenze erlaubt, werden die Streben dicker</translation>
     </message>
     <message>
+      <source>Limit</source>
+      <translation>Grenze</translation>
+    </message>
+    <message>
       <source>Load cases</source>
       <translation>Lastfälle</translation>
     </message>
@@ -2013,10 +2017,6 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
     <message>
       <source>Most stiffness</source>
       <translation>Größte Steifigkeit</translation>
-    </message>
-    <message>
-      <source>Most used limit</source>
-      <translation>Am meisten genutzte Grenze</translation>
     </message>
     <message>
       <source>Nodes whose struts would grow together stay below it</source>
@@ -2075,8 +2075,8 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>Was die steifsten Streben zusammen wiegen; 0 für das, was Streben mit StrutRadius wiegen</translation>
     </message>
     <message>
-      <source>Work of the loads, N mm</source>
-      <translation>Arbeit der Lasten, N mm</translation>
+      <source>Work, N mm</source>
+      <translation>Arbeit, N mm</translation>
     </message>
     <message>
       <source>Yield safety</source>

@@ -2003,6 +2003,10 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>Fai risolvere il progetto a CalculiX, dove è installato, e di' quanto concorda; dove trova più di quanto un limite consenta, le aste diventano più spesse</translation>
     </message>
     <message>
+      <source>Limit</source>
+      <translation>Limite</translation>
+    </message>
+    <message>
       <source>Load cases</source>
       <translation>Casi di carico</translation>
     </message>
@@ -2013,10 +2017,6 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
     <message>
       <source>Most stiffness</source>
       <translation>Rigidezza massima</translation>
-    </message>
-    <message>
-      <source>Most used limit</source>
-      <translation>Limite più sfruttato</translation>
     </message>
     <message>
       <source>Nodes whose struts would grow together stay below it</source>
@@ -2075,8 +2075,8 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>Quanto pesano insieme le aste più rigide; 0 per il peso delle aste di StrutRadius</translation>
     </message>
     <message>
-      <source>Work of the loads, N mm</source>
-      <translation>Lavoro dei carichi, N mm</translation>
+      <source>Work, N mm</source>
+      <translation>Lavoro, N mm</translation>
     </message>
     <message>
       <source>Yield safety</source>

@@ -17,6 +17,7 @@ from ..design.scattered_field import PointField
 from ..design.spec import LatticeSpec
 from ..design.spec_parts import largest_radius
 from ..grid.placement import NUDGE
+from ..grid.strut_graph import Wireframe
 from ..loads.load_cases import LoadCases
 from ..mesh.triangle_mesh import TriangleMesh
 from ..reports.sizing_report import PEAKS, sizing_report
@@ -130,7 +131,7 @@ def size(
     model = _model(infill, loads, goal)
     problem = model.problem
     shape = problem.radii
-    first = np.clip(np.full(len(problem.low), spec.strut_radius), problem.low, problem.high)
+    first = np.clip(_given_radii(model.wireframe), problem.low, problem.high)
     seconds = {"model": time.perf_counter() - start}
     start = time.perf_counter()
     notes: list[str] = []
@@ -265,10 +266,14 @@ def _model(infill: Infill, loads: LoadCases, goal: Goal) -> SizingModel:
     spec, material = infill.spec, loads.material
     if spec.output == "domain":
         raise VolfrepError("The output 'domain' holds no lattice to size: choose part or lattice.")
+    if spec.target is not None:
+        raise VolfrepError(
+            "Sizing chooses the radii itself: leave the target out, and give limits or a mass."
+        )
     if spec.fillet:
         raise VolfrepError("Struts with fillets cannot be sized: set the fillet to 0.")
     wireframe, clipped = infill.struts, infill.axes
-    own = spec.strut_radius
+    own = float(np.median(wireframe.radii))
     least = goal.radius_min if goal.radius_min is not None else 0.5 * own
     bears = 0.98 * largest_radius(spec.cell_size, spec.fillet)
     most = bears if goal.radius_max is None else min(goal.radius_max, bears)
@@ -294,6 +299,13 @@ def _model(infill: Infill, loads: LoadCases, goal: Goal) -> SizingModel:
         smoother = smoothing(wireframe.struts.astype(np.int64), len(wireframe.nodes), goal.smooth)
         model = replace(model, problem=replace(model.problem, smoother=smoother))
     return model
+
+
+def _given_radii(wireframe: Wireframe) -> Floats:
+    """(n,) mm, the radii at the nodes that the specification says."""
+    result = np.zeros(len(wireframe.nodes))
+    result[wireframe.struts] = wireframe.radii
+    return result
 
 
 def _designed(

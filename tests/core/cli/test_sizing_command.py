@@ -101,6 +101,7 @@ def test_with_a_skin_the_struts_end_in_it_and_both_are_told(
         (["--strut-mass", "900"], "cannot be reached"),
         (["--thinnest", "3", "--thickest", "2"], "make no sense"),
         (["--steps", "0"], "at least one step"),
+        (["--fillet", "0.2"], "set the fillet to 0"),
         (["--smooth", "2"], "from 0 to 0.9"),
         (["--colour", "stress"], "give it"),
         (["--write-spec", "s.toml"], "give --radii"),
@@ -117,6 +118,13 @@ def test_a_part_that_is_not_held_is_refused(part: Path, capsys: pytest.CaptureFi
     text = LOADS.replace("fixed = true", "x = 0")
     loads.write_text(text, encoding="utf-8")
     assert "move freely" in refusal(part, capsys, *WHOLE, "--no-proof")
+
+
+def test_a_target_for_the_radius_is_refused(part: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    loads, out = part.with_name("loads.toml"), part.with_name("out.stl")
+    lattice = ["--cell", "CVC", "--cell-size", 10, "--relative-density", 0.1]
+    assert run("size", part, "--loads", loads, "-o", out, *lattice, "--quiet") == 2
+    assert "leave the target out" in capsys.readouterr().err
 
 
 def test_limits_that_cannot_be_held_are_told(

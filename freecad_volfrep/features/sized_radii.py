@@ -34,6 +34,7 @@ def store_radii(
     kept = np.round(radii, DECIMALS)
     low, high = float(kept.min()), float(kept.max())
     obj.RadiusResult, obj.RadiusField, obj.RadiusColumn = None, "", ""
+    obj.RadiusDrivenBy = "Radius"
     if low == high:
         obj.SizedNodes, obj.SizedRadii = [], []
         obj.RadiusGrading, obj.StrutRadius = "None", low

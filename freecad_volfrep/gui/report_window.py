@@ -49,6 +49,8 @@ WORDS = marked(
     "most stressed strut, at x, y, z", "The same beams in CalculiX", "displacements differ by, %",
     "largest stress there over here", "lowest frequency there over here", "Notes", "Steps", "step",
     "mass, g", "most used limit",
+    "What the lattice does", "relative density", "density", "E100", "E110", "E111", "G", "bulk",
+    "nu", "zener", "strength", "shear strength", "conductivity",
 )  # fmt: skip
 
 

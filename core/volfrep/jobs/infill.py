@@ -12,7 +12,6 @@ from functools import cached_property
 import numpy as np
 
 from ..design.memory_guard import refuse_expected
-from ..design.openings import lie_on
 from ..design.spec import LatticeSpec
 from ..grid.placement import Placement, graded_wireframe, placement_in
 from ..grid.strut_graph import CellGraph, Wireframe, cell_graph
@@ -25,7 +24,7 @@ from ..lattice.padded_grid import (
     vertices_of,
 )
 from ..mesh.float32_repair import shortest_edge
-from ..mesh.quality import Quality, measure
+from ..mesh.quality import Quality, inspect, measure
 from ..mesh.triangle_mesh import TriangleMesh
 from ..octants.octant import OctantKey
 from ..octants.octant_mesh import Octant, OctantSpec, mesh_octants, octant_spec
@@ -39,9 +38,10 @@ from ..trim.beam_model import (
     refuse_fillets,
 )
 from ..trim.boolean_trim import KeptOctants
-from ..trim.clip_struts import AT_WALL, Clipped, clip, unclipped
+from ..trim.clip_struts import Clipped
 from ..trim.drains import Drained, trapped
 from ..trim.finish import finished, pieces_told, tidied
+from ..trim.held_struts import Held, axes_of, held
 from ..trim.loose_pieces import Cleared
 from ..trim.prune import Pruned, prune
 from ..trim.stage import (
@@ -59,7 +59,7 @@ from ..util.errors import VolfrepError
 from ..util.progress import Monitor, ProgressCallback
 from .active_cells import ActiveCells, activated, roles_of
 from .finer import until_sound
-from .octant_guard import refuse_solid_cells, refuse_too_large
+from .octant_guard import refuse_larger_cells, refuse_solid_cells, refuse_too_large
 from .target_report import judged
 
 
@@ -104,13 +104,7 @@ class Infill:
         progress: ProgressCallback | None = None,
         monitor: Monitor | None = None,
     ) -> None:
-        size = solid.bounds[1] - solid.bounds[0]
-        if spec.cell_size > size.max():
-            raise VolfrepError(
-                f"Cells of {spec.cell_size:g} mm are larger than the part, which measures "
-                f"{size[0]:.4g} x {size[1]:.4g} x {size[2]:.4g} mm: reduce the cell size, "
-                "or see whether the part is in another unit."
-            )
+        refuse_larger_cells(solid, spec.cell_size)
         self.solid, self.spec = solid, spec
         self.monitor = monitor or Monitor(progress)
         self._cache = cache or StageCache()
@@ -120,6 +114,7 @@ class Infill:
         self._solid = Kept(solid, content_of(solid.vertices, solid.triangles))
         self._watch = Kept(self.monitor, "no result depends on it")
         self._laid_octants: dict[bool, Laid] = {}
+        self._held_struts: dict[bool, Held] = {}
         self._notes: tuple[str, ...] = ()
 
     @property
@@ -257,36 +252,29 @@ class Infill:
         if self._skin is None:
             return self.lattice_beams
         refuse_fillets(self._struts)
-        struts, drains = self.struts, self.spec.drains
+        kept, drains = self._held(is_cut=True), self.spec.drains
+        struts = kept.without_loose(self.struts)
         made = part_beams(self.solid, self.cavity, struts, self._skin, drains, self.monitor)
-        return replace(made, warnings=self._beam_warnings + made.warnings)
+        warnings = self._beam_warnings + made.warnings
+        return replace(made, warnings=warnings, loose=kept.told)
 
     @cached_property
     def lattice_beams(self) -> BeamModel:
         """The lattice as beams, without a skin."""
         refuse_fillets(self._struts)
-        struts, clip_at = self.struts, None
+        kept, clip_at = self._held(is_cut=self._boundary.is_trimmed), None
+        struts = kept.without_loose(self.struts)
         if self._boundary.is_trimmed:
             clip_at = self.solid if self._skin is None else self.cavity
             struts = reaching_into(struts, clip_at)
-        return BeamModel(struts, clip_at, warnings=self._beam_warnings)
+        return BeamModel(struts, clip_at, warnings=self._beam_warnings, loose=kept.told)
 
     @cached_property
     def axes(self) -> Clipped:
         """The struts' axes, cut where they leave the domain."""
-        if not self.placement.is_cut:
-            return unclipped(self.struts)
-        clipped = clip(self.struts, self.cavity)
-        openings = self.domain.openings
-        if openings is not None:
-            frame = clipped.wireframe
-            free = lie_on(openings, frame.nodes, AT_WALL * frame.joint_radii)
-            clipped = replace(clipped, on_wall=clipped.on_wall & ~free)
-        if not len(clipped.wireframe.struts):
-            raise VolfrepError(
-                "No strut's axis lies inside the part: reduce the cell size or move the origin."
-            )
-        return clipped
+        is_cut = self.placement.is_cut
+        wall = self.cavity if is_cut else None
+        return axes_of(self.struts, wall, self._held(is_cut=is_cut), self.domain.openings)
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -297,6 +285,17 @@ class Infill:
     @property
     def _beam_warnings(self) -> tuple[str, ...]:
         return self.warnings + deformed_struts(self._grid, self._struts)
+
+    def _held(self, *, is_cut: bool) -> Held:
+        """Which pieces of the struts stay, where a wall cuts them or where they are whole."""
+        if is_cut not in self._held_struts:
+            wall = self.cavity if is_cut else None
+            self._held_struts[is_cut] = held(
+                self.struts, wall, has_skin=self._skin is not None,
+                bodies=max(1, inspect(self.solid).quality.bodies),
+                openings=self.domain.openings, keep_all=self._boundary.keep_pieces,
+            )  # fmt: skip
+        return self._held_struts[is_cut]
 
     def _laid(self, *, is_cut: bool) -> Laid:
         """The octants laid in the part, as of a lattice that a wall cuts, or as they are."""
@@ -354,11 +353,13 @@ class Infill:
         has_skin = self._skin is not None
         return cut_lattice(
             laid, self.solid, self.domain, self._meshing, self.monitor,
-            has_skin=has_skin, with_skin=with_skin,
+            has_skin=has_skin, with_skin=with_skin, keep_pieces=self._boundary.keep_pieces,
         )  # fmt: skip
 
     def _uncut(self, laid: Laid) -> Cleared:
-        return uncut_lattice(laid, self.solid, self._meshing, self.monitor)
+        return uncut_lattice(
+            laid, self.solid, self._meshing, self.monitor, keep_pieces=self._boundary.keep_pieces
+        )
 
     def _reported(self, output: str, cleared: Cleared, drained: Drained | None = None) -> Result:
         """A mesh with the figures of what it is and of how it was made."""

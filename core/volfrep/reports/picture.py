@@ -72,7 +72,7 @@ def new_stage(file: str | os.PathLike[str] | None, size: tuple[int, int] = SIZE)
     Raises:
         VolfrepError: pyvista is missing, the name does not end in .png, or it cannot be written.
     """
-    library = _library()
+    library = drawing_library()
     if file is not None:
         check_picture(file)
     stage = library.Plotter(off_screen=file is not None, window_size=list(size), lighting="none")
@@ -89,7 +89,7 @@ def add_surface(
 ) -> None:
     """Put a mesh into a scene: of its colour so much is not shaded."""
     stage.add_mesh(
-        _surface(_library(), mesh), color=colour, ambient=ambient, diffuse=1.0 - ambient,
+        _surface(drawing_library(), mesh), color=colour, ambient=ambient, diffuse=1.0 - ambient,
         specular=0.12, specular_power=25, smooth_shading=True, split_sharp_edges=True,
         feature_angle=FEATURE_ANGLE, opacity=opacity,
     )  # fmt: skip
@@ -136,12 +136,17 @@ def check_picture(file: str | os.PathLike[str]) -> None:
     Raises:
         VolfrepError: pyvista is missing, the name does not end in .png, or it cannot be written.
     """
-    _library()
+    drawing_library()
     if check_writable(file).suffix.lower() != ".png":
         raise VolfrepError(f"Cannot write '{file}': a picture's name ends in .png.")
 
 
-def _library() -> Any:
+def drawing_library() -> Any:
+    """The package that draws, pyvista.
+
+    Raises:
+        VolfrepError: it is missing; the text says how to install it.
+    """
     try:
         import pyvista
     except ImportError as error:

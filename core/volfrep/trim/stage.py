@@ -131,6 +131,7 @@ def cut_lattice(
     *,
     has_skin: bool,
     with_skin: bool,
+    keep_pieces: bool = False,
 ) -> Cleared:
     """The part or the lattice, without loose pieces and slivers, and its quality.
 
@@ -142,6 +143,7 @@ def cut_lattice(
         monitor: for progress and cancel.
         has_skin: whether a skin lies about the domain, which holds the lattice.
         with_skin: whether the lattice is joined to it.
+        keep_pieces: pieces that hang on nothing stay.
 
     Raises:
         VolfrepError: nothing is left, or nothing would hold it.
@@ -150,7 +152,7 @@ def cut_lattice(
     trimmed = trim(wall, laid.kept, laid.layout, laid.points, cavity=with_skin, monitor=monitor)
     mesh, cut, removed, lost = trimmed.mesh, trimmed.cut, 0, 0.0
     smallest, precision = smallest_shell(octant_spec), shortest_edge(solid)
-    if has_skin and not with_skin:
+    if has_skin and not (with_skin or keep_pieces):
         on_wall = np.flatnonzero(trimmed.on_wall)
         held = clear(mesh, inspect(mesh, monitor), smallest, keep=on_wall)
         mesh, cut = held.mesh, len(held.mesh.triangles)
@@ -160,9 +162,9 @@ def cut_lattice(
     mesh = tidied(mesh, precision, monitor, cut)
     found = inspect(mesh, monitor)
     bodies = 0
-    if not has_skin:
+    if not (has_skin or keep_pieces):
         bodies = max(1, inspect(solid).quality.bodies)
-    cleared = clear(mesh, found, smallest, floating=with_skin, bodies=bodies)
+    cleared = clear(mesh, found, smallest, floating=with_skin and not keep_pieces, bodies=bodies)
     if not len(cleared.mesh.triangles):
         if with_skin:
             raise cells_are_full(octant_spec.cell_size, octant_spec.strut_radius)
@@ -180,7 +182,9 @@ def cut_lattice(
         volume_removed=cleared.volume_removed + lost,
     )
     if domain.openings is not None:
-        return _opened(cleared, solid, domain, domain.openings, smallest, with_skin, monitor)
+        return _opened(
+            cleared, solid, domain, domain.openings, smallest, with_skin, keep_pieces, monitor
+        )
     if not with_skin:
         return cleared
     whole = concatenate(solid, cleared.mesh)
@@ -215,6 +219,7 @@ def _opened(
     openings: TriangleMesh,
     smallest: float,
     with_skin: bool,
+    keep_pieces: bool,
     monitor: Monitor,
 ) -> Cleared:
     """The part, or its lattice, cut at its open faces, beyond which the cavity reaches."""
@@ -228,7 +233,9 @@ def _opened(
         mesh = monitor.call(lambda: intersection(lattice, solid))
     mesh = tidied(mesh, precision, monitor)
     found = inspect(mesh, monitor)
-    if with_skin:
+    if keep_pieces:
+        rest = clear(mesh, found, smallest)
+    elif with_skin:
         rest = clear(mesh, found, smallest, bodies=inspect(solid).quality.bodies)
     else:
         rest = clear(mesh, found, smallest, keep=_on_skin(mesh, domain, openings, precision))
@@ -253,13 +260,18 @@ def _on_skin(
 
 
 def uncut_lattice(
-    laid: Laid, solid: TriangleMesh, octant_spec: OctantSpec, monitor: Monitor
+    laid: Laid,
+    solid: TriangleMesh,
+    octant_spec: OctantSpec,
+    monitor: Monitor,
+    *,
+    keep_pieces: bool = False,
 ) -> Cleared:
     """The lattice of whole cells as it is, without loose pieces, and its quality."""
     whole = compact(TriangleMesh(laid.points, facets(laid.layout, monitor)))
     mesh = tidied(whole, shortest_edge(whole), monitor)
     found = inspect(mesh, monitor)
-    bodies = max(1, inspect(solid).quality.bodies)
+    bodies = 0 if keep_pieces else max(1, inspect(solid).quality.bodies)
     return clear(mesh, found, smallest_shell(octant_spec), bodies=bodies)
 
 

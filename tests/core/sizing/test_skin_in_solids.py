@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
+from volfrep.jobs.decimate import reduce_triangles
 
 from volfrep import LatticeSpec
 from volfrep.fem.calculix import solve
@@ -14,7 +15,6 @@ from volfrep.fem.model import StaticStep
 from volfrep.fem.tet_mesh import TetrahedralMesh, tetrahedra
 from volfrep.io.solid import check_solid
 from volfrep.io.write.calculix import write_tetrahedra
-from volfrep.jobs.decimate import reduce_triangles
 from volfrep.jobs.infill import Infill
 from volfrep.jobs.sizing import Goal, size
 from volfrep.loads.load_cases import Force, LoadCase, LoadCases, Support

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from ...lattice.assembly import Layout, in_steps, placed
 from ...octants.octant import OctantGrid, frames
 from ...octants.octant_mesh import Octant
+from ...util.linalg import along
 from ...util.progress import Monitor
 from .stl import BLOCK_FACETS, FACET, Facets, write_facets
 
@@ -56,11 +57,11 @@ def _keeps_apart(octant: Octant, size: float, safe: float) -> bool:
     if min(inner.min(initial=size), (size - inner).min(initial=size)) <= safe:
         return False
     # Along a line on which few of them share a place, only the next ones can be that near.
-    along = points @ GENERIC
-    order = np.argsort(along)
-    points, along = points[order], along[order]
+    place = along(points, GENERIC)
+    order = np.argsort(place)
+    points, place = points[order], place[order]
     for ahead in range(1, len(points)):
-        near = np.flatnonzero(along[ahead:] - along[:-ahead] <= safe)
+        near = np.flatnonzero(place[ahead:] - place[:-ahead] <= safe)
         if not len(near):
             break
         gap = points[near + ahead] - points[near]

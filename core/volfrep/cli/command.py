@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..util.errors import VolfrepError
-from . import layers, material, printing_options, process, properties, solver_options, sweep
+from . import layers, material, printing_options, process, properties, sizing, solver_options, sweep
 from .files import check_files
 from .parameter_options import add_parameters, write_specification
 from .parser import Parser, Version, refuse_old, three_whole_numbers
@@ -111,6 +111,7 @@ def _parser() -> argparse.ArgumentParser:
     _add_unit(layers.add_command(add))
     properties.add_command(add)
 
+    sizing.add_command(add)
     sweep.add_command(add)
 
     check = add("check", _check, "Tell what a reader sees in a mesh file (STL, OBJ, PLY, 3MF).")

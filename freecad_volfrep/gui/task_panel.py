@@ -295,7 +295,7 @@ class TaskPanel:
 
     def _number_field(self, name: str) -> Any:
         """A number of the unit that `quantities` have for the property."""
-        field = QtWidgets.QDoubleSpinBox()
+        field = _PlainNumber()
         field.setRange(0.0, _LARGEST)
         field.setDecimals(3)
         field.setStepType(QtWidgets.QAbstractSpinBox.AdaptiveDecimalStepType)
@@ -383,6 +383,16 @@ class TaskPanel:
         Gui.Control.closeDialog()
         if Gui.ActiveDocument is not None:
             Gui.ActiveDocument.resetEdit()
+
+
+class _PlainNumber(QtWidgets.QDoubleSpinBox):
+    """A number without zeros at its end, which would push the unit out of a narrow panel."""
+
+    def textFromValue(self, value: float) -> str:  # noqa: N802
+        """As Qt asks for it."""
+        locale = self.locale()
+        locale.setNumberOptions(QtCore.QLocale.OmitGroupSeparator)
+        return str(locale.toString(float(value), "g", 7))
 
 
 def _files(name: str) -> str:

@@ -381,6 +381,7 @@ def read_what_a_cell_does(library):
     check("it follows the radius", wait_until(lambda: does.text() != before), before)
     material = library.findChild(QtGui.QComboBox, "Material")
     click(material)
+    wait_until(lambda: material.view().isVisible())
     xdotool("type", "316L")
     xdotool("key", "Return")
     check("and the material", wait_until(lambda: "MPa" in does.text()), does.text())

@@ -128,7 +128,7 @@ def escape(prepare, act, tidy=lambda: None):
     chance = random.Random(f"{SEED} {name}")
     prepare()
     with when_a_job_begins(time.monotonic) as begun:
-        act()
+        check("the command is followed", act() is not False)
         wait_until(is_itself)
     check("a job begins", begun)
     whole = max(time.monotonic() - begun[0], 0.5)
@@ -239,25 +239,25 @@ def leave_an_example():
 
 
 def choose_after(button, kind):
-    """Click a button, and pick from the list that opens by real keys."""
-    focused = []
+    """Click a button, and pick from the list that opens by real keys; whether it did."""
 
     def answer():
         box = QtGui.QApplication.activeModalWidget()
         if not isinstance(box, QtGui.QInputDialog) or not box.isVisible():
             return False
-        if not focused:
-            focused.append(box)
-            xdotool("windowfocus", int(box.winId()))
         if not box.isActiveWindow():
+            xdotool("windowfocus", int(box.winId()))
             return False
         row = next(k for k, item in enumerate(box.comboBoxItems()) if kind in item.lower())
         xdotool("key", *["Down"] * row, "Return")
         return True
 
-    Watch(answer, f"the list of {button}")
+    watch = Watch(answer, f"the list of {button}")
     click(toolbar_button(button))
     wait_until(is_itself)
+    answered = watch.over
+    watch.stop()  # Escape has met the job that tells what the list would offer
+    return answered
 
 
 def take_away(obj, kept=None):

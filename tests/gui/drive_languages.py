@@ -25,6 +25,8 @@ from driving import (
     window,
 )
 
+from freecad_volfrep.compat import version
+
 GROUP = "User parameter:BaseApp/Preferences/Mod/VOLFREP"
 #: What FreeCAD calls the language, and words that must then be seen.
 LANGUAGES = {
@@ -131,19 +133,18 @@ def wear_dark():
     before = application.styleSheet()
     folder = Path(App.getResourceDir()) / "Gui" / "Stylesheets"
     sheets = sorted(folder.glob("*[Dd]ark*.qss"))
-    if sheets:
-        application.setStyleSheet(sheets[0].read_text(encoding="utf-8"))
-        return lambda: application.setStyleSheet(before)
-    # FreeCAD 1.1 has one style sheet, and its colours in a theme.
     group = App.ParamGet("User parameter:BaseApp/Preferences/MainWindow")
     worn = {name: group.GetString(name) for name in ("Theme", "StyleSheet")}
+    # FreeCAD 1.1 has one style sheet, and its colours in a theme.
     group.SetString("Theme", "FreeCAD Dark")
-    group.SetString("StyleSheet", "FreeCAD.qss")
-    comes_true(lambda: application.styleSheet() != before, 10)
+    group.SetString("StyleSheet", sheets[0].name if sheets else "FreeCAD.qss")
+    if version() < (1, 0) or not comes_true(lambda: application.styleSheet() != before, 10):
+        application.setStyleSheet(sheets[0].read_text(encoding="utf-8"))
 
     def take_off():
         for name, value in worn.items():
             group.SetString(name, value)
+        application.setStyleSheet(before)
 
     return take_off
 

@@ -254,22 +254,11 @@ def give_it_an_own_cell(doc, obj):
     check("and the mesh", obj.Mesh.CountFacets == facets)
 
 
-def in_sight(widget):
-    """Scroll the panel until a widget is seen; the buttons above are with its first one."""
-    for area in Gui.getMainWindow().findChildren(QtGui.QScrollArea):
-        if area.isAncestorOf(widget):
-            first = widget.objectName() == "CellType"
-            area.ensureWidgetVisible(widget)
-            if first:
-                area.verticalScrollBar().setValue(0)
-    settle()
-
-
 def choose(name, text):
     """Really choose an entry of one of the panel's lists by typing it."""
     field = panel_part(name)
-    in_sight(field)
     click(field)
+    wait_until(lambda: field.view().isVisible())
     xdotool("type", text)
     xdotool("key", "Return")
     wait_until(lambda: field.currentText().startswith(text))
@@ -324,13 +313,12 @@ def drive_the_radius(doc, obj):
     choose("RadiusDrivenBy", "Relative")
     type_value("TargetDensity", "0.3")
     click(panel_part("Compute"))
-    met = wait_until(lambda: abs(obj.RelativeDensity - 0.3) < 0.0015, 60)
+    met = wait_until(lambda: abs(obj.RelativeDensity - 0.3) < 0.0015)
     check("the mesh is the target's", met, obj.RelativeDensity)
     shown_mm = shown.property("rawValue")
     check("by the radius shown", abs(shown_mm - obj.StrutRadius.Value) < 6e-3,
           (shown_mm, obj.StrutRadius))  # fmt: skip
     picture("panel_8_met")
-    in_sight(panel_part("CellType"))
     answer_panel("Cancel")
     wait_until(lambda: panel() is None)
     settle()

@@ -21,6 +21,7 @@ from driving import (
     click,
     figures,
     infills,
+    look_along,
     look_at_all,
     panel,
     panel_part,
@@ -123,14 +124,13 @@ def does_not_depend_on_order(obj, name):
     transparency, obj.ViewObject.Transparency = obj.ViewObject.Transparency, 30
     picture(f"{name}_before")
     start = view.getCameraOrientation()
-    for _ in range(12):
-        turned = view.getCameraOrientation() * App.Rotation(App.Vector(0, 1, 0), 30)
-        view.setCameraOrientation(turned.Q)
+    for turned in range(1, 13):
+        look_along(start * App.Rotation(App.Vector(0, 1, 0), 30 * turned))
         view.redraw()
     picture(f"{name}_turned")
     stray = differing(f"{name}_before", f"{name}_turned")
     check(f"{name}: a whole turn changes nothing", stray < STRAY, stray)
-    view.setCameraOrientation(start.Q)
+    look_along(start)
     mode = obj.ViewObject.DisplayMode
     shapes = reverse_order(obj.ViewObject.Proxy._modes[mode][0])
     check(f"{name}: there are shapes to turn round", shapes >= 2, shapes)
@@ -314,7 +314,7 @@ def show_the_bracket():
     settle()
     check("the bracket is shown so", obj.ViewObject.DisplayMode == OURS)
     turn = App.Rotation(App.Vector(0, 1, 0), 35) * App.Rotation(App.Vector(1, 0, 0), -30)
-    Gui.activeDocument().activeView().setCameraOrientation(turn.Q)
+    look_along(turn)
     Gui.SendMsgToActiveView("ViewFit")
     select()
     looks_good("look_b_bracket")

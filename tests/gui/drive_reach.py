@@ -39,7 +39,7 @@ from driving import (
 FOLDER = Path(tempfile.mkdtemp(prefix="volfrep-"))
 #: What FreeCAD without the workbench does with a document, once it is up.
 ELSEWHERE = """
-import os, sys
+import os
 import FreeCAD as App
 from PySide import QtCore
 def main():
@@ -48,8 +48,7 @@ def main():
     obj.StrutRadius = 0.8
     doc.recompute()
     doc.save()
-    print('PROXY', obj.Proxy, obj.Status)
-    sys.stdout.flush()
+    open({told!r}, 'w').write(f'PROXY {{obj.Proxy}} {{obj.Status}}')
     os._exit(0)
 def main_once_there_is_a_window():
     import FreeCADGui as Gui
@@ -158,7 +157,8 @@ def revive_what_was_saved_elsewhere(obj, windows):
     doc.saveAs(str(path))
     App.closeDocument(doc.Name)
     script = FOLDER / "elsewhere.py"
-    script.write_text(ELSEWHERE.format(path=str(path), windows=windows))
+    told = FOLDER / f"told{windows}.txt"
+    script.write_text(ELSEWHERE.format(path=str(path), told=str(told), windows=windows))
     home = FOLDER / f"home{windows}"
     home.mkdir()
     elsewhere = dict(os.environ, FREECAD_USER_HOME=str(home))
@@ -171,7 +171,8 @@ def revive_what_was_saved_elsewhere(obj, windows):
         text=True,
         timeout=4 * PATIENCE,
     )
-    check("there it is dead", "PROXY None Up to date" in said.stdout, said)
+    dead = told.is_file() and told.read_text() == "PROXY None Up to date"
+    check("there it is dead", dead, said)
     again = App.openDocument(str(path))
     settle()
     found = again.getObject("LatticeInfill")

@@ -215,9 +215,18 @@ def click(widget):
         over = QtGui.QApplication.widgetAt(middle(widget))
         return over is not None and (over is widget or widget.isAncestorOf(over))
 
+    in_sight(widget)
     wait_until(lambda: widget.isVisible() and is_on_top())
     move_mouse(middle(widget))
     press_button()
+    settle()
+
+
+def in_sight(widget):
+    """Scroll what a widget is in, so that it is seen: FreeCAD 1.1 leaves panels less room."""
+    for area in Gui.getMainWindow().findChildren(QtGui.QScrollArea):
+        if area.isAncestorOf(widget):
+            area.ensureWidgetVisible(widget)
     settle()
 
 
@@ -285,10 +294,16 @@ def look_at_all(from_below=False):
 
     In FreeCAD's isometric view the struts along the diagonals of cells would hide each other.
     """
-    turn = App.Rotation(25, 0, 118 if from_below else 62)
-    Gui.activeDocument().activeView().setCameraOrientation(turn.Q)
+    look_along(App.Rotation(25, 0, 118 if from_below else 62))
     Gui.SendMsgToActiveView("ViewFit")
     settle()
+
+
+def look_along(turn):
+    """Turn the camera of the view in front, and see that it has turned."""
+    view = Gui.activeDocument().activeView()
+    view.setCameraOrientation(turn.Q)
+    wait_until(lambda: view.getCameraOrientation().isSame(turn, 1e-5))
 
 
 def view_3d():
@@ -649,6 +664,9 @@ def _run(drive, name):
         watch = UnexpectedMessages()
         try:
             wait_until(Gui.getMainWindow().isVisible)
+            # FreeCAD 1.0 turns the camera by and by, and a picture would catch it on its way.
+            view = App.ParamGet("User parameter:BaseApp/Preferences/View")
+            view.SetBool("UseNavigationAnimations", False)
             Gui.activateWorkbench("VolfrepWorkbench")
             settle()
             drive()

@@ -11,7 +11,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.stats import qmc
 
 from ..design.cells import LIBRARY
 from ..design.memory_guard import refuse_cells
@@ -30,6 +29,7 @@ from ..spatial.rays import inside_points
 from ..trim.clip_struts import Pieces
 from ..trim.held_struts import largest
 from ..util.errors import VolfrepError
+from ..util.even_points import even_points
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
 from .rough_radius import lattice_volume, radius_of_volume
@@ -97,7 +97,7 @@ class PartDepth:
         if open_faces:
             self._skinned = self._surface.without(open_triangles(solid, open_faces))
         low, high = solid.bounds
-        points = low + qmc.Sobol(3, seed=1).random_base2(VOLUME_POINTS) * (high - low)
+        points = low + even_points(3, VOLUME_POINTS) * (high - low)
         points = points[inside_points(solid, points, Monitor())]
         self.bodies = max(1, inspect(solid).quality.bodies)
         self._sampled = (self._skinned or self._surface).near(points)[1]

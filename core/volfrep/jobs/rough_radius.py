@@ -10,8 +10,6 @@ from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
-from scipy.optimize import brentq
-from scipy.stats import qmc
 
 from ..design.cells import UnitCell
 from ..design.forecast import LEAST_INSIDE, cell_volume, strut_shares
@@ -21,6 +19,7 @@ from ..mesh.triangle_mesh import TriangleMesh
 from ..octants import sdf
 from ..octants.octant import ALL_ACTIVE, OctantKey, octant_primitives
 from ..util.errors import VolfrepError
+from ..util.even_points import even_points
 from ..util.types import Floats
 from .stiffness_target import ratio_of_stiffness
 
@@ -57,6 +56,8 @@ def radius_of_volume(spec: LatticeSpec, bare: float, volume: float) -> float:
 
     def missing(radius: float) -> float:
         return lattice_volume(spec, bare, radius) - volume
+
+    from scipy.optimize import brentq  # slow to load, and every job loads this module
 
     return float(brentq(missing, low, high, xtol=1e-4 * high))
 
@@ -127,5 +128,5 @@ def _joints_share(cell: UnitCell, radius: float, fillet: float) -> float:
 @lru_cache(maxsize=1)
 def _points() -> Floats:
     """(n, 3) points spread evenly over an octant of the unit cell."""
-    points: Floats = 0.5 * qmc.Sobol(3, seed=1).random_base2(CELL_POINTS)
+    points: Floats = 0.5 * even_points(3, CELL_POINTS)
     return points

@@ -11,8 +11,6 @@ from collections.abc import Callable
 from functools import lru_cache
 
 import numpy as np
-from scipy.interpolate import CubicSpline
-from scipy.optimize import brentq
 
 from ..design.cells import UnitCell
 from ..design.target import Target
@@ -77,6 +75,8 @@ def ratio_of_stiffness(
             + (", or name the solid's material." if target.young == 1.0 else ".")
         )
 
+    from scipy.optimize import brentq  # slow to load, and every job loads this module
+
     def place_of(value: float) -> float:
         wanted = np.clip(np.log(value), moduli(least), moduli(most))
         return float(brentq(lambda place: moduli(place) - wanted, least, most, xtol=1e-9))
@@ -109,6 +109,8 @@ def _catalogue_moduli(known: CatalogueCell, target: Target) -> Callable[[float],
 
 def _coarse_moduli(cell: UnitCell, target: Target, fillet: float) -> Callable[[float], float]:
     """The logarithm of the modulus over that of r / L, by the coarse grids."""
+    from scipy.interpolate import CubicSpline  # slow to load, and every job loads this module
+
     ratios = coarse_ratios(fillet)
     found = [_along(_tensor(cell, float(ratio), fillet, True), target) for ratio in ratios]
     spline = CubicSpline(np.log(ratios), np.log(found), bc_type="natural")

@@ -12,7 +12,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
-from scipy.optimize import brentq
 
 from ..design.spec import LatticeSpec
 from ..design.target import Target
@@ -217,6 +216,8 @@ class _Search:
             return float(np.clip(self._table.radius_of(volume), low, high))
         if self._volume(high) <= volume:
             return high
+        from scipy.optimize import brentq  # slow to load, and every job loads this module
+
         return float(brentq(lambda r: self._volume(r) - volume, low, high, xtol=1e-5 * high))
 
     def _volume(self, radius: float) -> float:

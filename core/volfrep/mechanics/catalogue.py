@@ -15,7 +15,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 
 from ..design.cells import LIBRARY, UnitCell
 from ..util.errors import VolfrepError
@@ -126,7 +125,9 @@ class CatalogueCell:
             )
 
 
-def _spline(ratios: Floats, logs: Floats) -> CubicSpline:
+def _spline(ratios: Floats, logs: Floats) -> Any:
+    from scipy.interpolate import CubicSpline  # slow to load, and every job loads this module
+
     return CubicSpline(np.log(ratios), logs, bc_type="natural")
 
 

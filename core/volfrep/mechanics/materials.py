@@ -106,16 +106,18 @@ MATERIALS = {
                       "EOS StainlessSteel 316L-4441, process data sheet (M 290, 20 um, upright); "
                       "modulus not checked"),
         SolidMaterial("IN718", 8.15, 160_000, 0.29, 634, _METAL,
-                      "EOS NickelAlloy IN718, process data sheet (M 290, 40 um): density; others "
+                      "EOS NickelAlloy IN718, process data sheet (M 290, 40 um) as "
+                      "others quote it: density; others "
                       "not checked"),
         SolidMaterial("PA12", 0.93, 1_550, 0.40, 42, _POWDER,
-                      "EOS PA 2200, material data sheet (upright; along X 1,600 and 48 MPa)"),
+                      "EOS PA 2200, data sheet as others quote it (upright; along X 1,600 and "
+                      "48 MPa); density not checked"),
         SolidMaterial("PA11", 0.99, 1_600, 0.40, 48, _POWDER, "EOS PA 1101, not checked"),
         SolidMaterial("PLA", 1.24, 2_350, 0.36, 49.5, ("FFF",),
-                      "Ultimaker PLA, technical data sheet"),
+                      "Ultimaker PLA, not checked"),
         SolidMaterial("PETG", 1.27, 2_100, 0.38, 47, ("FFF",),
-                      "Prusament PETG, technical data sheet: density; modulus: the VOLFREP "
-                      "paper's sample; yield not checked"),
+                      "Prusament PETG, data sheet as others quote it: density; modulus: the "
+                      "VOLFREP paper's sample; yield not checked"),
         SolidMaterial("ABS", 1.10, 1_680, 0.39, 39, ("FFF",), "Ultimaker ABS, not checked"),
         SolidMaterial("Resin", 1.17, 2_800, 0.40, 65, ("SLA",),
                       "Formlabs Clear Resin V4 after curing, not checked"),

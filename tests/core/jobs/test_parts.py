@@ -107,7 +107,10 @@ MODELLED_SETTINGS = {
 }
 
 
-@pytest.mark.parametrize("name", MODELLED)
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(n, marks=pytest.mark.slow if n == "ribbed_housing" else ()) for n in MODELLED],
+)
 def test_a_modelled_part_keeps_its_bodies(name, tmp_path):
     size, radius, shell, bodies = MODELLED_SETTINGS[name]
     part, solid = MODELLED[name](), read_solid(modelled_file(name, tmp_path))
@@ -121,7 +124,10 @@ def test_a_modelled_part_keeps_its_bodies(name, tmp_path):
 
 
 @needs_parts
-@pytest.mark.parametrize("cell", LIBRARY)
+@pytest.mark.parametrize(
+    "cell",
+    [pytest.param(c, marks=() if c in ("Octet", "CVC") else pytest.mark.slow) for c in LIBRARY],
+)
 def test_every_cell_fills_the_bracket(cell):
     spec = LatticeSpec(cell=cell, cell_size=10, strut_radius=1, shell=3)
     result = check("ge_bracket.stl", spec)

@@ -239,6 +239,7 @@ def _write_tetrahedra(
     infill: Infill | None,
     progress: ProgressCallback,
 ) -> tuple[str, ...]:
+    from ..fem.joint_loads import side_joints
     from ..fem.tet_mesh import nodes_on, tetrahedra
     from ..io.write.calculix import write_tetrahedra
     from ..reports.estimate import estimate_tetrahedra
@@ -247,6 +248,8 @@ def _write_tetrahedra(
     _announce(estimate_tetrahedra(len(result.mesh.triangles), _asked(spec, options)), options)
     filled = tetrahedra(result.mesh, Monitor(progress))
     sets = {}
+    if infill is None or not infill.placement.is_cut:
+        sets = side_joints(filled, result.wireframe)
     if infill is not None:
         wall = infill.cavity if spec.output == "lattice" else infill.solid
         sets["SKIN"] = nodes_on(filled, wall)

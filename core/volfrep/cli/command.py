@@ -161,9 +161,10 @@ def _fill(options: argparse.Namespace) -> None:
     if not solid.states_unit:
         refuse_scale(solid.bounds, spec.cell_size, part.name)
     read_seconds = time.perf_counter() - start
-    if not options.quiet:
-        print(f"Expected: {forecast_fill(solid, spec)}.", flush=True)
     meshed = options.threemf != "beams" and not solver_options.needs_axes(options)
+    if not options.quiet:
+        expected = forecast_fill(solid, spec)
+        print(f"Expected: {expected if meshed else expected.of_axes}.", flush=True)
     with Progress(options.quiet) as progress:
         infill = aimed(solid, spec, progress=progress, meshed=meshed)
         spec = infill.spec

@@ -18,15 +18,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..util.errors import VolfrepError
-from . import material, printing_options, process, properties, solver_options
+from . import layers, material, printing_options, process, properties, solver_options, sweep
 from .files import check_files
-from .parameter_options import (
-    add_parameters,
-    specification,
-    write_specification,
-)  # fmt: skip
+from .parameter_options import add_parameters, write_specification
 from .parser import Parser, Version, refuse_old, three_whole_numbers
-from .telling import Progress, print_rows, print_warnings, tell
+from .telling import Progress, print_rows, tell
 
 if TYPE_CHECKING:
     from ..design.spec import LatticeSpec
@@ -112,7 +108,10 @@ def _parser() -> argparse.ArgumentParser:
 
     add("cells", _cells, "List the library of unit cells.")
 
+    _add_unit(layers.add_command(add))
     properties.add_command(add)
+
+    sweep.add_command(add)
 
     check = add("check", _check, "Tell what a reader sees in a mesh file (STL, OBJ, PLY, 3MF).")
     check.add_argument("file", metavar="FILE")
@@ -147,13 +146,14 @@ def _add_output(parser: argparse.ArgumentParser) -> None:
 
 def _fill(options: argparse.Namespace) -> None:
     part = Path(options.part)
-    spec = _specified(options)
+    spec = material.specified(options)
     _check_targets(options, spec)
     write_specification(options, spec)
 
     from ..design.forecast import forecast_fill
     from ..io.read.units import refuse_scale
     from ..io.solid import read_solid
+    from ..jobs.rough_radius import roughly_aimed
     from ..jobs.targets import aimed
 
     start = time.perf_counter()
@@ -163,7 +163,7 @@ def _fill(options: argparse.Namespace) -> None:
     read_seconds = time.perf_counter() - start
     meshed = options.threemf != "beams" and not solver_options.needs_axes(options)
     if not options.quiet:
-        expected = forecast_fill(solid, spec)
+        expected = forecast_fill(solid, roughly_aimed(solid, spec))
         print(f"Expected: {expected if meshed else expected.of_axes}.", flush=True)
     with Progress(options.quiet) as progress:
         infill = aimed(solid, spec, progress=progress, meshed=meshed)
@@ -184,7 +184,7 @@ def _fill(options: argparse.Namespace) -> None:
 
 
 def _block(options: argparse.Namespace) -> None:
-    spec = _specified(options)
+    spec = material.specified(options)
     _check_targets(options, spec)
     write_specification(options, spec)
 
@@ -238,18 +238,6 @@ def _writes_stl(options: argparse.Namespace) -> bool:
     more = (options.print_report, options.picture)
     plain = all(option is None for option in more)
     return plain and Path(options.output).suffix.lower() == ".stl"
-
-
-def _specified(options: argparse.Namespace) -> LatticeSpec:
-    """The specification, with the density of the material where none was given."""
-    spec = specification(options)
-    print_warnings(material.apply(options, Path(options.output)))
-    if options.density is not None:
-        spec = dataclasses.replace(spec, density=options.density)
-    if options.solid is not None and spec.target is not None and spec.target.aim == "stiffness":
-        target = dataclasses.replace(spec.target, young=options.solid.young)
-        spec = dataclasses.replace(spec, target=target)
-    return spec
 
 
 def _check_targets(options: argparse.Namespace, spec: LatticeSpec) -> None:

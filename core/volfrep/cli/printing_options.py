@@ -59,7 +59,8 @@ def check(options: argparse.Namespace, out: Path) -> None:
             "A report is made of the mesh, which --3mf beams does without: use both."
         )
     if options.print_report is not None:
-        from ..reports.printability import find_process, unit_direction
+        from ..reports.printability import unit_direction
+        from ..reports.processes import find_process
 
         find_process(options.print_report)
         unit_direction(options.build_direction)
@@ -69,7 +70,8 @@ def report_of(
     result: Result, options: argparse.Namespace, domain: TriangleMesh | None
 ) -> PrintReport:
     """The print report that the options ask for."""
-    from ..reports.printability import find_process, print_report
+    from ..reports.printability import print_report
+    from ..reports.processes import find_process
 
     return print_report(
         result.mesh,

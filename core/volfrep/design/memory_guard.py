@@ -42,7 +42,7 @@ def refuse_cells(count: int, cell_size: float) -> None:
     Raises:
         VolfrepError: they need more memory than is free; with the cells that would fit.
     """
-    needed, free = float(count) * BYTES_PER_CELL, _free_memory()
+    needed, free = float(count) * BYTES_PER_CELL, free_memory()
     if needed > free:
         fitting = rounded_up(cell_size * (1.2 * needed / free) ** (1 / 3))
         raise VolfrepError(
@@ -56,7 +56,7 @@ def refuse_block(count: Sequence[int], bytes_each: float) -> None:
     Raises:
         VolfrepError: they need more memory than is free; with the block that would fit.
     """
-    needed, free = math.prod(count) * float(bytes_each), _free_memory()
+    needed, free = math.prod(count) * float(bytes_each), free_memory()
     if needed > free:
         raise VolfrepError(
             f"This block would {_takes(needed, free)}: {smaller_block(count, 1.2 * needed / free)} "
@@ -101,7 +101,7 @@ def refuse_memory(
         VolfrepError: it needs more memory than is free; with the nearest settings that would fit.
     """
     needed = triangles * BYTES_PER_TRIANGLE + in_boolean * BYTES_PER_BOOLEAN_TRIANGLE
-    free = _free_memory()
+    free = free_memory()
     most = np.iinfo(np.int32).max // 3
     if needed <= free and triangles <= most:
         return
@@ -142,7 +142,7 @@ def rounded_up(value: float) -> float:
     return math.ceil(value / step - 1e-9) * step
 
 
-def _free_memory() -> float:
+def free_memory() -> float:
     """Bytes of memory that are free, as far as the system tells."""
     try:
         with open("/proc/meminfo", encoding="ascii") as file:

@@ -14,12 +14,12 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
-from scipy.stats import qmc
 
 from ..mesh.triangle_mesh import TriangleMesh, compact, empty_mesh
 from ..spatial.proximity import closest_points, index_surface
 from ..spatial.rays import inside_points
 from ..util.errors import VolfrepError
+from ..util.even_points import even_points
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats
 from .adaptive_contour import find_wall
@@ -138,7 +138,7 @@ def _refuse_too_thin(solid: TriangleMesh, thickness: float, cubes: float, cube: 
 def _deepest(solid: TriangleMesh) -> float:
     """How deep points of a solid lie at most, about, mm: the deepest of some of them."""
     low, high = solid.bounds
-    points = low + qmc.Sobol(3, seed=1).random_base2(DEPTH_POINTS) * (high - low)
+    points = low + even_points(3, DEPTH_POINTS) * (high - low)
     points = points[inside_points(solid, points, Monitor())]
     return float(closest_points(solid, points)[1].max(initial=0.0))
 

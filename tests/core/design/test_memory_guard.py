@@ -21,7 +21,7 @@ from volfrep.util.errors import VolfrepError
 
 @pytest.fixture(autouse=True)
 def one_gigabyte(monkeypatch):
-    monkeypatch.setattr(memory_guard, "_free_memory", lambda: 1e9)
+    monkeypatch.setattr(memory_guard, "free_memory", lambda: 1e9)
 
 
 def refusal(spec: LatticeSpec, volume: float) -> str:

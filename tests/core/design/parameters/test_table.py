@@ -22,7 +22,9 @@ def test_every_row_has_its_own_name_and_property() -> None:
 @pytest.mark.parametrize("parameter", PARAMETERS, ids=lambda p: p.name)
 def test_a_row_makes_sense(parameter) -> None:
     assert parameter.group in GROUPS
-    assert parameter.kind in {*SHAPES, "flag", "choice", "link", "faces", "points"}
+    documents = {"link", "faces", "points", "stress", "material", "process"}
+    assert parameter.kind in {*SHAPES, "flag", "choice"} | documents
+    assert parameter.kind not in documents or not parameter.in_command
     assert bool(parameter.choices) == (parameter.kind == "choice")
     assert not parameter.choices or parameter.default in parameter.choices
     assert parameter.in_command or parameter.in_freecad

@@ -179,7 +179,7 @@ def _fill(options: argparse.Namespace) -> None:
         if options.print_report is not None:
             domain = infill.cavity
         write = solver_options.writer(options, spec, infill, progress)
-        _finish(result, options, {"read": read_seconds}, beams, domain, write)
+        _finish(result, options, spec, {"read": read_seconds}, beams, domain, write)
         _picture(result, options, spec, solid)
 
 
@@ -216,7 +216,7 @@ def _block(options: argparse.Namespace) -> None:
             return
         result = block(spec, tuple(options.count), progress=progress)
         write = solver_options.writer(options, spec, None, progress)
-        _finish(result, options, {}, beams, write=write)
+        _finish(result, options, spec, {}, beams, write=write)
         _picture(result, options, spec)
 
 
@@ -255,6 +255,7 @@ def _check_targets(options: argparse.Namespace, spec: LatticeSpec) -> None:
 def _finish(
     result: Result,
     options: argparse.Namespace,
+    spec: LatticeSpec,
     before: dict[str, float],
     beams: BeamModel | None,
     domain: TriangleMesh | None = None,
@@ -287,7 +288,7 @@ def _finish(
     )
     printing = None
     if options.print_report is not None:
-        printing = printing_options.report_of(result, options, domain)
+        printing = printing_options.report_of(result, options, spec, domain)
     tell(dataclasses.replace(report, warnings=warnings), options, printing)
 
 

@@ -173,6 +173,7 @@ def _fill(options: argparse.Namespace) -> None:
         if options.threemf == "beams":
             printing_options.finish_beams(infill.beams, options, start)
             return
+        solver_options.settle_step(infill, options)
         beams = infill.beams if options.threemf == "both" else None
         result = infill.result
         domain = None

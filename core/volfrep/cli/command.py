@@ -162,9 +162,10 @@ def _fill(options: argparse.Namespace) -> None:
     if not solid.states_unit:
         refuse_scale(solid.bounds, spec.cell_size, part.name)
     read_seconds = time.perf_counter() - start
-    if not options.quiet:
-        print(f"Expected: {forecast_fill(solid, roughly_aimed(solid, spec))}.", flush=True)
     meshed = options.threemf != "beams" and not solver_options.needs_axes(options)
+    if not options.quiet:
+        expected = forecast_fill(solid, roughly_aimed(solid, spec))
+        print(f"Expected: {expected if meshed else expected.of_axes}.", flush=True)
     with Progress(options.quiet) as progress:
         infill = aimed(solid, spec, progress=progress, meshed=meshed)
         spec = infill.spec
@@ -173,13 +174,14 @@ def _fill(options: argparse.Namespace) -> None:
         if options.threemf == "beams":
             printing_options.finish_beams(infill.beams, options, start)
             return
+        solver_options.settle_step(infill, options)
         beams = infill.beams if options.threemf == "both" else None
         result = infill.result
         domain = None
         if options.print_report is not None:
             domain = infill.cavity
         write = solver_options.writer(options, spec, infill, progress)
-        _finish(result, options, {"read": read_seconds}, beams, domain, write)
+        _finish(result, options, spec, {"read": read_seconds}, beams, domain, write)
         _picture(result, options, spec, solid)
 
 
@@ -216,7 +218,7 @@ def _block(options: argparse.Namespace) -> None:
             return
         result = block(spec, tuple(options.count), progress=progress)
         write = solver_options.writer(options, spec, None, progress)
-        _finish(result, options, {}, beams, write=write)
+        _finish(result, options, spec, {}, beams, write=write)
         _picture(result, options, spec)
 
 
@@ -255,6 +257,7 @@ def _check_targets(options: argparse.Namespace, spec: LatticeSpec) -> None:
 def _finish(
     result: Result,
     options: argparse.Namespace,
+    spec: LatticeSpec,
     before: dict[str, float],
     beams: BeamModel | None,
     domain: TriangleMesh | None = None,
@@ -287,7 +290,7 @@ def _finish(
     )
     printing = None
     if options.print_report is not None:
-        printing = printing_options.report_of(result, options, domain)
+        printing = printing_options.report_of(result, options, spec, domain)
     tell(dataclasses.replace(report, warnings=warnings), options, printing)
 
 

@@ -302,7 +302,7 @@ def _finish(
     `domain` is what the lattice fills, for the print report; `write` writes the file where it is
     not a mesh.
     """
-    from ..io.write import write_mesh
+    from ..io.write import write_surface
     from ..io.write.threemf import write_3mf_beams
     from ..util.progress import peak_memory_mb
 
@@ -311,7 +311,7 @@ def _finish(
     if write is not None:
         warnings += write(result)
     elif beams is None:
-        write_mesh(result.mesh, options.output)
+        write_surface(result.surface, options.output)
     else:
         write_3mf_beams(beams, options.output, result.mesh)
     report = dataclasses.replace(

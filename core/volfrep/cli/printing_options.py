@@ -90,6 +90,8 @@ def compacted(result: Result, options: argparse.Namespace, progress: ProgressCal
         Cancelled: the callback said so.
     """
     from ..jobs.decimate import reduce_triangles
+    from ..reports.result import Result
+    from ..trim.trimmed_surface import TrimmedSurface
     from ..util.progress import Monitor
 
     monitor = Monitor(progress)
@@ -111,7 +113,7 @@ def compacted(result: Result, options: argparse.Namespace, progress: ProgressCal
             f"Compact: {found.triangles:,} of {reduced.triangles_before:,} triangles are left, and "
             f"the surface has moved by up to {reduced.deviation:.2g} mm."
         )
-    return dataclasses.replace(result, mesh=reduced.mesh, report=report)
+    return Result(TrimmedSurface(reduced.mesh), result.wireframe, report)
 
 
 def report_of(

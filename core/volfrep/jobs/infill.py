@@ -7,7 +7,7 @@ Each is computed when it is asked for, and kept.
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -38,21 +38,15 @@ from ..trim.beam_model import (
     reaching_into,
     refuse_fillets,
 )
-from ..trim.boolean_trim import KeptOctants
 from ..trim.clip_struts import AT_WALL, Clipped, clip
+from ..trim.culling import KeptOctants
 from ..trim.drains import Drained, trapped
 from ..trim.finish import finished, pieces_told, tidied
+from ..trim.laid import FIRST_MARGIN, Laid, in_place, lay
 from ..trim.loose_pieces import Cleared
 from ..trim.prune import Pruned, prune
-from ..trim.stage import (
-    FIRST_MARGIN,
-    Laid,
-    chosen_octants,
-    cut_lattice,
-    drained_part,
-    lay,
-    uncut_lattice,
-)
+from ..trim.stage import chosen_octants, cut_lattice, drained_part, uncut_lattice
+from ..trim.trimmed_surface import TrimmedSurface
 from ..util.cache import Kept, StageCache
 from ..util.content import content_of
 from ..util.errors import VolfrepError
@@ -152,9 +146,10 @@ class Infill:
 
     @cached_property
     def _cavity(self) -> tuple[TriangleMesh, Quality]:
-        clean = tidied(self.domain.mesh, shortest_edge(self.solid), self.monitor)
-        mesh, quality, _ = finished(clean, measure(clean), self.monitor, moved=False)
-        return mesh, quality
+        wall = TrimmedSurface(self.domain.mesh)
+        clean = tidied(wall, shortest_edge(self.solid), self.monitor)
+        clean, quality, _ = finished(clean, measure(clean.mesh), self.monitor, moved=False)
+        return clean.mesh, quality
 
     @cached_property
     def placement(self) -> Placement:
@@ -216,7 +211,8 @@ class Infill:
     @cached_property
     def cavity_result(self) -> Result:
         """The domain as a mesh, with the figures of the cells and struts that it will hold."""
-        return self._reported("domain", Cleared(*self._cavity, 0, 0))
+        mesh, quality = self._cavity
+        return self._reported("domain", Cleared(TrimmedSurface(mesh), quality, 0, 0))
 
     @cached_property
     def lattice(self) -> Result:
@@ -303,14 +299,17 @@ class Infill:
         if is_cut not in self._laid_octants:
             refuse_expected(self.spec, self.domain.mesh.volume)
             _ = self.struts  # refused before anything is meshed
-            margin = 0.0 if keeps_places(self._struts, self.placement) else FIRST_MARGIN
+            keeps = keeps_places(self._struts, self.placement)
+            margin = 0.0 if keeps else FIRST_MARGIN
             if not is_cut:
                 margin = np.inf  # no wall that an octant could reach
             with self.monitor.stage("tile", 0.4, 0.5):
                 first = self._octants(is_cut, margin)
             with self.monitor.stage("lattice", 0.5, 0.6):
-                self._laid_octants[is_cut] = lay(
-                    first, margin, lambda wider: self._octants(is_cut, wider), self._placed
+                self._laid_octants[is_cut] = (
+                    in_place(*first, self.placement.nudged(np.zeros(3)))
+                    if keeps and self.placement.mapping is None
+                    else lay(first, margin, partial(self._octants, is_cut), self._placed)
                 )
         return self._laid_octants[is_cut]
 
@@ -363,10 +362,10 @@ class Infill:
     def _reported(self, output: str, cleared: Cleared, drained: Drained | None = None) -> Result:
         """A mesh with the figures of what it is and of how it was made."""
         domain, pruned, warnings = self.domain, self.pruned, self.warnings
-        mesh, quality = cleared.mesh, cleared.quality
+        surface, quality = cleared.surface, cleared.quality
         if output != "domain":
             moved = not keeps_places(self._struts, self.placement)
-            mesh, quality, notes = finished(mesh, quality, self.monitor, moved)
+            surface, quality, notes = finished(surface, quality, self.monitor, moved)
             warnings += self._notes + notes
         if output == "lattice":
             warnings += pieces_told(
@@ -396,4 +395,4 @@ class Infill:
             report = replace(report, spec={**report.spec, "output": output})
         if output != "domain":
             report = judged(report, self.spec)
-        return Result(mesh, self.struts, report)
+        return Result(surface, self.struts, report)

@@ -8,6 +8,7 @@ by where it lies. No coordinates are compared.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -68,21 +69,57 @@ def lay_out(grid: OctantGrid, octants: dict[OctantKey, Octant]) -> Layout:
 
 def numbers(layout: Layout, octant: Octant, place: NDArray[np.int64]) -> NDArray[np.int32]:
     """(k, n) numbers of the vertices of an octant at k places."""
-    used, column = np.unique(octant.entity, return_inverse=True)
-    first = np.stack(
-        [layout.base[tuple(_entity_positions(layout.grid, place, _STEPS[e]).T)] for e in used],
-        axis=1,
-    )
-    result: NDArray[np.int32] = first[:, column.ravel()] + octant.rank
+    return numbers_at(layout, octant.entity, octant.rank, place)
+
+
+def numbers_at(
+    layout: Layout, entity: NDArray[np.int8], rank: NDArray[np.int32], place: NDArray[np.int64]
+) -> NDArray[np.int32]:
+    """(k, n) numbers of vertices of an octant at k places, by their entities and ranks on these."""
+    used, column = np.unique(entity, return_inverse=True)
+    first = np.empty((len(place), len(used)), np.int32)
+    for k, e in enumerate(used):
+        first[:, k] = layout.base[tuple(_entity_positions(layout.grid, place, _STEPS[e]).T)]
+    result: NDArray[np.int32] = first[:, column.ravel()] + rank
     return result
 
 
 def coordinates(layout: Layout, monitor: Monitor) -> Floats:
     """(n, 3) coordinates of all the numbered vertices, mm."""
-    grid = layout.grid
     vertices = np.empty((layout.count, 3))
+    for number, points in _placed_octants(layout, None, monitor):
+        vertices[number] = points
+    return vertices
+
+
+def coordinates_of(
+    layout: Layout, wanted: NDArray[np.int32], where: NDArray[np.bool_], monitor: Monitor
+) -> Floats:
+    """(k, 3) coordinates of some of the numbered vertices, mm.
+
+    Args:
+        layout: the numbered octants.
+        wanted: (k,) numbers, ascending.
+        where: octants that have all of them.
+        monitor: for cancel.
+    """
+    vertices = np.empty((len(wanted), 3))
+    for number, points in _placed_octants(layout, where, monitor):
+        row = np.minimum(np.searchsorted(wanted, number), len(wanted) - 1)
+        found = wanted[row] == number
+        vertices[row[found]] = points[found]
+    return vertices
+
+
+def _placed_octants(
+    layout: Layout, where: NDArray[np.bool_] | None, monitor: Monitor
+) -> Iterator[tuple[NDArray[np.int32], Floats]]:
+    """Octants some at a time: (k, n) numbers of their vertices and (k, n, 3) their coordinates."""
+    grid = layout.grid
     for key, place in zip(grid.keys, layout.places, strict=True):
         octant = layout.octants[key]
+        if where is not None:
+            place = place[where[tuple(place.T)]]
         if not len(octant.vertices):
             continue
         steps = in_steps(grid, octant)
@@ -90,11 +127,9 @@ def coordinates(layout: Layout, monitor: Monitor) -> Floats:
         for begin in range(0, len(place), size):
             part = place[begin : begin + size]
             corner, sign = frames(part)
-            vertices[numbers(layout, octant, part)] = placed(
-                grid, corner[:, None, :], sign[:, None, :] * steps
-            )
+            points = placed(grid, corner[:, None, :], sign[:, None, :] * steps)
+            yield numbers(layout, octant, part), points
             monitor.tick()
-    return vertices
 
 
 def in_steps(grid: OctantGrid, octant: Octant) -> Floats:

@@ -26,8 +26,12 @@ HASHED_ROWS = 1 << 16
 
 def shortest_edge(mesh: TriangleMesh) -> float:
     """Length in mm below which an edge may not survive in a file of single precision."""
-    farthest = np.float32(np.abs(mesh.bounds).max(initial=1.0))
-    return float(STEPS * np.spacing(farthest))
+    return edge_within(mesh.bounds)
+
+
+def edge_within(bounds: NDArray[np.float64]) -> float:
+    """`shortest_edge` of a mesh with such bounds, (2, 3) mm."""
+    return float(STEPS * np.spacing(np.float32(np.abs(bounds).max(initial=1.0))))
 
 
 def remove_slivers(mesh: TriangleMesh, tolerance: float, among: int | None = None) -> TriangleMesh:

@@ -1,20 +1,24 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The lattice cut at the wall, and what is removed afterwards."""
 
+from dataclasses import replace
+
 import manifold3d
 import numpy as np
 import pytest
 
 import samples
+from contract import assert_same_quality
 from volfrep.design.cells import LIBRARY
 from volfrep.grid.activation import make_grid
 from volfrep.grid.placement import NUDGE
-from volfrep.lattice.assembly import coordinates
 from volfrep.mesh import quality
 from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.octants.octant import ALL_ACTIVE, OctantGrid, OctantKey
 from volfrep.octants.octant_mesh import OctantSpec, mesh_octants
-from volfrep.trim.boolean_trim import cull, octant_roles, trim
+from volfrep.trim.boolean_trim import trim
+from volfrep.trim.culling import cull, octant_roles
+from volfrep.trim.laid import in_place
 from volfrep.util.progress import Monitor
 
 L = 10.0
@@ -31,16 +35,19 @@ def trimmed(domain, name="CVC", radius=1.0, cavity=True, grow=0):
     grid = OctantGrid([key], np.zeros(roles.border.shape, np.int16), cells.origin, L, True)
     octants = mesh_octants(cell, OctantSpec(L, radius, 0.0, 15), [key], monitor)
     kept = cull(grid, roles)
-    layout = kept.lay_out(octants)
-    points = coordinates(layout, monitor) + NUDGE * L
-    return trim(domain, kept, layout, points, cavity=cavity, monitor=monitor)
+    return trim(domain, in_place(kept, octants, NUDGE * L), cavity=cavity, monitor=monitor)
+
+
+def mesh_of(found):
+    """All of the surface as one mesh."""
+    return found.surface.whole(Monitor())
 
 
 @pytest.mark.parametrize("name", LIBRARY)
 def test_lattice_and_cavity_share_the_domain_between_them(name):
     domain = samples.sphere(22.0)
-    lattice = trimmed(domain, name, cavity=False).mesh
-    cavity = trimmed(domain, name, cavity=True).mesh
+    lattice = mesh_of(trimmed(domain, name, cavity=False))
+    cavity = mesh_of(trimmed(domain, name, cavity=True))
     for mesh in (lattice, cavity):
         assert quality.measure(mesh).watertight
     # The cavity's surface is seen from the material: its volume counts as negative.
@@ -51,8 +58,38 @@ def test_octants_inside_are_put_back_as_the_boolean_would_have_left_them():
     domain = samples.sphere(25.0)
     some, everything = trimmed(domain), trimmed(domain, grow=1)
     assert some.boolean_triangles < 0.8 * everything.boolean_triangles
-    assert some.mesh.volume == pytest.approx(everything.mesh.volume, rel=1e-9)
-    assert quality.measure(some.mesh).genus == quality.measure(everything.mesh).genus
+    one, two = mesh_of(some), mesh_of(everything)
+    assert one.volume == pytest.approx(two.volume, rel=1e-9)
+    assert quality.measure(one).genus == quality.measure(two).genus
+
+
+@pytest.mark.parametrize("name", LIBRARY)
+@pytest.mark.parametrize("cavity", [True, False])
+def test_what_is_proved_of_octants_inside_is_what_their_triangles_show(name, cavity):
+    surface = trimmed(samples.sphere(25.0), name, cavity=cavity).surface
+    found = surface.inspected(Monitor()).found
+    whole = surface.whole(Monitor())
+    assert surface.octants is not None
+    assert len(surface.mesh.triangles) < len(whole.triangles) == surface.triangles
+    assert_same_quality(found.quality, quality.measure(whole))
+    # Shells, too: each triangle of the mesh has the volume of its own.
+    plain = quality.inspect(whole)
+    np.testing.assert_allclose(
+        found.volume[found.shell], plain.volume[plain.shell[: len(found.shell)]], rtol=1e-6
+    )
+
+
+def test_octants_that_do_not_fit_to_the_cut_are_found_out():
+    surface = trimmed(samples.sphere(25.0)).surface
+    mesh = surface.mesh
+    rim = (mesh.vertices == surface.octants.rim_points[0]).all(axis=1)
+    off = TriangleMesh(mesh.vertices + 1e-9 * rim[:, None], mesh.triangles)
+    with pytest.raises(RuntimeError, match="do not fit"):
+        replace(surface, mesh=off).inspected(Monitor())
+    away = ~rim[mesh.triangles].any(axis=1)
+    hole = TriangleMesh(mesh.vertices, mesh.triangles[~(away & (np.cumsum(away) == 1))])
+    found = replace(surface, mesh=hole).inspected(Monitor()).found.quality
+    assert (found.watertight, found.open_edges) == (False, 3)
 
 
 def test_the_boolean_takes_only_what_the_wall_crosses():
@@ -65,7 +102,7 @@ def test_the_boolean_takes_only_what_the_wall_crosses():
 
 def test_a_wall_in_the_cells_own_faces_cuts_cleanly():
     domain = samples.box((40.0, 30.0, 20.0), (1.3, 2.1, 0.7))
-    mesh = trimmed(domain, "Box", cavity=False).mesh
+    mesh = mesh_of(trimmed(domain, "Box", cavity=False))
     found = quality.measure(mesh)
     assert found.watertight
     assert found.bodies == 1
@@ -84,11 +121,11 @@ def test_a_mesh_that_is_no_solid_is_refused():
 def test_the_trimmed_lattice_has_the_genus_of_a_boolean_by_others():
     """Second opinion: the same lattice as one closed block, cut by manifold3d as a whole."""
     domain = samples.sphere(18.0)
-    ours = quality.measure(trimmed(domain, "Octahedron", cavity=False).mesh)
+    ours = quality.measure(mesh_of(trimmed(domain, "Octahedron", cavity=False)))
     everything = trimmed(
         samples.box((60.0, 60.0, 60.0), (-30.0, -30.0, -30.0)), "Octahedron", cavity=False
     )
-    block = everything.mesh
+    block = mesh_of(everything)
     solid = manifold3d.Manifold(
         manifold3d.Mesh64(block.vertices, block.triangles.astype(np.uint64))
     )

@@ -13,6 +13,7 @@ from ...util.errors import VolfrepError
 
 if TYPE_CHECKING:
     from ...mesh.triangle_mesh import TriangleMesh
+    from ...trim.trimmed_surface import TrimmedSurface
     from ...util.progress import Monitor
 
 MeshWriter = Callable[["TriangleMesh", "str | os.PathLike[str]", "Monitor | None"], None]
@@ -67,3 +68,23 @@ def write_mesh(
     True
     """
     mesh_writer(path)(mesh, path, monitor)
+
+
+def write_surface(
+    surface: TrimmedSurface, path: str | os.PathLike[str], monitor: Monitor | None = None
+) -> None:
+    """Write a surface in the format that the path's extension names; an STL without its mesh.
+
+    Raises:
+        VolfrepError: as `write_mesh`.
+        Cancelled: when the monitor says so; no file is left behind.
+    """
+    write = mesh_writer(path)
+    if Path(path).suffix.lower() == ".stl":
+        from .stl_octants import write_surface_stl
+
+        write_surface_stl(surface, path, monitor)
+    else:
+        from ...util.progress import Monitor
+
+        write(surface.whole(monitor or Monitor()), path, monitor)

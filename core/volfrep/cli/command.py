@@ -177,6 +177,7 @@ def _fill(options: argparse.Namespace) -> None:
     from ..io.read.units import refuse_scale
     from ..io.solid import read_solid
     from ..jobs.targets import aimed
+    from ..util.workers import processes
 
     start = time.perf_counter()
     solid = read_solid(part, options.unit)
@@ -186,8 +187,8 @@ def _fill(options: argparse.Namespace) -> None:
     if not options.quiet:
         print(f"Expected: {forecast_fill(solid, spec)}.", flush=True)
     meshed = options.threemf != "beams" and not solver_options.needs_axes(options)
-    with Progress(options.quiet) as progress:
-        infill = aimed(solid, spec, progress=progress, meshed=meshed)
+    with processes() as executor, Progress(options.quiet) as progress:
+        infill = aimed(solid, spec, progress=progress, meshed=meshed, executor=executor)
         spec = infill.spec
         if solver_options.fill_axes(infill, options, start):
             return

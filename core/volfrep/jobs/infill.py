@@ -6,6 +6,7 @@ Each is computed when it is asked for, and kept.
 
 from __future__ import annotations
 
+from concurrent.futures import Executor
 from dataclasses import replace
 from functools import cached_property, partial
 
@@ -71,6 +72,7 @@ class Infill:
         cache: keeps the costly stages for other infills, as of the same solid with other struts.
         progress: called with the fraction done and the stage; returning False cancels.
         monitor: of a job that this is a part of, in place of one of its own.
+        executor: cuts the lattice at the wall, group by group; None: in this process.
 
     Attributes:
         solid: the part.
@@ -97,6 +99,7 @@ class Infill:
         cache: StageCache | None = None,
         progress: ProgressCallback | None = None,
         monitor: Monitor | None = None,
+        executor: Executor | None = None,
     ) -> None:
         size = solid.bounds[1] - solid.bounds[0]
         if spec.cell_size > size.max():
@@ -107,7 +110,7 @@ class Infill:
             )
         self.solid, self.spec = solid, spec
         self.monitor = monitor or Monitor(progress)
-        self._cache = cache or StageCache()
+        self._cache, self._executor = cache or StageCache(), executor
         self._cell, self._grid, self._struts = spec.unit_cell(), spec.grid, spec.struts
         self._skin, self._boundary = spec.skin, spec.ending
         self._meshing = octant_spec(spec.cell_size, spec.struts, spec.detail)
@@ -219,7 +222,7 @@ class Infill:
         """The lattice without the skin: trimmed to its domain, or its cells whole."""
         laid = self._laid(is_cut=self._boundary.is_trimmed)
         with self.monitor.stage("trim", 0.6, 1.0):
-            cleared = self._cut(laid) if self._boundary.is_trimmed else self._uncut(laid)
+            cleared = self._cut(laid)
         return self._reported("lattice", cleared)
 
     @cached_property
@@ -350,14 +353,13 @@ class Infill:
         return self.cells.padded.graph(self._cell, self.cells.active, self._boundary.is_endless)
 
     def _cut(self, laid: Laid, *, with_skin: bool = False) -> Cleared:
+        if not (with_skin or self._boundary.is_trimmed):
+            return uncut_lattice(laid, self.solid, self._meshing, self.monitor)
         has_skin = self._skin is not None
         return cut_lattice(
             laid, self.solid, self.domain, self._meshing, self.monitor,
-            has_skin=has_skin, with_skin=with_skin,
+            has_skin=has_skin, with_skin=with_skin, executor=self._executor,
         )  # fmt: skip
-
-    def _uncut(self, laid: Laid) -> Cleared:
-        return uncut_lattice(laid, self.solid, self._meshing, self.monitor)
 
     def _reported(self, output: str, cleared: Cleared, drained: Drained | None = None) -> Result:
         """A mesh with the figures of what it is and of how it was made."""

@@ -9,6 +9,7 @@ with what it missed by.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from concurrent.futures import Executor
 from dataclasses import replace
 
 import numpy as np
@@ -53,6 +54,7 @@ def aimed(
     progress: ProgressCallback | None = None,
     cache: StageCache | None = None,
     meshed: bool = True,
+    executor: Executor | None = None,
 ) -> Infill:
     """The infill of a solid whose struts have the radius of the specification's target.
 
@@ -63,6 +65,7 @@ def aimed(
         cache: keeps the stages; the wall is found once.
         meshed: whether its result is made and measured; otherwise the radius is the first one,
             as for beams.
+        executor: as of `Infill`.
 
     Raises:
         VolfrepError: no radius meets the target (the text says what can be had), or the
@@ -70,12 +73,13 @@ def aimed(
         Cancelled: the callback said so.
     """
     cache = cache or StageCache()
-    infill = Infill(solid, spec, progress=progress, cache=cache)
+    infill = Infill(solid, spec, progress=progress, cache=cache, executor=executor)
     target = spec.target
     if target is None or spec.output == "domain":
         return infill
     if target.aim == "stiffness":
-        return Infill(solid, _stiff(spec, target), progress=progress, cache=cache)
+        stiff = _stiff(spec, target)
+        return Infill(solid, stiff, progress=progress, cache=cache, executor=executor)
     monitor, domain = infill.monitor, infill.domain.mesh.volume
     frame = infill.struts
     with monitor.stage("target", 0.4, 0.4):
@@ -94,8 +98,9 @@ def aimed(
     wanted = search.volume
     for made in range(1, MESHES + 1):
         infill = Infill(
-            solid, search.specification(wanted), cache=cache, progress=progress, monitor=monitor
-        )
+            solid, search.specification(wanted), cache=cache, progress=progress, monitor=monitor,
+            executor=executor,
+        )  # fmt: skip
         if not meshed:
             return infill
         report = infill.result.report
@@ -112,9 +117,10 @@ def filled(
     *,
     progress: ProgressCallback | None = None,
     cache: StageCache | None = None,
+    executor: Executor | None = None,
 ) -> tuple[Result, LatticeSpec]:
     """The result of `aimed`, and the specification with the radius that was found."""
-    infill = aimed(solid, spec, progress=progress, cache=cache)
+    infill = aimed(solid, spec, progress=progress, cache=cache, executor=executor)
     return infill.result, infill.spec
 
 

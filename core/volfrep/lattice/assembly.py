@@ -9,7 +9,7 @@ by where it lies. No coordinates are compared.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,6 +36,8 @@ class Layout:
         base: first vertex number of each vertex, edge, face and cell of the octants' complex, on
             the doubled grid: even places are planes between octants.
         count: of all vertices.
+        first: (3,) the corner that octant (0, 0, 0) has on its high side, counted from the grid's
+            origin: of a cutting of a larger grid, which keeps its coordinates to the last bit.
     """
 
     grid: OctantGrid
@@ -43,6 +45,12 @@ class Layout:
     places: list[NDArray[np.int64]]
     base: NDArray[np.int32]
     count: int
+    first: NDArray[np.int64] = field(default_factory=lambda: np.zeros(3, np.int64))
+
+    def frames(self, place: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """The grid corner that octants lie about, and the direction of their axes."""
+        corner, sign = frames(place)
+        return corner + self.first, sign
 
     @property
     def triangles(self) -> int:
@@ -87,7 +95,7 @@ def numbers_at(
 def coordinates(layout: Layout, monitor: Monitor) -> Floats:
     """(n, 3) coordinates of all the numbered vertices, mm."""
     vertices = np.empty((layout.count, 3))
-    for number, points in _placed_octants(layout, None, monitor):
+    for number, points in placed_octants(layout, None, monitor):
         vertices[number] = points
     return vertices
 
@@ -104,14 +112,14 @@ def coordinates_of(
         monitor: for cancel.
     """
     vertices = np.empty((len(wanted), 3))
-    for number, points in _placed_octants(layout, where, monitor):
+    for number, points in placed_octants(layout, where, monitor):
         row = np.minimum(np.searchsorted(wanted, number), len(wanted) - 1)
         found = wanted[row] == number
         vertices[row[found]] = points[found]
     return vertices
 
 
-def _placed_octants(
+def placed_octants(
     layout: Layout, where: NDArray[np.bool_] | None, monitor: Monitor
 ) -> Iterator[tuple[NDArray[np.int32], Floats]]:
     """Octants some at a time: (k, n) numbers of their vertices and (k, n, 3) their coordinates."""
@@ -126,7 +134,7 @@ def _placed_octants(
         size = max(1, CHUNK_VERTICES // len(octant.vertices))
         for begin in range(0, len(place), size):
             part = place[begin : begin + size]
-            corner, sign = frames(part)
+            corner, sign = layout.frames(part)
             points = placed(grid, corner[:, None, :], sign[:, None, :] * steps)
             yield numbers(layout, octant, part), points
             monitor.tick()
@@ -158,7 +166,7 @@ def box(layout: Layout) -> Floats:
             continue
         steps = in_steps(grid, octant)
         extremes = np.stack([steps.min(axis=0), steps.max(axis=0)])
-        corner, sign = frames(place)
+        corner, sign = layout.frames(place)
         ends = placed(grid, corner[:, None, :], sign[:, None, :] * extremes)
         boxes.append(box_of(ends.reshape(-1, 3)))
     return box_of(np.concatenate(boxes)) if boxes else np.zeros((2, 3))

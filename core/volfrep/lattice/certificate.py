@@ -21,7 +21,7 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
 from ..mesh.quality import Quality
-from ..octants.octant import OctantGrid, frames
+from ..octants.octant import OctantGrid
 from ..octants.octant_mesh import Octant
 from ..util.types import Floats, Ints
 from .assembly import Layout, box, numbers_at
@@ -153,7 +153,7 @@ def certify_pieces(layout: Layout, centre: Floats) -> CertifiedPieces:
     volume, normal = np.zeros(pieces), np.zeros((pieces, 3))
     triangles, degenerate, area = 0, 0, 0.0
     for kind, key, place in zip(kinds, grid.keys, layout.places, strict=True):
-        corner, sign = frames(place)
+        corner, sign = layout.frames(place)
         offset = corner * grid.cell_size + grid.origin - centre
         own = kind.volume + np.einsum("ki,pi->kp", offset * sign, kind.normal) / 3.0
         index = first[tuple(place.T)][:, None] + np.arange(kind.pieces)

@@ -1,32 +1,31 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The Boolean that trims the lattice to its domain and joins it to the skin.
-
-part = outer - (inner - lattice). The cavity (inner - lattice) lies strictly inside the part, so
-that the outer minus adds a reversed surface and intersects nothing. Only octants that the wall
-crosses go into the one Boolean, closed by flat caps where their neighbours are left out; octants
-wholly inside follow where the caps were, vertex on vertex: the Boolean hands the caps out
-untouched, and what it hands out untouched has exactly the coordinates that went in.
-"""
+"""The lattice trimmed to its domain: groups of octants at the wall are cut, and joined again."""
 
 from __future__ import annotations
 
+from collections import deque
+from collections.abc import Iterable, Iterator
+from concurrent.futures import BrokenExecutor, Executor, Future
+from concurrent.futures import TimeoutError as FutureTimeoutError
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from itertools import islice
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..lattice.assembly import facets, neighbour_missing
-from ..mesh.booleans import from_library, to_library
-from ..mesh.triangle_mesh import TriangleMesh, compact
-from ..util.errors import VolfrepError
-from ..util.progress import Monitor
+from ..mesh.float32_repair import shortest_edge
+from ..mesh.triangle_mesh import TriangleMesh
+from ..util.progress import POLL_SECONDS, Monitor
+from ..util.threads import threads
+from ..util.types import Bools, Floats
 from .culling import KeptOctants
+from .group_cut import Group, Piece, cut
 from .laid import Laid
+from .seams import Joined, joined
 from .trimmed_surface import InnerOctants, TrimmedSurface
+from .wall_groups import Groups, grouped
 
-if TYPE_CHECKING:
-    import manifold3d
+#: Vertices of two groups are the same within this part of the shortest edge that files hold.
+SAME_VERTEX = 1e-4
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,16 +35,24 @@ class Trimmed:
     Attributes:
         surface: for a part: the cavity's, seen from the material. Otherwise the lattice's.
         on_wall: (m,) bool, triangles of its mesh that lie on the domain's wall.
-        boolean_triangles: triangles that went into the Boolean.
     """
 
     surface: TrimmedSurface
-    on_wall: NDArray[np.bool_]
-    boolean_triangles: int
+    on_wall: Bools
 
 
-def trim(domain: TriangleMesh, laid: Laid, *, cavity: bool, monitor: Monitor) -> Trimmed:
+def trim(
+    domain: TriangleMesh,
+    laid: Laid,
+    *,
+    cavity: bool,
+    monitor: Monitor,
+    executor: Executor | None = None,
+) -> Trimmed:
     """Cut the lattice at the domain's wall.
+
+    Octants that the wall crosses are cut in groups, those inside follow where these are open. What
+    comes out is the same with any executor.
 
     Args:
         domain: closed mesh of what the lattice fills.
@@ -53,84 +60,96 @@ def trim(domain: TriangleMesh, laid: Laid, *, cavity: bool, monitor: Monitor) ->
         cavity: True for domain - lattice turned inside out (the wall with holes where struts
             meet it, and the struts), False for domain & lattice.
         monitor: for progress and cancel.
+        executor: cuts groups beside each other; None: one after the other in this process.
 
     Raises:
         VolfrepError: the domain's mesh is not a solid that can be cut.
     """
     monitor.tick(0.1)
-    import manifold3d
-
-    wall = _solid(domain, [len(domain.triangles)], monitor)
-    if wall.status() != manifold3d.Error.NoError:
-        raise VolfrepError(
-            f"The domain's surface cannot be cut ({wall.status().name}): repair the part's mesh."
-        )
     kept = laid.kept
-    # Caps towards octants inside are taken off again where these follow. Those on the
-    # outside lie beyond the wall; what a wall that grazes them leaves belongs to the surface.
-    caps, ends = _caps(laid, monitor)
-    surface = np.concatenate([laid.facets(kept.border, monitor), ends])
-    capped = laid.mesh(np.concatenate([surface, caps]), kept.border, monitor)[0]
-    taken = len(capped.triangles) + len(domain.triangles)
-    monitor.count("triangles into the Boolean", taken)
-    ids = manifold3d.Manifold.reserve_ids(2)
-    cutter = _solid(capped, [len(surface), len(caps)], monitor, ids)
-    if cutter.status() != manifold3d.Error.NoError:
-        raise RuntimeError(f"the lattice's border is not a manifold: {cutter.status()}")
-    del capped
-    monitor.tick(0.5)
-    result = monitor.call(lambda: (wall - cutter if cavity else wall ^ cutter).to_mesh64())
-    monitor.tick(0.9)
-    mesh, origin = _read(result)
-    del result
-    is_cap = origin == ids + 1
-    rest = mesh.triangles[~is_cap]
-    cut = compact(TriangleMesh(mesh.vertices, rest[:, ::-1] if cavity else rest))
     inner = InnerOctants(laid, kept.inside) if kept.inside.any() else None
-    trimmed = TrimmedSurface(cut, inner)
-    if inner is None and is_cap.any():
-        raise RuntimeError("the Boolean left caps where no octant follows")
+    rim = np.zeros((0, 3)) if inner is None else inner.rim_points
+    found = _joined(grouped(laid, domain, monitor), rim, cavity, monitor, executor)
+    trimmed = TrimmedSurface(found.mesh, inner)
     if not trimmed.is_joined:
         # The Boolean has taken out vertices at the caps, as it may do between tiny triangles: let
         # all the octants go through it, which takes longer.
         every = KeptOctants(kept.grid, kept.border | kept.inside, np.zeros_like(kept.inside))
-        return trim(domain, replace(laid, kept=every), cavity=cavity, monitor=monitor)
-    return Trimmed(trimmed, ~np.isin(origin[~is_cap], (ids, ids + 1)), taken)
+        whole = replace(laid, kept=every)
+        return trim(domain, whole, cavity=cavity, monitor=monitor, executor=executor)
+    return Trimmed(trimmed, found.on_wall)
 
 
-def _caps(laid: Laid, monitor: Monitor) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """What closes the border's octants towards those inside, and towards nothing."""
-    layout, kept = laid.layout, laid.kept
-    inward, outward = [], []
-    for axis in range(3):
-        for high in (False, True):
-            every = neighbour_missing(layout.grid, kept.border, axis, high)
-            last = neighbour_missing(layout.grid, kept.border | kept.inside, axis, high)
-            inward.append(facets(layout, monitor, every & ~last, (axis, high)))
-            outward.append(facets(layout, monitor, every & last, (axis, high)))
-    return np.concatenate(inward), np.concatenate(outward)
+def _joined(
+    groups: Groups, rim: Floats, cavity: bool, monitor: Monitor, executor: Executor | None
+) -> Joined:
+    """All groups, cut and joined; those that do not meet exactly are cut as one."""
+    same = SAME_VERTEX * shortest_edge(groups.wall)
+    pieces: dict[int, Piece] = {}
+    while True:
+        missing = np.array([k for k in range(groups.count) if k not in pieces], np.int64)
+        given = groups.each(missing, cavity, monitor)
+        made = _cut(given, len(missing), executor, monitor)
+        pieces.update(zip(missing.tolist(), made, strict=True))
+        wrong = np.array([k for k, piece in pieces.items() if piece.defect], np.int64)
+        if groups.count == 1:
+            piece = pieces[0]
+            if len(wrong):
+                raise piece.error
+            return Joined(piece.mesh, piece.on_wall, wrong)
+        if not len(wrong):
+            together = [pieces[k] for k in range(groups.count)]
+            if cavity:
+                together.append(groups.untouched)
+            found = joined(together, rim, same)
+            if not len(found.loose):
+                return found
+            wrong = found.loose[found.loose < groups.count]
+        if len(wrong) < 2:
+            wrong = np.arange(groups.count)
+        groups, number = groups.merged(wrong)
+        pieces = {int(number[k]): piece for k, piece in pieces.items() if k not in wrong}
 
 
-def _solid(
-    mesh: TriangleMesh,
-    runs: list[int],
-    monitor: Monitor,
-    first_id: int | None = None,
-) -> manifold3d.Manifold:
-    """A manifold whose runs of triangles can be told apart after a Boolean."""
-    import manifold3d as library
+def _cut(
+    groups: Iterable[Group], count: int, executor: Executor | None, monitor: Monitor
+) -> Iterator[Piece]:
+    """What the Boolean leaves of groups, in their order."""
+    waiting = iter(groups)
+    ahead: deque[tuple[Group, Future[Piece]]] = deque()
+    for done in range(count):
+        if executor is None:
+            piece = cut(ahead.popleft()[0] if ahead else next(waiting), monitor)
+        else:
+            # Some groups ahead, so that no worker waits; not all, so that they take no memory.
+            for group in islice(waiting, 2 * threads() - len(ahead)):
+                ahead.append((group, _submitted(executor, group)))
+            group, future = ahead.popleft()
+            try:
+                piece = _finished(future, monitor)
+            except BrokenExecutor:  # a worker is gone, as for want of memory: go on without
+                executor, piece = None, cut(group, monitor)
+        for name, amount in piece.work.items():
+            monitor.count(name, amount)
+        monitor.tick(0.1 + 0.8 * (done + 1) / count)
+        yield piece
 
-    ids = library.Manifold.reserve_ids(len(runs)) if first_id is None else first_id
-    source = to_library(
-        mesh,
-        run_index=np.concatenate([[0], np.cumsum(runs)]).astype(np.uint64) * np.uint64(3),
-        run_original_id=np.arange(ids, ids + len(runs), dtype=np.uint32),
-    )
-    return monitor.call(lambda: library.Manifold(source))
+
+def _submitted(executor: Executor, group: Group) -> Future[Piece]:
+    try:
+        return executor.submit(cut, group)
+    except BrokenExecutor as error:
+        broken: Future[Piece] = Future()
+        broken.set_exception(error)
+        return broken
 
 
-def _read(result: manifold3d.Mesh64) -> tuple[TriangleMesh, NDArray[np.int64]]:
-    """The Boolean's result, and the run that each triangle came from."""
-    index = np.asarray(result.run_index).astype(np.int64) // 3
-    origin = np.repeat(np.asarray(result.run_original_id).astype(np.int64), np.diff(index))
-    return from_library(result), origin
+def _finished(future: Future[Piece], monitor: Monitor) -> Piece:
+    """What a worker made; a cancel does not wait for it."""
+    while True:
+        try:
+            return future.result(timeout=POLL_SECONDS)
+        except FutureTimeoutError:
+            if future.done():
+                raise
+            monitor.tick()

@@ -92,7 +92,7 @@ def cull(grid: OctantGrid, roles: OctantRoles) -> KeptOctants:
     """Cull the octants outside; `roles` is shaped as the grid."""
     present = grid.kind >= 0
     border, inside = roles.border & present, roles.inside & present
-    border = _without_pinches(border, present, grid.periodic)
+    border = without_pinches(border, present, grid.periodic)
     inside = inside & ~border
     kind = np.where(border | inside, grid.kind, np.int16(-1))
     return KeptOctants(used_kinds(replace(grid, kind=kind)), border, inside)
@@ -103,7 +103,7 @@ def keep_all(grid: OctantGrid) -> KeptOctants:
     return KeptOctants(used_kinds(grid), np.zeros(grid.kind.shape, bool), grid.kind >= 0)
 
 
-def _without_pinches(
+def without_pinches(
     border: NDArray[np.bool_], present: NDArray[np.bool_], periodic: Periodic
 ) -> NDArray[np.bool_]:
     """The border, grown until no two of its octants touch along an edge or a corner only.

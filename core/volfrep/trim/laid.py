@@ -10,15 +10,15 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ..lattice.assembly import Layout, coordinates_of, facets, lay_out
+from ..lattice.assembly import Layout, coordinates_of, facets, lay_out, numbers, placed_octants
 from ..lattice.certificate import agree_on_faces
 from ..lattice.deform import Deformed
 from ..mesh.triangle_mesh import TriangleMesh
-from ..octants.octant import OctantKey
+from ..octants.octant import OctantKey, used_kinds
 from ..octants.octant_mesh import Octant
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
-from ..util.types import Bools, Floats
+from ..util.types import Bools, Floats, Ints
 from .culling import CROSSING_MARGIN, KeptOctants
 
 #: Octants on moved struts mostly reach no farther out of their places than this, in units of
@@ -32,20 +32,16 @@ MOST_WIDENINGS = 9
 
 
 @dataclass(frozen=True, eq=False)
-class Laid:
-    """Octants laid where their struts are.
+class Placed:
+    """Numbered octants where their struts are.
 
     Attributes:
-        kept: which octants there are.
-        octants: their meshes.
-        layout: the same, numbered, with corners for caps.
+        layout: the octants, numbered, with corners for caps.
         points: (n, 3) where their vertices are, mm; None where they keep their places in lattice
             space but for the shift.
         shift: (3,) by which all are moved, mm.
     """
 
-    kept: KeptOctants
-    octants: dict[OctantKey, Octant]
     layout: Layout
     points: Floats | None
     shift: Floats
@@ -83,6 +79,59 @@ class Laid:
         """(m, 3) the surface in some octants, of numbered vertices."""
         return facets(self.layout, monitor, where)
 
+    def boxes(self, where: Bools, monitor: Monitor) -> tuple[Ints, Floats, Floats]:
+        """(k, 3) places of some octants with vertices, and (k, 3) corners of their boxes, mm.
+
+        All that a struts' solid has in an octant lies in the box of its vertices and corners.
+        """
+        some = [place[where[tuple(place.T)]] for place in self.layout.places]
+        low, high = [np.zeros((0, 3))], [np.zeros((0, 3))]
+        for number, points in placed_octants(self.layout, where, monitor):
+            own = points + self.shift if self.points is None else self.points[number]
+            low.append(own.min(axis=1))
+            high.append(own.max(axis=1))
+        pairs = zip(self.layout.grid.keys, some, strict=True)
+        places = [place for key, place in pairs if len(self.layout.octants[key].vertices)]
+        return np.concatenate([np.zeros((0, 3), np.int64), *places]), *map(
+            np.concatenate, (low, high)
+        )
+
+    def cutting(self, index: Ints) -> tuple[Placed, tuple[slice, ...]]:
+        """Octants at some places, (k, 3), and the part of the grid that they are laid on."""
+        grid, box, low = self.layout.grid, [], np.zeros(3, np.int64)
+        for axis, closed in enumerate(grid.periodic):
+            if closed:
+                box.append(slice(None))
+                continue
+            # One more on every side, for their neighbours; frames alternate: an even one first.
+            low[axis] = max(int(index[:, axis].min()) - 1, 0) // 2 * 2
+            box.append(slice(int(low[axis]), int(index[:, axis].max()) + 2))
+        kind = np.full_like(grid.kind[tuple(box)], -1)
+        kind[tuple((index - low).T)] = grid.kind[tuple(index.T)]
+        some = used_kinds(replace(grid, kind=kind))
+        octants = {key: self.layout.octants[key] for key in some.keys}
+        layout = replace(lay_out(some, octants), first=self.layout.first + low // 2)
+        if self.points is None:
+            return Placed(layout, None, self.shift), tuple(box)
+        points = np.empty((layout.count, 3))
+        for key, place in zip(some.keys, layout.places, strict=True):
+            theirs = numbers(self.layout, octants[key], place + low)
+            points[numbers(layout, octants[key], place)] = self.points[theirs]
+        return Placed(layout, points, self.shift), tuple(box)
+
+
+@dataclass(frozen=True, eq=False)
+class Laid(Placed):
+    """All the octants of a lattice where their struts are.
+
+    Attributes:
+        kept: which octants there are.
+        octants: their meshes, without corners.
+    """
+
+    kept: KeptOctants
+    octants: dict[OctantKey, Octant]
+
     def alone(self, where: Bools) -> Layout:
         """Some of the octants without their corners, numbered as among all; their own count."""
         grid = self.layout.grid
@@ -106,7 +155,7 @@ class Laid:
 
 def in_place(kept: KeptOctants, octants: dict[OctantKey, Octant], shift: Floats) -> Laid:
     """Octants that keep their places but for a shift, (3,) mm."""
-    return Laid(kept, octants, kept.lay_out(octants), None, shift)
+    return Laid(kept.lay_out(octants), None, shift, kept, octants)
 
 
 def lay(
@@ -131,7 +180,7 @@ def lay(
         layout = kept.lay_out(octants)
         placed = place(layout)
         if placed.excess <= margin + 1e-9:
-            return Laid(kept, octants, layout, placed.vertices, np.zeros(3))
+            return Laid(layout, placed.vertices, np.zeros(3), kept, octants)
         if widening < MOST_WIDENINGS:
             margin = max(SPARE_MARGIN * placed.excess, 2.0 * margin if widening else 0.0)
             kept, octants = within(margin)

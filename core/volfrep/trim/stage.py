@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from concurrent.futures import Executor
 from dataclasses import replace
 
 import numpy as np
@@ -76,6 +77,7 @@ def cut_lattice(
     *,
     has_skin: bool,
     with_skin: bool,
+    executor: Executor | None = None,
 ) -> Cleared:
     """The part or the lattice, without loose pieces and slivers, and its quality.
 
@@ -87,13 +89,14 @@ def cut_lattice(
         monitor: for progress and cancel.
         has_skin: whether a skin lies about the domain, which holds the lattice.
         with_skin: whether the lattice is joined to it.
+        executor: of the groups of octants that the wall cuts; None: this process.
 
     Raises:
         VolfrepError: nothing is left, or nothing would hold it.
     """
     wall = domain.wall
     smallest, precision = smallest_shell(octant_spec), shortest_edge(solid)
-    trimmed = trim(wall, laid, cavity=with_skin, monitor=monitor)
+    trimmed = trim(wall, laid, cavity=with_skin, monitor=monitor, executor=executor)
     surface, removed, lost = trimmed.surface, 0, 0.0
     if not _needs_no_look(laid, wall):
         surface = TrimmedSurface(surface.whole(monitor))

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The lattice cut at the wall, and what is removed afterwards."""
 
-from dataclasses import replace
+from concurrent.futures import BrokenExecutor, ProcessPoolExecutor, ThreadPoolExecutor
+from dataclasses import dataclass, replace
 
 import manifold3d
 import numpy as np
 import pytest
+import trimesh
 
 import samples
 from contract import assert_same_quality
@@ -16,15 +18,24 @@ from volfrep.mesh import quality
 from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.octants.octant import ALL_ACTIVE, OctantGrid, OctantKey
 from volfrep.octants.octant_mesh import OctantSpec, mesh_octants
+from volfrep.trim import boolean_trim, wall_groups
 from volfrep.trim.boolean_trim import trim
 from volfrep.trim.culling import cull, octant_roles
+from volfrep.trim.group_cut import open_vertices
 from volfrep.trim.laid import in_place
+from volfrep.trim.trimmed_surface import TrimmedSurface
 from volfrep.util.progress import Monitor
 
 L = 10.0
 
 
-def trimmed(domain, name="CVC", radius=1.0, cavity=True, grow=0):
+@dataclass
+class Found:
+    surface: TrimmedSurface
+    boolean_triangles: int
+
+
+def trimmed(domain, name="CVC", radius=1.0, cavity=True, grow=0, executor=None):
     """The lattice cut at the domain; with `grow`, that many more octants go into the Boolean."""
     cell, monitor = LIBRARY[name], Monitor()
     cells = make_grid(domain.bounds, L, (1.3, 2.1, 0.7))
@@ -35,7 +46,9 @@ def trimmed(domain, name="CVC", radius=1.0, cavity=True, grow=0):
     grid = OctantGrid([key], np.zeros(roles.border.shape, np.int16), cells.origin, L, True)
     octants = mesh_octants(cell, OctantSpec(L, radius, 0.0, 15), [key], monitor)
     kept = cull(grid, roles)
-    return trim(domain, in_place(kept, octants, NUDGE * L), cavity=cavity, monitor=monitor)
+    laid = in_place(kept, octants, NUDGE * L)
+    found = trim(domain, laid, cavity=cavity, monitor=monitor, executor=executor)
+    return Found(found.surface, monitor.work["triangles into the Boolean"])
 
 
 def mesh_of(found):
@@ -134,3 +147,94 @@ def test_the_trimmed_lattice_has_the_genus_of_a_boolean_by_others():
     )
     whole = solid ^ ball
     assert ours.volume == pytest.approx(whole.volume(), rel=1e-6)
+
+
+@pytest.fixture
+def small_groups(monkeypatch):
+    """Groups of so few triangles that a sample has several."""
+    monkeypatch.setattr(wall_groups, "GROUP_TRIANGLES", 12_000)
+
+
+def joined_of(monkeypatch):
+    """What is cut from here on is noted: how many groups there were, each time."""
+    counts = []
+    each = wall_groups.Groups.each
+
+    def noted(self, which, cavity, monitor):
+        counts.append(len(which))
+        return each(self, which, cavity, monitor)
+
+    monkeypatch.setattr(wall_groups.Groups, "each", noted)
+    return counts
+
+
+def tilted_box():
+    """Large flat facets in no plane of the cells'."""
+    box = trimesh.creation.box((47.0, 38.0, 29.0))
+    box.apply_transform(trimesh.transformations.rotation_matrix(0.4, (1, 2, 3)))
+    return TriangleMesh(np.asarray(box.vertices), box.faces.astype(np.int32))
+
+
+@pytest.mark.parametrize("cavity", [True, False])
+@pytest.mark.parametrize("name", ["CVC", "Box"])
+@pytest.mark.parametrize("domain", [tilted_box(), samples.sphere(22.0)], ids=["flat", "round"])
+def test_groups_give_the_surface_that_one_boolean_gives(
+    domain, name, cavity, small_groups, monkeypatch
+):
+    counts = joined_of(monkeypatch)
+    some = quality.measure(mesh_of(trimmed(domain, name, cavity=cavity)))
+    assert len(counts) == 1  # none had to be cut again
+    assert counts[0] > 3
+    monkeypatch.setattr(wall_groups, "GROUP_TRIANGLES", 10**9)
+    one = quality.measure(mesh_of(trimmed(domain, name, cavity=cavity)))
+    assert counts[1:] == [1]
+    assert some.watertight
+    assert some.volume == pytest.approx(one.volume, rel=1e-9)
+    assert some.area == pytest.approx(one.area, rel=1e-9)
+    for figure in ("shells", "bodies", "voids", "genus"):
+        assert getattr(some, figure) == getattr(one, figure)
+
+
+def test_the_surface_is_the_same_whoever_cuts_the_groups(small_groups):
+    domain = tilted_box()
+    alone = mesh_of(trimmed(domain))
+    with ThreadPoolExecutor(2) as threads, ProcessPoolExecutor(1) as process:
+        for executor in (threads, process):
+            mesh = mesh_of(trimmed(domain, executor=executor))
+            np.testing.assert_array_equal(mesh.vertices, alone.vertices)
+            np.testing.assert_array_equal(mesh.triangles, alone.triangles)
+
+
+def test_a_worker_that_is_gone_costs_time_and_nothing_else(small_groups):
+    class Gone(ThreadPoolExecutor):
+        taken = 0
+
+        def submit(self, *args):
+            Gone.taken += 1
+            if Gone.taken > 2:
+                raise BrokenExecutor("killed")
+            return super().submit(*args)
+
+    with Gone(1) as executor:
+        mesh = mesh_of(trimmed(tilted_box(), executor=executor))
+    np.testing.assert_array_equal(mesh.vertices, mesh_of(trimmed(tilted_box())).vertices)
+    assert Gone.taken > 2
+
+
+def test_groups_that_do_not_meet_are_cut_as_one(small_groups, monkeypatch):
+    counts = joined_of(monkeypatch)
+    real, spoilt = boolean_trim.cut, []
+
+    def spoiling(group, monitor=None):
+        piece = real(group, monitor)
+        if not spoilt:
+            # One triangle of the first group is lost.
+            spoilt.append(True)
+            mesh = TriangleMesh(piece.mesh.vertices, piece.mesh.triangles[:-1])
+            return replace(piece, mesh=mesh, on_wall=piece.on_wall[:-1], rim=open_vertices(mesh))
+        return piece
+
+    monkeypatch.setattr(boolean_trim, "cut", spoiling)
+    found = quality.measure(mesh_of(trimmed(tilted_box())))
+    assert found.watertight
+    assert len(counts) == 2

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...lattice.assembly import Layout, in_steps, placed
-from ...octants.octant import OctantGrid, frames
+from ...octants.octant import OctantGrid
 from ...trim.trimmed_surface import TrimmedSurface
 from ...util.progress import Monitor
 from ...util.types import Floats
@@ -73,7 +73,7 @@ def _blocks(layout: Layout, shift: Floats) -> Iterator[Callable[[], Facets]]:
             continue
         steps = in_steps(grid, octant)
         normals = _normals(octant.vertices[octant.triangles])
-        corner, sign = frames(place)
+        corner, sign = layout.frames(place)
         # Octants of one frame together: their facets are the same but for where they lie.
         for frame in np.unique(sign, axis=0):
             own = corner[(sign == frame).all(axis=1)]

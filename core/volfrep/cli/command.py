@@ -185,10 +185,14 @@ def _fill(options: argparse.Namespace) -> None:
         refuse_scale(solid.bounds, spec.cell_size, part.name)
     read_seconds = time.perf_counter() - start
     if not options.quiet:
-        print(f"Expected: {forecast_fill(solid, spec)}.", flush=True)
+        expected = forecast_fill(solid, spec, streamed=_writes_stl(options))
+        print(f"Expected: {expected}.", flush=True)
     meshed = options.threemf != "beams" and not solver_options.needs_axes(options)
     with processes() as executor, Progress(options.quiet) as progress:
-        infill = aimed(solid, spec, progress=progress, meshed=meshed, executor=executor)
+        infill = aimed(
+            solid, spec, progress=progress, meshed=meshed, executor=executor,
+            streamed=_writes_stl(options),
+        )  # fmt: skip
         spec = infill.spec
         if solver_options.fill_axes(infill, options, start):
             return

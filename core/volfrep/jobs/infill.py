@@ -54,7 +54,7 @@ from ..util.errors import VolfrepError
 from ..util.progress import Monitor, ProgressCallback
 from .active_cells import ActiveCells, activated, roles_of
 from .finer import until_sound
-from .octant_guard import refuse_solid_cells, refuse_too_large
+from .octant_guard import refuse_large_cells, refuse_solid_cells, refuse_too_large
 from .target_report import judged
 
 
@@ -73,6 +73,7 @@ class Infill:
         progress: called with the fraction done and the stage; returning False cancels.
         monitor: of a job that this is a part of, in place of one of its own.
         executor: cuts the lattice at the wall, group by group; None: in this process.
+        streamed: whether its mesh is never asked for, but an STL file.
 
     Attributes:
         solid: the part.
@@ -100,17 +101,13 @@ class Infill:
         progress: ProgressCallback | None = None,
         monitor: Monitor | None = None,
         executor: Executor | None = None,
+        streamed: bool = False,
     ) -> None:
-        size = solid.bounds[1] - solid.bounds[0]
-        if spec.cell_size > size.max():
-            raise VolfrepError(
-                f"Cells of {spec.cell_size:g} mm are larger than the part, which measures "
-                f"{size[0]:.4g} x {size[1]:.4g} x {size[2]:.4g} mm: reduce the cell size, "
-                "or see whether the part is in another unit."
-            )
+        refuse_large_cells(solid, spec)
         self.solid, self.spec = solid, spec
         self.monitor = monitor or Monitor(progress)
         self._cache, self._executor = cache or StageCache(), executor
+        self._streamed = streamed and spec.streams
         self._cell, self._grid, self._struts = spec.unit_cell(), spec.grid, spec.struts
         self._skin, self._boundary = spec.skin, spec.ending
         self._meshing = octant_spec(spec.cell_size, spec.struts, spec.detail)
@@ -300,7 +297,7 @@ class Infill:
     def _laid(self, *, is_cut: bool) -> Laid:
         """The octants laid in the part, as of a lattice that a wall cuts, or as they are."""
         if is_cut not in self._laid_octants:
-            refuse_expected(self.spec, self.domain.mesh.volume)
+            refuse_expected(self.spec, 0.0 if self._streamed else self.domain.mesh.volume)
             _ = self.struts  # refused before anything is meshed
             keeps = keeps_places(self._struts, self.placement)
             margin = 0.0 if keeps else FIRST_MARGIN
@@ -336,7 +333,8 @@ class Infill:
         (kept, octants), self._meshing, notes = until_sound(self._meshing, meshed)
         self._notes += notes
         refuse_solid_cells(octants, self._meshing)
-        refuse_too_large(self.spec, kept.grid, octants, kept.border)
+        streamed = self._streamed
+        refuse_too_large(self.spec, kept.grid, octants, kept.border, streamed=streamed)
         return kept, octants
 
     def _placed(self, layout: Layout) -> Deformed:

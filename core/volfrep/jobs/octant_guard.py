@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Refusals before octants are assembled: too many for the memory, or without a surface."""
+"""Refusals before octants are assembled: too large, too many, or without a surface."""
 
 from __future__ import annotations
 
@@ -8,8 +8,21 @@ from numpy.typing import NDArray
 
 from ..design.memory_guard import cells_are_full, refuse_memory
 from ..design.spec import LatticeSpec
+from ..mesh.triangle_mesh import TriangleMesh
 from ..octants.octant import OctantGrid, OctantKey
 from ..octants.octant_mesh import Octant, OctantSpec
+from ..util.errors import VolfrepError
+
+
+def refuse_large_cells(solid: TriangleMesh, spec: LatticeSpec) -> None:
+    """Raise a `VolfrepError` where cells are larger than the part."""
+    size = solid.bounds[1] - solid.bounds[0]
+    if spec.cell_size > size.max():
+        raise VolfrepError(
+            f"Cells of {spec.cell_size:g} mm are larger than the part, which measures "
+            f"{size[0]:.4g} x {size[1]:.4g} x {size[2]:.4g} mm: reduce the cell size, "
+            "or see whether the part is in another unit."
+        )
 
 
 def refuse_too_large(
@@ -17,6 +30,8 @@ def refuse_too_large(
     grid: OctantGrid,
     octants: dict[OctantKey, Octant],
     border: NDArray[np.bool_] | None,
+    *,
+    streamed: bool = False,
 ) -> None:
     """Refuse a lattice that would not fit.
 
@@ -25,6 +40,7 @@ def refuse_too_large(
         grid: which octant lies where.
         octants: their meshes.
         border: octants that go through the Boolean; None for none.
+        streamed: whether no others are in memory.
 
     Raises:
         VolfrepError: it needs more memory than is free.
@@ -33,7 +49,7 @@ def refuse_too_large(
     present = grid.kind >= 0
     triangles = int(per_kind[grid.kind[present]].sum())
     in_boolean = 0 if border is None else int(per_kind[grid.kind[present & border]].sum())
-    refuse_memory(spec, triangles, in_boolean)
+    refuse_memory(spec, 0 if streamed else triangles, in_boolean)
 
 
 def refuse_solid_cells(octants: dict[OctantKey, Octant], spec: OctantSpec) -> None:

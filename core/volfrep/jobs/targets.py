@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 from scipy.optimize import brentq
@@ -55,6 +56,7 @@ def aimed(
     cache: StageCache | None = None,
     meshed: bool = True,
     executor: Executor | None = None,
+    streamed: bool = False,
 ) -> Infill:
     """The infill of a solid whose struts have the radius of the specification's target.
 
@@ -66,6 +68,7 @@ def aimed(
         meshed: whether its result is made and measured; otherwise the radius is the first one,
             as for beams.
         executor: as of `Infill`.
+        streamed: as of `Infill`.
 
     Raises:
         VolfrepError: no radius meets the target (the text says what can be had), or the
@@ -73,13 +76,13 @@ def aimed(
         Cancelled: the callback said so.
     """
     cache = cache or StageCache()
-    infill = Infill(solid, spec, progress=progress, cache=cache, executor=executor)
+    made_of = partial(Infill, solid, cache=cache, executor=executor, streamed=streamed)
+    infill = made_of(spec, progress=progress)
     target = spec.target
     if target is None or spec.output == "domain":
         return infill
     if target.aim == "stiffness":
-        stiff = _stiff(spec, target)
-        return Infill(solid, stiff, progress=progress, cache=cache, executor=executor)
+        return made_of(_stiff(spec, target), progress=progress)
     monitor, domain = infill.monitor, infill.domain.mesh.volume
     frame = infill.struts
     with monitor.stage("target", 0.4, 0.4):
@@ -97,10 +100,7 @@ def aimed(
         search = _Search(spec, target, table, domain, skin)
     wanted = search.volume
     for made in range(1, MESHES + 1):
-        infill = Infill(
-            solid, search.specification(wanted), cache=cache, progress=progress, monitor=monitor,
-            executor=executor,
-        )  # fmt: skip
+        infill = made_of(search.specification(wanted), progress=progress, monitor=monitor)
         if not meshed:
             return infill
         report = infill.result.report

@@ -10,6 +10,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
+
 from ..mesh.float32_repair import (
     edge_within,
     merging_vertices,
@@ -35,7 +37,7 @@ MOST_MOVED = 1e-3
 def tidied(surface: TrimmedSurface, precision: float, monitor: Monitor) -> TrimmedSurface:
     """A surface from a Boolean, without slivers where they can go.
 
-    Octants beside its mesh have none; where they would be reached they go into the mesh.
+    Octants beside its mesh have none.
 
     Args:
         surface: closed.
@@ -43,13 +45,17 @@ def tidied(surface: TrimmedSurface, precision: float, monitor: Monitor) -> Trimm
         monitor: for cancel.
     """
     smooth, new = without_slivers(surface.mesh, precision)
+    result = replace(surface, mesh=smooth)
+    about = smooth
     if surface.octants is not None and new.any():
         near = surface.octants.reached(smooth.vertices[smooth.triangles[new]])
-        if near.any():
+        if result.has_inner_edges(new):  # that octants may have, too
             return tidied(surface.with_octants(near, monitor), precision, monitor)
-    if monitor.call(lambda: crossing_near(smooth, new, precision)).any():
+        about = result.with_octants(near, monitor).mesh
+        new = np.pad(new, (0, len(about.triangles) - len(new)))
+    if monitor.call(lambda: crossing_near(about, new, precision)).any():
         return surface  # a sliver is better than facets that cross
-    return replace(surface, mesh=smooth)
+    return result
 
 
 def finished(

@@ -94,9 +94,16 @@ class InnerOctants:
         row, place = spread(span.prod(axis=1))
         place, z = np.divmod(place, span[row, 2])
         x, y = np.divmod(place, span[row, 1])
+        index = low[row] + np.stack([x, y, z], axis=1)
+        some = self.where[tuple(index.T)]
+        index, row = index[some], row[some]
+        # A large triangle is near few of the octants that its box is near.
+        normal = np.cross(places[:, 1] - places[:, 0], places[:, 2] - places[:, 0])[row]
+        above = np.einsum("ij,ij->i", index + 0.5 - places[row, 0], normal)
+        meets = np.abs(above) <= (0.5 - REACH) * np.abs(normal).sum(axis=1)
         result = np.zeros(self.where.shape, bool)
-        result[tuple((low[row] + np.stack([x, y, z], axis=1)).T)] = True
-        return result & self.where
+        result[tuple(index[meets].T)] = True
+        return result
 
 
 @dataclass(frozen=True, eq=False)
@@ -155,6 +162,17 @@ class TrimmedSurface:
         if self.octants is None:
             return True
         return bool((self._rim_rows >= 0).all()) and self._rim_triangles is not None
+
+    def has_inner_edges(self, among: Bools) -> bool:
+        """Whether chosen triangles of the mesh join vertices at the rim otherwise than along it."""
+        at_rim = np.zeros(len(self.mesh.vertices), bool)
+        at_rim[self._rim_rows] = True
+        start = self.mesh.triangles[among].astype(np.int64)
+        end = np.roll(start, -1, axis=1)
+        both = at_rim[start] & at_rim[end]
+        size = np.int64(len(at_rim))
+        row = self._rim_rows[np.searchsorted(self._inner.rim, self._inner.pieces.rim)]
+        return not np.isin(start[both] * size + end[both], row[:, 1] * size + row[:, 0]).all()
 
     def inspected(self, monitor: Monitor) -> JoinedInspection:
         """Topology, volume and size of the whole.

@@ -38,6 +38,7 @@ from .util.progress import ProgressCallback
 if TYPE_CHECKING:
     import trimesh
 
+    from .jobs.slices import Layers
     from .reports.printability import PrintReport
 
 
@@ -96,7 +97,7 @@ class Part:
         """
         from .io.write import write_surface
 
-        write_surface(self.result.surface, path)
+        write_surface(self.result.surface, path, figures=self.report.figures)
 
     def check(
         self, process: str, build_direction: tuple[float, float, float] = (0.0, 0.0, 1.0)
@@ -111,7 +112,8 @@ class Part:
             VolfrepError: there is no such process, or the direction is none.
         """
         from .jobs.pipeline import fill
-        from .reports.printability import find_process, print_report
+        from .reports.printability import print_report
+        from .reports.processes import find_process
 
         limits = find_process(process)
         domain = None
@@ -234,6 +236,57 @@ def block(
 
     wanted = aimed_block(_specification(spec, parameters, material), count, progress=progress)
     return Part(make_block(wanted, count, progress=progress), wanted, None, StageCache())
+
+
+def slice_layers(
+    part: str | os.PathLike[str] | TriangleMesh | MeshLike | tuple[ArrayLike, ArrayLike],
+    folder: str | os.PathLike[str],
+    spec: LatticeSpec | None = None,
+    *,
+    layer: float,
+    pixel: float | None = None,
+    form: str = "png",
+    unit: str | None = None,
+    material: str | None = None,
+    progress: ProgressCallback | None = None,
+    cache: StageCache | None = None,
+    **parameters: Any,
+) -> Layers:
+    """Fill a solid and write it in layers along z for a printer; no mesh is made.
+
+    Args:
+        part: as of `fill`, as it stands on the build plate.
+        folder: to make; one that holds layers is replaced.
+        spec: what to make.
+        layer: height of a layer, mm.
+        pixel: edge of a picture's pixel, mm; None for the height of a layer.
+        form: png, svg or cli.
+        unit: of a file's lengths; None for what it says, else mm.
+        material: as of `fill`.
+        progress: called with the fraction done and the stage; returning False cancels.
+        cache: keeps the stages between calls.
+        parameters: as of `fill`.
+
+    Raises:
+        VolfrepError: as `fill`; or the layers cannot be made or written so.
+        Cancelled: the callback said so.
+
+    >>> import tempfile, trimesh, volfrep
+    >>> with tempfile.TemporaryDirectory() as place:
+    ...     made = volfrep.slice_layers(
+    ...         trimesh.creation.box((20, 20, 10)), place, cell="BCC", cell_size=10,
+    ...         strut_radius=1, shell=1, layer=0.5, pixel=0.1,
+    ...     )
+    >>> made.count, made.pixels
+    (20, (202, 202))
+    """
+    from .jobs.slices import write_layers
+
+    wanted = _specification(spec, parameters, material)
+    return write_layers(
+        as_solid(part, unit), wanted, folder, layer=layer, pixel=pixel, form=form,
+        progress=progress, cache=cache,
+    )  # fmt: skip
 
 
 def as_solid(

@@ -16,6 +16,7 @@ from volfrep.design.parameters.table import CUSTOM_CELL
 from volfrep.util.errors import VolfrepError
 
 from .cell_picture import cell_icon
+from .cell_properties import CellProperties
 from .command import undo_step
 from .messages import WRONG, file_name
 from .qt import QtCore, QtWidgets
@@ -62,6 +63,7 @@ class CellLibrary(QtWidgets.QDialog):
         self.setAttribute(QtCore.Qt.WA_DeleteOnClose)
         self._list = self._picker()
         self._picture, self._figures, self._note = (QtWidgets.QLabel() for _ in range(3))
+        self._does = CellProperties()
         self._picture.setFixedSize(LARGE, LARGE)
         self._figures.setObjectName("Figures")
         self._note.setObjectName("Note")
@@ -211,6 +213,7 @@ class CellLibrary(QtWidgets.QDialog):
         right = QtWidgets.QVBoxLayout()
         right.addWidget(self._picture)
         right.addWidget(self._figures)
+        right.addWidget(self._does)
         right.addStretch()
         both = QtWidgets.QHBoxLayout()
         both.addWidget(self._list, 1)
@@ -222,7 +225,7 @@ class CellLibrary(QtWidgets.QDialog):
         column.addLayout(both, 1)
         column.addWidget(self._note)
         column.addLayout(line)
-        self.resize(640, 420)
+        self.resize(680, 640)
 
     def _add(self, entry: Entry, pick: bool = False) -> None:
         item = QtWidgets.QListWidgetItem(cell_icon(entry.cell, SMALL), entry.cell.name, self._list)
@@ -232,6 +235,8 @@ class CellLibrary(QtWidgets.QDialog):
 
     def _pick_that_of(self, infill: Any) -> None:
         """Pick the cell that an infill has; one from a file is added."""
+        if infill is not None:
+            self._does.begin_with(infill)
         name = "CVC" if infill is None else infill.CellType
         if name == CUSTOM_CELL and infill.CellFile:
             self.load(infill.CellFile)
@@ -267,6 +272,7 @@ class CellLibrary(QtWidgets.QDialog):
             for name, value in rows
         )
         self._figures.setText(f"<b>{html.escape(cell.name)}</b><table>{lines}</table>")
+        self._does.show_cell(cell)
         self._say("\n".join(entry.notes))
         self._enable()
 

@@ -21,6 +21,7 @@ from .selection import (
     infill_in_view,
     selected_infill,
     selected_infill_and_faces,
+    selected_infill_or_study,
     selected_mesh,
     selected_or_all_infills,
     selected_solids,
@@ -139,6 +140,20 @@ def check_print(infill: App.DocumentObject) -> None:
     if check.isValid():
         Gui.Selection.clearSelection()
         App.Console.PrintMessage(f"VOLFREP, {check.Label}:\n{check.Text}\n")
+
+
+def study_designs(obj: App.DocumentObject) -> None:
+    """Open a design study; of an infill, make one first."""
+    from freecad_volfrep.features.design_study import DesignStudy, make_design_study
+
+    from .study_panel import open_study
+
+    doc = obj.Document
+    if not isinstance(obj.Proxy, DesignStudy):
+        with undo_step(doc, translate("VOLFREP_DesignStudy", "Design Study")):
+            obj = make_design_study(doc, obj)
+            obj.recompute()
+    open_study(obj)
 
 
 def show_section(obj: App.DocumentObject) -> None:
@@ -357,6 +372,7 @@ _TABLE = (
         "Select a lattice infill and faces of its solid: they get no skin",
         "L, O",
         selected_infill_and_faces,
+        selected_infill_or_study,
         open_faces,
     ),
     Command(
@@ -440,6 +456,16 @@ _TABLE = (
         analyse,
     ),
     Command(
+        "VOLFREP_DesignStudy",
+        "design_study.svg",
+        "Design Study",
+        "Try many values of the selected lattice infill's properties, see mass against stiffness, "
+        "and give it the best",
+        "L, Y",
+        selected_infill_or_study,
+        study_designs,
+    ),
+    Command(
         "VOLFREP_Help",
         "help.svg",
         "VOLFREP Help",
@@ -482,6 +508,7 @@ TOOLBARS = {
         "VOLFREP_Export",
         "VOLFREP_ToSolid",
         "VOLFREP_FemAnalysis",
+        "VOLFREP_DesignStudy",
     ],
 }
 #: The submenu of that name.

@@ -39,7 +39,6 @@ STAGES = marked(
     "trim",
     "check",
     "crossings",
-    "compact",
     "write",
 )
 _EVENT = QtCore.QEvent

@@ -41,6 +41,8 @@ WORDS = marked(
     "every triangle keeps its corners", "non-manifold edges or points",
     "wrongly oriented triangles", "corrupted triangles", "invalid points", "wrong neighbours",
     "a solid", "triangles that cross",
+    "What the lattice does", "relative density", "density", "E100", "E110", "E111", "G", "bulk",
+    "nu", "zener", "strength", "shear strength", "conductivity",
 )  # fmt: skip
 
 

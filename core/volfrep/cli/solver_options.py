@@ -80,8 +80,6 @@ def check(options: argparse.Namespace, out: Path, spec: LatticeSpec) -> None:
         options.inp = "beams"
     kind = options.step or options.inp
     asked = f"--step {kind}" if options.step else f"--inp {kind}"
-    if kind in ("wireframe", "beams") and options.compact is not None:
-        raise VolfrepError(f"{asked} has no triangles for --compact to reduce: leave it out.")
     if kind in ("wireframe", "beams") and (options.report or options.print_report):
         raise VolfrepError(
             f"A report is made of the mesh, which {asked} does without: leave one of them out."
@@ -110,6 +108,7 @@ def fill_axes(infill: Infill, options: argparse.Namespace, start: float) -> bool
     if not needs_axes(options):
         return False
     clipped = infill.axes
+    print_warnings(clipped.warnings)
     _write_axes(clipped.wireframe, clipped.on_wall, infill.spec, options, start)
     return True
 

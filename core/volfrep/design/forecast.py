@@ -81,16 +81,16 @@ def forecast_fill(solid: TriangleMesh, spec: LatticeSpec, *, streamed: bool = Fa
     volume = abs(solid.volume)
     area = solid.area
     inside = max(volume - area * spec.shell, LEAST_INSIDE * volume)
-    cell_volume, edge = _cell_volume(spec), spec.cell_size / spec.facets_along_cell
+    one, edge = cell_volume(spec), spec.cell_size / spec.facets_along_cell
     triangles = expected_triangles(spec, inside) + WALL_TRIANGLES * area / edge**2
     if spec.output == "domain":
         triangles = area / max(spec.shell, edge) ** 2
     triangles += len(solid.triangles)
     wall = SECONDS_PER_WALL * area / spec.shell**2 if spec.shell > 0 else 0.0
     # A cell that the wall merely touches is active too: half a cell on either side of it.
-    cells = (inside + 0.5 * area * spec.cell_size) / cell_volume
+    cells = (inside + 0.5 * area * spec.cell_size) / one
     grid = np.ceil(np.ptp(solid.bounds, axis=0) / spec.cell_size - 1e-6).prod()
-    cells = min(cells, float(grid) * spec.cell_size**3 / cell_volume)
+    cells = min(cells, float(grid) * spec.cell_size**3 / one)
     seconds = SECONDS + wall + SECONDS_PER_TRIANGLE * triangles
     held = BYTES_PER_TRIANGLE * triangles
     if streamed and spec.streams:
@@ -121,7 +121,7 @@ def forecast_block(spec: LatticeSpec, count: Sequence[int], *, streamed: bool = 
 def expected_triangles(spec: LatticeSpec, volume: float) -> float:
     """Triangles of the lattice in a volume of mm3, about."""
     per_cell = float(_facets(spec) @ strut_shares(spec.unit_cell()))
-    return volume / _cell_volume(spec) * per_cell
+    return volume / cell_volume(spec) * per_cell
 
 
 def _facets(spec: LatticeSpec) -> Floats:
@@ -146,7 +146,7 @@ def strut_shares(cell: UnitCell, on_face: Floats | float = 0.5) -> Floats:
     return shares
 
 
-def _cell_volume(spec: LatticeSpec) -> float:
+def cell_volume(spec: LatticeSpec) -> float:
     """Mean volume of a cell, mm3.
 
     The grading stretches cells by lambda + s lambda', whose mean is lambda at the far end.

@@ -67,6 +67,7 @@ class LatticeSpec:
         remove_dangling: take away struts with a free end, again and again until there are none.
         shortest_stub: struts with a free end that are shorter than this are taken away; 0 for
             none, mm.
+        keep_pieces: keep pieces of the lattice that hang on nothing.
         output: ``part`` (skin and lattice), ``lattice`` (trimmed) or ``domain`` (what it fills).
         fillet: radius of the round between struts at a joint; 0 for none.
         origin: a point that is to be a cell's corner; None puts the grid at the part's box.
@@ -105,6 +106,7 @@ class LatticeSpec:
     drains: DrainHoles | None = None
     remove_dangling: bool = False
     shortest_stub: float = 0.0
+    keep_pieces: bool = False
     output: str = "part"
     fillet: float = 0.0
     origin: tuple[float, float, float] | None = None
@@ -162,7 +164,10 @@ class LatticeSpec:
     @property
     def ending(self) -> Boundary:
         """Where the lattice ends."""
-        return Boundary(self.activation, self.boundary, self.remove_dangling, self.shortest_stub)
+        return Boundary(
+            self.activation, self.boundary, self.remove_dangling, self.shortest_stub,
+            self.keep_pieces,
+        )  # fmt: skip
 
     @property
     def detail(self) -> Resolution:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import time
 from collections.abc import Mapping, Sequence
@@ -12,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from ..design.forecast import BYTES_PER_STREAMED_CELL
-from ..design.memory_guard import refuse_cells, refuse_expected
+from ..design.memory_guard import BYTES_PER_STRUT, refuse_block, refuse_expected
 from ..design.spec import LatticeSpec
 from ..grid.activation import CellGrid
 from ..grid.placement import Placement, block_placement, graded_wireframe
@@ -32,10 +33,14 @@ from ..reports.result import NOTHING_REMOVED, Result, report_of
 from ..trim.finish import finished, refuse_no_solid
 from ..trim.trimmed_surface import TrimmedSurface
 from ..util.errors import VolfrepError
+from ..util.numbers import whole
 from ..util.progress import Monitor, ProgressCallback, peak_memory_mb
 from .finer import until_sound
 from .octant_guard import refuse_solid_cells, refuse_too_large
 from .target_report import judged
+
+#: Cells along one axis of a block.
+MOST_CELLS = 1_000_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,9 +75,9 @@ def block(
     """
     monitor = Monitor(progress)
     cells, placement = _block_placement(spec, count)
-    refuse_expected(spec, float(np.prod(cells.shape, dtype=float)) * spec.cell_size**3)
+    refuse_expected(spec, math.prod(cells.shape) * spec.cell_size**3, cells.shape)
     laid = _lay(spec, cells, placement, monitor)
-    refuse_too_large(spec, laid.layout.grid, laid.layout.octants, None)
+    refuse_too_large(spec, laid.layout.grid, laid.layout.octants, None, cells.shape)
     return _meshed(laid, spec, monitor)
 
 
@@ -129,7 +134,7 @@ def write_block_stl(
         result = block(spec, count, progress=progress)
     else:
         cells, placement = _block_placement(spec, count)
-        refuse_cells(cells.cells, spec.cell_size, BYTES_PER_STREAMED_CELL)
+        refuse_block(cells.shape, BYTES_PER_STREAMED_CELL)
         monitor = Monitor(progress)
         laid = _lay(spec, cells, placement, monitor)
         with monitor.stage("check", 0.4, 0.5):
@@ -144,7 +149,7 @@ def write_block_stl(
                 write_octants_stl(laid.layout, path, monitor)
             frame = graded_wireframe(laid.graph, spec.struts, placement)
             return _report(laid, measured, frame, spec, monitor, NOTHING_REMOVED)
-        refuse_too_large(spec, laid.layout.grid, laid.layout.octants, None)
+        refuse_too_large(spec, laid.layout.grid, laid.layout.octants, None, cells.shape)
         result = _meshed(laid, spec, monitor)
     start = time.perf_counter()
     write_stl(result.mesh, path)
@@ -180,9 +185,10 @@ def block_wireframe(spec: LatticeSpec, count: Sequence[int]) -> Wireframe:
     """The nodes and struts of a free-standing block.
 
     Raises:
-        VolfrepError: the counts make no sense.
+        VolfrepError: the counts make no sense, or the block would not fit into memory.
     """
     cells, placement = _block_placement(spec, count)
+    refuse_block(cells.shape, BYTES_PER_STRUT * len(spec.unit_cell().struts))
     active = np.ones(cells.shape, bool)
     graph = cell_graph(spec.unit_cell(), active, spec.cell_size, cells.origin, cells.periodic)
     return graded_wireframe(graph, spec.struts, placement)
@@ -190,9 +196,9 @@ def block_wireframe(spec: LatticeSpec, count: Sequence[int]) -> Wireframe:
 
 def _block_placement(spec: LatticeSpec, count: Sequence[int]) -> tuple[CellGrid, Placement]:
     """The grid and the placement of a free-standing block, with its counts checked."""
-    shape = tuple(int(n) for n in count)
-    if len(shape) != 3 or min(shape) < 1 or any(n != m for n, m in zip(shape, count, strict=True)):
-        raise VolfrepError(f"The count must be three whole numbers above 0, not {list(count)}.")
+    if len(count) != 3:
+        raise VolfrepError(f"The count must be three whole numbers, not {list(count)}.")
+    shape = [whole("count", n, 1, MOST_CELLS) for n in count]
     return block_placement(spec.grid, (shape[0], shape[1], shape[2]))
 
 

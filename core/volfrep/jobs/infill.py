@@ -13,7 +13,6 @@ from functools import cached_property, partial
 import numpy as np
 
 from ..design.memory_guard import refuse_expected
-from ..design.openings import lie_on
 from ..design.spec import LatticeSpec
 from ..grid.placement import Placement, graded_wireframe, placement_in
 from ..grid.strut_graph import CellGraph, Wireframe, cell_graph
@@ -26,7 +25,7 @@ from ..lattice.padded_grid import (
     vertices_of,
 )
 from ..mesh.float32_repair import shortest_edge
-from ..mesh.quality import Quality, measure
+from ..mesh.quality import Quality, inspect, measure
 from ..mesh.triangle_mesh import TriangleMesh
 from ..octants.octant import OctantKey
 from ..octants.octant_mesh import Octant, OctantSpec, mesh_octants, octant_spec
@@ -39,10 +38,11 @@ from ..trim.beam_model import (
     reaching_into,
     refuse_fillets,
 )
-from ..trim.clip_struts import AT_WALL, Clipped, clip
+from ..trim.clip_struts import Clipped
 from ..trim.culling import KeptOctants
 from ..trim.drains import Drained, trapped
 from ..trim.finish import finished, pieces_told, tidied
+from ..trim.held_struts import Held, axes_of, held
 from ..trim.laid import FIRST_MARGIN, Laid, in_place, lay
 from ..trim.loose_pieces import Cleared
 from ..trim.prune import Pruned, prune
@@ -54,7 +54,7 @@ from ..util.errors import VolfrepError
 from ..util.progress import Monitor, ProgressCallback
 from .active_cells import ActiveCells, activated, roles_of
 from .finer import until_sound
-from .octant_guard import refuse_large_cells, refuse_solid_cells, refuse_too_large
+from .octant_guard import refuse_larger_cells, refuse_solid_cells, refuse_too_large
 from .target_report import judged
 
 
@@ -62,9 +62,8 @@ class Infill:
     """A solid filled with a lattice, stage by stage.
 
     Every stage is an attribute: `domain`, `cells`, `struts`, `lattice`, `part`, `beams`, `axes`.
-    It is computed when it is first asked for, with those that it needs and no others, and kept;
-    all of them lie where the part lies. What a stage is made of is the key that it is kept under
-    in the cache, too: the solid, earlier stages, and parts of the specification.
+    It is computed when it is first asked for, with those that it needs, and kept; all lie where
+    the part lies. What a stage is made of is its key in the cache, too.
 
     Args:
         solid: checked closed mesh (from `volfrep.io.solid.read_solid` or `check_solid`), mm.
@@ -103,7 +102,7 @@ class Infill:
         executor: Executor | None = None,
         streamed: bool = False,
     ) -> None:
-        refuse_large_cells(solid, spec)
+        refuse_larger_cells(solid, spec.cell_size)
         self.solid, self.spec = solid, spec
         self.monitor = monitor or Monitor(progress)
         self._cache, self._executor = cache or StageCache(), executor
@@ -114,6 +113,7 @@ class Infill:
         self._solid = Kept(solid, content_of(solid.vertices, solid.triangles))
         self._watch = Kept(self.monitor, "no result depends on it")
         self._laid_octants: dict[bool, Laid] = {}
+        self._held_struts: dict[bool, Held] = {}
         self._notes: tuple[str, ...] = ()
 
     @property
@@ -253,36 +253,29 @@ class Infill:
         if self._skin is None:
             return self.lattice_beams
         refuse_fillets(self._struts)
-        struts, drains = self.struts, self.spec.drains
+        kept, drains = self._held(is_cut=True), self.spec.drains
+        struts = kept.without_loose(self.struts)
         made = part_beams(self.solid, self.cavity, struts, self._skin, drains, self.monitor)
-        return replace(made, warnings=self._beam_warnings + made.warnings)
+        warnings = self._beam_warnings + made.warnings
+        return replace(made, warnings=warnings, loose=kept.told)
 
     @cached_property
     def lattice_beams(self) -> BeamModel:
         """The lattice as beams, without a skin."""
         refuse_fillets(self._struts)
-        struts, clip_at = self.struts, None
+        kept, clip_at = self._held(is_cut=self._boundary.is_trimmed), None
+        struts = kept.without_loose(self.struts)
         if self._boundary.is_trimmed:
             clip_at = self.solid if self._skin is None else self.cavity
             struts = reaching_into(struts, clip_at)
-        return BeamModel(struts, clip_at, warnings=self._beam_warnings)
+        return BeamModel(struts, clip_at, warnings=self._beam_warnings, loose=kept.told)
 
     @cached_property
     def axes(self) -> Clipped:
         """The struts' axes, cut where they leave the domain."""
-        if not self.placement.is_cut:
-            return Clipped(self.struts, np.zeros(len(self.struts.nodes), bool))
-        clipped = clip(self.struts, self.cavity)
-        openings = self.domain.openings
-        if openings is not None:
-            frame = clipped.wireframe
-            free = lie_on(openings, frame.nodes, AT_WALL * frame.joint_radii)
-            clipped = replace(clipped, on_wall=clipped.on_wall & ~free)
-        if not len(clipped.wireframe.struts):
-            raise VolfrepError(
-                "No strut's axis lies inside the part: reduce the cell size or move the origin."
-            )
-        return clipped
+        is_cut = self.placement.is_cut
+        wall = self.cavity if is_cut else None
+        return axes_of(self.struts, wall, self._held(is_cut=is_cut), self.domain.openings)
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -294,15 +287,25 @@ class Infill:
     def _beam_warnings(self) -> tuple[str, ...]:
         return self.warnings + deformed_struts(self._grid, self._struts)
 
+    def _held(self, *, is_cut: bool) -> Held:
+        """Which pieces of the struts stay, where a wall cuts them or where they are whole."""
+        if is_cut not in self._held_struts:
+            wall = self.cavity if is_cut else None
+            self._held_struts[is_cut] = held(
+                self.struts, wall, has_skin=self._skin is not None,
+                bodies=max(1, inspect(self.solid).quality.bodies),
+                openings=self.domain.openings, keep_all=self._boundary.keep_pieces,
+            )  # fmt: skip
+        return self._held_struts[is_cut]
+
     def _laid(self, *, is_cut: bool) -> Laid:
         """The octants laid in the part, as of a lattice that a wall cuts, or as they are."""
         if is_cut not in self._laid_octants:
             refuse_expected(self.spec, 0.0 if self._streamed else self.domain.mesh.volume)
             _ = self.struts  # refused before anything is meshed
             keeps = keeps_places(self._struts, self.placement)
-            margin = 0.0 if keeps else FIRST_MARGIN
-            if not is_cut:
-                margin = np.inf  # no wall that an octant could reach
+            # Where nothing is cut there is no wall that an octant could reach.
+            margin = np.inf if not is_cut else 0.0 if keeps else FIRST_MARGIN
             with self.monitor.stage("tile", 0.4, 0.5):
                 first = self._octants(is_cut, margin)
             with self.monitor.stage("lattice", 0.5, 0.6):
@@ -333,8 +336,7 @@ class Infill:
         (kept, octants), self._meshing, notes = until_sound(self._meshing, meshed)
         self._notes += notes
         refuse_solid_cells(octants, self._meshing)
-        streamed = self._streamed
-        refuse_too_large(self.spec, kept.grid, octants, kept.border, streamed=streamed)
+        refuse_too_large(self.spec, kept.grid, octants, kept.border, streamed=self._streamed)
         return kept, octants
 
     def _placed(self, layout: Layout) -> Deformed:
@@ -351,20 +353,20 @@ class Infill:
         return self.cells.padded.graph(self._cell, self.cells.active, self._boundary.is_endless)
 
     def _cut(self, laid: Laid, *, with_skin: bool = False) -> Cleared:
+        keep = self._boundary.keep_pieces
         if not (with_skin or self._boundary.is_trimmed):
-            return uncut_lattice(laid, self.solid, self._meshing, self.monitor)
-        has_skin = self._skin is not None
+            return uncut_lattice(laid, self.solid, self._meshing, self.monitor, keep_pieces=keep)
         return cut_lattice(
-            laid, self.solid, self.domain, self._meshing, self.monitor,
-            has_skin=has_skin, with_skin=with_skin, executor=self._executor,
+            laid, self.solid, self.domain, self._meshing, self.monitor, keep_pieces=keep,
+            has_skin=self._skin is not None, with_skin=with_skin, executor=self._executor,
         )  # fmt: skip
 
     def _reported(self, output: str, cleared: Cleared, drained: Drained | None = None) -> Result:
         """A mesh with the figures of what it is and of how it was made."""
         domain, pruned, warnings = self.domain, self.pruned, self.warnings
         surface, quality = cleared.surface, cleared.quality
+        moved = not keeps_places(self._struts, self.placement)
         if output != "domain":
-            moved = not keeps_places(self._struts, self.placement)
             surface, quality, notes = finished(surface, quality, self.monitor, moved)
             warnings += self._notes + notes
         if output == "lattice":

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Refusals before octants are assembled: too large, too many, or without a surface."""
+"""Refusals before octants are assembled: cells too large, too many, or without a surface."""
 
 from __future__ import annotations
+
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,22 +16,12 @@ from ..octants.octant_mesh import Octant, OctantSpec
 from ..util.errors import VolfrepError
 
 
-def refuse_large_cells(solid: TriangleMesh, spec: LatticeSpec) -> None:
-    """Raise a `VolfrepError` where cells are larger than the part."""
-    size = solid.bounds[1] - solid.bounds[0]
-    if spec.cell_size > size.max():
-        raise VolfrepError(
-            f"Cells of {spec.cell_size:g} mm are larger than the part, which measures "
-            f"{size[0]:.4g} x {size[1]:.4g} x {size[2]:.4g} mm: reduce the cell size, "
-            "or see whether the part is in another unit."
-        )
-
-
 def refuse_too_large(
     spec: LatticeSpec,
     grid: OctantGrid,
     octants: dict[OctantKey, Octant],
     border: NDArray[np.bool_] | None,
+    count: Sequence[int] | None = None,
     *,
     streamed: bool = False,
 ) -> None:
@@ -40,6 +32,7 @@ def refuse_too_large(
         grid: which octant lies where.
         octants: their meshes.
         border: octants that go through the Boolean; None for none.
+        count: cells of a block along x, y, z; None for a part.
         streamed: whether no others are in memory.
 
     Raises:
@@ -49,10 +42,21 @@ def refuse_too_large(
     present = grid.kind >= 0
     triangles = int(per_kind[grid.kind[present]].sum())
     in_boolean = 0 if border is None else int(per_kind[grid.kind[present & border]].sum())
-    refuse_memory(spec, 0 if streamed else triangles, in_boolean)
+    refuse_memory(spec, 0 if streamed else triangles, in_boolean, count)
 
 
 def refuse_solid_cells(octants: dict[OctantKey, Octant], spec: OctantSpec) -> None:
     """Raise a `VolfrepError` where no octant has a surface: struts fill everything."""
     if not any(len(octant.triangles) for octant in octants.values()):
         raise cells_are_full(spec.cell_size, spec.strut_radius)
+
+
+def refuse_larger_cells(solid: TriangleMesh, cell_size: float) -> None:
+    """Raise a `VolfrepError` where a cell is larger than the part."""
+    size = solid.bounds[1] - solid.bounds[0]
+    if cell_size > size.max():
+        raise VolfrepError(
+            f"Cells of {cell_size:g} mm are larger than the part, which measures "
+            f"{size[0]:.4g} x {size[1]:.4g} x {size[2]:.4g} mm: reduce the cell size, "
+            "or see whether the part is in another unit."
+        )

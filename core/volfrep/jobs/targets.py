@@ -14,10 +14,8 @@ from dataclasses import replace
 from functools import partial
 
 import numpy as np
-from scipy.optimize import brentq
 
 from ..design.spec import LatticeSpec
-from ..design.spec_parts import MAX_RESOLUTION, largest_radius
 from ..design.target import Target
 from ..io.solid import Solid
 from ..lattice.strut_volume import (
@@ -37,6 +35,7 @@ from ..util.errors import VolfrepError
 from ..util.progress import ProgressCallback
 from .blocks import block_volume, block_wireframe, measured_block
 from .infill import Infill
+from .rough_radius import radius_range
 from .stiffness_target import ratio_of_stiffness
 
 #: A mesh that misses its target by more, relative, is made again; so many are made at most.
@@ -194,9 +193,7 @@ class _Search:
     ) -> None:
         self._spec, self._target = spec, target
         self._domain, self._skin = domain, skin
-        size = spec.cell_size
-        self._low = size / MAX_RESOLUTION * 1.5
-        self._high = largest_radius(size, spec.fillet) * (1.0 - 1e-6)
+        self._low, self._high = radius_range(spec)
         if target.aim == "mass":
             self.volume = target.value * 1000.0 / spec.density - skin
             self.scale = target.value * 1000.0 / spec.density
@@ -225,6 +222,8 @@ class _Search:
             return float(np.clip(self._table.radius_of(volume), low, high))
         if self._volume(high) <= volume:
             return high
+        from scipy.optimize import brentq  # slow to load, and every job loads this module
+
         return float(brentq(lambda r: self._volume(r) - volume, low, high, xtol=1e-5 * high))
 
     def _volume(self, radius: float) -> float:

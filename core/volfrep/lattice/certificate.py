@@ -23,6 +23,7 @@ from scipy.sparse.csgraph import connected_components
 from ..mesh.quality import Quality
 from ..octants.octant import OctantGrid
 from ..octants.octant_mesh import Octant
+from ..util.linalg import along
 from ..util.types import Floats, Ints
 from .assembly import Layout, box, numbers_at
 
@@ -122,7 +123,7 @@ class CertifiedPieces:
 
     def volume_about(self, centre: Floats) -> Floats:
         """(pieces,) `volume` with positions measured from another point."""
-        result: Floats = self.volume - self.normal @ (centre - self.centre) / 3.0
+        result: Floats = self.volume - along(self.normal, centre - self.centre) / 3.0
         return result
 
 
@@ -369,11 +370,11 @@ def _keeps_apart(octant: Octant, size: float, safe: float) -> bool:
     if min(inner.min(initial=size), (size - inner).min(initial=size)) <= safe:
         return False
     # Along a line on which few of them share a place, only the next ones can be that near.
-    along = points @ GENERIC
-    order = np.argsort(along)
-    points, along = points[order], along[order]
+    place = along(points, GENERIC)
+    order = np.argsort(place)
+    points, place = points[order], place[order]
     for ahead in range(1, len(points)):
-        near = np.flatnonzero(along[ahead:] - along[:-ahead] <= safe)
+        near = np.flatnonzero(place[ahead:] - place[:-ahead] <= safe)
         if not len(near):
             break
         gap = points[near + ahead] - points[near]

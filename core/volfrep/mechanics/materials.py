@@ -2,20 +2,21 @@
 """Materials to print with, as built: typical figures with their sources, and the user's own.
 
 A printed material depends on machine, parameters, direction and treatment: these are figures to
-begin with, and `source` says whose they are. Where a figure is a Poisson's ratio that no data sheet
-gives, it is the handbook's for the wrought or moulded material.
+begin with. `source` says whose they are, and which of them were not read there: those are usual
+figures of such a material, to be held against your supplier's. Where a figure is a Poisson's ratio
+that no data sheet gives, it is the handbook's for the wrought or moulded material.
 """
 
 from __future__ import annotations
 
 import json
-import math
 import re
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
 from ..util.errors import VolfrepError
+from ..util.numbers import number
 
 MAX_FILE_BYTES = 100_000
 _NAME = re.compile(r"[A-Za-z0-9][-\w]{0,70}", re.ASCII)
@@ -72,12 +73,10 @@ class SolidMaterial:
             raise VolfrepError(
                 f"The material's name '{self.name}' must consist of letters, digits, '-' and '_'."
             )
-        numbers = (self.density, self.young, self.yield_stress)
-        if not all(n is None or (math.isfinite(n) and n > 0) for n in numbers):
-            raise VolfrepError(
-                f"The material '{self.name}' must have a density, a Young's modulus and a yield "
-                "stress above 0."
-            )
+        number(f"density of '{self.name}'", self.density, "g/cm3", positive=True)
+        number(f"Young's modulus of '{self.name}'", self.young, "MPa", positive=True)
+        if self.yield_stress is not None:
+            number(f"yield stress of '{self.name}'", self.yield_stress, "MPa", positive=True)
         if not -1.0 < self.poisson < 0.5:
             raise VolfrepError(
                 f"The material '{self.name}' must have a Poisson's ratio between -1 and 0.5, "
@@ -100,21 +99,28 @@ MATERIALS = {
     material.name.lower(): material
     for material in (
         SolidMaterial("Ti-6Al-4V", 4.41, 110_000, 0.34, 1_000, ("LPBF", "EBM"),
-                      "EOS Titanium Ti64, data sheet (M 290, 30 um)"),
+                      "EOS Titanium Ti64, data sheet (M 290, 30 um): density; others not checked"),
         SolidMaterial("AlSi10Mg", 2.67, 70_000, 0.33, 240, _METAL,
                       "EOS Aluminium AlSi10Mg, data sheet (upright)"),
         SolidMaterial("316L", 7.97, 185_000, 0.30, 480, _METAL,
-                      "EOS StainlessSteel 316L-4441, process data sheet (M 290, 20 um, upright)"),
+                      "EOS StainlessSteel 316L-4441, process data sheet (M 290, 20 um, upright); "
+                      "modulus not checked"),
         SolidMaterial("IN718", 8.15, 160_000, 0.29, 634, _METAL,
-                      "EOS NickelAlloy IN718, data sheet (M 290, upright)"),
-        SolidMaterial("PA12", 0.93, 1_650, 0.40, 48, _POWDER, "EOS PA 2200, data sheet"),
-        SolidMaterial("PA11", 0.99, 1_600, 0.40, 48, _POWDER, "EOS PA 1101, data sheet"),
-        SolidMaterial("PLA", 1.24, 2_350, 0.36, 49, ("FFF",), "Ultimaker PLA, data sheet"),
+                      "EOS NickelAlloy IN718, process data sheet (M 290, 40 um) as "
+                      "others quote it: density; others "
+                      "not checked"),
+        SolidMaterial("PA12", 0.93, 1_550, 0.40, 42, _POWDER,
+                      "EOS PA 2200, data sheet as others quote it (upright; along X 1,600 and "
+                      "48 MPa); density not checked"),
+        SolidMaterial("PA11", 0.99, 1_600, 0.40, 48, _POWDER, "EOS PA 1101, not checked"),
+        SolidMaterial("PLA", 1.24, 2_350, 0.36, 49.5, ("FFF",),
+                      "Ultimaker PLA, not checked"),
         SolidMaterial("PETG", 1.27, 2_100, 0.38, 47, ("FFF",),
-                      "Prusament PETG, technical data sheet; modulus: the VOLFREP paper's sample"),
-        SolidMaterial("ABS", 1.10, 1_680, 0.39, 39, ("FFF",), "Ultimaker ABS, data sheet"),
+                      "Prusament PETG, data sheet as others quote it: density; modulus: the "
+                      "VOLFREP paper's sample; yield not checked"),
+        SolidMaterial("ABS", 1.10, 1_680, 0.39, 39, ("FFF",), "Ultimaker ABS, not checked"),
         SolidMaterial("Resin", 1.17, 2_800, 0.40, 65, ("SLA",),
-                      "Formlabs Clear Resin V4 after curing, technical data sheet"),
+                      "Formlabs Clear Resin V4 after curing, not checked"),
     )
 }  # fmt: skip
 _FIELDS = {"name", "density", "young", "poisson", "yield_stress", "processes", "source"}
@@ -132,7 +138,7 @@ def find_material(text: str) -> SolidMaterial:
         VolfrepError: there is no such material, or its figures make no sense.
 
     >>> find_material("pa12").young, find_material("Mine,2000,0.3").poisson
-    (1650, 0.3)
+    (1550, 0.3)
     """
     wanted = text.strip()
     known = MATERIALS.get(wanted.lower())

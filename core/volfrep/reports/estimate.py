@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..design.memory_guard import rounded_up
+from ..design.memory_guard import rounded_up, smaller_block
 from ..design.spec import LatticeSpec
 from ..fem.beam_mesh import BeamModel
 from ..fem.tet_mesh import (
@@ -84,11 +84,9 @@ class Asked:
 
     def fewer(self, excess: float) -> str:
         """The setting with so many times fewer struts."""
-        side = excess ** (1.0 / 3.0)
         if self.count is None:
-            return f"cells of {rounded_up(self.spec.cell_size * side):g} mm"
-        fits = " x ".join(str(max(1, int(n / side))) for n in self.count)
-        return f"a block of {fits} cells"
+            return f"cells of {rounded_up(self.spec.cell_size * excess ** (1.0 / 3.0)):g} mm"
+        return smaller_block(self.count, excess)
 
 
 def estimate_faceted(triangles: int, asked: Asked | None = None) -> Estimate:

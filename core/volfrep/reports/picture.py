@@ -59,7 +59,7 @@ def picture(
     Raises:
         VolfrepError: pyvista is missing, the name does not end in .png, or it cannot be written.
     """
-    library = _library()
+    library = drawing_library()
     if file is not None:
         check_picture(file)
     stage = library.Plotter(off_screen=file is not None, window_size=list(size), lighting="none")
@@ -100,12 +100,17 @@ def check_picture(file: str | os.PathLike[str]) -> None:
     Raises:
         VolfrepError: pyvista is missing, the name does not end in .png, or it cannot be written.
     """
-    _library()
+    drawing_library()
     if check_writable(file).suffix.lower() != ".png":
         raise VolfrepError(f"Cannot write '{file}': a picture's name ends in .png.")
 
 
-def _library() -> Any:
+def drawing_library() -> Any:
+    """The package that draws, pyvista.
+
+    Raises:
+        VolfrepError: it is missing; the text says how to install it.
+    """
     try:
         import pyvista
     except ImportError as error:

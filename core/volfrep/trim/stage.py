@@ -78,6 +78,7 @@ def cut_lattice(
     has_skin: bool,
     with_skin: bool,
     executor: Executor | None = None,
+    keep_pieces: bool = False,
 ) -> Cleared:
     """The part or the lattice, without loose pieces and slivers, and its quality.
 
@@ -90,6 +91,7 @@ def cut_lattice(
         has_skin: whether a skin lies about the domain, which holds the lattice.
         with_skin: whether the lattice is joined to it.
         executor: of the groups of octants that the wall cuts; None: this process.
+        keep_pieces: pieces that hang on nothing stay.
 
     Raises:
         VolfrepError: nothing is left, or nothing would hold it.
@@ -100,7 +102,7 @@ def cut_lattice(
     surface, removed, lost = trimmed.surface, 0, 0.0
     if not _needs_no_look(laid, wall):
         surface = TrimmedSurface(surface.whole(monitor))
-    if has_skin and not with_skin:
+    if has_skin and not (with_skin or keep_pieces):
         on_wall = np.flatnonzero(trimmed.on_wall)
         held = clear(surface, smallest, monitor, keep=on_wall)
         surface = held.surface
@@ -109,9 +111,10 @@ def cut_lattice(
             raise _nothing_holds()
     surface = tidied(surface, precision, monitor)
     bodies = 0
-    if not has_skin:
+    if not (has_skin or keep_pieces):
         bodies = max(1, inspect(solid).quality.bodies)
-    cleared = clear(surface, smallest, monitor, floating=with_skin, bodies=bodies)
+    floating = with_skin and not keep_pieces
+    cleared = clear(surface, smallest, monitor, floating=floating, bodies=bodies)
     if not cleared.surface.triangles:
         if with_skin:
             raise cells_are_full(octant_spec.cell_size, octant_spec.strut_radius)
@@ -129,7 +132,9 @@ def cut_lattice(
         volume_removed=cleared.volume_removed + lost,
     )
     if domain.openings is not None:
-        return _opened(cleared, solid, domain, domain.openings, smallest, with_skin, monitor)
+        return _opened(
+            cleared, solid, domain, domain.openings, smallest, with_skin, keep_pieces, monitor
+        )
     if not with_skin:
         return cleared
     cut = cleared.surface
@@ -178,6 +183,7 @@ def _opened(
     openings: TriangleMesh,
     smallest: float,
     with_skin: bool,
+    keep_pieces: bool,
     monitor: Monitor,
 ) -> Cleared:
     """The part, or its lattice, cut at its open faces, beyond which the cavity reaches."""
@@ -190,7 +196,9 @@ def _opened(
         lattice = mesh
         mesh = monitor.call(lambda: intersection(lattice, solid))
     surface = tidied(TrimmedSurface(mesh), precision, monitor)
-    if with_skin:
+    if keep_pieces:
+        rest = clear(surface, smallest, monitor)
+    elif with_skin:
         rest = clear(surface, smallest, monitor, bodies=inspect(solid).quality.bodies)
     else:
         held = _on_skin(surface.mesh, domain, openings, precision)
@@ -216,13 +224,18 @@ def _on_skin(
 
 
 def uncut_lattice(
-    laid: Laid, solid: TriangleMesh, octant_spec: OctantSpec, monitor: Monitor
+    laid: Laid,
+    solid: TriangleMesh,
+    octant_spec: OctantSpec,
+    monitor: Monitor,
+    *,
+    keep_pieces: bool = False,
 ) -> Cleared:
     """The lattice of whole cells as it is, without loose pieces, and its quality."""
     everywhere = laid.kept.grid.kind >= 0
     mesh = laid.mesh(laid.facets(everywhere, monitor), everywhere, monitor)[0]
     surface = tidied(TrimmedSurface(mesh), shortest_edge(mesh), monitor)
-    bodies = max(1, inspect(solid).quality.bodies)
+    bodies = 0 if keep_pieces else max(1, inspect(solid).quality.bodies)
     return clear(surface, smallest_shell(octant_spec), monitor, bodies=bodies)
 
 

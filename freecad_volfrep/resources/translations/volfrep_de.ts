@@ -29,6 +29,10 @@
       <translation>Alle Zahlen, zum Lesen</translation>
     </message>
     <message>
+      <source>Along this direction of the cell: 1,0,0 along its edges, 1,1,0 across its faces, 1,1,1 along its diagonals</source>
+      <translation>Entlang dieser Richtung der Zelle: 1,0,0 längs ihrer Kanten, 1,1,0 quer über ihre Flächen, 1,1,1 längs ihrer Diagonalen</translation>
+    </message>
+    <message>
       <source>Auto Update</source>
       <translation>Automatisch aktualisieren</translation>
     </message>
@@ -149,6 +153,10 @@
       <translation>Kern</translation>
     </message>
     <message>
+      <source>Custom</source>
+      <translation>Eigene</translation>
+    </message>
+    <message>
       <source>Cylindrical</source>
       <translation>Zylindrisch</translation>
     </message>
@@ -167,6 +175,18 @@
     <message>
       <source>Depth at which the profile ends</source>
       <translation>Tiefe, in der das Profil endet</translation>
+    </message>
+    <message>
+      <source>Designs</source>
+      <translation>Entwürfe</translation>
+    </message>
+    <message>
+      <source>Designs and their figures, as JSON</source>
+      <translation>Entwürfe und ihre Zahlen, als JSON</translation>
+    </message>
+    <message>
+      <source>Designs with figures</source>
+      <translation>Entwürfe mit Zahlen</translation>
     </message>
     <message>
       <source>Deviation</source>
@@ -237,8 +257,16 @@
       <translation>Datei mit Punkten und Werten: .csv, .txt, .vtu, .vtk</translation>
     </message>
     <message>
+      <source>Fill</source>
+      <translation>Füllen</translation>
+    </message>
+    <message>
       <source>Findings</source>
       <translation>Befunde</translation>
+    </message>
+    <message>
+      <source>Folder</source>
+      <translation>Ordner</translation>
     </message>
     <message>
       <source>Formula</source>
@@ -269,6 +297,10 @@
       <translation>Wie es gedruckt wird</translation>
     </message>
     <message>
+      <source>How the part is printed: its limits are those of the print check</source>
+      <translation>Wie das Teil gedruckt wird: die Grenzen des Verfahrens sind die der Druckprüfung</translation>
+    </message>
+    <message>
       <source>Infill</source>
       <translation>Füllung</translation>
     </message>
@@ -285,8 +317,16 @@
       <translation>Knotenausrundung</translation>
     </message>
     <message>
+      <source>Keep Pieces</source>
+      <translation>Lose Teile behalten</translation>
+    </message>
+    <message>
       <source>Keep Radius</source>
       <translation>Radius beibehalten</translation>
+    </message>
+    <message>
+      <source>Keep pieces of the lattice that hang on nothing; otherwise they are left out, and told</source>
+      <translation>Teile des Gitters behalten, die an nichts hängen; sonst werden sie weggelassen und gemeldet</translation>
     </message>
     <message>
       <source>L: edge length of the cubic cell</source>
@@ -333,6 +373,10 @@
       <translation>Lose Bruchstücke, die entfernt wurden</translation>
     </message>
     <message>
+      <source>Make and measure every design, too</source>
+      <translation>Jeden Entwurf auch herstellen und messen</translation>
+    </message>
+    <message>
       <source>Map Around</source>
       <translation>Zellen am Umfang</translation>
     </message>
@@ -353,8 +397,16 @@
       <translation>Masse in g bei der angegebenen Dichte</translation>
     </message>
     <message>
+      <source>Mass of the finished part, with its skin</source>
+      <translation>Masse des fertigen Teils, mit seiner Haut</translation>
+    </message>
+    <message>
       <source>Material</source>
       <translation>Werkstoff</translation>
+    </message>
+    <message>
+      <source>Material File</source>
+      <translation>Werkstoffdatei</translation>
     </message>
     <message>
       <source>Mesh</source>
@@ -391,6 +443,10 @@
     <message>
       <source>Of the process, and their source</source>
       <translation>Des Verfahrens, mit ihrer Quelle</translation>
+    </message>
+    <message>
+      <source>Of the solid</source>
+      <translation>Des Körpers</translation>
     </message>
     <message>
       <source>Of the struts' length, too flat</source>
@@ -441,12 +497,24 @@
       <translation>Druck</translation>
     </message>
     <message>
+      <source>Print Material</source>
+      <translation>Werkstoff</translation>
+    </message>
+    <message>
+      <source>Print Process</source>
+      <translation>Druckverfahren</translation>
+    </message>
+    <message>
       <source>Process</source>
       <translation>Verfahren</translation>
     </message>
     <message>
       <source>Profile of the radius over s</source>
       <translation>Profil des Radius über s</translation>
+    </message>
+    <message>
+      <source>Properties and their values: 'CellSize: 6, 8, 10' or 'ShellThickness: 1 to 3 in 5'</source>
+      <translation>Eigenschaften und ihre Werte: 'CellSize: 6, 8, 10' oder 'ShellThickness: 1 to 3 in 5'</translation>
     </message>
     <message>
       <source>Put a corner of a cell at Origin; otherwise the cells start at the corner of the solid</source>
@@ -461,6 +529,10 @@
       <translation>Quadratisch</translation>
     </message>
     <message>
+      <source>Radius</source>
+      <translation>Radius</translation>
+    </message>
+    <message>
       <source>Radius Column</source>
       <translation>Wertespalte</translation>
     </message>
@@ -471,6 +543,10 @@
     <message>
       <source>Radius Direction</source>
       <translation>Radiusrichtung</translation>
+    </message>
+    <message>
+      <source>Radius Driven By</source>
+      <translation>Radius folgt aus</translation>
     </message>
     <message>
       <source>Radius End</source>
@@ -521,7 +597,15 @@
       <translation>Radius der Ausrundung zwischen Streben, wo sie sich treffen; 0 für keine</translation>
     </message>
     <message>
+      <source>Refused</source>
+      <translation>Abgelehnt</translation>
+    </message>
+    <message>
       <source>Relative Density</source>
+      <translation>Relative Dichte</translation>
+    </message>
+    <message>
+      <source>Relative density</source>
       <translation>Relative Dichte</translation>
     </message>
     <message>
@@ -605,6 +689,14 @@
       <translation>Status</translation>
     </message>
     <message>
+      <source>Stiffness</source>
+      <translation>Steifigkeit</translation>
+    </message>
+    <message>
+      <source>Stiffness Direction</source>
+      <translation>Richtung der Steifigkeit</translation>
+    </message>
+    <message>
       <source>Strut Lengths</source>
       <translation>Strebenlängen</translation>
     </message>
@@ -641,8 +733,16 @@
       <translation>Stummel entfernt</translation>
     </message>
     <message>
+      <source>Study</source>
+      <translation>Studie</translation>
+    </message>
+    <message>
       <source>Surface Area</source>
       <translation>Oberfläche</translation>
+    </message>
+    <message>
+      <source>Table</source>
+      <translation>Tabelle</translation>
     </message>
     <message>
       <source>Take away struts with a free end that are shorter than this; 0 for none</source>
@@ -653,6 +753,18 @@
       <translation>Streben mit freiem Ende wegnehmen, bis keine mehr da ist</translation>
     </message>
     <message>
+      <source>Target Density</source>
+      <translation>Zieldichte</translation>
+    </message>
+    <message>
+      <source>Target Mass</source>
+      <translation>Zielmasse</translation>
+    </message>
+    <message>
+      <source>Target Stiffness</source>
+      <translation>Zielsteifigkeit</translation>
+    </message>
+    <message>
       <source>Text</source>
       <translation>Text</translation>
     </message>
@@ -661,8 +773,16 @@
       <translation>Die .json-Datei einer eigenen Einheitszelle (Knoten und Streben), für den Zelltyp Custom</translation>
     </message>
     <message>
+      <source>The .toml or .json file of your own material</source>
+      <translation>Die .toml- oder .json-Datei des eigenen Werkstoffs</translation>
+    </message>
+    <message>
       <source>The lattice infill to look at</source>
       <translation>Die Gitterfüllung, die betrachtet wird</translation>
+    </message>
+    <message>
+      <source>The lattice infill whose designs these are</source>
+      <translation>Die Gitterfüllung, deren Entwürfe es sind</translation>
     </message>
     <message>
       <source>The radius varies along it</source>
@@ -733,6 +853,10 @@
       <translation>Werte und ihre Radien in mm, etwa '0:0.5, 120:1.2', anstelle von Anfang und Ende</translation>
     </message>
     <message>
+      <source>Vary</source>
+      <translation>Variiert</translation>
+    </message>
+    <message>
       <source>Void Volume</source>
       <translation>Hohlraumvolumen</translation>
     </message>
@@ -747,6 +871,10 @@
     <message>
       <source>Volume of material</source>
       <translation>Volumen des Werkstoffs</translation>
+    </message>
+    <message>
+      <source>Volume of the lattice over that of what it fills, between 0 and 1</source>
+      <translation>Volumen des Gitters durch das dessen, was es füllt, zwischen 0 und 1</translation>
     </message>
     <message>
       <source>Volume of the lattice over what it fills</source>
@@ -769,6 +897,18 @@
       <translation>Was nicht zum Verfahren passt</translation>
     </message>
     <message>
+      <source>What says how thick the struts are: their radius, or what the lattice or the part is to come to, for which the radius is found</source>
+      <translation>Was bestimmt, wie dick die Streben sind: ihr Radius, oder was Gitter oder Teil erreichen sollen; der Radius dafür wird gefunden</translation>
+    </message>
+    <message>
+      <source>What the figures are of</source>
+      <translation>Wovon die Zahlen sind</translation>
+    </message>
+    <message>
+      <source>What the part is made of: its density gives the mass, its stiffness goes into solver decks</source>
+      <translation>Woraus das Teil besteht: die Dichte ergibt die Masse, die Steifigkeit geht in die Dateien für Löser</translation>
+    </message>
+    <message>
       <source>What to know about this result</source>
       <translation>Was man über dieses Ergebnis wissen sollte</translation>
     </message>
@@ -779,6 +919,10 @@
     <message>
       <source>Where holes go through the skin</source>
       <translation>Wo Löcher durch die Haut gehen</translation>
+    </message>
+    <message>
+      <source>Where the records and the page of the study are</source>
+      <translation>Wo die Aufzeichnungen und die Seite der Studie liegen</translation>
     </message>
     <message>
       <source>Whether the mesh fits the properties, or why not</source>
@@ -795,6 +939,14 @@
     <message>
       <source>Whole</source>
       <translation>Ganz</translation>
+    </message>
+    <message>
+      <source>Why combinations were passed over, or failed</source>
+      <translation>Warum Kombinationen übergangen wurden oder scheiterten</translation>
+    </message>
+    <message>
+      <source>Young's modulus of the lattice along StiffnessDirection, of the chosen material</source>
+      <translation>Elastizitätsmodul des Gitters entlang StiffnessDirection, aus dem gewählten Werkstoff</translation>
     </message>
     <message>
       <source>lambda as a formula of s</source>
@@ -841,6 +993,21 @@
     <message>
       <source>Report on the selected mesh: closed, bodies, volume, angles, triangles that cross, and what a file keeps of it</source>
       <translation>Bericht über das gewählte Netz: geschlossen, Körper, Volumen, Winkel, sich kreuzende Dreiecke, und was eine Datei davon behält</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_DesignStudy</name>
+    <message>
+      <source>Apply Design</source>
+      <translation>Entwurf anwenden</translation>
+    </message>
+    <message>
+      <source>Design Study</source>
+      <translation>Entwurfsstudie</translation>
+    </message>
+    <message>
+      <source>Try many values of the selected lattice infill's properties, see mass against stiffness, and give it the best</source>
+      <translation>Viele Werte der Eigenschaften der gewählten Gitterfüllung versuchen, Masse gegen Steifigkeit sehen und ihr die besten geben</translation>
     </message>
   </context>
   <context>
@@ -1012,8 +1179,16 @@
       <translation>Trägt Last durch</translation>
     </message>
     <message>
+      <source>Cell size L</source>
+      <translation>Zellgröße L</translation>
+    </message>
+    <message>
       <source>Close</source>
       <translation>Schließen</translation>
+    </message>
+    <message>
+      <source>Compute</source>
+      <translation>Berechnen</translation>
     </message>
     <message>
       <source>Drawn with L = {size:g} mm; every L can be given to an infill.</source>
@@ -1032,6 +1207,10 @@
       <translation>Gibt die gewählte Zelle der ausgewählten Gitterfüllung</translation>
     </message>
     <message>
+      <source>Homogenise this cell with this radius: it takes some seconds</source>
+      <translation>Diese Zelle mit diesem Radius homogenisieren: es dauert einige Sekunden</translation>
+    </message>
+    <message>
       <source>Load Cell</source>
       <translation>Zelle laden</translation>
     </message>
@@ -1044,12 +1223,20 @@
       <translation>Macht eine Zelle aus den geraden Kanten der gewählten Skizzen, Drähte oder Formen; der Würfel um sie ist die Zelle</translation>
     </message>
     <message>
+      <source>Material</source>
+      <translation>Werkstoff</translation>
+    </message>
+    <message>
       <source>Maxwell number</source>
       <translation>Maxwell-Zahl</translation>
     </message>
     <message>
       <source>Nodes</source>
       <translation>Knoten</translation>
+    </message>
+    <message>
+      <source>Properties of {name}</source>
+      <translation>Eigenschaften von {name}</translation>
     </message>
     <message>
       <source>Read a cell of your own from a JSON file</source>
@@ -1068,8 +1255,16 @@
       <translation>Einheitszelle setzen</translation>
     </message>
     <message>
+      <source>Strut radius r</source>
+      <translation>Strebenradius r</translation>
+    </message>
+    <message>
       <source>Struts</source>
       <translation>Streben</translation>
+    </message>
+    <message>
+      <source>This cell with this radius is not in the catalogue: press Compute.</source>
+      <translation>Diese Zelle mit diesem Radius steht nicht im Katalog: Berechnen drücken.</translation>
     </message>
     <message>
       <source>Unit cell (*.json)</source>
@@ -1130,6 +1325,10 @@
   <context>
     <name>VolfrepFigures</name>
     <message>
+      <source>strut radius {radius:.4g} mm</source>
+      <translation>Strebenradius {radius:.4g} mm</translation>
+    </message>
+    <message>
       <source>{cells:,} active cells, {struts:,} struts
 relative density {density:.3g} %, mass {mass:.4g} g
 about {triangles:.2g} million triangles, {size:.2g} MB as STL, {seconds:.2g} s to compute</source>
@@ -1147,10 +1346,6 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
     <message>
       <source>3MF, beams only</source>
       <translation>3MF, nur Balken</translation>
-    </message>
-    <message>
-      <source>3MF, fewer triangles</source>
-      <translation>3MF, weniger Dreiecke</translation>
     </message>
     <message>
       <source>3MF, mesh and beams</source>
@@ -1200,10 +1395,6 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <source>STL</source>
       <translation>STL</translation>
     </message>
-    <message>
-      <source>STL, fewer triangles</source>
-      <translation>STL, weniger Dreiecke</translation>
-    </message>
   </context>
   <context>
     <name>VolfrepHelp</name>
@@ -1231,10 +1422,6 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>Exakte Flächen von {label}</translation>
     </message>
     <message>
-      <source>Fewer triangles for {label}</source>
-      <translation>Weniger Dreiecke für {label}</translation>
-    </message>
-    <message>
       <source>Filling {label}</source>
       <translation>{label} wird gefüllt</translation>
     </message>
@@ -1247,8 +1434,16 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>Druckprüfung von {label}</translation>
     </message>
     <message>
+      <source>Properties of the lattice of {label}</source>
+      <translation>Eigenschaften des Gitters von {label}</translation>
+    </message>
+    <message>
       <source>Struts of {label}</source>
       <translation>Streben von {label}</translation>
+    </message>
+    <message>
+      <source>Studying {label}</source>
+      <translation>{label} wird untersucht</translation>
     </message>
     <message>
       <source>Tetrahedra of {label}</source>
@@ -1460,10 +1655,6 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>Prüfung</translation>
     </message>
     <message>
-      <source>compact</source>
-      <translation>Verdichten</translation>
-    </message>
-    <message>
       <source>crossings</source>
       <translation>Durchdringungen</translation>
     </message>
@@ -1503,8 +1694,24 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>Kopieren</translation>
     </message>
     <message>
+      <source>E100</source>
+      <translation>E100</translation>
+    </message>
+    <message>
+      <source>E110</source>
+      <translation>E110</translation>
+    </message>
+    <message>
+      <source>E111</source>
+      <translation>E111</translation>
+    </message>
+    <message>
       <source>FreeCAD's own checks</source>
       <translation>FreeCADs eigene Prüfungen</translation>
+    </message>
+    <message>
+      <source>G</source>
+      <translation>G</translation>
     </message>
     <message>
       <source>Inputs</source>
@@ -1543,6 +1750,10 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>Dreiecke und die einfache Genauigkeit der Datei</translation>
     </message>
     <message>
+      <source>What the lattice does</source>
+      <translation>Was das Gitter leistet</translation>
+    </message>
+    <message>
       <source>a solid</source>
       <translation>ein Volumenkörper</translation>
     </message>
@@ -1579,6 +1790,10 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>Hüllquader</translation>
     </message>
     <message>
+      <source>bulk</source>
+      <translation>Kompressionsmodul</translation>
+    </message>
+    <message>
       <source>cell</source>
       <translation>Zelle</translation>
     </message>
@@ -1603,8 +1818,16 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>geschlossene Hohlräume</translation>
     </message>
     <message>
+      <source>conductivity</source>
+      <translation>Leitfähigkeit</translation>
+    </message>
+    <message>
       <source>corrupted triangles</source>
       <translation>beschädigte Dreiecke</translation>
+    </message>
+    <message>
+      <source>density</source>
+      <translation>Dichte</translation>
     </message>
     <message>
       <source>density, g/cm3</source>
@@ -1675,12 +1898,24 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>keine</translation>
     </message>
     <message>
+      <source>nu</source>
+      <translation>nu</translation>
+    </message>
+    <message>
       <source>output</source>
       <translation>Ausgabe</translation>
     </message>
     <message>
+      <source>relative density</source>
+      <translation>relative Dichte</translation>
+    </message>
+    <message>
       <source>relative density, %</source>
       <translation>relative Dichte, %</translation>
+    </message>
+    <message>
+      <source>shear strength</source>
+      <translation>Schubfestigkeit</translation>
     </message>
     <message>
       <source>shell</source>
@@ -1721,6 +1956,10 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
     <message>
       <source>step of its numbers</source>
       <translation>Schrittweite ihrer Zahlen</translation>
+    </message>
+    <message>
+      <source>strength</source>
+      <translation>Festigkeit</translation>
     </message>
     <message>
       <source>strut radius, mm</source>
@@ -1790,6 +2029,10 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <source>yes</source>
       <translation>ja</translation>
     </message>
+    <message>
+      <source>zener</source>
+      <translation>Zener-Verhältnis</translation>
+    </message>
   </context>
   <context>
     <name>VolfrepSectionView</name>
@@ -1830,7 +2073,50 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
     </message>
   </context>
   <context>
+    <name>VolfrepStudy</name>
+    <message>
+      <source>Apply</source>
+      <translation>Anwenden</translation>
+    </message>
+    <message>
+      <source>Give this design to the infill, as one undo step</source>
+      <translation>Der Füllung diesen Entwurf geben, als ein Schritt zum Rückgängigmachen</translation>
+    </message>
+    <message>
+      <source>Make every design (slow)</source>
+      <translation>Jeden Entwurf herstellen (langsam)</translation>
+    </message>
+    <message>
+      <source>Page</source>
+      <translation>Seite</translation>
+    </message>
+    <message>
+      <source>Show the table and all plots in the browser</source>
+      <translation>Die Tabelle und alle Diagramme im Browser zeigen</translation>
+    </message>
+    <message>
+      <source>Start</source>
+      <translation>Start</translation>
+    </message>
+    <message>
+      <source>The infill of this study has gone: choose another one.</source>
+      <translation>Die Füllung dieser Studie gibt es nicht mehr: eine andere wählen.</translation>
+    </message>
+    <message>
+      <source>Values: 6, 8, 10, or 6 to 10 in 5</source>
+      <translation>Werte: 6, 8, 10, oder 6 to 10 in 5</translation>
+    </message>
+    <message>
+      <source>What varies</source>
+      <translation>Was sich ändert</translation>
+    </message>
+  </context>
+  <context>
     <name>VolfrepTaskPanel</name>
+    <message>
+      <source>'{text}' is no direction: write 100, 110, 111 or three numbers such as 1,2,0.</source>
+      <translation>'{text}' ist keine Richtung: 100, 110, 111 oder drei Zahlen wie 1,2,0 schreiben.</translation>
+    </message>
     <message>
       <source>Cells</source>
       <translation>Zellen</translation>
@@ -1850,6 +2136,10 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
     <message>
       <source>Make the mesh of these values now and stay in this panel</source>
       <translation>Erzeugt jetzt das Netz zu diesen Werten und bleibt im Aufgabenfenster</translation>
+    </message>
+    <message>
+      <source>Material</source>
+      <translation>Werkstoff</translation>
     </message>
     <message>
       <source>Points and values</source>

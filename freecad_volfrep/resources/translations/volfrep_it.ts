@@ -29,6 +29,10 @@
       <translation>Tutti i dati, da leggere</translation>
     </message>
     <message>
+      <source>Along this direction of the cell: 1,0,0 along its edges, 1,1,0 across its faces, 1,1,1 along its diagonals</source>
+      <translation>Lungo questa direzione della cella: 1,0,0 lungo gli spigoli, 1,1,0 attraverso le facce, 1,1,1 lungo le diagonali</translation>
+    </message>
+    <message>
       <source>Auto Update</source>
       <translation>Aggiornamento automatico</translation>
     </message>
@@ -149,6 +153,10 @@
       <translation>Nucleo</translation>
     </message>
     <message>
+      <source>Custom</source>
+      <translation>Personalizzata</translation>
+    </message>
+    <message>
       <source>Cylindrical</source>
       <translation>Cilindrica</translation>
     </message>
@@ -167,6 +175,18 @@
     <message>
       <source>Depth at which the profile ends</source>
       <translation>Profondità alla quale il profilo finisce</translation>
+    </message>
+    <message>
+      <source>Designs</source>
+      <translation>Progetti</translation>
+    </message>
+    <message>
+      <source>Designs and their figures, as JSON</source>
+      <translation>Progetti e i loro valori, come JSON</translation>
+    </message>
+    <message>
+      <source>Designs with figures</source>
+      <translation>Progetti con valori</translation>
     </message>
     <message>
       <source>Deviation</source>
@@ -237,8 +257,16 @@
       <translation>File di punti e valori: .csv, .txt, .vtu, .vtk</translation>
     </message>
     <message>
+      <source>Fill</source>
+      <translation>Riempi</translation>
+    </message>
+    <message>
       <source>Findings</source>
       <translation>Rilievi</translation>
+    </message>
+    <message>
+      <source>Folder</source>
+      <translation>Cartella</translation>
     </message>
     <message>
       <source>Formula</source>
@@ -269,6 +297,10 @@
       <translation>Come sarà stampato</translation>
     </message>
     <message>
+      <source>How the part is printed: its limits are those of the print check</source>
+      <translation>Come si stampa il pezzo: i limiti del processo sono quelli del controllo di stampa</translation>
+    </message>
+    <message>
       <source>Infill</source>
       <translation>Riempimento</translation>
     </message>
@@ -285,8 +317,16 @@
       <translation>Raccordo dei nodi</translation>
     </message>
     <message>
+      <source>Keep Pieces</source>
+      <translation>Mantieni pezzi staccati</translation>
+    </message>
+    <message>
       <source>Keep Radius</source>
       <translation>Mantieni raggio</translation>
+    </message>
+    <message>
+      <source>Keep pieces of the lattice that hang on nothing; otherwise they are left out, and told</source>
+      <translation>Mantiene i pezzi del reticolo che non sono attaccati a nulla; altrimenti vengono tolti e segnalati</translation>
     </message>
     <message>
       <source>L: edge length of the cubic cell</source>
@@ -333,6 +373,10 @@
       <translation>Frammenti isolati eliminati</translation>
     </message>
     <message>
+      <source>Make and measure every design, too</source>
+      <translation>Crea e misura anche ogni progetto</translation>
+    </message>
+    <message>
       <source>Map Around</source>
       <translation>Celle sul giro</translation>
     </message>
@@ -353,8 +397,16 @@
       <translation>Massa in g alla densità indicata</translation>
     </message>
     <message>
+      <source>Mass of the finished part, with its skin</source>
+      <translation>Massa del pezzo finito, con la sua pelle</translation>
+    </message>
+    <message>
       <source>Material</source>
       <translation>Materiale</translation>
+    </message>
+    <message>
+      <source>Material File</source>
+      <translation>File del materiale</translation>
     </message>
     <message>
       <source>Mesh</source>
@@ -391,6 +443,10 @@
     <message>
       <source>Of the process, and their source</source>
       <translation>Del processo, con la loro fonte</translation>
+    </message>
+    <message>
+      <source>Of the solid</source>
+      <translation>Del solido</translation>
     </message>
     <message>
       <source>Of the struts' length, too flat</source>
@@ -441,12 +497,24 @@
       <translation>Stampa</translation>
     </message>
     <message>
+      <source>Print Material</source>
+      <translation>Materiale di stampa</translation>
+    </message>
+    <message>
+      <source>Print Process</source>
+      <translation>Processo di stampa</translation>
+    </message>
+    <message>
       <source>Process</source>
       <translation>Processo</translation>
     </message>
     <message>
       <source>Profile of the radius over s</source>
       <translation>Profilo del raggio in funzione di s</translation>
+    </message>
+    <message>
+      <source>Properties and their values: 'CellSize: 6, 8, 10' or 'ShellThickness: 1 to 3 in 5'</source>
+      <translation>Proprietà e i loro valori: 'CellSize: 6, 8, 10' oppure 'ShellThickness: 1 to 3 in 5'</translation>
     </message>
     <message>
       <source>Put a corner of a cell at Origin; otherwise the cells start at the corner of the solid</source>
@@ -461,6 +529,10 @@
       <translation>Quadratica</translation>
     </message>
     <message>
+      <source>Radius</source>
+      <translation>Raggio</translation>
+    </message>
+    <message>
       <source>Radius Column</source>
       <translation>Colonna dei valori</translation>
     </message>
@@ -471,6 +543,10 @@
     <message>
       <source>Radius Direction</source>
       <translation>Direzione del raggio</translation>
+    </message>
+    <message>
+      <source>Radius Driven By</source>
+      <translation>Raggio determinato da</translation>
     </message>
     <message>
       <source>Radius End</source>
@@ -521,7 +597,15 @@
       <translation>Raggio del raccordo tra le aste dove si incontrano; 0 per nessuno</translation>
     </message>
     <message>
+      <source>Refused</source>
+      <translation>Rifiutati</translation>
+    </message>
+    <message>
       <source>Relative Density</source>
+      <translation>Densità relativa</translation>
+    </message>
+    <message>
+      <source>Relative density</source>
       <translation>Densità relativa</translation>
     </message>
     <message>
@@ -605,6 +689,14 @@
       <translation>Stato</translation>
     </message>
     <message>
+      <source>Stiffness</source>
+      <translation>Rigidezza</translation>
+    </message>
+    <message>
+      <source>Stiffness Direction</source>
+      <translation>Direzione della rigidezza</translation>
+    </message>
+    <message>
       <source>Strut Lengths</source>
       <translation>Lunghezze delle aste</translation>
     </message>
@@ -641,8 +733,16 @@
       <translation>Monconi rimossi</translation>
     </message>
     <message>
+      <source>Study</source>
+      <translation>Studio</translation>
+    </message>
+    <message>
       <source>Surface Area</source>
       <translation>Area della superficie</translation>
+    </message>
+    <message>
+      <source>Table</source>
+      <translation>Tabella</translation>
     </message>
     <message>
       <source>Take away struts with a free end that are shorter than this; 0 for none</source>
@@ -653,6 +753,18 @@
       <translation>Toglie le aste con un'estremità libera, finché non ne rimane nessuna</translation>
     </message>
     <message>
+      <source>Target Density</source>
+      <translation>Densità obiettivo</translation>
+    </message>
+    <message>
+      <source>Target Mass</source>
+      <translation>Massa obiettivo</translation>
+    </message>
+    <message>
+      <source>Target Stiffness</source>
+      <translation>Rigidezza obiettivo</translation>
+    </message>
+    <message>
       <source>Text</source>
       <translation>Testo</translation>
     </message>
@@ -661,8 +773,16 @@
       <translation>Il file .json di una cella propria (nodi e aste), per il tipo di cella Custom</translation>
     </message>
     <message>
+      <source>The .toml or .json file of your own material</source>
+      <translation>Il file .toml o .json del proprio materiale</translation>
+    </message>
+    <message>
       <source>The lattice infill to look at</source>
       <translation>Il riempimento reticolare da esaminare</translation>
+    </message>
+    <message>
+      <source>The lattice infill whose designs these are</source>
+      <translation>Il riempimento reticolare di cui questi sono i progetti</translation>
     </message>
     <message>
       <source>The radius varies along it</source>
@@ -733,6 +853,10 @@
       <translation>Valori e i loro raggi in mm, come '0:0.5, 120:1.2', al posto dell'inizio e della fine</translation>
     </message>
     <message>
+      <source>Vary</source>
+      <translation>Varia</translation>
+    </message>
+    <message>
       <source>Void Volume</source>
       <translation>Volume dei vuoti</translation>
     </message>
@@ -747,6 +871,10 @@
     <message>
       <source>Volume of material</source>
       <translation>Volume di materiale</translation>
+    </message>
+    <message>
+      <source>Volume of the lattice over that of what it fills, between 0 and 1</source>
+      <translation>Volume del reticolo diviso per quello che riempie, fra 0 e 1</translation>
     </message>
     <message>
       <source>Volume of the lattice over what it fills</source>
@@ -769,6 +897,18 @@
       <translation>Ciò che non si adatta al processo</translation>
     </message>
     <message>
+      <source>What says how thick the struts are: their radius, or what the lattice or the part is to come to, for which the radius is found</source>
+      <translation>Che cosa determina lo spessore delle aste: il loro raggio, o ciò che reticolo o pezzo devono raggiungere; il raggio adatto viene trovato</translation>
+    </message>
+    <message>
+      <source>What the figures are of</source>
+      <translation>A che cosa si riferiscono i valori</translation>
+    </message>
+    <message>
+      <source>What the part is made of: its density gives the mass, its stiffness goes into solver decks</source>
+      <translation>Di che cosa è fatto il pezzo: la densità dà la massa, la rigidezza va nei file per i solutori</translation>
+    </message>
+    <message>
       <source>What to know about this result</source>
       <translation>Ciò che va saputo di questo risultato</translation>
     </message>
@@ -779,6 +919,10 @@
     <message>
       <source>Where holes go through the skin</source>
       <translation>Dove i fori attraversano il guscio</translation>
+    </message>
+    <message>
+      <source>Where the records and the page of the study are</source>
+      <translation>Dove sono le registrazioni e la pagina dello studio</translation>
     </message>
     <message>
       <source>Whether the mesh fits the properties, or why not</source>
@@ -795,6 +939,14 @@
     <message>
       <source>Whole</source>
       <translation>Intere</translation>
+    </message>
+    <message>
+      <source>Why combinations were passed over, or failed</source>
+      <translation>Perché alcune combinazioni sono state saltate o sono fallite</translation>
+    </message>
+    <message>
+      <source>Young's modulus of the lattice along StiffnessDirection, of the chosen material</source>
+      <translation>Modulo di Young del reticolo lungo StiffnessDirection, del materiale scelto</translation>
     </message>
     <message>
       <source>lambda as a formula of s</source>
@@ -841,6 +993,21 @@
     <message>
       <source>Report on the selected mesh: closed, bodies, volume, angles, triangles that cross, and what a file keeps of it</source>
       <translation>Rapporto sulla mesh selezionata: chiusura, corpi, volume, angoli, triangoli che si incrociano e ciò che ne resta in un file</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_DesignStudy</name>
+    <message>
+      <source>Apply Design</source>
+      <translation>Applica progetto</translation>
+    </message>
+    <message>
+      <source>Design Study</source>
+      <translation>Studio di progetto</translation>
+    </message>
+    <message>
+      <source>Try many values of the selected lattice infill's properties, see mass against stiffness, and give it the best</source>
+      <translation>Prova molti valori delle proprietà del riempimento reticolare selezionato, confronta massa e rigidezza e applica i migliori</translation>
     </message>
   </context>
   <context>
@@ -1012,8 +1179,16 @@
       <translation>Porta il carico per</translation>
     </message>
     <message>
+      <source>Cell size L</source>
+      <translation>Dimensione cella L</translation>
+    </message>
+    <message>
       <source>Close</source>
       <translation>Chiudi</translation>
+    </message>
+    <message>
+      <source>Compute</source>
+      <translation>Calcola</translation>
     </message>
     <message>
       <source>Drawn with L = {size:g} mm; every L can be given to an infill.</source>
@@ -1032,6 +1207,10 @@
       <translation>Assegna la cella scelta al riempimento reticolare selezionato</translation>
     </message>
     <message>
+      <source>Homogenise this cell with this radius: it takes some seconds</source>
+      <translation>Omogeneizza questa cella con questo raggio: richiede alcuni secondi</translation>
+    </message>
+    <message>
       <source>Load Cell</source>
       <translation>Carica cella</translation>
     </message>
@@ -1044,12 +1223,20 @@
       <translation>Crea una cella dai bordi rettilinei degli schizzi, fili o forme selezionati; il cubo che li contiene è la cella</translation>
     </message>
     <message>
+      <source>Material</source>
+      <translation>Materiale</translation>
+    </message>
+    <message>
       <source>Maxwell number</source>
       <translation>Numero di Maxwell</translation>
     </message>
     <message>
       <source>Nodes</source>
       <translation>Nodi</translation>
+    </message>
+    <message>
+      <source>Properties of {name}</source>
+      <translation>Proprietà di {name}</translation>
     </message>
     <message>
       <source>Read a cell of your own from a JSON file</source>
@@ -1068,8 +1255,16 @@
       <translation>Imposta cella unitaria</translation>
     </message>
     <message>
+      <source>Strut radius r</source>
+      <translation>Raggio aste r</translation>
+    </message>
+    <message>
       <source>Struts</source>
       <translation>Aste</translation>
+    </message>
+    <message>
+      <source>This cell with this radius is not in the catalogue: press Compute.</source>
+      <translation>Questa cella con questo raggio non è nel catalogo: premere Calcola.</translation>
     </message>
     <message>
       <source>Unit cell (*.json)</source>
@@ -1130,6 +1325,10 @@
   <context>
     <name>VolfrepFigures</name>
     <message>
+      <source>strut radius {radius:.4g} mm</source>
+      <translation>raggio delle aste {radius:.4g} mm</translation>
+    </message>
+    <message>
       <source>{cells:,} active cells, {struts:,} struts
 relative density {density:.3g} %, mass {mass:.4g} g
 about {triangles:.2g} million triangles, {size:.2g} MB as STL, {seconds:.2g} s to compute</source>
@@ -1147,10 +1346,6 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
     <message>
       <source>3MF, beams only</source>
       <translation>3MF, solo travi</translation>
-    </message>
-    <message>
-      <source>3MF, fewer triangles</source>
-      <translation>3MF, meno triangoli</translation>
     </message>
     <message>
       <source>3MF, mesh and beams</source>
@@ -1200,10 +1395,6 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <source>STL</source>
       <translation>STL</translation>
     </message>
-    <message>
-      <source>STL, fewer triangles</source>
-      <translation>STL, meno triangoli</translation>
-    </message>
   </context>
   <context>
     <name>VolfrepHelp</name>
@@ -1231,10 +1422,6 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>Superfici esatte di {label}</translation>
     </message>
     <message>
-      <source>Fewer triangles for {label}</source>
-      <translation>Meno triangoli per {label}</translation>
-    </message>
-    <message>
       <source>Filling {label}</source>
       <translation>Riempimento di {label}</translation>
     </message>
@@ -1247,8 +1434,16 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>Controllo di stampa di {label}</translation>
     </message>
     <message>
+      <source>Properties of the lattice of {label}</source>
+      <translation>Proprietà del reticolo di {label}</translation>
+    </message>
+    <message>
       <source>Struts of {label}</source>
       <translation>Aste di {label}</translation>
+    </message>
+    <message>
+      <source>Studying {label}</source>
+      <translation>Studio di {label}</translation>
     </message>
     <message>
       <source>Tetrahedra of {label}</source>
@@ -1460,10 +1655,6 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>controllo</translation>
     </message>
     <message>
-      <source>compact</source>
-      <translation>riduzione</translation>
-    </message>
-    <message>
       <source>crossings</source>
       <translation>intersezioni</translation>
     </message>
@@ -1503,8 +1694,24 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>Copia</translation>
     </message>
     <message>
+      <source>E100</source>
+      <translation>E100</translation>
+    </message>
+    <message>
+      <source>E110</source>
+      <translation>E110</translation>
+    </message>
+    <message>
+      <source>E111</source>
+      <translation>E111</translation>
+    </message>
+    <message>
       <source>FreeCAD's own checks</source>
       <translation>Controlli di FreeCAD</translation>
+    </message>
+    <message>
+      <source>G</source>
+      <translation>G</translation>
     </message>
     <message>
       <source>Inputs</source>
@@ -1543,6 +1750,10 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>Triangoli e precisione singola del file</translation>
     </message>
     <message>
+      <source>What the lattice does</source>
+      <translation>Che cosa fa il reticolo</translation>
+    </message>
+    <message>
       <source>a solid</source>
       <translation>un solido</translation>
     </message>
@@ -1579,6 +1790,10 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>ingombro</translation>
     </message>
     <message>
+      <source>bulk</source>
+      <translation>modulo di comprimibilità</translation>
+    </message>
+    <message>
       <source>cell</source>
       <translation>cella</translation>
     </message>
@@ -1603,8 +1818,16 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>vuoti chiusi</translation>
     </message>
     <message>
+      <source>conductivity</source>
+      <translation>conducibilità</translation>
+    </message>
+    <message>
       <source>corrupted triangles</source>
       <translation>triangoli corrotti</translation>
+    </message>
+    <message>
+      <source>density</source>
+      <translation>densità</translation>
     </message>
     <message>
       <source>density, g/cm3</source>
@@ -1675,12 +1898,24 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>nessuno</translation>
     </message>
     <message>
+      <source>nu</source>
+      <translation>nu</translation>
+    </message>
+    <message>
       <source>output</source>
       <translation>risultato</translation>
     </message>
     <message>
+      <source>relative density</source>
+      <translation>densità relativa</translation>
+    </message>
+    <message>
       <source>relative density, %</source>
       <translation>densità relativa, %</translation>
+    </message>
+    <message>
+      <source>shear strength</source>
+      <translation>resistenza al taglio</translation>
     </message>
     <message>
       <source>shell</source>
@@ -1721,6 +1956,10 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
     <message>
       <source>step of its numbers</source>
       <translation>passo dei suoi numeri</translation>
+    </message>
+    <message>
+      <source>strength</source>
+      <translation>resistenza</translation>
     </message>
     <message>
       <source>strut radius, mm</source>
@@ -1790,6 +2029,10 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <source>yes</source>
       <translation>sì</translation>
     </message>
+    <message>
+      <source>zener</source>
+      <translation>rapporto di Zener</translation>
+    </message>
   </context>
   <context>
     <name>VolfrepSectionView</name>
@@ -1830,7 +2073,50 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
     </message>
   </context>
   <context>
+    <name>VolfrepStudy</name>
+    <message>
+      <source>Apply</source>
+      <translation>Applica</translation>
+    </message>
+    <message>
+      <source>Give this design to the infill, as one undo step</source>
+      <translation>Dà questo progetto al riempimento, come un solo passo annullabile</translation>
+    </message>
+    <message>
+      <source>Make every design (slow)</source>
+      <translation>Crea ogni progetto (lento)</translation>
+    </message>
+    <message>
+      <source>Page</source>
+      <translation>Pagina</translation>
+    </message>
+    <message>
+      <source>Show the table and all plots in the browser</source>
+      <translation>Mostra la tabella e tutti i grafici nel browser</translation>
+    </message>
+    <message>
+      <source>Start</source>
+      <translation>Avvia</translation>
+    </message>
+    <message>
+      <source>The infill of this study has gone: choose another one.</source>
+      <translation>Il riempimento di questo studio non c'è più: sceglierne un altro.</translation>
+    </message>
+    <message>
+      <source>Values: 6, 8, 10, or 6 to 10 in 5</source>
+      <translation>Valori: 6, 8, 10, oppure 6 to 10 in 5</translation>
+    </message>
+    <message>
+      <source>What varies</source>
+      <translation>Che cosa varia</translation>
+    </message>
+  </context>
+  <context>
     <name>VolfrepTaskPanel</name>
+    <message>
+      <source>'{text}' is no direction: write 100, 110, 111 or three numbers such as 1,2,0.</source>
+      <translation>'{text}' non è una direzione: scrivere 100, 110, 111 o tre numeri come 1,2,0.</translation>
+    </message>
     <message>
       <source>Cells</source>
       <translation>Celle</translation>
@@ -1850,6 +2136,10 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
     <message>
       <source>Make the mesh of these values now and stay in this panel</source>
       <translation>Crea ora la mesh di questi valori e resta in questo pannello</translation>
+    </message>
+    <message>
+      <source>Material</source>
+      <translation>Materiale</translation>
     </message>
     <message>
       <source>Points and values</source>

@@ -526,7 +526,7 @@ def test_not_enough_memory(
 #: The command, which stops for good while it writes, as soon as its unfinished file is there.
 HELD = """
 import pathlib, sys, time
-from volfrep.cli.command import main
+from volfrep.__main__ import main
 from volfrep.util.progress import Monitor
 
 tick = Monitor.tick
@@ -540,6 +540,20 @@ def hold(self, fraction=None):
 Monitor.tick = hold
 sys.exit(main())
 """
+
+
+def test_a_lattice_without_a_target_loads_nothing_that_only_targets_need(tmp_path: Path) -> None:
+    """As long to load as a small lattice takes to make."""
+    arguments = ["block", "-o", "block.stl", "--quiet", *LATTICE, "--count", "1,1,1"]
+    asked = (
+        "import sys; from volfrep.cli.command import run; run(sys.argv[1:]); "
+        "print(*({'scipy.stats', 'scipy.optimize', 'scipy.interpolate'} & set(sys.modules)))"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", asked, *arguments], cwd=tmp_path, capture_output=True, text=True
+    )
+    assert (done.stdout, done.stderr) == ("\n", "")
+    assert (tmp_path / "block.stl").is_file()
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGINT for another process")

@@ -214,7 +214,6 @@ def test_exact_surfaces_need_freecad(
         ("x.inp", ["--3mf", "beams"], "give it the extension .3mf"),
         ("x.inp", ["--report", "r.json"], "which --inp beams does without"),
         ("x.step", ["--step", "wireframe", "--print-report", "FFF"], "--step wireframe does"),
-        ("x.inp", ["--compact"], "--inp beams has no triangles"),
         ("x.inp", ["--fillet", "1"], "set the fillet to 0, or choose tetrahedra"),
         ("x.step", ["--step", "wireframe", "--fillet", "1"], "or choose faceted"),
         ("x.step", ["--step", "round"], "invalid choice: 'round'"),

@@ -197,7 +197,13 @@ FILLED = {
 
 
 @pytest.mark.parametrize("grading", FILLED)
-@pytest.mark.parametrize("make", [samples.box, samples.bracket], ids=["convex", "not convex"])
+@pytest.mark.parametrize(
+    "make",
+    [
+        pytest.param(samples.box, id="convex", marks=pytest.mark.slow),
+        pytest.param(samples.bracket, id="not convex"),
+    ],
+)
 def test_parts_hold_the_contract(make, grading):
     solid = make()
     size = 8.0 if make is samples.box else 12.0

@@ -11,12 +11,19 @@ from .parameter import Need, Parameter
 
 #: The entry of the property `CellType` for a cell of the user's own, read from `CellFile`.
 CUSTOM_CELL = "Custom"
+#: Entries of the properties `PrintMaterial` and `PrintProcess` beside the tables' names: nothing
+#: chosen, a material of the user's own (from `MaterialFile`), and the one that FreeCAD's solid has.
+NOTHING, OWN_MATERIAL, SOLIDS_MATERIAL = "None", "Custom", "Of the solid"
+
+#: What may say how thick struts are, in a document.
+DRIVERS = ("radius", "relative density", "mass", "stiffness")
 
 TWO_ENDED = ("linear", "quadratic", "exponential")
 PROFILES = ("scalar", *TWO_ENDED, "formula")
 BY_DEPTH = ("skin", "core")
 BY_PLACE = ("direction", *BY_DEPTH)
 
+_OWN_RADIUS = Need(("radius_driven_by",), ("radius",))
 _DRAINED = (Need(("drain_diameter",)),)
 _BY_FIELD = (Need(("radius_grading",), ("field",)),)
 _MAPPED = (Need(("cell_map",)),)
@@ -46,6 +53,37 @@ PARAMETERS = (
         "cell_size", "length", "Lattice",
         "L: edge length of the cubic cell",
         default=10.0, in_panel=True,
+    ),
+    Parameter(
+        "radius_driven_by", "choice", "Lattice",
+        "What says how thick the struts are: their radius, or what the lattice or the part is to "
+        "come to, for which the radius is found",
+        default="radius", choices=DRIVERS, in_command=False, in_panel=True,
+    ),
+    Parameter(
+        "target_density", "number", "Lattice",
+        "Volume of the lattice over that of what it fills, between 0 and 1",
+        default=0.2, needs=(Need(("radius_driven_by",), ("relative density",)),),
+        in_command=False, in_panel=True,
+    ),
+    Parameter(
+        "target_mass", "mass", "Lattice",
+        "Mass of the finished part, with its skin",
+        default=0.0, needs=(Need(("radius_driven_by",), ("mass",)),),
+        in_command=False, in_panel=True,
+    ),
+    Parameter(
+        "target_stiffness", "stress", "Lattice",
+        "Young's modulus of the lattice along StiffnessDirection, of the chosen material",
+        default=0.0, needs=(Need(("radius_driven_by",), ("stiffness",)),),
+        in_command=False, in_panel=True,
+    ),
+    Parameter(
+        "stiffness_direction", "direction", "Lattice",
+        "Along this direction of the cell: 1,0,0 along its edges, 1,1,0 across its faces, 1,1,1 "
+        "along its diagonals",
+        default=(0.0, 0.0, 1.0), needs=(Need(("radius_driven_by",), ("stiffness",)),),
+        in_command=False, in_panel=True,
     ),
     Parameter(
         "strut_radius", "length", "Lattice",
@@ -106,6 +144,11 @@ PARAMETERS = (
         "shortest_stub", "length", "Boundary",
         "Take away struts with a free end that are shorter than this; 0 for none",
         default=0.0, of_block=False, in_panel=True,
+    ),
+    Parameter(
+        "keep_pieces", "flag", "Boundary",
+        "Keep pieces of the lattice that hang on nothing; otherwise they are left out, and told",
+        default=False, of_block=False,
     ),
     Parameter(
         "open_faces", "faces", "Openings",
@@ -219,7 +262,7 @@ PARAMETERS = (
         "radius_grading", "choice", "Strut radius",
         "Struts whose radius varies: along a direction, by the depth below the skin (s = 1 at the "
         "skin, or at the core), or by a field of values",
-        default="none", choices=("none", *BY_PLACE, "field"), in_panel=True,
+        default="none", choices=("none", *BY_PLACE, "field"), needs=(_OWN_RADIUS,), in_panel=True,
     ),
     Parameter(
         "radius_field", "file", "Strut radius",
@@ -293,6 +336,22 @@ PARAMETERS = (
         "auto_update", "flag", "Mesh",
         "Compute at every change; switch it off for large jobs and use Update Lattice Infill",
         default=True, in_command=False,
+    ),
+    Parameter(
+        "print_material", "material", "Material",
+        "What the part is made of: its density gives the mass, its stiffness goes into solver "
+        "decks",
+        default=NOTHING, in_command=False, in_panel=True,
+    ),
+    Parameter(
+        "material_file", "file", "Material",
+        "The .toml or .json file of your own material",
+        needs=(Need(("print_material",), (OWN_MATERIAL,)),), in_command=False, in_panel=True,
+    ),
+    Parameter(
+        "print_process", "process", "Material",
+        "How the part is printed: its limits are those of the print check",
+        default=NOTHING, in_command=False, in_panel=True,
     ),
     Parameter(
         "density", "density", "Material",

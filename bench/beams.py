@@ -21,7 +21,7 @@ from pathlib import Path
 import numpy as np
 
 from volfrep import LatticeSpec
-from volfrep.design.cells import LIBRARY
+from volfrep.design.cells import PAPERS
 from volfrep.fem.beam_mesh import JOINT_LENGTH, beam_model
 from volfrep.fem.calculix import solve
 from volfrep.fem.joint_loads import balls_of, joint_displacements, joint_step
@@ -102,7 +102,7 @@ def row(cell: str, ratio: float, folder: Path) -> str:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("--cells", nargs="+", choices=LIBRARY, default=list(LIBRARY))
+    parser.add_argument("--cells", nargs="+", choices=PAPERS, default=list(PAPERS))
     parser.add_argument("--ratios", nargs="+", type=float, default=[0.05, 0.075, 0.1])
     parser.add_argument("--out", type=Path, default=ROOT / "build" / "beams.md")
     options = parser.parse_args()

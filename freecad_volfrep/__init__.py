@@ -27,16 +27,24 @@ _EXPORTS = {
     "make_solid": "freecad_volfrep.features.faceted_solid",
     "export_mesh": "freecad_volfrep.features.export",
     "make_print_check": "freecad_volfrep.features.print_check",
+    "make_design_study": "freecad_volfrep.features.design_study",
+    "run_study": "freecad_volfrep.features.design_study",
+    "apply_design": "freecad_volfrep.features.design_study",
     "make_fem_analysis": "freecad_volfrep.features.fem_analysis",
+    "size_lattice": "freecad_volfrep.features.sizing",
 }
 __all__ = [
     "ICONS",
     "ROOT",
+    "apply_design",
     "export_mesh",
+    "make_design_study",
     "make_fem_analysis",
     "make_lattice_infill",
     "make_print_check",
     "make_solid",
+    "run_study",
+    "size_lattice",
 ]
 
 

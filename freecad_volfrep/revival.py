@@ -15,10 +15,11 @@ from typing import Any
 
 import FreeCAD as App
 
-_TYPE = "Mesh::FeaturePython"
+_TYPES = ("Mesh::FeaturePython", "App::FeaturePython")
 #: Properties by which our objects are known, whatever their proxies say.
 _INFILL = {"Fingerprint", "SchemaVersion", "StrutRadius", "Status"}
 _PRINT_CHECK = {"Infill", "Process", "Findings", "OverhangShare"}
+_STUDY = {"Infill", "Vary", "Fill", "Refused", "Table"}
 
 _watch: Watch | None = None
 
@@ -57,7 +58,7 @@ def revive(doc: App.Document) -> list[App.DocumentObject]:
     if doc.Restoring:
         return []
     revived = []
-    for obj in doc.findObjects(_TYPE):
+    for obj in [obj for kind in _TYPES for obj in doc.findObjects(kind)]:
         names = set(obj.PropertiesList)
         if names >= _INFILL:
             from freecad_volfrep.features.lattice_infill import LatticeInfill, revive_infill
@@ -67,6 +68,10 @@ def revive(doc: App.Document) -> list[App.DocumentObject]:
             from freecad_volfrep.features.print_check import PrintCheck, revive_print_check
 
             kind, bring_back = PrintCheck, revive_print_check
+        elif names >= _STUDY:
+            from freecad_volfrep.features.design_study import DesignStudy, revive_study
+
+            kind, bring_back = DesignStudy, revive_study
         else:
             continue
         if isinstance(getattr(obj, "Proxy", None), kind):

@@ -20,10 +20,10 @@ def register() -> None:
         register_screen(Screen(_run_on_thread, _progress_bar, _attach_view, _revive_view))
 
 
-def _run_on_thread(title: str, work: Callable[..., Any]) -> Any:
+def _run_on_thread(title: str, work: Callable[..., Any], keeps_best: bool) -> Any:
     from .gui.progress import run_on_thread
 
-    return run_on_thread(title, work)
+    return run_on_thread(title, work, keeps_best)
 
 
 def _progress_bar(title: str) -> Any:
@@ -33,14 +33,26 @@ def _progress_bar(title: str) -> Any:
 
 
 def _attach_view(obj: App.DocumentObject) -> None:
-    from .gui.view_provider import LatticeInfillView, PrintCheckView
+    from .gui.view_provider import DesignStudyView, LatticeInfillView, PrintCheckView
 
-    views = {"LatticeInfill": LatticeInfillView, "PrintCheck": PrintCheckView}
+    views = {
+        "LatticeInfill": LatticeInfillView,
+        "PrintCheck": PrintCheckView,
+        "DesignStudy": DesignStudyView,
+    }
     views[type(obj.Proxy).__name__](obj.ViewObject)
 
 
 def _revive_view(obj: App.DocumentObject) -> None:
-    from .gui.revived_view import revive_infill_view, revive_print_check_view
+    from .gui.revived_view import (
+        revive_infill_view,
+        revive_print_check_view,
+        revive_study_view,
+    )
 
-    revive = {"LatticeInfill": revive_infill_view, "PrintCheck": revive_print_check_view}
+    revive = {
+        "LatticeInfill": revive_infill_view,
+        "PrintCheck": revive_print_check_view,
+        "DesignStudy": revive_study_view,
+    }
     revive[type(obj.Proxy).__name__](obj.ViewObject)

@@ -4,8 +4,7 @@
 # once, about 3 GB) with a copy of this checkout inside. Needs root:
 #     tools/freecad_in.sh trixie            # Debian 13: FreeCAD 1.0, Python 3.13
 #     tools/freecad_in.sh forky setup       # Debian testing: FreeCAD 1.1, Python 3.14
-# Further arguments are the make targets to run there instead of test-in-freecad (and of those
-# scripts of the window that hold there). The folders lie
+# Further arguments are the make targets to run there instead of test-in-freecad. The folders lie
 # in FREECAD_ROOTS (default: /var/tmp); what the run left in build/ comes back as build/<Debian>.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
@@ -21,11 +20,7 @@ esac
 shift
 root=${FREECAD_ROOTS:-/var/tmp}/volfrep-$name
 targets=("$@")
-# The scripts of the window that hold in this FreeCAD. Those of the part's look, of reaching every
-# command and of the tree know the menus, lists and pictures of FreeCAD 0.20 only so far.
-windows=(commands display languages lattice_infill preferences)
-[ ${#targets[@]} -gt 0 ] ||
-  targets=("GUI_SCRIPTS=$(printf 'tests/gui/drive_%s.py ' "${windows[@]}")" test-in-freecad)
+[ ${#targets[@]} -gt 0 ] || targets=(test-in-freecad)
 
 [ "$(id -u)" = 0 ] || refuse "a Debian in a folder can be made and entered by root only."
 command -v debootstrap >/dev/null || apt-get install -y -qq debootstrap >/dev/null ||

@@ -5,7 +5,8 @@
 #     tools/run_gui.sh tests/gui/drive_lattice_infill.py open_a_face  # one, or some
 #     tools/run_gui.sh --list tests/gui/drive_lattice_infill.py       # their names
 # The exit code is the one that the script leaves with (by os._exit), or 124 after GUI_TIMEOUT
-# seconds. Pictures and figures go to GUI_OUT (default: build/gui).
+# seconds. Pictures and figures go to GUI_OUT (default: build/gui). Every run has a screen and a
+# profile of its own, which are gone afterwards: none finds what another one left.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 if [ "${1:-}" = --list ]; then
@@ -15,12 +16,28 @@ fi
 script=$1
 shift
 export GUI_CHECKS="$*"
-export FREECAD_USER_HOME=${FREECAD_USER_HOME:-$PWD/.cache/fchome-gui}
 export GUI_OUT=${GUI_OUT:-$PWD/build/gui}
 mkdir -p "$GUI_OUT"
+
+own=$(mktemp -d)
+screen=
+# Without word of the screen's end.
+trap '[ -z "$screen" ] || { kill "$screen"; wait "$screen"; } 2>/dev/null || true; rm -rf "$own"' EXIT
+cp -rP "${FREECAD_USER_HOME:-$PWD/.cache/fchome}"/{Mod,AdditionalPythonPackages} "$own"
+export FREECAD_USER_HOME=$own
+
+# The server looks for a free number itself and tells it once it can be used.
+mkfifo "$own/number"
+Xvfb -displayfd 7 -screen 0 1400x900x24 -dpi 96 -nolisten tcp 7>"$own/number" 2>"$own/screen.log" &
+screen=$!
+read -r number <"$own/number" || { cat "$own/screen.log" >&2; exit 1; }
+export DISPLAY=:$number
+unset XAUTHORITY
+
 # The start page is a web view, which refuses to run as root in its sandbox.
 export QTWEBENGINE_DISABLE_SANDBOX=1
 export LIBGL_ALWAYS_SOFTWARE=1 QT_XCB_GL_INTEGRATION=xcb_glx
-# Without a resolution of 96 dpi Qt scales its windows and real clicks miss their buttons.
-exec timeout "${GUI_TIMEOUT:-900}" \
-  xvfb-run -a -s "-screen 0 1400x900x24 -dpi 96" freecad "$script"
+# A screen of whole pixels is not quite one of 96 dpi: Qt would scale its windows by that bit, and
+# real clicks would miss what they aim at by a pixel.
+export QT_FONT_DPI=96
+timeout "${GUI_TIMEOUT:-900}" freecad "$script"

@@ -23,12 +23,13 @@ refuse() { printf 'setup: %s\n' "$*" >&2; exit 1; }
 
 inputs() {
   printf '%s\n' "$root" "$with_tools"
-  cat tools/setup.sh tools/requirements-dev.txt tools/requirements-plot.txt pyproject.toml
+  cat tools/setup.sh tools/requirements-dev.txt tools/requirements-plot.txt tools/requirements-study.txt \
+    pyproject.toml
 }
 fingerprint=$(inputs | sha256sum)
 stamp=.venv/setup-stamp
 if [ -e "$stamp" ] && [ "$(cat "$stamp")" = "$fingerprint" ] && [ -x .venv/bin/volfrep ] &&
-  [ -e .cache/fchome-gui/Mod/VOLFREP ] && .venv/bin/python -c '' 2>/dev/null; then
+  [ -e .cache/fchome/Mod/VOLFREP ] && .venv/bin/python -c '' 2>/dev/null; then
   exit 0
 fi
 
@@ -88,21 +89,21 @@ say "Python packages"
   -c .cache/constraints.txt -r tools/requirements-dev.txt -e . ||
   refuse "pip could not install the Python packages: see above."
 
-if [ "$with_tools" = yes ] && ! cmp -s tools/requirements-plot.txt .cache/plot/requirements.txt; then
-  say "pyvista, apart from what FreeCAD sees"
-  rm -rf .cache/plot
+for kind in plot study; do
+  wanted=tools/requirements-$kind.txt
+  [ "$with_tools" = yes ] && ! cmp -s "$wanted" .cache/$kind/requirements.txt || continue
+  say "packages of $wanted, apart from what FreeCAD sees"
+  rm -rf .cache/$kind
   .venv/bin/python -m pip install --quiet --disable-pip-version-check --no-deps \
-    --target .cache/plot -r tools/requirements-plot.txt ||
-    refuse "pip could not install pyvista: see above."
-  cp tools/requirements-plot.txt .cache/plot/requirements.txt
-fi
+    --target .cache/$kind -r "$wanted" ||
+    refuse "pip could not install the packages of $wanted: see above."
+  cp "$wanted" .cache/$kind/requirements.txt
+done
 
 site=$(.venv/bin/python -c 'import sysconfig; print(sysconfig.get_paths()["purelib"])')
-# One profile for freecadcmd and one for the windows, which run side by side.
-for profile in .cache/fchome .cache/fchome-gui; do
-  mkdir -p "$profile/Mod"
-  ln -sfn "$root" "$profile/Mod/VOLFREP"
-  ln -sfn "$site" "$profile/AdditionalPythonPackages"
-done
+# The profile of freecadcmd; every run of a window has a copy of it.
+mkdir -p .cache/fchome/Mod
+ln -sfn "$root" .cache/fchome/Mod/VOLFREP
+ln -sfn "$site" .cache/fchome/AdditionalPythonPackages
 printf '%s\n' "$fingerprint" >"$stamp"
 say "ready: FreeCAD $(dpkg-query -W -f='${Version}' freecad), $(.venv/bin/python --version)"

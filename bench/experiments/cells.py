@@ -6,7 +6,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from volfrep.design.cells import LIBRARY
+from volfrep.design.cells import PAPERS
 
 from .. import plots
 from ..measuring import BENCH_PYTHON, Context, our_block, peer_job
@@ -24,7 +24,7 @@ def measure(context: Context) -> dict[str, Any]:
     """Seconds to the file, from the start of the process."""
     counts = QUICK_COUNTS if context.quick else COUNTS
     rows: list[Row] = []
-    for cell in LIBRARY:
+    for cell in PAPERS:
         rows += [context.say(our_block(context, cell, count, look=False)) for count in counts]
     out = context.folder / "peer.stl"
     for tool, name, samples in PEERS:

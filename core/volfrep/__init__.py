@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """VOLFREP: strut-and-node lattice infills for solids.
 
-`fill` and `block` make a `Part`. The names below are loaded when first used, so that importing
-the package costs nothing.
+`fill` and `block` make a `Part`, `sweep` many designs. The names below are loaded when first used,
+so that importing the package costs nothing.
 """
 
 from __future__ import annotations
@@ -10,8 +10,10 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from .util.version import VERSION
+
 if TYPE_CHECKING:
-    from .api import Part, block, fill
+    from .api import Part, as_solid, block, fill, slice_layers
     from .design.parameters.spec_file import read_spec, write_spec
     from .design.spec import LatticeSpec
     from .io.solid import read_solid
@@ -20,10 +22,13 @@ if TYPE_CHECKING:
     from .mesh.triangle_mesh import TriangleMesh
     from .reports.report import Report
     from .reports.result import Result
+    from .studies.sampling import Range
+    from .studies.study import Front, Study, read_study
+    from .studies.sweep import evaluate, sweep
     from .util.cache import StageCache
     from .util.errors import Cancelled, VolfrepError
 
-__version__ = "0.1.0"
+__version__ = VERSION
 
 #: Where each name is, and what it is called there if that is another name.
 _HOMES = {
@@ -35,9 +40,17 @@ _HOMES = {
     "properties": "mechanics.summary:cell_properties",
     "StageCache": "util.cache",
     "Part": "api",
+    "as_solid": "api",
     "block": "api",
+    "evaluate": "studies.sweep",
+    "sweep": "studies.sweep",
+    "Front": "studies.study",
+    "Range": "studies.sampling",
+    "Study": "studies.study",
+    "read_study": "studies.study",
     "fill": "api",
     "network": "api",
+    "slice_layers": "api",
     "Report": "reports.report",
     "read_solid": "io.solid",
     "LatticeSpec": "design.spec",
@@ -49,19 +62,27 @@ _HOMES = {
 __all__ = [
     "Cancelled",
     "CellProperties",
+    "Front",
     "LatticeSpec",
     "Part",
+    "Range",
     "Report",
     "Result",
     "StageCache",
+    "Study",
     "TriangleMesh",
     "VolfrepError",
+    "as_solid",
     "block",
+    "evaluate",
     "fill",
     "network",
     "properties",
     "read_solid",
     "read_spec",
+    "read_study",
+    "slice_layers",
+    "sweep",
     "write_block_stl",
     "write_spec",
 ]

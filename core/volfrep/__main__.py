@@ -1,7 +1,28 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""``python -m volfrep``: the same as the ``volfrep`` command."""
+"""``python -m volfrep`` and the ``volfrep`` command: Ctrl-C counts from the first import on."""
 
-from .cli.command import main
+from __future__ import annotations
+
+import sys
+from typing import NoReturn
+
+from .cli import process
+
+
+def main() -> NoReturn:
+    """Run the command of this process's arguments and exit with its code."""
+    try:
+        process.prepare()
+        from .cli.command import run
+
+        code = run(sys.argv[1:])
+    except SystemExit as end:  # of --help and --version
+        code = int(end.code or 0)
+    except KeyboardInterrupt:
+        code = process.say_interrupted()
+    process.leave(code)
+    raise AssertionError("the process has ended")
+
 
 if __name__ == "__main__":
     main()

@@ -38,6 +38,7 @@ from .util.progress import ProgressCallback
 if TYPE_CHECKING:
     import trimesh
 
+    from .jobs.slices import Layers
     from .reports.printability import PrintReport
 
 
@@ -94,9 +95,9 @@ class Part:
             VolfrepError: an unknown extension, or the path cannot be written; what was there
                 before stays.
         """
-        from .io.write import write_mesh
+        from .io.write import write_surface
 
-        write_mesh(self.result.mesh, path)
+        write_surface(self.result.surface, path, figures=self.report.figures)
 
     def check(
         self, process: str, build_direction: tuple[float, float, float] = (0.0, 0.0, 1.0)
@@ -111,7 +112,8 @@ class Part:
             VolfrepError: there is no such process, or the direction is none.
         """
         from .jobs.pipeline import fill
-        from .reports.printability import find_process, print_report
+        from .reports.printability import print_report
+        from .reports.processes import find_process
 
         limits = find_process(process)
         domain = None
@@ -243,33 +245,74 @@ def network(
     progress: ProgressCallback | None = None,
     **parameters: Any,
 ) -> Part:
-    """The nodes and struts of any graph, meshed as they are in free space.
-
-    To fill a part with it, give ``network=volfrep.design.networks.make_network(...)``, or a
-    ``RandomNetwork``, to `fill`.
+    """The nodes and struts of any graph, meshed as they are; `fill` takes a ``network``, too.
 
     Args:
-        graph: a file (see `volfrep.design.networks.read_network`), or arrays: nodes (n, 3) in
-            mm, struts (m, 2), and, if they differ, radii (m,), (m, 2) or (n,) in mm.
+        graph: a file, or nodes, struts and radii as `volfrep.design.networks.make_network` has them.
         spec: what to make.
         progress: as of `fill`.
         parameters: as of `fill`.
 
     Raises:
-        VolfrepError: the graph or the specification makes no sense.
-        Cancelled: the callback said so.
-
-    >>> import volfrep
-    >>> made = volfrep.network(([[0, 0, 0], [9, 0, 0], [0, 9, 0]], [(0, 1), (0, 2), (1, 2)]))
-    >>> made.report.genus, made.report.bodies
-    (1, 1)
+        VolfrepError: the graph or the specification makes no sense; or `Cancelled`.
     """
     from .design.networks import make_network, read_network
-    from .jobs.network_infill import network_alone
+    from .jobs.networks import network_alone
 
     found = make_network(*graph[:3]) if isinstance(graph, tuple) else read_network(graph)
     wanted = _specification(spec, {**parameters, "network": found}, None)
     return Part(network_alone(wanted, progress=progress), wanted, None, StageCache())
+
+
+def slice_layers(
+    part: str | os.PathLike[str] | TriangleMesh | MeshLike | tuple[ArrayLike, ArrayLike],
+    folder: str | os.PathLike[str],
+    spec: LatticeSpec | None = None,
+    *,
+    layer: float,
+    pixel: float | None = None,
+    form: str = "png",
+    unit: str | None = None,
+    material: str | None = None,
+    progress: ProgressCallback | None = None,
+    cache: StageCache | None = None,
+    **parameters: Any,
+) -> Layers:
+    """Fill a solid and write it in layers along z for a printer; no mesh is made.
+
+    Args:
+        part: as of `fill`, as it stands on the build plate.
+        folder: to make; one that holds layers is replaced.
+        spec: what to make.
+        layer: height of a layer, mm.
+        pixel: edge of a picture's pixel, mm; None for the height of a layer.
+        form: png, svg or cli.
+        unit: of a file's lengths; None for what it says, else mm.
+        material: as of `fill`.
+        progress: called with the fraction done and the stage; returning False cancels.
+        cache: keeps the stages between calls.
+        parameters: as of `fill`.
+
+    Raises:
+        VolfrepError: as `fill`; or the layers cannot be made or written so.
+        Cancelled: the callback said so.
+
+    >>> import tempfile, trimesh, volfrep
+    >>> with tempfile.TemporaryDirectory() as place:
+    ...     made = volfrep.slice_layers(
+    ...         trimesh.creation.box((20, 20, 10)), place, cell="BCC", cell_size=10,
+    ...         strut_radius=1, shell=1, layer=0.5, pixel=0.1,
+    ...     )
+    >>> made.count, made.pixels
+    (20, (202, 202))
+    """
+    from .jobs.slices import write_layers
+
+    wanted = _specification(spec, parameters, material)
+    return write_layers(
+        as_solid(part, unit), wanted, folder, layer=layer, pixel=pixel, form=form,
+        progress=progress, cache=cache,
+    )  # fmt: skip
 
 
 def as_solid(

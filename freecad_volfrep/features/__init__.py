@@ -4,7 +4,8 @@
 Saved files name the proxies' classes by this package: keep the names below importable from here.
 """
 
+from .design_study import DesignStudy
 from .lattice_infill import LatticeInfill
 from .print_check import PrintCheck
 
-__all__ = ["LatticeInfill", "PrintCheck"]
+__all__ = ["DesignStudy", "LatticeInfill", "PrintCheck"]

@@ -7,6 +7,7 @@ import FreeCAD as App
 
 from volfrep.design.parameters import BY_NAME, PARAMETERS
 from volfrep.design.parameters.parameter import effective
+from volfrep.design.parameters.table import NOTHING
 
 from .values import SOURCES, plain_values
 
@@ -19,8 +20,11 @@ CONTROLS = tuple(
         for name in need.names
     }
     | {p.switch_name: None for p in PARAMETERS if p.switch}
+    | {"PrintMaterial": None}
 )
-_SHOWN, _HIDDEN = 0, 2
+_SHOWN, _READ_ONLY, _HIDDEN = 0, 1, 2
+#: Properties that are shown, but written by us, unless another one has this value.
+_DRIVEN = {"StrutRadius": ("RadiusDrivenBy", "Radius"), "Density": ("PrintMaterial", NOTHING)}
 
 
 def show_applicable(obj: App.DocumentObject) -> None:
@@ -34,6 +38,9 @@ def show_applicable(obj: App.DocumentObject) -> None:
             _show(obj, parameter.switch_name, applies)
             applies = applies and getattr(obj, parameter.switch_name)
         _show(obj, parameter.property_name, applies)
+    for name, (driver, own) in _DRIVEN.items():
+        if getattr(obj, driver) != own:
+            obj.setEditorMode(name, _READ_ONLY)
 
 
 def _show(obj: App.DocumentObject, name: str, applies: bool) -> None:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from dataclasses import dataclass
 from pathlib import Path
@@ -26,7 +27,7 @@ class Format:
     Attributes:
         title: for the file dialog.
         suffix: of the file.
-        content: ``mesh``; ``compact``, the mesh with fewer triangles; ``beams`` or ``both``, which
+        content: ``mesh``; ``beams`` or ``both``, which
             are for lattice infills, as are those of `solver_files.CONTENTS`.
     """
 
@@ -43,9 +44,7 @@ class Format:
 #: In the order of the file dialog's list.
 FORMATS = (
     Format("STL", ".stl"),
-    Format("STL, fewer triangles", ".stl", "compact"),
     Format("3MF", ".3mf"),
-    Format("3MF, fewer triangles", ".3mf", "compact"),
     Format("3MF, mesh and beams", ".3mf", "both"),
     Format("3MF, beams only", ".3mf", "beams"),
     Format("PLY", ".ply"),
@@ -64,7 +63,7 @@ FORMATS = (
 def formats_of(obj: App.DocumentObject) -> list[Format]:
     """The formats in which this mesh object can be written."""
     infill = isinstance(getattr(obj, "Proxy", None), LatticeInfill)
-    return [form for form in FORMATS if infill or form.content in ("mesh", "compact")]
+    return [form for form in FORMATS if infill or form.content == "mesh"]
 
 
 def export_mesh(
@@ -75,9 +74,9 @@ def export_mesh(
     Args:
         obj: a lattice infill, or any mesh object.
         path: the file to write; one that exists is replaced only when the new one is complete.
-        content: ``mesh``; ``compact`` for fewer triangles, moved by up to 0.02 mm; and in a 3MF
-            file of a lattice infill ``beams`` (of the beam lattice extension) or ``both``. Of a
-            lattice infill in .step or .inp, too: one of `solver_files.CONTENTS`.
+        content: ``mesh``; and in a 3MF file of a lattice infill ``beams`` (of the beam lattice
+            extension) or ``both``. Of a lattice infill in .step or .inp, too: one of
+            `solver_files.CONTENTS`.
 
     Raises:
         VolfrepError: there is no mesh, the file cannot be written, cannot hold that content, or is
@@ -86,32 +85,17 @@ def export_mesh(
     """
     require_engine()
     from freecad_volfrep.bridge.solids import mesh_in_document
-    from volfrep.io.write import mesh_writer, write_mesh
-    from volfrep.io.write.threemf import write_3mf_beams
-    from volfrep.jobs.decimate import reduce_triangles
-    from volfrep.util.progress import Monitor
+    from volfrep.io.write import write_mesh
+    from volfrep.io.write.threemf import BEAMS_ONLY, write_3mf_beams
 
     if not obj.isDerivedFrom("Mesh::Feature") or not obj.Mesh.CountFacets:
         raise VolfrepError(f"'{obj.Label}' has no mesh to export: update it first.")
     refuse_inputs(path, obj)
     if content == "mesh":
-        write_mesh(mesh_in_document(obj), path)
+        write_mesh(mesh_in_document(obj), path, figures=_figures(obj))
         return
     if content in CONTENTS:
         write_solver_file(obj, path, content)
-        return
-    if content == "compact":
-        mesh_writer(path)  # refuses a path that no mesh can be written to before the work
-        mesh = mesh_in_document(obj)
-        reduced = run_job(
-            job_title("Fewer triangles for {label}", obj),
-            lambda progress: reduce_triangles(mesh, monitor=Monitor(progress)),
-        )
-        write_mesh(reduced.mesh, path)
-        App.Console.PrintMessage(
-            f"VOLFREP, {obj.Label}: {reduced.quality.triangles} of {reduced.triangles_before} "
-            f"triangles written, moved by up to {reduced.deviation:.2g} mm\n"
-        )
         return
     if Path(path).suffix.lower() != ".3mf" or content not in ("beams", "both"):
         raise VolfrepError(f"'{path}' cannot hold {content}: only a 3MF file holds beams or both.")
@@ -125,7 +109,22 @@ def export_mesh(
         job_title("Beams of {label}", obj),
         lambda progress: beam_model(solid, spec, progress=progress, cache=cache),
     )
-    for sentence in model.warnings:
+    for sentence in model.warnings + ((*model.loose, BEAMS_ONLY) if content == "beams" else ()):
         App.Console.PrintWarning(f"VOLFREP, {obj.Label}: {sentence}\n")
     model = placed_beams(model, place_in_document(obj))
-    write_3mf_beams(model, path, mesh_in_document(obj) if content == "both" else None)
+    mesh = mesh_in_document(obj) if content == "both" else None
+    write_3mf_beams(model, path, mesh, figures=_figures(obj))
+
+
+def _figures(obj: App.DocumentObject) -> dict[str, str]:
+    """The figures of the run that made an infill's mesh; nothing for another mesh, or an older
+    version's report.
+    """
+    from dataclasses import fields
+
+    from volfrep.reports.report import Report
+
+    kept = json.loads(getattr(obj, "Report", "") or "{}")
+    if kept.keys() != {field.name for field in fields(Report)}:
+        return {}
+    return Report(**kept).figures

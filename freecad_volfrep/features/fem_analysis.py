@@ -16,8 +16,8 @@ import numpy as np
 from volfrep.util.errors import VolfrepError
 
 from .exact import inputs_of, warn
+from .materials import for_solver
 from .progress import job_title, progress_of
-from .quantities import density_of
 from .solver_files import axes_of
 
 if TYPE_CHECKING:
@@ -55,7 +55,7 @@ def make_fem_analysis(
         doc: the document to add it to.
         obj: a lattice infill.
         model: ``beams`` or ``tetrahedra`` (for small lattices).
-        material: linear elastic; None for PETG of the infill's density.
+        material: linear elastic; None for the infill's, or PETG of its density.
 
     Raises:
         VolfrepError: there is no such model, the lattice is too large for it, or it is no
@@ -65,9 +65,7 @@ def make_fem_analysis(
     if model not in MODELS:
         raise VolfrepError(f"There is no model '{model}': choose {' or '.join(MODELS)}.")
     inputs_of(obj)
-    from volfrep.mechanics.materials import Material
-
-    material = material or Material(density=density_of(obj))
+    material = material or for_solver(obj)
     return (_beams if model == "beams" else _tetrahedra)(doc, obj, material)
 
 

@@ -4,7 +4,9 @@
 from __future__ import annotations
 
 import hashlib
+import json
 import traceback
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import FreeCAD as App
@@ -21,7 +23,7 @@ from .properties import (
     refuse_spoiled,
     wrong_types,
 )
-from .quantities import set_value
+from .quantities import number_of, set_value
 from .screen import attach_view, revive_view
 from .values import specification_of
 
@@ -129,6 +131,19 @@ class LatticeInfill:
         spec, solid = self.read(obj)
         if obj.Fingerprint != fingerprint_of(spec, solid):
             raise VolfrepError(f"'{obj.Label}' is out of date: update it first.")
+        spec = _with_radius(spec, json.loads(obj.Report).get("target"))
+        return check_solid(solid, obj.Base.Label), spec, self._cache
+
+    def wanted(self, obj: App.DocumentObject) -> tuple[TriangleMesh, LatticeSpec, StageCache]:
+        """As `inputs`, of the present properties: whether or not the mesh was made of them.
+
+        Raises:
+            VolfrepError: a property makes no sense, or there is no solid.
+        """
+        from volfrep.io.solid import check_solid
+
+        require_engine()
+        spec, solid = self.read(obj)
         return check_solid(solid, obj.Base.Label), spec, self._cache
 
     def onDocumentRestored(self, obj: App.DocumentObject) -> None:  # noqa: N802
@@ -170,6 +185,7 @@ class LatticeInfill:
         from volfrep.design.forecast import forecast_fill
         from volfrep.io.solid import check_solid
         from volfrep.jobs.pipeline import fill
+        from volfrep.jobs.rough_radius import roughly_aimed
 
         from .skin import made_of
 
@@ -177,9 +193,11 @@ class LatticeInfill:
         fingerprint = fingerprint_of(spec, solid)
         if obj.Fingerprint == fingerprint and obj.Mesh.CountFacets == obj.Triangles:
             set_value(obj, "Mass", obj.Volume.Value * spec.density / 1000.0)
+            _tell_driven(obj, "Density", spec.density)
             obj.Status = UP_TO_DATE
             return
-        forecast = forecast_fill(solid, spec)
+        _tell_driven(obj, "Density", spec.density)
+        forecast = forecast_fill(solid, roughly_aimed(solid, spec))
         obj.Expected = str(forecast)
         if not obj.AutoUpdate and not forced:
             obj.Status = OUT_OF_DATE
@@ -193,12 +211,15 @@ class LatticeInfill:
             job_title("Filling {label}", obj.Base),
             lambda progress: fill(solid, spec, progress=progress, cache=self._cache),
         )
+        made = _with_radius(spec, result.report.target)
         mesh = to_freecad(result.mesh)
-        self.made = made_of(result.mesh, solid, spec)
+        self.made = made_of(result.mesh, solid, made)
         placement = obj.Placement
         obj.Mesh = mesh
         obj.Placement = placement  # assigning a mesh also assigns the mesh's placement
         _write_results(obj, result)
+        if spec.target is not None:
+            _tell_driven(obj, "StrutRadius", made.strut_radius)
         obj.Fingerprint = fingerprint
         obj.Status = UP_TO_DATE
 
@@ -239,14 +260,19 @@ def revive_infill(obj: App.DocumentObject) -> None:
 
 
 def fingerprint_of(spec: LatticeSpec, solid: TriangleMesh) -> str:
-    """A digest of all that a result's geometry depends on (so not of the density)."""
+    """A digest of all that a result's geometry depends on.
+
+    That is not the density, unless a mass drives the radius.
+    """
     import numpy as np
 
     from volfrep.design.scattered_field import PointField
 
     digest = hashlib.sha256()
     values = spec.as_dict()
-    values.pop("density")
+    density = values.pop("density")
+    if spec.target is not None:
+        values["target"] = spec.target, density if spec.target.aim == "mass" else None
     digest.update(repr(sorted(values.items())).encode())
     field = None if spec.radius_grading is None else spec.radius_grading.field
     if isinstance(field, PointField):
@@ -260,6 +286,21 @@ def fingerprint_of(spec: LatticeSpec, solid: TriangleMesh) -> str:
     digest.update((np.round(solid.vertices, 6) + 0.0).tobytes())
     digest.update(np.ascontiguousarray(solid.triangles, np.int32).tobytes())
     return digest.hexdigest()
+
+
+def _with_radius(spec: LatticeSpec, found: dict[str, Any] | None) -> LatticeSpec:
+    """The specification with the radius that a report says was found, in place of its target."""
+    if spec.target is None or found is None:
+        return spec
+    return replace(spec, strut_radius=found["strut_radius_mm"], target=None)
+
+
+def _tell_driven(obj: App.DocumentObject, name: str, value: float) -> None:
+    """Show in a property what drives it has come to; what an expression drives stays."""
+    expressions = {path.lstrip(".") for path, _ in obj.ExpressionEngine}
+    before = number_of(obj, name) if name == "Density" else getattr(obj, name).Value
+    if name not in expressions and before != value:
+        set_value(obj, name, value)
 
 
 def _write_results(obj: App.DocumentObject, result: Result) -> None:

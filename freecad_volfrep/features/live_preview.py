@@ -11,10 +11,21 @@ import FreeCAD as App
 
 from freecad_volfrep.translation import translate
 
+from .materials import advice, material_of
+
 if TYPE_CHECKING:
     from volfrep.design.forecast import Forecast
+    from volfrep.design.spec import LatticeSpec
     from volfrep.jobs.preview import Preview
     from volfrep.mesh.triangle_mesh import TriangleMesh
+
+
+#: The property of each driver of the radius.
+TARGETS = {
+    "Relative density": "TargetDensity",
+    "Mass": "TargetMass",
+    "Stiffness": "TargetStiffness",
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,17 +36,22 @@ class Shown:
         solid: in the coordinates of the infill's group.
         preview: the struts and their figures.
         forecast: what computing it comes to.
+        advice: sentences on what does not suit the chosen process.
+        stiffness: Young's modulus along the chosen direction, MPa; None without a material, or
+            for a cell or radius that the catalogue does not have.
     """
 
     solid: TriangleMesh
     preview: Preview
     forecast: Forecast
+    advice: tuple[str, ...] = ()
+    stiffness: float | None = None
 
     @property
     def text(self) -> str:
         """The figures as lines for a user."""
         p, f = self.preview, self.forecast
-        return translate(
+        figures = translate(
             "VolfrepFigures",
             "{cells:,} active cells, {struts:,} struts\n"
             "relative density {density:.3g} %, mass {mass:.4g} g\n"
@@ -50,6 +66,23 @@ class Shown:
             size=f.stl_mb,
             seconds=max(1.0, f.seconds),
         )
+        found = ()
+        if p.spec.target is not None:
+            found = (
+                translate("VolfrepFigures", "strut radius {radius:.4g} mm").format(
+                    radius=p.spec.strut_radius
+                ),
+            )
+        return "\n".join((*found, figures, *self.advice))
+
+    def figure(self, driver: str) -> float | None:
+        """What is shown of what a driver of the radius aims at: a share of 1, g or MPa."""
+        figures = {
+            "Relative density": self.preview.relative_density,
+            "Mass": self.preview.mass,
+            "Stiffness": self.stiffness,
+        }
+        return figures[driver]
 
 
 class LivePreview:
@@ -78,4 +111,27 @@ class LivePreview:
             self._known = solid, PartDepth(solid, spec.open_faces)
             self._key = key.digest()
         solid, depth = self._known
-        return Shown(solid, preview(solid, spec, depth), forecast_fill(solid, spec))
+        shown = preview(solid, spec, depth)
+        return Shown(
+            solid,
+            shown,
+            forecast_fill(solid, shown.spec),
+            advice(self._obj, shown.spec.struts.extremes[0]),
+            _stiffness(self._obj, shown.spec),
+        )
+
+
+def _stiffness(obj: App.DocumentObject, spec: LatticeSpec) -> float | None:
+    """Young's modulus along the chosen direction, MPa, where it is known at once."""
+    from volfrep.design.target import Target
+    from volfrep.jobs.stiffness_target import modulus
+    from volfrep.mechanics.catalogue import known_cell
+
+    material, known = material_of(obj), known_cell(spec.unit_cell())
+    ratio = spec.strut_radius / spec.cell_size
+    if material is None or known is None or spec.fillet:
+        return None
+    if not known.ratios[0] <= ratio <= known.ratios[-1]:
+        return None
+    aim = Target("stiffness", 1.0, tuple(obj.StiffnessDirection), material.young)
+    return modulus(spec.unit_cell(), ratio, aim)

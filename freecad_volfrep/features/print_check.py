@@ -11,6 +11,7 @@ from freecad_volfrep.engine import require_engine
 from volfrep.util.errors import VolfrepError
 
 from .lattice_infill import LatticeInfill
+from .materials import process_of
 from .progress import job_title, run_job
 from .property_table import Property, add_missing, result
 from .quantities import set_value
@@ -94,7 +95,7 @@ class PrintCheck:
     __setstate__ = loads
 
     def _ensure_properties(self, obj: App.DocumentObject) -> None:
-        from volfrep.reports.printability import PROCESSES
+        from volfrep.reports.processes import PROCESSES
 
         add_missing(obj, PROPERTIES, {"Process": list(PROCESSES)})
 
@@ -106,14 +107,10 @@ class PrintCheck:
         from freecad_volfrep.bridge.beams import place_in_document, placed_lattice
         from freecad_volfrep.bridge.meshes import to_freecad
         from freecad_volfrep.bridge.solids import mesh_in_document, placed
-        from volfrep.jobs.network_infill import infill_of
+        from volfrep.jobs.networks import infill_of
         from volfrep.mesh.triangle_mesh import TriangleMesh, compact
-        from volfrep.reports.printability import (
-            find_process,
-            overhanging_facets,
-            print_report,
-            unit_direction,
-        )
+        from volfrep.reports.printability import overhanging_facets, print_report, unit_direction
+        from volfrep.reports.processes import find_process
 
         solid, spec, cache = infill.Proxy.inputs(infill)
         if spec.output == "domain":
@@ -155,7 +152,7 @@ def revive_print_check(obj: App.DocumentObject) -> None:
 def make_print_check(
     doc: App.Document,
     infill: App.DocumentObject,
-    process: str = "FFF",
+    process: str | None = None,
     build_direction: tuple[float, float, float] = (0.0, 0.0, 1.0),
 ) -> App.DocumentObject:
     """Add a print check of a lattice infill; ``doc.recompute()`` then computes it.
@@ -163,17 +160,18 @@ def make_print_check(
     Args:
         doc: the document that holds the infill.
         infill: a lattice infill.
-        process: FFF, SLA, SLS, MJF, LPBF or EBM.
+        process: FFF, SLA, SLS, MJF, LPBF or EBM; None for the infill's, else FFF.
         build_direction: from the build plate up, in the document's coordinates.
 
     Raises:
         VolfrepError: there is no such process, or that is no lattice infill; nothing is added.
     """
-    from volfrep.reports.printability import find_process, unit_direction
+    from volfrep.reports.printability import unit_direction
+    from volfrep.reports.processes import find_process
 
     if not isinstance(getattr(infill, "Proxy", None), LatticeInfill):
         raise VolfrepError(f"'{infill.Label}' is not a lattice infill: choose one.")
-    name = find_process(process).name
+    name = find_process(process or process_of(infill) or "FFF").name
     unit_direction(build_direction)
     obj = doc.addObject("Mesh::FeaturePython", "PrintCheck")
     PrintCheck(obj)

@@ -9,7 +9,7 @@ from typing import Any
 import FreeCAD as App
 
 from volfrep.design.parameters import BY_NAME, GROUPS, PARAMETERS, Parameter
-from volfrep.design.parameters.table import CUSTOM_CELL
+from volfrep.design.parameters.table import CUSTOM_CELL, NOTHING, OWN_MATERIAL, SOLIDS_MATERIAL
 from volfrep.util.errors import VolfrepError
 
 from .applicable import show_applicable
@@ -18,17 +18,21 @@ from .property_table import HIDDEN, OUTPUT, Property, add_missing, result
 from .quantities import FALLBACK, supported
 
 #: Raised with every change that an older file's objects must be brought up to.
-SCHEMA_VERSION = 4
+SCHEMA_VERSION = 5
 
 #: FreeCAD's types for the kinds of parameters.
 TYPES = {
     "length": "App::PropertyLength",
     "density": "App::PropertyDensity",
+    "mass": "App::PropertyMass",
+    "stress": "App::PropertyPressure",
     "number": "App::PropertyFloat",
     "integer": "App::PropertyInteger",
     "flag": "App::PropertyBool",
     "choice": "App::PropertyEnumeration",
     "cell": "App::PropertyEnumeration",
+    "material": "App::PropertyEnumeration",
+    "process": "App::PropertyEnumeration",
     "text": "App::PropertyString",
     "formula": "App::PropertyString",
     "curve": "App::PropertyString",
@@ -101,6 +105,9 @@ PROPERTIES = (
     result("App::PropertyFloat", "Seconds", "Computing time of the last update"),
     result("App::PropertyString", "Report", "All figures of the last update, as JSON"),
     _internal("App::PropertyString", "Fingerprint", "Of all that the mesh was made from", ""),
+    _internal("App::PropertyVectorList", "SizedNodes", "Of SizedRadii, as Base lies", []),
+    _internal("App::PropertyFloatList", "SizedRadii", "That struts were sized to, mm", []),
+    _internal("App::PropertyString", "SizingReport", "What was asked and found, as JSON", ""),
     _internal("App::PropertyInteger", "SchemaVersion", "Of this table", SCHEMA_VERSION),
 )
 
@@ -115,6 +122,8 @@ def ensure_properties(obj: App.DocumentObject) -> None:
     the number of a later table: `refuse_spoiled` says so.
     """
     from volfrep.design.cells import LIBRARY
+    from volfrep.mechanics.materials import MATERIALS
+    from volfrep.reports.processes import PROCESSES
 
     choices = {
         parameter.property_name: list(parameter.labels)
@@ -122,6 +131,13 @@ def ensure_properties(obj: App.DocumentObject) -> None:
         if parameter.choices
     }
     choices[BY_NAME["cell"].property_name] = [*LIBRARY, CUSTOM_CELL]
+    choices[BY_NAME["print_material"].property_name] = [
+        NOTHING,
+        *(material.name for material in MATERIALS.values()),
+        OWN_MATERIAL,
+        SOLIDS_MATERIAL,
+    ]
+    choices[BY_NAME["print_process"].property_name] = [NOTHING, *PROCESSES]
     add_missing(obj, PROPERTIES, choices)
     migrate(obj, PROPERTIES)
     wrong = wrong_types(obj)

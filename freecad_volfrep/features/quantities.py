@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Densities and masses: properties with their unit where FreeCAD has such, plain numbers elsewhere.
+"""Densities, masses, stresses: with their unit where FreeCAD has such properties, else numbers.
 
 FreeCAD 0.20 has neither `App::PropertyDensity` nor `App::PropertyMass`, and no other property that
 can be given their units: there both are numbers, in g/cm3 and g.
@@ -16,9 +16,17 @@ from volfrep.util.errors import VolfrepError
 #: The type of property in place of one that this FreeCAD does not have.
 FALLBACK = "App::PropertyFloat"
 #: The unit of the numbers, by the type of the property that has a unit.
-UNITS = {"App::PropertyDensity": "g/cm^3", "App::PropertyMass": "g"}
+UNITS = {
+    "App::PropertyDensity": "g/cm^3",
+    "App::PropertyMass": "g",
+    "App::PropertyPressure": "MPa",
+}
 #: The properties of these types.
-NAMES = {"Density": "App::PropertyDensity", "Mass": "App::PropertyMass"}
+NAMES = {
+    "Density": "App::PropertyDensity",
+    "Mass": "App::PropertyMass",
+    "TargetMass": "App::PropertyMass",
+}
 #: No material is so dense, in g/cm3: a number was meant in another unit.
 DENSEST = 100.0
 
@@ -36,7 +44,7 @@ def supported(obj: App.DocumentObject, type_name: str) -> bool:
 
 
 def set_value(obj: App.DocumentObject, name: str, value: Any) -> None:
-    """Set a property; a number for a density is in g/cm3, for a mass in g."""
+    """Set a property; a number for a density is in g/cm3, for a mass in g, a stress in MPa."""
     unit = UNITS.get(obj.getTypeIdOfProperty(name))
     if unit is not None and isinstance(value, (int, float)):
         value = App.Units.Quantity(f"{value!r} {unit}")
@@ -45,7 +53,7 @@ def set_value(obj: App.DocumentObject, name: str, value: Any) -> None:
 
 def mass_of(obj: App.DocumentObject) -> float:
     """The mass of an object, g."""
-    return _number(obj, "Mass")
+    return number_of(obj, "Mass")
 
 
 def density_of(obj: App.DocumentObject) -> float:
@@ -54,7 +62,7 @@ def density_of(obj: App.DocumentObject) -> float:
     Raises:
         VolfrepError: nothing is so dense.
     """
-    density = _number(obj, "Density")
+    density = number_of(obj, "Density")
     if density > DENSEST:
         raise VolfrepError(
             f"A density of {density:g} g/cm3 cannot be meant: give it with its unit, such as "
@@ -63,7 +71,8 @@ def density_of(obj: App.DocumentObject) -> float:
     return density
 
 
-def _number(obj: App.DocumentObject, name: str) -> float:
+def number_of(obj: App.DocumentObject, name: str) -> float:
+    """A property's number in the unit that `set_value` takes it in."""
     value = getattr(obj, name)
     unit = UNITS.get(obj.getTypeIdOfProperty(name))
     return float(value if unit is None else value.getValueAs(unit))

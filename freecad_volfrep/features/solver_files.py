@@ -24,8 +24,8 @@ from .exact import (
 )
 from .input_files import refuse_inputs
 from .instances import estimate_instances, write_instances
+from .materials import for_solver
 from .progress import job_title, progress_of, run_job
-from .quantities import density_of
 
 if TYPE_CHECKING:
     from volfrep.trim.clip_struts import Clipped
@@ -49,6 +49,7 @@ def axes_of(obj: App.DocumentObject) -> Clipped:
         job_title("Struts of {label}", obj),
         lambda progress: clipped_infill(solid, spec, progress=progress, cache=cache),
     )
+    warn(obj, clipped.warnings)
     return replace(clipped, wireframe=placed_lattice(clipped.wireframe, place_in_document(obj)))
 
 
@@ -144,7 +145,6 @@ def _write_axes(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
 def _write_beams(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
     from volfrep.fem.beam_mesh import fitted_beams
     from volfrep.io.write.calculix import write_beams
-    from volfrep.mechanics.materials import Material
     from volfrep.reports.estimate import estimate_beams
     from volfrep.trim.beam_model import deformed_struts
 
@@ -152,7 +152,7 @@ def _write_beams(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
     spec = inputs_of(obj)[1]
     model, said = fitted_beams(clipped.wireframe, clipped.on_wall, spec.unit_cell(), spec.cell_size)
     estimate_beams(model)
-    write_beams(model, path, Material(density=density_of(obj)), on_wall=clipped.on_wall)
+    write_beams(model, path, for_solver(obj), on_wall=clipped.on_wall)
     warn(obj, said + deformed_struts(spec.grid, spec.struts))
 
 
@@ -161,14 +161,13 @@ def _write_tetrahedra(obj: App.DocumentObject, path: str | os.PathLike[str]) -> 
     from freecad_volfrep.bridge.solids import mesh_in_document, placed
     from volfrep.fem.tet_mesh import nodes_on, tetrahedra
     from volfrep.io.write.calculix import write_tetrahedra
-    from volfrep.mechanics.materials import Material
     from volfrep.util.progress import Monitor
 
     solid = placed(inputs_of(obj)[0], place_in_document(obj))
     with progress_of(job_title("Tetrahedra of {label}", obj)) as progress:
         filled = tetrahedra(mesh_in_document(obj), Monitor(progress))
     sets = {"SKIN": nodes_on(filled, solid)}
-    write_tetrahedra(filled, path, Material(density=density_of(obj)), sets=sets)
+    write_tetrahedra(filled, path, for_solver(obj), sets=sets)
 
 
 #: By content: the extensions that can hold it, and what writes it.

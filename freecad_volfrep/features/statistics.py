@@ -12,6 +12,8 @@ import FreeCAD as App
 from volfrep.util.errors import VolfrepError
 
 from .lattice_infill import LatticeInfill
+from .materials import material_of
+from .progress import job_title, run_job
 from .quantities import density_of, mass_of
 from .tables import Table
 
@@ -72,13 +74,51 @@ def statistics(infills: list[App.DocumentObject]) -> list[Table]:
     for name, key in _FIGURES:
         values = masses if key == "mass_g" else [_plain(key, report.get(key)) for report in reports]
         figures.append((name, *values))
+    does = _lattices(infills, reports)
     return [
         Table("Inputs", tuple((name, *map(of, infills)) for name, of in _INPUTS), header),
         Table("Result of the last update", tuple(figures), header),
+        Table("What the lattice does", does, header),
         Table("Seconds by stage", _stages("stages", reports, sum), header),
         Table("Peak memory at the end of each stage, MB", _stages("stage_memory_mb", reports, max),
               header),
     ]  # fmt: skip
+
+
+def _lattices(
+    infills: list[App.DocumentObject], reports: list[dict[str, Any]]
+) -> tuple[tuple[Any, ...], ...]:
+    """Moduli, strength and conductivity of the endless lattice of each infill, with their errors.
+
+    None of an infill whose mesh does not fit its properties, or whose cells or radii vary.
+    """
+    columns = [
+        _lattice(obj) if report else {} for obj, report in zip(infills, reports, strict=True)
+    ]
+    names = list(dict.fromkeys(name for column in columns for name in column))
+    return tuple((name, *(column.get(name) for column in columns)) for name in names)
+
+
+def _lattice(obj: App.DocumentObject) -> dict[str, str]:
+    from volfrep.mechanics.catalogue import known_properties
+    from volfrep.mechanics.summary import cell_properties
+
+    try:
+        _, spec, _ = obj.Proxy.inputs(obj)
+    except VolfrepError:
+        return {}
+    if spec.size_grading is not None or spec.struts.is_graded or spec.output == "domain":
+        return {}
+    material, cell = material_of(obj), spec.unit_cell()
+    size, radius = spec.cell_size, spec.strut_radius
+    found = None if spec.fillet else known_properties(cell, size, radius, material)
+    if found is None:
+        found = run_job(
+            job_title("Properties of the lattice of {label}", obj),
+            lambda _: cell_properties(cell, size, radius, fillet=spec.fillet, material=material),
+        )
+    rows = dict(found.rows())
+    return {name: rows[name] for name in rows if name not in ("cell", "material")}
 
 
 def _plain(key: str, value: Any) -> Any:

@@ -8,6 +8,7 @@ of the App::Part that holds the object.
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import FreeCAD as App
@@ -16,11 +17,15 @@ from volfrep.design.parameters import BY_NAME, PARAMETERS, Parameter
 from volfrep.design.parameters.parameter import effective
 from volfrep.design.parameters.table import CUSTOM_CELL
 
-from .quantities import density_of
+from .materials import material_of
+from .quantities import density_of, number_of
+from .sized_radii import sized_field
 
 if TYPE_CHECKING:
     from volfrep.design.scattered_field import PointField
     from volfrep.design.spec import LatticeSpec
+    from volfrep.design.target import Target
+    from volfrep.mechanics.materials import SolidMaterial
 
 #: Kinds whose values have to be looked up in the document.
 _LOOKED_UP = ("link", "faces", "points")
@@ -60,11 +65,26 @@ def specification_of(obj: App.DocumentObject) -> LatticeSpec:
         VolfrepError: naming the first property that makes no sense.
     """
     from volfrep.design.parameters.specification import specification
+
+    values, target = values_in_effect(obj)
+    spec = specification(values, lambda name: BY_NAME[name].property_name)
+    return spec if target is None else replace(spec, target=target)
+
+
+def values_in_effect(obj: App.DocumentObject) -> tuple[dict[str, Any], Target | None]:
+    """The values that have an effect, as `specification` takes them, and what the radius is for.
+
+    Raises:
+        VolfrepError: naming the first property that makes no sense.
+    """
+    from volfrep.design.spec_parts import first_radius
     from volfrep.util.errors import VolfrepError
 
     from .openings import openings_of
 
-    values = plain_values(obj) | {"density": density_of(obj)} | openings_of(obj)
+    material = material_of(obj)
+    density = density_of(obj) if material is None else material.density
+    values = plain_values(obj) | {"density": density} | openings_of(obj)
     _, idle = effective(PARAMETERS, values)
     values = {name: value for name, value in values.items() if name not in idle}
     if values["cell"] == CUSTOM_CELL:
@@ -73,12 +93,40 @@ def specification_of(obj: App.DocumentObject) -> LatticeSpec:
             raise VolfrepError(
                 "The cell type Custom needs a cell: choose its .json file as CellFile."
             )
+    target = None if values["make"] == "domain" else _target(values, material)
+    if target is not None:
+        values["strut_radius"] = first_radius(values["cell_size"], values["fillet"])
     for name in ("radius_start", "radius_end"):
         if name in values:
             values[name] = values[name] or values["strut_radius"]
     if "radius_field" in values:
         values["radius_field"] = _field(obj)
-    return specification(values, lambda name: BY_NAME[name].property_name)
+    return values, target
+
+
+def _target(values: dict[str, Any], material: SolidMaterial | None) -> Target | None:
+    """What the radius is chosen for; None where it is given.
+
+    Raises:
+        VolfrepError: it makes no sense, or a stiffness has no material.
+    """
+    from volfrep.design.target import Target
+    from volfrep.util.errors import VolfrepError
+
+    driver = values["radius_driven_by"]
+    if driver == "radius":
+        return None
+    if driver == "relative density":
+        return Target("relative_density", values["target_density"])
+    if driver == "mass":
+        return Target("mass", values["target_mass"])
+    if material is None:
+        raise VolfrepError(
+            "A stiffness that drives the radius is that of a material: choose a PrintMaterial."
+        )
+    return Target(
+        "stiffness", values["target_stiffness"], values["stiffness_direction"], material.young
+    )
 
 
 def _plain(obj: App.DocumentObject, parameter: Parameter) -> Any:
@@ -89,6 +137,8 @@ def _plain(obj: App.DocumentObject, parameter: Parameter) -> Any:
     value = getattr(obj, parameter.property_name)
     if parameter.kind == "choice":
         return value.lower()
+    if parameter.kind in ("mass", "stress"):
+        return number_of(obj, parameter.property_name)
     if parameter.kind == "length":
         return value.Value
     if parameter.kind in ("direction", "point"):
@@ -101,7 +151,7 @@ def _plain(obj: App.DocumentObject, parameter: Parameter) -> Any:
 
 
 def _field(obj: App.DocumentObject) -> PointField | None:
-    """The field of the FEM result or of the file; None where neither is chosen."""
+    """The field of the FEM result, of the file, or of the sized radii; None where there is none."""
     from freecad_volfrep.bridge.fem_fields import field_of_result
     from freecad_volfrep.bridge.solids import parent_placement
     from volfrep.design.scattered_field import read_point_field
@@ -116,4 +166,4 @@ def _field(obj: App.DocumentObject) -> PointField | None:
         return field_of_result(obj.RadiusResult, obj.RadiusColumn, parent_placement(obj))
     if obj.RadiusField:
         return read_point_field(obj.RadiusField, obj.RadiusColumn or None)
-    return None
+    return sized_field(obj)

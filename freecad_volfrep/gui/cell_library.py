@@ -17,6 +17,7 @@ from volfrep.mechanics.endless import strains_held
 from volfrep.util.errors import VolfrepError
 
 from .cell_picture import cell_icon
+from .cell_properties import CellProperties
 from .command import undo_step
 from .messages import WRONG, file_name
 from .qt import QtCore, QtWidgets
@@ -70,6 +71,7 @@ class CellLibrary(QtWidgets.QDialog):
         self._list = self._picker()
         self._use = self._chooser()
         self._picture, self._figures, self._note = (QtWidgets.QLabel() for _ in range(3))
+        self._does = CellProperties()
         self._picture.setFixedSize(LARGE, LARGE)
         self._figures.setObjectName("Figures")
         self._note.setObjectName("Note")
@@ -242,6 +244,7 @@ class CellLibrary(QtWidgets.QDialog):
         right = QtWidgets.QVBoxLayout()
         right.addWidget(self._picture)
         right.addWidget(self._figures)
+        right.addWidget(self._does)
         right.addStretch()
         left = QtWidgets.QVBoxLayout()
         left.addWidget(self._use)
@@ -256,7 +259,7 @@ class CellLibrary(QtWidgets.QDialog):
         column.addLayout(both, 1)
         column.addWidget(self._note)
         column.addLayout(line)
-        self.resize(860, 560)
+        self.resize(880, 720)
 
     def _add(self, entry: Entry, pick: bool = False) -> None:
         item = QtWidgets.QListWidgetItem(cell_icon(entry.cell, SMALL), entry.cell.name, self._list)
@@ -266,6 +269,8 @@ class CellLibrary(QtWidgets.QDialog):
 
     def _pick_that_of(self, infill: Any) -> None:
         """Pick the cell that an infill has; one from a file is added."""
+        if infill is not None:
+            self._does.begin_with(infill)
         name = "CVC" if infill is None else infill.CellType
         if name == CUSTOM_CELL and infill.CellFile:
             self.load(infill.CellFile)
@@ -309,6 +314,7 @@ class CellLibrary(QtWidgets.QDialog):
             for name, value in rows
         )
         self._figures.setText(f"<b>{html.escape(cell.name)}</b><table>{lines}</table>")
+        self._does.show_cell(cell)
         self._say("\n".join(entry.notes))
         self._enable()
 

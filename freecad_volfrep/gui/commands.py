@@ -21,6 +21,7 @@ from .selection import (
     infill_in_view,
     selected_infill,
     selected_infill_and_faces,
+    selected_infill_or_study,
     selected_mesh,
     selected_or_all_infills,
     selected_solids,
@@ -141,6 +142,20 @@ def check_print(infill: App.DocumentObject) -> None:
         App.Console.PrintMessage(f"VOLFREP, {check.Label}:\n{check.Text}\n")
 
 
+def study_designs(obj: App.DocumentObject) -> None:
+    """Open a design study; of an infill, make one first."""
+    from freecad_volfrep.features.design_study import DesignStudy, make_design_study
+
+    from .study_panel import open_study
+
+    doc = obj.Document
+    if not isinstance(obj.Proxy, DesignStudy):
+        with undo_step(doc, translate("VOLFREP_DesignStudy", "Design Study")):
+            obj = make_design_study(doc, obj)
+            obj.recompute()
+    open_study(obj)
+
+
 def show_section(obj: App.DocumentObject) -> None:
     """Cut the object open on the screen."""
     from .section_view import open_section
@@ -217,6 +232,24 @@ def analyse(infill: App.DocumentObject) -> None:
     step = translate("VOLFREP_FemAnalysis", "FEM Analysis")
     with undo_step(infill.Document, step), errors_shown():
         make_fem_analysis(infill.Document, infill, chosen)
+
+
+def size_lattice(infill: App.DocumentObject) -> None:
+    """Open the panel in which an infill's struts are sized for the document's load cases."""
+    from .size_panel import SizePanel
+
+    with errors_shown():
+        Gui.Control.showDialog(SizePanel(infill))
+
+
+def show_strut_results(infill: App.DocumentObject) -> None:
+    """Solve an infill's struts for the document's load cases, and show them in colours."""
+    from freecad_volfrep.features.sizing import solve_struts
+
+    from .strut_view import open_struts
+
+    with errors_shown():
+        open_struts(infill, solve_struts(infill))
 
 
 def _chosen(label: str, kinds: dict[str, tuple[str, Callable[[], str]]]) -> str | None:
@@ -357,6 +390,7 @@ _TABLE = (
         "Select a lattice infill and faces of its solid: they get no skin",
         "L, O",
         selected_infill_and_faces,
+        selected_infill_or_study,
         open_faces,
     ),
     Command(
@@ -440,6 +474,36 @@ _TABLE = (
         analyse,
     ),
     Command(
+        "VOLFREP_SizeLattice",
+        "size_lattice.svg",
+        "Size Lattice",
+        "Find the radii of the selected lattice infill's struts for the load cases of the FEM "
+        "workbench: least mass within limits, or most stiffness at a mass",
+        "L, Z",
+        infill_in_view,
+        size_lattice,
+    ),
+    Command(
+        "VOLFREP_StrutResults",
+        "strut_results.svg",
+        "Strut Results",
+        "Colour the struts of the selected lattice infill by radius, stress, buckling or "
+        "displacement under the load cases of the FEM workbench",
+        "L, R",
+        infill_in_view,
+        show_strut_results,
+    ),
+    Command(
+        "VOLFREP_DesignStudy",
+        "design_study.svg",
+        "Design Study",
+        "Try many values of the selected lattice infill's properties, see mass against stiffness, "
+        "and give it the best",
+        "L, Y",
+        selected_infill_or_study,
+        study_designs,
+    ),
+    Command(
         "VOLFREP_Help",
         "help.svg",
         "VOLFREP Help",
@@ -482,6 +546,9 @@ TOOLBARS = {
         "VOLFREP_Export",
         "VOLFREP_ToSolid",
         "VOLFREP_FemAnalysis",
+        "VOLFREP_SizeLattice",
+        "VOLFREP_StrutResults",
+        "VOLFREP_DesignStudy",
     ],
 }
 #: The submenu of that name.

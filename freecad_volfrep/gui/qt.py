@@ -17,4 +17,6 @@ OK_CANCEL = (
     else int(_BUTTON.Ok | _BUTTON.Cancel)
 )
 
-__all__ = ["OK_CANCEL", "QtCore", "QtGui", "QtWidgets"]
+CLOSE = int(getattr(_BUTTON.Close, "value", _BUTTON.Close))
+
+__all__ = ["CLOSE", "OK_CANCEL", "QtCore", "QtGui", "QtWidgets"]

@@ -41,6 +41,16 @@ WORDS = marked(
     "every triangle keeps its corners", "non-manifold edges or points",
     "wrongly oriented triangles", "corrupted triangles", "invalid points", "wrong neighbours",
     "a solid", "triangles that cross",
+    "Struts", "sized", "one radius, same mass", "one radius, same limits",
+    "one radius, as near as it gets", "mass of the struts, g", "smallest radius, mm",
+    "largest radius, mm", "stress, % of its limit", "displacement, % of its limit",
+    "buckling, % of its limit", "frequency, % of its limit", "work of the loads, N mm",
+    "largest displacement, mm", "largest stress, MPa", "load before buckling, times",
+    "most stressed strut, at x, y, z", "The same beams in CalculiX", "displacements differ by, %",
+    "largest stress there over here", "lowest frequency there over here", "Notes", "Steps", "step",
+    "mass, g", "most used limit",
+    "What the lattice does", "relative density", "density", "E100", "E110", "E111", "G", "bulk",
+    "nu", "zener", "strength", "shear strength", "conductivity",
 )  # fmt: skip
 
 

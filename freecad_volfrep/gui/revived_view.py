@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from .view_provider import LatticeInfillView, PrintCheckView
+from .view_provider import DesignStudyView, LatticeInfillView, PrintCheckView
 
 
 def revive_infill_view(view: Any) -> None:
@@ -28,3 +28,11 @@ def revive_print_check_view(view: Any) -> None:
     """Give a print check its icon back; its colour stays as saved."""
     if not isinstance(view.Proxy, PrintCheckView):
         view.Proxy = PrintCheckView.__new__(PrintCheckView)
+
+
+def revive_study_view(view: Any) -> None:
+    """Give a design study its icon and its panel back."""
+    if not isinstance(view.Proxy, DesignStudyView):
+        proxy = DesignStudyView.__new__(DesignStudyView)
+        proxy.attach(view)
+        view.Proxy = proxy

@@ -52,6 +52,17 @@ def selected_infill() -> App.DocumentObject | None:
     return selected[0]
 
 
+def selected_infill_or_study() -> App.DocumentObject | None:
+    """The selected lattice infill or design study, if it is the only selection."""
+    from freecad_volfrep.features import DesignStudy, LatticeInfill
+
+    selected = Gui.Selection.getSelection()
+    kinds = (LatticeInfill, DesignStudy)
+    if len(selected) != 1 or not isinstance(getattr(selected[0], "Proxy", None), kinds):
+        return None
+    return selected[0]
+
+
 def selected_with_edges() -> list[App.DocumentObject] | None:
     """The selected sketches, wires and shapes, each once, if every one of them has edges."""
     from freecad_volfrep.bridge.drawn_lines import has_edges

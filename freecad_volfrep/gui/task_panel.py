@@ -9,12 +9,14 @@ from typing import Any
 import FreeCAD as App
 import FreeCADGui as Gui
 
-from freecad_volfrep.features.live_preview import LivePreview
-from freecad_volfrep.translation import QT_TRANSLATE_NOOP, spaced, translate
+from freecad_volfrep.features.live_preview import TARGETS, LivePreview, Shown
+from freecad_volfrep.features.quantities import number_of, set_value
+from freecad_volfrep.translation import QT_TRANSLATE_NOOP, marked, spaced, translate
 from volfrep.design import parameters
 from volfrep.design.cells import LIBRARY, load_cell
 from volfrep.design.field_files import TABLE_SUFFIXES, VTK_SUFFIXES
 from volfrep.design.parameters.table import CUSTOM_CELL
+from volfrep.design.target import read_direction
 from volfrep.util.errors import VolfrepError
 
 from .cell_library import cell_files
@@ -46,11 +48,17 @@ PREVIEW = QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Preview")
 CELLS = QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Cells")
 #: What the files of a field hold.
 POINTS = QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Points and values")
+MATERIAL = QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Material")
+#: What the list of materials holds beside their names.
+ENTRIES = marked("App::Property", "None", "Custom", "Of the solid")
 #: Above this group are the figures: what is used most is seen without scrolling.
 SECOND = "Boundary"
 #: Least width of a field, px: the panel must fit beside FreeCAD's tree.
 FIELD = 82
-_HIDDEN = "Hidden"
+_HIDDEN, _READ_ONLY = "Hidden", "ReadOnly"
+#: Fields of plain numbers with a unit. FreeCAD's own take no "M" of MPa, and 0.20 has no masses.
+UNITS = {"TargetMass": "g", "TargetStiffness": "MPa"}
+_LARGEST = 1e9
 
 
 class TaskPanel:
@@ -76,6 +84,8 @@ class TaskPanel:
             shown.ViewObject.Visibility = False
         self._bindings: list[Any] = []
         self._rows: dict[str, tuple[Any, Any]] = {}
+        self._boxes: list[tuple[Any, tuple[str, ...]]] = []
+        self._shown: Shown | None = None
         self.form = self._build()
         self._timer = QtCore.QTimer(self.form)
         self._timer.setSingleShot(True)
@@ -118,6 +128,7 @@ class TaskPanel:
             self._say(self._obj.Status, wrong=True)
             return False
         self._say(self._obj.Status)
+        self._tell_radius(self._obj.StrutRadius.Value)
         return True
 
     def refresh(self) -> None:
@@ -125,9 +136,12 @@ class TaskPanel:
         try:
             shown = self._live.show()
         except VolfrepError as error:
+            self._shown = None
             self._view.show_solid_only()
             self._say(str(error), wrong=True)
             return
+        self._shown = shown
+        self._tell_radius(shown.preview.spec.strut_radius)
         if self._preview.isChecked():
             self._view.show(shown, self._grid.isChecked())
         else:
@@ -156,6 +170,7 @@ class TaskPanel:
                 rows.addRow(label, widget)
                 self._rows[name] = label, widget
             column.addWidget(box)
+            self._boxes.append((box, names))
         return form
 
     def _add_figures(self, column: Any) -> None:
@@ -258,6 +273,12 @@ class TaskPanel:
             return line
         if kind == "App::PropertyFile":
             return FileField(getattr(self._obj, name), _files(name), self._setter(name))
+        if name in UNITS:
+            return self._number_field(name)
+        if kind == "App::PropertyVector":
+            way = QtWidgets.QLineEdit(_direction_text(getattr(self._obj, name)))
+            way.editingFinished.connect(lambda: self._set_direction(name, way.text()))
+            return way
         spin = Gui.UiLoader().createWidget("Gui::QuantitySpinBox")
         spin.setProperty("unit", "mm" if kind == "App::PropertyLength" else "")
         spin.setProperty("minimum", 0.0)
@@ -272,15 +293,40 @@ class TaskPanel:
         self._bindings.append(binding)
         return spin
 
+    def _number_field(self, name: str) -> Any:
+        """A number of the unit that `quantities` have for the property."""
+        field = _PlainNumber()
+        field.setRange(0.0, _LARGEST)
+        field.setDecimals(3)
+        field.setStepType(QtWidgets.QAbstractSpinBox.AdaptiveDecimalStepType)
+        field.setSuffix(f" {UNITS[name]}")
+        field.setValue(number_of(self._obj, name))
+        field.setEnabled(not self._is_driven(name))
+
+        def changed(value: float) -> None:
+            if not self._is_driven(name) and value != number_of(self._obj, name):
+                set_value(self._obj, name, value)
+                self._timer.start(SETTLED)
+
+        field.valueChanged.connect(changed)
+        return field
+
+    def _is_driven(self, name: str) -> bool:
+        """Whether an expression says what the property is."""
+        return any(path.strip(".") == name for path, _ in self._obj.ExpressionEngine)
+
     def _setter(self, name: str) -> Callable[[Any], None]:
         """Sets a property that the user has changed, and asks for a new preview."""
 
         def set_value(value: Any) -> None:
-            driven = any(path.strip(".") == name for path, _ in self._obj.ExpressionEngine)
             present = getattr(self._obj, name)
-            if driven or value == getattr(present, "Value", present):
+            if self._is_driven(name) or _READ_ONLY in self._obj.getEditorMode(name):
+                return
+            if value == getattr(present, "Value", present):
                 return
             setattr(self._obj, name, value)
+            if name == "RadiusDrivenBy":
+                self._begin_target(value)
             if name == "CellFile":
                 self._draw_own_cell()
             self._show_rows()
@@ -293,6 +339,39 @@ class TaskPanel:
         for name, row in self._rows.items():
             for widget in row:
                 widget.setVisible(_HIDDEN not in self._obj.getEditorMode(name))
+        for box, names in self._boxes:
+            box.setVisible(any(_HIDDEN not in self._obj.getEditorMode(name) for name in names))
+        self._rows["StrutRadius"][1].setEnabled(
+            _READ_ONLY not in self._obj.getEditorMode("StrutRadius")
+        )
+
+    def _begin_target(self, driver: str) -> None:
+        """Begin with what the lattice that is shown comes to: it stays as it is at first."""
+        name = TARGETS.get(driver)
+        value = None if name is None or self._shown is None else self._shown.figure(driver)
+        if value is None:
+            return
+        set_value(self._obj, name, float(f"{value:.3g}"))
+        field = self._rows[name][1]
+        field.setProperty("value" if name in UNITS else "rawValue", number_of(self._obj, name))
+
+    def _set_direction(self, name: str, text: str) -> None:
+        """Take a direction over; what is none is said, and the last one shown again."""
+        try:
+            self._setter(name)(App.Vector(*read_direction(text)))
+        except ValueError:
+            self._say(
+                translate(
+                    "VolfrepTaskPanel",
+                    "'{text}' is no direction: write 100, 110, 111 or three numbers such as 1,2,0.",
+                ).format(text=text),
+                wrong=True,
+            )
+
+    def _tell_radius(self, radius: float) -> None:
+        """Show the radius that was found where something else drives it."""
+        if self._obj.RadiusDrivenBy != "Radius":
+            self._rows["StrutRadius"][1].setProperty("rawValue", radius)
 
     def _say(self, text: str, wrong: bool = False) -> None:
         self._figures.setStyleSheet(WRONG if wrong else "")
@@ -306,12 +385,33 @@ class TaskPanel:
             Gui.ActiveDocument.resetEdit()
 
 
+class _PlainNumber(QtWidgets.QDoubleSpinBox):
+    """A number without zeros at its end, which would push the unit out of a narrow panel."""
+
+    def textFromValue(self, value: float) -> str:  # noqa: N802
+        """As Qt asks for it."""
+        locale = self.locale()
+        locale.setNumberOptions(QtCore.QLocale.OmitGroupSeparator)
+        return str(locale.toString(float(value), "g", 7))
+
+
 def _files(name: str) -> str:
     """The kinds of files for a property, as Qt's file dialog takes them."""
+    if name == "MaterialFile":
+        return f"{translate('VolfrepTaskPanel', MATERIAL)} (*.toml *.json)"
     if name == "CellFile":
         return cell_files()
     suffixes = " ".join(f"*{suffix}" for suffix in TABLE_SUFFIXES + VTK_SUFFIXES)
     return f"{translate('VolfrepTaskPanel', POINTS)} ({suffixes})"
+
+
+def _direction_text(way: App.Vector) -> str:
+    """A direction as the panel's field shows and takes it."""
+    numbers = tuple(way)
+    for short in ("100", "110", "111"):
+        if numbers == read_direction(short):
+            return short
+    return ", ".join(f"{number:g}" for number in numbers)
 
 
 def _label(name: str) -> str:

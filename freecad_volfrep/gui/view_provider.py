@@ -239,6 +239,46 @@ class PrintCheckView:
     __setstate__ = loads
 
 
+class DesignStudyView:
+    """View provider of a design study: its icon, and its panel."""
+
+    def __init__(self, view: Any) -> None:
+        view.Proxy = self
+
+    def attach(self, view: Any) -> None:
+        """Called by FreeCAD for a new object and for one from a file."""
+        self.object = view.Object
+
+    def getIcon(self) -> str:  # noqa: N802
+        """Path of the tree's icon."""
+        return str(ICONS / "design_study.svg")
+
+    def doubleClicked(self, view: Any) -> bool:  # noqa: N802
+        """Open the study in its panel."""
+        view.Document.setEdit(view.Object.Name)
+        return True
+
+    def setEdit(self, view: Any, mode: int = 0) -> bool:  # noqa: N802
+        """Open the panel."""
+        from .study_panel import open_study
+
+        return open_study(view.Object)
+
+    def unsetEdit(self, view: Any, mode: int = 0) -> bool:  # noqa: N802
+        """Leave the panel to its own button."""
+        return False
+
+    def dumps(self) -> None:
+        """Nothing to save."""
+
+    def loads(self, state: Any) -> None:
+        """Nothing to restore."""
+
+    __getstate__ = dumps  # FreeCAD 0.20
+    __setstate__ = loads
+
+
 # Saved files find the classes under these names.
+DesignStudyView.__module__ = "freecad_volfrep.gui.view_provider"
 PrintCheckView.__module__ = "freecad_volfrep.gui.view_provider"
 LatticeInfillView.__module__ = "freecad_volfrep.gui.view_provider"

@@ -3,7 +3,8 @@
 
 What a new search finds becomes an explicit example of its test. No search is timed.
 
-And the folder in which `make setup` puts pyvista, apart from what FreeCAD sees.
+And the folders in which `make setup` puts pyvista, and what studies take, apart from what FreeCAD
+sees. The latter come last: what is Debian's stays so.
 """
 
 import sys
@@ -11,7 +12,9 @@ from pathlib import Path
 
 from hypothesis import settings
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / ".cache" / "plot"))
+_CACHE = Path(__file__).resolve().parents[2] / ".cache"
+sys.path.insert(0, str(_CACHE / "plot"))
+sys.path.append(str(_CACHE / "study"))
 
 settings.register_profile("fixed", derandomize=True, database=None, deadline=None)
 settings.register_profile("random", deadline=None, print_blob=True, max_examples=300)

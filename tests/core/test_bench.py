@@ -107,7 +107,7 @@ def test_a_process_is_ended_at_its_limit():
     assert done.timed_out
     assert done.failure is not None
     assert "the time limit" in done.failure
-    assert done.seconds < 10
+    assert done.seconds < 60
 
 
 def test_other_tools_are_left_out_when_their_time_is_spent(tmp_path, monkeypatch):

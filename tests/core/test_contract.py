@@ -38,7 +38,8 @@ def random_case(seed):
 
 
 @pytest.mark.parametrize(
-    "seed", [pytest.param(s, marks=pytest.mark.slow if s >= 12 else ()) for s in range(80)]
+    "seed",
+    [pytest.param(s, marks=pytest.mark.slow if s >= 12 or s in (6, 9) else ()) for s in range(80)],
 )
 def test_random_specifications_hold_the_contract(seed):
     solid, spec = random_case(seed)

@@ -13,7 +13,8 @@ ENGINE = Path(__file__).resolve().parents[2] / "core" / "volfrep"
 #: The rooms, low to high: a room imports from itself and from those before it.
 ROOMS = (
     "util", "mesh", "spatial", "design", "shell", "grid", "octants", "lattice", "network",
-    "mechanics", "trim", "fem", "io", "reports", "jobs", "cli",
+    "mechanics", "trim", "fem", "slicing", "io", "loads", "sizing", "reports", "jobs", "studies",
+    "cli",
 )  # fmt: skip
 MOST_MODULES = 14
 MOST_LINES = 400

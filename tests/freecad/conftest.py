@@ -32,7 +32,7 @@ def said_without_packages(folder, body):
     )
     environment = dict(os.environ, FREECAD_USER_HOME=str(folder), PYTHONPATH="")
     done = subprocess.run(
-        [sys.executable, str(script)], env=environment, capture_output=True, text=True, timeout=120
+        [sys.executable, str(script)], env=environment, capture_output=True, text=True, timeout=600
     )
     lines = {line.split(" ", 1)[0]: line for line in done.stdout.splitlines()}
     assert "MISSING" in lines, done.stdout + done.stderr

@@ -136,28 +136,16 @@ def test_what_cannot_be_exported_as_beams(doc, infill, tmp_path):
 def test_the_formats_on_offer(doc, box, infill):
     copy = doc.addObject("Mesh::Feature", "Copy")
     assert [form.filter for form in formats_of(copy)] == [
-        "STL (*.stl)", "STL, fewer triangles (*.stl)", "3MF (*.3mf)",
-        "3MF, fewer triangles (*.3mf)", "PLY (*.ply)", "OBJ (*.obj)", "OFF (*.off)",
+        "STL (*.stl)", "3MF (*.3mf)",
+        "PLY (*.ply)", "OBJ (*.obj)", "OFF (*.off)",
         "GLB, for viewers (*.glb)", "STEP, plane faces (*.step)",
     ]  # fmt: skip
     offered = formats_of(infill)
     assert {form.content for form in offered} == {
-        "mesh", "compact", "beams", "both", *CONTENTS,
+        "mesh", "beams", "both", *CONTENTS,
     }  # fmt: skip
     assert {form.suffix for form in offered} == MESH_WRITERS.keys() - {".stp"} | {".inp"}
     assert len({form.filter for form in offered}) == len(offered)
-
-
-def test_fewer_triangles_of_the_same_body(infill, tmp_path):
-    infill.Resolution = 20
-    infill.Document.recompute()
-    export_mesh(infill, tmp_path / "part.stl", "compact")
-    read = Mesh.Mesh(str(tmp_path / "part.stl"))
-    assert read.isSolid()
-    assert read.CountFacets < infill.Triangles
-    assert read.Volume == pytest.approx(infill.Volume.Value, rel=2e-3)
-    with pytest.raises(VolfrepError, match="extension"):
-        export_mesh(infill, tmp_path / "part.xyz", "compact")
 
 
 def test_export_refuses(doc, box, infill, tmp_path):
@@ -278,7 +266,7 @@ def test_no_export_replaces_a_file_that_the_object_is_made_of(doc, infill, tmp_p
         if way != "its name":
             target = tmp_path / f"link to {file.name}"
             (os.symlink if way == "a symbolic link" else os.link)(file, target)
-        for content in ("mesh", "compact", "beams", "both", *CONTENTS):
+        for content in ("mesh", "beams", "both", *CONTENTS):
             with pytest.raises(VolfrepError, match=f"is the {what}"):
                 export_mesh(infill, target, content)
     assert all(file.read_bytes() == held for file, held in before.items())

@@ -51,6 +51,22 @@ def test_every_name_in_the_tables_has_its_translation(infill):
         assert names - known == set(), path.name
 
 
+def test_statistics_tell_what_the_lattice_does(doc, infill):
+    does = {table.title: table for table in statistics([infill])}["What the lattice does"]
+    rows = {row[0]: row[1] for row in does.rows}
+    assert {"relative density", "E100", "E110", "E111", "G", "nu", "strength"} <= rows.keys()
+    assert re.fullmatch(r"[\d.e-]+ \+- [\d.e-]+ E of the solid", rows["E100"])
+    infill.PrintMaterial = "AlSi10Mg"
+    doc.recompute()
+    does = {table.title: table for table in statistics([infill])}["What the lattice does"]
+    assert {row[0]: row[1] for row in does.rows}["E100"].endswith(" MPa")
+    infill.AutoUpdate = False
+    infill.StrutRadius = 0.8
+    doc.recompute()  # the mesh does not fit the properties any more
+    does = {table.title: table for table in statistics([infill])}["What the lattice does"]
+    assert does.rows == ()
+
+
 def test_a_window_may_say_tables_in_other_words():
     table = Table("Sizes", (("cell", 3, True),), ("", "A", "B"))
     said = {"Sizes": "Größen", "cell": "Zelle", "yes": "ja"}
@@ -124,7 +140,8 @@ def test_nothing_to_check_is_one_sentence(doc, box):
 def test_statistics_stand_beside_each_other(doc, box, infill):
     waiting = make_lattice_infill(doc, box, **SMALL, Label="Waiting")
     assert infills_of(doc) == [infill, waiting]
-    inputs, result, seconds, memory = statistics([infill, waiting])
+    inputs, result, does, seconds, memory = statistics([infill, waiting])
+    assert all(row[1] and row[2] is None for row in does.rows)
     assert inputs.header == ("", infill.Label, "Waiting")
     rows = {row[0]: row[1:] for table in (inputs, result) for row in table.rows}
     assert rows["cell size, mm"] == (10.0, 10.0)

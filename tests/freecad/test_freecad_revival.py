@@ -46,7 +46,7 @@ def saved_without_the_workbench(path, folder, body=""):
     environment = dict(os.environ, FREECAD_USER_HOME=str(folder / "home"), PYTHONPATH="")
     (folder / "home").mkdir()
     done = subprocess.run(
-        [sys.executable, str(script)], env=environment, capture_output=True, text=True, timeout=120
+        [sys.executable, str(script)], env=environment, capture_output=True, text=True, timeout=600
     )
     assert "PROXY None" in done.stdout, done.stdout + done.stderr
 

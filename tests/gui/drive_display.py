@@ -7,10 +7,22 @@ from pathlib import Path
 
 import FreeCAD as App
 import FreeCADGui as Gui
-from PySide import QtCore, QtGui
+from PySide import QtGui
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from driving import OUT, check, click, figures, picture, run_checks, settle, toolbar_button, view_3d
+from driving import (
+    OUT,
+    check,
+    click,
+    figures,
+    picture,
+    run_checks,
+    section_docks,
+    seen,
+    settle,
+    toolbar_button,
+    view_3d,
+)
 
 FIXTURE = Path(__file__).resolve().parents[1] / "freecad" / "fixtures" / "infill-0.1.0.FCStd"
 OURS = "Skin and Lattice"
@@ -51,7 +63,7 @@ def made():
     doc.UndoMode = 1
     box = doc.addObject("Part::Box", "Block")
     box.Length, box.Width, box.Height = 40, 30, 20
-    obj = make_lattice_infill(doc, box, CellSize=5, StrutRadius=0.5, ShellThickness=1)
+    obj = make_lattice_infill(doc, box, CellSize=10, StrutRadius=1, ShellThickness=1)
     doc.recompute()
     box.Visibility = False
     Gui.activeDocument().activeView().viewIsometric()
@@ -77,8 +89,7 @@ def display_modes(obj):
     check("Simplified has struts and solid", node_of(obj, "Simplified").getNumChildren() == 2)
     picture("display_1_simplified")
     shown = node_of(obj, "Simplified").getChild(0)
-    obj.CellSize = 10
-    obj.StrutRadius = 1
+    obj.StrutRadius = 0.95
     obj.Document.recompute()
     again = node_of(obj, "Simplified")
     check("a new mesh has new struts", again.getNumChildren() == 2 and again.getChild(0) != shown)
@@ -87,9 +98,6 @@ def display_modes(obj):
     obj.StrutRadius = 0.9
     obj.Document.recompute()
     check("what is not shown is dropped", node_of(obj, "Simplified").getNumChildren() == 0)
-    obj.CellSize = 5
-    obj.StrutRadius = 0.5
-    obj.Document.recompute()
 
 
 def many_struts(obj):
@@ -98,7 +106,7 @@ def many_struts(obj):
     group.SetInt("LargestShownStruts", 10)
     group.SetInt("LargestShownTriangles", 1000)
     obj.ViewObject.DisplayMode = "Simplified"
-    obj.StrutRadius = 0.45
+    obj.StrutRadius = 0.95
     obj.Document.recompute()
     check("a large mesh stays simplified", obj.ViewObject.DisplayMode == "Simplified")
     check("nothing coarse is made for it", node_of(obj, "Coarse").getNumChildren() == 0)
@@ -138,8 +146,7 @@ def saved_modes(obj):
 
 def dock():
     """The section's dock, or None."""
-    found = Gui.getMainWindow().findChildren(QtGui.QDockWidget, "VolfrepSectionView")
-    return next((widget for widget in found if widget.isVisible()), None)
+    return next(iter(section_docks()), None)
 
 
 def planes(obj):
@@ -151,11 +158,8 @@ def planes(obj):
 
 def background_changes(name):
     """Whether FreeCAD's background goes from one colour to another down the left of the view."""
-    image = QtGui.QImage(str(OUT / f"{name}.png"))
-    corner = view_3d().mapToGlobal(QtCore.QPoint(4, 0))
-    height = view_3d().height()
-    rows = range(corner.y() + 10, corner.y() + height - 10, 10)
-    return len({image.pixel(corner.x(), y) for y in rows}) > len(rows) // 2
+    border = seen(name, view_3d())[10:-10:10, 4]
+    return len({tuple(colour) for colour in border}) > len(border) // 2
 
 
 def section(obj):
@@ -216,12 +220,12 @@ def section(obj):
 
 
 def frames():
-    """What a frame of a mesh of a million triangles costs, and of its struts."""
+    """What a frame of a mesh of half a million triangles costs, and of its struts."""
     from freecad_volfrep import make_lattice_infill
 
     doc = App.newDocument("Frames")
     box = doc.addObject("Part::Box", "Block")
-    box.Length, box.Width, box.Height = 60, 60, 30
+    box.Length, box.Width, box.Height = 40, 30, 30
     obj = make_lattice_infill(doc, box, CellSize=5, StrutRadius=0.5, ShellThickness=1)
     doc.recompute()
     box.Visibility = False

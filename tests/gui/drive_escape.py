@@ -2,9 +2,9 @@
 """Escape at random times during every long command, in the real FreeCAD; see tools/run_gui.sh.
 
 Each command is clicked once to the end and then ESCAPES times more (an environment variable; once
-by default, ten times by ``make test-escape``; the seed is SEED), with a real Escape after a random
-part of its time. FreeCAD has to be itself afterwards: nothing waits, no box is open, and the next
-click is followed.
+by default, ten times by ``make test-escape``, then on a larger part; the seed is SEED), with a real
+Escape after a random part of its job's time. FreeCAD has to be itself afterwards: nothing waits, no
+box is open, and the next click is followed.
 """
 
 import os
@@ -12,229 +12,257 @@ import random
 import subprocess
 import sys
 import time
+from contextlib import contextmanager
 from pathlib import Path
 
 import FreeCAD as App
 import FreeCADGui as Gui
-from PySide import QtCore, QtGui
+from PySide import QtGui
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from driving import (
+    PATIENCE,
+    Watch,
     answer_panel,
     check,
     click,
     click_menu,
-    failures,
+    comes_true,
     figures,
     panel,
-    picture,
-    run,
+    run_checks,
+    said,
     select,
-    step,
+    settle,
+    shoot,
     toolbar_button,
-    wait,
     wait_until,
+    window,
     xdotool,
 )
 
-#: Only commands whose names begin so, where it is set.
-ONLY = os.environ.get("ONLY", "")
+from freecad_volfrep.gui.progress import _Progress
+
 ESCAPES = int(os.environ.get("ESCAPES", "1"))
 SEED = int(os.environ.get("SEED", "19"))
-#: A cancel waits for the library call that runs: seconds until a command must have ended.
-PATIENCE = 40
 
 
-def drive():
-    """The whole session."""
-    figures["seed"] = SEED
-    Gui.activateWorkbench("VolfrepWorkbench")
-    wait(800)
-    step(answer_freecads_own_box)
-    obj = step(fill_a_bracket)
-    doc = obj.Document
-    radii = iter(0.8 + 0.01 * k for k in range(1, 10_000))
+@contextmanager
+def when_a_job_begins(act):
+    """Call `act` once, when the first job of what is done meanwhile shows its progress."""
+    enter, begun = _Progress.__enter__, []
 
-    def new_radius():
-        obj.StrutRadius = next(radii)
-        select(obj)
+    def entered(progress):
+        if not begun:
+            begun.append(act())
+        return enter(progress)
 
-    escape("Check Mesh", lambda: select(obj), lambda: click(toolbar_button("Check Mesh")))
-    obj.AutoUpdate = False
-    escape("Update", new_radius, lambda: click(toolbar_button("Update Lattice Infill")))
-    obj.AutoUpdate = True
-    escape("Refresh", new_radius, lambda: click_menu("Edit", "Refresh"))
-    obj.Proxy.update(obj)
-    escape("Print Check", lambda: select(obj), lambda: click(toolbar_button("Print Check")))
-    for made in [o for o in doc.Objects if o.Name.startswith("PrintCheck")]:
-        doc.removeObject(made.Name)
-    escape("panel", open_panel_of(obj, radii), lambda: answer_panel("OK"), leave_panel)
-    obj.Proxy.update(obj)
-    small = step(fill_a_small_box)
-    for name, kind in (("exact solid", "exact"), ("instances", "link")):
-        escape(
-            name,
-            lambda: select(small),
-            lambda kind=kind: choose_after("Lattice To Solid", kind),
-            take_away(small),
-        )
-    escape(
-        "tetrahedra",
-        lambda: select(small),
-        lambda: choose_after("FEM Analysis", "tetrahedra"),
-        take_away(small),
-    )
-    escape("example", lambda: None, lambda: click_menu("VOLFREP", "Examples", "Bracket"), close_new)
+    _Progress.__enter__ = entered
+    try:
+        yield begun
+    finally:
+        _Progress.__enter__ = enter
 
 
-def fill_a_bracket():
-    """The shipped example."""
+def filled():
+    """An infill whose jobs take a second or more: of a box, or for many escapes of the bracket."""
+    from freecad_volfrep import make_lattice_infill
     from freecad_volfrep.examples.filled import open_example
 
-    return open_example("Bracket")
+    if ESCAPES > 1:
+        return (open_example("Bracket"),)
+    doc = App.newDocument("Escape")
+    box = doc.addObject("Part::Box", "Block")
+    box.Length, box.Width, box.Height = 40, 30, 20
+    obj = make_lattice_infill(doc, box, CellSize=5, StrutRadius=0.7, ShellThickness=1)
+    doc.recompute()
+    box.Visibility = False
+    settle()
+    return (obj,)
 
 
-def fill_a_small_box():
-    """Of exact joints that take seconds."""
+def coarse():
+    """One without a skin, whose exact joints and tetrahedra take seconds."""
     from freecad_volfrep import make_lattice_infill
 
     doc = App.newDocument("Small")
     box = doc.addObject("Part::Box", "Block")
-    box.Length, box.Width, box.Height = 40, 30, 30
+    box.Length, box.Width, box.Height = (40, 30, 30) if ESCAPES > 1 else (20, 20, 10)
     obj = make_lattice_infill(doc, box, CellSize=10, StrutRadius=1, ShellThickness=0)
     doc.recompute()
     box.Visibility = False
-    return obj
-
-
-def bar():
-    """Our line in the status bar, if a job runs."""
-    return Gui.getMainWindow().findChild(QtGui.QWidget, "VolfrepProgress")
+    settle()
+    return (obj,)
 
 
 def is_itself():
     """Whether nothing of a job is left."""
     return (
-        bar() is None
+        Gui.getMainWindow().findChild(QtGui.QWidget, "VolfrepProgress") is None
         and QtGui.QApplication.overrideCursor() is None
         and QtGui.QApplication.activeModalWidget() is None
         and QtGui.QApplication.activePopupWidget() is None
     )
 
 
-def answers_a_click(name):
+def answers_a_click():
     """Really open a window of ours, and close it by its button."""
     click(toolbar_button("Cell Library"))
-
-    def library():
-        found = Gui.getMainWindow().findChildren(QtGui.QDialog, "VolfrepCellLibrary")
-        return next((window for window in found if window.isVisible()), None)
-
-    opened = wait_until(lambda: library() is not None, 10)
-    check(f"{name}: the next click is followed", opened)
+    opened = wait_until(lambda: window("VolfrepCellLibrary") is not None)
+    check("the next click is followed", opened)
     if opened:
-        click(library().findChild(QtGui.QPushButton, "Close"))
-        wait_until(lambda: library() is None, 5)
+        click(window("VolfrepCellLibrary").findChild(QtGui.QPushButton, "Close"))
+        wait_until(lambda: window("VolfrepCellLibrary") is None)
 
 
-def close_reports():
-    """Windows that a command has opened."""
-    for window in Gui.getMainWindow().findChildren(QtGui.QDialog, "VolfrepReport"):
-        if window.isVisible():
-            window.close()
-
-
-def escape(name, prepare, act, tidy=lambda: None):
+def escape(prepare, act, tidy=lambda: None):
     """Run a command once, and then with Escape at random parts of its time."""
-    if not name.startswith(ONLY):
-        return
+
+    def leave():
+        if window("VolfrepReport") is not None:
+            window("VolfrepReport").close()
+        tidy()
+        settle()
+
+    name = sys._getframe(1).f_code.co_name
     chance = random.Random(f"{SEED} {name}")
     prepare()
-    start = time.monotonic()
-    act()
-    wait_until(is_itself, PATIENCE)
-    whole = max(time.monotonic() - start, 1.0)
-    close_reports()
-    tidy()
+    with when_a_job_begins(time.monotonic) as begun:
+        check("the command is followed", act() is not False)
+        wait_until(is_itself)
+    check("a job begins", begun)
+    whole = max(time.monotonic() - begun[0], 0.5)
+    leave()
     moments, last = [], 0.0
     for _ in range(ESCAPES):
         prepare()
         moment = chance.uniform(0.0, 1.1) * whole
         moments.append(round(moment, 2))
-        key = subprocess.Popen(["sh", "-c", f"sleep {moment:.3f}; exec xdotool key Escape"])
-        start = time.monotonic()
-        act()
-        ended = wait_until(is_itself, PATIENCE)
-        last = max(last, time.monotonic() - start - moment)
-        key.wait(timeout=whole * 2 + 10)
-        wait(300)
-        check(f"{name}: it ends after Escape at {moment:.2f} s", ended and is_itself())
+        keys = ["sh", "-c", f"sleep {moment:.3f}; exec xdotool key Escape"]
+        with when_a_job_begins(
+            lambda keys=keys: (time.monotonic(), subprocess.Popen(keys))
+        ) as begun:
+            act()
+            ended = comes_true(is_itself, PATIENCE)
+        if begun:
+            start, key = begun[0]
+            last = max(last, time.monotonic() - start - moment)
+            key.wait()
+        settle()
+        check(f"it ends after Escape at {moment:.2f} s", begun and ended and is_itself())
         if not ended:
-            picture(f"escape_{name.replace(' ', '_')}")
-        close_reports()
-        tidy()
+            shoot(f"escape_{name}")
+        leave()
     figures[f"{name}: seconds without Escape"] = round(whole, 1)
     figures[f"{name}: Escape after seconds"] = moments
     figures[f"{name}: longest wait after Escape, s"] = round(last, 1)
-    answers_a_click(name)
-    report = Gui.getMainWindow().findChild(QtGui.QTextEdit, "Report view")
-    if report is not None:
-        said = report.toPlainText()
-        check(f"{name}: no traceback", "Traceback" not in said, said[-2000:])
-        check(f"{name}: no failed recompute", "ecompute failed" not in said, said[-2000:])
-        report.clear()
+    answers_a_click()
+    check("no failed recompute", "ecompute failed" not in said(), said()[-2000:])
 
 
-def open_panel_of(obj, radii):
-    """Opens the panel of an infill and types a radius."""
+def new_radii(obj):
+    """Gives the infill another radius every time, and selects it."""
+    radii = iter(obj.StrutRadius.Value + 0.01 * k for k in range(1, 10_000))
 
     def prepare():
-        select(obj)
-        click(toolbar_button("Edit Lattice Infill"))
-        if not wait_until(lambda: panel() is not None, 20):
-            failures.append("the panel does not open")
         obj.StrutRadius = next(radii)
+        select(obj)
 
     return prepare
 
 
-def leave_panel():
-    """Where the job was cancelled the panel is still open."""
-    if panel() is not None:
-        answer_panel("Cancel")
-        wait_until(lambda: panel() is None, 20)
-    wait_until(is_itself, PATIENCE)
+def leave_check_mesh(obj):
+    """Check Mesh."""
+    escape(lambda: select(obj), lambda: click(toolbar_button("Check Mesh")))
+
+
+def leave_an_update(obj):
+    """Update Lattice Infill."""
+    obj.AutoUpdate = False
+    escape(new_radii(obj), lambda: click(toolbar_button("Update Lattice Infill")))
+
+
+def leave_a_refresh(obj):
+    """FreeCAD's own recompute."""
+    text = Gui.Command.get("Std_Refresh").getInfo()["menuText"].replace("&", "")
+    escape(new_radii(obj), lambda: click_menu("Edit", text))
+
+
+def leave_the_print_check(obj):
+    """Print Check."""
+    kept = {o.Name for o in obj.Document.Objects}
+    escape(lambda: select(obj), lambda: click(toolbar_button("Print Check")), take_away(obj, kept))
+
+
+def leave_the_panel(obj):
+    """The panel's OK; where the job was cancelled the panel is still open."""
+    radius = new_radii(obj)
+
+    def prepare():
+        select(obj)
+        click(toolbar_button("Edit Lattice Infill"))
+        wait_until(lambda: panel() is not None)
+        settle()
+        radius()
+
+    def tidy():
+        if panel() is not None:
+            answer_panel("Cancel")
+            wait_until(lambda: panel() is None)
+
+    escape(prepare, lambda: answer_panel("OK"), tidy)
+
+
+def leave_the_exact_solid(obj):
+    """Lattice To Solid, the one with exact joints."""
+    escape(lambda: select(obj), lambda: choose_after("Lattice To Solid", "exact"), take_away(obj))
+
+
+def leave_the_instances(obj):
+    """Lattice To Solid, the one of links."""
+    escape(lambda: select(obj), lambda: choose_after("Lattice To Solid", "link"), take_away(obj))
+
+
+def leave_the_tetrahedra(obj):
+    """FEM Analysis, the one of tetrahedra."""
+    escape(lambda: select(obj), lambda: choose_after("FEM Analysis", "tetrahedra"), take_away(obj))
+
+
+def leave_an_example():
+    """An example, which fills a new document."""
+
+    def close_it():
+        for name in list(App.listDocuments()):
+            App.closeDocument(name)
+
+    escape(lambda: None, lambda: click_menu("VOLFREP", "Examples", "Bracket"), close_it)
 
 
 def choose_after(button, kind):
-    """Click a button, and pick from the list that opens by real keys."""
-    done = []
+    """Click a button, and pick from the list that opens by real keys; whether it did."""
 
     def answer():
         box = QtGui.QApplication.activeModalWidget()
-        if done or not isinstance(box, QtGui.QInputDialog):
-            return
-        done.append(True)
-        items = box.comboBoxItems()
-        row = next(k for k, item in enumerate(items) if kind in item.lower())
-        xdotool("windowfocus", int(box.winId()))
-        wait(300)
-        for _ in range(row):
-            xdotool("key", "Down")
-        wait(100)
-        xdotool("key", "Return")
+        if not isinstance(box, QtGui.QInputDialog) or not box.isVisible():
+            return False
+        if not box.isActiveWindow():
+            xdotool("windowfocus", int(box.winId()))
+            return False
+        row = next(k for k, item in enumerate(box.comboBoxItems()) if kind in item.lower())
+        xdotool("key", *["Down"] * row, "Return")
+        return True
 
-    timer = QtCore.QTimer(Gui.getMainWindow())
-    timer.timeout.connect(answer)
-    timer.start(300)
+    watch = Watch(answer, f"the list of {button}")
     click(toolbar_button(button))
-    wait_until(is_itself, PATIENCE)
-    timer.stop()
+    wait_until(is_itself)
+    answered = watch.over
+    watch.stop()  # Escape has met the job that tells what the list would offer
+    return answered
 
 
-def take_away(obj):
+def take_away(obj, kept=None):
     """Takes away what commands have made beside an infill."""
-    kept = {o.Name for o in obj.Document.Objects}
+    kept = kept or {o.Name for o in obj.Document.Objects}
 
     def tidy():
         for name in [o.Name for o in obj.Document.Objects if o.Name not in kept]:
@@ -245,14 +273,6 @@ def take_away(obj):
     return tidy
 
 
-def close_new():
-    """The examples' documents but the first."""
-    for name in list(App.listDocuments()):
-        if name.startswith("Bracket") and name != "Bracket":
-            App.closeDocument(name)
-    wait(300)
-
-
 def answer_freecads_own_box():
     """While a job of ours is on FreeCAD asks whether to abort: the answer reaches it."""
     import Mesh
@@ -260,36 +280,47 @@ def answer_freecads_own_box():
     from freecad_volfrep.features.progress import progress_of
 
     mesh = Mesh.createSphere(10.0, 300)
-    boxes, timer = [], QtCore.QTimer(Gui.getMainWindow())
+    boxes = []
 
     def answer():
         box = QtGui.QApplication.activeModalWidget()
-        if not isinstance(box, QtGui.QMessageBox):
-            return
+        if not isinstance(box, QtGui.QMessageBox) or not box.isVisible():
+            return False
         boxes.append(box.text())
-        if len(boxes) == 1:
-            picture("escape_freecads_box")
+        if len(boxes) < 3:  # by then it is drawn
+            return False
+        shoot("escape_freecads_box")
         yes = box.button(QtGui.QMessageBox.Yes) or box.buttons()[0]
         place = yes.mapToGlobal(yes.rect().center())
         xdotool("mousemove", place.x(), place.y(), "click", 1)
+        return True
 
-    timer.timeout.connect(answer)
-    timer.start(400)
-    key = subprocess.Popen(["sh", "-c", "sleep 1; exec xdotool key Escape"])
+    Watch(answer, "FreeCAD's question")
+    end = time.monotonic() + PATIENCE
     with progress_of("A job"):
-        for _ in range(60):
-            if boxes:
-                break
+        xdotool("key", "Escape")
+        while not boxes and time.monotonic() < end:
             try:
                 mesh.getSelfIntersections()
             except App.Base.FreeCADAbort:
                 figures["FreeCAD's search ends as asked"] = True
-    key.wait()
-    timer.stop()
     check("FreeCAD has asked", boxes)
-    check("and was answered by one click", 0 < len(boxes) <= 2, len(boxes))
-    check("no box stays", QtGui.QApplication.activeModalWidget() is None)
+    check("one click has answered it", wait_until(is_itself))
     figures["FreeCAD asked"] = boxes[:1]
 
 
-run(drive, "escape")
+run_checks(
+    "escape",
+    {
+        answer_freecads_own_box: None,
+        leave_check_mesh: filled,
+        leave_an_update: filled,
+        leave_a_refresh: filled,
+        leave_the_print_check: filled,
+        leave_the_panel: filled,
+        leave_the_exact_solid: coarse,
+        leave_the_instances: coarse,
+        leave_the_tetrahedra: coarse,
+        leave_an_example: None,
+    },
+)

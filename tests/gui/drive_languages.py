@@ -6,20 +6,26 @@ from pathlib import Path
 
 import FreeCAD as App
 import FreeCADGui as Gui
-from PySide import QtCore, QtGui
+from PySide import QtGui
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from driving import (
     answer_panel,
     check,
+    comes_true,
     lightness,
     panel,
     picture,
+    preferences_open,
     run_checks,
     select,
     settle,
+    turn_to,
     wait_until,
+    window,
 )
+
+from freecad_volfrep.compat import version
 
 GROUP = "User parameter:BaseApp/Preferences/Mod/VOLFREP"
 #: What FreeCAD calls the language, and words that must then be seen.
@@ -62,7 +68,7 @@ def speak(language, command, word, label, figure):
     check(f"{language}: the commands", word in commands().get(command, ""), commands())
     select(box)
     Gui.runCommand("VOLFREP_LatticeInfill", 0)
-    check(f"{language}: the panel opens", wait_until(lambda: panel() is not None, 20))
+    check(f"{language}: the panel opens", wait_until(lambda: panel() is not None))
     obj = App.ActiveDocument.getObject("LatticeInfill")
     obj.RadiusGrading = "Direction"
     settle()
@@ -75,11 +81,10 @@ def speak(language, command, word, label, figure):
     check(f"{language}: nothing is cut off in it", cut_off(panel()) == [], cut_off(panel()))
     picture(f"language_{language}_1_panel")
     choose_boundary(obj)
-    for button in Gui.getMainWindow().findChildren(QtGui.QDialogButtonBox):
-        if button.isVisible() and button.button(QtGui.QDialogButtonBox.Cancel):
-            button.button(QtGui.QDialogButtonBox.Cancel).click()
-            break
-    check(f"{language}: the panel closes", wait_until(lambda: panel() is None, 10))
+    boxes = Gui.getMainWindow().findChildren(QtGui.QDialogButtonBox)
+    buttons = [box.button(QtGui.QDialogButtonBox.Cancel) for box in boxes if box.isVisible()]
+    next(filter(None, buttons)).click()
+    check(f"{language}: the panel closes", wait_until(lambda: panel() is None))
     preferences(language)
 
 
@@ -100,12 +105,11 @@ def tables(language, word):
     doc.recompute()
     select(obj)
     Gui.runCommand("VOLFREP_Statistics", 0)
-    settle()
-    window = Gui.getMainWindow().findChild(QtGui.QDialog, "VolfrepReport")
-    text = window.findChild(QtGui.QTextBrowser).toPlainText()
+    wait_until(lambda: window("VolfrepReport") is not None)
+    text = window("VolfrepReport").findChild(QtGui.QTextBrowser).toPlainText()
     check(f"{language}: the tables' names", word in text, text[:200])
     picture(f"language_{language}_3_statistics")
-    window.close()
+    window("VolfrepReport").close()
     doc.removeObject(obj.Name)
     settle()
 
@@ -113,25 +117,14 @@ def tables(language, word):
 def preferences(language):
     """Both pages, with room for their words."""
 
-    def look():
-        dialog = QtGui.QApplication.activeModalWidget()
-        if dialog is None or dialog.findChild(QtGui.QWidget, "DisplayPage") is None:
-            QtCore.QTimer.singleShot(50, look)
-            return
+    def look(dialog):
         for name in ("NewInfillPage", "DisplayPage"):
             page = dialog.findChild(QtGui.QWidget, name)
-            for kind in (QtGui.QTabWidget, QtGui.QStackedWidget):
-                for holder in dialog.findChildren(kind):
-                    for number in range(holder.count()):
-                        if holder.widget(number).isAncestorOf(page):
-                            holder.setCurrentIndex(number)
-            settle()
+            turn_to(page, dialog)
             check(f"{language}: nothing is cut off in {name}", cut_off(page) == [], cut_off(page))
             picture(f"language_{language}_2_{name}")
-        dialog.reject()
 
-    QtCore.QTimer.singleShot(50, look)
-    Gui.showPreferences("VOLFREP", 0)
+    preferences_open(look, keep=False)
 
 
 def wear_dark():
@@ -140,19 +133,18 @@ def wear_dark():
     before = application.styleSheet()
     folder = Path(App.getResourceDir()) / "Gui" / "Stylesheets"
     sheets = sorted(folder.glob("*[Dd]ark*.qss"))
-    if sheets:
-        application.setStyleSheet(sheets[0].read_text(encoding="utf-8"))
-        return lambda: application.setStyleSheet(before)
-    # FreeCAD 1.1 has one style sheet, and its colours in a theme.
     group = App.ParamGet("User parameter:BaseApp/Preferences/MainWindow")
     worn = {name: group.GetString(name) for name in ("Theme", "StyleSheet")}
+    # FreeCAD 1.1 has one style sheet, and its colours in a theme.
     group.SetString("Theme", "FreeCAD Dark")
-    group.SetString("StyleSheet", "FreeCAD.qss")
-    wait_until(lambda: application.styleSheet() != before, 10)
+    group.SetString("StyleSheet", sheets[0].name if sheets else "FreeCAD.qss")
+    if version() < (1, 0) or not comes_true(lambda: application.styleSheet() != before, 10):
+        application.setStyleSheet(sheets[0].read_text(encoding="utf-8"))
 
     def take_off():
         for name, value in worn.items():
             group.SetString(name, value)
+        application.setStyleSheet(before)
 
     return take_off
 
@@ -160,10 +152,18 @@ def wear_dark():
 def go_dark():
     """The panel in one of FreeCAD's own dark themes."""
     take_off = wear_dark()
+    try:
+        look_at_the_dark()
+    finally:
+        take_off()
+
+
+def look_at_the_dark():
+    """The panel, what it refuses, and the library."""
     settle()
     select(App.ActiveDocument.getObject("Block"))
     Gui.runCommand("VOLFREP_LatticeInfill", 0)
-    wait_until(lambda: panel() is not None, 20)
+    wait_until(lambda: panel() is not None)
     obj = App.ActiveDocument.getObject("LatticeInfill")
     settle()
     check("dark: nothing is cut off", cut_off(panel()) == [], cut_off(panel()))
@@ -177,9 +177,8 @@ def go_dark():
     answer_panel("Cancel")
     settle()
     Gui.runCommand("VOLFREP_CellLibrary", 0)
-    settle()
+    wait_until(lambda: window("VolfrepCellLibrary") is not None)
     picture("dark_3_cells")
-    take_off()
 
 
 def boxed():
@@ -195,24 +194,31 @@ def boxed():
     return ()
 
 
+def in_language(language):
+    """The window in a language; it is left in English whatever comes of it."""
+    try:
+        speak(language, *LANGUAGES[language])
+        if language == "German":
+            tables(language, "Zellen des Rasters")
+    finally:
+        Gui.setLocale("English")
+
+
 def italian():
     """The whole window in Italian."""
-    speak("Italian", *LANGUAGES["Italian"])
-    Gui.setLocale("English")
+    in_language("Italian")
 
 
 def german():
     """The whole window in German, and the tables."""
-    speak("German", *LANGUAGES["German"])
-    tables("German", "Zellen des Rasters")
-    Gui.setLocale("English")
+    in_language("German")
 
 
 def english():
     """Back to the texts of the sources."""
     Gui.setLocale("German")
     settle()
-    speak("English", *LANGUAGES["English"])
+    in_language("English")
 
 
 run_checks("languages", {italian: boxed, german: boxed, english: boxed, go_dark: boxed})

@@ -5,9 +5,10 @@ See tools/run_gui.sh. Writes pictures and ``result.json`` to GUI_OUT and leaves 
 check held.
 """
 
-import subprocess
 import sys
+import threading
 import time
+from contextlib import contextmanager
 from pathlib import Path
 
 import FreeCAD as App
@@ -17,6 +18,8 @@ from PySide import QtCore, QtGui
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from driving import (
     OUT,
+    PATIENCE,
+    Watch,
     answer_panel,
     check,
     click,
@@ -33,8 +36,9 @@ from driving import (
     run_checks,
     select,
     settle,
+    shoot,
     toolbar_button,
-    tree_texts,
+    tree_items,
     type_value,
     wait_until,
     when_dialog,
@@ -59,7 +63,7 @@ def filled():
 
     doc, box, _ = boxed()
     doc.openTransaction("Fill")
-    obj = make_lattice_infill(doc, box, CellSize=5, StrutRadius=0.5, ShellThickness=1)
+    obj = make_lattice_infill(doc, box, CellSize=10, StrutRadius=1, ShellThickness=1)
     doc.recompute()
     doc.commitTransaction()
     box.Visibility = False
@@ -68,11 +72,9 @@ def filled():
 
 
 def coarse():
-    """The same with few cells."""
+    """The same of coarse facets."""
     doc, obj = filled()
     obj.Resolution = 5
-    obj.CellSize = 10
-    obj.StrutRadius = 1
     doc.recompute()
     return doc, obj
 
@@ -98,7 +100,7 @@ def fill_the_box(doc, box, fill):
     obj = infills(doc)[0]
     check("valid", obj.isValid(), obj.getStatusString())
     check("a closed mesh", obj.Mesh.isSolid())
-    check("in the tree", obj.Label in tree_texts(), tree_texts())
+    check("in the tree", wait_until(lambda: obj.Label in tree_items()))
     check("the tree shows its icon", not obj.ViewObject.Icon.isNull())
     check("the solid is hidden", not box.ViewObject.isVisible())
     check("the result is selected", Gui.Selection.getSelection() == [obj])
@@ -130,13 +132,13 @@ def show_coarsely(doc, obj):
     facets = obj.Mesh.CountFacets
     group.SetInt("LargestShownTriangles", facets // 2)
     doc.Block.Visibility = False
-    obj.StrutRadius = 0.49
+    obj.StrutRadius = 0.99
     doc.recompute()
     check("a large mesh is shown coarsely", obj.ViewObject.DisplayMode == "Coarse")
     check("and is not coarse itself", obj.Mesh.CountFacets > 0.9 * facets and obj.Mesh.isSolid())
     picture("6_coarse")
     group.RemInt("LargestShownTriangles")
-    obj.StrutRadius = 0.5
+    obj.StrutRadius = 1
     doc.recompute()
     check("a small one as it is", obj.ViewObject.DisplayMode == "Skin and Lattice")
 
@@ -155,7 +157,7 @@ def open_to_edit(obj):
 
 def panel_is_there():
     """Wait for the panel."""
-    there = wait_until(lambda: panel() is not None, 20)
+    there = wait_until(lambda: panel() is not None)
     settle()
     return there
 
@@ -170,7 +172,7 @@ def use_the_panel(doc, box, fill):
     check("the preview is in the view", previews() == 1, previews())
     picture("panel_1_open")
     answer_panel("Cancel")
-    check("the panel closes", wait_until(lambda: panel() is None, 10))
+    check("the panel closes", wait_until(lambda: panel() is None))
     check("Cancel leaves nothing behind", [obj.Name for obj in doc.Objects] == names, doc.Objects)
     check("Cancel leaves no undo step", doc.UndoCount == undo_before, doc.UndoNames)
     check("Cancel shows the solid again", box.ViewObject.isVisible())
@@ -196,11 +198,11 @@ def use_the_panel(doc, box, fill):
     for name, length in (("ShellThickness", "1"), ("CellSize", "5"), ("StrutRadius", "0.5")):
         type_value(name, f"{length} mm")
     click(panel_part("Compute"))
-    check("Compute makes the mesh", wait_until(lambda: obj.Mesh.CountFacets > 0, 60))
+    check("Compute makes the mesh", wait_until(lambda: obj.Mesh.CountFacets > 0))
     check("and stays in the panel", panel() is not None)
     picture("panel_4_computed")
     answer_panel("OK")
-    check("OK closes the panel", wait_until(lambda: panel() is None, 60))
+    check("OK closes the panel", wait_until(lambda: panel() is None))
     check("and leaves no preview", previews() == 0, previews())
 
 
@@ -211,7 +213,7 @@ def edit_in_the_panel(doc, obj):
     type_value("StrutRadius", "0.6 mm")
     check("editing sets the value", abs(obj.StrutRadius.Value - 0.6) < 1e-9)
     answer_panel("Cancel")
-    wait_until(lambda: panel() is None, 10)
+    wait_until(lambda: panel() is None)
     settle()
     check("Cancel takes the value back", abs(obj.StrutRadius.Value - radius) < 1e-9)
     check("and the mesh stays", obj.Mesh.CountFacets == facets)
@@ -246,16 +248,86 @@ def give_it_an_own_cell(doc, obj):
           panel_part("Figures").text())  # fmt: skip
     check("and its picture is empty", custom.icon().pixmap(48, 48).toImage() == empty)
     answer_panel("Cancel")
-    wait_until(lambda: panel() is None, 10)
+    wait_until(lambda: panel() is None)
     settle()
     check("Cancel gives the cell back", obj.CellType == cell, obj.CellType)
     check("and the mesh", obj.Mesh.CountFacets == facets)
 
 
+def choose(name, text):
+    """Really choose an entry of one of the panel's lists by typing it."""
+    field = panel_part(name)
+    click(field)
+    wait_until(lambda: field.view().isVisible())
+    xdotool("type", text)
+    xdotool("key", "Return")
+    wait_until(lambda: field.currentText().startswith(text))
+    settle()
+
+
+def drive_the_radius(doc, obj):
+    """Density, mass and stiffness in place of the radius: the preview shows the one found."""
+    from freecad_volfrep.features.quantities import number_of
+
+    open_to_edit(obj)
+    shown = panel_part("StrutRadius")
+    check("no target is asked for a radius", not panel_part("TargetDensity").isVisible())
+    before = obj.StrutRadius.Value
+    choose("RadiusDrivenBy", "Relative")
+    check("density drives", obj.RadiusDrivenBy == "Relative density", obj.RadiusDrivenBy)
+    check("its field is shown", panel_part("TargetDensity").isVisible())
+    found = shown.property("rawValue")
+    check("it begins with what there is", abs(found / before - 1) < 0.02, (found, before))
+    type_value("TargetDensity", "0.3")
+    check("a typed density is set", abs(obj.TargetDensity - 0.3) < 1e-9, obj.TargetDensity)
+    found = shown.property("rawValue")
+    check("the radius found is shown", found > 1.1 * before, (found, before))
+    check("and cannot be typed over", not shown.isEnabled())
+    check("the property waits for the mesh", obj.StrutRadius.Value == before)
+    figures = panel_part("Figures").text()
+    check("the figures are the target's", "relative density 30 %" in figures, figures)
+    picture("panel_6_density")
+    choose("PrintMaterial", "AlSi10Mg")
+    choose("PrintProcess", "LPBF")
+    check("a material and a process", (obj.PrintMaterial, obj.PrintProcess) == ("AlSi10Mg", "LPBF"))
+    choose("RadiusDrivenBy", "Mass")
+    mass = panel_part("TargetMass").value()
+    figures = panel_part("Figures").text()
+    begun = f"mass {mass:.3g}"[:8] in figures
+    check("a mass begins with what there is", begun, (mass, figures))
+    choose("RadiusDrivenBy", "Stiffness")
+    type_value("StiffnessDirection", "111")
+    check("a direction is set", tuple(obj.StiffnessDirection) == (1, 1, 1))
+    begins = panel_part("TargetStiffness").value()
+    check("a stiffness begins with what there is", begins > 100, begins)
+    same = shown.property("rawValue")
+    type_value("TargetStiffness", "3000")
+    check("a typed stiffness is set", number_of(obj, "TargetStiffness") == 3000)
+    stiff = shown.property("rawValue")
+    check("a stiffness finds a radius", (stiff > same) == (begins < 3000), (begins, same, stiff))
+    check("without an error", "strut radius" in panel_part("Figures").text(),
+          panel_part("Figures").text())  # fmt: skip
+    picture("panel_7_stiffness")
+    type_value("StiffnessDirection", "along")
+    check("no direction is said", "no direction" in panel_part("Figures").text())
+    choose("RadiusDrivenBy", "Relative")
+    type_value("TargetDensity", "0.3")
+    click(panel_part("Compute"))
+    met = wait_until(lambda: abs(obj.RelativeDensity - 0.3) < 0.0015)
+    check("the mesh is the target's", met, obj.RelativeDensity)
+    shown_mm = shown.property("rawValue")
+    check("by the radius shown", abs(shown_mm - obj.StrutRadius.Value) < 6e-3,
+          (shown_mm, obj.StrutRadius))  # fmt: skip
+    picture("panel_8_met")
+    answer_panel("Cancel")
+    wait_until(lambda: panel() is None)
+    settle()
+    check("Cancel gives the radius back",
+          (obj.RadiusDrivenBy, obj.StrutRadius.Value) == ("Radius", before))  # fmt: skip
+
+
 def run_a_job():
     """A job has a thread of its own, is alone, and what it raises arrives."""
-    import threading
-
     from freecad_volfrep.features.progress import run_job
     from volfrep.util.errors import VolfrepError
 
@@ -271,14 +343,18 @@ def run_a_job():
             refusals.append(str(error))
 
     def work(progress):
-        time.sleep(1.0)
+        end = time.monotonic() + PATIENCE
+        while len(beats) <= 15 and time.monotonic() < end:
+            time.sleep(0.01)
         return threading.current_thread()
 
     timer = QtCore.QTimer(Gui.getMainWindow())
     timer.timeout.connect(nested)
     timer.start(20)
-    thread = run_job("A job", work)
-    timer.stop()
+    try:
+        thread = run_job("A job", work)
+    finally:
+        timer.stop()
     check("a job has a thread of its own", thread is not threading.current_thread())
     check("the window lives meanwhile", len(beats) > 15, len(beats))
     check("a second job is refused", refusals and "wait for its end" in refusals[0], refusals)
@@ -293,46 +369,68 @@ def run_a_job():
         check("what it raises arrives", str(error) == "This job fails.")
 
 
+@contextmanager
+def held_until_cancelled():
+    """Jobs that have a thread wait there until they are cancelled, so that none ends before."""
+    from freecad_volfrep.gui.progress import _Progress
+
+    report, window = _Progress.report, threading.get_ident()
+
+    def report_when_cancelled(progress, fraction, stage):
+        end = time.monotonic() + PATIENCE
+        while not progress._guard.cancelled and time.monotonic() < end:
+            if threading.get_ident() == window:
+                break
+            time.sleep(0.01)
+        return report(progress, fraction, stage)
+
+    _Progress.report = report_when_cancelled
+    try:
+        yield
+    finally:
+        _Progress.report = report
+
+
 def cancel_soon(pressed, by_click=False):
     """Press Escape or click Cancel, really, once there is a bar; `pressed` gets the time."""
-    timer = QtCore.QTimer(Gui.getMainWindow())
-    looks = []
+    texts = []
 
     def look():
         bar = Gui.getMainWindow().findChild(QtGui.QWidget, "VolfrepProgress")
-        if pressed or bar is None or not bar.isVisible():
-            return
-        looks.append(bar.text.text())
-        if len(looks) == 3:  # by now it is drawn
-            subprocess.run(["import", "-window", "root", str(OUT / "4_progress.png")], check=True)
-            figures["progress text"] = looks[-1]
-            point = bar.button.mapToGlobal(bar.button.rect().center())
-            pressed.append(time.monotonic())
-            if by_click:
-                xdotool("mousemove", point.x(), point.y(), "click", 1)
-                return
+        if bar is None or not bar.isVisible():
+            return False
+        texts.append(bar.text.text())
+        if len(texts) < 3:  # by then it is drawn
+            return False
+        point = bar.button.mapToGlobal(bar.button.rect().center())
+        shoot("4_progress")
+        figures["progress text"] = texts[-1]
+        pressed.append(time.monotonic())
+        if by_click:
+            xdotool("mousemove", point.x(), point.y(), "click", 1)
+        else:
             xdotool("key", "a", "ctrl+n")  # which nothing may see
             xdotool("key", "Escape")
+        return True
 
-    timer.timeout.connect(look)
-    timer.start(100)
-    return timer
+    return Watch(look, "the bar of a job")
 
 
 def cancel_an_edit(doc, obj):
     """Escape during a recompute keeps the last mesh and says so."""
     before, documents = obj.Mesh.CountFacets, len(App.listDocuments())
     seen = []
-    timer = cancel_soon(seen)
     obj.Deviation = 0.002
     obj.CellSize = 2.5
     obj.StrutRadius = 0.25
-    obj.ShellThickness = 0.4  # the wall then takes seconds, and can be cancelled at any moment
+    obj.ShellThickness = 0.4
     doc.recompute()
-    check("a large edit waits for the command", not seen and "large job" in obj.Status, obj.Status)
+    check("a large edit waits for the command", "large job" in obj.Status, obj.Status)
     check("and says what it comes to", "triangles" in obj.Expected, obj.Expected)
-    obj.Proxy.update(obj)
-    timer.stop()
+    with held_until_cancelled():
+        watch = cancel_soon(seen)
+        obj.Proxy.update(obj)
+    watch.stop()
     check("a long edit shows its progress", seen)
     if seen:
         figures["seconds from Escape to the end"] = round(time.monotonic() - seen[0], 2)
@@ -343,8 +441,8 @@ def cancel_an_edit(doc, obj):
     check("no bar stays", Gui.getMainWindow().findChild(QtGui.QWidget, "VolfrepCancel") is None)
     check("no wait cursor stays", QtGui.QApplication.overrideCursor() is None)
     obj.Deviation = 0
-    obj.CellSize = 5
-    obj.StrutRadius = 0.5
+    obj.CellSize = 10
+    obj.StrutRadius = 1
     obj.ShellThickness = 1
     doc.recompute()
     check("corrected, it is valid", obj.isValid(), obj.getStatusString())
@@ -352,31 +450,24 @@ def cancel_an_edit(doc, obj):
 
 def cancel_a_creation(doc, box, fill):
     """A click on Cancel during the command leaves nothing behind."""
-    box.Visibility = True
-    big = doc.addObject("Part::Feature", "Big")
-    import Part
-
-    big.Shape = Part.makeBox(300, 300, 12).cut(Part.makeCylinder(40, 50))
-    doc.recompute()
-    select(big)
+    select(box)
     names = sorted(o.Name for o in doc.Objects)
     undo_before = doc.UndoCount
     seen = []
-    timer = cancel_soon(seen, by_click=True)
     open_panel(fill)
-    answer_panel("OK")
-    wait_until(lambda: seen, 30)
-    wait_until(lambda: Gui.getMainWindow().findChild(QtGui.QWidget, "VolfrepProgress") is None, 30)
+    with held_until_cancelled():
+        watch = cancel_soon(seen, by_click=True)
+        answer_panel("OK")
+        wait_until(lambda: watch.over)
+        wait_until(lambda: Gui.getMainWindow().findChild(QtGui.QWidget, "VolfrepProgress") is None)
     settle()
-    timer.stop()
     check("a long command shows its progress", seen)
     check("the panel stays when it is cancelled", panel() is not None)
     answer_panel("Cancel")
-    wait_until(lambda: panel() is None, 10)
+    wait_until(lambda: panel() is None)
     check("nothing remains of it", sorted(o.Name for o in doc.Objects) == names, doc.Objects)
     check("the undo stack is as before", doc.UndoCount == undo_before, doc.UndoNames)
-    check("its solid still shows", big.ViewObject.isVisible())
-    doc.removeObject(big.Name)
+    check("its solid still shows", box.ViewObject.isVisible())
 
 
 def check_the_print(doc, obj):
@@ -384,7 +475,7 @@ def check_the_print(doc, obj):
     obj.Base.Visibility = False
     select(obj)
     click(toolbar_button("Print Check"))
-    wait_until(lambda: doc.getObject("PrintCheck") is not None, 30)
+    wait_until(lambda: doc.getObject("PrintCheck") is not None)
     made = doc.getObject("PrintCheck")
     check("it makes a print check", made is not None and made.isValid())
     check("it shows facets", made.Mesh.CountFacets > 0 and made.ViewObject.isVisible())
@@ -404,11 +495,11 @@ def open_a_face(doc, obj):
     Gui.Selection.addSelection(obj)
     Gui.Selection.addSelection(obj.Base, "Face6")
     button = toolbar_button("Open Faces")
-    wait_until(button.isEnabled, 5)
+    wait_until(button.isEnabled)
     check("an infill and a face can be opened", button.isEnabled())
     closed, undo = obj.Volume.Value, doc.UndoCount
     click(button)
-    wait_until(lambda: obj.Volume.Value != closed, 60)
+    wait_until(lambda: obj.Volume.Value != closed)
     check("the face is open", [tuple(n) for _, n in obj.OpenFaces] == [("Face6",)], obj.Status)
     check("there is less skin", obj.Volume.Value < closed)
     check("the void is open", obj.Voids == 0)
@@ -424,13 +515,13 @@ def make_a_solid(doc, obj):
 
     def answer(box):
         asked.append(box.comboBoxItems())
-        subprocess.run(["import", "-window", "root", str(OUT / "7_to_solid.png")])
+        shoot("7_to_solid")
         box.accept()
 
     select(obj)
     when_dialog(QtGui.QInputDialog, answer)
     click(toolbar_button("Lattice To Solid"))
-    wait_until(lambda: any(o.Name.endswith("Solid") for o in doc.Objects), 60)
+    wait_until(lambda: any(o.Name.endswith("Solid") for o in doc.Objects))
     check("it shows the predicted size first", asked and "plane faces: about" in asked[0][0], asked)
     check("it offers every kind", asked and len(asked[0]) == 4, asked)
     made = [o for o in doc.Objects if o.TypeId == "Part::Feature" and o.Name.endswith("Solid")]
@@ -453,7 +544,7 @@ def make_an_analysis(doc, obj):
     before = len(doc.Objects)
     when_dialog(QtGui.QInputDialog, answer)
     click(toolbar_button("FEM Analysis"))
-    wait_until(lambda: any(o.TypeId == "Fem::FemMeshObject" for o in doc.Objects), 60)
+    wait_until(lambda: any(o.TypeId == "Fem::FemMeshObject" for o in doc.Objects))
     check("it offers beams", asked and asked[0][0].startswith("beams: "), asked)
     analyses = [o for o in doc.Objects if o.isDerivedFrom("Fem::FemAnalysis")]
     check("it makes an analysis", len(analyses) == 1 and len(analyses[0].Group) == 5)
@@ -468,7 +559,7 @@ def save_and_reopen(doc, obj):
     doc.saveAs(str(path))
     App.closeDocument(doc.Name)
     again = App.openDocument(str(path))
-    wait_until(lambda: Gui.activeDocument() is not None, 10)
+    wait_until(lambda: Gui.activeDocument() is not None)
     settle()
     found = infills(again)
     check("reopened", len(found) == 1 and found[0].Mesh.CountFacets == facets)
@@ -485,6 +576,7 @@ run_checks(
         fill_the_box: boxed,
         edit_in_the_panel: filled,
         give_it_an_own_cell: filled,
+        drive_the_radius: filled,
         run_a_job: None,
         cancel_an_edit: filled,
         cancel_a_creation: boxed,

@@ -2,35 +2,15 @@
 """Opens FreeCAD's preferences at VOLFREP's pages, types, and looks at what comes of it."""
 
 import sys
-import traceback
 from pathlib import Path
 
 import FreeCAD as App
-import FreeCADGui as Gui
-from PySide import QtCore, QtGui
+from PySide import QtGui
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from driving import check, failures, picture, run_checks, settle
+from driving import check, picture, preferences_open, run_checks, turn_to
 
 GROUP = "User parameter:BaseApp/Preferences/Mod/VOLFREP"
-
-
-def preferences_open(visit):
-    """Open the preferences at VOLFREP, let `visit` do its work in them, and close them by OK."""
-
-    def look():
-        dialog = QtGui.QApplication.activeModalWidget()
-        if dialog is None or dialog.findChild(QtGui.QWidget, "DisplayPage") is None:
-            QtCore.QTimer.singleShot(50, look)
-            return
-        try:
-            visit(dialog)
-        except Exception:
-            failures.append(traceback.format_exc())
-        dialog.accept()
-
-    QtCore.QTimer.singleShot(50, look)
-    Gui.showPreferences("VOLFREP", 0)
 
 
 def editor(dialog, key):
@@ -52,21 +32,11 @@ def fill_in(dialog):
     editor(dialog, "NewCellType").setCurrentText("Octet")
     editor(dialog, "NewCellSize").setValue(5)
     editor(dialog, "NewAutoUpdate").setChecked(False)
-    show_second(dialog, second)
+    turn_to(second, dialog)
+    check("the second is shown", second.isVisible())
     picture("preferences_2_display")
     editor(dialog, "Transparency").setValue(30)
     editor(dialog, "StrutColour").setProperty("color", QtGui.QColor(200, 80, 20))
-
-
-def show_second(dialog, second):
-    """Turn to the second page, whether it is behind a tab (0.20) or in a tree (1.0)."""
-    for kind in (QtGui.QTabWidget, QtGui.QStackedWidget):
-        for holder in dialog.findChildren(kind):
-            for number in range(holder.count()):
-                if holder.widget(number).isAncestorOf(second):
-                    holder.setCurrentIndex(number)
-    settle()
-    check("the second is shown", second.isVisible())
 
 
 def read_back(dialog):

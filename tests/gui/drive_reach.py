@@ -12,40 +12,55 @@ from pathlib import Path
 
 import FreeCAD as App
 import FreeCADGui as Gui
-from PySide import QtGui
+from PySide import QtCore
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from driving import (
+    PATIENCE,
     check,
+    choose_in_context_menu,
     click,
     click_menu,
-    context_menu,
     figures,
     infills,
+    move_mouse,
+    panel,
     picture,
-    run,
+    run_checks,
+    section_docks,
     select,
-    step,
+    settle,
     toolbar_button,
     view_3d,
-    wait,
     wait_until,
     xdotool,
 )
 
 FOLDER = Path(tempfile.mkdtemp(prefix="volfrep-"))
-
-
-def drive():
-    """The whole session."""
-    Gui.activateWorkbench("VolfrepWorkbench")
-    wait(800)
-    step(every_command_can_be_reached)
-    obj = step(fill_a_box)
-    step(open_sections, obj)
-    step(revive_what_was_saved_elsewhere, obj, True)
-    step(revive_what_was_saved_elsewhere, fill_a_box(), False)
-    step(check_the_bracket)
+#: What FreeCAD without the workbench does with a document, once it is up.
+ELSEWHERE = """
+import os
+import FreeCAD as App
+from PySide import QtCore
+def main():
+    doc = App.openDocument({path!r})
+    obj = doc.LatticeInfill
+    obj.StrutRadius = 0.8
+    doc.recompute()
+    doc.save()
+    open({told!r}, 'w').write(f'PROXY {{obj.Proxy}} {{obj.Status}}')
+    os._exit(0)
+def main_once_there_is_a_window():
+    import FreeCADGui as Gui
+    if Gui.getMainWindow().isVisible():
+        main()
+    else:
+        QtCore.QTimer.singleShot(50, main_once_there_is_a_window)
+if {windows}:
+    QtCore.QTimer.singleShot(50, main_once_there_is_a_window)
+else:
+    main()
+"""
 
 
 def texts_of(actions):
@@ -77,7 +92,7 @@ def every_command_can_be_reached():
             check(f"{text} has a button that is seen", button is not None and button.isVisible())
 
 
-def fill_a_box():
+def filled():
     """An infill to work with."""
     from freecad_volfrep import make_lattice_infill
 
@@ -89,75 +104,61 @@ def fill_a_box():
     box.Visibility = False
     Gui.activeDocument().activeView().viewIsometric()
     Gui.SendMsgToActiveView("ViewFit")
-    return obj
+    settle()
+    return (obj,)
 
 
-def sections():
-    """The open docks of sections."""
-    docks = Gui.getMainWindow().findChildren(QtGui.QDockWidget, "VolfrepSectionView")
-    return [dock for dock in docks if dock.isVisible()]
-
-
-def close_sections():
-    """Close them, as their own buttons do."""
-    for dock in sections():
+def one_opens(how):
+    """See a section open, and close it as its own button does."""
+    check(how, wait_until(lambda: len(section_docks()) == 1))
+    picture(f"section_{how.replace(' ', '_')}")
+    for dock in section_docks():
         dock.close()
-    wait(300)
+    wait_until(lambda: not section_docks())
+    settle()
 
 
 def open_sections(obj):
     """Section View by its button, the menu, the context menu of the tree, and its shortcut."""
     select(obj)
     click(toolbar_button("Section View"))
-    check("by its button", wait_until(lambda: len(sections()) == 1, 5))
-    picture("section_by_button")
-    close_sections()
+    one_opens("by its button")
     click_menu("VOLFREP", "Section View")
-    check("by the menu", wait_until(lambda: len(sections()) == 1, 5))
-    close_sections()
-    context_menu(obj, "VOLFREP", "Section View")
-    check("by the context menu", wait_until(lambda: len(sections()) == 1, 5))
-    close_sections()
+    one_opens("by the menu")
+    choose_in_context_menu(obj, "VOLFREP", "Section View")
+    one_opens("by the context menu")
     select(obj)
     view = view_3d()
-    corner = view.mapToGlobal(view.rect().topLeft())
-    xdotool("mousemove", corner.x() + 15, corner.y() + 15)  # nothing is there to be selected
+    # Where nothing is that could be selected.
+    move_mouse(view.mapToGlobal(view.rect().topLeft()) + QtCore.QPoint(15, 15))
     view.setFocus()
-    wait(300)
+    settle()
     xdotool("key", "l", "n")
-    check("by its shortcut", wait_until(lambda: len(sections()) == 1, 5))
-    close_sections()
+    one_opens("by its shortcut")
     Gui.activateWorkbench("PartWorkbench")
-    wait(800)
-    context_menu(obj, "VOLFREP", "Section View")
-    check("by the context menu elsewhere", wait_until(lambda: len(sections()) == 1, 5))
-    close_sections()
-    Gui.activateWorkbench("VolfrepWorkbench")
-    wait(800)
+    choose_in_context_menu(obj, "VOLFREP", "Section View")
+    one_opens("by the context menu elsewhere")
+
+
+def revive_what_windows_have_saved(obj):
+    """A FreeCAD without the workbench saves it, with windows: it lives here again."""
+    revive_what_was_saved_elsewhere(obj, True)
+
+
+def revive_what_no_window_has_saved(obj):
+    """The same of a FreeCAD without windows, in which views are lost."""
+    revive_what_was_saved_elsewhere(obj, False)
 
 
 def revive_what_was_saved_elsewhere(obj, windows):
-    """A FreeCAD without the workbench saves it, with or without windows: it lives here again."""
+    """Saved by another FreeCAD and opened here it is an infill again, and follows its values."""
     doc, facets = obj.Document, obj.Mesh.CountFacets
     path = FOLDER / f"part{windows}.FCStd"
     doc.saveAs(str(path))
     App.closeDocument(doc.Name)
     script = FOLDER / "elsewhere.py"
-    script.write_text(
-        "import os, sys\n"
-        "import FreeCAD as App\n"
-        "from PySide import QtCore\n"
-        "def main():\n"
-        f"    doc = App.openDocument({str(path)!r})\n"
-        "    obj = doc.LatticeInfill\n"
-        "    obj.StrutRadius = 0.8\n"
-        "    doc.recompute()\n"
-        "    doc.save()\n"
-        "    print('PROXY', obj.Proxy, obj.Status)\n"
-        "    sys.stdout.flush()\n"
-        "    os._exit(0)\n"
-        f"{'QtCore.QTimer.singleShot(3000, main)' if windows else 'main()'}\n"
-    )
+    told = FOLDER / f"told{windows}.txt"
+    script.write_text(ELSEWHERE.format(path=str(path), told=str(told), windows=windows))
     home = FOLDER / f"home{windows}"
     home.mkdir()
     elsewhere = dict(os.environ, FREECAD_USER_HOME=str(home))
@@ -168,17 +169,19 @@ def revive_what_was_saved_elsewhere(obj, windows):
         stdin=subprocess.DEVNULL,
         capture_output=True,
         text=True,
-        timeout=120,
+        timeout=4 * PATIENCE,
     )
-    check("there it is dead", "PROXY None Up to date" in said.stdout, said)
+    dead = told.is_file() and told.read_text() == "PROXY None Up to date"
+    check("there it is dead", dead, said)
     again = App.openDocument(str(path))
-    wait(1500)
+    settle()
     found = again.getObject("LatticeInfill")
-    check("it is an infill again", infills(again) == [found] and found.Proxy is not None)
+    wait_until(lambda: found.Proxy is not None and found.ViewObject.Proxy is not None)
+    settle()
+    check("it is an infill again", infills(again) == [found])
     check("it says so", "without VOLFREP" in found.Status, found.Status)
     check("with its mesh", found.Mesh.CountFacets == facets)
-    view = found.ViewObject.Proxy
-    check("with its icon", view is not None and view.getIcon().endswith("lattice_infill.svg"))
+    check("with its icon", found.ViewObject.Proxy.getIcon().endswith("lattice_infill.svg"))
     modes = found.ViewObject.listDisplayModes()
     for mode in ("Coarse", "Simplified", "Shaded"):
         found.ViewObject.DisplayMode = mode
@@ -186,46 +189,20 @@ def revive_what_was_saved_elsewhere(obj, windows):
     picture("revived")
     select(found)
     check("it can be updated", toolbar_button("Update Lattice Infill").isEnabled())
-    click_menu("Edit", "Refresh")
-    wait_until(lambda: found.Status == "Up to date", 30)
+    click_menu("Edit", Gui.Command.get("Std_Refresh").getInfo()["menuText"].replace("&", ""))
+    wait_until(lambda: found.Status == "Up to date")
     check("a refresh follows what was changed", found.StrutRadii[0] < 0.81, found.StrutRadii)
     click(toolbar_button("Edit Lattice Infill"))
-    check(
-        "it can be edited",
-        wait_until(
-            lambda: Gui.getMainWindow().findChild(QtGui.QWidget, "VolfrepTaskPanel") is not None, 10
-        ),
-    )
+    check("it can be edited", wait_until(lambda: panel() is not None))
     picture("revived_panel")
-    Gui.Control.closeDialog()
-    App.closeDocument(again.Name)
-    wait(500)
 
 
-def check_the_bracket():
-    """The shipped bracket is checked, by clicks alone, and found to be what it is."""
-    click_menu("VOLFREP", "Examples", "Bracket")
-    wait_until(lambda: App.ActiveDocument is not None and infills(App.ActiveDocument), 60)
-    obj = infills(App.ActiveDocument)[0]
-    wait_until(lambda: obj.Mesh.CountFacets, 60)
-    select(obj)
-    click(toolbar_button("Check Mesh"))
-
-    def report():
-        found = Gui.getMainWindow().findChildren(QtGui.QDialog, "VolfrepReport")
-        return next((window for window in found if window.isVisible()), None)
-
-    check("the bracket has a report", wait_until(lambda: report() is not None, 60))
-    text = report().text.toPlainText()
-    check("it is without defects", "closed and without defects" in text, text)
-    rows = text.replace(" ", "").replace("\n", "")
-    check("no triangles cross", "trianglesthatcrossnone" in rows, text)
-    picture("bracket_checked")
-    view = Gui.getMainWindow().findChild(QtGui.QTextEdit, "Report view")
-    said = view.toPlainText() if view is not None else ""
-    check("nothing red is said", "Traceback" not in said, said)
-    report().close()
-    App.closeDocument(obj.Document.Name)
-
-
-run(drive, "reach")
+run_checks(
+    "reach",
+    {
+        every_command_can_be_reached: None,
+        open_sections: filled,
+        revive_what_windows_have_saved: filled,
+        revive_what_no_window_has_saved: filled,
+    },
+)

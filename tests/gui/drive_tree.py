@@ -6,26 +6,27 @@ from pathlib import Path
 
 import FreeCAD as App
 import FreeCADGui as Gui
-from PySide import QtCore, QtGui
+from PySide import QtGui
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from driving import check, click_item, picture, run, select, wait, wait_until, xdotool
+from driving import (
+    check,
+    click_in_tree,
+    picture,
+    run_checks,
+    select,
+    settle,
+    show_model,
+    tree_item,
+    wait_until,
+    xdotool,
+)
 
 #: Groups of the property editor that an infill has, in their order there.
 GROUPS = (
     "Boundary", "Cell map", "Cell size", "Lattice", "Material", "Mesh", "Openings", "Orientation",
     "Result", "Solid", "Strut radius",
 )  # fmt: skip
-
-
-def tree():
-    """The model tree."""
-    return Gui.getMainWindow().findChild(QtGui.QTreeWidget)
-
-
-def item(text):
-    """An item of the model tree by its text."""
-    return tree().findItems(text, QtCore.Qt.MatchExactly | QtCore.Qt.MatchRecursive)[0]
 
 
 def editors():
@@ -38,53 +39,67 @@ def editors():
 def editor_groups():
     """The titles in the property editor's Data tab: they span both columns."""
     models = [view.model() for view in editors()]
-    return [model.index(k, 0).data() for model in models for k in range(model.rowCount())]
+    return {model.index(k, 0).data() for model in models for k in range(model.rowCount())}
 
 
-def the_tree(doc, box):
+def lies_under(child, parent):
+    """Wait until the tree shows an object under another one."""
+    return wait_until(lambda: tree_item(child).parent() is tree_item(parent))
+
+
+def light():
+    """A document with a box and an infill of it that has something in every group."""
     from freecad_volfrep import make_lattice_infill
 
+    doc = App.newDocument("Tree")
+    doc.UndoMode = 1
+    box = doc.addObject("Part::Box", "Block")
+    box.Length, box.Width, box.Height = 40, 20, 20
     infill = make_lattice_infill(
         doc, box, Label="Light", CellSize=10, Resolution=10, SizeGrading="Linear", LambdaEnd=1.2,
         Orientation=App.Placement(App.Vector(), App.Rotation(App.Vector(0, 0, 1), 30)),
     )  # fmt: skip
     doc.recompute()
     box.Visibility = False
+    Gui.activeDocument().activeView().viewAxonometric()
+    Gui.SendMsgToActiveView("ViewFit")
+    settle()
+    return doc, box, infill
+
+
+def lie_in_the_tree(doc, box, infill):
+    """The infill's solid lies under it, and its properties are in their groups."""
     check("it is computed", infill.isValid(), infill.Status)
     check("it has its own view", type(infill.ViewObject.Proxy).__name__ == "LatticeInfillView")
-    wait(300)
-    check("the solid lies under it", item("Block").parent() is item("Light"))
+    show_model()
+    check("the solid lies under it", lies_under("Block", "Light"))
     select(infill)
-    wait(500)
-    shown = [name for name in editor_groups() if name in GROUPS]
-    check("the groups are in the editor", set(shown) == set(GROUPS), editor_groups())
+    found = wait_until(lambda: set(GROUPS) <= editor_groups())
+    check("the groups are in the editor", found, editor_groups())
     picture("tree_1_properties")
     for view in editors():
         rows = [view.model().index(k, 0) for k in range(view.model().rowCount())]
         for row in rows:
             if row.data() == "Orientation":
                 view.scrollTo(row, QtGui.QAbstractItemView.PositionAtTop)
-    wait(200)
     picture("tree_2_properties_below")
-    return infill
 
 
-def the_deletion(doc, box, infill):
+def be_deleted(doc, box, infill):
+    """The Delete key takes it away; the last one's solid is shown again; undo brings it back."""
     other = doc.copyObject(infill, False)
     other.Label = "Second"
     doc.recompute()
-    wait(300)
     delete("Light")
-    check("it is deleted", wait_until(lambda: len(doc.Objects) == 2, 5), len(doc.Objects))
+    check("it is deleted", wait_until(lambda: len(doc.Objects) == 2), len(doc.Objects))
     check("another infill still stands for the solid", not box.Visibility)
     delete("Second")
-    check("so is the other", wait_until(lambda: doc.Objects == [box], 5), len(doc.Objects))
+    check("so is the other", wait_until(lambda: doc.Objects == [box]), len(doc.Objects))
     check("the solid is shown again", box.Visibility)
     picture("tree_3_deleted")
     xdotool("key", "ctrl+z")
-    check("undo brings it back", wait_until(lambda: len(doc.Objects) == 2, 5))
-    wait(300)
-    check("with its solid under it", item("Block").parent() is item("Second"))
+    check("undo brings it back", wait_until(lambda: len(doc.Objects) == 2))
+    check("with its solid under it", lies_under("Block", "Second"))
     back = doc.getObjectsByLabel("Second")[0]
     back.touch()
     doc.recompute()
@@ -94,23 +109,10 @@ def the_deletion(doc, box, infill):
 def delete(label):
     """Really click the item in the tree and press Delete."""
     Gui.Selection.clearSelection()
-    click_item(tree(), item(label))
-    wait(200)
+    click_in_tree(label)
+    wait_until(lambda: [obj.Label for obj in Gui.Selection.getSelection()] == [label])
+    settle()
     xdotool("key", "Delete")
-    wait(500)
 
 
-def drive():
-    Gui.activateWorkbench("VolfrepWorkbench")
-    doc = App.newDocument("Tree")
-    doc.UndoMode = 1
-    box = doc.addObject("Part::Box", "Block")
-    box.Length, box.Width, box.Height = 40, 20, 20
-    doc.recompute()
-    Gui.activeDocument().activeView().viewAxonometric()
-    Gui.SendMsgToActiveView("ViewFit")
-    infill = the_tree(doc, box)
-    the_deletion(doc, box, infill)
-
-
-run(drive, "tree")
+run_checks("tree", {lie_in_the_tree: light, be_deleted: light})

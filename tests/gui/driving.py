@@ -3,22 +3,31 @@
 
 A script is a table of checks, each a function that stands alone: `run_checks` runs those that were
 asked for, a failing one does not hide the others, and FreeCAD is left with 0 when every check held.
-Nothing waits for a time that was guessed: `settle` waits until the window has nothing left to do.
+Nothing waits for a time that was guessed: `settle` waits until the window has nothing left to do,
+`wait_until` for what must come. What comes too late, and what is raised in a slot or on a thread,
+fails the check that is running.
 """
 
+import faulthandler
 import json
 import os
 import subprocess
 import sys
+import threading
 import time
 import traceback
 from pathlib import Path
 
 import FreeCAD as App
 import FreeCADGui as Gui
+import numpy as np
 from PySide import QtCore, QtGui
 
 OUT = Path(os.environ["GUI_OUT"])
+#: Of what must come, in s: only what never comes takes so long.
+PATIENCE = 60
+#: Of one check, in s: then it hangs, in a box that nobody answers or in FreeCAD.
+LONGEST = int(os.environ.get("GUI_LONGEST", "400"))
 figures = {}
 failures = []
 
@@ -27,19 +36,23 @@ failures = []
 _running = ""
 
 
+def fail(text):
+    """Note that the running check fails, and say so at once: the window may not see its end."""
+    failures.append(f"{_running}: {text}".removeprefix(": "))
+    print(f"FAILED {failures[-1]}", file=sys.__stdout__, flush=True)
+
+
+def fail_by(error, where=""):
+    """Note that the running check fails by what was raised, and where that was."""
+    raised = "".join(traceback.format_exception(type(error), error, error.__traceback__))
+    fail(f"{where}{type(error).__name__}: {error}\n{raised}")
+
+
 def check(name, holds, detail=""):
     """Note whether something holds; go on whatever it says."""
     figures[name] = bool(holds)
     if not holds:
-        failures.append(f"{_running}: {name} {detail}".strip().removeprefix(": "))
-
-
-def step(function, *arguments):
-    """One step of a script: note its seconds; returns what it returns."""
-    start = time.monotonic()
-    result = function(*arguments)
-    figures[f"seconds: {function.__name__}"] = round(time.monotonic() - start, 1)
-    return result
+        fail(f"{name} {detail}".strip())
 
 
 def wait(milliseconds):
@@ -49,8 +62,8 @@ def wait(milliseconds):
     (loop.exec if hasattr(loop, "exec") else loop.exec_)()
 
 
-def wait_until(condition, seconds):
-    """Wait for a condition; returns whether it came true."""
+def comes_true(condition, seconds):
+    """Wait for a condition that may stay false; returns whether it came true."""
     end = time.monotonic() + seconds
     while time.monotonic() < end:
         if condition():
@@ -59,35 +72,98 @@ def wait_until(condition, seconds):
     return bool(condition())
 
 
-def settle(seconds=10):
+def wait_until(condition, seconds=PATIENCE):
+    """Wait for a condition that must come true; returns whether it did, and fails otherwise."""
+    done = comes_true(condition, seconds)
+    if not done:
+        caller = sys._getframe(1)
+        place = f"{Path(caller.f_code.co_filename).name}:{caller.f_lineno}"
+        fail(f"{place}: {caller.f_code.co_name} waits in vain")
+    return done
+
+
+class Watch(QtCore.QObject):
+    """Calls `look` from Qt's own loop, whatever box or menu runs it, until it returns true.
+
+    What it raises fails the check, and so does a check's end before it returned true, unless it is
+    told to `stop`. It is never called again once it is over.
+    """
+
+    _all: "list[Watch]" = []  # noqa: RUF012
+
+    def __init__(self, look, what):
+        super().__init__()
+        self.look, self.what, self.over = look, what, False
+        Watch._all.append(self)
+        self._timer = QtCore.QTimer(self)
+        self._timer.setSingleShot(True)
+        self._timer.timeout.connect(self._tick)
+        self._timer.start(50)
+
+    def _tick(self):
+        if self.over:
+            return
+        try:
+            done = self.look()
+        except Exception as error:
+            fail_by(error, f"{self.what}: ")
+            done = True
+        if done:
+            self.stop()
+        elif not self.over:
+            self._timer.start(50)
+
+    def stop(self):
+        """Look no more."""
+        self.over = True
+        self._timer.stop()
+        if self in Watch._all:
+            Watch._all.remove(self)
+
+    @staticmethod
+    def end_all():
+        """The check is over: what it still watches for never came."""
+        for watch in list(Watch._all):
+            watch.stop()
+            fail(f"{watch.what} never came")
+
+
+def settle(seconds=PATIENCE):
     """Wait until the window has done what was asked for: returns whether it has.
 
     Nothing is left in Qt's queue, no timer of the task panel runs, and every button of ours can be
     used as its command says, which FreeCAD looks at from time to time.
     """
-    done = wait_until(_is_settled, seconds)
+    done = comes_true(lambda: not _unsettled(), seconds)
     if not done:
-        figures["not settled"] = [*figures.get("not settled", ()), _running]
+        fail(f"the window does not settle: {_unsettled()}")
     for _ in range(3):
         QtCore.QCoreApplication.sendPostedEvents()
         QtCore.QCoreApplication.processEvents()
     return done
 
 
-def _is_settled():
+def _unsettled():
+    """What the window has still to do, or an empty text."""
     form = panel()
     if form is not None and any(timer.isActive() for timer in form.findChildren(QtCore.QTimer)):
-        return False
+        return "the panel's timer"
     if QtGui.QApplication.activeModalWidget() is not None:
-        return True
-    for name in Gui.Command.listAll():
-        if name.startswith("VOLFREP_"):
-            command = Gui.Command.get(name)
-            text = command.getInfo()["menuText"].replace("&", "")
-            button = next((b for t, b in _toolbar_buttons() if t == text), None)
-            if button is not None and button.isEnabled() != command.isActive():
-                return False
-    return True
+        return ""
+    buttons = dict(_toolbar_buttons())
+    for name in _our_commands():
+        command = Gui.Command.get(name)
+        button = buttons.get(command.getInfo()["menuText"].replace("&", ""))
+        if button is not None and button.isEnabled() != command.isActive():
+            return name
+    return ""
+
+
+def _our_commands(known=[]):  # noqa: B006
+    """The workbench's commands, which do not change once they are there."""
+    if not known:
+        known += [name for name in Gui.Command.listAll() if name.startswith("VOLFREP_")]
+    return known
 
 
 class _Arrived(QtCore.QObject):
@@ -105,22 +181,25 @@ class _Arrived(QtCore.QObject):
         return False
 
     def wait(self):
-        """For it to come, a few seconds at most: a menu or a dialog may keep it for itself."""
-        if not wait_until(lambda: self.seen, 3):
-            figures["clicks not seen"] = [*figures.get("clicks not seen", ()), _running]
+        """For it to come."""
+        seen = comes_true(lambda: self.seen, PATIENCE)
         QtGui.QApplication.instance().removeEventFilter(self)
+        if not seen:
+            fail(f"a click at {QtGui.QCursor.pos().toTuple()} is not seen")
 
 
 def move_mouse(point):
     """Really move the mouse to a point of the screen."""
+    if point.x() < 0 or point.y() < 0:
+        raise ValueError(f"{point.toTuple()} is not on the screen")
     xdotool("mousemove", point.x(), point.y())
-    wait_until(lambda: QtGui.QCursor.pos() == point, 3)
+    wait_until(lambda: QtGui.QCursor.pos() == point)
 
 
-def press_button(*options):
+def press_button(*options, button=1):
     """A real click where the mouse is."""
     arrived = _Arrived(QtCore.QEvent.MouseButtonRelease)
-    xdotool("click", *options, 1)
+    xdotool("click", *options, button)
     arrived.wait()
 
 
@@ -130,31 +209,82 @@ def xdotool(*arguments):
 
 
 def click(widget):
-    """A real click in the middle of a widget."""
-    point = widget.mapToGlobal(widget.rect().center())
-    move_mouse(point)
+    """A real click in the middle of a widget, once it is there to be clicked."""
+
+    def is_on_top():
+        over = QtGui.QApplication.widgetAt(middle(widget))
+        return over is not None and (over is widget or widget.isAncestorOf(over))
+
+    in_sight(widget)
+    wait_until(lambda: widget.isVisible() and is_on_top())
+    move_mouse(middle(widget))
     press_button()
     settle()
 
 
-def when_dialog(kind, act, seconds=30):
+def in_sight(widget):
+    """Scroll what a widget is in, so that it is seen: FreeCAD 1.1 leaves panels less room."""
+    for area in Gui.getMainWindow().findChildren(QtGui.QScrollArea):
+        if area.isAncestorOf(widget):
+            area.ensureWidgetVisible(widget)
+    settle()
+
+
+def middle(widget):
+    """Where a widget's middle is on the screen."""
+    return widget.mapToGlobal(widget.rect().center())
+
+
+def when_dialog(kind, act):
     """Once a modal dialog of a kind is there, call `act` with it, from Qt's own loop."""
-    end = time.monotonic() + seconds
 
     def look():
         dialog = QtGui.QApplication.activeModalWidget()
-        if isinstance(dialog, kind):
-            act(dialog)
-        elif time.monotonic() < end:
-            QtCore.QTimer.singleShot(50, look)
+        if not isinstance(dialog, kind) or not dialog.isVisible():
+            return False
+        act(dialog)
+        return True
 
-    QtCore.QTimer.singleShot(50, look)
+    return Watch(look, f"a {kind.__name__}")
+
+
+def preferences_open(visit, keep=True):
+    """Open the preferences at VOLFREP, let `visit` do its work in them, and close them (by OK)."""
+
+    def look():
+        dialog = QtGui.QApplication.activeModalWidget()
+        if dialog is None or dialog.findChild(QtGui.QWidget, "DisplayPage") is None:
+            return False
+        try:
+            visit(dialog)
+        finally:
+            (dialog.accept if keep else dialog.reject)()
+        return True
+
+    Watch(look, "the preferences' window")
+    Gui.showPreferences("VOLFREP", 0)
+    settle()
+
+
+def turn_to(page, dialog):
+    """Bring a page of the preferences to the front: behind a tab (0.20) or in a tree (1.0)."""
+    for kind in (QtGui.QTabWidget, QtGui.QStackedWidget):
+        for holder in dialog.findChildren(kind):
+            for number in range(holder.count()):
+                if holder.widget(number).isAncestorOf(page):
+                    holder.setCurrentIndex(number)
+    settle()
 
 
 def picture(name):
     """The whole screen as a file."""
     settle()
     Gui.updateGui()
+    shoot(name)
+
+
+def shoot(name):
+    """The whole screen as it is now."""
     QtGui.QGuiApplication.sync()
     subprocess.run(["import", "-window", "root", str(OUT / f"{name}.png")], check=True)
 
@@ -164,10 +294,16 @@ def look_at_all(from_below=False):
 
     In FreeCAD's isometric view the struts along the diagonals of cells would hide each other.
     """
-    turn = App.Rotation(25, 0, 118 if from_below else 62)
-    Gui.activeDocument().activeView().setCameraOrientation(turn.Q)
+    look_along(App.Rotation(25, 0, 118 if from_below else 62))
     Gui.SendMsgToActiveView("ViewFit")
     settle()
+
+
+def look_along(turn):
+    """Turn the camera of the view in front, and see that it has turned."""
+    view = Gui.activeDocument().activeView()
+    view.setCameraOrientation(turn.Q)
+    wait_until(lambda: view.getCameraOrientation().isSame(turn, 1e-5))
 
 
 def view_3d():
@@ -177,13 +313,12 @@ def view_3d():
 
 def shades(name, widget):
     """How many colours a picture has where a widget is; a blank one has one or two."""
-    return len(set(_sampled(name, widget, 0.0).values()))
+    return len(np.unique(seen(name, widget).reshape(-1, 3), axis=0))
 
 
 def lightness(name, widget):
     """How light a picture is where a widget is, in the mean, from 0 to 1."""
-    colours = [_channels(colour) for colour in _sampled(name, widget, 0.0).values()]
-    return sum(map(sum, colours)) / (3 * 255 * len(colours))
+    return float(seen(name, widget).mean()) / 255
 
 
 def drawn_share(name):
@@ -191,41 +326,31 @@ def drawn_share(name):
 
     FreeCAD's background changes from row to row only, and nothing is drawn at its left border.
     """
-    pixels = _sampled(name, view_3d(), 0.2)
-    border = _sampled(name, view_3d(), 0.0)
-    background = {y: colour for (x, y), colour in sorted(border.items(), reverse=True)}
-    differs = [_distance(colour, background[y]) > 24 for (_, y), colour in pixels.items()]
-    return sum(differs) / len(differs)
+    image = seen(name, view_3d()).astype(int)
+    differs = np.abs(image - image[:, :1]).sum(axis=2) > 24
+    return float(_middle_of(differs).mean())
 
 
 def red_share(name):
     """Share of the middle of the 3D view, in a picture, that is more red than anything else."""
-    pixels = [_channels(colour) for colour in _sampled(name, view_3d(), 0.2).values()]
-    return sum(red > 1.2 * max(green, blue) for red, green, blue in pixels) / len(pixels)
+    red, green, blue = np.moveaxis(_middle_of(seen(name, view_3d())), 2, 0)
+    return float((red > 1.2 * np.maximum(green, blue)).mean())
 
 
-def _channels(colour):
-    """Red, green and blue from 0 to 255."""
-    return colour >> 16 & 255, colour >> 8 & 255, colour & 255
+def _middle_of(image):
+    """A picture without a fifth at every side."""
+    rows, columns = image.shape[0] // 5, image.shape[1] // 5
+    return image[rows:-rows, columns:-columns]
 
 
-def _sampled(name, widget, margin, step=4):
-    """Colours by place on the screen, within a widget without a margin of its size."""
-    image = QtGui.QImage(str(OUT / f"{name}.png"))
+def seen(name, widget):
+    """Colours of a picture where a widget is: rows, columns, and red, green and blue to 255."""
+    image = QtGui.QImage(str(OUT / f"{name}.png")).convertToFormat(QtGui.QImage.Format_RGB32)
+    rows = np.frombuffer(image.constBits(), np.uint8).reshape(image.height(), -1, 4)
     corner = widget.mapToGlobal(QtCore.QPoint(0, 0))
-    places = []
-    for low, size, most in (
-        (corner.x(), widget.width(), image.width()),
-        (corner.y(), widget.height(), image.height()),
-    ):
-        first, last = low + int(margin * size), low + int((1.0 - margin) * size)
-        places.append([k for k in range(low + 2, low + size, step) if first <= k < min(last, most)])
-    return {(x, y): image.pixel(x, y) & 0xFFFFFF for x in places[0] for y in places[1]}
-
-
-def _distance(one, two):
-    """Sum of the differences of red, green and blue."""
-    return sum(abs(a - b) for a, b in zip(_channels(one), _channels(two), strict=True))
+    top, left = max(corner.y(), 0), max(corner.x(), 0)
+    part = rows[top : corner.y() + widget.height(), left : corner.x() + widget.width()]
+    return part[:, :, 2::-1].copy()
 
 
 def _toolbar_buttons():
@@ -244,57 +369,106 @@ def toolbar_button(name):
     raise LookupError(f"no button {name}")
 
 
-def click_place(place):
-    """A real click at a place of the screen."""
-    xdotool("mousemove", place.x(), place.y())
-    wait(250)
-    xdotool("click", 1)
-    wait(400)
+def _click_entry(menu, text):
+    """Really click an entry of an open menu or of the menu bar."""
+    # Asked for anew each time: to ask an entry for its submenu spoils Qt's wrappers of both.
+    entry = next(entry for entry in menu.actions() if entry.text().replace("&", "") == text)
+    move_mouse(menu.mapToGlobal(menu.actionGeometry(entry).center()))
+    press_button()
 
 
-def _click_entries(texts):
-    """Really click through the entries of the open menu and of the submenus that open then."""
-    for text in texts:
-        # Asked for anew each time: to ask an entry for its submenu spoils Qt's wrappers of both.
-        menu = QtGui.QApplication.activePopupWidget()
-        entries = menu.actions()
-        found = [entry for entry in entries if entry.text().replace("&", "") == text]
-        if not found:
-            failures.append(f"no entry {text} in {[entry.text() for entry in entries]}")
-            menu.close()
-            return
-        click_place(menu.mapToGlobal(menu.actionGeometry(found[0]).center()))
+def _open_menu(text):
+    """The menu in front, once it is drawn and has an entry, or None."""
+    menu = QtGui.QApplication.activePopupWidget()
+    if not isinstance(menu, QtGui.QMenu) or not menu.isVisible():
+        return None
+    return menu if text in [entry.text().replace("&", "") for entry in menu.actions()] else None
 
 
 def click_menu(*texts):
     """Really click through FreeCAD's menu bar."""
-    bar = Gui.getMainWindow().menuBar()
-    entries = bar.actions()
-    entry = next(a for a in entries if a.text().replace("&", "") == texts[0])
-    click_place(bar.mapToGlobal(bar.actionGeometry(entry).center()))
-    _click_entries(texts[1:])
+    _click_entry(Gui.getMainWindow().menuBar(), texts[0])
+    for text in texts[1:]:
+        if not wait_until(lambda text=text: _open_menu(text) is not None):
+            _close_menus()
+            return
+        _click_entry(_open_menu(text), text)
+    settle()
 
 
-def context_menu(obj, *texts):
-    """Really right-click an object in the tree, and click through what opens."""
-    tree = next(t for t in Gui.getMainWindow().findChildren(QtGui.QTreeWidget) if t.isVisible())
-    item = tree.findItems(obj.Label, QtCore.Qt.MatchExactly | QtCore.Qt.MatchRecursive)[0]
-    click_item(tree, item)
-    # The menu has a loop of its own: what is done in it is done from inside.
-    QtCore.QTimer.singleShot(700, lambda: _click_entries(texts))
+def _close_menus():
+    """Menus that are open, from the last to the first."""
+    while QtGui.QApplication.activePopupWidget() is not None:
+        QtGui.QApplication.activePopupWidget().close()
+
+
+def context_menu(obj, read):
+    """Really right-click an object in the tree; `read` gets the open menu, inside its own loop."""
+    click_in_tree(obj.Label)
+
+    def look():
+        menu = QtGui.QApplication.activePopupWidget()
+        if not isinstance(menu, QtGui.QMenu) or not menu.isVisible():
+            return False
+        try:
+            read(menu)
+        finally:
+            _close_menus()
+        return True
+
+    watch = Watch(look, f"the context menu of {obj.Label}")
     xdotool("click", 3)
-    wait(3000)
+    comes_true(lambda: watch.over, PATIENCE)  # what never came is told at the check's end
+    settle()
 
 
-def tree_texts():
-    """Labels of all the items of the model tree."""
-    texts = set()
-    for tree in Gui.getMainWindow().findChildren(QtGui.QTreeWidget):
-        iterator = QtGui.QTreeWidgetItemIterator(tree)
-        while iterator.value():
-            texts.add(iterator.value().text(0))
-            iterator += 1
-    return texts
+def choose_in_context_menu(obj, *texts):
+    """Really click through an object's context menu."""
+
+    def read(menu):
+        for text in texts:
+            if wait_until(lambda text=text: _open_menu(text) is not None):
+                _click_entry(_open_menu(text), text)
+
+    context_menu(obj, read)
+
+
+def show_model():
+    """The tree and the properties in front: FreeCAD 1.0 may leave the empty tasks there."""
+    for bar in Gui.getMainWindow().findChildren(QtGui.QTabBar):
+        for tab in range(bar.count()):
+            if bar.tabText(tab) == "Model":
+                bar.setCurrentIndex(tab)
+    settle()
+
+
+def tree():
+    """FreeCAD's model tree."""
+    trees = Gui.getMainWindow().findChildren(QtGui.QTreeWidget)
+    names = [widget.metaObject().className() for widget in trees]
+    return next(t for t, n in zip(trees, names, strict=True) if n == "Gui::TreeWidget")
+
+
+def tree_items():
+    """Items of the model tree by their labels."""
+    items, iterator = {}, QtGui.QTreeWidgetItemIterator(tree())
+    while iterator.value():
+        items.setdefault(iterator.value().text(0), iterator.value())
+        iterator += 1
+    return items
+
+
+def tree_item(label):
+    """An object's item in the model tree, which shows it a moment after the document has it."""
+    wait_until(lambda: label in tree_items())
+    return tree_items()[label]
+
+
+def click_in_tree(label):
+    """Really click an object's item in the model tree."""
+    show_model()
+    item = tree_item(label)
+    click_item(tree(), item)
 
 
 def infills(doc):
@@ -314,6 +488,25 @@ def panel():
     """The open task panel, or None."""
     found = Gui.getMainWindow().findChildren(QtGui.QWidget, "VolfrepTaskPanel")
     return next((widget for widget in found if widget.isVisible()), None)
+
+
+def window(name):
+    """An open window of ours by its object name, or None."""
+    found = Gui.getMainWindow().findChildren(QtGui.QDialog, name)
+    return next((w for w in found if w.isVisible()), None)
+
+
+def section_docks():
+    """The open docks of section views."""
+    docks = Gui.getMainWindow().findChildren(QtGui.QDockWidget, "VolfrepSectionView")
+    return [dock for dock in docks if dock.isVisible()]
+
+
+def said():
+    """All that the report view holds."""
+    QtCore.QCoreApplication.sendPostedEvents()
+    view = Gui.getMainWindow().findChild(QtGui.QTextEdit, "Report view")
+    return "" if view is None else view.toPlainText()
 
 
 def previews():
@@ -340,8 +533,8 @@ def answer_panel(text):
 def click_item(view, item):
     """Really click on an item of a list or a tree."""
     view.scrollToItem(item)
-    point = view.viewport().mapToGlobal(view.visualItemRect(item).center())
-    move_mouse(point)
+    settle()
+    move_mouse(view.viewport().mapToGlobal(view.visualItemRect(item).center()))
     press_button()
     settle()
 
@@ -350,11 +543,13 @@ def type_value(name, text):
     """Really type over what is in one of the panel's fields."""
     field = panel_part(name)
     click(field)
+    holders = [field, *field.findChildren(QtGui.QWidget)]
+    wait_until(lambda: QtGui.QApplication.focusWidget() in holders)
+    typed_into = QtGui.QApplication.focusWidget()
     xdotool("key", "ctrl+a")
     xdotool("type", text)
     xdotool("key", "Tab")
-    holders = [field, *field.findChildren(QtGui.QWidget)]
-    wait_until(lambda: QtGui.QApplication.focusWidget() not in holders, 5)
+    wait_until(lambda: QtGui.QApplication.focusWidget() is not typed_into)
     settle()
 
 
@@ -373,19 +568,20 @@ class UnexpectedMessages(QtCore.QObject):
         box = QtGui.QApplication.activeModalWidget()
         box = box if isinstance(box, QtGui.QMessageBox) else None
         if box is not None and box is self.box:
-            failures.append(f"unexpected message: {box.text()}")
+            fail(f"unexpected message: {box.text()}")
             box.reject()
         self.box = box
 
 
 def clear():
     """What a check leaves behind goes: dialogs, the panel, our windows, documents, a selection."""
+    _close_menus()
     for _ in range(5):
         dialog = QtGui.QApplication.activeModalWidget()
         if dialog is None:
             break
         dialog.close()
-        settle(1)
+        settle()
     if Gui.Control.activeDialog():
         Gui.Control.closeDialog()
     for name in list(App.listDocuments()):
@@ -393,11 +589,16 @@ def clear():
     for window in Gui.getMainWindow().findChildren(QtGui.QDialog):
         if window.objectName().startswith("Volfrep") and window.isVisible():
             window.close()
+    for dock in section_docks():
+        dock.close()
     Gui.Selection.clearSelection()
     App.ParamGet("User parameter:BaseApp/Preferences/Mod/VOLFREP").Clear()
     if Gui.activeWorkbench().name() != "VolfrepWorkbench":
         Gui.activateWorkbench("VolfrepWorkbench")
     settle()
+    view = Gui.getMainWindow().findChild(QtGui.QTextEdit, "Report view")
+    if view is not None:
+        view.clear()
 
 
 def run_checks(name, checks):
@@ -412,43 +613,70 @@ def run_checks(name, checks):
 
     def drive():
         global _running
-        failures.extend(f"there is no check '{one}': {', '.join(known)}"
-                        for one in wanted if one not in known)  # fmt: skip
+        for one in set(wanted) - set(known):
+            fail(f"there is no check '{one}': {', '.join(known)}")
         for one, (function, make) in known.items():
             if wanted and one not in wanted:
                 continue
             _running = one
             print(f"check: {one}", file=sys.__stdout__, flush=True)
+            hangs = threading.Timer(LONGEST, _give_up, (name,))
+            hangs.daemon = True
+            hangs.start()
+            start = time.monotonic()
             try:
                 clear()
-                step(function, *(make() if make is not None else ()))
-            except Exception:
-                failures.append(f"{one}: {traceback.format_exc()}")
+                function(*(make() if make is not None else ()))
+                settle()
+            except Exception as error:
+                fail_by(error)
+            hangs.cancel()
+            Watch.end_all()
+            check("nothing is raised in the window", "Traceback" not in said(), said()[-2000:])
+            figures[f"seconds: {one}"] = round(time.monotonic() - start, 1)
         _running = ""
         clear()
 
-    run(drive, name)
+    _run(drive, name)
 
 
-def run(drive, name):
+def _give_up(name):
+    """The running check does not end: say where it is, and leave."""
+    fail(f"does not end within {LONGEST} s; what runs is said above")
+    faulthandler.dump_traceback(file=sys.__stderr__, all_threads=True)
+    _write(name)
+    os._exit(1)
+
+
+def _write(name):
+    """Figures and failures as a file."""
+    figures["failures"] = failures
+    (OUT / f"{name}.json").write_text(json.dumps(figures, indent=1), encoding="utf-8")
+
+
+def _run(drive, name):
     """Once FreeCAD is up: drive, write down to ``name.json`` in GUI_OUT, leave."""
+    # PySide tells what a slot or an event's handler raises to this, and goes on.
+    sys.excepthook = lambda kind, error, trace: fail_by(error, "in a slot: ")
+    threading.excepthook = lambda raised: fail_by(raised.exc_value, "on a thread: ")
 
     def main():
-        wait_until(Gui.getMainWindow().isVisible, 60)
-        settle()
-        code = 1
         watch = UnexpectedMessages()
         try:
+            wait_until(Gui.getMainWindow().isVisible)
+            # FreeCAD 1.0 turns the camera by and by, and a picture would catch it on its way.
+            view = App.ParamGet("User parameter:BaseApp/Preferences/View")
+            view.SetBool("UseNavigationAnimations", False)
+            Gui.activateWorkbench("VolfrepWorkbench")
+            settle()
             drive()
-            code = 1 if failures else 0
-        except BaseException:  # FreeCAD's abort is no Exception
-            failures.append(traceback.format_exc())
-            code = 1
+        except BaseException as error:  # FreeCAD's abort is no Exception
+            fail_by(error)
         watch.deleteLater()
-        figures["failures"] = failures
-        (OUT / f"{name}.json").write_text(json.dumps(figures, indent=1), encoding="utf-8")
-        print("\n".join(failures) or "every check held")
-        sys.stdout.flush()
-        os._exit(code)
+        _write(name)
+        if not failures:
+            print("every check held", file=sys.__stdout__)
+        sys.__stdout__.flush()
+        os._exit(1 if failures else 0)
 
     QtCore.QTimer.singleShot(0, main)

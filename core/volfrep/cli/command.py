@@ -9,26 +9,20 @@ from __future__ import annotations
 
 import argparse
 import dataclasses
-import io
-import os
 import sys
 import tempfile
 import time
 import traceback
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, NoReturn
+from typing import TYPE_CHECKING
 
 from ..util.errors import VolfrepError
-from . import material, printing_options, properties, solver_options
+from . import layers, material, printing_options, process, properties, sizing, solver_options, sweep
 from .files import check_files
-from .parameter_options import (
-    add_parameters,
-    specification,
-    write_specification,
-)  # fmt: skip
+from .parameter_options import add_parameters, write_specification
 from .parser import Parser, Version, refuse_old, three_whole_numbers
-from .telling import Progress, print_rows, print_warnings, tell
+from .telling import Progress, print_rows, tell
 
 if TYPE_CHECKING:
     from ..design.spec import LatticeSpec
@@ -39,25 +33,6 @@ if TYPE_CHECKING:
 
 EXIT_DEFECT = 1
 EXIT_BAD_INPUT = 2
-EXIT_INTERRUPTED = 130
-
-
-def main() -> NoReturn:
-    """Run the command of this process's arguments and exit with its code."""
-    for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, io.TextIOWrapper):
-            stream.reconfigure(errors="backslashreplace")  # a file's name may be any bytes
-    try:
-        code = run(sys.argv[1:])
-        sys.stdout.flush()
-    except BrokenPipeError:  # the reader of the text, such as `head`, has had enough
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        code = 0
-    sys.stderr.flush()
-    if code == EXIT_INTERRUPTED:
-        # A compiled call may still be busy on a thread: an ordinary exit would wait for it.
-        os._exit(code)
-    sys.exit(code)
 
 
 def run(arguments: Sequence[str]) -> int:
@@ -78,11 +53,10 @@ def run(arguments: Sequence[str]) -> int:
         )
         return EXIT_BAD_INPUT
     except KeyboardInterrupt:
-        print("volfrep: Interrupted, no file was left half-written.", file=sys.stderr)
-        return EXIT_INTERRUPTED
-    except BrokenPipeError:
-        raise
+        return process.say_interrupted()
     except Exception as error:  # whatever it is, the user gets a sentence
+        if process.interrupted():
+            return process.say_interrupted()
         print(
             f"volfrep: The engine failed with a {type(error).__name__} ({error}), which is a "
             f"defect of VOLFREP: please report it with the traceback in '{_logged()}'.",
@@ -141,7 +115,11 @@ def _parser() -> argparse.ArgumentParser:
 
     add("cells", _cells, "List the library of unit cells.")
 
+    _add_unit(layers.add_command(add))
     properties.add_command(add)
+
+    sizing.add_command(add)
+    sweep.add_command(add)
 
     check = add("check", _check, "Tell what a reader sees in a mesh file (STL, OBJ, PLY, 3MF).")
     check.add_argument("file", metavar="FILE")
@@ -176,45 +154,51 @@ def _add_output(parser: argparse.ArgumentParser) -> None:
 
 def _fill(options: argparse.Namespace) -> None:
     part = Path(options.part)
-    spec = _specified(options)
+    spec = material.specified(options)
     _check_targets(options, spec)
     write_specification(options, spec)
 
     from ..design.forecast import forecast_fill
     from ..io.read.units import refuse_scale
     from ..io.solid import read_solid
+    from ..jobs.rough_radius import roughly_aimed
     from ..jobs.targets import aimed
+    from ..util.workers import processes
 
     start = time.perf_counter()
     solid = read_solid(part, options.unit)
     if not solid.states_unit:
         refuse_scale(solid.bounds, spec.cell_size, part.name)
     read_seconds = time.perf_counter() - start
-    if not options.quiet:
-        print(f"Expected: {forecast_fill(solid, spec)}.", flush=True)
     meshed = options.threemf != "beams" and not solver_options.needs_axes(options)
-    with Progress(options.quiet) as progress:
-        infill = aimed(solid, spec, progress=progress, meshed=meshed)
+    if not options.quiet:
+        aim = roughly_aimed(solid, spec)
+        expected = forecast_fill(solid, aim, streamed=_writes_stl(options))
+        print(f"Expected: {expected if meshed else expected.of_axes}.", flush=True)
+    with processes() as executor, Progress(options.quiet) as progress:
+        infill = aimed(
+            solid, spec, progress=progress, meshed=meshed, executor=executor,
+            streamed=_writes_stl(options),
+        )  # fmt: skip
         spec = infill.spec
         if solver_options.fill_axes(infill, options, start):
             return
         if options.threemf == "beams":
             printing_options.finish_beams(infill.beams, options, start)
             return
+        solver_options.settle_step(infill, options)
         beams = infill.beams if options.threemf == "both" else None
         result = infill.result
-        if options.compact is not None:
-            result = printing_options.compacted(result, options, progress)
         domain = None
         if options.print_report is not None:
             domain = infill.cavity
         write = solver_options.writer(options, spec, infill, progress)
-        _finish(result, options, {"read": read_seconds}, beams, domain, write)
+        _finish(result, options, spec, {"read": read_seconds}, beams, domain, write)
         _picture(result, options, spec, solid)
 
 
 def _block(options: argparse.Namespace) -> None:
-    spec = _specified(options)
+    spec = material.specified(options)
     _check_targets(options, spec)
     write_specification(options, spec)
 
@@ -245,20 +229,18 @@ def _block(options: argparse.Namespace) -> None:
             tell(write_block_stl(spec, options.count, options.output, progress=progress), options)
             return
         result = block(spec, tuple(options.count), progress=progress)
-        if options.compact is not None:
-            result = printing_options.compacted(result, options, progress)
         write = solver_options.writer(options, spec, None, progress)
-        _finish(result, options, {}, beams, write=write)
+        _finish(result, options, spec, {}, beams, write=write)
         _picture(result, options, spec)
 
 
 def _network(options: argparse.Namespace) -> None:
     from ..design.networks import read_network
-    from ..jobs.network_infill import network_alone
+    from ..jobs.networks import network_alone
     from ..trim.beam_model import BeamModel
 
     options.network_file = options.file
-    spec = _specified(options)
+    spec = material.specified(options)
     options.network_file = options.file
     _check_targets(options, spec)
     if solver_options.needs_axes(options):
@@ -271,9 +253,7 @@ def _network(options: argparse.Namespace) -> None:
         if options.threemf == "beams" and beams is not None:
             printing_options.finish_beams(beams, options, start)
             return
-        if options.compact is not None:
-            result = printing_options.compacted(result, options, progress)
-        _finish(result, options, {}, beams)
+        _finish(result, options, spec, {}, beams)
         _picture(result, options, spec)
 
 
@@ -292,21 +272,9 @@ def _picture(
 
 def _writes_stl(options: argparse.Namespace) -> bool:
     """Whether nothing but an STL file of the mesh as it is was asked for."""
-    more = (options.compact, options.print_report, options.picture)
+    more = (options.print_report, options.picture)
     plain = all(option is None for option in more)
     return plain and Path(options.output).suffix.lower() == ".stl"
-
-
-def _specified(options: argparse.Namespace) -> LatticeSpec:
-    """The specification, with the density of the material where none was given."""
-    spec = specification(options)
-    print_warnings(material.apply(options, Path(options.output)))
-    if options.density is not None:
-        spec = dataclasses.replace(spec, density=options.density)
-    if options.solid is not None and spec.target is not None and spec.target.aim == "stiffness":
-        target = dataclasses.replace(spec.target, young=options.solid.young)
-        spec = dataclasses.replace(spec, target=target)
-    return spec
 
 
 def _check_targets(options: argparse.Namespace, spec: LatticeSpec) -> None:
@@ -324,6 +292,7 @@ def _check_targets(options: argparse.Namespace, spec: LatticeSpec) -> None:
 def _finish(
     result: Result,
     options: argparse.Namespace,
+    spec: LatticeSpec,
     before: dict[str, float],
     beams: BeamModel | None,
     domain: TriangleMesh | None = None,
@@ -334,18 +303,21 @@ def _finish(
     `domain` is what the lattice fills, for the print report; `write` writes the file where it is
     not a mesh.
     """
-    from ..io.write import write_mesh
+    from ..io.write import write_surface
     from ..io.write.threemf import write_3mf_beams
     from ..util.progress import peak_memory_mb
 
     start = time.perf_counter()
-    warnings = result.report.warnings if beams is None else beams.warnings
+    warnings = result.report.warnings
+    if beams is not None:
+        warnings = tuple(dict.fromkeys((*warnings, *beams.warnings)))
     if write is not None:
         warnings += write(result)
     elif beams is None:
-        write_mesh(result.mesh, options.output)
+        write_surface(result.surface, options.output, figures=result.report.figures)
     else:
-        write_3mf_beams(beams, options.output, result.mesh)
+        figures = result.report.figures
+        write_3mf_beams(beams, options.output, result.mesh, figures=figures)
     report = dataclasses.replace(
         result.report,
         stages={**before, **result.report.stages, "write": time.perf_counter() - start},
@@ -353,7 +325,7 @@ def _finish(
     )
     printing = None
     if options.print_report is not None:
-        printing = printing_options.report_of(result, options, domain)
+        printing = printing_options.report_of(result, options, spec, domain)
     tell(dataclasses.replace(report, warnings=warnings), options, printing)
 
 

@@ -16,6 +16,7 @@ INPUTS = {
     "radius_field": "field file",
     "network_file": "network file",
     "material": "material file",
+    "loads": "load file",
 }
 #: The files that it writes, the same way.
 OUTPUTS = {
@@ -24,11 +25,16 @@ OUTPUTS = {
     "picture": "picture",
     "write_spec": "written specification",
     "json": "figures",
+    "radii": "radii",
 }
 
 
-def check_files(options: argparse.Namespace) -> None:
+def check_files(options: argparse.Namespace, *, folder: bool = False) -> None:
     """Refuse, before any work, files that could not be written or that would replace an input.
+
+    Args:
+        options: of the command.
+        folder: whether the output is a folder, which `replacing_folder` looks at.
 
     Raises:
         VolfrepError: naming the file, and what is wrong with it.
@@ -39,8 +45,9 @@ def check_files(options: argparse.Namespace) -> None:
     for called, suffixes in (("cell file", (".json",)), ("material file", (".toml", ".json"))):
         if not inputs.get(called, "").lower().endswith(suffixes):
             inputs.pop(called, None)  # a name, of the library or the table
-    for path in outputs.values():
-        check_writable(path)
+    for called, path in outputs.items():
+        if not (folder and called == "output"):
+            check_writable(path)
     refuse_overwriting(outputs, inputs)
     names = list(outputs)
     for k, name in enumerate(names):

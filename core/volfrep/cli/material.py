@@ -7,9 +7,16 @@ numpy and the engine are imported inside the functions, as in `command`.
 from __future__ import annotations
 
 import argparse
+import dataclasses
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from ..util.errors import VolfrepError
+from .parameter_options import specification
+from .telling import print_warnings
+
+if TYPE_CHECKING:
+    from ..design.spec import LatticeSpec
 
 _DECK = ".inp"
 #: Forms that hold no mesh, which a print report is made of.
@@ -61,7 +68,7 @@ def apply(options: argparse.Namespace, out: Path) -> tuple[str, ...]:
             options.density = options.solid.density
     if options.process is None:
         return ()
-    from ..reports.printability import find_process
+    from ..reports.processes import find_process
 
     process = find_process(options.process)
     deck = out.suffix.lower() == _DECK and (options.inp or "beams") in _NO_MESH
@@ -76,3 +83,15 @@ def apply(options: argparse.Namespace, out: Path) -> tuple[str, ...]:
         f"{options.solid.name} is printed by {' or '.join(options.solid.processes)}, not by "
         f"{process.name}.",
     )
+
+
+def specified(options: argparse.Namespace) -> LatticeSpec:
+    """The specification, with the density of the material where none was given."""
+    spec = specification(options)
+    print_warnings(apply(options, Path(options.output)))
+    if options.density is not None:
+        spec = dataclasses.replace(spec, density=options.density)
+    if options.solid is not None and spec.target is not None and spec.target.aim == "stiffness":
+        target = dataclasses.replace(spec.target, young=options.solid.young)
+        spec = dataclasses.replace(spec, target=target)
+    return spec

@@ -59,6 +59,10 @@ def refuse_old(arguments: Sequence[str]) -> None:
     """
     for argument, following in zip(arguments, [*arguments, ""][1:], strict=True):
         option, _, value = argument.partition("=")
+        if option == "--compact":
+            raise VolfrepError(
+                "--compact is gone: give a larger --deviation, which saves more and takes no time."
+            )
         if option in RENAMED:
             raise VolfrepError(f"{option} is called {RENAMED[option]} now.")
         if option == "--output" and (value or following) in _ONCE_MADE:

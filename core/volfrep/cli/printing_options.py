@@ -7,8 +7,6 @@ numpy and the engine are imported inside the functions, as in `command`.
 from __future__ import annotations
 
 import argparse
-import dataclasses
-import math
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -17,11 +15,11 @@ from ..util.errors import VolfrepError
 from .telling import print_rows, print_warnings
 
 if TYPE_CHECKING:
+    from ..design.spec import LatticeSpec
     from ..mesh.triangle_mesh import TriangleMesh
     from ..reports.printability import PrintReport
     from ..reports.result import Result
     from ..trim.beam_model import BeamModel
-    from ..util.progress import ProgressCallback
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -33,14 +31,6 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         choices=("mesh", "beams", "both"),
         help="what a 3MF file holds: the part as triangles (default), its lattice as beams of the "
         "beam lattice extension (small, and made without a mesh), or both",
-    )
-    add(
-        "--compact",
-        type=float,
-        nargs="?",
-        const=0.02,
-        metavar="MM",
-        help="fewer triangles, moved by no more than so much (0.02 if not said)",
     )
     add(
         "--print-report",
@@ -57,12 +47,6 @@ def check(options: argparse.Namespace, out: Path) -> None:
     """
     if options.threemf is not None and out.suffix.lower() != ".3mf":
         raise VolfrepError(f"'{out}' cannot hold what --3mf asks for: give it the extension .3mf.")
-    if options.compact is not None and not 0.0 < options.compact < math.inf:
-        raise VolfrepError(
-            f"The deviation of --compact must be above 0 mm, not {options.compact:g}."
-        )
-    if options.threemf == "beams" and options.compact is not None:
-        raise VolfrepError("Beams have no triangles for --compact to reduce: leave it out.")
     if options.picture is not None:
         from ..reports.picture import check_picture
 
@@ -76,49 +60,23 @@ def check(options: argparse.Namespace, out: Path) -> None:
             "A report is made of the mesh, which --3mf beams does without: use both."
         )
     if options.print_report is not None:
-        from ..reports.printability import find_process, unit_direction
+        from ..reports.printability import unit_direction
+        from ..reports.processes import find_process
 
         find_process(options.print_report)
         unit_direction(options.build_direction)
 
 
-def compacted(result: Result, options: argparse.Namespace, progress: ProgressCallback) -> Result:
-    """The result with as few triangles as --compact allows; says on the screen how many went.
-
-    Raises:
-        VolfrepError: the deviation is larger than the part allows.
-        Cancelled: the callback said so.
-    """
-    from ..jobs.decimate import reduce_triangles
-    from ..util.progress import Monitor
-
-    monitor = Monitor(progress)
-    with monitor.stage("compact", 0.0, 1.0):
-        reduced = reduce_triangles(result.mesh, options.compact, monitor)
-    found = reduced.quality
-    report = dataclasses.replace(
-        result.report,
-        triangles=found.triangles,
-        vertices=found.vertices,
-        volume_mm3=found.volume,
-        area_mm2=found.area,
-        mass_g=found.volume * result.report.spec["density"] / 1000.0,
-        stages={**result.report.stages, **monitor.stages},
-        stage_memory_mb={**result.report.stage_memory_mb, **monitor.memory_mb},
-    )
-    if not options.quiet:
-        print(
-            f"Compact: {found.triangles:,} of {reduced.triangles_before:,} triangles are left, and "
-            f"the surface has moved by up to {reduced.deviation:.2g} mm."
-        )
-    return dataclasses.replace(result, mesh=reduced.mesh, report=report)
-
-
 def report_of(
-    result: Result, options: argparse.Namespace, domain: TriangleMesh | None
+    result: Result,
+    options: argparse.Namespace,
+    spec: LatticeSpec,
+    domain: TriangleMesh | None,
 ) -> PrintReport:
     """The print report that the options ask for."""
-    from ..reports.printability import find_process, print_report
+    from ..reports.passage import ball_of
+    from ..reports.printability import print_report
+    from ..reports.processes import find_process
 
     return print_report(
         result.mesh,
@@ -127,15 +85,16 @@ def report_of(
         build_direction=options.build_direction,
         density=result.report.spec["density"],
         domain=domain,
+        ball_mm=ball_of(spec),
     )
 
 
 def finish_beams(model: BeamModel, options: argparse.Namespace, start: float) -> None:
     """Write a lattice as beams; say what was made since `start` (of `time.perf_counter`)."""
-    from ..io.write.threemf import write_3mf_beams
+    from ..io.write.threemf import BEAMS_ONLY, write_3mf_beams
 
     write_3mf_beams(model, options.output)
-    print_warnings(model.warnings)
+    print_warnings((*model.warnings, *model.loose, BEAMS_ONLY))
     if options.quiet:
         return
     lattice = model.lattice

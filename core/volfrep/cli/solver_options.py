@@ -34,6 +34,7 @@ STEP_FORMS = ("faceted", "exact", "wireframe")
 DECKS = ("beams", "tetrahedra")
 STEP_SUFFIXES = (".step", ".stp")
 DECK_SUFFIX = ".inp"
+PLANE_FACES = "The file holds plane faces instead of exact surfaces."
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -80,8 +81,6 @@ def check(options: argparse.Namespace, out: Path, spec: LatticeSpec) -> None:
         options.inp = "beams"
     kind = options.step or options.inp
     asked = f"--step {kind}" if options.step else f"--inp {kind}"
-    if kind in ("wireframe", "beams") and options.compact is not None:
-        raise VolfrepError(f"{asked} has no triangles for --compact to reduce: leave it out.")
     if kind in ("wireframe", "beams") and (options.report or options.print_report):
         raise VolfrepError(
             f"A report is made of the mesh, which {asked} does without: leave one of them out."
@@ -110,6 +109,7 @@ def fill_axes(infill: Infill, options: argparse.Namespace, start: float) -> bool
     if not needs_axes(options):
         return False
     clipped = infill.axes
+    print_warnings(clipped.warnings)
     _write_axes(clipped.wireframe, clipped.on_wall, infill.spec, options, start)
     return True
 
@@ -122,6 +122,20 @@ def block_axes(spec: LatticeSpec, options: argparse.Namespace, start: float) -> 
 
     _write_axes(block_wireframe(spec, options.count), None, spec, options, start)
     return True
+
+
+def settle_step(infill: Infill, options: argparse.Namespace) -> None:
+    """Before a lattice is meshed: plane faces where its wall is too much for exact surfaces."""
+    if options.step != "exact" or not infill.spec.is_cut:
+        return
+    from ..reports.estimate import refuse_wall
+
+    walls = [infill.cavity, *([infill.solid] if infill.spec.with_skin else [])]
+    try:
+        refuse_wall(max(len(wall.triangles) for wall in walls))
+    except VolfrepError as error:
+        options.step = "faceted"
+        print_warnings([f"{error} {PLANE_FACES}"])
 
 
 def writer(
@@ -227,7 +241,7 @@ def _write_exact(
         )
     except VolfrepError as error:
         faceted = _write_faceted(result, options, spec)
-        return (*faceted, f"{error} The file holds plane faces instead of exact surfaces.")
+        return (*faceted, f"{error} {PLANE_FACES}")
     if not options.quiet:
         print_rows(("exact volume", f"{volume:,.1f} mm3 (mesh: {measured:,.1f} mm3)"))
     return warnings
@@ -240,6 +254,7 @@ def _write_tetrahedra(
     infill: Infill | None,
     progress: ProgressCallback,
 ) -> tuple[str, ...]:
+    from ..fem.joint_loads import side_joints
     from ..fem.tet_mesh import nodes_on, tetrahedra
     from ..io.write.calculix import write_tetrahedra
     from ..reports.estimate import estimate_tetrahedra
@@ -248,6 +263,8 @@ def _write_tetrahedra(
     _announce(estimate_tetrahedra(len(result.mesh.triangles), _asked(spec, options)), options)
     filled = tetrahedra(result.mesh, Monitor(progress))
     sets = {}
+    if infill is None or not infill.placement.is_cut:
+        sets = side_joints(filled, result.wireframe)
     if infill is not None:
         wall = infill.cavity if spec.output == "lattice" else infill.solid
         sets["SKIN"] = nodes_on(filled, wall)

@@ -16,6 +16,7 @@ import numpy as np
 
 from ..util.errors import VolfrepError
 from ..util.files import replacing
+from ..util.linalg import along
 from ..util.types import Floats
 from .cells import MAX_STRUTS, NODE_TOLERANCE, UnitCell, make_cell
 
@@ -128,8 +129,8 @@ def _crossings(ends: Floats) -> Floats:
         s, w = start[k + 1 :], way[k + 1 :]
         apart = s - start[k]
         # Nearest places of two lines, as shares of their lengths.
-        a, b, c = way[k] @ way[k], w @ way[k], (w * w).sum(axis=1)
-        d, e = apart @ way[k], (apart * w).sum(axis=1)
+        a, b, c = along(way[k], way[k]), along(w, way[k]), (w * w).sum(axis=1)
+        d, e = along(apart, way[k]), (apart * w).sum(axis=1)
         determinant = a * c - b * b
         skew = determinant > SAME * SAME * a * c
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -144,7 +145,7 @@ def _crossings(ends: Floats) -> Floats:
 def _along(nodes: Floats, first: int, last: int) -> list[int]:
     """The nodes on a line in their order, from its first to its last."""
     way = nodes[last] - nodes[first]
-    share = (nodes - nodes[first]) @ way / (way @ way)
+    share = along(nodes - nodes[first], way) / along(way, way)
     off = np.linalg.norm(nodes - nodes[first] - share[:, None] * way, axis=1)
     inside = (off < 2.0 * SAME) & (share > 0.0) & (share < 1.0)
     inside[[first, last]] = False  # the share of the last is 1 but for rounding

@@ -11,52 +11,27 @@ says cm, m or in, as in ``X Location (m)``.
 
 from __future__ import annotations
 
-import lzma
-import math
 import os
 import re
-import struct
-import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
-from typing import Any, TextIO
-from urllib.parse import unquote
-from xml.etree.ElementTree import ParseError
+from typing import TextIO
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..util.errors import VolfrepError
 from ..util.types import Floats
+from .vtk_files import MAX_POINTS, TOO_MANY, load_vtk
 
 PointsAndValues = tuple[Floats, Floats]
 
 TABLE_SUFFIXES = (".csv", ".txt", ".tsv", ".dat", ".xyz")
 VTK_SUFFIXES = (".vtk", ".vtu")
 MAX_FILE_BYTES = 500_000_000
-MAX_POINTS = 20_000_000
 #: Lines parsed at once.
 CHUNK = 50_000
-TOO_MANY = f"'{{}}' holds more than {MAX_POINTS} points: give fewer."
-#: What meshio's readers raise at damaged files, besides its own errors: they check little.
-DAMAGE = (
-    ValueError,
-    LookupError,
-    TypeError,
-    AttributeError,
-    AssertionError,
-    ArithmeticError,
-    EOFError,
-    MemoryError,
-    NameError,
-    RuntimeError,
-    ParseError,
-    struct.error,
-    zlib.error,
-    lzma.LZMAError,
-)
 #: Of the length units that a header may name, in mm.
 UNITS = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4}
 #: How the programs that write such tables call the coordinates.
@@ -288,7 +263,7 @@ def _check_line(number: int, line: str, text: str, layout: _Layout, name: str) -
 
 
 def _read_vtk(file: Path, column: str | None) -> PointsAndValues:
-    points, data, in_cells = _load_vtk(file)
+    points, data, in_cells = load_vtk(file)
     scalars = [name for name, array in data.items() if array.size == len(points)]
     if (column in in_cells and column not in data) or (in_cells and not scalars):
         raise VolfrepError(
@@ -308,61 +283,3 @@ def _read_vtk(file: Path, column: str | None) -> PointsAndValues:
             f"In '{file.name}', point {bad[0]} of '{chosen}' holds a number that is not finite."
         )
     return points, values
-
-
-def _load_vtk(file: Path) -> tuple[Floats, dict[str, NDArray[Any]], list[str]]:
-    """Points (n, 3), the arrays at the points, and the names of those in the cells."""
-    try:
-        import meshio
-    except ImportError as error:
-        raise VolfrepError(
-            f"Reading '{file.name}' needs the Python package meshio: install it with "
-            "'pip install meshio', or save the field as CSV."
-        ) from error
-    legacy = file.suffix.lower() == ".vtk"
-    if legacy:
-        _refuse_empty_promises(file)
-    else:
-        _refuse_document_type(file)
-    # Not meshio.read: it ends the program when a file is damaged.
-    read = meshio.vtk.read if legacy else meshio.vtu.read
-    try:
-        mesh: Any = read(os.fspath(file))
-        points = np.asarray(mesh.points, dtype=np.float64)
-        # Legacy files write a blank in a name as %20.
-        data = {unquote(k) if legacy else k: np.asarray(v) for k, v in mesh.point_data.items()}
-    except (meshio.ReadError, meshio._exceptions.CorruptionError, *DAMAGE) as error:
-        raise VolfrepError(
-            f"'{file.name}' is damaged, or of a kind that meshio does not read: save it as an "
-            "unstructured grid (.vtu) or as CSV, for instance with ParaView."
-        ) from error
-    if points.shape[1:] != (3,) or not len(points):
-        raise VolfrepError(f"'{file.name}' holds no points in space.")
-    return points, data, list(mesh.cell_data)
-
-
-def _refuse_document_type(file: Path) -> None:
-    """Refuse an XML file that could define entities, which may grow without bound."""
-    if re.search(rb"<!(DOCTYPE|ENTITY)", file.read_bytes(), re.IGNORECASE):
-        raise VolfrepError(
-            f"'{file.name}' declares an XML document type, which VTK files do not have: save it "
-            "again, for instance with ParaView."
-        )
-
-
-def _refuse_empty_promises(file: Path) -> None:
-    """Refuse a legacy VTK file whose counts its bytes cannot hold, before memory is asked for."""
-    data = file.read_bytes()
-    counts = (
-        rb"(?mi)^[ \t]*(DIMENSIONS|POINTS|CELLS|CELL_TYPES|POINT_DATA|CELL_DATA)((?:[ \t]+\d+)+)"
-    )
-    for match in re.finditer(counts, data):
-        numbers = [int(word[:20]) for word in match[2].split()]
-        promised = math.prod(numbers) if match[1].upper() == b"DIMENSIONS" else max(numbers)
-        if promised > len(data):
-            raise VolfrepError(
-                f"'{file.name}' is cut short or damaged: it promises {promised} numbers and has "
-                f"{len(data)} bytes."
-            )
-        if promised > MAX_POINTS and match[1].upper() in (b"DIMENSIONS", b"POINTS"):
-            raise VolfrepError(TOO_MANY.format(file.name))

@@ -4,14 +4,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from ..util.errors import VolfrepError
-from ..util.linalg import rotation
+from ..util.linalg import along, rotation
+from ..util.numbers import direction, number, point, whole
 from ..util.types import Floats
 from .profile import Profile
 from .scattered_field import PointField, TransferCurve, default_curve, read_point_field
@@ -41,7 +42,7 @@ class SizeGrading:
     direction: Vector = (1.0, 0.0, 0.0)
 
     def __post_init__(self) -> None:
-        check_vector("grading direction", self.direction)
+        direction("grading direction", self.direction)
         as_tuples(self, "direction")
 
 
@@ -75,13 +76,10 @@ class RadiusGrading:
             raise VolfrepError(
                 f"The radius cannot be graded by '{self.by}': choose {', '.join(RADIUS_BY)}."
             )
-        check_vector("radius grading direction", self.direction)
+        direction("radius grading direction", self.direction)
         as_tuples(self, "direction")
         object.__setattr__(self, "curve", tuple(tuple(pair) for pair in self.curve))
-        if not (math.isfinite(self.reach) and self.reach > 0):
-            raise VolfrepError(
-                f"The depth that the radius is graded over must be above 0 mm, not {self.reach:g}."
-            )
+        number("depth that the radius is graded over", self.reach, "mm", positive=True)
         if self.by == "field" and self.field is None:
             raise VolfrepError(
                 "A radius graded by a field needs one: name a CSV or VTK file with x, y, z and a "
@@ -115,7 +113,7 @@ class RadiusGrading:
         if self.by == "direction":
             ends = np.sort(bounds * np.asarray(self.direction), axis=0).sum(axis=1)
             return self.profile(
-                (points @ np.asarray(self.direction) - ends[0]) / (ends[1] - ends[0])
+                (along(points, np.asarray(self.direction)) - ends[0]) / (ends[1] - ends[0])
             )
         if self.by == "field":
             values = self.field
@@ -151,16 +149,11 @@ class CellMap:
                 f"There is no cell map '{self.kind}': choose {' or '.join(MAPS[1:])}."
             )
         if self.centre is not None:
-            check_point("centre of the cell map", self.centre)
-        check_vector("axis of the cell map", self.axis)
+            point("centre of the cell map", self.centre)
+        direction("axis of the cell map", self.axis)
         as_tuples(self, "axis", "centre")
-        if self.around is not None and (
-            self.around != int(self.around) or not LEAST_AROUND <= self.around <= MOST_AROUND
-        ):
-            raise VolfrepError(
-                f"The cells around must be a whole number from {LEAST_AROUND} to {MOST_AROUND}, "
-                f"not {self.around:g}."
-            )
+        if self.around is not None:
+            whole("number of cells around", self.around, LEAST_AROUND, MOST_AROUND)
 
 
 @dataclass(frozen=True)
@@ -181,11 +174,10 @@ class Orientation:
     origin: Vector | None = None
 
     def __post_init__(self) -> None:
-        check_vector("axis of the rotation", self.axis)
-        if not math.isfinite(self.angle):
-            raise VolfrepError(f"The rotation must be a finite angle, not {self.angle}.")
+        direction("axis of the rotation", self.axis)
+        number("angle of the rotation", self.angle, "degrees", positive=None)
         if self.origin is not None:
-            check_point("origin of the rotation", self.origin)
+            point("origin of the rotation", self.origin)
         as_tuples(self, "axis", "origin")
 
     @property
@@ -200,19 +192,6 @@ def as_tuples(part: object, *names: str) -> None:
         value = getattr(part, name)
         if value is not None:
             object.__setattr__(part, name, tuple(value))
-
-
-def check_point(name: str, point: Sequence[float]) -> None:
-    """Refuse what is not three finite coordinates."""
-    if len(point) != 3 or not all(math.isfinite(c) for c in point):
-        raise VolfrepError(f"The {name} must be three finite coordinates, not {tuple(point)}.")
-
-
-def check_vector(name: str, vector: Sequence[float]) -> None:
-    """Refuse what has no direction."""
-    check_point(name, vector)
-    if math.hypot(*vector) < 1e-9:
-        raise VolfrepError(f"The {name} must have a length above 0, not {tuple(vector)}.")
 
 
 def as_plain(value: Any) -> Any:

@@ -6,6 +6,7 @@ from __future__ import annotations
 import math
 import os
 import sys
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -15,9 +16,12 @@ from .spec import LatticeSpec
 
 #: Bytes that a triangle takes at the peak: laid out and checked, or in the Boolean as well.
 BYTES_PER_TRIANGLE = 150
-BYTES_PER_BOOLEAN_TRIANGLE = 900
+BYTES_PER_BOOLEAN_TRIANGLE = 250
 #: Bytes that a cell of the grid takes while cells and octants are told apart.
 BYTES_PER_CELL = 500
+#: Bytes that a strut of each cell of a block takes where it stays an axis: 5.2 million of Octet
+#: take 0.86 GB.
+BYTES_PER_STRUT = 120
 #: The estimate of triangles is good to a third: so much of it will be there.
 CERTAIN_SHARE = 0.6
 #: Taken for free memory where the system does not tell.
@@ -32,13 +36,13 @@ def cells_are_full(cell_size: float, radius: float) -> VolfrepError:
     )
 
 
-def refuse_cells(count: int, cell_size: float, bytes_each: int = BYTES_PER_CELL) -> None:
-    """Refuse a grid of so many cells of a size in mm, of which each takes so many bytes.
+def refuse_cells(count: int, cell_size: float) -> None:
+    """Refuse a grid of so many cells of a size in mm.
 
     Raises:
         VolfrepError: they need more memory than is free; with the cells that would fit.
     """
-    needed, free = float(count) * bytes_each, _free_memory()
+    needed, free = float(count) * BYTES_PER_CELL, free_memory()
     if needed > free:
         fitting = rounded_up(cell_size * (1.2 * needed / free) ** (1 / 3))
         raise VolfrepError(
@@ -46,30 +50,65 @@ def refuse_cells(count: int, cell_size: float, bytes_each: int = BYTES_PER_CELL)
         )
 
 
-def refuse_expected(spec: LatticeSpec, volume: float) -> None:
+def refuse_block(count: Sequence[int], bytes_each: float) -> None:
+    """Refuse a block of so many cells along x, y, z, of which each takes so many bytes.
+
+    Raises:
+        VolfrepError: they need more memory than is free; with the block that would fit.
+    """
+    needed, free = math.prod(count) * float(bytes_each), free_memory()
+    if needed > free:
+        raise VolfrepError(
+            f"This block would {_takes(needed, free)}: {smaller_block(count, 1.2 * needed / free)} "
+            "would fit."
+        )
+
+
+def smaller_block(count: Sequence[int], excess: float) -> str:
+    """A block of so many times fewer cells than one of so many along x, y, z.
+
+    >>> smaller_block((1000, 1000, 2), 1e5)
+    'a block of 4 x 4 x 1 cells'
+    """
+    shape = list(count)
+    for place, axis in enumerate(sorted(range(3), key=lambda k: count[k])):
+        # All sides are divided alike; what one that is a single cell cannot give, the others do.
+        times = min(excess ** (1.0 / (3 - place)), float(count[axis]))
+        shape[axis], excess = max(1, int(count[axis] / times + 1e-9)), excess / times
+    return "a block of " + " x ".join(str(n) for n in shape) + " cells"
+
+
+def refuse_expected(spec: LatticeSpec, volume: float, count: Sequence[int] | None = None) -> None:
     """Refuse a lattice in a volume of mm3 that surely would not fit, before any work starts.
 
     Raises:
         VolfrepError: it needs more memory than is free.
     """
-    refuse_memory(spec, CERTAIN_SHARE * expected_triangles(spec, volume))
+    refuse_memory(spec, CERTAIN_SHARE * expected_triangles(spec, volume), count=count)
 
 
-def refuse_memory(spec: LatticeSpec, triangles: float, in_boolean: float = 0.0) -> None:
+def refuse_memory(
+    spec: LatticeSpec,
+    triangles: float,
+    in_boolean: float = 0.0,
+    count: Sequence[int] | None = None,
+) -> None:
     """Refuse a job of so many triangles, some of them in the Boolean.
+
+    `count` is of the cells of a block along x, y, z.
 
     Raises:
         VolfrepError: it needs more memory than is free; with the nearest settings that would fit.
     """
     needed = triangles * BYTES_PER_TRIANGLE + in_boolean * BYTES_PER_BOOLEAN_TRIANGLE
-    free = _free_memory()
+    free = free_memory()
     most = np.iinfo(np.int32).max // 3
     if needed <= free and triangles <= most:
         return
     excess = 1.2 * max(needed / free, triangles / most)
     raise VolfrepError(
         f"This lattice would have about {triangles / 1e6:.3g} million triangles and "
-        f"{_takes(needed, free)}: {_what_fits(spec, excess)}."
+        f"{_takes(needed, free)}: {_what_fits(spec, excess, count)}."
     )
 
 
@@ -77,15 +116,17 @@ def _takes(needed: float, free: float) -> str:
     return f"take {needed / 1e9:.3g} GB of the {free / 1e9:.3g} GB of free memory"
 
 
-def _what_fits(spec: LatticeSpec, excess: float) -> str:
+def _what_fits(spec: LatticeSpec, excess: float, count: Sequence[int] | None) -> str:
     """Settings that take so many times less.
 
     Facets go with the square of their edge, struts in a volume with the square of the cell.
     """
     cells = f"cells of {rounded_up(spec.cell_size * excess**0.5):g} mm or larger"
+    if count is not None:
+        cells = smaller_block(count, excess)
     facets = int(spec.facets_along_cell / excess**0.5)
     if facets < spec.coarsest_resolution:
-        return f"{cells} would fit, or fewer cells"
+        return f"{cells} would fit"
     if spec.resolution is not None:
         return f"a resolution of {facets}, or {cells}, would fit"
     edge = spec.cell_size / facets
@@ -101,7 +142,7 @@ def rounded_up(value: float) -> float:
     return math.ceil(value / step - 1e-9) * step
 
 
-def _free_memory() -> float:
+def free_memory() -> float:
     """Bytes of memory that are free, as far as the system tells."""
     try:
         with open("/proc/meminfo", encoding="ascii") as file:

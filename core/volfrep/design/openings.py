@@ -4,8 +4,6 @@
 from __future__ import annotations
 
 import hashlib
-import math
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -14,6 +12,8 @@ import numpy as np
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..util.content import content_of, held
 from ..util.errors import VolfrepError
+from ..util.linalg import along
+from ..util.numbers import direction, number, point, whole
 from ..util.types import Bools, Floats
 
 Vector = tuple[float, float, float]
@@ -44,16 +44,16 @@ class OpenPlane:
     normal: Vector
 
     def __post_init__(self) -> None:
-        _check("point of an open plane", self.point)
-        _check("normal of an open plane", self.normal, not_zero=True)
+        point("point of an open plane", self.point)
+        direction("normal of an open plane", self.normal)
 
     def contains(self, solid: TriangleMesh) -> Bools:
         """(m,) which triangles of a solid lie in the plane."""
         normal = np.array(self.normal, float) / np.linalg.norm(self.normal)
         size = float(np.linalg.norm(np.ptp(solid.bounds, axis=0)))
-        off = np.abs((solid.vertices - np.array(self.point)) @ normal) < IN_PLANE * size
-        along = np.abs(_normals(solid) @ normal) > ALONG_PLANE
-        return np.asarray(off[solid.triangles].all(axis=1) & along)
+        off = np.abs(along(solid.vertices - np.array(self.point), normal)) < IN_PLANE * size
+        level = np.abs(along(_normals(solid), normal)) > ALONG_PLANE
+        return np.asarray(off[solid.triangles].all(axis=1) & level)
 
     def __str__(self) -> str:
         return "the plane through ({:.4g}, {:.4g}, {:.4g})".format(*self.point)
@@ -117,9 +117,9 @@ class DrainPlace:
     direction: Vector | None = None
 
     def __post_init__(self) -> None:
-        _check("place of a drain hole", self.point)
+        point("place of a drain hole", self.point)
         if self.direction is not None:
-            _check("direction of a drain hole", self.direction, not_zero=True)
+            direction("direction of a drain hole", self.direction)
 
 
 @dataclass(frozen=True)
@@ -139,29 +139,15 @@ class DrainHoles:
     build_direction: Vector = (0.0, 0.0, 1.0)
 
     def __post_init__(self) -> None:
-        if not (math.isfinite(self.diameter) and self.diameter > 0):
-            raise VolfrepError(
-                f"The diameter of drain holes must be above 0 mm, not {self.diameter:g}."
-            )
-        if self.count != int(self.count) or not 0 <= self.count <= MOST_HOLES:
-            raise VolfrepError(
-                f"The number of drain holes must be a whole number from 0 to {MOST_HOLES}, not "
-                f"{self.count}."
-            )
+        number("diameter of drain holes", self.diameter, "mm", positive=True)
+        whole("number of drain holes", self.count, 0, MOST_HOLES)
         if len(self.places) > MOST_HOLES:
             raise VolfrepError(
                 f"There are {len(self.places)} places for drain holes: give at most {MOST_HOLES}."
             )
         if not self.places and not self.count:
             raise VolfrepError("Drain holes need places, or a count of how many to place.")
-        _check("build direction", self.build_direction, not_zero=True)
-
-
-def _check(name: str, vector: Sequence[float], not_zero: bool = False) -> None:
-    if len(vector) != 3 or not all(math.isfinite(value) for value in vector):
-        raise VolfrepError(f"The {name} must be three finite numbers.")
-    if not_zero and not any(vector):
-        raise VolfrepError(f"The {name} must not be zero.")
+        direction("build direction", self.build_direction)
 
 
 def open_surface(solid: TriangleMesh, is_open: Bools) -> TriangleMesh:

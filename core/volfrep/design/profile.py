@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -12,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..util.errors import VolfrepError
+from ..util.numbers import number
 from ..util.types import Floats
 from .expression import SAMPLES, Expression, check_finite, compile_expression
 
@@ -152,10 +152,4 @@ class Profile:
 
 
 def _positive(name: str, value: Any) -> float:
-    try:
-        number = float(value)
-    except (TypeError, ValueError) as error:
-        raise VolfrepError(f"The profile's {name} must be a number, not {value!r}.") from error
-    if not (math.isfinite(number) and number > 0.0):
-        raise VolfrepError(f"The profile's {name} must be finite and above 0, not {number:g}.")
-    return number
+    return number(f"profile's {name}", value, "", positive=True)

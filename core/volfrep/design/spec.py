@@ -54,7 +54,8 @@ class LatticeSpec:
         strut_radius: r, of every strut.
         shell: thickness of the closed skin; 0 trims the lattice at the outer surface.
         resolution: facets along L, and never fewer than struts need (`coarsest_resolution`); or
-        deviation: largest distance in mm between a facet and the exact strut. With neither,
+        deviation: distance in mm between a facet and the exact strut, kept within 1.5 times on
+            97 % of the surface; in the creases where struts meet it is more. With neither,
             the deviation is `DEFAULT_RELATIVE_DEVIATION` r.
         activation: ``touching`` (every cell that touches the domain), ``centre`` (cells whose
             centre lies inside it: the rule of the paper) or ``inside`` (cells that lie wholly
@@ -68,6 +69,7 @@ class LatticeSpec:
         remove_dangling: take away struts with a free end, again and again until there are none.
         shortest_stub: struts with a free end that are shorter than this are taken away; 0 for
             none, mm.
+        keep_pieces: keep pieces of the lattice that hang on nothing.
         output: ``part`` (skin and lattice), ``lattice`` (trimmed) or ``domain`` (what it fills).
         fillet: radius of the round between struts at a joint; 0 for none.
         origin: a point that is to be a cell's corner; None puts the grid at the part's box.
@@ -108,6 +110,7 @@ class LatticeSpec:
     drains: DrainHoles | None = None
     remove_dangling: bool = False
     shortest_stub: float = 0.0
+    keep_pieces: bool = False
     output: str = "part"
     fillet: float = 0.0
     origin: tuple[float, float, float] | None = None
@@ -184,7 +187,10 @@ class LatticeSpec:
     @property
     def ending(self) -> Boundary:
         """Where the lattice ends."""
-        return Boundary(self.activation, self.boundary, self.remove_dangling, self.shortest_stub)
+        return Boundary(
+            self.activation, self.boundary, self.remove_dangling, self.shortest_stub,
+            self.keep_pieces,
+        )  # fmt: skip
 
     @property
     def detail(self) -> Resolution:
@@ -211,6 +217,12 @@ class LatticeSpec:
         """Whether the lattice is anything but equal cells along x, y, z."""
         parts = (self.size_grading, self.radius_grading, self.cell_map, self.orientation)
         return any(part is not None for part in parts)
+
+    @property
+    def streams(self) -> bool:
+        """Whether a file of its result needs no mesh of what the wall does not cut: equal cells."""
+        whole = bool(self.open_faces) or self.drains is not None
+        return self.is_cut and not self.is_graded and not whole and self.network is None
 
     @property
     def template_radius(self) -> float:

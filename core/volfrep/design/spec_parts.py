@@ -12,7 +12,7 @@ import math
 from dataclasses import dataclass
 
 from ..util.errors import VolfrepError
-from ..util.numbers import number
+from ..util.numbers import number, point, whole
 from .grading import CellMap, Orientation, RadiusGrading, SizeGrading, Vector
 from .openings import OpenFace
 
@@ -53,10 +53,7 @@ class Grid:
     def __post_init__(self) -> None:
         number("cell size", self.size, "mm", positive=True)
         if self.origin is not None:
-            if len(self.origin) != 3:
-                raise VolfrepError("The origin must be three coordinates.")
-            for value in self.origin:
-                number("origin", value, "mm", positive=None)
+            point("origin", self.origin)
             x, y, z = self.origin
             object.__setattr__(self, "origin", (x, y, z))
 
@@ -77,8 +74,8 @@ class Struts:
     keep_radius: bool = True
 
     def __post_init__(self) -> None:
-        if not isinstance(self.radius, RadiusGrading):
-            number("strut radius", self.radius, "mm", positive=True)
+        for value in self.extremes:
+            number("strut radius", value, "mm", positive=True)
         number("joint fillet", self.fillet, "mm", positive=False)
 
     @property
@@ -149,6 +146,7 @@ class Boundary:
     cut: str = "trim"
     remove_dangling: bool = False
     shortest_stub: float = 0.0
+    keep_pieces: bool = False
 
     def __post_init__(self) -> None:
         if self.activation not in ACTIVATIONS:
@@ -192,7 +190,8 @@ class Resolution:
 
     Attributes:
         facets: along L, and never fewer than struts need (`coarsest`); or
-        deviation: largest distance in mm between a facet and the exact strut. With neither, the
+        deviation: distance in mm between a facet and the exact strut, kept within 1.5 times on
+            97 % of the surface; in the creases where struts meet it is more. With neither, the
             deviation is `DEFAULT_RELATIVE_DEVIATION` r.
     """
 
@@ -205,12 +204,7 @@ class Resolution:
         if self.deviation is not None:
             number("deviation", self.deviation, "mm", positive=True)
         if self.facets is not None:
-            whole = number("resolution", self.facets, "facets along L", positive=True)
-            if whole != int(whole) or not MIN_RESOLUTION <= whole <= MAX_RESOLUTION:
-                raise VolfrepError(
-                    f"The resolution must be a whole number from {MIN_RESOLUTION} to "
-                    f"{MAX_RESOLUTION}, not {self.facets}."
-                )
+            whole("resolution", self.facets, MIN_RESOLUTION, MAX_RESOLUTION)
 
     def along_cell(self, size: float, struts: Struts) -> int:
         """How many facet edges fit along a cell of a size in mm.
@@ -235,7 +229,7 @@ class Resolution:
             edge = size / MAX_RESOLUTION
             smallest = edge * edge / (16.0 * radius)
             raise VolfrepError(
-                f"A deviation of {deviation:.3g} mm needs {wanted:.0f} facets along a cell: the "
+                f"A deviation of {deviation:.3g} mm needs {wanted:.4g} facets along a cell: the "
                 f"limit is {MAX_RESOLUTION}, which reaches {smallest:.3g} mm."
             )
         least = coarsest if self.deviation is not None else MIN_AUTOMATIC_RESOLUTION
@@ -254,7 +248,7 @@ class Resolution:
             thinnest = size / (LONGEST_FACET * MAX_RESOLUTION)
             raise VolfrepError(
                 f"Struts of radius {radius:.3g} mm are too thin for cells of {size:g} mm: they "
-                f"need {needed} facets along a cell, the limit is {MAX_RESOLUTION}; make them "
+                f"need {needed:.4g} facets along a cell, the limit is {MAX_RESOLUTION}; make them "
                 f"{thinnest:.3g} mm or thicker, or the cells smaller."
             )
         return max(needed, COARSEST)

@@ -72,14 +72,26 @@ def read_stiffness(text: str, young: float = 1.0) -> Target:
     """
     modulus, _, way = str(text).partition(":")
     try:
-        value = float(modulus)
-        x, y, z = _AXES.get(way.strip()) or (float(part) for part in way.split(","))
+        value, (x, y, z) = float(modulus), read_direction(way)
     except ValueError as error:
         raise VolfrepError(
             f"'{text}' is no stiffness: write the modulus and its direction, E:100, E:110, E:111 "
             "or E:X,Y,Z, such as 500:111."
         ) from error
     return Target("stiffness", value, (x, y, z), young)
+
+
+def read_direction(text: str) -> tuple[float, float, float]:
+    """The direction of a text: 100, 110, 111, or three numbers with commas.
+
+    Raises:
+        ValueError: it is none.
+
+    >>> read_direction("110"), read_direction("1, 2, 0")
+    ((1.0, 1.0, 0.0), (1.0, 2.0, 0.0))
+    """
+    x, y, z = _AXES.get(text.strip()) or (float(part) for part in text.split(","))
+    return x, y, z
 
 
 def stiffness_text(target: Target) -> str:

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ..util.errors import VolfrepError
+from ..util.linalg import times
 from ..util.types import Floats, Ints
 from .strut_graph import Wireframe
 
@@ -157,7 +158,7 @@ def joint_volume(joint: Joint) -> float:
     in_ball = way * np.cbrt(rng.random((SAMPLES, 1)))
 
     points = np.concatenate([in_arms.reshape(-1, 3), in_ball])
-    along = points @ direction.T
+    along = times(points, direction.T)
     off = np.sqrt(np.maximum((points**2).sum(axis=1)[:, None] - along**2, 0.0))
     inside = (along >= 0) & (along <= length) & (off <= first + along / length * (last - first))
     pieces = inside.sum(axis=1) + ((points**2).sum(axis=1) <= joint.ball**2)

@@ -18,7 +18,7 @@ from ..design.grading import LEAST_AROUND, MOST_AROUND, CellMap, Orientation, Si
 from ..design.profile import Profile
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.errors import VolfrepError
-from ..util.linalg import frame_about
+from ..util.linalg import along, frame_about, times
 from ..util.types import Floats
 
 #: Points along the grading at which its monotony is looked at and its inverse is tabulated.
@@ -76,12 +76,12 @@ class Base:
                 across, along = radius * np.sin(angle[:, 1]), radius * np.cos(angle[:, 1])
                 azimuth = angle[:, 2]
             local = np.stack([across * np.cos(azimuth), across * np.sin(azimuth), along], axis=1)
-        result: Floats = local @ self.frame.T + self.centre
+        result: Floats = times(local, self.frame.T) + self.centre
         return result
 
     def to_lattice(self, points: Floats) -> Floats:
         """(n, 3) points of the part in lattice space; angles from 0 to the full turn."""
-        local = (points - self.centre) @ self.frame
+        local = times(points - self.centre, self.frame)
         if self.kind == "cartesian":
             return local
         scale = self.turn / (2.0 * np.pi)
@@ -117,7 +117,7 @@ class Stretch:
 
     def to_part(self, points: Floats) -> Floats:
         """(n, 3) points moved along the direction; beyond the ends with the slope they have."""
-        position = points @ self.direction
+        position = along(points, self.direction)
         t = (position - self.start) / self.before
         inside = np.clip(t, 0.0, 1.0)
         moved = inside * self.profile(inside) / self.profile.end
@@ -128,7 +128,7 @@ class Stretch:
 
     def to_lattice(self, points: Floats) -> Floats:
         """The inverse, by the table: good to some 1e-8 of the length."""
-        position = points @ self.direction
+        position = along(points, self.direction)
         moved = (position - self.start) / self.length
         t = np.interp(moved, self.moved, self.at)
         t += np.minimum(moved, 0.0) / self._slope(0)
@@ -329,8 +329,8 @@ def lattice_map(
         origin = middle if turned.origin is None else np.array(turned.origin, float)
         if cells is not None and turned.origin is None:
             origin = centre
-        frame = turned.matrix @ frame
-        centre = origin + turned.matrix @ (centre - origin)
+        frame = times(turned.matrix, frame)
+        centre = origin + times(centre - origin, turned.matrix.T)
     kind = "cartesian" if cells is None else cells.kind
     around = 0
     if cells is not None:
@@ -350,7 +350,7 @@ def _cells_around(
 ) -> int:
     """So many cells that they are L wide half-way between the nearest and the farthest corner."""
     corners = np.stack(np.meshgrid(*bounds.T), axis=-1).reshape(-1, 3)
-    local = (corners - centre) @ frame
+    local = times(corners - centre, frame)
     count = 2 if kind == "cylindrical" else 3
     outermost = float(np.linalg.norm(local[:, :count], axis=1).max())
     return int(np.clip(round(2.0 * np.pi * 0.5 * outermost / cell_size), LEAST_AROUND, MOST_AROUND))

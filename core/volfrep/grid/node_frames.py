@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..design.cells import joint_radius
+from ..util.linalg import turns
 from ..util.types import Floats, Ints
 from .strut_graph import CellGraph, neighbour_table
 
@@ -68,8 +69,7 @@ def node_frames(
     were, turn = directions, None
     if jacobian is not None:
         were, _ = _outwards(graph.nodes, table, period)
-        left, _, right = np.linalg.svd(jacobian)
-        turn = left @ right
+        turn = turns(jacobian)
     return NodeFrames(
         graph,
         points,

@@ -16,6 +16,7 @@ from ..design.spec_parts import Grid, Struts
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.rays import inside_points
 from ..util.errors import VolfrepError
+from ..util.linalg import determinants
 from ..util.progress import Monitor
 from ..util.types import OPEN, Floats
 from .activation import CellGrid
@@ -136,7 +137,7 @@ def graded_wireframe(graph: CellGraph, struts: Struts, placement: Placement) -> 
     if mapping is None or mapping.is_rigid or struts.keep_radius:
         return result
     jacobian = mapping.jacobians(graph.nodes)
-    volume = np.linalg.det(jacobian)
+    volume = determinants(jacobian)
     span = graph.nodes[graph.struts[:, 1]] - graph.nodes[graph.struts[:, 0]]
     for axis in np.flatnonzero(mapping.base.periodic):
         span[:, axis] -= mapping.base.turn * np.round(span[:, axis] / mapping.base.turn)

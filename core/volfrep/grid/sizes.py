@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..util.linalg import determinants
 from ..util.types import Bools
 from .activation import CellGrid
 from .coordinate_map import CoordinateMap
@@ -53,7 +54,7 @@ def mapped_volume(cells: CellGrid, mapping: CoordinateMap) -> float:
     inside = np.stack(np.meshgrid(places, places, places), axis=-1).reshape(-1, 3)
     index = np.argwhere(np.ones(cells.shape, bool))
     points = cells.origin + cells.cell_size * (index[:, None, :] + inside).reshape(-1, 3)
-    growth = np.linalg.det(mapping.jacobians(points))
+    growth = determinants(mapping.jacobians(points))
     return float(growth.mean() * cells.cells * cells.cell_size**3)
 
 

@@ -264,11 +264,12 @@ def _enclosed_once(
     if met.odd > CLEAN * met.solid:
         united = unite_with_itself(mesh, met, name)
         if united is not None and windings(united, box).odd <= CLEAN * met.solid:
-            done.append(f"Overlaps of the surface with itself near {_place_of(met)} united")
+            done.append(f"Overlaps of the surface with itself{_near(met)} united")
             mesh, met = united, windings(united, box)
     if abs(met.solid - before.solid) > SAME_VOLUME * before.solid:
         raise VolfrepError(
-            f"'{name}' has bodies that could not be united to one solid: unite them before export."
+            f"'{name}' runs through itself{_near(before)}, and its bodies could not be united to "
+            "one solid: unite them before export."
         )
     _refuse_contact(mesh, name)
     precision = shortest_edge(mesh)
@@ -278,8 +279,8 @@ def _enclosed_once(
     if met.odd > MOST_ODD * met.solid:
         what = "inside out" if met.least < 0 else "enclosed more than once"
         raise VolfrepError(
-            f"'{name}' has a surface that runs through itself: {met.odd:.3g} mm3 are {what}, the "
-            f"most near {_place_of(met)}; mend it there and export it again."
+            f"'{name}' has a surface that runs through itself: {met.odd:.3g} mm3 are {what}"
+            f"{_near(met, ', the most near ')}; mend it there and export it again."
         )
     volume = mesh.volume
     error = VOLUME_ERRORS / max(met.lines, 1) ** 0.5
@@ -292,7 +293,7 @@ def _enclosed_once(
         mesh,
         done,
         (
-            f"The surface of '{name}' runs through itself near {_place_of(met)}; {share:.2g} % of "
+            f"The surface of '{name}' runs through itself{_near(met)}; {share:.2g} % of "
             "the volume is concerned.",
         ),
     )
@@ -309,5 +310,6 @@ def _refuse_contact(mesh: TriangleMesh, name: str) -> None:
         )
 
 
-def _place_of(met: Windings) -> str:
-    return "" if met.place is None else place_text(met.place)
+def _near(met: Windings, words: str = " near ") -> str:
+    """Where most of what is not enclosed once lies; nothing where no line met it."""
+    return "" if met.place is None else words + place_text(met.place)

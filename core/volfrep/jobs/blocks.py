@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import time
 from collections.abc import Mapping, Sequence
@@ -12,29 +13,34 @@ from typing import Any
 import numpy as np
 
 from ..design.forecast import BYTES_PER_STREAMED_CELL
-from ..design.memory_guard import refuse_cells, refuse_expected
+from ..design.memory_guard import BYTES_PER_STRUT, refuse_block, refuse_expected
 from ..design.spec import LatticeSpec
 from ..grid.activation import CellGrid
 from ..grid.placement import Placement, block_placement, graded_wireframe
 from ..grid.sizes import mapped_volume
 from ..grid.strut_graph import CellGraph, Wireframe, cell_graph
 from ..io.write.stl import write_stl
-from ..io.write.stl_octants import keeps_corners, write_octants_stl
+from ..io.write.stl_octants import write_octants_stl
 from ..lattice.assembly import Layout, facets, lay_out
-from ..lattice.certificate import agree_on_faces, certify
+from ..lattice.certificate import agree_on_faces, certify, keeps_corners
 from ..lattice.padded_grid import keeps_places, vertices_of
-from ..mesh.quality import Quality, inspect, measure
+from ..mesh.quality import Quality, measure
 from ..mesh.triangle_mesh import TriangleMesh
 from ..octants.octant import octant_grid
 from ..octants.octant_mesh import OctantSpec, mesh_octants, octant_spec
 from ..reports.report import Report, told
 from ..reports.result import NOTHING_REMOVED, Result, report_of
 from ..trim.finish import finished, refuse_no_solid
+from ..trim.trimmed_surface import TrimmedSurface
 from ..util.errors import VolfrepError
+from ..util.numbers import whole
 from ..util.progress import Monitor, ProgressCallback, peak_memory_mb
 from .finer import until_sound
 from .octant_guard import refuse_solid_cells, refuse_too_large
 from .target_report import judged
+
+#: Cells along one axis of a block.
+MOST_CELLS = 1_000_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,9 +75,9 @@ def block(
     """
     monitor = Monitor(progress)
     cells, placement = _block_placement(spec, count)
-    refuse_expected(spec, float(np.prod(cells.shape, dtype=float)) * spec.cell_size**3)
+    refuse_expected(spec, math.prod(cells.shape) * spec.cell_size**3, cells.shape)
     laid = _lay(spec, cells, placement, monitor)
-    refuse_too_large(spec, laid.layout.grid, laid.layout.octants, None)
+    refuse_too_large(spec, laid.layout.grid, laid.layout.octants, None, cells.shape)
     return _meshed(laid, spec, monitor)
 
 
@@ -82,23 +88,23 @@ def _meshed(laid: _Laid, spec: LatticeSpec, monitor: Monitor) -> Result:
         given = vertices_of(
             layout, lambda: laid.graph, cell, spec.struts, laid.octant_spec, placement, monitor
         )
-        mesh = TriangleMesh(given.vertices, facets(layout, monitor))
+        surface = TrimmedSurface(TriangleMesh(given.vertices, facets(layout, monitor)))
     removed = dict(NOTHING_REMOVED)
     with monitor.stage("check", 0.8, 1.0):
-        measured = measure(mesh, monitor) if spec.is_graded else certify(layout)
+        measured = measure(surface.mesh, monitor) if spec.is_graded else certify(layout)
         if measured.shells > 1 or measured.degenerate_triangles:
             # of no use to most blocks, and slow to import
             from ..trim.loose_pieces import clear, smallest_shell
 
-            cleared = clear(mesh, inspect(mesh, monitor), smallest_shell(laid.octant_spec))
-            mesh, measured = cleared.mesh, cleared.quality
+            cleared = clear(surface, smallest_shell(laid.octant_spec), monitor)
+            surface, measured = cleared.surface, cleared.quality
             removed["pieces_removed"] = cleared.pieces_removed
             removed["specks_removed"] = cleared.specks_removed
         moved = not keeps_places(spec.struts, placement)
-        mesh, measured, notes = finished(mesh, measured, monitor, moved)
+        surface, measured, notes = finished(surface, measured, monitor, moved)
     frame = graded_wireframe(laid.graph, spec.struts, placement)
     report = _report(laid, measured, frame, spec, monitor, removed)
-    return Result(mesh, frame, told(report, notes))
+    return Result(surface, frame, told(report, notes))
 
 
 def write_block_stl(
@@ -128,21 +134,22 @@ def write_block_stl(
         result = block(spec, count, progress=progress)
     else:
         cells, placement = _block_placement(spec, count)
-        refuse_cells(cells.cells, spec.cell_size, BYTES_PER_STREAMED_CELL)
+        refuse_block(cells.shape, BYTES_PER_STREAMED_CELL)
         monitor = Monitor(progress)
         laid = _lay(spec, cells, placement, monitor)
         with monitor.stage("check", 0.4, 0.5):
             measured = certify(laid.layout)
             refuse_no_solid(measured)
-            streams = measured.shells == 1 and keeps_corners(laid.layout, measured.bounds)
-            streams = streams and agree_on_faces(laid.layout)
+            streams = measured.shells == 1 and agree_on_faces(laid.layout)
+            kinds, edge = laid.layout.octants.values(), 0.5 * spec.cell_size
+            streams = streams and keeps_corners(kinds, edge, measured.bounds)
         if streams:
             monitor.count("triangles laid", laid.layout.triangles)
             with monitor.stage("write", 0.5, 1.0):
                 write_octants_stl(laid.layout, path, monitor)
             frame = graded_wireframe(laid.graph, spec.struts, placement)
             return _report(laid, measured, frame, spec, monitor, NOTHING_REMOVED)
-        refuse_too_large(spec, laid.layout.grid, laid.layout.octants, None)
+        refuse_too_large(spec, laid.layout.grid, laid.layout.octants, None, cells.shape)
         result = _meshed(laid, spec, monitor)
     start = time.perf_counter()
     write_stl(result.mesh, path)
@@ -178,9 +185,10 @@ def block_wireframe(spec: LatticeSpec, count: Sequence[int]) -> Wireframe:
     """The nodes and struts of a free-standing block.
 
     Raises:
-        VolfrepError: the counts make no sense.
+        VolfrepError: the counts make no sense, or the block would not fit into memory.
     """
     cells, placement = _block_placement(spec, count)
+    refuse_block(cells.shape, BYTES_PER_STRUT * len(spec.unit_cell().struts))
     active = np.ones(cells.shape, bool)
     graph = cell_graph(spec.unit_cell(), active, spec.cell_size, cells.origin, cells.periodic)
     return graded_wireframe(graph, spec.struts, placement)
@@ -188,9 +196,9 @@ def block_wireframe(spec: LatticeSpec, count: Sequence[int]) -> Wireframe:
 
 def _block_placement(spec: LatticeSpec, count: Sequence[int]) -> tuple[CellGrid, Placement]:
     """The grid and the placement of a free-standing block, with its counts checked."""
-    shape = tuple(int(n) for n in count)
-    if len(shape) != 3 or min(shape) < 1 or any(n != m for n, m in zip(shape, count, strict=True)):
-        raise VolfrepError(f"The count must be three whole numbers above 0, not {list(count)}.")
+    if len(count) != 3:
+        raise VolfrepError(f"The count must be three whole numbers, not {list(count)}.")
+    shape = [whole("count", n, 1, MOST_CELLS) for n in count]
     return block_placement(spec.grid, (shape[0], shape[1], shape[2]))
 
 

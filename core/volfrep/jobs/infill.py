@@ -6,13 +6,13 @@ Each is computed when it is asked for, and kept.
 
 from __future__ import annotations
 
+from concurrent.futures import Executor
 from dataclasses import replace
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
 from ..design.memory_guard import refuse_expected
-from ..design.openings import lie_on
 from ..design.spec import LatticeSpec
 from ..grid.placement import Placement, graded_wireframe, placement_in
 from ..grid.strut_graph import CellGraph, Wireframe, cell_graph
@@ -25,7 +25,7 @@ from ..lattice.padded_grid import (
     vertices_of,
 )
 from ..mesh.float32_repair import shortest_edge
-from ..mesh.quality import Quality, measure
+from ..mesh.quality import Quality, inspect, measure
 from ..mesh.triangle_mesh import TriangleMesh
 from ..octants.octant import OctantKey
 from ..octants.octant_mesh import Octant, OctantSpec, mesh_octants, octant_spec
@@ -38,38 +38,31 @@ from ..trim.beam_model import (
     reaching_into,
     refuse_fillets,
 )
-from ..trim.boolean_trim import KeptOctants
-from ..trim.clip_struts import AT_WALL, Clipped, clip
+from ..trim.clip_struts import Clipped
+from ..trim.culling import KeptOctants
 from ..trim.drains import Drained, trapped
 from ..trim.finish import finished, pieces_told, tidied
+from ..trim.held_struts import Held, axes_of, held
+from ..trim.laid import FIRST_MARGIN, Laid, in_place, lay
 from ..trim.loose_pieces import Cleared
 from ..trim.prune import Pruned, prune
-from ..trim.stage import (
-    FIRST_MARGIN,
-    Laid,
-    chosen_octants,
-    cut_lattice,
-    drained_part,
-    lay,
-    uncut_lattice,
-)
+from ..trim.stage import chosen_octants, cut_lattice, drained_part, uncut_lattice
+from ..trim.trimmed_surface import TrimmedSurface
 from ..util.cache import Kept, StageCache
 from ..util.content import content_of
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor, ProgressCallback
 from .active_cells import ActiveCells, activated, roles_of
 from .finer import until_sound
-from .octant_guard import refuse_solid_cells, refuse_too_large
+from .octant_guard import refuse_other_struts, refuse_solid_cells, refuse_too_large
 from .target_report import judged
 
 
 class Infill:
     """A solid filled with a lattice, stage by stage.
 
-    Every stage is an attribute: `domain`, `cells`, `struts`, `lattice`, `part`, `beams`, `axes`.
-    It is computed when it is first asked for, with those that it needs and no others, and kept;
-    all of them lie where the part lies. What a stage is made of is the key that it is kept under
-    in the cache, too: the solid, earlier stages, and parts of the specification.
+    Every stage is an attribute: `domain`, `cells`, `struts`, `lattice`, `part`, `beams`, `axes`,
+    computed when first asked for, with those that it needs, and kept; all lie where the part lies.
 
     Args:
         solid: checked closed mesh (from `volfrep.io.solid.read_solid` or `check_solid`), mm.
@@ -77,6 +70,8 @@ class Infill:
         cache: keeps the costly stages for other infills, as of the same solid with other struts.
         progress: called with the fraction done and the stage; returning False cancels.
         monitor: of a job that this is a part of, in place of one of its own.
+        executor: cuts the lattice at the wall, group by group; None: in this process.
+        streamed: whether its mesh is never asked for, but an STL file.
 
     Attributes:
         solid: the part.
@@ -103,17 +98,14 @@ class Infill:
         cache: StageCache | None = None,
         progress: ProgressCallback | None = None,
         monitor: Monitor | None = None,
+        executor: Executor | None = None,
+        streamed: bool = False,
     ) -> None:
-        size = solid.bounds[1] - solid.bounds[0]
-        if spec.network is None and spec.cell_size > size.max():
-            raise VolfrepError(
-                f"Cells of {spec.cell_size:g} mm are larger than the part, which measures "
-                f"{size[0]:.4g} x {size[1]:.4g} x {size[2]:.4g} mm: reduce the cell size, "
-                "or see whether the part is in another unit."
-            )
+        refuse_other_struts(solid, spec, is_of_cells=type(self) is Infill)
         self.solid, self.spec = solid, spec
         self.monitor = monitor or Monitor(progress)
-        self._cache = cache or StageCache()
+        self._cache, self._executor = cache or StageCache(), executor
+        self._streamed = streamed and spec.streams
         self._cell, self._grid, self._struts = spec.unit_cell(), spec.grid, spec.struts
         self._skin, self._boundary = spec.skin, spec.ending
         if spec.network is None:
@@ -121,6 +113,7 @@ class Infill:
         self._solid = Kept(solid, content_of(solid.vertices, solid.triangles))
         self._watch = Kept(self.monitor, "no result depends on it")
         self._laid_octants: dict[bool, Laid] = {}
+        self._held_struts: dict[bool, Held] = {}
         self._notes: tuple[str, ...] = ()
 
     @property
@@ -153,9 +146,10 @@ class Infill:
 
     @cached_property
     def _cavity(self) -> tuple[TriangleMesh, Quality]:
-        clean = tidied(self.domain.mesh, shortest_edge(self.solid), self.monitor)
-        mesh, quality, _ = finished(clean, measure(clean), self.monitor, moved=False)
-        return mesh, quality
+        wall = TrimmedSurface(self.domain.mesh)
+        clean = tidied(wall, shortest_edge(self.solid), self.monitor)
+        clean, quality, _ = finished(clean, measure(clean.mesh), self.monitor, moved=False)
+        return clean.mesh, quality
 
     @cached_property
     def placement(self) -> Placement:
@@ -217,14 +211,15 @@ class Infill:
     @cached_property
     def cavity_result(self) -> Result:
         """The domain as a mesh, with the figures of the cells and struts that it will hold."""
-        return self._reported("domain", Cleared(*self._cavity, 0, 0))
+        mesh, quality = self._cavity
+        return self._reported("domain", Cleared(TrimmedSurface(mesh), quality, 0, 0))
 
     @cached_property
     def lattice(self) -> Result:
         """The lattice without the skin: trimmed to its domain, or its cells whole."""
         laid = self._laid(is_cut=self._boundary.is_trimmed)
         with self.monitor.stage("trim", 0.6, 1.0):
-            cleared = self._cut(laid) if self._boundary.is_trimmed else self._uncut(laid)
+            cleared = self._cut(laid)
         return self._reported("lattice", cleared)
 
     @cached_property
@@ -258,36 +253,29 @@ class Infill:
         if self._skin is None:
             return self.lattice_beams
         refuse_fillets(self._struts)
-        struts, drains = self.struts, self.spec.drains
+        kept, drains = self._held(is_cut=True), self.spec.drains
+        struts = kept.without_loose(self.struts)
         made = part_beams(self.solid, self.cavity, struts, self._skin, drains, self.monitor)
-        return replace(made, warnings=self._beam_warnings + made.warnings)
+        warnings = self._beam_warnings + made.warnings
+        return replace(made, warnings=warnings, loose=kept.told)
 
     @cached_property
     def lattice_beams(self) -> BeamModel:
         """The lattice as beams, without a skin."""
         refuse_fillets(self._struts)
-        struts, clip_at = self.struts, None
+        kept, clip_at = self._held(is_cut=self._boundary.is_trimmed), None
+        struts = kept.without_loose(self.struts)
         if self._boundary.is_trimmed:
             clip_at = self.solid if self._skin is None else self.cavity
             struts = reaching_into(struts, clip_at)
-        return BeamModel(struts, clip_at, warnings=self._beam_warnings)
+        return BeamModel(struts, clip_at, warnings=self._beam_warnings, loose=kept.told)
 
     @cached_property
     def axes(self) -> Clipped:
         """The struts' axes, cut where they leave the domain."""
-        if not self.placement.is_cut:
-            return Clipped(self.struts, np.zeros(len(self.struts.nodes), bool))
-        clipped = clip(self.struts, self.cavity)
-        openings = self.domain.openings
-        if openings is not None:
-            frame = clipped.wireframe
-            free = lie_on(openings, frame.nodes, AT_WALL * frame.joint_radii)
-            clipped = replace(clipped, on_wall=clipped.on_wall & ~free)
-        if not len(clipped.wireframe.struts):
-            raise VolfrepError(
-                "No strut's axis lies inside the part: reduce the cell size or move the origin."
-            )
-        return clipped
+        is_cut = self.placement.is_cut
+        wall = self.cavity if is_cut else None
+        return axes_of(self.struts, wall, self._held(is_cut=is_cut), self.domain.openings)
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -299,19 +287,32 @@ class Infill:
     def _beam_warnings(self) -> tuple[str, ...]:
         return self.warnings + deformed_struts(self._grid, self._struts)
 
+    def _held(self, *, is_cut: bool) -> Held:
+        """Which pieces of the struts stay, where a wall cuts them or where they are whole."""
+        if is_cut not in self._held_struts:
+            wall = self.cavity if is_cut else None
+            self._held_struts[is_cut] = held(
+                self.struts, wall, has_skin=self._skin is not None,
+                bodies=max(1, inspect(self.solid).quality.bodies),
+                openings=self.domain.openings, keep_all=self._boundary.keep_pieces,
+            )  # fmt: skip
+        return self._held_struts[is_cut]
+
     def _laid(self, *, is_cut: bool) -> Laid:
         """The octants laid in the part, as of a lattice that a wall cuts, or as they are."""
         if is_cut not in self._laid_octants:
-            refuse_expected(self.spec, self.domain.mesh.volume)
+            refuse_expected(self.spec, 0.0 if self._streamed else self.domain.mesh.volume)
             _ = self.struts  # refused before anything is meshed
-            margin = 0.0 if keeps_places(self._struts, self.placement) else FIRST_MARGIN
-            if not is_cut:
-                margin = np.inf  # no wall that an octant could reach
+            keeps = keeps_places(self._struts, self.placement)
+            # Where nothing is cut there is no wall that an octant could reach.
+            margin = np.inf if not is_cut else 0.0 if keeps else FIRST_MARGIN
             with self.monitor.stage("tile", 0.4, 0.5):
                 first = self._octants(is_cut, margin)
             with self.monitor.stage("lattice", 0.5, 0.6):
-                self._laid_octants[is_cut] = lay(
-                    first, margin, lambda wider: self._octants(is_cut, wider), self._placed
+                self._laid_octants[is_cut] = (
+                    in_place(*first, self.placement.nudged(np.zeros(3)))
+                    if keeps and self.placement.mapping is None
+                    else lay(first, margin, partial(self._octants, is_cut), self._placed)
                 )
         return self._laid_octants[is_cut]
 
@@ -335,7 +336,7 @@ class Infill:
         (kept, octants), self._meshing, notes = until_sound(self._meshing, meshed)
         self._notes += notes
         refuse_solid_cells(octants, self._meshing)
-        refuse_too_large(self.spec, kept.grid, octants, kept.border)
+        refuse_too_large(self.spec, kept.grid, octants, kept.border, streamed=self._streamed)
         return kept, octants
 
     def _placed(self, layout: Layout) -> Deformed:
@@ -352,22 +353,21 @@ class Infill:
         return self.cells.padded.graph(self._cell, self.cells.active, self._boundary.is_endless)
 
     def _cut(self, laid: Laid, *, with_skin: bool = False) -> Cleared:
-        has_skin = self._skin is not None
+        keep = self._boundary.keep_pieces
+        if not (with_skin or self._boundary.is_trimmed):
+            return uncut_lattice(laid, self.solid, self._meshing, self.monitor, keep_pieces=keep)
         return cut_lattice(
-            laid, self.solid, self.domain, self._meshing, self.monitor,
-            has_skin=has_skin, with_skin=with_skin,
+            laid, self.solid, self.domain, self._meshing, self.monitor, keep_pieces=keep,
+            has_skin=self._skin is not None, with_skin=with_skin, executor=self._executor,
         )  # fmt: skip
-
-    def _uncut(self, laid: Laid) -> Cleared:
-        return uncut_lattice(laid, self.solid, self._meshing, self.monitor)
 
     def _reported(self, output: str, cleared: Cleared, drained: Drained | None = None) -> Result:
         """A mesh with the figures of what it is and of how it was made."""
         domain, pruned, warnings = self.domain, self.pruned, self.warnings
-        mesh, quality = cleared.mesh, cleared.quality
+        surface, quality = cleared.surface, cleared.quality
+        moved = not keeps_places(self._struts, self.placement)
         if output != "domain":
-            moved = not keeps_places(self._struts, self.placement)
-            mesh, quality, notes = finished(mesh, quality, self.monitor, moved)
+            surface, quality, notes = finished(surface, quality, self.monitor, moved)
             warnings += self._notes + notes
         if output == "lattice":
             warnings += pieces_told(
@@ -397,4 +397,4 @@ class Infill:
             report = replace(report, spec={**report.spec, "output": output})
         if output != "domain":
             report = judged(report, self.spec)
-        return Result(mesh, self.struts, report)
+        return Result(surface, self.struts, report)

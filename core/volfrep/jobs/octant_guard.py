@@ -1,15 +1,19 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Refusals before octants are assembled: too many for the memory, or without a surface."""
+"""Refusals before octants are assembled: cells too large, too many, or without a surface."""
 
 from __future__ import annotations
+
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..design.memory_guard import cells_are_full, refuse_memory
 from ..design.spec import LatticeSpec
+from ..mesh.triangle_mesh import TriangleMesh
 from ..octants.octant import OctantGrid, OctantKey
 from ..octants.octant_mesh import Octant, OctantSpec
+from ..util.errors import VolfrepError
 
 
 def refuse_too_large(
@@ -17,6 +21,9 @@ def refuse_too_large(
     grid: OctantGrid,
     octants: dict[OctantKey, Octant],
     border: NDArray[np.bool_] | None,
+    count: Sequence[int] | None = None,
+    *,
+    streamed: bool = False,
 ) -> None:
     """Refuse a lattice that would not fit.
 
@@ -25,6 +32,8 @@ def refuse_too_large(
         grid: which octant lies where.
         octants: their meshes.
         border: octants that go through the Boolean; None for none.
+        count: cells of a block along x, y, z; None for a part.
+        streamed: whether no others are in memory.
 
     Raises:
         VolfrepError: it needs more memory than is free.
@@ -33,10 +42,25 @@ def refuse_too_large(
     present = grid.kind >= 0
     triangles = int(per_kind[grid.kind[present]].sum())
     in_boolean = 0 if border is None else int(per_kind[grid.kind[present & border]].sum())
-    refuse_memory(spec, triangles, in_boolean)
+    refuse_memory(spec, 0 if streamed else triangles, in_boolean, count)
 
 
 def refuse_solid_cells(octants: dict[OctantKey, Octant], spec: OctantSpec) -> None:
     """Raise a `VolfrepError` where no octant has a surface: struts fill everything."""
     if not any(len(octant.triangles) for octant in octants.values()):
         raise cells_are_full(spec.cell_size, spec.strut_radius)
+
+
+def refuse_other_struts(solid: TriangleMesh, spec: LatticeSpec, *, is_of_cells: bool) -> None:
+    """Raise a `VolfrepError` where a cell is larger than the part, or a job knows no networks."""
+    if spec.network is not None:
+        if is_of_cells:
+            raise VolfrepError("This is done with cells and not with a network: leave it out.")
+        return
+    cell_size, size = spec.cell_size, solid.bounds[1] - solid.bounds[0]
+    if cell_size > size.max():
+        raise VolfrepError(
+            f"Cells of {cell_size:g} mm are larger than the part, which measures "
+            f"{size[0]:.4g} x {size[1]:.4g} x {size[2]:.4g} mm: reduce the cell size, "
+            "or see whether the part is in another unit."
+        )

@@ -8,38 +8,41 @@ cut between points along them, and so ends lie within a few hundredths of a cell
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import lru_cache
+from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.stats import qmc
 
-from ..design.cells import LIBRARY, UnitCell
-from ..design.forecast import strut_shares
+from ..design.cells import LIBRARY
 from ..design.memory_guard import refuse_cells
 from ..design.openings import OpenFace, open_triangles
 from ..design.spec import LatticeSpec
+from ..design.target import Target
 from ..grid.activation import CellGrid, make_grid, mapped_grid
 from ..grid.coordinate_map import CoordinateMap
 from ..grid.placement import graded_wireframe, placement_in
 from ..grid.strut_graph import Wireframe, cell_graph
 from ..lattice.padded_grid import least_width, padded_grid
+from ..mesh.quality import inspect
 from ..mesh.triangle_mesh import TriangleMesh
-from ..octants import sdf
-from ..octants.octant import ALL_ACTIVE, OctantKey, octant_primitives
+from ..spatial.even_points import even_points
 from ..spatial.proximity import index_surface
 from ..spatial.rays import inside_points
+from ..trim.clip_struts import Pieces
+from ..trim.held_struts import largest
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
+from .rough_radius import lattice_volume, radius_of_volume
+from .stiffness_target import ratio_of_stiffness
 
 #: The surface is sampled this often along the diagonal of the part's box.
 SAMPLES_ALONG = 150.0
 #: Pieces that a strut near the wall is looked at in.
 PIECES = 8
-#: Points by which the volume within a skin is measured, and that of a cell's struts (powers of 2).
+#: A corner of a cell this far outside, in units of L, lies on the wall.
+ON_WALL = 1e-6
+#: Points by which the volume within a skin is measured (a power of 2).
 VOLUME_POINTS = 14
-CELL_POINTS = 12
 #: More struts than this are no preview.
 MOST_STRUTS = 2_000_000
 
@@ -59,6 +62,7 @@ class Preview:
         volume: of the part, mm3.
         mass: in g.
         grid_lines: (l, 3) starts and ends of the edges of the active cells, mm.
+        spec: what is shown, with the radius that was found where there is a target.
     """
 
     start: Floats
@@ -71,6 +75,7 @@ class Preview:
     volume: float
     mass: float
     grid_lines: tuple[Floats, Floats]
+    spec: LatticeSpec
 
 
 class PartDepth:
@@ -79,6 +84,9 @@ class PartDepth:
     Args:
         solid: checked closed mesh, mm.
         open_faces: faces that have no skin, as `LatticeSpec` has them.
+
+    Attributes:
+        bodies: how many the part has.
     """
 
     def __init__(self, solid: TriangleMesh, open_faces: tuple[OpenFace, ...] = ()) -> None:
@@ -89,8 +97,9 @@ class PartDepth:
         if open_faces:
             self._skinned = self._surface.without(open_triangles(solid, open_faces))
         low, high = solid.bounds
-        points = low + qmc.Sobol(3, seed=1).random_base2(VOLUME_POINTS) * (high - low)
+        points = low + even_points(3, VOLUME_POINTS) * (high - low)
         points = points[inside_points(solid, points, Monitor())]
+        self.bodies = max(1, inspect(solid).quality.bodies)
         self._sampled = (self._skinned or self._surface).near(points)[1]
 
     def below_skin(self, points: Floats, shell: float) -> Floats:
@@ -114,11 +123,12 @@ def preview(solid: TriangleMesh, spec: LatticeSpec, depth: PartDepth) -> Preview
 
     Args:
         solid: checked closed mesh, mm.
-        spec: what to make; its drain holes and the removal of struts are not shown.
+        spec: what to make; its drain holes and the removal of struts are not shown. The radius
+            of a target is found as nearly as the figures are.
         depth: of that solid, with the open faces of that specification.
 
     Raises:
-        VolfrepError: the specification does not fit the solid.
+        VolfrepError: the specification does not fit the solid, or no radius meets its target.
     """
     if spec.network is not None:
         raise VolfrepError("A network is shown once it is computed; there is no preview of it.")
@@ -146,6 +156,9 @@ def preview(solid: TriangleMesh, spec: LatticeSpec, depth: PartDepth) -> Preview
             f"No strut of cells of {spec.cell_size:g} mm lies inside the skin: reduce the cell "
             "size or the shell thickness."
         )
+    if spec.skin is None and not spec.keep_pieces:
+        stays = largest(Pieces(owner, low, high), frame, depth.bodies)
+        owner, low, high = owner[stays], low[stays], high[stays]
     ends = frame.nodes[frame.struts[owner]]
     span = ends[:, 1] - ends[:, 0]
     radii = frame.radii[owner]
@@ -153,16 +166,32 @@ def preview(solid: TriangleMesh, spec: LatticeSpec, depth: PartDepth) -> Preview
     start, end = ends[:, 0] + low[:, None] * span, ends[:, 0] + high[:, None] * span
     piece_radii = np.stack([radii[:, 0] + low * slope, radii[:, 0] + high * slope], axis=1)
     length = np.linalg.norm(span, axis=1) * (high - low)
-    lattice = float(np.pi * (length * piece_radii.prod(axis=1)).sum()) * _joints_share(
-        cell, spec.template_radius / spec.cell_size, spec.fillet / spec.cell_size
-    )
+    # Of struts of the radius 1 mm, as it would be if they did not meet.
+    bare = float(np.pi * (length * piece_radii.prod(axis=1)).sum()) / spec.template_radius**2
     domain = depth.volume_below(spec.shell)
     skin = abs(solid.volume) - domain if spec.output == "part" else 0.0
+    if spec.target is not None:
+        radius = _aimed_radius(spec, spec.target, bare, domain, skin)
+        piece_radii *= radius / spec.strut_radius
+        spec = replace(spec, strut_radius=radius)
+    lattice = lattice_volume(spec, bare, spec.template_radius)
     return Preview(
         start, end, piece_radii, cells, len(np.unique(owner)), grid,
         lattice / max(domain, 1e-300), lattice + skin, (lattice + skin) * spec.density / 1000.0,
-        _edges(active, spec, grid, placement.mapping),
+        _edges(active, spec, grid, placement.mapping), spec,
     )  # fmt: skip
+
+
+def _aimed_radius(
+    spec: LatticeSpec, target: Target, bare: float, domain: float, skin: float
+) -> float:
+    """The radius that meets a target by the preview's own figures, mm."""
+    if target.aim == "stiffness":
+        size = spec.cell_size
+        return size * ratio_of_stiffness(spec.unit_cell(), target, spec.fillet / size, rough=True)
+    if target.aim == "mass":
+        return radius_of_volume(spec, bare, target.value * 1000.0 / spec.density - skin)
+    return radius_of_volume(spec, bare, target.value * domain)
 
 
 def _active(
@@ -191,7 +220,8 @@ def _active(
     corner_of = np.argwhere(np.ones((2, 2, 2), bool))
     around = np.stack([at_corner[i : i + nx, j : j + ny, k : k + nz] for i, j, k in corner_of])
     if spec.activation == "inside":
-        active = (np.minimum(around.min(axis=0), at_centre) > 0.0) & every
+        least = np.minimum(around.min(axis=0), at_centre)
+        active = (least > -ON_WALL * size) & every  # a cell may lie at the wall
         return active, int(active.sum())
     # No point of a cell lies deeper than its centre by more than its corners are away.
     reach = np.maximum(np.abs(around - at_centre).max(axis=0), 0.5 * np.sqrt(3.0) * size)
@@ -243,22 +273,3 @@ def _edges(
     cubes = cell_graph(LIBRARY["Box"], active, spec.cell_size, grid.origin, grid.periodic)
     nodes = cubes.nodes if mapping is None else mapping.to_part(cubes.nodes)
     return nodes[cubes.struts[:, 0]], nodes[cubes.struts[:, 1]]
-
-
-@lru_cache(maxsize=64)
-def _joints_share(cell: UnitCell, radius: float, fillet: float) -> float:
-    """Volume of a cell's struts and joints over that of its struts counted each by itself.
-
-    The radius is in units of L. Struts overlap at the joints, where spheres and fillets add some.
-    """
-    points = 0.5 * qmc.Sobol(3, seed=1).random_base2(CELL_POINTS)
-    mirrors = (0,) if cell.is_mirror_symmetric else range(8)
-    filled = []
-    for mirror in mirrors:
-        key = OctantKey(mirror, ALL_ACTIVE)
-        primitives = octant_primitives(cell, key, 1.0, radius, fillet)
-        values = sdf.union(sdf.distances(points[:, None], primitives), fillet)
-        filled.append(float((values < 0.0).mean()))
-    ends = cell.nodes[cell.struts]
-    length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
-    return float(np.mean(filled) / (np.pi * radius**2 * (length @ strut_shares(cell))))

@@ -9,13 +9,13 @@ with what it missed by.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from concurrent.futures import Executor
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
-from scipy.optimize import brentq
 
 from ..design.spec import LatticeSpec
-from ..design.spec_parts import MAX_RESOLUTION, largest_radius
 from ..design.target import Target
 from ..io.solid import Solid
 from ..lattice.strut_volume import (
@@ -35,7 +35,8 @@ from ..util.errors import VolfrepError
 from ..util.progress import ProgressCallback
 from .blocks import block_volume, block_wireframe, measured_block
 from .infill import Infill
-from .network_infill import infill_of
+from .networks import infill_of
+from .rough_radius import radius_range
 from .stiffness_target import ratio_of_stiffness
 
 #: A mesh that misses its target by more, relative, is made again; so many are made at most.
@@ -54,6 +55,8 @@ def aimed(
     progress: ProgressCallback | None = None,
     cache: StageCache | None = None,
     meshed: bool = True,
+    executor: Executor | None = None,
+    streamed: bool = False,
 ) -> Infill:
     """The infill of a solid whose struts have the radius of the specification's target.
 
@@ -64,6 +67,8 @@ def aimed(
         cache: keeps the stages; the wall is found once.
         meshed: whether its result is made and measured; otherwise the radius is the first one,
             as for beams.
+        executor: as of `Infill`.
+        streamed: as of `Infill`.
 
     Raises:
         VolfrepError: no radius meets the target (the text says what can be had), or the
@@ -71,12 +76,13 @@ def aimed(
         Cancelled: the callback said so.
     """
     cache = cache or StageCache()
-    infill = infill_of(solid, spec, progress=progress, cache=cache)
+    made_of = partial(infill_of, solid, cache=cache, executor=executor, streamed=streamed)
+    infill = made_of(spec, progress=progress)
     target = spec.target
     if target is None or spec.output == "domain":
         return infill
     if target.aim == "stiffness":
-        return infill_of(solid, _stiff(spec, target), progress=progress, cache=cache)
+        return made_of(_stiff(spec, target), progress=progress)
     monitor, domain = infill.monitor, infill.domain.mesh.volume
     frame = infill.struts
     with monitor.stage("target", 0.4, 0.4):
@@ -94,9 +100,7 @@ def aimed(
         search = _Search(spec, target, table, domain, skin)
     wanted = search.volume
     for made in range(1, MESHES + 1):
-        infill = infill_of(
-            solid, search.specification(wanted), cache=cache, progress=progress, monitor=monitor
-        )
+        infill = made_of(search.specification(wanted), progress=progress, monitor=monitor)
         if not meshed:
             return infill
         report = infill.result.report
@@ -113,9 +117,10 @@ def filled(
     *,
     progress: ProgressCallback | None = None,
     cache: StageCache | None = None,
+    executor: Executor | None = None,
 ) -> tuple[Result, LatticeSpec]:
     """The result of `aimed`, and the specification with the radius that was found."""
-    infill = aimed(solid, spec, progress=progress, cache=cache)
+    infill = aimed(solid, spec, progress=progress, cache=cache, executor=executor)
     return infill.result, infill.spec
 
 
@@ -189,9 +194,7 @@ class _Search:
     ) -> None:
         self._spec, self._target = spec, target
         self._domain, self._skin = domain, skin
-        size = spec.cell_size
-        self._low = size / MAX_RESOLUTION * 1.5
-        self._high = largest_radius(size, spec.fillet) * (1.0 - 1e-6)
+        self._low, self._high = radius_range(spec)
         if target.aim == "mass":
             self.volume = target.value * 1000.0 / spec.density - skin
             self.scale = target.value * 1000.0 / spec.density
@@ -220,6 +223,8 @@ class _Search:
             return float(np.clip(self._table.radius_of(volume), low, high))
         if self._volume(high) <= volume:
             return high
+        from scipy.optimize import brentq  # slow to load, and every job loads this module
+
         return float(brentq(lambda r: self._volume(r) - volume, low, high, xtol=1e-5 * high))
 
     def _volume(self, radius: float) -> float:

@@ -13,10 +13,10 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.spatial import cKDTree
-from scipy.stats import qmc
 
 from ..grid.strut_graph import Wireframe
 from ..mesh.triangle_mesh import TriangleMesh
+from ..spatial.even_points import even_points
 from ..spatial.winding import crossings
 from ..util.progress import Monitor
 from ..util.types import Floats
@@ -82,7 +82,7 @@ def points_inside(
 ) -> tuple[Floats, Floats]:
     """About 2^k (n, 3) points spread evenly over a domain, and (n,) the volume each stands for."""
     low, high = domain.bounds
-    lines = qmc.Sobol(2, seed=1).random_base2(points_log2 - 4) * (high - low)[:2] + low[:2]
+    lines = even_points(2, points_log2 - 4) * (high - low)[:2] + low[:2]
     corners = domain.vertices[domain.triangles]
     line, _, height, leaves = monitor.call(lambda: crossings(corners, lines))
     order = np.lexsort((height, line))
@@ -105,7 +105,7 @@ def points_inside(
 def points_about(frame: Wireframe, reach: float, points_log2: int) -> tuple[Floats, Floats]:
     """Points of the box about all struts and `reach` mm beyond, as `points_inside`."""
     low, high = frame.nodes.min(axis=0) - reach, frame.nodes.max(axis=0) + reach
-    points = low + qmc.Sobol(3, seed=1).random_base2(points_log2) * (high - low)
+    points = low + even_points(3, points_log2) * (high - low)
     return points, np.full(len(points), float(np.prod(high - low)) / len(points))
 
 

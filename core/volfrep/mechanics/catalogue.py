@@ -15,7 +15,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 
 from ..design.cells import LIBRARY, PAPERS, UnitCell
 from ..util.errors import VolfrepError
@@ -23,10 +22,12 @@ from ..util.types import Floats
 from .frame import CIRCLE, SQUARE_SECTION, Ends, JointLaw
 from .homogenise import homogenise
 from .joint_fit import JointFit, fit_joint
-from .tensor import cubic
+from .materials import SolidMaterial
+from .summary import MODULI, POISSON, CellProperties, cell_properties
+from .summary import RATIOS as PURE_RATIOS
+from .tensor import cubic, moduli
 
 FILE = Path(__file__).with_name("catalogue.json")
-POISSON = 0.3
 #: r / L of the catalogue; and the density above which struts are hardly struts any more.
 RATIOS = (0.02, 0.03, 0.04, 0.05, 0.07, 0.1, 0.125, 0.15, 0.2)
 DENSEST = 0.75
@@ -36,6 +37,9 @@ FEWER_RATIOS = (0.03, 0.05, 0.07, 0.1, 0.15)
 CUBIC_WITHIN = 0.03
 #: What is stored of a cell at each ratio, each with its error: in units of the solid's.
 NAMES = ("relative_density", "C11", "C12", "C44", "strength", "shear_strength", "conductivity")
+#: Of what the stiffness comes to, the relative errors are stored too; where they were not computed
+#: they are bounded by those of the constants.
+FIGURES = (*MODULI, *PURE_RATIOS)
 #: The sections whose ends are stored: of the deck's two-noded beams, and the round ones of
 #: FreeCAD's three-noded beams; and whether ends may be wider than their strut. Where round beams
 #: of different width meet, CalculiX makes a rigid knot, which on the paper's sample weighs 6 %.
@@ -52,6 +56,7 @@ class CatalogueCell:
         ratios: (n,) r / L.
         values: (n, 7) by `NAMES`.
         errors: (n, 7) by how much each may be off.
+        doubts: (n, 7) by how much `FIGURES` may be off, as shares of them.
         ends: for each section (n, 3) length, axial and bending of the fitted ends.
         misfit: for each section (n, 4), see `joint_fit.JointFit`.
     """
@@ -60,6 +65,7 @@ class CatalogueCell:
     ratios: Floats
     values: Floats
     errors: Floats
+    doubts: Floats
     ends: dict[str, Floats]
     misfit: dict[str, Floats]
 
@@ -123,7 +129,9 @@ class CatalogueCell:
             )
 
 
-def _spline(ratios: Floats, logs: Floats) -> CubicSpline:
+def _spline(ratios: Floats, logs: Floats) -> Any:
+    from scipy.interpolate import CubicSpline  # slow to load, and every job loads this module
+
     return CubicSpline(np.log(ratios), logs, bc_type="natural")
 
 
@@ -142,6 +150,7 @@ def catalogue() -> dict[str, CatalogueCell]:
                 np.array(cell["ratios"], float),
                 np.array(cell["values"], float),
                 np.array(cell["errors"], float),
+                np.array(cell.get("doubts") or _bounds(cell["values"], cell["errors"]), float),
                 {key: np.array(rows, float) for key, rows in cell["ends"].items()},
                 {key: np.array(rows, float) for key, rows in cell["misfit"].items()},
             )
@@ -149,6 +158,24 @@ def catalogue() -> dict[str, CatalogueCell]:
         }
     except (OSError, ValueError, KeyError) as error:
         raise VolfrepError(f"The catalogue '{FILE}' cannot be read: {error}.") from error
+
+
+def _bounds(values: list[list[float]], errors: list[list[float]]) -> list[list[float]]:
+    """By how much `FIGURES` may be off, relative, if the constants err each in the worst way."""
+
+    def figures(constants: list[float]) -> Floats:
+        found = moduli(cubic(*constants))
+        return np.array([getattr(found, name) for name in FIGURES])
+
+    rows = []
+    for row, error in zip(values, errors, strict=True):
+        plain, off = figures(row[1:4]), np.zeros(len(FIGURES))
+        for k in range(3):
+            constants = row[1:4]
+            constants[k] += 0.01 * error[1 + k]  # no further: a small shear must stay one
+            off += 100.0 * np.abs(figures(constants) - plain)
+        rows.append((off / np.abs(plain)).tolist())
+    return rows
 
 
 def known_cell(cell: UnitCell) -> CatalogueCell | None:
@@ -159,6 +186,59 @@ def known_cell(cell: UnitCell) -> CatalogueCell | None:
     ):
         return None
     return catalogue().get(cell.name)
+
+
+def known_properties(
+    cell: UnitCell,
+    cell_size: float,
+    strut_radius: float,
+    material: SolidMaterial | None = None,
+) -> CellProperties | None:
+    """What the catalogue knows of a lattice without fillets, at once; None where it does not.
+
+    Its solid has a Poisson's ratio of `POISSON`, whatever the material's.
+    """
+    ratio = strut_radius / cell_size
+    known = known_cell(cell)
+    if known is None or not known.ratios[0] <= ratio <= known.ratios[-1]:
+        return None
+    found, tensor = known.at(ratio), known.tensor(ratio)
+    young = 1.0 if material is None else material.young
+    limit = 1.0 if material is None or material.yield_stress is None else material.yield_stress
+    figure = moduli(tensor)
+    values = {
+        name: float(getattr(figure, name)) * (young if name in MODULI else 1.0) for name in FIGURES
+    }
+    for name in ("strength", "shear_strength", "conductivity"):
+        values[name] = found[name] * (limit if "strength" in name else 1.0)
+    place, places = np.log(ratio), np.log(known.ratios)
+
+    def share(column: Floats) -> float:
+        return float(np.interp(place, places, column))
+
+    errors: dict[str, Any] = {
+        name: abs(values[name]) * share(known.doubts[:, k]) for k, name in enumerate(FIGURES)
+    }
+    shares = dict(zip(NAMES, (known.errors / known.values).T, strict=True))
+    for name in ("strength", "shear_strength", "conductivity"):
+        errors[name] = values[name] * share(shares[name])
+    errors["relative_density"] = found["relative_density"] * share(shares["relative_density"])
+    errors["stiffness"] = young * cubic(
+        *(found[name] * share(shares[name]) for name in ("C11", "C12", "C44"))
+    )
+    return CellProperties(
+        cell.name,
+        float(cell_size),
+        float(strut_radius),
+        0.0,
+        found["relative_density"],
+        material,
+        young * tensor,
+        values,
+        errors,
+        {},
+        0,
+    )
 
 
 def joint_law(cell: UnitCell, cell_size: float, section: str = "circle") -> JointLaw:
@@ -222,17 +302,20 @@ def is_listed(cell: UnitCell) -> bool:
 def compute(name: str, say: Callable[[str], None] = lambda _: None) -> CatalogueCell:
     """A cell of the library over its ratios, as far as its density allows."""
     cell = LIBRARY[name]
-    ratios, values, errors = [], [], []
+    ratios, values, errors, doubts = [], [], [], []
     for ratio in RATIOS if name in PAPERS else FEWER_RATIOS:
-        row, doubt = point(cell, ratio)
+        row, error, doubt = point(cell, ratio)
         if row[0] > DENSEST:
             break
         ratios.append(ratio)
         values.append(row)
-        errors.append(doubt)
+        errors.append(error)
+        doubts.append(doubt)
         say(f"{name} r/L {ratio:g}: density {row[0]:.4f}, C11 {row[1]:.5g}, C44 {row[3]:.5g}")
     return refitted(
-        CatalogueCell(name, np.array(ratios), np.array(values), np.array(errors), {}, {})
+        CatalogueCell(
+            name, np.array(ratios), np.array(values), np.array(errors), np.array(doubts), {}, {}
+        )
     )
 
 
@@ -259,10 +342,8 @@ def refitted(known: CatalogueCell) -> CatalogueCell:
     return replace(known, ends=ends, misfit=misfit)
 
 
-def point(cell: UnitCell, ratio: float) -> tuple[list[float], list[float]]:
-    """The values by `NAMES` of one cell and r / L, computed, and their errors."""
-    from .summary import cell_properties
-
+def point(cell: UnitCell, ratio: float) -> tuple[list[float], list[float], list[float]]:
+    """The values by `NAMES` of one cell and r / L, their errors, and the relative of `FIGURES`."""
     found = cell_properties(cell, 1.0, ratio)
     places = ((0, 0), (0, 1), (3, 3))
     values = [found.relative_density, *(float(found.stiffness[place]) for place in places)]
@@ -273,7 +354,7 @@ def point(cell: UnitCell, ratio: float) -> tuple[list[float], list[float]]:
     for name in NAMES[4:]:
         values.append(found.values[name])
         errors.append(found.errors[name])
-    return values, errors
+    return values, errors, [abs(found.errors[name] / found.values[name]) for name in FIGURES]
 
 
 def main(arguments: list[str]) -> None:
@@ -299,6 +380,7 @@ def main(arguments: list[str]) -> None:
                 "ratios": cells[name].ratios.tolist(),
                 "values": _short(cells[name].values),
                 "errors": _short(cells[name].errors, 2),
+                "doubts": _short(cells[name].doubts, 2),
                 "ends": {key: _short(rows, 4) for key, rows in cells[name].ends.items()},
                 "misfit": {key: _short(rows, 2) for key, rows in cells[name].misfit.items()},
             }

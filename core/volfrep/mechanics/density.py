@@ -15,7 +15,6 @@ from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import qmc
 
 from ..design.cells import UnitCell
 from ..octants import sdf as frep
@@ -186,6 +185,8 @@ def _axis_gaps(one: Primitives, two: Primitives) -> Floats:
 @lru_cache(maxsize=2)
 def _sobol() -> NDArray[np.float64]:
     """(SETS * POINTS, 3) points of the unit cube, the same in every run."""
+    from scipy.stats import qmc  # slow to load, and every job loads this module
+
     sets = [qmc.Sobol(3, scramble=True, seed=seed).random(POINTS) for seed in range(SETS)]
     return np.concatenate(sets)
 

@@ -13,7 +13,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import least_squares
 
 from ..design.cells import UnitCell
 from ..util.types import Floats
@@ -110,6 +109,8 @@ def fit_joint(
         first = np.log([start.length, start.axial, start.bending / start.axial])
     low, high = _LOW[:free], _HIGH[:free]
     first = np.clip(first[:free], low + 1e-6, high - 1e-6)
+    from scipy.optimize import least_squares  # slow to load, and every job loads this module
+
     place = least_squares(residuals, first, bounds=(low, high), x_scale=0.3).x
     errors = np.abs(np.expm1(missed(place)))
     parts = np.split(errors, np.cumsum(_COUNTS)[:-1])

@@ -2,20 +2,23 @@
 """Materials to print with, as built: typical figures with their sources, and the user's own.
 
 A printed material depends on machine, parameters, direction and treatment: these are figures to
-begin with, and `source` says whose they are. Where a figure is a Poisson's ratio that no data sheet
-gives, it is the handbook's for the wrought or moulded material.
+begin with. `source` says whose they are, and which of them were not read there: those are usual
+figures of such a material, to be held against your supplier's. Where a figure is a Poisson's ratio
+that no data sheet gives, it is the handbook's for the wrought or moulded material.
 """
 
 from __future__ import annotations
 
 import json
-import math
 import re
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
 from ..util.errors import VolfrepError
+from ..util.numbers import number
+from ..util.toml import toml_library
 
 MAX_FILE_BYTES = 100_000
 _NAME = re.compile(r"[A-Za-z0-9][-\w]{0,70}", re.ASCII)
@@ -72,12 +75,10 @@ class SolidMaterial:
             raise VolfrepError(
                 f"The material's name '{self.name}' must consist of letters, digits, '-' and '_'."
             )
-        numbers = (self.density, self.young, self.yield_stress)
-        if not all(n is None or (math.isfinite(n) and n > 0) for n in numbers):
-            raise VolfrepError(
-                f"The material '{self.name}' must have a density, a Young's modulus and a yield "
-                "stress above 0."
-            )
+        number(f"density of '{self.name}'", self.density, "g/cm3", positive=True)
+        number(f"Young's modulus of '{self.name}'", self.young, "MPa", positive=True)
+        if self.yield_stress is not None:
+            number(f"yield stress of '{self.name}'", self.yield_stress, "MPa", positive=True)
         if not -1.0 < self.poisson < 0.5:
             raise VolfrepError(
                 f"The material '{self.name}' must have a Poisson's ratio between -1 and 0.5, "
@@ -100,21 +101,28 @@ MATERIALS = {
     material.name.lower(): material
     for material in (
         SolidMaterial("Ti-6Al-4V", 4.41, 110_000, 0.34, 1_000, ("LPBF", "EBM"),
-                      "EOS Titanium Ti64, data sheet (M 290, 30 um)"),
+                      "EOS Titanium Ti64, data sheet (M 290, 30 um): density; others not checked"),
         SolidMaterial("AlSi10Mg", 2.67, 70_000, 0.33, 240, _METAL,
                       "EOS Aluminium AlSi10Mg, data sheet (upright)"),
         SolidMaterial("316L", 7.97, 185_000, 0.30, 480, _METAL,
-                      "EOS StainlessSteel 316L-4441, process data sheet (M 290, 20 um, upright)"),
+                      "EOS StainlessSteel 316L-4441, process data sheet (M 290, 20 um, upright); "
+                      "modulus not checked"),
         SolidMaterial("IN718", 8.15, 160_000, 0.29, 634, _METAL,
-                      "EOS NickelAlloy IN718, data sheet (M 290, upright)"),
-        SolidMaterial("PA12", 0.93, 1_650, 0.40, 48, _POWDER, "EOS PA 2200, data sheet"),
-        SolidMaterial("PA11", 0.99, 1_600, 0.40, 48, _POWDER, "EOS PA 1101, data sheet"),
-        SolidMaterial("PLA", 1.24, 2_350, 0.36, 49, ("FFF",), "Ultimaker PLA, data sheet"),
+                      "EOS NickelAlloy IN718, process data sheet (M 290, 40 um) as "
+                      "others quote it: density; others "
+                      "not checked"),
+        SolidMaterial("PA12", 0.93, 1_550, 0.40, 42, _POWDER,
+                      "EOS PA 2200, data sheet as others quote it (upright; along X 1,600 and "
+                      "48 MPa); density not checked"),
+        SolidMaterial("PA11", 0.99, 1_600, 0.40, 48, _POWDER, "EOS PA 1101, not checked"),
+        SolidMaterial("PLA", 1.24, 2_350, 0.36, 49.5, ("FFF",),
+                      "Ultimaker PLA, not checked"),
         SolidMaterial("PETG", 1.27, 2_100, 0.38, 47, ("FFF",),
-                      "Prusament PETG, technical data sheet; modulus: the VOLFREP paper's sample"),
-        SolidMaterial("ABS", 1.10, 1_680, 0.39, 39, ("FFF",), "Ultimaker ABS, data sheet"),
+                      "Prusament PETG, data sheet as others quote it: density; modulus: the "
+                      "VOLFREP paper's sample; yield not checked"),
+        SolidMaterial("ABS", 1.10, 1_680, 0.39, 39, ("FFF",), "Ultimaker ABS, not checked"),
         SolidMaterial("Resin", 1.17, 2_800, 0.40, 65, ("SLA",),
-                      "Formlabs Clear Resin V4 after curing, technical data sheet"),
+                      "Formlabs Clear Resin V4 after curing, not checked"),
     )
 }  # fmt: skip
 _FIELDS = {"name", "density", "young", "poisson", "yield_stress", "processes", "source"}
@@ -132,7 +140,7 @@ def find_material(text: str) -> SolidMaterial:
         VolfrepError: there is no such material, or its figures make no sense.
 
     >>> find_material("pa12").young, find_material("Mine,2000,0.3").poisson
-    (1650, 0.3)
+    (1550, 0.3)
     """
     wanted = text.strip()
     known = MATERIALS.get(wanted.lower())
@@ -173,44 +181,59 @@ def load_material(path: Path) -> SolidMaterial:
         raise VolfrepError(f"The material file '{path}' is too large to be one.")
     try:
         values = _parsed(data.decode("utf-8"), path)
+    except VolfrepError:
+        raise
     except (ValueError, RecursionError) as error:
         kind = path.suffix.lstrip(".").upper()
         raise VolfrepError(f"The material file '{path}' is not valid {kind}: {error}.") from error
     if not isinstance(values, dict):
         raise VolfrepError(f"The material file '{path}' must hold names and values.")
+    return material_of(values, f"the material file '{path}'", path.stem, path.name)
+
+
+def material_of(
+    values: Mapping[str, Any], where: str, name: str, source: str = "the user"
+) -> SolidMaterial:
+    """A material from the entries of a file, or of a table in one.
+
+    Args:
+        values: ``density``, ``young``, ``poisson`` and, if known, the other attributes by name.
+        where: they stand, for the sentences.
+        name: where the entries give none.
+        source: where the entries give none.
+
+    Raises:
+        VolfrepError: an entry is missing, unknown or makes no sense.
+    """
+    there = where[0].upper() + where[1:]
     unknown, missing = values.keys() - _FIELDS, {"density", "young", "poisson"} - values.keys()
     if unknown or missing:
         what = f"has no '{min(missing)}'" if missing else f"has an unknown entry '{min(unknown)}'"
         raise VolfrepError(
-            f"The material file '{path}' {what}: give density (g/cm3), young (MPa), poisson and, "
-            "if known, name, yield_stress (MPa), processes and source."
+            f"{there} {what}: give density (g/cm3), young (MPa), poisson and, if known, name, "
+            "yield_stress (MPa), processes and source."
         )
     try:
         numbers = {k: float(values[k]) for k in ("density", "young", "poisson")}
         limit = values.get("yield_stress")
         return SolidMaterial(
-            name=str(values.get("name", re.sub(r"[^-\w]", "_", path.stem))),
+            name=str(values.get("name", re.sub(r"[^-\w]", "_", name))),
             yield_stress=None if limit is None else float(limit),
             processes=tuple(str(name) for name in values.get("processes", ())),
-            source=str(values.get("source", path.name)),
+            source=str(values.get("source", source)),
             **numbers,
         )
     except (TypeError, ValueError) as error:
         if isinstance(error, VolfrepError):
-            raise VolfrepError(f"In the material file '{path}': {error}") from error
+            raise VolfrepError(f"In {where}: {error}") from error
         raise VolfrepError(
-            f"In the material file '{path}', density, young, poisson and yield_stress must be "
-            "numbers, processes a list of names."
+            f"In {where}, density, young, poisson and yield_stress must be numbers, processes a "
+            "list of names."
         ) from error
 
 
 def _parsed(text: str, path: Path) -> object:
     if path.suffix.lower() == ".json":
         return json.loads(text)
-    try:
-        import tomllib
-    except ModuleNotFoundError as error:
-        raise VolfrepError(
-            f"Cannot read '{path}': TOML needs Python 3.11 or later; give the material as JSON."
-        ) from error
-    return tomllib.loads(text)
+    values: object = toml_library("materials").loads(text)
+    return values

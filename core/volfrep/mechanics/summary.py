@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -48,7 +49,7 @@ class CellProperties:
             solid's.
         errors: by how much each may be off, by the same names, and relative_density and stiffness.
         von_mises: the solid's stress per unit of each macroscopic stress, by its name.
-        along: voxels along L of the finest grid.
+        along: voxels along L of the finest grid; 0 where the catalogue was read.
     """
 
     cell: str
@@ -108,7 +109,7 @@ class CellProperties:
             rows.append(("density", f"{density:.4g} g/cm3"))
         for name in (*MODULI, *RATIOS, "strength", "shear_strength", "conductivity"):
             value, error = self.values[name], self.errors[name]
-            text = f"{value:.4g} +- {error:.1g}"
+            text = _with_error(value, error)
             if name in MODULI:
                 text += f" {unit}"
             elif "strength" in name:
@@ -117,6 +118,18 @@ class CellProperties:
                 text += " of the solid's"
             rows.append((name.replace("_", " "), text))
         return rows
+
+
+def _with_error(value: float, error: float) -> str:
+    """Both to the place of the error's first figure.
+
+    >>> _with_error(10253.2, 118.0), _with_error(0.0035123, 2.1e-5)
+    ('10,253 +- 118', '0.00351 +- 0.00002')
+    """
+    places = max(0, -math.floor(math.log10(error))) if error > 0.0 else 6
+    if places > 9:
+        return f"{value:.4g} +- {error:.1g}"
+    return f"{value:,.{places}f} +- {error:,.{places}f}"
 
 
 def cell_properties(

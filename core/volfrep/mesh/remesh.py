@@ -293,8 +293,8 @@ def split(
     while len(todo):
         # Each triangle takes one split at a time; the others wait for the next round.
         table = edges(triangles, len(vertices))
-        key = np.sort(table.ends, axis=1) @ np.array([len(vertices), 1])
-        want = np.sort(todo, axis=1) @ np.array([len(vertices), 1])
+        key = (np.sort(table.ends, axis=1) * np.array([len(vertices), 1])).sum(axis=1)
+        want = (np.sort(todo, axis=1) * np.array([len(vertices), 1])).sum(axis=1)
         order = np.argsort(key)
         found = order[np.searchsorted(key[order], want)]
         pair = table.triangles[found]

@@ -25,7 +25,7 @@ def with_corners(octant: Octant, half_size: float) -> Octant:
     return replace(
         octant,
         vertices=np.concatenate([octant.vertices, solid * (0.5 * half_size)]),
-        entity=np.concatenate([octant.entity, (solid @ _WEIGHTS).astype(np.int8)]),
+        entity=np.concatenate([octant.entity, (solid * _WEIGHTS).sum(axis=1).astype(np.int8)]),
         rank=np.concatenate([octant.rank, np.zeros(len(solid), np.int32)]),
     )
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ..util.linalg import solved
 from ..util.types import Bools, Floats, Ints
 from .sdf import Field, distances_and_gradients
 
@@ -121,10 +122,9 @@ def step_to_primitives(
     value[none] = 0.0
     gradient[none] = 0.0
     jacobian: Floats = gradient.reshape(-1, 3, 3) * loose[:, None, :]
-    normal = jacobian @ jacobian.transpose(0, 2, 1) + 1e-6 * np.eye(3)
-    factor = np.linalg.solve(normal, value.reshape(-1, 3, 1))
-    step: Floats = -(jacobian.transpose(0, 2, 1) @ factor)[:, :, 0]
-    return step
+    normal = np.einsum("nik,njk->nij", jacobian, jacobian) + 1e-6 * np.eye(3)
+    factor = solved(normal, value.reshape(-1, 3))
+    return np.asarray(-np.einsum("nki,nk->ni", jacobian, factor))
 
 
 def shortened(steps: Floats, longest: float) -> Floats:

@@ -281,7 +281,7 @@ class _Batch:
         for k, (key, piece) in enumerate(zip(self.keys, self.raw, strict=True)):
             part = slice(begin[k], begin[k + 1])
             source = origin[part] - first[k]
-            entity = piece.place[source].astype(np.int64) @ np.array([9, 3, 1])
+            entity = (piece.place[source].astype(np.int64) * np.array([9, 3, 1])).sum(axis=1)
             vertices = np.rint(refined.vertices[part] / self.step) * self.step
             triangles = refined.triangles[order[cuts[k] : cuts[k + 1]]] - begin[k]
             result[key] = Octant(

@@ -12,6 +12,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..mesh import remesh
+from ..util.linalg import along, solved
 from ..util.types import Floats
 from .constrained_mesh import (
     Surface,
@@ -140,7 +141,7 @@ def _fit(surface: Surface) -> Surface:
     drift -= normal * np.einsum("ij,ij->i", normal, drift)[:, None]
     pull = DRIFT * np.trace(matrix, axis1=1, axis2=2) / 3.0
     matrix = matrix + (pull[:, None, None] + 1e-12) * np.eye(3)
-    step = np.linalg.solve(matrix, (pull[:, None] * drift - right)[:, :, None])[:, :, 0]
+    step = solved(matrix, pull[:, None] * drift - right)
     step = np.where(surface.pinned.any(axis=1)[:, None], 0.0, step)
     return moved(surface, surface.vertices + shortened(step, 0.2 * surface.edge))
 
@@ -163,7 +164,7 @@ def _balance(surface: Surface) -> Surface:
     """
     triangles, count, piece = surface.triangles, len(surface.vertices), surface.piece
     area, value, gradient = _sampled(surface)
-    missed = np.bincount(piece[triangles[:, 0]], area * (value @ QUADRATURE_WEIGHTS))
+    missed = np.bincount(piece[triangles[:, 0]], area * along(value, QUADRATURE_WEIGHTS))
     free = ~surface.pinned.any(axis=1)
     swept = np.bincount(piece[triangles[:, 0]], area * free[triangles].sum(axis=1) / 3.0)
     amount = np.zeros(piece.max() + 1)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..design.memory_guard import rounded_up
+from ..design.memory_guard import rounded_up, smaller_block
 from ..design.spec import LatticeSpec
 from ..fem.beam_mesh import BeamModel
 from ..fem.tet_mesh import (
@@ -37,6 +37,8 @@ MOST_BEAMS = 400_000
 #: Seconds that OpenCASCADE takes to cut a lattice at a wall, per strut; measured on lattices of
 #: 100 to 900 struts in a box, a cylinder, and a box with a hole.
 TRIM_SECONDS_PER_STRUT = 8e-3
+#: A wall of more triangles is not handed to OpenCASCADE's Booleans.
+MOST_WALL_TRIANGLES = 3_000
 #: Exact solids of more struts than this are not cut: the Boolean grows faster than its input.
 MOST_TRIMMED_STRUTS = 5_000
 
@@ -84,11 +86,9 @@ class Asked:
 
     def fewer(self, excess: float) -> str:
         """The setting with so many times fewer struts."""
-        side = excess ** (1.0 / 3.0)
         if self.count is None:
-            return f"cells of {rounded_up(self.spec.cell_size * side):g} mm"
-        fits = " x ".join(str(max(1, int(n / side))) for n in self.count)
-        return f"a block of {fits} cells"
+            return f"cells of {rounded_up(self.spec.cell_size * excess ** (1.0 / 3.0)):g} mm"
+        return smaller_block(self.count, excess)
 
 
 def estimate_faceted(triangles: int, asked: Asked | None = None) -> Estimate:
@@ -160,6 +160,19 @@ def estimate_exact(
         )
     reading = f"FreeCAD reads it in about {_seconds(found.read_seconds)}"
     return Estimate(what, seconds, found.megabytes, reading)
+
+
+def refuse_wall(triangles: int) -> None:
+    """Refuse a wall of so many triangles, at which exact surfaces would be cut.
+
+    Raises:
+        VolfrepError: OpenCASCADE's Booleans do not manage it.
+    """
+    if triangles > MOST_WALL_TRIANGLES:
+        raise VolfrepError(
+            f"OpenCASCADE does not cut at a wall of {triangles:,} triangles (the limit is "
+            f"{MOST_WALL_TRIANGLES:,})."
+        )
 
 
 def refuse_inexact(spec: LatticeSpec) -> None:

@@ -21,6 +21,7 @@ from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats
 from .clearance import narrowest_gap
+from .processes import Process
 
 #: Pieces of a strut, each of which counts as inside the part by its middle.
 PIECES = 8
@@ -32,75 +33,6 @@ LOOK_FOR = 2.0
 CLASS = 15
 #: Facets this near to the build plate, in units of the part's height, lie on it.
 ON_PLATE = 1e-4
-
-
-@dataclass(frozen=True)
-class Process:
-    """What a printing process can do, typically; its machine and material may do better or worse.
-
-    Attributes:
-        name: as a user picks it.
-        title: in words.
-        strut: smallest diameter of a strut, mm.
-        gap: smallest gap between two struts, mm.
-        inclination: least inclination that needs no support, degrees; 0: none needs it.
-        bridge: longest flat strut without support, mm; None: no limit.
-        escape_hole: smallest diameter of a hole that empties a closed void of powder or resin,
-            mm; None: nothing is left in a void.
-        source: where the figures are from.
-    """
-
-    name: str
-    title: str
-    strut: float
-    gap: float
-    inclination: float
-    bridge: float | None
-    escape_hole: float | None
-    source: str
-
-
-_RULES = "Hubs (now Protolabs Network), Design rules for 3D printing"
-PROCESSES = {
-    process.name: process
-    for process in (
-        Process("FFF", "fused filament", 2.0, 0.5, 45.0, 10.0, None, _RULES),
-        Process(
-            "SLA", "stereolithography", 0.5, 0.5, 15.0, 2.5, 4.0,
-            f"{_RULES}; inclination and bridge: ETEC, Self-supporting features (Xtreme 8K)",
-        ),
-        Process(
-            "SLS", "polymer powder, laser", 0.8, 1.0, 0.0, None, 5.0,
-            f"{_RULES}; gap: Materialise, Design guidelines PA 12 (MJF), lattice structures",
-        ),
-        Process(
-            "MJF", "polymer powder, multi-jet", 1.0, 1.0, 0.0, None, 5.0,
-            "3faktur, Basic design requirements (PA12, ribs); gap: Materialise, Design guidelines "
-            "PA 12 (MJF), lattice structures; escape hole: as SLS",
-        ),
-        Process(
-            "LPBF", "metal powder, laser", 0.6, 0.5, 45.0, 2.0, 5.0,
-            f"{_RULES}; gap and inclination: ARTI90, Design clues for 3D printing (DMLS)",
-        ),
-        Process(
-            "EBM", "metal powder, electron beam", 0.6, 0.5, 45.0, 2.0, 5.0,
-            "as LPBF; a published table of design rules (Arcam Q20 plus) has 0.4 mm for walls and "
-            "holes and 30 to 45 degrees",
-        ),
-    )
-}  # fmt: skip
-
-
-def find_process(name: str) -> Process:
-    """The process of that name; case does not matter.
-
-    Raises:
-        VolfrepError: listing the known ones.
-    """
-    process = PROCESSES.get(name.upper())
-    if process is None:
-        raise VolfrepError(f"There is no process '{name}': choose one of {', '.join(PROCESSES)}.")
-    return process
 
 
 @dataclass(frozen=True)
@@ -117,6 +49,8 @@ class PrintReport:
         narrowest_gap_mm: smallest gap between two struts without a common node; None where it is
             more than `LOOK_FOR` times the limit. Gaps to the skin do not count.
         narrowest_at: where, mm.
+        largest_ball_mm: diameter of the largest ball that gets through the endless lattice, by the
+            windows between struts that meet as well; None where the lattice is graded.
         inclinations: share of the struts' length by inclination, in classes of `CLASS` degrees.
         overhanging_share: share of the struts' length below the process's inclination.
         longest_overhang_mm: length in the part of the longest strut of these.
@@ -137,6 +71,7 @@ class PrintReport:
     thinnest_at: tuple[float, float, float] | None
     narrowest_gap_mm: float | None
     narrowest_at: tuple[float, float, float] | None
+    largest_ball_mm: float | None
     inclinations: tuple[float, ...]
     overhanging_share: float
     longest_overhang_mm: float
@@ -169,6 +104,8 @@ class PrintReport:
             ("thinnest strut", _against(thin, process.strut, "none")),
             ("narrowest gap", _against(gap, process.gap, f"over {LOOK_FOR * process.gap:g} mm")),
         ]
+        if self.largest_ball_mm is not None:
+            rows.append(("largest ball that gets out", f"{self.largest_ball_mm:.3g} mm"))
         if flat:
             overhang = f"{100 * self.overhanging_share:.1f} % of the struts' length"
             rows += [
@@ -204,6 +141,7 @@ def print_report(
     build_direction: tuple[float, float, float] = (0.0, 0.0, 1.0),
     density: float = 1.0,
     domain: TriangleMesh | None = None,
+    ball_mm: float | None = None,
 ) -> PrintReport:
     """Hold a part against a process.
 
@@ -214,6 +152,8 @@ def print_report(
         build_direction: from the build plate up, of any length.
         density: of the material, g/cm3.
         domain: closed mesh of what the lattice fills; struts outside do not count. None: all do.
+        ball_mm: diameter of the largest ball that gets through the lattice (`passage`); None where
+            it is not known.
 
     Raises:
         VolfrepError: the build direction is no direction.
@@ -255,6 +195,7 @@ def print_report(
         thinnest_at=thinnest_at,
         narrowest_gap_mm=None if narrowest is None else narrowest[0],
         narrowest_at=None if narrowest is None else _point(narrowest[1]),
+        largest_ball_mm=ball_mm,
         inclinations=tuple(float(share) for share in classes),
         overhanging_share=float(overhanging.sum()) / total,
         longest_overhang_mm=float(overhanging.max(initial=0.0)),

@@ -85,6 +85,30 @@ class Report:
     warnings: tuple[str, ...] = ()
     target: dict[str, Any] | None = None
 
+    @property
+    def figures(self) -> dict[str, str]:
+        """What a file of the part may keep: the same for the same part, whenever it was made."""
+        bodies = f"{self.bodies:,} {'body' if self.bodies == 1 else 'bodies'}"
+        return {
+            "Description": (
+                f"{self.spec.get('cell', 'Lattice')} lattice: {self.cells_active:,} cells, "
+                f"{self.struts:,} struts, {bodies}, {self.volume_mm3:,.1f} mm3, "
+                f"{self.area_mm2:,.1f} mm2, relative density {self.relative_density:.2%}, "
+                f"{self.mass_g:,.2f} g"
+            ),
+            "Cells": str(self.cells_active),
+            "Struts": str(self.struts),
+            "Nodes": str(self.nodes),
+            "Triangles": str(self.triangles),
+            "Bodies": str(self.bodies),
+            "Voids": str(self.voids),
+            "VolumeMm3": f"{self.volume_mm3:.6g}",
+            "AreaMm2": f"{self.area_mm2:.6g}",
+            "RelativeDensity": f"{self.relative_density:.6g}",
+            "MassG": f"{self.mass_g:.6g}",
+            "Specification": json.dumps(self.spec, sort_keys=True),
+        }
+
     def as_dict(self) -> dict[str, Any]:
         """The figures as plain JSON values."""
         return asdict(self)

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.triangle_mesh import TriangleMesh
+from ..util.linalg import symmetric_eigen
 from ..util.types import Bools, Floats, Ints
 from .octree import Crossings
 
@@ -103,7 +104,7 @@ def _meet(planes: _Planes, middle: Floats) -> Floats:
 
     Directions that the planes leave open are cut off, as in the pseudo-inverse of Ju et al. 2002.
     """
-    values, vectors = np.linalg.eigh(planes.squares())
+    values, vectors = symmetric_eigen(planes.squares())
     keep = values > WEAK * values[:, 2:]
     inverse = np.where(keep, 1.0 / np.where(keep, values, 1.0), 0.0)
     along = np.einsum("nij,ni->nj", vectors, planes.pull(middle)) * inverse

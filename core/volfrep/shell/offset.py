@@ -16,7 +16,9 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
 from ..mesh.triangle_mesh import TriangleMesh, compact, empty_mesh
-from ..spatial.proximity import index_surface
+from ..spatial.even_points import even_points
+from ..spatial.proximity import closest_points, index_surface
+from ..spatial.rays import inside_points
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats
@@ -40,6 +42,8 @@ SAMPLE_SPACING = 0.3
 #: the wall crosses.
 BYTES_PER_CROSSED_CUBE = 3000
 MEMORY_LIMIT = 6e9
+#: Points by which the depth of a part is told in a refusal (a power of 2).
+DEPTH_POINTS = 12
 #: Pockets smaller than a cube of this edge, in units of the coarsest cubes, are left solid.
 SMALLEST_POCKET = 0.75
 
@@ -118,10 +122,25 @@ def _refuse_too_thin(solid: TriangleMesh, thickness: float, cubes: float, cube: 
     everywhere = 2.0 * solid.area / cube**2 * BYTES_PER_CROSSED_CUBE
     least = thickness * (everywhere / MEMORY_LIMIT) ** 0.5
     diagonal = float(np.linalg.norm(np.ptp(solid.bounds, axis=0)))
+    deepest = _deepest(solid)
+    advice = f"make it at least {least:.3g} mm"
+    if least >= deepest:
+        advice = (
+            f"it would have to be {least:.3g} mm, and the part is nowhere deeper than about "
+            f"{deepest:.3g} mm: fill it without a skin, or in pieces"
+        )
     raise VolfrepError(
         f"A wall of {thickness:g} mm is too thin for a part of {diagonal:.4g} mm: it would "
-        f"take more than {MEMORY_LIMIT / 1e9:g} GB; make it at least {least:.3g} mm."
+        f"take more than {MEMORY_LIMIT / 1e9:g} GB; {advice}."
     )
+
+
+def _deepest(solid: TriangleMesh) -> float:
+    """How deep points of a solid lie at most, about, mm: the deepest of some of them."""
+    low, high = solid.bounds
+    points = low + even_points(3, DEPTH_POINTS) * (high - low)
+    points = points[inside_points(solid, points, Monitor())]
+    return float(closest_points(solid, points)[1].max(initial=0.0))
 
 
 def _without_small(mesh: TriangleMesh, volume: float) -> TriangleMesh:

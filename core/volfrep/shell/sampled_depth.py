@@ -7,6 +7,7 @@ import numpy as np
 
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.rays import column_crossings
+from ..util.linalg import along
 from ..util.types import Bools, Floats, Ints
 from .depth import Depth
 from .octree import CORNERS, Leaves, find, name, named
@@ -178,9 +179,9 @@ class DepthField:
         size = self.unit * leaves.size
         result = np.zeros(len(size), bool)
         for start, end in LINES:
-            along = CORNERS[end] - CORNERS[start]
+            way = CORNERS[end] - CORNERS[start]
             a, b = value[:, start], value[:, end]
-            down, up = size * (gradient[:, start] @ along), size * (gradient[:, end] @ along)
+            down, up = (size * along(gradient[:, node], way) for node in (start, end))
             between = (a >= 0) & (b >= 0) & (down < 0) & (up > 0)
             share = np.clip((b - up - a) / np.where(between, down - up, 1.0), 0.0, 1.0)
             result |= between & (a + share * down < -least)

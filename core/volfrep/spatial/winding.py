@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..mesh.triangle_mesh import TriangleMesh
+from ..util.linalg import frame_about, times
 from ..util.ragged import spread
 from ..util.types import Floats, Ints
 
@@ -26,8 +27,7 @@ PAIRS_PER_STEP = 2_000_000
 def _general_frame() -> Floats:
     """Three generic, perpendicular directions (columns), parallel to no usual face."""
     axis = np.array([0.267, 0.535, 0.802])
-    turned, _ = np.linalg.qr(np.stack([axis, [0.83, -0.41, 0.11], [0.2, 0.7, -0.6]], axis=1))
-    return np.asarray(turned[:, [1, 2, 0]], np.float64)
+    return frame_about(axis)
 
 
 FRAME = _general_frame()
@@ -66,9 +66,9 @@ def windings(mesh: TriangleMesh, box: Floats | None = None) -> Windings:
         box: (2, 3) a box over which the lines stand, its own for None. In the same box they are
             the same lines: what two meshes enclose can be compared without a sampling error.
     """
-    corners = np.stack(mesh.corners(), axis=1) @ FRAME
+    corners = times(np.stack(mesh.corners(), axis=1), FRAME)
     ends = mesh.bounds if box is None else box
-    shadow = (np.stack(np.meshgrid(*ends.T), axis=-1).reshape(-1, 3) @ FRAME)[:, :2]
+    shadow = times(np.stack(np.meshgrid(*ends.T), axis=-1).reshape(-1, 3), FRAME)[:, :2]
     low, high = shadow.min(axis=0), shadow.max(axis=0)
     step = np.maximum(high - low, 1e-300) / LINES
     jitter = np.random.default_rng(1).uniform(0.0, 1.0, (LINES, LINES, 2))
@@ -93,7 +93,7 @@ def windings(mesh: TriangleMesh, box: Floats | None = None) -> Windings:
     if wrong.any():
         k = int(wrong.argmax())
         local = [*points[line[k]], (height[k] + height[k + 1]) / 2.0]
-        place = FRAME @ np.array(local)
+        place = times(np.array(local), FRAME.T)
     odd = float(wrong.sum()) * area
     bounds = [*volume, 0]
     lines = len(np.unique(line[:-1][met]))
@@ -111,8 +111,8 @@ def winding_by_shell(mesh: TriangleMesh, shell: Ints, points: Floats) -> tuple[I
     Returns:
         Points, shells and winding numbers, by point and then by shell.
     """
-    corners = np.stack(mesh.corners(), axis=1) @ FRAME
-    local = points @ FRAME
+    corners = times(np.stack(mesh.corners(), axis=1), FRAME)
+    local = times(points, FRAME)
     point, triangle, height, sign = crossings(corners, local[:, :2])
     above = height > local[point, 2]
     shells = int(shell.max()) + 1

@@ -28,12 +28,14 @@ class BeamModel:
         clip: closed mesh; what of the lattice lies outside it is cut off. None: nothing is.
         skin: closed mesh that the lattice is joined to; None for none.
         warnings: sentences for the user.
+        loose: what is to be said of pieces that hang on nothing, where no mesh says it.
     """
 
     lattice: Wireframe
     clip: TriangleMesh | None = None
     skin: TriangleMesh | None = None
     warnings: tuple[str, ...] = ()
+    loose: tuple[str, ...] = ()
 
 
 def part_beams(
@@ -58,13 +60,18 @@ def part_beams(
         VolfrepError: a drain hole cannot be where it is wanted.
     """
     lattice = reaching_into(struts, solid)
-    wall = concatenate(solid, cavity.reversed())
-    if skin.open_faces:
-        wall = difference(solid, cavity)
+    wall = joined_wall(solid, cavity, skin)
     if drains is None:
         return BeamModel(lattice, solid, wall)
     drained = drain(wall, solid, cavity, lattice, skin.thickness, drains, monitor)
     return BeamModel(lattice, solid, drained.mesh, drained.warnings)
+
+
+def joined_wall(solid: TriangleMesh, cavity: TriangleMesh, skin: Skin) -> TriangleMesh:
+    """A part's skin as a closed mesh of its outer and its inner wall."""
+    if skin.open_faces:
+        return difference(solid, cavity)
+    return concatenate(solid, cavity.reversed())
 
 
 def reaching_into(lattice: Wireframe, solid: TriangleMesh) -> Wireframe:

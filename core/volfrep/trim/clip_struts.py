@@ -36,13 +36,21 @@ class Clipped:
     Attributes:
         wireframe: nodes and struts inside; a cut strut ends in a node of its own on the wall.
         on_wall: (n,) bool, nodes of the wireframe at which the wall holds the lattice.
+        owner: (m,) int64, the strut of the whole lattice that each strut is a piece of.
+        low: (m,) float64, where on it the piece begins, as a share of its length.
+        high: (m,) float64, where it ends.
+        warnings: sentences for the user.
     """
 
     wireframe: Wireframe
     on_wall: Bools
+    owner: Ints
+    low: Floats
+    high: Floats
+    warnings: tuple[str, ...] = ()
 
 
-def clip(wireframe: Wireframe, domain: TriangleMesh) -> Clipped:
+def clip(wireframe: Wireframe, domain: TriangleMesh, inside: Pieces | None = None) -> Clipped:
     """Keep what of the struts' axes lies inside a closed mesh.
 
     Pieces shorter than half their radius are dropped; a node that loses such a piece to the
@@ -52,8 +60,9 @@ def clip(wireframe: Wireframe, domain: TriangleMesh) -> Clipped:
     Args:
         wireframe: mm.
         domain: closed and outward oriented, mm; no strut may run along its surface.
+        inside: the pieces of the axes inside it that stay; None: all.
     """
-    inside = pieces_inside(wireframe, domain)
+    inside = pieces_inside(wireframe, domain) if inside is None else inside
     owner, low, high = inside.owner, inside.low, inside.high
     radius = _between(wireframe.radii[owner], 0.5 * (low + high))
     ends = wireframe.nodes[wireframe.struts[owner]]
@@ -131,7 +140,7 @@ def _assemble(
         new_radii,
         np.concatenate(joints)[used],
     )
-    return Clipped(clipped, walls[used])
+    return Clipped(clipped, walls[used], owner, low, high)
 
 
 def _between(ends: Floats, share: Floats) -> Floats:

@@ -16,6 +16,7 @@ from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..spatial.proximity import closest_points
 from ..spatial.rays import segment_crossings
 from ..util.errors import VolfrepError
+from ..util.linalg import along
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
 
@@ -311,7 +312,7 @@ def _lowest(
     up = np.array(wanted.build_direction, float)
     up /= np.linalg.norm(up)
     points = _on_wall(site, void)
-    points = points[np.argsort(points @ up, kind="stable")]
+    points = points[np.argsort(along(points, up), kind="stable")]
     chosen = _Holes.none()
     begin, size = 0, LOOKED_AT
     while len(chosen.start) < wanted.count and begin < len(points):
@@ -325,7 +326,7 @@ def _lowest(
         holes, good = site.feel(start, axis, axis)
         holes, inside = holes.chosen(good), inside[good]
         # Where struts are farthest off, and other holes far enough.
-        height = inside @ up
+        height = along(inside, up)
         clearance = _clearance(lattice, inside + site.radius * holes.axis)
         while len(chosen.start) < wanted.count:
             taken = np.concatenate([others.start, chosen.start])

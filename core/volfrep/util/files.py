@@ -115,3 +115,45 @@ def not_written(target: Path, error: OSError) -> VolfrepError:
             f"Cannot write '{target}': {error.strerror}; it may be open in another program."
         )
     return VolfrepError(f"Cannot write '{target}': {error.strerror}.")
+
+
+@contextmanager
+def replacing_folder(path: str | os.PathLike[str], mark: str) -> Iterator[Path]:
+    """A folder to fill, which takes the target's place only when the block succeeds.
+
+    It is made beside the target; after an error or an interruption it is removed.
+
+    Args:
+        path: of the target: nothing yet, an empty folder, or one that holds a file `mark`, which
+            tells that it was made the same way and may be replaced.
+        mark: a file's name.
+
+    Raises:
+        VolfrepError: naming the target and why it cannot be written.
+    """
+    target = Path(path)
+    try:
+        real = target.resolve()
+        if not real.parent.is_dir():
+            raise VolfrepError(f"Cannot write '{target}': there is no folder '{real.parent}'.")
+        if real.exists() and not real.is_dir():
+            raise VolfrepError(f"Cannot write '{target}': it exists and is not a folder.")
+        if real.exists() and any(real.iterdir()) and not (real / mark).is_file():
+            raise VolfrepError(
+                f"Cannot write '{target}': the folder holds other files; name a new one."
+            )
+        part = real.with_name(f".volfrep-{secrets.token_hex(4)}.part")
+        part.mkdir()
+        try:
+            yield part
+            if real.exists():
+                old = real.with_name(f".volfrep-{secrets.token_hex(4)}.old")
+                os.replace(real, old)
+                os.replace(part, real)
+                shutil.rmtree(old)
+            else:
+                os.replace(part, real)
+        finally:
+            shutil.rmtree(part, ignore_errors=True)
+    except OSError as error:
+        raise not_written(target, error) from error

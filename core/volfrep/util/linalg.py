@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Rotations and frames."""
+"""Rotations, frames, and small matrices in bulk, with the same bits whatever the threads.
+
+The library behind numpy's `@` and `numpy.linalg` orders its sums by the number of its threads, also
+those of 3 x 3 matrices; what a file's coordinates come from is computed here instead.
+"""
 
 from __future__ import annotations
 
@@ -9,12 +13,93 @@ import numpy as np
 
 from .types import Floats
 
+#: Sweeps of Jacobi's method, which converges quadratically: 3 x 3 matrices take five.
+SWEEPS = 6
+
+
+def along(vectors: Floats, direction: Floats) -> Floats:
+    """(...) the products of (..., 3) vectors with a (3,) direction."""
+    return np.asarray(np.einsum("...j,j->...", vectors, direction))
+
+
+def times(vectors: Floats, matrix: Floats) -> Floats:
+    """(..., k) the products of (..., 3) rows with a (3, k) matrix."""
+    return np.asarray(np.einsum("...j,jk->...k", vectors, matrix))
+
+
+def determinants(matrices: Floats) -> Floats:
+    """(n,) the determinants of (n, 3, 3) matrices."""
+    first, second, third = np.moveaxis(matrices, -2, 0)
+    return np.asarray(np.einsum("...j,...j->...", first, np.cross(second, third)))
+
+
+def solved(matrices: Floats, right: Floats) -> Floats:
+    """(n, 3) the solutions of symmetric, positive definite systems, by L D L^T.
+
+    Args:
+        matrices: (n, 3, 3).
+        right: (n, 3).
+    """
+    a, d, f = matrices[:, 0, 0], matrices[:, 0, 1], matrices[:, 0, 2]
+    low, side = d / a, f / a
+    b = matrices[:, 1, 1] - low * d
+    e = matrices[:, 1, 2] - low * f
+    last = e / b
+    c = matrices[:, 2, 2] - side * f - last * e
+    x, y, z = right.T
+    y = y - low * x
+    z = (z - side * x - last * y) / c
+    y = y / b - last * z
+    x = x / a - low * y - side * z
+    return np.stack([x, y, z], axis=1)
+
+
+def symmetric_eigen(matrices: Floats) -> tuple[Floats, Floats]:
+    """Eigenvalues and eigenvectors of symmetric matrices, by Jacobi's method.
+
+    Args:
+        matrices: (n, 3, 3).
+
+    Returns:
+        (n, 3) values, rising, and (n, 3, 3) unit vectors as columns.
+    """
+    left = matrices.astype(float)
+    vectors = np.broadcast_to(np.eye(3), left.shape).copy()
+    for _ in range(SWEEPS):
+        for i, j in ((0, 1), (0, 2), (1, 2)):
+            off = left[:, i, j]
+            gap = left[:, j, j] - left[:, i, i]
+            room = np.hypot(gap, 2.0 * off) + np.abs(gap)
+            tangent = np.where(gap < 0.0, -2.0, 2.0) * off / np.where(room > 0.0, room, 1.0)
+            cosine = 1.0 / np.sqrt(1.0 + tangent**2)
+            sine = (tangent * cosine)[:, None]
+            cosine = cosine[:, None]
+            for table in (left, vectors):
+                p, q = table[:, :, i].copy(), table[:, :, j]
+                table[:, :, i], table[:, :, j] = cosine * p - sine * q, sine * p + cosine * q
+            p, q = left[:, i].copy(), left[:, j]
+            left[:, i], left[:, j] = cosine * p - sine * q, sine * p + cosine * q
+    values = np.diagonal(left, axis1=1, axis2=2)
+    order = np.argsort(values, axis=1, kind="stable")
+    return np.take_along_axis(values, order, axis=1), np.take_along_axis(
+        vectors, order[:, None, :], axis=2
+    )
+
+
+def turns(matrices: Floats) -> Floats:
+    """(n, 3, 3) the rotations that are nearest to (n, 3, 3) matrices (their polar parts)."""
+    squares = np.einsum("nki,nkj->nij", matrices, matrices)
+    values, vectors = symmetric_eigen(squares)
+    inverse = np.einsum("nik,nk,njk->nij", vectors, 1.0 / np.sqrt(values), vectors)
+    return np.asarray(np.einsum("nik,nkj->nij", matrices, inverse))
+
 
 def rotation(axis: Floats, angle: float) -> Floats:
     """(3, 3) the rotation about a (3,) axis by an angle in radians (Rodrigues)."""
     x, y, z = np.asarray(axis, float) / np.linalg.norm(axis)
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    result: Floats = np.eye(3) + math.sin(angle) * cross + (1.0 - math.cos(angle)) * cross @ cross
+    twice = times(cross, cross)
+    result: Floats = np.eye(3) + math.sin(angle) * cross + (1.0 - math.cos(angle)) * twice
     return result
 
 
@@ -22,6 +107,6 @@ def frame_about(axis: Floats) -> Floats:
     """(3, 3) right-handed frame whose third column is the (3,) axis, its first near the x-axis."""
     third = np.asarray(axis, float) / np.linalg.norm(axis)
     near = np.eye(3)[0 if abs(third[0]) < 0.9 else 1]
-    first = near - third * (near @ third)
+    first = near - third * along(near, third)
     first /= np.linalg.norm(first)
     return np.stack([first, np.cross(third, first), third], axis=1)

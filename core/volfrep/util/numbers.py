@@ -1,27 +1,91 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A user's numbers, checked: finite, positive, and named in the sentence where they are not."""
+"""A user's numbers, checked: finite, in a range that makes sense, named where they are not."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from .errors import VolfrepError
+
+#: The least and the most that a number of each unit may be. Files hold single precision: what lies
+#: farther than a kilometre from the origin would be known to a tenth of a millimetre.
+RANGES = {
+    "mm": (1e-9, 1e6),
+    "degrees": (1e-9, 1e6),
+    "g/cm3": (1e-6, 1e3),
+    "MPa": (1e-6, 1e9),
+    "g": (1e-9, 1e12),
+    "": (1e-6, 1e6),
+}
 
 
 def number(name: str, value: float, unit: str, *, positive: bool | None) -> float:
     """`value` as a finite float; `positive` True: above 0, False: not below 0, None: any.
 
     Raises:
-        VolfrepError: it is none; the text begins with the name.
+        VolfrepError: it is none, or out of the unit's range (`RANGES`); the text begins with the
+            name.
     """
+    of, within = (f" {unit}", f" in {unit}") if unit else ("", "")
     try:
         result = float(value)
     except (TypeError, ValueError) as error:
-        raise VolfrepError(f"The {name} must be a number in {unit}, not {value!r}.") from error
+        raise VolfrepError(f"The {name} must be a number{within}, not {value!r}.") from error
+    except OverflowError:  # a whole number
+        result = math.inf
     if not math.isfinite(result):
-        raise VolfrepError(f"The {name} must be a finite number in {unit}, not {result}.")
+        raise VolfrepError(f"The {name} must be a finite number{within}, not {result}.")
     if positive and result <= 0:
-        raise VolfrepError(f"The {name} must be above 0 {unit}, not {result:g}.")
+        raise VolfrepError(f"The {name} must be above 0{of}, not {result:g}.")
     if positive is False and result < 0:
-        raise VolfrepError(f"The {name} must not be negative, not {result:g} {unit}.")
+        raise VolfrepError(f"The {name} must not be negative, not {result:g}{of}.")
+    least, most = RANGES.get(unit, (0.0, math.inf))
+    if positive is None:
+        if abs(result) > most:
+            raise VolfrepError(
+                f"The {name} must be from {-most:g} to {most:g}{of}, not {result:g}."
+            )
+    elif result and not least <= result <= most:
+        nothing = "" if positive else "0 or "
+        raise VolfrepError(
+            f"The {name} must be {nothing}from {least:g} to {most:g}{of}, not {result:g}."
+        )
     return result
+
+
+def whole(name: str, value: float, least: int, most: int) -> int:
+    """`value` as a whole number of a range.
+
+    Raises:
+        VolfrepError: it is none; the text begins with the name.
+    """
+    if not least <= value <= most or value != int(value):
+        told = f"{value:.6g}" if abs(value) < 1e300 else "beyond 1e300"
+        raise VolfrepError(f"The {name} must be a whole number from {least} to {most}, not {told}.")
+    return int(value)
+
+
+def point(name: str, values: Sequence[float]) -> None:
+    """Raise a `VolfrepError` where three numbers are no place, in mm."""
+    if len(values) != 3:
+        raise VolfrepError(f"The {name} must be three coordinates.")
+    for value in values:
+        number(name, value, "mm", positive=None)
+
+
+def direction(name: str, values: Sequence[float]) -> None:
+    """Raise a `VolfrepError` where three numbers have no direction; their length is free.
+
+    So it is within a range: beyond that, products of them would be lost.
+    """
+    least, most = RANGES[""]
+    length = math.hypot(*values) if len(values) == 3 else math.nan
+    if not math.isfinite(length):
+        raise VolfrepError(f"The {name} must be three finite numbers.")
+    if not any(values):
+        raise VolfrepError(f"The {name} must not be zero.")
+    if not least <= length <= most:
+        raise VolfrepError(
+            f"The {name} must have a length from {least:g} to {most:g}, not {length:g}."
+        )

@@ -29,6 +29,10 @@
       <translation>Alle Zahlen, zum Lesen</translation>
     </message>
     <message>
+      <source>Along this direction of the cell: 1,0,0 along its edges, 1,1,0 across its faces, 1,1,1 along its diagonals</source>
+      <translation>Entlang dieser Richtung der Zelle: 1,0,0 längs ihrer Kanten, 1,1,0 quer über ihre Flächen, 1,1,1 längs ihrer Diagonalen</translation>
+    </message>
+    <message>
       <source>Another seed draws other points</source>
       <translation>Ein anderer Startwert zieht andere Punkte</translation>
     </message>
@@ -157,6 +161,10 @@
       <translation>Kern</translation>
     </message>
     <message>
+      <source>Custom</source>
+      <translation>Eigene</translation>
+    </message>
+    <message>
       <source>Cylindrical</source>
       <translation>Zylindrisch</translation>
     </message>
@@ -185,6 +193,18 @@
       <translation>Tiefe, in der das Profil endet</translation>
     </message>
     <message>
+      <source>Designs</source>
+      <translation>Entwürfe</translation>
+    </message>
+    <message>
+      <source>Designs and their figures, as JSON</source>
+      <translation>Entwürfe und ihre Zahlen, als JSON</translation>
+    </message>
+    <message>
+      <source>Designs with figures</source>
+      <translation>Entwürfe mit Zahlen</translation>
+    </message>
+    <message>
       <source>Deviation</source>
       <translation>Abweichung</translation>
     </message>
@@ -195,6 +215,10 @@
     <message>
       <source>Direction</source>
       <translation>Richtung</translation>
+    </message>
+    <message>
+      <source>Distance between a facet and the exact strut, kept away from the creases where struts meet; 0 for a thirty-fifth of the radius</source>
+      <translation>Abstand zwischen einer Facette und dem genauen Stab, eingehalten außer in den Kehlen zwischen Stäben; 0 für ein Fünfunddreißigstel des Radius</translation>
     </message>
     <message>
       <source>Domain</source>
@@ -257,8 +281,16 @@
       <translation>Datei mit Punkten und Werten: .csv, .txt, .vtu, .vtk</translation>
     </message>
     <message>
+      <source>Fill</source>
+      <translation>Füllen</translation>
+    </message>
+    <message>
       <source>Findings</source>
       <translation>Befunde</translation>
+    </message>
+    <message>
+      <source>Folder</source>
+      <translation>Ordner</translation>
     </message>
     <message>
       <source>Formula</source>
@@ -297,6 +329,10 @@
       <translation>Wie oft jeder Punkt in die Mitte seiner Zelle rückt, was sie gleichmäßiger macht</translation>
     </message>
     <message>
+      <source>How the part is printed: its limits are those of the print check</source>
+      <translation>Wie das Teil gedruckt wird: die Grenzen des Verfahrens sind die der Druckprüfung</translation>
+    </message>
+    <message>
       <source>Infill</source>
       <translation>Füllung</translation>
     </message>
@@ -313,8 +349,16 @@
       <translation>Knotenausrundung</translation>
     </message>
     <message>
+      <source>Keep Pieces</source>
+      <translation>Lose Teile behalten</translation>
+    </message>
+    <message>
       <source>Keep Radius</source>
       <translation>Radius beibehalten</translation>
+    </message>
+    <message>
+      <source>Keep pieces of the lattice that hang on nothing; otherwise they are left out, and told</source>
+      <translation>Teile des Gitters behalten, die an nichts hängen; sonst werden sie weggelassen und gemeldet</translation>
     </message>
     <message>
       <source>L: edge length of the cubic cell</source>
@@ -331,10 +375,6 @@
     <message>
       <source>Lambda Start</source>
       <translation>Lambda am Anfang</translation>
-    </message>
-    <message>
-      <source>Largest distance between a facet and the exact strut; 0 for a thirty-fifth of the radius</source>
-      <translation>Größter Abstand zwischen einer Facette und der exakten Strebe; 0 für ein Fünfunddreißigstel des Radius</translation>
     </message>
     <message>
       <source>Lattice</source>
@@ -361,6 +401,10 @@
       <translation>Lose Bruchstücke, die entfernt wurden</translation>
     </message>
     <message>
+      <source>Make and measure every design, too</source>
+      <translation>Jeden Entwurf auch herstellen und messen</translation>
+    </message>
+    <message>
       <source>Map Around</source>
       <translation>Zellen am Umfang</translation>
     </message>
@@ -381,8 +425,16 @@
       <translation>Masse in g bei der angegebenen Dichte</translation>
     </message>
     <message>
+      <source>Mass of the finished part, with its skin</source>
+      <translation>Masse des fertigen Teils, mit seiner Haut</translation>
+    </message>
+    <message>
       <source>Material</source>
       <translation>Werkstoff</translation>
+    </message>
+    <message>
+      <source>Material File</source>
+      <translation>Werkstoffdatei</translation>
     </message>
     <message>
       <source>Mesh</source>
@@ -457,6 +509,10 @@
       <translation>Des Verfahrens, mit ihrer Quelle</translation>
     </message>
     <message>
+      <source>Of the solid</source>
+      <translation>Des Körpers</translation>
+    </message>
+    <message>
       <source>Of the struts' length, too flat</source>
       <translation>Der Strebenlänge, zu flach</translation>
     </message>
@@ -509,12 +565,24 @@
       <translation>Druck</translation>
     </message>
     <message>
+      <source>Print Material</source>
+      <translation>Werkstoff</translation>
+    </message>
+    <message>
+      <source>Print Process</source>
+      <translation>Druckverfahren</translation>
+    </message>
+    <message>
       <source>Process</source>
       <translation>Verfahren</translation>
     </message>
     <message>
       <source>Profile of the radius over s</source>
       <translation>Profil des Radius über s</translation>
+    </message>
+    <message>
+      <source>Properties and their values: 'CellSize: 6, 8, 10' or 'ShellThickness: 1 to 3 in 5'</source>
+      <translation>Eigenschaften und ihre Werte: 'CellSize: 6, 8, 10' oder 'ShellThickness: 1 to 3 in 5'</translation>
     </message>
     <message>
       <source>Put a corner of a cell at Origin; otherwise the cells start at the corner of the solid</source>
@@ -529,6 +597,10 @@
       <translation>Quadratisch</translation>
     </message>
     <message>
+      <source>Radius</source>
+      <translation>Radius</translation>
+    </message>
+    <message>
       <source>Radius Column</source>
       <translation>Wertespalte</translation>
     </message>
@@ -539,6 +611,10 @@
     <message>
       <source>Radius Direction</source>
       <translation>Radiusrichtung</translation>
+    </message>
+    <message>
+      <source>Radius Driven By</source>
+      <translation>Radius folgt aus</translation>
     </message>
     <message>
       <source>Radius End</source>
@@ -589,7 +665,15 @@
       <translation>Radius der Ausrundung zwischen Streben, wo sie sich treffen; 0 für keine</translation>
     </message>
     <message>
+      <source>Refused</source>
+      <translation>Abgelehnt</translation>
+    </message>
+    <message>
       <source>Relative Density</source>
+      <translation>Relative Dichte</translation>
+    </message>
+    <message>
+      <source>Relative density</source>
       <translation>Relative Dichte</translation>
     </message>
     <message>
@@ -673,6 +757,14 @@
       <translation>Status</translation>
     </message>
     <message>
+      <source>Stiffness</source>
+      <translation>Steifigkeit</translation>
+    </message>
+    <message>
+      <source>Stiffness Direction</source>
+      <translation>Richtung der Steifigkeit</translation>
+    </message>
+    <message>
       <source>Strut Lengths</source>
       <translation>Strebenlängen</translation>
     </message>
@@ -713,8 +805,16 @@
       <translation>Stummel entfernt</translation>
     </message>
     <message>
+      <source>Study</source>
+      <translation>Studie</translation>
+    </message>
+    <message>
       <source>Surface Area</source>
       <translation>Oberfläche</translation>
+    </message>
+    <message>
+      <source>Table</source>
+      <translation>Tabelle</translation>
     </message>
     <message>
       <source>Take away struts with a free end that are shorter than this; 0 for none</source>
@@ -725,6 +825,18 @@
       <translation>Streben mit freiem Ende wegnehmen, bis keine mehr da ist</translation>
     </message>
     <message>
+      <source>Target Density</source>
+      <translation>Zieldichte</translation>
+    </message>
+    <message>
+      <source>Target Mass</source>
+      <translation>Zielmasse</translation>
+    </message>
+    <message>
+      <source>Target Stiffness</source>
+      <translation>Zielsteifigkeit</translation>
+    </message>
+    <message>
       <source>Text</source>
       <translation>Text</translation>
     </message>
@@ -733,8 +845,16 @@
       <translation>Die .json-Datei einer eigenen Einheitszelle (Knoten und Streben), für den Zelltyp Custom</translation>
     </message>
     <message>
+      <source>The .toml or .json file of your own material</source>
+      <translation>Die .toml- oder .json-Datei des eigenen Werkstoffs</translation>
+    </message>
+    <message>
       <source>The lattice infill to look at</source>
       <translation>Die Gitterfüllung, die betrachtet wird</translation>
+    </message>
+    <message>
+      <source>The lattice infill whose designs these are</source>
+      <translation>Die Gitterfüllung, deren Entwürfe es sind</translation>
     </message>
     <message>
       <source>The radius varies along it</source>
@@ -805,6 +925,10 @@
       <translation>Werte und ihre Radien in mm, etwa '0:0.5, 120:1.2', anstelle von Anfang und Ende</translation>
     </message>
     <message>
+      <source>Vary</source>
+      <translation>Variiert</translation>
+    </message>
+    <message>
       <source>Void Volume</source>
       <translation>Hohlraumvolumen</translation>
     </message>
@@ -819,6 +943,10 @@
     <message>
       <source>Volume of material</source>
       <translation>Volumen des Werkstoffs</translation>
+    </message>
+    <message>
+      <source>Volume of the lattice over that of what it fills, between 0 and 1</source>
+      <translation>Volumen des Gitters durch das dessen, was es füllt, zwischen 0 und 1</translation>
     </message>
     <message>
       <source>Volume of the lattice over what it fills</source>
@@ -845,8 +973,20 @@
       <translation>Was nicht zum Verfahren passt</translation>
     </message>
     <message>
+      <source>What says how thick the struts are: their radius, or what the lattice or the part is to come to, for which the radius is found</source>
+      <translation>Was bestimmt, wie dick die Streben sind: ihr Radius, oder was Gitter oder Teil erreichen sollen; der Radius dafür wird gefunden</translation>
+    </message>
+    <message>
+      <source>What the figures are of</source>
+      <translation>Wovon die Zahlen sind</translation>
+    </message>
+    <message>
       <source>What the lattice consists of: cells, the Voronoi or the Delaunay edges of random points, or the nodes and struts of a file</source>
       <translation>Woraus das Gitter besteht: Zellen, die Voronoi- oder Delaunay-Kanten zufälliger Punkte, oder die Knoten und Stäbe einer Datei</translation>
+    </message>
+    <message>
+      <source>What the part is made of: its density gives the mass, its stiffness goes into solver decks</source>
+      <translation>Woraus das Teil besteht: die Dichte ergibt die Masse, die Steifigkeit geht in die Dateien für Löser</translation>
     </message>
     <message>
       <source>What to know about this result</source>
@@ -859,6 +999,10 @@
     <message>
       <source>Where holes go through the skin</source>
       <translation>Wo Löcher durch die Haut gehen</translation>
+    </message>
+    <message>
+      <source>Where the records and the page of the study are</source>
+      <translation>Wo die Aufzeichnungen und die Seite der Studie liegen</translation>
     </message>
     <message>
       <source>Whether the mesh fits the properties, or why not</source>
@@ -875,6 +1019,14 @@
     <message>
       <source>Whole</source>
       <translation>Ganz</translation>
+    </message>
+    <message>
+      <source>Why combinations were passed over, or failed</source>
+      <translation>Warum Kombinationen übergangen wurden oder scheiterten</translation>
+    </message>
+    <message>
+      <source>Young's modulus of the lattice along StiffnessDirection, of the chosen material</source>
+      <translation>Elastizitätsmodul des Gitters entlang StiffnessDirection, aus dem gewählten Werkstoff</translation>
     </message>
     <message>
       <source>lambda as a formula of s</source>
@@ -921,6 +1073,21 @@
     <message>
       <source>Report on the selected mesh: closed, bodies, volume, angles, triangles that cross, and what a file keeps of it</source>
       <translation>Bericht über das gewählte Netz: geschlossen, Körper, Volumen, Winkel, sich kreuzende Dreiecke, und was eine Datei davon behält</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_DesignStudy</name>
+    <message>
+      <source>Apply Design</source>
+      <translation>Entwurf anwenden</translation>
+    </message>
+    <message>
+      <source>Design Study</source>
+      <translation>Entwurfsstudie</translation>
+    </message>
+    <message>
+      <source>Try many values of the selected lattice infill's properties, see mass against stiffness, and give it the best</source>
+      <translation>Viele Werte der Eigenschaften der gewählten Gitterfüllung versuchen, Masse gegen Steifigkeit sehen und ihr die besten geben</translation>
     </message>
   </context>
   <context>
@@ -1045,6 +1212,17 @@
     </message>
   </context>
   <context>
+    <name>VOLFREP_SizeLattice</name>
+    <message>
+      <source>Find the radii of the selected lattice infill's struts for the load cases of the FEM workbench: least mass within limits, or most stiffness at a mass</source>
+      <translation>Die Radien der Streben der gewählten Gitterfüllung für die Lastfälle des FEM-Arbeitsbereichs finden: geringste Masse innerhalb von Grenzen, oder größte Steifigkeit bei einer Masse</translation>
+    </message>
+    <message>
+      <source>Size Lattice</source>
+      <translation>Gitter dimensionieren</translation>
+    </message>
+  </context>
+  <context>
     <name>VOLFREP_Statistics</name>
     <message>
       <source>Statistics</source>
@@ -1053,6 +1231,17 @@
     <message>
       <source>Tables of the selected lattice infills, or of all in the document: cells, struts, density, mass, times, memory</source>
       <translation>Tabellen der gewählten Gitterfüllungen oder aller im Dokument: Zellen, Streben, Dichte, Masse, Zeiten, Speicher</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_StrutResults</name>
+    <message>
+      <source>Colour the struts of the selected lattice infill by radius, stress, buckling or displacement under the load cases of the FEM workbench</source>
+      <translation>Die Streben der gewählten Gitterfüllung nach Radius, Spannung, Knicken oder Verschiebung unter den Lastfällen des FEM-Arbeitsbereichs einfärben</translation>
+    </message>
+    <message>
+      <source>Strut Results</source>
+      <translation>Strebenergebnisse</translation>
     </message>
   </context>
   <context>
@@ -1100,8 +1289,16 @@
       <translation>Trägt Last durch</translation>
     </message>
     <message>
+      <source>Cell size L</source>
+      <translation>Zellgröße L</translation>
+    </message>
+    <message>
       <source>Close</source>
       <translation>Schließen</translation>
+    </message>
+    <message>
+      <source>Compute</source>
+      <translation>Berechnen</translation>
     </message>
     <message>
       <source>Drawn with L = {size:g} mm; every L can be given to an infill.</source>
@@ -1124,6 +1321,10 @@
       <translation>Gut für</translation>
     </message>
     <message>
+      <source>Homogenise this cell with this radius: it takes some seconds</source>
+      <translation>Diese Zelle mit diesem Radius homogenisieren: es dauert einige Sekunden</translation>
+    </message>
+    <message>
       <source>Load Cell</source>
       <translation>Zelle laden</translation>
     </message>
@@ -1136,12 +1337,20 @@
       <translation>Macht eine Zelle aus den geraden Kanten der gewählten Skizzen, Drähte oder Formen; der Würfel um sie ist die Zelle</translation>
     </message>
     <message>
+      <source>Material</source>
+      <translation>Werkstoff</translation>
+    </message>
+    <message>
       <source>Maxwell number</source>
       <translation>Maxwell-Zahl</translation>
     </message>
     <message>
       <source>Nodes</source>
       <translation>Knoten</translation>
+    </message>
+    <message>
+      <source>Properties of {name}</source>
+      <translation>Eigenschaften von {name}</translation>
     </message>
     <message>
       <source>Read a cell of your own from a JSON file</source>
@@ -1160,8 +1369,16 @@
       <translation>Einheitszelle setzen</translation>
     </message>
     <message>
+      <source>Strut radius r</source>
+      <translation>Strebenradius r</translation>
+    </message>
+    <message>
       <source>Struts</source>
       <translation>Streben</translation>
+    </message>
+    <message>
+      <source>This cell with this radius is not in the catalogue: press Compute.</source>
+      <translation>Diese Zelle mit diesem Radius steht nicht im Katalog: Berechnen drücken.</translation>
     </message>
     <message>
       <source>Unit cell (*.json)</source>
@@ -1242,6 +1459,10 @@
   <context>
     <name>VolfrepFigures</name>
     <message>
+      <source>strut radius {radius:.4g} mm</source>
+      <translation>Strebenradius {radius:.4g} mm</translation>
+    </message>
+    <message>
       <source>{cells:,} active cells, {struts:,} struts
 relative density {density:.3g} %, mass {mass:.4g} g
 about {triangles:.2g} million triangles, {size:.2g} MB as STL, {seconds:.2g} s to compute</source>
@@ -1259,10 +1480,6 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
     <message>
       <source>3MF, beams only</source>
       <translation>3MF, nur Balken</translation>
-    </message>
-    <message>
-      <source>3MF, fewer triangles</source>
-      <translation>3MF, weniger Dreiecke</translation>
     </message>
     <message>
       <source>3MF, mesh and beams</source>
@@ -1312,10 +1529,6 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <source>STL</source>
       <translation>STL</translation>
     </message>
-    <message>
-      <source>STL, fewer triangles</source>
-      <translation>STL, weniger Dreiecke</translation>
-    </message>
   </context>
   <context>
     <name>VolfrepHelp</name>
@@ -1343,10 +1556,6 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>Exakte Flächen von {label}</translation>
     </message>
     <message>
-      <source>Fewer triangles for {label}</source>
-      <translation>Weniger Dreiecke für {label}</translation>
-    </message>
-    <message>
       <source>Filling {label}</source>
       <translation>{label} wird gefüllt</translation>
     </message>
@@ -1359,8 +1568,20 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>Druckprüfung von {label}</translation>
     </message>
     <message>
+      <source>Properties of the lattice of {label}</source>
+      <translation>Eigenschaften des Gitters von {label}</translation>
+    </message>
+    <message>
+      <source>Sizing {label}</source>
+      <translation>{label} dimensionieren</translation>
+    </message>
+    <message>
       <source>Struts of {label}</source>
       <translation>Streben von {label}</translation>
+    </message>
+    <message>
+      <source>Studying {label}</source>
+      <translation>{label} wird untersucht</translation>
     </message>
     <message>
       <source>Tetrahedra of {label}</source>
@@ -1437,6 +1658,10 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>Anzeige und Grenzen</translation>
     </message>
     <message>
+      <source>Distance between a facet and the exact strut, where the resolution is automatic; automatic: by the strut radius</source>
+      <translation>Abstand zwischen einer Facette und dem genauen Stab bei automatischer Auflösung; automatisch: nach dem Stabradius</translation>
+    </message>
+    <message>
       <source>Edge length L of a cell; automatic: about four cells across the thinnest side of the part</source>
       <translation>Kantenlänge L einer Zelle; automatisch: etwa vier Zellen über die dünnste Seite des Bauteils</translation>
     </message>
@@ -1451,10 +1676,6 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
     <message>
       <source>In Section View</source>
       <translation>In der Schnittansicht</translation>
-    </message>
-    <message>
-      <source>Largest distance between a facet and the exact strut, where the resolution is automatic; automatic: by the strut radius</source>
-      <translation>Größter Abstand zwischen einer Facette und der exakten Strebe, wo die Auflösung automatisch ist; automatisch: nach dem Strebenradius</translation>
     </message>
     <message>
       <source>Lattice</source>
@@ -1572,10 +1793,6 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>Prüfung</translation>
     </message>
     <message>
-      <source>compact</source>
-      <translation>Verdichten</translation>
-    </message>
-    <message>
       <source>crossings</source>
       <translation>Durchdringungen</translation>
     </message>
@@ -1584,7 +1801,19 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>Gitter</translation>
     </message>
     <message>
+      <source>proof</source>
+      <translation>Nachweis</translation>
+    </message>
+    <message>
       <source>shell</source>
+      <translation>Haut</translation>
+    </message>
+    <message>
+      <source>sizing</source>
+      <translation>Dimensionieren</translation>
+    </message>
+    <message>
+      <source>skin</source>
       <translation>Haut</translation>
     </message>
     <message>
@@ -1615,12 +1844,32 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>Kopieren</translation>
     </message>
     <message>
+      <source>E100</source>
+      <translation>E100</translation>
+    </message>
+    <message>
+      <source>E110</source>
+      <translation>E110</translation>
+    </message>
+    <message>
+      <source>E111</source>
+      <translation>E111</translation>
+    </message>
+    <message>
       <source>FreeCAD's own checks</source>
       <translation>FreeCADs eigene Prüfungen</translation>
     </message>
     <message>
+      <source>G</source>
+      <translation>G</translation>
+    </message>
+    <message>
       <source>Inputs</source>
       <translation>Eingaben</translation>
+    </message>
+    <message>
+      <source>Notes</source>
+      <translation>Anmerkungen</translation>
     </message>
     <message>
       <source>Peak memory at the end of each stage, MB</source>
@@ -1643,8 +1892,20 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>Sekunden je Schritt</translation>
     </message>
     <message>
+      <source>Steps</source>
+      <translation>Schritte</translation>
+    </message>
+    <message>
+      <source>Struts</source>
+      <translation>Streben</translation>
+    </message>
+    <message>
       <source>Surfaces that run through each other</source>
       <translation>Flächen, die sich durchdringen</translation>
+    </message>
+    <message>
+      <source>The same beams in CalculiX</source>
+      <translation>Dieselben Balken in CalculiX</translation>
     </message>
     <message>
       <source>The tables are on the clipboard.</source>
@@ -1653,6 +1914,10 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
     <message>
       <source>Triangles and the file's single precision</source>
       <translation>Dreiecke und die einfache Genauigkeit der Datei</translation>
+    </message>
+    <message>
+      <source>What the lattice does</source>
+      <translation>Was das Gitter leistet</translation>
     </message>
     <message>
       <source>a solid</source>
@@ -1691,6 +1956,14 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>Hüllquader</translation>
     </message>
     <message>
+      <source>buckling, % of its limit</source>
+      <translation>Knicken, % der Grenze</translation>
+    </message>
+    <message>
+      <source>bulk</source>
+      <translation>Kompressionsmodul</translation>
+    </message>
+    <message>
       <source>cell</source>
       <translation>Zelle</translation>
     </message>
@@ -1715,12 +1988,28 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>geschlossene Hohlräume</translation>
     </message>
     <message>
+      <source>conductivity</source>
+      <translation>Leitfähigkeit</translation>
+    </message>
+    <message>
       <source>corrupted triangles</source>
       <translation>beschädigte Dreiecke</translation>
     </message>
     <message>
+      <source>density</source>
+      <translation>Dichte</translation>
+    </message>
+    <message>
       <source>density, g/cm3</source>
       <translation>Dichte, g/cm3</translation>
+    </message>
+    <message>
+      <source>displacement, % of its limit</source>
+      <translation>Verschiebung, % der Grenze</translation>
+    </message>
+    <message>
+      <source>displacements differ by, %</source>
+      <translation>Verschiebungen weichen ab um, %</translation>
     </message>
     <message>
       <source>every place inside is enclosed once</source>
@@ -1733,6 +2022,10 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
     <message>
       <source>found</source>
       <translation>gefunden</translation>
+    </message>
+    <message>
+      <source>frequency, % of its limit</source>
+      <translation>Frequenz, % der Grenze</translation>
     </message>
     <message>
       <source>from</source>
@@ -1751,16 +2044,44 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>Knoten</translation>
     </message>
     <message>
+      <source>largest displacement, mm</source>
+      <translation>größte Verschiebung, mm</translation>
+    </message>
+    <message>
+      <source>largest radius, mm</source>
+      <translation>größter Radius, mm</translation>
+    </message>
+    <message>
+      <source>largest stress there over here</source>
+      <translation>größte Spannung dort zu hier</translation>
+    </message>
+    <message>
+      <source>largest stress, MPa</source>
+      <translation>größte Spannung, MPa</translation>
+    </message>
+    <message>
       <source>lattice</source>
       <translation>Gitter</translation>
+    </message>
+    <message>
+      <source>load before buckling, times</source>
+      <translation>Last bis zum Knicken, Vielfaches</translation>
     </message>
     <message>
       <source>loose pieces removed</source>
       <translation>entfernte lose Teile</translation>
     </message>
     <message>
+      <source>lowest frequency there over here</source>
+      <translation>niedrigste Frequenz dort zu hier</translation>
+    </message>
+    <message>
       <source>manifold</source>
       <translation>mannigfaltig</translation>
+    </message>
+    <message>
+      <source>mass of the struts, g</source>
+      <translation>Masse der Streben, g</translation>
     </message>
     <message>
       <source>mass, g</source>
@@ -1775,6 +2096,14 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>höchster Wert</translation>
     </message>
     <message>
+      <source>most stressed strut, at x, y, z</source>
+      <translation>höchstbelastete Strebe, bei x, y, z</translation>
+    </message>
+    <message>
+      <source>most used limit</source>
+      <translation>am meisten genutzte Grenze</translation>
+    </message>
+    <message>
       <source>no</source>
       <translation>nein</translation>
     </message>
@@ -1787,12 +2116,36 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>keine</translation>
     </message>
     <message>
+      <source>nu</source>
+      <translation>nu</translation>
+    </message>
+    <message>
+      <source>one radius, as near as it gets</source>
+      <translation>ein Radius, so nah es geht</translation>
+    </message>
+    <message>
+      <source>one radius, same limits</source>
+      <translation>ein Radius, gleiche Grenzen</translation>
+    </message>
+    <message>
+      <source>one radius, same mass</source>
+      <translation>ein Radius, gleiche Masse</translation>
+    </message>
+    <message>
       <source>output</source>
       <translation>Ausgabe</translation>
     </message>
     <message>
+      <source>relative density</source>
+      <translation>relative Dichte</translation>
+    </message>
+    <message>
       <source>relative density, %</source>
       <translation>relative Dichte, %</translation>
+    </message>
+    <message>
+      <source>shear strength</source>
+      <translation>Schubfestigkeit</translation>
     </message>
     <message>
       <source>shell</source>
@@ -1811,6 +2164,10 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>kürzeste Kante</translation>
     </message>
     <message>
+      <source>sized</source>
+      <translation>dimensioniert</translation>
+    </message>
+    <message>
       <source>skin, mm</source>
       <translation>Haut, mm</translation>
     </message>
@@ -1827,12 +2184,28 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>kleinstes Radienverhältnis</translation>
     </message>
     <message>
+      <source>smallest radius, mm</source>
+      <translation>kleinster Radius, mm</translation>
+    </message>
+    <message>
       <source>status</source>
       <translation>Status</translation>
     </message>
     <message>
+      <source>step</source>
+      <translation>Schritt</translation>
+    </message>
+    <message>
       <source>step of its numbers</source>
       <translation>Schrittweite ihrer Zahlen</translation>
+    </message>
+    <message>
+      <source>strength</source>
+      <translation>Festigkeit</translation>
+    </message>
+    <message>
+      <source>stress, % of its limit</source>
+      <translation>Spannung, % der Grenze</translation>
     </message>
     <message>
       <source>strut radius, mm</source>
@@ -1891,6 +2264,10 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>wasserdicht</translation>
     </message>
     <message>
+      <source>work of the loads, N mm</source>
+      <translation>Arbeit der Lasten, N mm</translation>
+    </message>
+    <message>
       <source>wrong neighbours</source>
       <translation>falsche Nachbarn</translation>
     </message>
@@ -1901,6 +2278,10 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
     <message>
       <source>yes</source>
       <translation>ja</translation>
+    </message>
+    <message>
+      <source>zener</source>
+      <translation>Zener-Verhältnis</translation>
     </message>
   </context>
   <context>
@@ -1923,6 +2304,161 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
     </message>
   </context>
   <context>
+    <name>VolfrepSizePanel</name>
+    <message>
+      <source>Analyses of the FEM workbench: each is a load case</source>
+      <translation>Analysen des FEM-Arbeitsbereichs: jede ist ein Lastfall</translation>
+    </message>
+    <message>
+      <source>Buckling safety</source>
+      <translation>Sicherheit (Knicken)</translation>
+    </message>
+    <message>
+      <source>CalculiX's displacements of the same beams differ by {off:.2g} %.</source>
+      <translation>Die Verschiebungen von CalculiX für dieselben Balken weichen um {off:.2g} % ab.</translation>
+    </message>
+    <message>
+      <source>Cancelled before the first step.</source>
+      <translation>Vor dem ersten Schritt abgebrochen.</translation>
+    </message>
+    <message>
+      <source>Check with CalculiX</source>
+      <translation>Mit CalculiX prüfen</translation>
+    </message>
+    <message>
+      <source>Displacement</source>
+      <translation>Verschiebung</translation>
+    </message>
+    <message>
+      <source>Find the radii now and stay in this panel; Cancel in the status bar keeps the best design so far</source>
+      <translation>Die Radien jetzt finden und in diesem Fenster bleiben; Abbrechen in der Statusleiste behält den bisher besten Entwurf</translation>
+    </message>
+    <message>
+      <source>Frequency, Hz</source>
+      <translation>Frequenz, Hz</translation>
+    </message>
+    <message>
+      <source>Goal</source>
+      <translation>Ziel</translation>
+    </message>
+    <message>
+      <source>How many times the load may be before the first strut buckles; 0 for no limit</source>
+      <translation>Wievielmal so groß die Last sein darf, bevor die erste Strebe knickt; 0 für keine Grenze</translation>
+    </message>
+    <message>
+      <source>Largest radius</source>
+      <translation>Größter Radius</translation>
+    </message>
+    <message>
+      <source>Least mass</source>
+      <translation>Geringste Masse</translation>
+    </message>
+    <message>
+      <source>Let CalculiX solve the design, where it is installed, and say how far it agrees; where it finds more than a limit allows, the struts are made thicker</source>
+      <translation>Den Entwurf von CalculiX lösen lassen, wo es installiert ist, und sagen, wie weit es übereinstimmt; wo es mehr findet, als eine Grenze erlaubt, werden die Streben dicker</translation>
+    </message>
+    <message>
+      <source>Limit</source>
+      <translation>Grenze</translation>
+    </message>
+    <message>
+      <source>Load cases</source>
+      <translation>Lastfälle</translation>
+    </message>
+    <message>
+      <source>Mass, g</source>
+      <translation>Masse, g</translation>
+    </message>
+    <message>
+      <source>Most stiffness</source>
+      <translation>Größte Steifigkeit</translation>
+    </message>
+    <message>
+      <source>Nodes whose struts would grow together stay below it</source>
+      <translation>Knoten, deren Streben zusammenwachsen würden, bleiben darunter</translation>
+    </message>
+    <message>
+      <source>Size</source>
+      <translation>Dimensionieren</translation>
+    </message>
+    <message>
+      <source>Size Lattice: {label}</source>
+      <translation>Gitter dimensionieren: {label}</translation>
+    </message>
+    <message>
+      <source>Smallest radius</source>
+      <translation>Kleinster Radius</translation>
+    </message>
+    <message>
+      <source>Step</source>
+      <translation>Schritt</translation>
+    </message>
+    <message>
+      <source>Struts of {mass:.4g} g hold all limits; no one radius between these does.</source>
+      <translation>Streben von {mass:.4g} g halten alle Grenzen ein; kein einheitlicher Radius dazwischen tut das.</translation>
+    </message>
+    <message>
+      <source>Struts of {mass:.4g} g hold all limits; of one radius they would weigh {even:.4g} g.</source>
+      <translation>Streben von {mass:.4g} g halten alle Grenzen ein; mit einem einheitlichen Radius wögen sie {even:.4g} g.</translation>
+    </message>
+    <message>
+      <source>Struts of {mass:.4g} g, {gain:.3g} times as stiff as struts of one radius and the same mass.</source>
+      <translation>Streben von {mass:.4g} g, {gain:.3g}-mal so steif wie Streben eines einheitlichen Radius mit derselben Masse.</translation>
+    </message>
+    <message>
+      <source>The largest of any point under any case; 0 for no limit</source>
+      <translation>Die größte jedes Punktes in jedem Fall; 0 für keine Grenze</translation>
+    </message>
+    <message>
+      <source>The limit of {limit} cannot be held between these radii: {use:.0%} of it is used. Allow thicker struts, or larger cells.</source>
+      <translation>Die Grenze für {limit} ist mit diesen Radien nicht einzuhalten: {use:.0%} davon sind genutzt. Dickere Streben erlauben, oder größere Zellen.</translation>
+    </message>
+    <message>
+      <source>The lowest natural one, held as in the first case; 0 for no limit</source>
+      <translation>Die niedrigste Eigenfrequenz, gehalten wie im ersten Fall; 0 für keine Grenze</translation>
+    </message>
+    <message>
+      <source>The thinnest strut that the process prints</source>
+      <translation>Die dünnste Strebe, die das Verfahren druckt</translation>
+    </message>
+    <message>
+      <source>What is wanted</source>
+      <translation>Was gewünscht ist</translation>
+    </message>
+    <message>
+      <source>What the stiffest struts weigh together; 0 for what struts of StrutRadius do</source>
+      <translation>Was die steifsten Streben zusammen wiegen; 0 für das, was Streben mit StrutRadius wiegen</translation>
+    </message>
+    <message>
+      <source>Work, N mm</source>
+      <translation>Arbeit, N mm</translation>
+    </message>
+    <message>
+      <source>Yield safety</source>
+      <translation>Sicherheit (Fließen)</translation>
+    </message>
+    <message>
+      <source>Yield stress over the largest von Mises stress in a strut; 0 for no limit</source>
+      <translation>Fließgrenze geteilt durch die größte Von-Mises-Spannung in einer Strebe; 0 für keine Grenze</translation>
+    </message>
+    <message>
+      <source>buckling</source>
+      <translation>Knicken</translation>
+    </message>
+    <message>
+      <source>displacement</source>
+      <translation>Verschiebung</translation>
+    </message>
+    <message>
+      <source>frequency</source>
+      <translation>Frequenz</translation>
+    </message>
+    <message>
+      <source>stress</source>
+      <translation>Spannung</translation>
+    </message>
+  </context>
+  <context>
     <name>VolfrepSolids</name>
     <message>
       <source>Axes of the struts</source>
@@ -1942,7 +2478,89 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
     </message>
   </context>
   <context>
+    <name>VolfrepStrutView</name>
+    <message>
+      <source>Colour by</source>
+      <translation>Farbe nach</translation>
+    </message>
+    <message>
+      <source>Deformed</source>
+      <translation>Verformt</translation>
+    </message>
+    <message>
+      <source>Displacement, mm</source>
+      <translation>Verschiebung, mm</translation>
+    </message>
+    <message>
+      <source>Load case</source>
+      <translation>Lastfall</translation>
+    </message>
+    <message>
+      <source>Radius, mm</source>
+      <translation>Radius, mm</translation>
+    </message>
+    <message>
+      <source>Share of the buckling load</source>
+      <translation>Anteil der Knicklast</translation>
+    </message>
+    <message>
+      <source>Stress (von Mises), MPa</source>
+      <translation>Spannung (von Mises), MPa</translation>
+    </message>
+    <message>
+      <source>Strut results of {label}</source>
+      <translation>Strebenergebnisse von {label}</translation>
+    </message>
+    <message>
+      <source>{factor:g} times enlarged</source>
+      <translation>{factor:g}-fach vergrößert</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepStudy</name>
+    <message>
+      <source>Apply</source>
+      <translation>Anwenden</translation>
+    </message>
+    <message>
+      <source>Give this design to the infill, as one undo step</source>
+      <translation>Der Füllung diesen Entwurf geben, als ein Schritt zum Rückgängigmachen</translation>
+    </message>
+    <message>
+      <source>Make every design (slow)</source>
+      <translation>Jeden Entwurf herstellen (langsam)</translation>
+    </message>
+    <message>
+      <source>Page</source>
+      <translation>Seite</translation>
+    </message>
+    <message>
+      <source>Show the table and all plots in the browser</source>
+      <translation>Die Tabelle und alle Diagramme im Browser zeigen</translation>
+    </message>
+    <message>
+      <source>Start</source>
+      <translation>Start</translation>
+    </message>
+    <message>
+      <source>The infill of this study has gone: choose another one.</source>
+      <translation>Die Füllung dieser Studie gibt es nicht mehr: eine andere wählen.</translation>
+    </message>
+    <message>
+      <source>Values: 6, 8, 10, or 6 to 10 in 5</source>
+      <translation>Werte: 6, 8, 10, oder 6 to 10 in 5</translation>
+    </message>
+    <message>
+      <source>What varies</source>
+      <translation>Was sich ändert</translation>
+    </message>
+  </context>
+  <context>
     <name>VolfrepTaskPanel</name>
+    <message>
+      <source>'{text}' is no direction: write 100, 110, 111 or three numbers such as 1,2,0.</source>
+      <translation>'{text}' ist keine Richtung: 100, 110, 111 oder drei Zahlen wie 1,2,0 schreiben.</translation>
+    </message>
     <message>
       <source>Cells</source>
       <translation>Zellen</translation>
@@ -1962,6 +2580,10 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
     <message>
       <source>Make the mesh of these values now and stay in this panel</source>
       <translation>Erzeugt jetzt das Netz zu diesen Werten und bleibt im Aufgabenfenster</translation>
+    </message>
+    <message>
+      <source>Material</source>
+      <translation>Werkstoff</translation>
     </message>
     <message>
       <source>Points and values</source>

@@ -29,6 +29,10 @@
       <translation>Tutti i dati, da leggere</translation>
     </message>
     <message>
+      <source>Along this direction of the cell: 1,0,0 along its edges, 1,1,0 across its faces, 1,1,1 along its diagonals</source>
+      <translation>Lungo questa direzione della cella: 1,0,0 lungo gli spigoli, 1,1,0 attraverso le facce, 1,1,1 lungo le diagonali</translation>
+    </message>
+    <message>
       <source>Another seed draws other points</source>
       <translation>Un altro seme estrae altri punti</translation>
     </message>
@@ -157,6 +161,10 @@
       <translation>Nucleo</translation>
     </message>
     <message>
+      <source>Custom</source>
+      <translation>Personalizzata</translation>
+    </message>
+    <message>
       <source>Cylindrical</source>
       <translation>Cilindrica</translation>
     </message>
@@ -185,6 +193,18 @@
       <translation>Profondità alla quale il profilo finisce</translation>
     </message>
     <message>
+      <source>Designs</source>
+      <translation>Progetti</translation>
+    </message>
+    <message>
+      <source>Designs and their figures, as JSON</source>
+      <translation>Progetti e i loro valori, come JSON</translation>
+    </message>
+    <message>
+      <source>Designs with figures</source>
+      <translation>Progetti con valori</translation>
+    </message>
+    <message>
       <source>Deviation</source>
       <translation>Scostamento</translation>
     </message>
@@ -195,6 +215,10 @@
     <message>
       <source>Direction</source>
       <translation>Direzione</translation>
+    </message>
+    <message>
+      <source>Distance between a facet and the exact strut, kept away from the creases where struts meet; 0 for a thirty-fifth of the radius</source>
+      <translation>Distanza tra una faccetta e l'asta esatta, rispettata lontano dagli spigoli in cui le aste si incontrano; 0 per un trentacinquesimo del raggio</translation>
     </message>
     <message>
       <source>Domain</source>
@@ -257,8 +281,16 @@
       <translation>File di punti e valori: .csv, .txt, .vtu, .vtk</translation>
     </message>
     <message>
+      <source>Fill</source>
+      <translation>Riempi</translation>
+    </message>
+    <message>
       <source>Findings</source>
       <translation>Rilievi</translation>
+    </message>
+    <message>
+      <source>Folder</source>
+      <translation>Cartella</translation>
     </message>
     <message>
       <source>Formula</source>
@@ -297,6 +329,10 @@
       <translation>Quante volte ogni punto va al centro della sua cella, il che li rende più uniformi</translation>
     </message>
     <message>
+      <source>How the part is printed: its limits are those of the print check</source>
+      <translation>Come si stampa il pezzo: i limiti del processo sono quelli del controllo di stampa</translation>
+    </message>
+    <message>
       <source>Infill</source>
       <translation>Riempimento</translation>
     </message>
@@ -313,8 +349,16 @@
       <translation>Raccordo dei nodi</translation>
     </message>
     <message>
+      <source>Keep Pieces</source>
+      <translation>Mantieni pezzi staccati</translation>
+    </message>
+    <message>
       <source>Keep Radius</source>
       <translation>Mantieni raggio</translation>
+    </message>
+    <message>
+      <source>Keep pieces of the lattice that hang on nothing; otherwise they are left out, and told</source>
+      <translation>Mantiene i pezzi del reticolo che non sono attaccati a nulla; altrimenti vengono tolti e segnalati</translation>
     </message>
     <message>
       <source>L: edge length of the cubic cell</source>
@@ -331,10 +375,6 @@
     <message>
       <source>Lambda Start</source>
       <translation>Lambda all'inizio</translation>
-    </message>
-    <message>
-      <source>Largest distance between a facet and the exact strut; 0 for a thirty-fifth of the radius</source>
-      <translation>Distanza massima tra una faccetta e l'asta esatta; 0 per un trentacinquesimo del raggio</translation>
     </message>
     <message>
       <source>Lattice</source>
@@ -361,6 +401,10 @@
       <translation>Frammenti isolati eliminati</translation>
     </message>
     <message>
+      <source>Make and measure every design, too</source>
+      <translation>Crea e misura anche ogni progetto</translation>
+    </message>
+    <message>
       <source>Map Around</source>
       <translation>Celle sul giro</translation>
     </message>
@@ -381,8 +425,16 @@
       <translation>Massa in g alla densità indicata</translation>
     </message>
     <message>
+      <source>Mass of the finished part, with its skin</source>
+      <translation>Massa del pezzo finito, con la sua pelle</translation>
+    </message>
+    <message>
       <source>Material</source>
       <translation>Materiale</translation>
+    </message>
+    <message>
+      <source>Material File</source>
+      <translation>File del materiale</translation>
     </message>
     <message>
       <source>Mesh</source>
@@ -457,6 +509,10 @@
       <translation>Del processo, con la loro fonte</translation>
     </message>
     <message>
+      <source>Of the solid</source>
+      <translation>Del solido</translation>
+    </message>
+    <message>
       <source>Of the struts' length, too flat</source>
       <translation>Della lunghezza delle aste, troppo piatta</translation>
     </message>
@@ -509,12 +565,24 @@
       <translation>Stampa</translation>
     </message>
     <message>
+      <source>Print Material</source>
+      <translation>Materiale di stampa</translation>
+    </message>
+    <message>
+      <source>Print Process</source>
+      <translation>Processo di stampa</translation>
+    </message>
+    <message>
       <source>Process</source>
       <translation>Processo</translation>
     </message>
     <message>
       <source>Profile of the radius over s</source>
       <translation>Profilo del raggio in funzione di s</translation>
+    </message>
+    <message>
+      <source>Properties and their values: 'CellSize: 6, 8, 10' or 'ShellThickness: 1 to 3 in 5'</source>
+      <translation>Proprietà e i loro valori: 'CellSize: 6, 8, 10' oppure 'ShellThickness: 1 to 3 in 5'</translation>
     </message>
     <message>
       <source>Put a corner of a cell at Origin; otherwise the cells start at the corner of the solid</source>
@@ -529,6 +597,10 @@
       <translation>Quadratica</translation>
     </message>
     <message>
+      <source>Radius</source>
+      <translation>Raggio</translation>
+    </message>
+    <message>
       <source>Radius Column</source>
       <translation>Colonna dei valori</translation>
     </message>
@@ -539,6 +611,10 @@
     <message>
       <source>Radius Direction</source>
       <translation>Direzione del raggio</translation>
+    </message>
+    <message>
+      <source>Radius Driven By</source>
+      <translation>Raggio determinato da</translation>
     </message>
     <message>
       <source>Radius End</source>
@@ -589,7 +665,15 @@
       <translation>Raggio del raccordo tra le aste dove si incontrano; 0 per nessuno</translation>
     </message>
     <message>
+      <source>Refused</source>
+      <translation>Rifiutati</translation>
+    </message>
+    <message>
       <source>Relative Density</source>
+      <translation>Densità relativa</translation>
+    </message>
+    <message>
+      <source>Relative density</source>
       <translation>Densità relativa</translation>
     </message>
     <message>
@@ -673,6 +757,14 @@
       <translation>Stato</translation>
     </message>
     <message>
+      <source>Stiffness</source>
+      <translation>Rigidezza</translation>
+    </message>
+    <message>
+      <source>Stiffness Direction</source>
+      <translation>Direzione della rigidezza</translation>
+    </message>
+    <message>
       <source>Strut Lengths</source>
       <translation>Lunghezze delle aste</translation>
     </message>
@@ -713,8 +805,16 @@
       <translation>Monconi rimossi</translation>
     </message>
     <message>
+      <source>Study</source>
+      <translation>Studio</translation>
+    </message>
+    <message>
       <source>Surface Area</source>
       <translation>Area della superficie</translation>
+    </message>
+    <message>
+      <source>Table</source>
+      <translation>Tabella</translation>
     </message>
     <message>
       <source>Take away struts with a free end that are shorter than this; 0 for none</source>
@@ -725,6 +825,18 @@
       <translation>Toglie le aste con un'estremità libera, finché non ne rimane nessuna</translation>
     </message>
     <message>
+      <source>Target Density</source>
+      <translation>Densità obiettivo</translation>
+    </message>
+    <message>
+      <source>Target Mass</source>
+      <translation>Massa obiettivo</translation>
+    </message>
+    <message>
+      <source>Target Stiffness</source>
+      <translation>Rigidezza obiettivo</translation>
+    </message>
+    <message>
       <source>Text</source>
       <translation>Testo</translation>
     </message>
@@ -733,8 +845,16 @@
       <translation>Il file .json di una cella propria (nodi e aste), per il tipo di cella Custom</translation>
     </message>
     <message>
+      <source>The .toml or .json file of your own material</source>
+      <translation>Il file .toml o .json del proprio materiale</translation>
+    </message>
+    <message>
       <source>The lattice infill to look at</source>
       <translation>Il riempimento reticolare da esaminare</translation>
+    </message>
+    <message>
+      <source>The lattice infill whose designs these are</source>
+      <translation>Il riempimento reticolare di cui questi sono i progetti</translation>
     </message>
     <message>
       <source>The radius varies along it</source>
@@ -805,6 +925,10 @@
       <translation>Valori e i loro raggi in mm, come '0:0.5, 120:1.2', al posto dell'inizio e della fine</translation>
     </message>
     <message>
+      <source>Vary</source>
+      <translation>Varia</translation>
+    </message>
+    <message>
       <source>Void Volume</source>
       <translation>Volume dei vuoti</translation>
     </message>
@@ -819,6 +943,10 @@
     <message>
       <source>Volume of material</source>
       <translation>Volume di materiale</translation>
+    </message>
+    <message>
+      <source>Volume of the lattice over that of what it fills, between 0 and 1</source>
+      <translation>Volume del reticolo diviso per quello che riempie, fra 0 e 1</translation>
     </message>
     <message>
       <source>Volume of the lattice over what it fills</source>
@@ -845,8 +973,20 @@
       <translation>Ciò che non si adatta al processo</translation>
     </message>
     <message>
+      <source>What says how thick the struts are: their radius, or what the lattice or the part is to come to, for which the radius is found</source>
+      <translation>Che cosa determina lo spessore delle aste: il loro raggio, o ciò che reticolo o pezzo devono raggiungere; il raggio adatto viene trovato</translation>
+    </message>
+    <message>
+      <source>What the figures are of</source>
+      <translation>A che cosa si riferiscono i valori</translation>
+    </message>
+    <message>
       <source>What the lattice consists of: cells, the Voronoi or the Delaunay edges of random points, or the nodes and struts of a file</source>
       <translation>Di che cosa è fatto il reticolo: celle, i lati di Voronoi o di Delaunay di punti casuali, o i nodi e le aste di un file</translation>
+    </message>
+    <message>
+      <source>What the part is made of: its density gives the mass, its stiffness goes into solver decks</source>
+      <translation>Di che cosa è fatto il pezzo: la densità dà la massa, la rigidezza va nei file per i solutori</translation>
     </message>
     <message>
       <source>What to know about this result</source>
@@ -859,6 +999,10 @@
     <message>
       <source>Where holes go through the skin</source>
       <translation>Dove i fori attraversano il guscio</translation>
+    </message>
+    <message>
+      <source>Where the records and the page of the study are</source>
+      <translation>Dove sono le registrazioni e la pagina dello studio</translation>
     </message>
     <message>
       <source>Whether the mesh fits the properties, or why not</source>
@@ -875,6 +1019,14 @@
     <message>
       <source>Whole</source>
       <translation>Intere</translation>
+    </message>
+    <message>
+      <source>Why combinations were passed over, or failed</source>
+      <translation>Perché alcune combinazioni sono state saltate o sono fallite</translation>
+    </message>
+    <message>
+      <source>Young's modulus of the lattice along StiffnessDirection, of the chosen material</source>
+      <translation>Modulo di Young del reticolo lungo StiffnessDirection, del materiale scelto</translation>
     </message>
     <message>
       <source>lambda as a formula of s</source>
@@ -921,6 +1073,21 @@
     <message>
       <source>Report on the selected mesh: closed, bodies, volume, angles, triangles that cross, and what a file keeps of it</source>
       <translation>Rapporto sulla mesh selezionata: chiusura, corpi, volume, angoli, triangoli che si incrociano e ciò che ne resta in un file</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_DesignStudy</name>
+    <message>
+      <source>Apply Design</source>
+      <translation>Applica progetto</translation>
+    </message>
+    <message>
+      <source>Design Study</source>
+      <translation>Studio di progetto</translation>
+    </message>
+    <message>
+      <source>Try many values of the selected lattice infill's properties, see mass against stiffness, and give it the best</source>
+      <translation>Prova molti valori delle proprietà del riempimento reticolare selezionato, confronta massa e rigidezza e applica i migliori</translation>
     </message>
   </context>
   <context>
@@ -1045,6 +1212,17 @@
     </message>
   </context>
   <context>
+    <name>VOLFREP_SizeLattice</name>
+    <message>
+      <source>Find the radii of the selected lattice infill's struts for the load cases of the FEM workbench: least mass within limits, or most stiffness at a mass</source>
+      <translation>Trova i raggi delle aste del riempimento reticolare selezionato per i casi di carico dell'ambiente FEM: massa minima entro i limiti, o rigidezza massima a una massa data</translation>
+    </message>
+    <message>
+      <source>Size Lattice</source>
+      <translation>Dimensiona reticolo</translation>
+    </message>
+  </context>
+  <context>
     <name>VOLFREP_Statistics</name>
     <message>
       <source>Statistics</source>
@@ -1053,6 +1231,17 @@
     <message>
       <source>Tables of the selected lattice infills, or of all in the document: cells, struts, density, mass, times, memory</source>
       <translation>Tabelle dei riempimenti reticolari selezionati, o di tutti quelli del documento: celle, aste, densità, massa, tempi, memoria</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_StrutResults</name>
+    <message>
+      <source>Colour the struts of the selected lattice infill by radius, stress, buckling or displacement under the load cases of the FEM workbench</source>
+      <translation>Colora le aste del riempimento reticolare selezionato per raggio, tensione, instabilità o spostamento sotto i casi di carico dell'ambiente FEM</translation>
+    </message>
+    <message>
+      <source>Strut Results</source>
+      <translation>Risultati delle aste</translation>
     </message>
   </context>
   <context>
@@ -1100,8 +1289,16 @@
       <translation>Porta il carico per</translation>
     </message>
     <message>
+      <source>Cell size L</source>
+      <translation>Dimensione cella L</translation>
+    </message>
+    <message>
       <source>Close</source>
       <translation>Chiudi</translation>
+    </message>
+    <message>
+      <source>Compute</source>
+      <translation>Calcola</translation>
     </message>
     <message>
       <source>Drawn with L = {size:g} mm; every L can be given to an infill.</source>
@@ -1124,6 +1321,10 @@
       <translation>Adatta per</translation>
     </message>
     <message>
+      <source>Homogenise this cell with this radius: it takes some seconds</source>
+      <translation>Omogeneizza questa cella con questo raggio: richiede alcuni secondi</translation>
+    </message>
+    <message>
       <source>Load Cell</source>
       <translation>Carica cella</translation>
     </message>
@@ -1136,12 +1337,20 @@
       <translation>Crea una cella dai bordi rettilinei degli schizzi, fili o forme selezionati; il cubo che li contiene è la cella</translation>
     </message>
     <message>
+      <source>Material</source>
+      <translation>Materiale</translation>
+    </message>
+    <message>
       <source>Maxwell number</source>
       <translation>Numero di Maxwell</translation>
     </message>
     <message>
       <source>Nodes</source>
       <translation>Nodi</translation>
+    </message>
+    <message>
+      <source>Properties of {name}</source>
+      <translation>Proprietà di {name}</translation>
     </message>
     <message>
       <source>Read a cell of your own from a JSON file</source>
@@ -1160,8 +1369,16 @@
       <translation>Imposta cella unitaria</translation>
     </message>
     <message>
+      <source>Strut radius r</source>
+      <translation>Raggio aste r</translation>
+    </message>
+    <message>
       <source>Struts</source>
       <translation>Aste</translation>
+    </message>
+    <message>
+      <source>This cell with this radius is not in the catalogue: press Compute.</source>
+      <translation>Questa cella con questo raggio non è nel catalogo: premere Calcola.</translation>
     </message>
     <message>
       <source>Unit cell (*.json)</source>
@@ -1242,6 +1459,10 @@
   <context>
     <name>VolfrepFigures</name>
     <message>
+      <source>strut radius {radius:.4g} mm</source>
+      <translation>raggio delle aste {radius:.4g} mm</translation>
+    </message>
+    <message>
       <source>{cells:,} active cells, {struts:,} struts
 relative density {density:.3g} %, mass {mass:.4g} g
 about {triangles:.2g} million triangles, {size:.2g} MB as STL, {seconds:.2g} s to compute</source>
@@ -1259,10 +1480,6 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
     <message>
       <source>3MF, beams only</source>
       <translation>3MF, solo travi</translation>
-    </message>
-    <message>
-      <source>3MF, fewer triangles</source>
-      <translation>3MF, meno triangoli</translation>
     </message>
     <message>
       <source>3MF, mesh and beams</source>
@@ -1312,10 +1529,6 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <source>STL</source>
       <translation>STL</translation>
     </message>
-    <message>
-      <source>STL, fewer triangles</source>
-      <translation>STL, meno triangoli</translation>
-    </message>
   </context>
   <context>
     <name>VolfrepHelp</name>
@@ -1343,10 +1556,6 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>Superfici esatte di {label}</translation>
     </message>
     <message>
-      <source>Fewer triangles for {label}</source>
-      <translation>Meno triangoli per {label}</translation>
-    </message>
-    <message>
       <source>Filling {label}</source>
       <translation>Riempimento di {label}</translation>
     </message>
@@ -1359,8 +1568,20 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>Controllo di stampa di {label}</translation>
     </message>
     <message>
+      <source>Properties of the lattice of {label}</source>
+      <translation>Proprietà del reticolo di {label}</translation>
+    </message>
+    <message>
+      <source>Sizing {label}</source>
+      <translation>Dimensionamento di {label}</translation>
+    </message>
+    <message>
       <source>Struts of {label}</source>
       <translation>Aste di {label}</translation>
+    </message>
+    <message>
+      <source>Studying {label}</source>
+      <translation>Studio di {label}</translation>
     </message>
     <message>
       <source>Tetrahedra of {label}</source>
@@ -1437,6 +1658,10 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>Visualizzazione e limiti</translation>
     </message>
     <message>
+      <source>Distance between a facet and the exact strut, where the resolution is automatic; automatic: by the strut radius</source>
+      <translation>Distanza tra una faccetta e l'asta esatta, con la risoluzione automatica; automatica: secondo il raggio dell'asta</translation>
+    </message>
+    <message>
       <source>Edge length L of a cell; automatic: about four cells across the thinnest side of the part</source>
       <translation>Lunghezza L dello spigolo di una cella; automatica: circa quattro celle sul lato più sottile della parte</translation>
     </message>
@@ -1451,10 +1676,6 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
     <message>
       <source>In Section View</source>
       <translation>Nella vista in sezione</translation>
-    </message>
-    <message>
-      <source>Largest distance between a facet and the exact strut, where the resolution is automatic; automatic: by the strut radius</source>
-      <translation>Distanza massima tra una faccetta e l'asta esatta, dove la risoluzione è automatica; automatico: in base al raggio delle aste</translation>
     </message>
     <message>
       <source>Lattice</source>
@@ -1572,10 +1793,6 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>controllo</translation>
     </message>
     <message>
-      <source>compact</source>
-      <translation>riduzione</translation>
-    </message>
-    <message>
       <source>crossings</source>
       <translation>intersezioni</translation>
     </message>
@@ -1584,8 +1801,20 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>reticolo</translation>
     </message>
     <message>
+      <source>proof</source>
+      <translation>verifica</translation>
+    </message>
+    <message>
       <source>shell</source>
       <translation>guscio</translation>
+    </message>
+    <message>
+      <source>sizing</source>
+      <translation>dimensionamento</translation>
+    </message>
+    <message>
+      <source>skin</source>
+      <translation>pelle</translation>
     </message>
     <message>
       <source>tile</source>
@@ -1615,12 +1844,32 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>Copia</translation>
     </message>
     <message>
+      <source>E100</source>
+      <translation>E100</translation>
+    </message>
+    <message>
+      <source>E110</source>
+      <translation>E110</translation>
+    </message>
+    <message>
+      <source>E111</source>
+      <translation>E111</translation>
+    </message>
+    <message>
       <source>FreeCAD's own checks</source>
       <translation>Controlli di FreeCAD</translation>
     </message>
     <message>
+      <source>G</source>
+      <translation>G</translation>
+    </message>
+    <message>
       <source>Inputs</source>
       <translation>Dati</translation>
+    </message>
+    <message>
+      <source>Notes</source>
+      <translation>Note</translation>
     </message>
     <message>
       <source>Peak memory at the end of each stage, MB</source>
@@ -1643,8 +1892,20 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>Secondi per fase</translation>
     </message>
     <message>
+      <source>Steps</source>
+      <translation>Passi</translation>
+    </message>
+    <message>
+      <source>Struts</source>
+      <translation>Aste</translation>
+    </message>
+    <message>
       <source>Surfaces that run through each other</source>
       <translation>Superfici che si attraversano</translation>
+    </message>
+    <message>
+      <source>The same beams in CalculiX</source>
+      <translation>Le stesse travi in CalculiX</translation>
     </message>
     <message>
       <source>The tables are on the clipboard.</source>
@@ -1653,6 +1914,10 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
     <message>
       <source>Triangles and the file's single precision</source>
       <translation>Triangoli e precisione singola del file</translation>
+    </message>
+    <message>
+      <source>What the lattice does</source>
+      <translation>Che cosa fa il reticolo</translation>
     </message>
     <message>
       <source>a solid</source>
@@ -1691,6 +1956,14 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>ingombro</translation>
     </message>
     <message>
+      <source>buckling, % of its limit</source>
+      <translation>instabilità, % del limite</translation>
+    </message>
+    <message>
+      <source>bulk</source>
+      <translation>modulo di comprimibilità</translation>
+    </message>
+    <message>
       <source>cell</source>
       <translation>cella</translation>
     </message>
@@ -1715,12 +1988,28 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>vuoti chiusi</translation>
     </message>
     <message>
+      <source>conductivity</source>
+      <translation>conducibilità</translation>
+    </message>
+    <message>
       <source>corrupted triangles</source>
       <translation>triangoli corrotti</translation>
     </message>
     <message>
+      <source>density</source>
+      <translation>densità</translation>
+    </message>
+    <message>
       <source>density, g/cm3</source>
       <translation>densità, g/cm3</translation>
+    </message>
+    <message>
+      <source>displacement, % of its limit</source>
+      <translation>spostamento, % del limite</translation>
+    </message>
+    <message>
+      <source>displacements differ by, %</source>
+      <translation>gli spostamenti differiscono del, %</translation>
     </message>
     <message>
       <source>every place inside is enclosed once</source>
@@ -1733,6 +2022,10 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
     <message>
       <source>found</source>
       <translation>trovati</translation>
+    </message>
+    <message>
+      <source>frequency, % of its limit</source>
+      <translation>frequenza, % del limite</translation>
     </message>
     <message>
       <source>from</source>
@@ -1751,16 +2044,44 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>nodi</translation>
     </message>
     <message>
+      <source>largest displacement, mm</source>
+      <translation>spostamento massimo, mm</translation>
+    </message>
+    <message>
+      <source>largest radius, mm</source>
+      <translation>raggio massimo, mm</translation>
+    </message>
+    <message>
+      <source>largest stress there over here</source>
+      <translation>tensione massima là su qui</translation>
+    </message>
+    <message>
+      <source>largest stress, MPa</source>
+      <translation>tensione massima, MPa</translation>
+    </message>
+    <message>
       <source>lattice</source>
       <translation>reticolo</translation>
+    </message>
+    <message>
+      <source>load before buckling, times</source>
+      <translation>carico prima dell'instabilità, volte</translation>
     </message>
     <message>
       <source>loose pieces removed</source>
       <translation>pezzi isolati rimossi</translation>
     </message>
     <message>
+      <source>lowest frequency there over here</source>
+      <translation>frequenza minima là su qui</translation>
+    </message>
+    <message>
       <source>manifold</source>
       <translation>manifold</translation>
+    </message>
+    <message>
+      <source>mass of the struts, g</source>
+      <translation>massa delle aste, g</translation>
     </message>
     <message>
       <source>mass, g</source>
@@ -1775,6 +2096,14 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>massimo</translation>
     </message>
     <message>
+      <source>most stressed strut, at x, y, z</source>
+      <translation>asta più sollecitata, in x, y, z</translation>
+    </message>
+    <message>
+      <source>most used limit</source>
+      <translation>limite più sfruttato</translation>
+    </message>
+    <message>
       <source>no</source>
       <translation>no</translation>
     </message>
@@ -1787,12 +2116,36 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>nessuno</translation>
     </message>
     <message>
+      <source>nu</source>
+      <translation>nu</translation>
+    </message>
+    <message>
+      <source>one radius, as near as it gets</source>
+      <translation>raggio unico, il più vicino possibile</translation>
+    </message>
+    <message>
+      <source>one radius, same limits</source>
+      <translation>raggio unico, stessi limiti</translation>
+    </message>
+    <message>
+      <source>one radius, same mass</source>
+      <translation>raggio unico, stessa massa</translation>
+    </message>
+    <message>
       <source>output</source>
       <translation>risultato</translation>
     </message>
     <message>
+      <source>relative density</source>
+      <translation>densità relativa</translation>
+    </message>
+    <message>
       <source>relative density, %</source>
       <translation>densità relativa, %</translation>
+    </message>
+    <message>
+      <source>shear strength</source>
+      <translation>resistenza al taglio</translation>
     </message>
     <message>
       <source>shell</source>
@@ -1811,6 +2164,10 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>spigolo più corto</translation>
     </message>
     <message>
+      <source>sized</source>
+      <translation>dimensionato</translation>
+    </message>
+    <message>
       <source>skin, mm</source>
       <translation>guscio, mm</translation>
     </message>
@@ -1827,12 +2184,28 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>rapporto minimo dei raggi</translation>
     </message>
     <message>
+      <source>smallest radius, mm</source>
+      <translation>raggio minimo, mm</translation>
+    </message>
+    <message>
       <source>status</source>
       <translation>stato</translation>
     </message>
     <message>
+      <source>step</source>
+      <translation>passo</translation>
+    </message>
+    <message>
       <source>step of its numbers</source>
       <translation>passo dei suoi numeri</translation>
+    </message>
+    <message>
+      <source>strength</source>
+      <translation>resistenza</translation>
+    </message>
+    <message>
+      <source>stress, % of its limit</source>
+      <translation>tensione, % del limite</translation>
     </message>
     <message>
       <source>strut radius, mm</source>
@@ -1891,6 +2264,10 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>stagno</translation>
     </message>
     <message>
+      <source>work of the loads, N mm</source>
+      <translation>lavoro dei carichi, N mm</translation>
+    </message>
+    <message>
       <source>wrong neighbours</source>
       <translation>vicini sbagliati</translation>
     </message>
@@ -1901,6 +2278,10 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
     <message>
       <source>yes</source>
       <translation>sì</translation>
+    </message>
+    <message>
+      <source>zener</source>
+      <translation>rapporto di Zener</translation>
     </message>
   </context>
   <context>
@@ -1923,6 +2304,161 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
     </message>
   </context>
   <context>
+    <name>VolfrepSizePanel</name>
+    <message>
+      <source>Analyses of the FEM workbench: each is a load case</source>
+      <translation>Analisi dell'ambiente FEM: ognuna è un caso di carico</translation>
+    </message>
+    <message>
+      <source>Buckling safety</source>
+      <translation>Sicurezza (instabilità)</translation>
+    </message>
+    <message>
+      <source>CalculiX's displacements of the same beams differ by {off:.2g} %.</source>
+      <translation>Gli spostamenti di CalculiX per le stesse travi differiscono del {off:.2g} %.</translation>
+    </message>
+    <message>
+      <source>Cancelled before the first step.</source>
+      <translation>Annullato prima del primo passo.</translation>
+    </message>
+    <message>
+      <source>Check with CalculiX</source>
+      <translation>Verifica con CalculiX</translation>
+    </message>
+    <message>
+      <source>Displacement</source>
+      <translation>Spostamento</translation>
+    </message>
+    <message>
+      <source>Find the radii now and stay in this panel; Cancel in the status bar keeps the best design so far</source>
+      <translation>Trova ora i raggi e resta in questo pannello; Annulla nella barra di stato tiene il progetto migliore finora</translation>
+    </message>
+    <message>
+      <source>Frequency, Hz</source>
+      <translation>Frequenza, Hz</translation>
+    </message>
+    <message>
+      <source>Goal</source>
+      <translation>Obiettivo</translation>
+    </message>
+    <message>
+      <source>How many times the load may be before the first strut buckles; 0 for no limit</source>
+      <translation>Quante volte il carico può essere prima che la prima asta si instabilizzi; 0 per nessun limite</translation>
+    </message>
+    <message>
+      <source>Largest radius</source>
+      <translation>Raggio massimo</translation>
+    </message>
+    <message>
+      <source>Least mass</source>
+      <translation>Massa minima</translation>
+    </message>
+    <message>
+      <source>Let CalculiX solve the design, where it is installed, and say how far it agrees; where it finds more than a limit allows, the struts are made thicker</source>
+      <translation>Fai risolvere il progetto a CalculiX, dove è installato, e di' quanto concorda; dove trova più di quanto un limite consenta, le aste diventano più spesse</translation>
+    </message>
+    <message>
+      <source>Limit</source>
+      <translation>Limite</translation>
+    </message>
+    <message>
+      <source>Load cases</source>
+      <translation>Casi di carico</translation>
+    </message>
+    <message>
+      <source>Mass, g</source>
+      <translation>Massa, g</translation>
+    </message>
+    <message>
+      <source>Most stiffness</source>
+      <translation>Rigidezza massima</translation>
+    </message>
+    <message>
+      <source>Nodes whose struts would grow together stay below it</source>
+      <translation>I nodi le cui aste si fonderebbero restano al di sotto</translation>
+    </message>
+    <message>
+      <source>Size</source>
+      <translation>Dimensiona</translation>
+    </message>
+    <message>
+      <source>Size Lattice: {label}</source>
+      <translation>Dimensiona reticolo: {label}</translation>
+    </message>
+    <message>
+      <source>Smallest radius</source>
+      <translation>Raggio minimo</translation>
+    </message>
+    <message>
+      <source>Step</source>
+      <translation>Passo</translation>
+    </message>
+    <message>
+      <source>Struts of {mass:.4g} g hold all limits; no one radius between these does.</source>
+      <translation>Aste di {mass:.4g} g rispettano tutti i limiti; nessun raggio unico tra questi lo fa.</translation>
+    </message>
+    <message>
+      <source>Struts of {mass:.4g} g hold all limits; of one radius they would weigh {even:.4g} g.</source>
+      <translation>Aste di {mass:.4g} g rispettano tutti i limiti; con un raggio unico peserebbero {even:.4g} g.</translation>
+    </message>
+    <message>
+      <source>Struts of {mass:.4g} g, {gain:.3g} times as stiff as struts of one radius and the same mass.</source>
+      <translation>Aste di {mass:.4g} g, {gain:.3g} volte più rigide di aste di raggio unico e della stessa massa.</translation>
+    </message>
+    <message>
+      <source>The largest of any point under any case; 0 for no limit</source>
+      <translation>Il massimo di ogni punto in ogni caso; 0 per nessun limite</translation>
+    </message>
+    <message>
+      <source>The limit of {limit} cannot be held between these radii: {use:.0%} of it is used. Allow thicker struts, or larger cells.</source>
+      <translation>Il limite di {limit} non può essere rispettato con questi raggi: ne è usato il {use:.0%}. Consenti aste più spesse, o celle più grandi.</translation>
+    </message>
+    <message>
+      <source>The lowest natural one, held as in the first case; 0 for no limit</source>
+      <translation>La più bassa propria, vincolata come nel primo caso; 0 per nessun limite</translation>
+    </message>
+    <message>
+      <source>The thinnest strut that the process prints</source>
+      <translation>L'asta più sottile che il processo stampa</translation>
+    </message>
+    <message>
+      <source>What is wanted</source>
+      <translation>Che cosa si vuole</translation>
+    </message>
+    <message>
+      <source>What the stiffest struts weigh together; 0 for what struts of StrutRadius do</source>
+      <translation>Quanto pesano insieme le aste più rigide; 0 per il peso delle aste di StrutRadius</translation>
+    </message>
+    <message>
+      <source>Work, N mm</source>
+      <translation>Lavoro, N mm</translation>
+    </message>
+    <message>
+      <source>Yield safety</source>
+      <translation>Sicurezza (snervamento)</translation>
+    </message>
+    <message>
+      <source>Yield stress over the largest von Mises stress in a strut; 0 for no limit</source>
+      <translation>Tensione di snervamento sulla massima tensione di von Mises in un'asta; 0 per nessun limite</translation>
+    </message>
+    <message>
+      <source>buckling</source>
+      <translation>instabilità</translation>
+    </message>
+    <message>
+      <source>displacement</source>
+      <translation>spostamento</translation>
+    </message>
+    <message>
+      <source>frequency</source>
+      <translation>frequenza</translation>
+    </message>
+    <message>
+      <source>stress</source>
+      <translation>tensione</translation>
+    </message>
+  </context>
+  <context>
     <name>VolfrepSolids</name>
     <message>
       <source>Axes of the struts</source>
@@ -1942,7 +2478,89 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
     </message>
   </context>
   <context>
+    <name>VolfrepStrutView</name>
+    <message>
+      <source>Colour by</source>
+      <translation>Colora per</translation>
+    </message>
+    <message>
+      <source>Deformed</source>
+      <translation>Deformato</translation>
+    </message>
+    <message>
+      <source>Displacement, mm</source>
+      <translation>Spostamento, mm</translation>
+    </message>
+    <message>
+      <source>Load case</source>
+      <translation>Caso di carico</translation>
+    </message>
+    <message>
+      <source>Radius, mm</source>
+      <translation>Raggio, mm</translation>
+    </message>
+    <message>
+      <source>Share of the buckling load</source>
+      <translation>Quota del carico critico</translation>
+    </message>
+    <message>
+      <source>Stress (von Mises), MPa</source>
+      <translation>Tensione (von Mises), MPa</translation>
+    </message>
+    <message>
+      <source>Strut results of {label}</source>
+      <translation>Risultati delle aste di {label}</translation>
+    </message>
+    <message>
+      <source>{factor:g} times enlarged</source>
+      <translation>ingrandito {factor:g} volte</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepStudy</name>
+    <message>
+      <source>Apply</source>
+      <translation>Applica</translation>
+    </message>
+    <message>
+      <source>Give this design to the infill, as one undo step</source>
+      <translation>Dà questo progetto al riempimento, come un solo passo annullabile</translation>
+    </message>
+    <message>
+      <source>Make every design (slow)</source>
+      <translation>Crea ogni progetto (lento)</translation>
+    </message>
+    <message>
+      <source>Page</source>
+      <translation>Pagina</translation>
+    </message>
+    <message>
+      <source>Show the table and all plots in the browser</source>
+      <translation>Mostra la tabella e tutti i grafici nel browser</translation>
+    </message>
+    <message>
+      <source>Start</source>
+      <translation>Avvia</translation>
+    </message>
+    <message>
+      <source>The infill of this study has gone: choose another one.</source>
+      <translation>Il riempimento di questo studio non c'è più: sceglierne un altro.</translation>
+    </message>
+    <message>
+      <source>Values: 6, 8, 10, or 6 to 10 in 5</source>
+      <translation>Valori: 6, 8, 10, oppure 6 to 10 in 5</translation>
+    </message>
+    <message>
+      <source>What varies</source>
+      <translation>Che cosa varia</translation>
+    </message>
+  </context>
+  <context>
     <name>VolfrepTaskPanel</name>
+    <message>
+      <source>'{text}' is no direction: write 100, 110, 111 or three numbers such as 1,2,0.</source>
+      <translation>'{text}' non è una direzione: scrivere 100, 110, 111 o tre numeri come 1,2,0.</translation>
+    </message>
     <message>
       <source>Cells</source>
       <translation>Celle</translation>
@@ -1962,6 +2580,10 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
     <message>
       <source>Make the mesh of these values now and stay in this panel</source>
       <translation>Crea ora la mesh di questi valori e resta in questo pannello</translation>
+    </message>
+    <message>
+      <source>Material</source>
+      <translation>Materiale</translation>
     </message>
     <message>
       <source>Points and values</source>

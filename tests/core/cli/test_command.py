@@ -195,7 +195,11 @@ def test_the_tables_of_files_hold_every_option_that_takes_one(
     ("command", "source"),
     [
         *(("fill", source) for source in cli_files.INPUTS),
-        *(("block", source) for source in cli_files.INPUTS if source != "part"),
+        *(
+            ("block", source)
+            for source in cli_files.INPUTS
+            if source not in ("part", "network_file")
+        ),
     ],
 )
 def test_no_output_is_an_input(
@@ -213,12 +217,14 @@ def test_no_output_is_an_input(
         "spec": tmp_path / "own.toml",
         "cell": tmp_path / "own.json",
         "radius_field": tmp_path / "field.csv",
+        "network_file": tmp_path / "graph.csv",
         "material": tmp_path / "metal.toml",
     }
     files["material"].write_text("young = 100000.0\npoisson = 0.3\ndensity = 4.0\n")
     files["spec"].write_text("cell_size = 10.0\n")
     save_cell(UnitCell("own", box.nodes, box.struts), files["cell"])
     files["radius_field"].write_text("x,y,z,v\n0,0,0,1\n9,0,0,2\n")
+    files["network_file"].write_text("0,0,0,9,9,9")
     before = {file: file.read_bytes() for file in files.values()}
     target = files[source]
     if way != "its name":
@@ -232,6 +238,8 @@ def test_no_output_is_an_input(
     arguments += ["--picture", outputs["picture"]]
     arguments += ["--material", files["material"], "--strut-radius", 1, "--radius-grading", "field"]
     arguments += ["--radius-field", files["radius_field"], "--radius-curve", "1:1,2:0.8"]
+    if source == "network_file":
+        arguments += ["--network", "file", "--network-file", files["network_file"]]
     said = refused(capsys, *arguments)
     assert f"is the {cli_files.INPUTS[source]} itself" in said
     assert {file: file.read_bytes() for file in files.values()} == before
@@ -457,8 +465,8 @@ BY_FIELD = ["--radius-grading", "field"]
         (["--size-grading", "formula"], "needs --lambda-formula"),
         (["--size-grading", "formula", "--lambda-formula", "1 + t"], "'t'"),
         (["--size-grading", "linear", "--lambda-end", "0.4"], "folds the lattice at s ="),
-        ([*LINEAR, "--lambda-start", "-1"], "start must be finite and above 0, not -1"),
-        ([*LINEAR, "--grading-direction", "0,0,0"], "grading direction must have a length"),
+        ([*LINEAR, "--lambda-start", "-1"], "start must be above 0, not -1"),
+        ([*LINEAR, "--grading-direction", "0,0,0"], "grading direction must not be zero"),
         (["--lambda-end", "2"], "--lambda-end has no effect without --size-grading"),
         (
             ["--lambda-formula", "1 + s"],
@@ -483,7 +491,7 @@ BY_FIELD = ["--radius-grading", "field"]
             "has no effect with --radius-curve",
         ),
         ([*BY_FIELD, "--radius-profile", "linear"], "no effect without --radius-grading direction"),
-        (["--rotate", "0,0,0,9"], "axis of the rotation must have a length"),
+        (["--rotate", "0,0,0,9"], "axis of the rotation must not be zero"),
         (["--rotate", "0,0,9"], "takes 4 numbers with commas"),
         (["--rotate-origin", "0,0,0"], "no effect without --rotate"),
         (["--cell-map", "toroidal"], "There is no 'toroidal': choose cartesian"),
@@ -523,7 +531,7 @@ def test_not_enough_memory(
 #: The command, which stops for good while it writes, as soon as its unfinished file is there.
 HELD = """
 import pathlib, sys, time
-from volfrep.cli.command import main
+from volfrep.__main__ import main
 from volfrep.util.progress import Monitor
 
 tick = Monitor.tick
@@ -537,6 +545,20 @@ def hold(self, fraction=None):
 Monitor.tick = hold
 sys.exit(main())
 """
+
+
+def test_a_lattice_without_a_target_loads_nothing_that_only_targets_need(tmp_path: Path) -> None:
+    """As long to load as a small lattice takes to make."""
+    arguments = ["block", "-o", "block.stl", "--quiet", *LATTICE, "--count", "1,1,1"]
+    asked = (
+        "import sys; from volfrep.cli.command import run; run(sys.argv[1:]); "
+        "print(*({'scipy.stats', 'scipy.optimize', 'scipy.interpolate'} & set(sys.modules)))"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", asked, *arguments], cwd=tmp_path, capture_output=True, text=True
+    )
+    assert (done.stdout, done.stderr) == ("\n", "")
+    assert (tmp_path / "block.stl").is_file()
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGINT for another process")

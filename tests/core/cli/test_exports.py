@@ -12,7 +12,7 @@ import pytest
 import command
 import samples
 from volfrep.io.solid import read_triangles
-from volfrep.io.write.stl import as_read, write_stl
+from volfrep.io.write.stl import write_stl
 from volfrep.mesh.quality import measure
 
 LATTICE = ["--cell", "Box", "--cell-size", "10", "--strut-radius", "1"]
@@ -61,6 +61,10 @@ def test_beams_take_no_mesh(
     assert block(tmp_path / "block.3mf", "--3mf", "beams") == 0
     assert re.search(r"struts +20 between 12 nodes, as beams", capsys.readouterr().out)
     assert model(tmp_path / "block.3mf").count("<b:beam ") == 20
+    assert fill(part, tmp_path / "part.3mf", "--3mf", "beams") == 0
+    told = capsys.readouterr()
+    assert re.search(r"Expected: about \d+ cells, \d+ struts\.\n", told.out)  # and no triangles
+    assert "do not know the beam lattice extension" in told.err
     assert fill(part, tmp_path / "part.3mf", "--3mf", "beams", "--quiet") == 0
     assert capsys.readouterr().out == ""
     assert model(tmp_path / "part.3mf").count("<b:beam ") == 3 * 3 * 4 * 4
@@ -132,32 +136,3 @@ def test_what_does_not_go_together(
     assert block(Path(name), *more) == 2
     assert message in capsys.readouterr().err
     assert not list(tmp_path.iterdir())
-
-
-def test_compact_files_hold_fewer_triangles_of_the_same_body(tmp_path: Path, capsys) -> None:
-    fine = ["--deviation", "0.01"]
-    assert block(tmp_path / "full.stl", *fine) == 0
-    assert block(tmp_path / "compact.stl", *fine, "--compact", "--report", tmp_path / "r.json") == 0
-    full, compact = (
-        measure(as_read(read_triangles(tmp_path / name))) for name in ("full.stl", "compact.stl")
-    )
-    assert compact.watertight
-    assert (compact.bodies, compact.genus) == (full.bodies, full.genus)
-    assert compact.triangles < 0.9 * full.triangles
-    assert abs(compact.volume / full.volume - 1) < 0.005
-    assert json.loads((tmp_path / "r.json").read_text())["triangles"] == compact.triangles
-    assert f"{compact.triangles:,} of {full.triangles:,} triangles" in capsys.readouterr().out
-
-
-@pytest.mark.parametrize(
-    ("more", "words"),
-    [
-        (["--compact", "0"], "above 0 mm"),
-        (["--compact", "nan"], "above 0 mm"),
-        (["--compact", "--3mf", "beams"], "no triangles"),
-    ],
-)
-def test_compact_is_refused_before_the_work(tmp_path: Path, capsys, more, words) -> None:
-    assert block(tmp_path / "block.3mf", *more) == 2
-    assert words in capsys.readouterr().err
-    assert not (tmp_path / "block.3mf").exists()

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import samples
-from volfrep.design.cells import LIBRARY
+from volfrep.design.cells import PAPERS
 from volfrep.design.forecast import Forecast, expected_triangles, forecast_block, forecast_fill
 from volfrep.design.grading import SizeGrading
 from volfrep.design.profile import Profile
@@ -21,7 +21,7 @@ def agrees(expected: float, found: float) -> bool:
     return found / FACTOR < expected < found * FACTOR
 
 
-@pytest.mark.parametrize("cell", LIBRARY)
+@pytest.mark.parametrize("cell", PAPERS)
 def test_a_part(cell):
     spec = LatticeSpec(cell=cell, cell_size=6.0, strut_radius=0.6, shell=1.5)
     solid = samples.box((40.0, 30.0, 20.0))
@@ -31,7 +31,7 @@ def test_a_part(cell):
     assert agrees(expected.triangles, report.triangles)
 
 
-@pytest.mark.parametrize("cell", LIBRARY)
+@pytest.mark.parametrize("cell", PAPERS)
 @pytest.mark.parametrize("radius", [0.5, 1.0])
 def test_a_block(cell, radius):
     spec = LatticeSpec(cell=cell, cell_size=10.0, strut_radius=radius, shell=0.0, resolution=16)

@@ -3,6 +3,7 @@
 
 import math
 import sys
+import zlib
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +12,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from volfrep.design import field_files
+from volfrep.design import field_files, vtk_files
 from volfrep.design.scattered_field import (
     CHUNK,
     NEIGHBOURS,
@@ -542,3 +543,19 @@ def test_the_default_curve_spans_the_field() -> None:
 def test_a_field_without_a_span_has_no_default_curve(values: list[float], sentence: str) -> None:
     with pytest.raises(VolfrepError, match=sentence):
         default_curve(values, 0.4, 1.2)
+
+
+@pytest.mark.parametrize("compressor", ["zlib", "lzma"])
+def test_what_a_compressed_file_is_inflated_to_is_bounded(tmp_path, monkeypatch, compressor):
+    """Zeros are packed a thousand times: a small file may hold more than any memory."""
+    meshio = pytest.importorskip("meshio")
+    points = np.zeros((40_000, 3))
+    points[:, 0] = np.arange(40_000)
+    mesh = meshio.Mesh(points, [("vertex", np.arange(40_000)[:, None])], {"T": points[:, 0]})
+    path = tmp_path / "bomb.vtu"
+    meshio.vtu.write(path, mesh, compression=compressor)
+    assert len(read_point_field(path).values) == 40_000
+    monkeypatch.setattr(vtk_files, "MAX_INFLATED_BYTES", 500_000)
+    with pytest.raises(VolfrepError, match="holds more than 0 MB of numbers once it is decomp"):
+        read_point_field(path)
+    assert meshio.vtu._vtu.zlib is zlib

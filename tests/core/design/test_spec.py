@@ -23,7 +23,7 @@ def test_the_defaults_are_valid() -> None:
 @pytest.mark.parametrize(
     ("values", "message"),
     [
-        ({"cell": "Diamond"}, "There is no unit cell named 'Diamond'"),
+        ({"cell": "Gyroid"}, "There is no unit cell named 'Gyroid'"),
         ({"cell_size": 0}, "cell size must be above 0 mm, not 0"),
         ({"cell_size": -3}, "cell size must be above 0 mm, not -3"),
         ({"cell_size": math.nan}, "cell size must be a finite number in mm, not nan"),
@@ -42,7 +42,7 @@ def test_the_defaults_are_valid() -> None:
         ({"resolution": 12.5}, "resolution must be a whole number from 4 to 400, not 12.5"),
         ({"resolution": 3}, "resolution must be a whole number"),
         ({"resolution": 401}, "resolution must be a whole number"),
-        ({"resolution": 0}, "resolution must be above 0"),
+        ({"resolution": 0}, "resolution must be a whole number"),
         ({"deviation": 0}, "deviation must be above 0 mm"),
         ({"deviation": 1e-9}, "needs .* facets along a cell: the limit is 400"),
         (

@@ -10,6 +10,7 @@ import pytest
 from volfrep import LatticeSpec, VolfrepError
 from volfrep.design.cells import LIBRARY, UnitCell
 from volfrep.design.grading import CellMap, Orientation, RadiusGrading, SizeGrading
+from volfrep.design.networks import RandomNetwork
 from volfrep.design.openings import DrainHoles, DrainPlace, OpenPatch, OpenPlane
 from volfrep.design.profile import Profile
 from volfrep.design.scattered_field import PointField
@@ -37,7 +38,13 @@ OTHERS = [
     (Skin(2.0), {"thickness": 3.0, "open_faces": (OpenPlane((0, 0, 0), (0, 0, 1)),)}),
     (
         Boundary(),
-        {"activation": "inside", "cut": "whole", "remove_dangling": True, "shortest_stub": 1.0},
+        {
+            "activation": "inside",
+            "cut": "whole",
+            "remove_dangling": True,
+            "shortest_stub": 1.0,
+            "keep_pieces": True,
+        },
     ),
     (Resolution(), {"facets": 20, "deviation": 0.1}),
     (
@@ -96,6 +103,7 @@ OTHERS = [
             "drains": None,
             "remove_dangling": True,
             "shortest_stub": 1.0,
+            "keep_pieces": True,
             "output": "domain",
             "fillet": 0.5,
             "origin": (0, 0, 0),
@@ -106,6 +114,7 @@ OTHERS = [
             "orientation": Orientation(angle=30.0),
             "keep_radius": False,
             "target": Target("mass", 5.0),
+            "network": RandomNetwork(points=9),
         },
     ),
 ]
@@ -114,7 +123,9 @@ OTHERS = [
 @pytest.mark.parametrize(("part", "others"), OTHERS, ids=lambda value: type(value).__name__)
 def test_a_part_differs_from_another_one_in_any_field(part, others):
     names = {item.name for item in fields(part) if item.init}
-    assert names - {"source"} == others.keys() - {"source"}  # where a cell was read does not matter
+    # Where a cell was read, and what is said about it, does not matter.
+    apart = {"source", "use", "about", "also"}
+    assert names - apart == others.keys() - apart
     for name, value in others.items():
         changed = replace(part, **{name: value})
         assert changed != part, name

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from samples import SKEW
-from volfrep.design.cells import LIBRARY
+from volfrep.design.cells import LIBRARY, PAPERS, find_cell
 from volfrep.grid.node_frames import node_frames, shortest
 from volfrep.grid.strut_graph import cell_graph
 
@@ -23,7 +23,7 @@ def rotation():
     )
 
 
-@pytest.mark.parametrize("cell", [*LIBRARY.values(), SKEW], ids=lambda cell: cell.name)
+@pytest.mark.parametrize("cell", [*map(find_cell, PAPERS), SKEW], ids=lambda cell: cell.name)
 def test_every_strut_is_seen_from_both_its_ends(cell):
     graph = graph_of(cell)
     made = node_frames(graph, graph.nodes, np.ones(len(graph.nodes)), SIZE)

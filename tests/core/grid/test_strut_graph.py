@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from volfrep.design.cells import LIBRARY
+from volfrep.design.cells import LIBRARY, PAPERS
 from volfrep.grid.strut_graph import Wireframe, cell_graph, wireframe
 from volfrep.util.types import Bools, Floats
 
@@ -70,7 +70,7 @@ def by_hand(
 
 @settings(max_examples=60)
 @given(
-    name=st.sampled_from(sorted(LIBRARY)),
+    name=st.sampled_from(sorted(PAPERS)),
     shape=st.tuples(*[st.integers(1, 4)] * 3),
     seed=st.integers(0, 2**32 - 1),
 )

@@ -16,7 +16,8 @@ from volfrep.cli import command as cli
 from volfrep.io.read.units import refuse_scale
 from volfrep.io.solid import read_solid, read_triangles
 from volfrep.io.write import write_mesh
-from volfrep.mesh.triangle_mesh import TriangleMesh
+from volfrep.io.write.step_faceted import write_step_faceted
+from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
 from volfrep.util.errors import VolfrepError
 
 needs_freecad = pytest.mark.skipif(
@@ -308,6 +309,9 @@ WIDE = "".join(
 )
 
 
+BEAMS = "<beamlattice/>"
+
+
 @pytest.mark.parametrize(
     ("data", "words"),
     [
@@ -333,13 +337,22 @@ WIDE = "".join(
         ),
         (package(model_xml(BOX + " " * 30_000_000, ITEM)), "unpacks to more than"),
         (
-            package(model_xml(BOX.replace("</mesh>", "<beamlattice/></mesh>"), ITEM)),
+            package(model_xml(re.sub(r"<triangles>.*</triangles>", BEAMS, BOX, flags=re.S), ITEM)),
             "lattice of beams",
         ),
     ],
 )
 def test_damaged_or_hostile_3mf_is_refused(tmp_path, data, words):
     refused(written(tmp_path, "part.3mf", data), words)
+
+
+def test_the_triangles_of_a_file_of_both_are_read(tmp_path):
+    data = package(model_xml(BOX.replace("</mesh>", BEAMS + "</mesh>"), ITEM))
+    solid = read_solid(written(tmp_path, "both.3mf", data))
+    assert solid.volume == pytest.approx(read_solid(written(tmp_path, "box.3mf", package(
+        model_xml(BOX, ITEM)
+    ))).volume)  # fmt: skip
+    assert any("beams beside its triangles" in note for note in solid.notes)
 
 
 def test_an_assembly_that_holds_itself_is_refused(tmp_path):
@@ -364,6 +377,18 @@ def test_step_is_read_by_freecad(tmp_path):
     assert solid.volume == pytest.approx(24_000.0)
     assert solid.states_unit
     refused(written(tmp_path, "no.brep", b"DBRep_DrawableShape\nnonsense"), "FreeCAD")
+
+
+@needs_freecad
+def test_solids_of_step_that_meet_are_united_and_told(tmp_path):
+    boxes = [samples.box((10.0, 10.0, 10.0), (8.0 * k, 0.0, 0.0)) for k in range(3)]
+    write_step_faceted(concatenate(*boxes), tmp_path / "three.step")
+    solid = read_solid(tmp_path / "three.step")
+    assert solid.volume == pytest.approx(2600.0)
+    assert any("holds 3 solids that meet, which were united to one" in n for n in solid.notes)
+    apart = [samples.box((10.0, 10.0, 10.0), (20.0 * k, 0.0, 0.0)) for k in range(2)]
+    write_step_faceted(concatenate(*apart), tmp_path / "two.step")
+    assert read_solid(tmp_path / "two.step").notes == ()
 
 
 @pytest.mark.parametrize(

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 import samples
+from volfrep.io.repair import holes
 from volfrep.io.solid import check_solid
 from volfrep.io.write.stl import as_read
 from volfrep.mesh.quality import measure
@@ -89,6 +90,19 @@ def test_a_missing_ring_is_closed_around_its_opening():
     rim = np.flatnonzero((part.vertices[part.triangles][:, :, 2] == 30.0).all(axis=1))
     solid = mended(without(part, *rim), part.volume, "2 holes closed")
     assert len(solid.triangles) == len(part.triangles)
+
+
+@pytest.mark.parametrize("more", [0, 40])
+def test_the_width_of_a_hole_is_that_of_its_rim(more):
+    """However many vertices lie on one of its sides: the diagonal of a square."""
+    places = np.linspace(0.0, 1.0, more + 2)[1:-1]
+    rim = [(0, 0, 1), *((x, 0, 1) for x in places), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
+    vertices = np.array([*rim, (0.5, 0.5, 0.0)], float)
+    n = len(rim)
+    fan = [(k + 1, k, n) for k in range(n - 1)] + [(0, n - 1, n)]
+    mesh = TriangleMesh(vertices, np.array(fan, np.int32).reshape(-1, 3)[:, ::-1].copy())
+    hole = holes._hole(mesh, np.arange(n))
+    assert hole.width == pytest.approx(2.0**0.5)
 
 
 def test_two_holes_that_touch_in_a_vertex_are_closed():

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """3MF files, as lib3mf (the reference implementation) reads them."""
 
+import json
 import os
 import shutil
 import zipfile
@@ -14,6 +15,7 @@ import pytest
 import samples
 from exact import DENSITY
 from volfrep import LatticeSpec
+from volfrep.cli import command as cli
 from volfrep.grid.strut_graph import Wireframe
 from volfrep.io.write import write_mesh
 from volfrep.io.write.threemf import write_3mf, write_3mf_beams
@@ -224,6 +226,28 @@ def test_with_a_fallback_the_object_is_the_part_twice(tmp_path: Path):
     assert found.volume == pytest.approx(part.volume, rel=1e-6)
     assert found.triangles == len(part.triangles)
     assert len(both.ends) == len(beam_model(solid, SPEC).lattice.struts)
+
+
+def test_a_file_of_both_is_checked_by_our_own_command(tmp_path: Path, capsys):
+    solid = samples.box((40, 30, 20))
+    part = fill(solid, SPEC)
+    write_3mf_beams(beam_model(solid, SPEC), tmp_path / "both.3mf", part.mesh)
+    assert cli.run(["check", str(tmp_path / "both.3mf")]) == 0
+    assert f"{part.report.volume_mm3:,.3f} mm3" in capsys.readouterr().out
+
+
+def test_the_figures_of_the_run_are_metadata(tmp_path: Path):
+    solid = samples.box((40, 30, 20))
+    report = fill(solid, SPEC).report
+    write_mesh(samples.box(), tmp_path / "part.3mf", figures=report.figures)
+    kept = read(tmp_path / "part.3mf").metadata
+    assert f"{report.cells_active:,} cells" in kept["Description"]
+    own = {name.rpartition(":")[2]: text for name, text in kept.items()}
+    assert own["Struts"] == str(report.struts)
+    assert float(own["VolumeMm3"]) == pytest.approx(report.volume_mm3, rel=1e-5)
+    assert json.loads(own["Specification"]) == json.loads(json.dumps(report.spec))
+    again = fill(solid, SPEC).report
+    assert again.figures == report.figures  # no times: the same part makes the same file
 
 
 def test_the_extensions_are_asked_for(tmp_path: Path):

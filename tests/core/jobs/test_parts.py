@@ -33,11 +33,13 @@ SETTINGS = {
     "piston_rod.stl": (2.0, 0.2, 1.0),
     "trimesh_angle_block.STL": (0.2, 0.02, 0.05),
 }
-#: Thin skins on large parts: half a minute each.
+#: Thin skins on large parts: up to half a minute each.
 SLOW = {
     "fw_ExpansionCard_SelfTapping.stl",
     "numpystl_rear_case.stl",
     "odri_electronics_box_base.STL",
+    "odri_lower_leg_v2.STL",
+    "piston_rod.stl",
 }
 STEP = {
     "nist_ctc_01_asme1_rd.stp", "nist_ctc_02_asme1_rc.stp", "nist_ctc_03_asme1_rc.stp",
@@ -105,7 +107,10 @@ MODELLED_SETTINGS = {
 }
 
 
-@pytest.mark.parametrize("name", MODELLED)
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(n, marks=pytest.mark.slow if n == "ribbed_housing" else ()) for n in MODELLED],
+)
 def test_a_modelled_part_keeps_its_bodies(name, tmp_path):
     size, radius, shell, bodies = MODELLED_SETTINGS[name]
     part, solid = MODELLED[name](), read_solid(modelled_file(name, tmp_path))
@@ -119,7 +124,10 @@ def test_a_modelled_part_keeps_its_bodies(name, tmp_path):
 
 
 @needs_parts
-@pytest.mark.parametrize("cell", PAPERS)
+@pytest.mark.parametrize(
+    "cell",
+    [pytest.param(c, marks=() if c in ("Octet", "CVC") else pytest.mark.slow) for c in PAPERS],
+)
 def test_every_cell_fills_the_bracket(cell):
     spec = LatticeSpec(cell=cell, cell_size=10, strut_radius=1, shell=3)
     result = check("ge_bracket.stl", spec)

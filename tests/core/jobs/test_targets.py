@@ -12,7 +12,8 @@ import samples
 import volfrep
 from volfrep import VolfrepError
 from volfrep.design.cells import LIBRARY
-from volfrep.design.grading import Orientation, SizeGrading
+from volfrep.design.forecast import forecast_fill
+from volfrep.design.grading import CellMap, Orientation, SizeGrading
 from volfrep.design.openings import DrainHoles
 from volfrep.design.profile import Profile
 from volfrep.design.spec import LatticeSpec
@@ -21,6 +22,7 @@ from volfrep.io.solid import check_solid
 from volfrep.jobs import stiffness_target, targets
 from volfrep.jobs.blocks import block
 from volfrep.jobs.infill import Infill
+from volfrep.jobs.rough_radius import roughly_aimed
 from volfrep.jobs.targets import aimed, aimed_block
 from volfrep.lattice.strut_volume import points_inside, volume_by_radius
 from volfrep.mechanics.density import relative_density
@@ -39,7 +41,9 @@ def density(value: float) -> Target:
     ("solid", "settings"),
     [
         (samples.box(), {"cell": "Octet", "shell": 1.5}),
-        (samples.box(), {"cell": "CVC", "shell": 0.0, "fillet": 0.4}),
+        pytest.param(
+            samples.box(), {"cell": "CVC", "shell": 0.0, "fillet": 0.4}, marks=pytest.mark.slow
+        ),
         (samples.bracket(33.0), {"cell": "CVC", "shell": 2.0}),
         (samples.bracket(33.0), {"cell": "BCC", "shell": 2.0, "orientation": TURNED}),
         (samples.bracket(33.0), {"cell": samples.SKEW, "shell": 1.0, "activation": "centre"}),
@@ -90,6 +94,43 @@ def test_a_graded_block_has_the_mass_asked_for() -> None:
     assert made.mesh.volume / 1000.0 == pytest.approx(1.5, rel=NEAR)
 
 
+@pytest.mark.parametrize(
+    "settings",
+    [
+        {"cell": "BCC", "remove_dangling": True},
+        {"cell": "BCC", "remove_dangling": True, "shortest_stub": 1.5, "activation": "centre"},
+        {"cell": "BCC", "size_grading": SizeGrading(Profile("linear", 1.0, 1.5)),
+         "keep_radius": False},
+        {"cell": "BCC", "cell_map": CellMap("cylindrical"), "keep_radius": False},
+        {"cell": "CVC", "cell_map": CellMap("cylindrical")},
+    ],
+    ids=["dangling", "stubs", "stretched struts", "bent struts", "cell map"],
+)  # fmt: skip
+def test_a_lattice_that_is_pruned_or_deformed_has_the_density_asked_for(settings) -> None:
+    spec = LatticeSpec(cell_size=8.0, strut_radius=0.5, shell=1.5, target=density(0.18), **settings)
+    solid = check_solid(samples.box((44.0, 36.0, 28.0)), "part")
+    infill = aimed(solid, spec)
+    report = infill.result.report
+    skin = solid.volume - report.domain_volume_mm3
+    measured = (infill.result.mesh.volume - skin) / report.domain_volume_mm3
+    assert measured == pytest.approx(0.18, rel=NEAR)
+    assert report.work["walls found"] == 1
+    rough = roughly_aimed(solid, spec).strut_radius
+    assert rough == pytest.approx(infill.spec.strut_radius, rel=0.12)
+
+
+def test_a_job_is_forecast_with_about_the_radius_of_its_target() -> None:
+    solid = check_solid(samples.bracket(33.0), "part")
+    for target in (density(0.2), Target("mass", 48.0), Target("stiffness", 0.01, (1.0, 1.0, 1.0))):
+        spec = LatticeSpec(
+            cell="BCC", cell_size=8.0, strut_radius=0.5, density=2.67, target=target
+        )  # fmt: skip
+        guess, found = roughly_aimed(solid, spec), aimed(solid, spec)
+        assert guess.strut_radius == pytest.approx(found.spec.strut_radius, rel=0.12)
+        told, known = forecast_fill(solid, guess), forecast_fill(solid, found.spec)
+        assert told.triangles == pytest.approx(known.triangles, rel=0.3)
+
+
 def test_the_volume_inside_whole_cells_is_that_of_the_endless_lattice() -> None:
     """Cells that fill a box to its faces are cut there as the endless lattice's cells are."""
     solid = check_solid(samples.box((32.0, 24.0, 16.0)), "box")
@@ -102,7 +143,10 @@ def test_the_volume_inside_whole_cells_is_that_of_the_endless_lattice() -> None:
         assert table.radius_of(table.at(radius)) == pytest.approx(radius, rel=1e-4)
 
 
-@pytest.mark.parametrize("direction", ["100", "110", "111", "1,2,0"])
+@pytest.mark.parametrize(
+    "direction",
+    ["1,2,0", *(pytest.param(d, marks=pytest.mark.slow) for d in ("100", "110", "111"))],
+)
 def test_the_lattice_has_the_stiffness_asked_for(direction) -> None:
     found = volfrep.block(
         (1, 1, 1), cell="BCC", cell_size=6, stiffness=f"40:{direction}", material="PA12"
@@ -117,8 +161,7 @@ def test_the_lattice_has_the_stiffness_asked_for(direction) -> None:
 
 
 @pytest.mark.slow
-def test_a_cell_of_ones_own_is_homogenised_for_its_stiffness(monkeypatch) -> None:
-    monkeypatch.setattr(stiffness_target, "LEAST", 0.04)  # thin struts take many voxels
+def test_a_cell_of_ones_own_is_homogenised_for_its_stiffness() -> None:
     spec = LatticeSpec(
         dataclasses.replace(LIBRARY["BCC"], name="mine"), 6.0, 0.3,
         target=Target("stiffness", 0.02, (1.0, 1.0, 1.0)),
@@ -126,6 +169,19 @@ def test_a_cell_of_ones_own_is_homogenised_for_its_stiffness(monkeypatch) -> Non
     own = aimed_block(spec, (1, 1, 1)).strut_radius
     library = aimed_block(dataclasses.replace(spec, cell="BCC"), (1, 1, 1)).strut_radius
     assert own == pytest.approx(library, rel=5e-3)
+
+
+def test_a_cell_of_ones_own_is_guessed_on_coarse_grids(monkeypatch) -> None:
+    monkeypatch.setattr(stiffness_target, "LEAST", 0.06)  # thin struts take many voxels
+    own = dataclasses.replace(LIBRARY["BCC"], name="mine")
+    target = Target("stiffness", 0.06, (1.0, 1.0, 1.0))
+    ratios = [
+        stiffness_target.ratio_of_stiffness(cell, target, rough=True)
+        for cell in (own, LIBRARY["BCC"])
+    ]
+    assert ratios[0] == pytest.approx(ratios[1], rel=0.03)
+    with pytest.raises(VolfrepError, match="choose one from"):
+        stiffness_target.ratio_of_stiffness(own, Target("stiffness", 1e-4, (1.0, 0.0, 0.0)))
 
 
 def test_a_part_that_misses_its_target_is_made_again(monkeypatch) -> None:

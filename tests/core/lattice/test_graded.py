@@ -10,7 +10,7 @@ from contract import check_contract
 from exact import in_lattice, in_struts
 from samples import SKEW
 from volfrep import LatticeSpec, VolfrepError
-from volfrep.design.cells import LIBRARY
+from volfrep.design.cells import LIBRARY, PAPERS, find_cell
 from volfrep.design.grading import CellMap, Orientation, RadiusGrading, SizeGrading
 from volfrep.design.profile import Profile
 from volfrep.design.scattered_field import PointField
@@ -71,7 +71,7 @@ BLOCKS = [
         marks=() if cell.name in ("CVC", "Octahedron") or grading == "size" else pytest.mark.slow,
         id=f"{cell.name}, {grading}",
     )
-    for cell in (*LIBRARY.values(), SKEW)
+    for cell in (*map(find_cell, PAPERS), SKEW)
     for grading in GRADINGS
     if (cell, grading) != (SKEW, "radius")
 ]
@@ -197,7 +197,13 @@ FILLED = {
 
 
 @pytest.mark.parametrize("grading", FILLED)
-@pytest.mark.parametrize("make", [samples.box, samples.bracket], ids=["convex", "not convex"])
+@pytest.mark.parametrize(
+    "make",
+    [
+        pytest.param(samples.box, id="convex", marks=pytest.mark.slow),
+        pytest.param(samples.bracket, id="not convex"),
+    ],
+)
 def test_parts_hold_the_contract(make, grading):
     solid = make()
     size = 8.0 if make is samples.box else 12.0
@@ -309,7 +315,7 @@ def test_random_gradings_hold_the_contract(seed):
     extent = np.sort(np.ptp(solid.bounds, axis=0))
     size = float(random.uniform(0.2, 0.5) * extent[1])
     spec = LatticeSpec(
-        cell=random.choice([*LIBRARY.values(), SKEW]),
+        cell=random.choice([*map(find_cell, PAPERS), SKEW]),
         cell_size=size,
         strut_radius=0.07 * size,
         shell=float(random.choice([0.0, 0.05, 0.1]) * extent[0]),

@@ -5,13 +5,13 @@ import numpy as np
 import pytest
 
 from samples import SKEW
-from volfrep.design.cells import LIBRARY
+from volfrep.design.cells import LIBRARY, PAPERS, find_cell
 from volfrep.grid.strut_graph import cell_graph
 from volfrep.lattice.strut_masks import NodeLookup, cells_of_nodes, without_struts
 from volfrep.octants.octant import NEIGHBOURS, cell_copies, frames, octant_grid
 
 SIZE, ORIGIN = 10.0, np.array([3.0, -2.0, 1.0])
-CELLS = [*LIBRARY.values(), SKEW]
+CELLS = [*map(find_cell, PAPERS), SKEW]
 
 
 def grid_and_graph(cell, active):

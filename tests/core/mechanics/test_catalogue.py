@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The shipped catalogue: it is what the engine computes, and its fits run through it."""
 
+import dataclasses
 import shutil
 from pathlib import Path
 
@@ -13,11 +14,21 @@ from volfrep.design.cells import LIBRARY, PAPERS, make_cell
 from volfrep.fem.beam_mesh import fitted_beams
 from volfrep.jobs.blocks import block_wireframe
 from volfrep.mechanics import catalogue as shipped
-from volfrep.mechanics.catalogue import NAMES, SECTIONS, catalogue, is_listed, joint_law, known_cell
+from volfrep.mechanics.catalogue import (
+    NAMES,
+    SECTIONS,
+    catalogue,
+    is_listed,
+    joint_law,
+    known_cell,
+    known_properties,
+)
 from volfrep.mechanics.density import relative_density
 from volfrep.mechanics.frame import Ends, frame_tensor
 from volfrep.mechanics.homogenise import homogenise
 from volfrep.mechanics.joint_fit import LONGEST_END, periodic_frame
+from volfrep.mechanics.materials import find_material
+from volfrep.mechanics.summary import cell_properties
 from volfrep.mechanics.tensor import moduli
 
 needs = [
@@ -57,12 +68,41 @@ def test_fits_run_through_the_points_and_between_them(name):
         assert [found[key] for key in NAMES] == pytest.approx(known.values[row].tolist(), rel=1e-6)
     left = shipped.CatalogueCell(
         name, np.delete(known.ratios, 4), np.delete(known.values, 4, axis=0),
-        np.delete(known.errors, 4, axis=0), known.ends, known.misfit,
+        np.delete(known.errors, 4, axis=0), np.delete(known.doubts, 4, axis=0), known.ends,
+        known.misfit,
     )  # fmt: skip
     ratio = float(known.ratios[4])
     again, whole = moduli(left.tensor(ratio)), moduli(known.tensor(ratio))
     stiffness = again.E100, again.G
     assert stiffness == pytest.approx((whole.E100, whole.G), rel=0.02)
+
+
+@pytest.mark.parametrize("material", [None, "AlSi10Mg"])
+def test_what_a_lattice_does_is_read_off_at_once_within_its_errors(material):
+    """At a radius between those of the catalogue, beside the homogenised cell."""
+    solid = None if material is None else dataclasses.replace(find_material(material), poisson=0.3)
+    read = known_properties(LIBRARY["Octet"], 8.0, 0.9, solid)
+    computed = cell_properties("Octet", 8.0, 0.9, material=solid)
+    assert read.along == 0
+    assert [name for name, _ in read.rows()] == [name for name, _ in computed.rows()]
+    for name in ("E100", "E110", "E111", "G", "nu", "strength", "conductivity"):
+        near = 2.0 * (read.errors[name] + computed.errors[name])
+        assert read.values[name] == pytest.approx(computed.values[name], abs=near, rel=0.01), name
+    assert read.relative_density == pytest.approx(computed.relative_density, rel=1e-3)
+
+
+def test_what_the_catalogue_does_not_know_is_not_guessed():
+    assert known_properties(LIBRARY["Octet"], 10.0, 4.0) is None
+    own = dataclasses.replace(LIBRARY["Octet"], name="mine")
+    assert known_properties(own, 10.0, 1.0) is None
+
+
+def test_errors_of_moduli_are_stored_and_below_their_bounds():
+    for known in catalogue().values():
+        bounds = shipped._bounds(known.values.tolist(), known.errors.tolist())
+        assert known.doubts.shape == (len(known.ratios), len(shipped.FIGURES))
+        assert (known.doubts > 0.0).all()
+        assert (known.doubts <= np.array(bounds) + 2e-3).all()
 
 
 def test_the_ratio_of_a_density():

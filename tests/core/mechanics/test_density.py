@@ -58,7 +58,10 @@ def test_a_single_column_is_a_cylinder_with_its_joint():
     assert found.value == pytest.approx(np.pi * radius**2 + bulge, rel=5e-4)
 
 
-@pytest.mark.parametrize(("name", "density"), [("Octahedron", 0.2), ("Box", 0.02), ("CVC", 0.6)])
+@pytest.mark.parametrize(
+    ("name", "density"),
+    [pytest.param("Octahedron", 0.2, marks=pytest.mark.slow), ("Box", 0.02), ("CVC", 0.6)],
+)
 def test_the_radius_of_a_density_has_that_density(name, density):
     cell = LIBRARY[name]
     radius = radius_of_density(cell, density)

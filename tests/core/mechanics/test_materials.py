@@ -10,7 +10,7 @@ import pytest
 import command
 from volfrep import VolfrepError
 from volfrep.mechanics.materials import MATERIALS, SolidMaterial, find_material
-from volfrep.reports.printability import PROCESSES
+from volfrep.reports.processes import PROCESSES
 
 LATTICE = ["--cell", "CVC", "--cell-size", "10", "--strut-radius", "1", "--resolution", "8"]
 block = partial(command.block, LATTICE)

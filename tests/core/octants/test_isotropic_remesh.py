@@ -6,12 +6,12 @@ import pytest
 
 from implicit import octant_surface
 from samples import SKEW
-from volfrep.design.cells import LIBRARY
+from volfrep.design.cells import LIBRARY, PAPERS, find_cell
 from volfrep.mesh import remesh
 from volfrep.octants import isotropic_remesh
 from volfrep.octants.sdf import distances
 
-CELLS = [*LIBRARY.values(), SKEW]
+CELLS = [*map(find_cell, PAPERS), SKEW]
 
 
 @pytest.fixture(params=CELLS, ids=lambda cell: cell.name, scope="module")

@@ -6,7 +6,7 @@ import pytest
 
 from implicit import octant_surface
 from samples import SKEW
-from volfrep.design.cells import LIBRARY
+from volfrep.design.cells import LIBRARY, PAPERS, find_cell
 from volfrep.mesh import remesh
 from volfrep.octants import isotropic_remesh, surface_fit
 
@@ -38,7 +38,7 @@ def missed(surface):
     return mean, np.sqrt((area * (values**2).mean(axis=1)).sum() / area.sum())
 
 
-@pytest.fixture(params=[*LIBRARY.values(), SKEW], ids=lambda cell: cell.name, scope="module")
+@pytest.fixture(params=[*map(find_cell, PAPERS), SKEW], ids=lambda cell: cell.name, scope="module")
 def pair(request):
     """The even surface of an octant, and the fitted one."""
     found, _ = isotropic_remesh.even_out(octant_surface(request.param))

@@ -14,14 +14,12 @@ from volfrep.jobs.blocks import block
 from volfrep.jobs.pipeline import fill
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
 from volfrep.reports.printability import (
-    PROCESSES,
-    Process,
-    find_process,
     inclinations,
     overhanging_facets,
     print_report,
     unit_direction,
 )
+from volfrep.reports.processes import PROCESSES, Process, find_process
 
 UP = np.array([0.0, 0.0, 1.0])
 FFF, SLS, LPBF = (PROCESSES[name] for name in ("FFF", "SLS", "LPBF"))

@@ -9,6 +9,7 @@ import samples
 from bench.parts import NO_PARTS, PARTS
 from volfrep.io.solid import read_solid
 from volfrep.mesh.triangle_mesh import concatenate
+from volfrep.shell import offset
 from volfrep.shell.offset import inner_wall
 from volfrep.spatial.self_intersection import crossing_triangles
 from volfrep.util.errors import Cancelled, VolfrepError
@@ -93,9 +94,17 @@ def test_a_cavity_has_a_wall_too():
     assert wall.volume == pytest.approx(36.0 * 26.0 * 16.0 - grown, rel=0.005)
 
 
-def test_a_wall_too_thin_for_memory_is_refused():
-    with pytest.raises(VolfrepError, match=r"wall of 0\.001 mm is too thin.*at least"):
-        inner_wall(samples.box(), 0.001, Monitor())
+def test_a_wall_too_thin_for_memory_is_refused(monkeypatch):
+    monkeypatch.setattr(offset, "MEMORY_LIMIT", offset.MEMORY_LIMIT / 100)
+    with pytest.raises(VolfrepError, match=r"wall of 0\.01 mm is too thin.*at least"):
+        inner_wall(samples.box(), 0.01, Monitor())
+
+
+def test_no_skin_is_advised_that_the_part_has_no_room_for():
+    """A plate of which no skin fits into memory: its deepest points lie half its thickness deep."""
+    plate = samples.box((20_000.0, 20_000.0, 0.5))
+    with pytest.raises(VolfrepError, match=r"nowhere deeper than about 0\.2.* without a skin"):
+        inner_wall(plate, 0.02, Monitor())
 
 
 def test_cancel_is_honoured_in_time():
@@ -128,7 +137,7 @@ def test_the_industrial_bracket():
     [
         ("ge_bracket.stl", 5.0),
         ("ge_bracket.stl", 8.0),
-        ("piston_rod.stl", 1.0),
+        pytest.param("piston_rod.stl", 1.0, marks=pytest.mark.slow),
         ("odri_lower_leg_v2.STL", 2.0),
     ],
 )

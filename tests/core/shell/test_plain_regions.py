@@ -37,7 +37,7 @@ def test_a_sheet_needs_few_cubes_and_few_samples():
 
 
 def test_the_distance_to_a_surface_with_fewer_samples_is_right_where_the_wall_is():
-    solid = samples.sheet()
+    solid = samples.sheet((40.0, 40.0, 3.0))
     plain, _ = found(solid)
     index = index_surface(solid, 0.3 * SKIN, (plain.samples, plain.owner))
     wall = inner_wall(solid, SKIN, Monitor()).mesh
@@ -50,7 +50,7 @@ def test_the_distance_to_a_surface_with_fewer_samples_is_right_where_the_wall_is
     assert np.mean(near - exact > 1e-9) < 0.02
 
 
-@pytest.mark.parametrize("skin", [0.15, 0.3])
+@pytest.mark.parametrize("skin", [pytest.param(0.15, marks=pytest.mark.slow), 0.3])
 def test_the_wall_of_a_sheet_is_right_round_a_small_hole_too(skin):
     solid = samples.sheet((30.0, 30.0, 3.0))
     wall = inner_wall(solid, skin, Monitor())

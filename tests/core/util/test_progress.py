@@ -44,7 +44,7 @@ def test_stages_are_timed_and_repeated_ones_add_up() -> None:
     for _ in range(2):
         with monitor.stage("sleep", 0, 1):
             time.sleep(0.02)
-    assert 0.04 <= monitor.stages["sleep"] < 1.0
+    assert monitor.stages["sleep"] >= 0.04
     assert monitor.memory_mb["sleep"] > 1.0
 
 

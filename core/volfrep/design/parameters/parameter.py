@@ -24,7 +24,7 @@ GROUPS = {
 
 #: The unit of a kind of parameter, where it has one.
 UNITS = {"length": "mm", "angle": "degrees", "density": "g/cm3", "point": "mm", "points": "mm",
-         "mass": "g"}  # fmt: skip
+         "mass": "g", "stress": "MPa"}  # fmt: skip
 #: How a value of a kind is written in a command, where its unit does not say it.
 SHAPES = {
     "number": "NUMBER", "integer": "N", "text": "TEXT", "formula": "FORMULA", "file": "FILE",
@@ -62,7 +62,7 @@ class Parameter:
             ``integer``, ``flag``, ``choice``,
             ``text``, ``formula``, ``file``, ``cell``, ``curve``, ``direction``, ``point``,
             ``rotation`` (axis and degrees), ``planes`` or ``places`` (lists of numbers); of a
-            document only: ``link``, ``faces``, ``points``.
+            document only: ``link``, ``faces``, ``points``, ``stress``, ``material``, ``process``.
         group: one of `GROUPS`.
         help: one phrase; the same for the option, the property and the documentation.
         default: what holds where nothing is given; None where `otherwise` says what does.

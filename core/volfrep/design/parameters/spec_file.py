@@ -12,6 +12,7 @@ from typing import Any
 
 from ...util.errors import VolfrepError
 from ...util.files import check_writable, replacing
+from ...util.toml import read_toml
 from ..spec import LatticeSpec
 from .parameter import GROUPS
 from .specification import specification, values_of
@@ -20,8 +21,6 @@ from .values import from_plain, to_plain
 
 #: Keys of a file, in the table's order.
 KEYS = tuple(parameter.name for parameter in PARAMETERS if parameter.in_command)
-#: Bytes of the largest file that is read.
-LARGEST = 1_000_000
 _HEAD = "# A lattice for VOLFREP. Lengths are in mm, angles in degrees, the density in g/cm3."
 
 
@@ -62,14 +61,7 @@ def read_values(path: str | os.PathLike[str]) -> dict[str, Any]:
         VolfrepError: the file cannot be read, or the first entry that makes no sense.
     """
     path = Path(path)
-    try:
-        with path.open("rb") as file:
-            text = file.read(LARGEST + 1)
-    except OSError as error:
-        raise VolfrepError(f"{path} cannot be read: {error.strerror}.") from error
-    if len(text) > LARGEST:
-        raise VolfrepError(f"{path} has more than {LARGEST:,} bytes: that is no specification.")
-    return {name: _value(path, name, value) for name, value in _parsed(path, text).items()}
+    return {name: _value(path, name, value) for name, value in parsed(path).items()}
 
 
 def write_values(values: Mapping[str, Any], path: str | os.PathLike[str]) -> None:
@@ -92,45 +84,42 @@ def _written(values: Mapping[str, Any], folder: Path) -> str:
             lines += ["", f"# {GROUPS[group].capitalize()}"]
         for parameter in rows:
             value = to_plain(parameter, values[parameter.name])
-            if _is_path(parameter.name, value):
+            if is_path(parameter.name, value):
                 value = _seen_from(folder, value)
             lines.append(f"{parameter.name} = {_toml(value)}")
     return "\n".join([*lines, ""])
 
 
-def _parsed(path: Path, text: bytes) -> dict[str, Any]:
-    try:
-        import tomllib
-    except ModuleNotFoundError:  # Python 3.10
-        try:
-            import tomli as tomllib  # type: ignore[import-not-found, no-redef, unused-ignore]
-        except ModuleNotFoundError as error:
-            raise VolfrepError(
-                "Specifications are read by Python 3.11 or later, or with the package tomli: run "
-                "'pip install tomli'."
-            ) from error
-    try:
-        return dict(tomllib.loads(text.decode()))
-    except UnicodeDecodeError as error:
-        raise VolfrepError(f"{path} is no text in UTF-8.") from error
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
-        raise VolfrepError(f"{path} is no TOML: {error}.") from error
+def parsed(path: Path) -> dict[str, Any]:
+    """What a TOML file holds.
+
+    Raises:
+        VolfrepError: it cannot be read, or is no TOML.
+    """
+    return read_toml(path, "specification")
 
 
 def _value(path: Path, name: str, value: Any) -> Any:
     if name not in KEYS:
-        near = difflib.get_close_matches(name, KEYS, 1, 0.0)
-        raise VolfrepError(f"{path} has an unknown entry '{name}': the nearest is '{near[0]}'.")
+        raise VolfrepError(
+            f"{path} has an unknown entry '{name}': the nearest is '{nearest_key(name)}'."
+        )
     try:
         result = from_plain(BY_NAME[name], value)
     except VolfrepError as error:
         raise VolfrepError(f"{path}, {name}: {error}") from error
-    if _is_path(name, result):
+    if is_path(name, result):
         return os.path.join(path.parent, result)
     return result
 
 
-def _is_path(name: str, value: Any) -> bool:
+def nearest_key(name: str) -> str:
+    """The key that is written most like a name."""
+    return difflib.get_close_matches(name, KEYS, 1, 0.0)[0]
+
+
+def is_path(name: str, value: Any) -> bool:
+    """Whether a value of a parameter names a file."""
     return name == "radius_field" or (name == "cell" and str(value).lower().endswith(".json"))
 
 

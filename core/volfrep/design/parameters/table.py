@@ -7,20 +7,24 @@ windows: ``make translations`` reads them here.
 
 from __future__ import annotations
 
+from .network_rows import NETWORK
 from .parameter import Need, Parameter
 
 #: The entry of the property `CellType` for a cell of the user's own, read from `CellFile`.
 CUSTOM_CELL = "Custom"
+#: Entries of the properties `PrintMaterial` and `PrintProcess` beside the tables' names: nothing
+#: chosen, a material of the user's own (from `MaterialFile`), and the one that FreeCAD's solid has.
+NOTHING, OWN_MATERIAL, SOLIDS_MATERIAL = "None", "Custom", "Of the solid"
+
+#: What may say how thick struts are, in a document.
+DRIVERS = ("radius", "relative density", "mass", "stiffness")
 
 TWO_ENDED = ("linear", "quadratic", "exponential")
 PROFILES = ("scalar", *TWO_ENDED, "formula")
 BY_DEPTH = ("skin", "core")
 BY_PLACE = ("direction", *BY_DEPTH)
 
-#: Networks in place of cells: edges between random points, or those of a file.
-RANDOM = ("voronoi", "delaunay")
-_RANDOM = (Need(("network",), RANDOM),)
-
+_OWN_RADIUS = Need(("radius_driven_by",), ("radius",))
 _DRAINED = (Need(("drain_diameter",)),)
 _BY_FIELD = (Need(("radius_grading",), ("field",)),)
 _MAPPED = (Need(("cell_map",)),)
@@ -50,6 +54,37 @@ PARAMETERS = (
         "cell_size", "length", "Lattice",
         "L: edge length of the cubic cell",
         default=10.0, in_panel=True,
+    ),
+    Parameter(
+        "radius_driven_by", "choice", "Lattice",
+        "What says how thick the struts are: their radius, or what the lattice or the part is to "
+        "come to, for which the radius is found",
+        default="radius", choices=DRIVERS, in_command=False, in_panel=True,
+    ),
+    Parameter(
+        "target_density", "number", "Lattice",
+        "Volume of the lattice over that of what it fills, between 0 and 1",
+        default=0.2, needs=(Need(("radius_driven_by",), ("relative density",)),),
+        in_command=False, in_panel=True,
+    ),
+    Parameter(
+        "target_mass", "mass", "Lattice",
+        "Mass of the finished part, with its skin",
+        default=0.0, needs=(Need(("radius_driven_by",), ("mass",)),),
+        in_command=False, in_panel=True,
+    ),
+    Parameter(
+        "target_stiffness", "stress", "Lattice",
+        "Young's modulus of the lattice along StiffnessDirection, of the chosen material",
+        default=0.0, needs=(Need(("radius_driven_by",), ("stiffness",)),),
+        in_command=False, in_panel=True,
+    ),
+    Parameter(
+        "stiffness_direction", "direction", "Lattice",
+        "Along this direction of the cell: 1,0,0 along its edges, 1,1,0 across its faces, 1,1,1 "
+        "along its diagonals",
+        default=(0.0, 0.0, 1.0), needs=(Need(("radius_driven_by",), ("stiffness",)),),
+        in_command=False, in_panel=True,
     ),
     Parameter(
         "strut_radius", "length", "Lattice",
@@ -89,48 +124,7 @@ PARAMETERS = (
         "solid",
         otherwise="the corner of the part's box", of_block=False,
     ),
-    Parameter(
-        "network", "choice", "Network",
-        "What the lattice consists of: cells, the Voronoi or the Delaunay edges of random points, "
-        "or the nodes and struts of a file",
-        default="cells", choices=("cells", *RANDOM, "file"), of_block=False,
-    ),
-    Parameter(
-        "network_file", "file", "Network",
-        "Nodes and struts: .json, .csv, lines of .obj or .vtk, beams of .3mf",
-        needs=(Need(("network",), ("file",)),), required=True, of_block=False,
-    ),
-    Parameter(
-        "network_points", "integer", "Network",
-        "How many points lie in the part; 0 for as many as lie a cell size apart",
-        default=0, needs=_RANDOM, of_block=False,
-    ),
-    Parameter(
-        "network_seed", "integer", "Network",
-        "Another seed draws other points",
-        default=1, needs=_RANDOM, of_block=False,
-    ),
-    Parameter(
-        "network_relax", "integer", "Network",
-        "How often each point moves to the middle of its cell, which evens them out",
-        default=2, needs=_RANDOM, of_block=False,
-    ),
-    Parameter(
-        "network_density", "text", "Network",
-        "Density of the points as a formula of s, 0 at the wall and 1 at the deepest place, such "
-        "as '3 - 2 * s'; empty for an even one",
-        default="", needs=_RANDOM, of_block=False,
-    ),
-    Parameter(
-        "network_shortest", "length", "Network",
-        "Struts shorter than this are drawn together into one node; 0 for four radii",
-        default=0.0, needs=_RANDOM, of_block=False,
-    ),
-    Parameter(
-        "network_angle", "number", "Network",
-        "Of two struts that meet at less than so many degrees the longer one goes",
-        default=25.0, needs=_RANDOM, of_block=False,
-    ),
+    *NETWORK,
     Parameter(
         "activation", "choice", "Boundary",
         "Which cells hold a lattice: those that touch the inside, whose centre lies inside, or "
@@ -152,6 +146,11 @@ PARAMETERS = (
         "shortest_stub", "length", "Boundary",
         "Take away struts with a free end that are shorter than this; 0 for none",
         default=0.0, of_block=False, in_panel=True,
+    ),
+    Parameter(
+        "keep_pieces", "flag", "Boundary",
+        "Keep pieces of the lattice that hang on nothing; otherwise they are left out, and told",
+        default=False, of_block=False,
     ),
     Parameter(
         "open_faces", "faces", "Openings",
@@ -265,7 +264,7 @@ PARAMETERS = (
         "radius_grading", "choice", "Strut radius",
         "Struts whose radius varies: along a direction, by the depth below the skin (s = 1 at the "
         "skin, or at the core), or by a field of values",
-        default="none", choices=("none", *BY_PLACE, "field"), in_panel=True,
+        default="none", choices=("none", *BY_PLACE, "field"), needs=(_OWN_RADIUS,), in_panel=True,
     ),
     Parameter(
         "radius_field", "file", "Strut radius",
@@ -326,7 +325,8 @@ PARAMETERS = (
     ),
     Parameter(
         "deviation", "length", "Mesh",
-        "Largest distance between a facet and the exact strut; 0 for a thirty-fifth of the radius",
+        "Distance between a facet and the exact strut, kept away from the creases where struts "
+        "meet; 0 for a thirty-fifth of the radius",
         default=0.0, instead_of=("resolution",),
     ),
     Parameter(
@@ -339,6 +339,22 @@ PARAMETERS = (
         "auto_update", "flag", "Mesh",
         "Compute at every change; switch it off for large jobs and use Update Lattice Infill",
         default=True, in_command=False,
+    ),
+    Parameter(
+        "print_material", "material", "Material",
+        "What the part is made of: its density gives the mass, its stiffness goes into solver "
+        "decks",
+        default=NOTHING, in_command=False, in_panel=True,
+    ),
+    Parameter(
+        "material_file", "file", "Material",
+        "The .toml or .json file of your own material",
+        needs=(Need(("print_material",), (OWN_MATERIAL,)),), in_command=False, in_panel=True,
+    ),
+    Parameter(
+        "print_process", "process", "Material",
+        "How the part is printed: its limits are those of the print check",
+        default=NOTHING, in_command=False, in_panel=True,
     ),
     Parameter(
         "density", "density", "Material",

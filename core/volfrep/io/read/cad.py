@@ -79,6 +79,8 @@ def read_cad(data: bytes, file: Path) -> Contents:
             )
         contents = read_ply(mesh.read_bytes(), file.name)
         warned = mesh.with_name(mesh.name + ".invalid").is_file()
+        united = mesh.with_name(mesh.name + ".united")
+        told = _united(united.read_text(encoding="ascii"), file) if united.is_file() else ()
     if warned:
         edges = edges_of(weld_equal(contents.mesh))
         if not (edges.is_manifold and edges.is_closed):
@@ -87,4 +89,13 @@ def read_cad(data: bytes, file: Path) -> Contents:
                 "close: mend it there (Part > Check geometry) and export it again."
             )
     warning = f"FreeCAD finds faults in the geometry of '{file.name}' (Part > Check geometry)."
-    return Contents(contents.mesh, "mm", (warning,) if warned else ())
+    return Contents(contents.mesh, "mm", told + ((warning,) if warned else ()))
+
+
+def _united(counts: str, file: Path) -> tuple[str, ...]:
+    """What is to be said of so many solids that became so many."""
+    found, left = (int(word) for word in counts.split())
+    return (
+        f"'{file.name}' holds {found} solids that meet, which were united to "
+        f"{'one' if left == 1 else left}.",
+    )

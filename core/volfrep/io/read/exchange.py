@@ -18,6 +18,7 @@ import numpy as np
 
 from ...mesh.triangle_mesh import TriangleMesh
 from ...util.errors import VolfrepError
+from ...util.linalg import times
 from .contents import Contents, damaged
 
 #: glTF is in metres and has y up; we have z up.
@@ -85,7 +86,7 @@ def read_glb(data: bytes, name: str) -> Contents:
     except (ValueError, TypeError, LookupError, AttributeError, RecursionError) as error:
         raise damaged(name, "its description makes no sense") from error
     mesh = _loaded(data, "glb", name)
-    return Contents(TriangleMesh(mesh.vertices @ TO_Z_UP, mesh.triangles), "m")
+    return Contents(TriangleMesh(times(mesh.vertices, TO_Z_UP), mesh.triangles), "m")
 
 
 def _refuse_unbounded(tree: dict[str, Any], size: int, name: str) -> None:

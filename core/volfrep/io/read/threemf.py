@@ -23,6 +23,7 @@ import numpy as np
 
 from ...mesh.triangle_mesh import TriangleMesh, concatenate, empty_mesh
 from ...util.errors import VolfrepError
+from ...util.linalg import determinants, times
 from ...util.types import Floats
 from .contents import Contents, as_numbers, as_words, damaged
 from .units import unit_named
@@ -266,6 +267,11 @@ class _Budget:
         self.instances = 0
         self.warnings: list[str] = []
 
+    def warn(self, note: str) -> None:
+        """Tell it once."""
+        if note not in self.warnings:
+            self.warnings.append(note)
+
     def spend(self, item: _Object, depth: int) -> None:
         """Count one instance of an object.
 
@@ -288,17 +294,22 @@ def _assembled(place: _Component, objects: Objects, budget: _Budget, depth: int)
         raise damaged(budget.name, f"object '{place.key[1][:40]}' is missing")
     budget.spend(item, depth)
     if item.has_beams:
-        raise VolfrepError(
-            f"'{budget.name}' holds a lattice of beams, which is no solid of triangles: give the "
-            "solid by itself."
+        if not len(item.mesh.triangles):
+            raise VolfrepError(
+                f"'{budget.name}' holds a lattice of beams, which is no solid of triangles: give "
+                "the solid by itself, or a file of both."
+            )
+        budget.warn(
+            f"'{budget.name}' holds beams beside its triangles, which were left out: in a file of "
+            "both they are the same part."
         )
     if not item.is_part:
-        note = f"Objects of '{budget.name}' that are no parts (supports, surfaces) were left out."
-        if note not in budget.warnings:
-            budget.warnings.append(note)
+        budget.warn(
+            f"Objects of '{budget.name}' that are no parts (supports, surfaces) were left out."
+        )
         return empty_mesh()
     inside = [_assembled(part, objects, budget, depth + 1) for part in item.components]
     mesh = concatenate(item.mesh, *inside)
-    moved = TriangleMesh(mesh.vertices @ place.matrix[:3] + place.matrix[3], mesh.triangles)
-    mirrors = np.linalg.det(place.matrix[:3]) < 0.0
+    moved = TriangleMesh(times(mesh.vertices, place.matrix[:3]) + place.matrix[3], mesh.triangles)
+    mirrors = determinants(place.matrix[:3]) < 0.0
     return moved.reversed() if mirrors else moved

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ...mesh.edge_table import areas_of, edges_of, pieces_of, place_text, plural
 from ...mesh.triangle_mesh import TriangleMesh, compact
+from ...util.linalg import along
 from ...util.types import Floats, Ints
 from .polygons import cut_loops, mean_normal
 from .weld import ROUNDING
@@ -24,6 +25,8 @@ MOST_FLAT_AREA = 0.1
 #: cut off or added by a flat closing is then a small part of a small area.
 NEARLY_FLAT = 0.2
 MOST_CURVED_AREA = 0.01
+#: How often the farthest point of a rim is gone to.
+ROUNDS = 8
 #: Sheets that are cut off make up no more than this part of the area.
 MOST_SHEET_AREA = 0.1
 
@@ -168,10 +171,20 @@ def _hole(mesh: TriangleMesh, rim: Ints) -> _Hole:
     points = mesh.vertices[rim]
     normal = mean_normal(points)
     centred = points - points.mean(axis=0)
-    width = 2.0 * float(np.linalg.norm(centred, axis=1).max())
+    width = _farthest_apart(points)
     length = float(np.linalg.norm(normal))
-    stray = float(np.abs(centred @ normal).max()) / length if length > 0.0 else np.inf
+    stray = float(np.abs(along(centred, normal)).max()) / length if length > 0.0 else np.inf
     return _Hole(rim, normal, width, stray if len(rim) > 3 else 0.0)
+
+
+def _farthest_apart(points: Floats) -> float:
+    """Distance of the two points of a rim that are farthest apart, by going to and fro, mm."""
+    width, here = 0.0, points.mean(axis=0)
+    for _ in range(ROUNDS):
+        away = np.linalg.norm(points - here, axis=1)
+        here = points[away.argmax()]
+        width = max(width, float(np.linalg.norm(points - here, axis=1).max()))
+    return width
 
 
 def _faces(holes: list[_Hole], mesh: TriangleMesh) -> list[list[_Hole]]:
@@ -187,12 +200,12 @@ def _faces(holes: list[_Hole], mesh: TriangleMesh) -> list[list[_Hole]]:
             outer = face[0]
             unit = outer.normal / max(float(np.linalg.norm(outer.normal)), 1e-300)
             points, around = mesh.vertices[hole.rim], mesh.vertices[outer.rim]
-            above = np.abs((points - around.mean(axis=0)) @ unit).max()
+            above = np.abs(along(points - around.mean(axis=0), unit)).max()
             inside = (points >= around.min(axis=0) - above).all() and (
                 points <= around.max(axis=0) + above
             ).all()
             flat = outer.stray <= FLAT * outer.width and above <= FLAT * outer.width
-            if flat and inside and float(hole.normal @ unit) < 0.0:
+            if flat and inside and float(along(hole.normal, unit)) < 0.0:
                 face.append(hole)
                 break
         else:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...util.errors import VolfrepError
+from ...util.linalg import along, times
 from ...util.ragged import spread
 from ...util.types import Floats, Ints
 
@@ -82,7 +83,7 @@ def cut_loops(vertices: Floats, loops: list[Ints]) -> Ints | None:
         None where the loops cross themselves or one another, as seen along the face's normal.
     """
     normals = [mean_normal(vertices[loop]) for loop in loops]
-    normal = max(normals, key=lambda n: float(n @ n))
+    normal = max(normals, key=lambda n: float(along(n, n)))
     length = float(np.linalg.norm(normal))
     if length == 0.0:
         return None
@@ -92,14 +93,14 @@ def cut_loops(vertices: Floats, loops: list[Ints]) -> Ints | None:
     frame = np.stack([u, np.cross(normal, u)], axis=1)
     indices = np.concatenate(loops)
     points = vertices[indices]
-    flat = (points - points.mean(axis=0)) @ frame
+    flat = times(points - points.mean(axis=0), frame)
     ends = np.cumsum([len(loop) for loop in loops])[:-1]
     pieces = np.asarray(manifold3d.triangulate(np.split(flat, ends)), np.int64).reshape(-1, 3)
     a, b, c = (flat[pieces[:, k]] for k in range(3))
     doubled = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]
-    expected = sum(float(n @ normal) for n in normals)
+    expected = sum(float(along(n, normal)) for n in normals)
     spread_out = float(np.ptp(flat, axis=0).max()) ** 2
-    holes = sum(float(n @ normal) < 0.0 for n in normals)
+    holes = sum(float(along(n, normal)) < 0.0 for n in normals)
     if len(pieces) != len(indices) - 2 * (len(loops) - holes) + 2 * holes:
         return None
     if abs(float(np.abs(doubled).sum()) - expected) > 1e-9 * spread_out:

@@ -43,7 +43,7 @@ def weld_near(mesh: TriangleMesh, tolerance: float) -> TriangleMesh | None:
     loose = np.unique(edges.sides[edges.open_sides])
     cells = np.floor((mesh.vertices[loose] - mesh.bounds[0]) / tolerance).astype(np.int64)
     # Vertices in one cell of this size are near each other: their number bounds that of pairs.
-    crowd = np.unique(cells @ np.array([1, 1 << 20, 1 << 40]), return_counts=True)[1]
+    crowd = np.unique((cells * np.array([1, 1 << 20, 1 << 40])).sum(axis=1), return_counts=True)[1]
     if float((crowd.astype(np.float64) ** 2).sum()) > MOST_PAIRS:
         return None
     tree = cKDTree(mesh.vertices[loose])

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,6 +13,7 @@ from ...util.errors import VolfrepError
 
 if TYPE_CHECKING:
     from ...mesh.triangle_mesh import TriangleMesh
+    from ...trim.trimmed_surface import TrimmedSurface
     from ...util.progress import Monitor
 
 MeshWriter = Callable[["TriangleMesh", "str | os.PathLike[str]", "Monitor | None"], None]
@@ -50,9 +51,18 @@ def mesh_writer(path: str | os.PathLike[str]) -> MeshWriter:
 
 
 def write_mesh(
-    mesh: TriangleMesh, path: str | os.PathLike[str], monitor: Monitor | None = None
+    mesh: TriangleMesh,
+    path: str | os.PathLike[str],
+    monitor: Monitor | None = None,
+    figures: Mapping[str, str] | None = None,
 ) -> None:
     """Write a mesh in the format that the path's extension names.
+
+    Args:
+        mesh: in mm.
+        path: of the file; an old file stays if anything goes wrong.
+        monitor: told the progress, asked for a cancel.
+        figures: of the run, which a 3MF keeps (`threemf.write_3mf`); no other format has a place.
 
     Raises:
         VolfrepError: unknown extension, unwritable path, or a mesh the format cannot hold.
@@ -66,4 +76,40 @@ def write_mesh(
     ...     print(file.stat().st_size == 84 + 50 * len(mesh.triangles))
     True
     """
-    mesh_writer(path)(mesh, path, monitor)
+    writer = mesh_writer(path)
+    if figures and Path(path).suffix.lower() == ".3mf":
+        from .threemf import write_3mf
+
+        write_3mf(mesh, path, monitor, figures)
+        return
+    writer(mesh, path, monitor)
+
+
+def write_surface(
+    surface: TrimmedSurface,
+    path: str | os.PathLike[str],
+    monitor: Monitor | None = None,
+    *,
+    figures: Mapping[str, str] | None = None,
+) -> None:
+    """Write a surface in the format that the path's extension names; an STL without its mesh.
+
+    Args:
+        surface: in mm.
+        path: of the file; an old file stays if anything goes wrong.
+        monitor: told the progress, asked for a cancel.
+        figures: as of `write_mesh`.
+
+    Raises:
+        VolfrepError: as `write_mesh`.
+        Cancelled: when the monitor says so; no file is left behind.
+    """
+    if Path(path).suffix.lower() == ".stl":
+        from .stl_octants import write_surface_stl
+
+        write_surface_stl(surface, path, monitor)
+    else:
+        mesh_writer(path)  # refused before the mesh is made
+        from ...util.progress import Monitor
+
+        write_mesh(surface.whole(monitor or Monitor()), path, monitor, figures=figures)

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ...mesh.precision import refuse_lost_corners, single_precision
 from ...mesh.triangle_mesh import TriangleMesh
 from ...util.files import replacing
+from ...util.linalg import times
 from ...util.progress import Monitor
 from ..read.exchange import TO_Z_UP
 
@@ -53,7 +54,7 @@ def write_glb(
         Cancelled: when the monitor says so; no file is left behind.
     """
     single_precision(mesh, path)
-    _write(METRE * mesh.vertices @ TO_Z_UP.T, mesh.triangles, path, "glb", monitor)
+    _write(METRE * times(mesh.vertices, TO_Z_UP.T), mesh.triangles, path, "glb", monitor)
 
 
 def _write(

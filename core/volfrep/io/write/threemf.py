@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import os
 import zipfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from html import escape
 from itertools import chain
 from pathlib import Path
@@ -47,6 +47,16 @@ _BALLS = "http://schemas.microsoft.com/3dmanufacturing/beamlattice/balls/2020/07
 _EXTENSIONS = (
     f' xmlns:core="{_CORE}" xmlns:b="{_BEAMS}" xmlns:b2="{_BALLS}" requiredextensions="b b2"'
 )
+#: Of metadata that other programs need not understand, and the names they do.
+_OWN = "https://volfrep.invalid/2026/figures"
+_KNOWN = ("Title", "Description", "Application")
+_KEPT = ' preserve="1" type="xs:string"'
+#: What is to be said of a file without triangles of its lattice.
+BEAMS_ONLY = (
+    "Programs that do not know the beam lattice extension show such a file's skin without its "
+    "lattice, or refuse it: a 3MF of both, mesh and beams, is the safe choice."
+)
+NOTHING: Mapping[str, str] = {}
 _PACKAGE = "http://schemas.openxmlformats.org/package/2006"
 _PART = "application/vnd.ms-package.3dmanufacturing-3dmodel+xml"
 _CONTENT_TYPES = (
@@ -62,7 +72,10 @@ _RELATIONSHIPS = (
 
 
 def write_3mf(
-    mesh: TriangleMesh, path: str | os.PathLike[str], monitor: Monitor | None = None
+    mesh: TriangleMesh,
+    path: str | os.PathLike[str],
+    monitor: Monitor | None = None,
+    figures: Mapping[str, str] = NOTHING,
 ) -> None:
     """Write a mesh as a compressed 3MF file, beside the target and then renamed.
 
@@ -70,13 +83,15 @@ def write_3mf(
         mesh: in mm.
         path: of the file; an old file stays if anything goes wrong.
         monitor: told the progress, asked for a cancel.
+        figures: of the run, kept as metadata: `Description`, which readers show, and others, which
+            are put under a name of our own.
 
     Raises:
         VolfrepError: the mesh is empty, holds coordinates that float32 cannot, or has triangles
             that lose a corner in float32; or the path cannot be written.
         Cancelled: when the monitor says so; no file is left behind.
     """
-    _write(path, [_mesh_object(1, "part", mesh, path)], 1, _rows(mesh), monitor)
+    _write(path, [_mesh_object(1, "part", mesh, path)], 1, _rows(mesh), monitor, figures)
 
 
 def write_3mf_beams(
@@ -84,6 +99,7 @@ def write_3mf_beams(
     path: str | os.PathLike[str],
     fallback: TriangleMesh | None = None,
     monitor: Monitor | None = None,
+    figures: Mapping[str, str] = NOTHING,
 ) -> None:
     """Write a lattice as beams: cones, balls at the joints, clipped, joined to its skin.
 
@@ -99,6 +115,7 @@ def write_3mf_beams(
         path: of the file; an old file stays if anything goes wrong.
         fallback: the same part as triangles.
         monitor: told the progress, asked for a cancel.
+        figures: as for `write_3mf`.
 
     Raises:
         VolfrepError: the lattice has no struts, or as `write_3mf`.
@@ -123,7 +140,7 @@ def write_3mf_beams(
         objects.append(_object(len(objects) + 1, "part", iter([text])))
     rows = len(model.lattice.nodes) + len(model.lattice.struts)
     rows += sum(_rows(mesh) for mesh in (model.clip, fallback or model.skin) if mesh is not None)
-    _write(path, objects, len(objects), rows, monitor, _EXTENSIONS)
+    _write(path, objects, len(objects), rows, monitor, figures, _EXTENSIONS)
 
 
 def _rows(mesh: TriangleMesh) -> int:
@@ -136,14 +153,17 @@ def _write(
     build: int,
     rows: int,
     monitor: Monitor | None,
+    figures: Mapping[str, str],
     extensions: str = "",
 ) -> None:
     """Write the package; `build` is the number of the object to print, `rows` for the progress."""
     title = "".join(letter for letter in Path(path).stem if letter.isprintable())
     head = (
-        f'{_XML}<model unit="millimeter" xml:lang="en-US" xmlns="{_CORE}"{extensions}>'
+        f'{_XML}<model unit="millimeter" xml:lang="en-US" xmlns="{_CORE}" xmlns:v="{_OWN}"'
+        f"{extensions}>"
         f'<metadata name="Title">{escape(title)}</metadata>'
-        f'<metadata name="Application">VOLFREP {__version__}</metadata><resources>'
+        f'<metadata name="Application">VOLFREP {__version__}</metadata>'
+        f"{_metadata(figures)}<resources>"
     ).encode()
     tail = f'</resources><build><item objectid="{build}"/></build></model>'.encode()
     with replacing(path) as file, zipfile.ZipFile(file, "w") as package:
@@ -154,6 +174,15 @@ def _write(
                 model.write(chunk)
                 if monitor is not None:
                     monitor.tick(count * BLOCK_ROWS / rows)
+
+
+def _metadata(figures: Mapping[str, str]) -> str:
+    """Names that the core specification does not know belong to a namespace of one's own."""
+    names = {name: name if name in _KNOWN else f"v:{name}" for name in figures}
+    return "".join(
+        f'<metadata name="{names[name]}"{_KEPT * (names[name] != name)}>{escape(text)}</metadata>'
+        for name, text in figures.items()
+    )
 
 
 def _entry(name: str) -> zipfile.ZipInfo:

@@ -3,37 +3,39 @@
 
 from __future__ import annotations
 
+from concurrent.futures import Executor
 from functools import cached_property
 
 import numpy as np
 
-from ..design.cells import joint_radius
-from ..design.networks import GivenNetwork, RandomNetwork
-from ..design.spec import LatticeSpec
-from ..design.spec_parts import DEFAULT_RELATIVE_DEVIATION
-from ..grid.activation import CellGrid
-from ..grid.placement import Placement, node_radii
-from ..grid.strut_graph import Wireframe
-from ..lattice.padded_grid import PaddedGrid
-from ..mesh.edge_table import plural
-from ..mesh.float32_repair import shortest_edge
-from ..mesh.quality import inspect, measure
-from ..mesh.triangle_mesh import TriangleMesh
-from ..network.random_graph import random_graph
-from ..network.surface import NetworkSurface, network_surface, sides_for
-from ..reports.result import Result, report_of
-from ..spatial.proximity import closest_points
-from ..spatial.rays import inside_points
-from ..trim.boolean_trim import trim_mesh
-from ..trim.finish import finished, tidied
-from ..trim.loose_pieces import Cleared, clear
-from ..trim.stage import cleared_cut, drained_part
-from ..util.cache import StageCache
-from ..util.errors import VolfrepError
-from ..util.progress import Monitor, ProgressCallback
-from ..util.types import Floats, Ints
-from .active_cells import ActiveCells
-from .infill import Infill
+from ...design.cells import joint_radius
+from ...design.networks import GivenNetwork, RandomNetwork
+from ...design.spec import LatticeSpec
+from ...design.spec_parts import DEFAULT_RELATIVE_DEVIATION
+from ...grid.activation import CellGrid
+from ...grid.placement import Placement, node_radii
+from ...grid.strut_graph import Wireframe
+from ...lattice.padded_grid import PaddedGrid
+from ...mesh.edge_table import plural
+from ...mesh.float32_repair import shortest_edge
+from ...mesh.triangle_mesh import TriangleMesh
+from ...network.random_graph import random_graph
+from ...network.surface import NetworkSurface, network_surface, sides_for
+from ...reports.result import Result, report_of
+from ...spatial.proximity import closest_points
+from ...spatial.rays import inside_points
+from ...trim.boolean_trim import Trimmed
+from ...trim.finish import finished, tidied
+from ...trim.group_cut import cut_mesh
+from ...trim.loose_pieces import Cleared, clear
+from ...trim.stage import cleared_cut, drained_part
+from ...trim.trimmed_surface import TrimmedSurface
+from ...util.cache import StageCache
+from ...util.errors import VolfrepError
+from ...util.progress import Monitor, ProgressCallback
+from ...util.types import Floats, Ints
+from ..active_cells import ActiveCells
+from ..infill import Infill
 
 #: Struts of a random network are drawn together where they are shorter than so many radii.
 SHORTEST = 4.0
@@ -46,10 +48,15 @@ def infill_of(
     cache: StageCache | None = None,
     progress: ProgressCallback | None = None,
     monitor: Monitor | None = None,
+    executor: Executor | None = None,
+    streamed: bool = False,
 ) -> Infill:
     """The stages of a solid filled with cells or with a network; arguments as of `Infill`."""
     kind = Infill if spec.network is None else NetworkInfill
-    return kind(solid, spec, cache=cache, progress=progress, monitor=monitor)
+    return kind(
+        solid, spec, cache=cache, progress=progress, monitor=monitor, executor=executor,
+        streamed=streamed,
+    )  # fmt: skip
 
 
 def network_frame(
@@ -195,19 +202,21 @@ class NetworkInfill(Infill):
         full = VolfrepError(
             "The struts fill the whole part: make them thinner, or take fewer of them."
         )
-        trimmed = trim_mesh(
+        mesh, on_wall = cut_mesh(
             self.domain.wall, self.surface.mesh, cavity=with_skin, monitor=self.monitor
         )
+        trimmed = Trimmed(TrimmedSurface(mesh), on_wall)
         return cleared_cut(
             trimmed, self.solid, self.domain, self._smallest, full, self.monitor,
             has_skin=self.spec.skin is not None, with_skin=with_skin,
+            keep_pieces=self.spec.keep_pieces,
         )  # fmt: skip
 
 
 def uncut(made: NetworkSurface, smallest: float, monitor: Monitor) -> Cleared:
     """A network that nothing cuts, without slivers, and its quality."""
-    mesh = tidied(made.mesh, shortest_edge(made.mesh), monitor)
-    return clear(mesh, inspect(mesh, monitor), smallest)
+    surface = tidied(TrimmedSurface(made.mesh), shortest_edge(made.mesh), monitor)
+    return clear(surface, smallest, monitor)
 
 
 def network_alone(spec: LatticeSpec, *, progress: ProgressCallback | None = None) -> Result:
@@ -234,12 +243,12 @@ def network_alone(spec: LatticeSpec, *, progress: ProgressCallback | None = None
         made = meshed(frame, spec, monitor)
     smallest = float((0.2 * np.median(frame.radii)) ** 3)
     cleared = uncut(made, smallest, monitor)
-    mesh, quality, notes = finished(cleared.mesh, cleared.quality, monitor, moved=False)
-    hull = measure(mesh).bounds
+    surface, quality, notes = finished(cleared.surface, cleared.quality, monitor, moved=False)
+    hull = made.mesh.bounds
     none = CellGrid(np.zeros(3), spec.cell_size, (0, 0, 0))
     report = report_of(
         quality, frame, none, np.zeros((0, 0, 0), bool), placement, spec, monitor,
         domain_volume=float(np.prod(hull[1] - hull[0])),
         warnings=overlaps_told(made, frame) + notes,
     )  # fmt: skip
-    return Result(mesh, frame, report)
+    return Result(surface, frame, report)

@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The command ``volfrep sweep``: many designs, their table, and their Pareto front.
+
+numpy and the engine are imported inside the functions, as in `command`.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any
+
+from .telling import Progress, print_rows, print_warnings
+
+if TYPE_CHECKING:
+    from ..studies.sweep import Swept
+
+_TEXT = "Make many designs of a part, and a table, a page and the Pareto front of them."
+#: Sentences on what makes no sense, or failed, that are told.
+_MOST_TOLD = 5
+
+
+def add_command(add: Callable[[str, Callable[[argparse.Namespace], None], str], Any]) -> None:
+    """Add the command with `cli`'s own function for that."""
+    option = add("sweep", _sweep, _TEXT).add_argument
+    option("study", metavar="STUDY.toml", help="parts, what varies, what is done: docs/studies.md")
+    option(
+        "-o",
+        "--output",
+        required=True,
+        metavar="FOLDER",
+        help="of records, table and page; what is done there is not done again",
+    )
+    option("--dry-run", action="store_true", help="say how many designs there are, and the time")
+    option(
+        "--workers",
+        type=int,
+        metavar="N",
+        help="runs side by side (default: as many as cores and memory allow)",
+    )
+    option("--scheduler", metavar="ADDRESS", help="of Dask, such as tcp://HOST:8786, for the runs")
+    option("--shard", type=_shard, default=(1, 1), metavar="I/N", help="only one part in N of them")
+    option("--limit-hours", type=float, metavar="H", help="end a run that takes longer")
+    option("--limit-memory", type=float, metavar="GB", help="end a run that takes more")
+    option("--retry-failed", action="store_true", help="try again what failed before")
+    option("--quiet", action="store_true", help="print nothing but errors")
+
+
+def _sweep(options: argparse.Namespace) -> None:
+    from ..studies.study import read_study
+    from ..studies.sweep import sweep
+
+    study = read_study(options.study)
+    if options.dry_run:
+        from ..studies.executors import told_time
+        from ..studies.sweep import forecast_study
+
+        found, seconds, memory = forecast_study(study)
+        _warn("passed over", found.refused)
+        print_rows(
+            ("designs", f"{len(found.designs):,}" + _twice(found.repeated)),
+            ("one after the other", f"{told_time(seconds)}, up to {memory:.2g} GB of memory"),
+        )
+        return
+    with Progress(options.quiet) as progress:
+        made = sweep(
+            study,
+            options.output,
+            workers=options.workers,
+            scheduler=options.scheduler,
+            shard=options.shard,
+            limit_hours=options.limit_hours,
+            limit_memory=options.limit_memory,
+            retry_failed=options.retry_failed,
+            progress=progress,
+        )
+    _tell(made, options.quiet)
+
+
+def _tell(made: Swept, quiet: bool) -> None:
+    _warn("passed over", made.refused)
+    failed = [sentence for sentence in made.table.column("error") if sentence]
+    _warn("failed", {sentence: failed.count(sentence) for sentence in dict.fromkeys(failed)})
+    if quiet:
+        return
+    rows = [
+        ("designs", f"{len(made.table.rows):,}" + _twice(made.repeated)),
+        ("done", f"{made.count('done'):,}, {made.count('failed'):,} failed"),
+    ]
+    if made.count("open"):
+        rows.append(("open", f"{made.count('open'):,}: other shards, or the next call, do them"))
+    if made.front:
+        best = sum(rank == 1 for rank in made.front.values())
+        rows.append(("chosen", f"{len(made.front):,}, {best:,} of them on the Pareto front"))
+    rows += [("this time", f"{made.runs:,} runs"), ("page", str(made.page))]
+    print_rows(*rows)
+
+
+def _warn(what: str, sentences: Mapping[str, int]) -> None:
+    told = sorted(sentences.items(), key=lambda item: -item[1])
+    print_warnings([f"{count:,} {what}: {text}" for text, count in told[:_MOST_TOLD]])
+    if len(told) > _MOST_TOLD:
+        rest = sum(count for _, count in told[_MOST_TOLD:])
+        print_warnings([f"{rest:,} more {what}, for other reasons: see the page."])
+
+
+def _twice(count: int) -> str:
+    return f", {count:,} combinations more are the same as one of them" if count else ""
+
+
+def _shard(text: str) -> tuple[int, int]:
+    """I of N, from 1 on."""
+    try:
+        one, of = (int(number) for number in text.split("/"))
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(f"'{text}' is no shard, I/N, such as 1/4") from error
+    return one, of

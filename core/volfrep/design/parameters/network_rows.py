@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The rows of the table of parameters that are about networks in place of cells."""
+
+from __future__ import annotations
+
+from .parameter import Need, Parameter
+
+#: Networks in place of cells: edges between random points, or those of a file.
+RANDOM = ("voronoi", "delaunay")
+_RANDOM = (Need(("network",), RANDOM),)
+
+NETWORK = (
+    Parameter(
+        "network", "choice", "Network",
+        "What the lattice consists of: cells, the Voronoi or the Delaunay edges of random points, "
+        "or the nodes and struts of a file",
+        default="cells", choices=("cells", *RANDOM, "file"), of_block=False,
+    ),
+    Parameter(
+        "network_file", "file", "Network",
+        "Nodes and struts: .json, .csv, lines of .obj or .vtk, beams of .3mf",
+        needs=(Need(("network",), ("file",)),), required=True, of_block=False,
+    ),
+    Parameter(
+        "network_points", "integer", "Network",
+        "How many points lie in the part; 0 for as many as lie a cell size apart",
+        default=0, needs=_RANDOM, of_block=False,
+    ),
+    Parameter(
+        "network_seed", "integer", "Network",
+        "Another seed draws other points",
+        default=1, needs=_RANDOM, of_block=False,
+    ),
+    Parameter(
+        "network_relax", "integer", "Network",
+        "How often each point moves to the middle of its cell, which evens them out",
+        default=2, needs=_RANDOM, of_block=False,
+    ),
+    Parameter(
+        "network_density", "text", "Network",
+        "Density of the points as a formula of s, 0 at the wall and 1 at the deepest place, such "
+        "as '3 - 2 * s'; empty for an even one",
+        default="", needs=_RANDOM, of_block=False,
+    ),
+    Parameter(
+        "network_shortest", "length", "Network",
+        "Struts shorter than this are drawn together into one node; 0 for four radii",
+        default=0.0, needs=_RANDOM, of_block=False,
+    ),
+    Parameter(
+        "network_angle", "number", "Network",
+        "Of two struts that meet at less than so many degrees the longer one goes",
+        default=25.0, needs=_RANDOM, of_block=False,
+    ),
+)  # fmt: skip

@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A part in layers: the sections of its lattice and of its walls, put together plane by plane."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypeVar
+
+import numpy as np
+
+from ..grid.strut_graph import Wireframe
+from ..mesh.booleans import as_manifold
+from ..mesh.triangle_mesh import TriangleMesh
+from ..util.progress import Monitor
+from ..util.threads import threads
+from ..util.types import Bools, Floats
+from .raster import PixelGrid, filled
+from .sections import Bodies, bodies_of, section_polygons
+
+if TYPE_CHECKING:
+    import manifold3d
+
+T = TypeVar("T")
+
+#: Layers whose struts are at hand at a time.
+_AT_A_TIME = 64
+
+
+@dataclass(frozen=True, eq=False)
+class SolidParts:
+    """What a part consists of before any of it is meshed: (struts within clip) and skin; mm.
+
+    Attributes:
+        struts_between: gives the struts of the lattice that reach between two z, and perhaps more.
+        clip: closed mesh; what of the lattice lies outside it is cut off. None: nothing is.
+        skin: closed mesh that the lattice is joined to; None for none.
+        bounds: (2, 3) box of the whole.
+    """
+
+    struts_between: Callable[[float, float], Wireframe]
+    clip: TriangleMesh | None
+    skin: TriangleMesh | None
+    bounds: Floats
+
+
+@dataclass(frozen=True, eq=False)
+class Section:
+    """What a plane cuts of a part, as outlines that hold it; mm.
+
+    Attributes:
+        struts: (k, c, 2) polygons, counter-clockwise; they overlap.
+        joints: (l, c2, 2) polygons, the same.
+        clip: polygons (c, 2), holes clockwise, that struts and joints count in; None: everywhere.
+        skin: polygons of the skin, the same way.
+    """
+
+    struts: Floats
+    joints: Floats
+    clip: list[Floats] | None
+    skin: list[Floats]
+
+    def pixels(self, grid: PixelGrid) -> Bools:
+        """(rows, columns) the pixels whose middles lie in it, rows from low y to high y."""
+        groups = [[self.struts, self.joints], [one[None] for one in self.skin]]
+        if self.clip is None:
+            return filled(groups, lambda held: held[0] | held[1], grid)
+        groups.append([one[None] for one in self.clip])
+        return filled(groups, lambda held: held[0] & held[2] | held[1], grid)
+
+    def outline(self) -> manifold3d.CrossSection:
+        """The union as the library's own polygons, without overlaps."""
+        import manifold3d
+
+        rule = manifold3d.FillRule.NonZero
+        lattice = manifold3d.CrossSection([*self.struts, *self.joints], rule)
+        if self.clip is not None:
+            lattice = lattice ^ manifold3d.CrossSection(self.clip, rule)
+        # Holes turn the other way, so that their winding number is 0.
+        return lattice + manifold3d.CrossSection(self.skin, rule)
+
+
+def layer_heights(bounds: Floats, layer: float) -> Floats:
+    """(n,) z of the middles of the layers of a box: at least one, none beyond its top, mm."""
+    low, high = bounds[:, 2]
+    middles: Floats = low + layer * (np.arange(max(round((high - low) / layer), 1)) + 0.5)
+    return middles
+
+
+def each_section(
+    part: SolidParts,
+    heights: Floats,
+    error: float,
+    use: Callable[[Section, float], T],
+    monitor: Monitor,
+) -> Iterator[T]:
+    """What becomes of the sections at some heights, one after the other, on all cores.
+
+    Memory holds the struts of a few layers and the walls, whatever the number of layers.
+
+    Args:
+        part: what is cut.
+        heights: (n,) ascending, mm.
+        error: largest distance of the outlines of struts from the true ones, mm.
+        use: of a section and its height; runs on several threads.
+        monitor: for progress and cancel.
+
+    Raises:
+        VolfrepError: a wall is no solid that can be cut.
+    """
+    clip = None if part.clip is None else as_manifold(part.clip)
+    skin = None if part.skin is None else as_manifold(part.skin)
+
+    def cut(bodies: Bodies, z: float) -> T:
+        return use(
+            Section(
+                *section_polygons(bodies, z, error),
+                None if clip is None else clip.slice(z).to_polygons(),
+                [] if skin is None else skin.slice(z).to_polygons(),
+            ),
+            z,
+        )
+
+    with ThreadPoolExecutor(threads()) as pool:
+        for first in range(0, len(heights), _AT_A_TIME):
+            some = heights[first : first + _AT_A_TIME]
+            bodies = bodies_of(part.struts_between(some[0], some[-1]))
+            running = [pool.submit(cut, bodies, float(z)) for z in some]
+            try:
+                for number, job in enumerate(running, first + 1):
+                    yield job.result()
+                    monitor.tick(number / len(heights))
+            finally:
+                for job in running:
+                    job.cancel()
+
+
+def whole(lattice: Wireframe) -> Callable[[float, float], Wireframe]:
+    """The struts of a lattice that is at hand as a whole, by height."""
+    ends = lattice.nodes[lattice.struts][:, :, 2]
+    reach = lattice.joint_radii[lattice.struts]
+    low, high = (ends - reach).min(axis=1), (ends + reach).max(axis=1)
+
+    def between(bottom: float, top: float) -> Wireframe:
+        kept = np.flatnonzero((low < top) & (high > bottom))
+        used, struts = np.unique(lattice.struts[kept], return_inverse=True)
+        return Wireframe(
+            lattice.nodes[used],
+            struts.reshape(-1, 2).astype(np.int32),
+            lattice.radii[kept],
+            lattice.joint_radii[used],
+        )
+
+    return between

@@ -1,0 +1,293 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Runs in a process of their own, which may be ended, or die, without harm to the study.
+
+The process is this Python's. It reads pickled runs and answers with a line each; when the pipe
+closes, because whoever started it is gone, it ends at once.
+"""
+
+from __future__ import annotations
+
+import os
+import pickle
+import queue
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Iterable
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import IO
+
+from ..util.errors import Cancelled, VolfrepError
+from ..util.progress import ProgressCallback
+from ..util.subprocesses import NO_WINDOW
+from ..util.version import VERSION
+from .actions import Shared
+from .designs import Design
+from .records import write_record
+from .runs import Batch, Ended, Limits, bench_of, record_of, run_design, run_in_turn
+
+#: How often a run is looked at, s.
+LOOK = 0.2
+#: A process that dies by itself gets its run again, so often; then the run is at fault.
+TRIES = 2
+_PROGRAM = "from volfrep.studies.apart import serve; serve()"
+_DONE = b"done\n"
+CANCELLED = "cancelled"
+#: Variables by which linear algebra is told its threads.
+_THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+
+
+def run_batch(
+    batch: Batch, ended: Ended | None = None, progress: ProgressCallback | None = None
+) -> int:
+    """Do the runs of a batch; what is in the records already is not done again.
+
+    Args:
+        batch: what to do.
+        ended: called after each run.
+        progress: called while a run goes on; returning False cancels.
+
+    Returns:
+        How many designs there were.
+
+    Raises:
+        VolfrepError: this worker has another version of the engine, does not see the study's
+            folder, or cannot tell how much memory a run takes.
+        Cancelled: the callback said so; the run that was going on leaves no record.
+    """
+    if batch.version != VERSION:
+        raise VolfrepError(
+            f"The study was begun with VOLFREP {batch.version}, and this worker has {VERSION}: "
+            "install the same version."
+        )
+    if batch.apart or batch.limits.any:
+        run_apart((batch,), ended, progress)
+    else:
+        run_in_turn(batch, ended, progress)
+    return len(batch.designs)
+
+
+def run_apart(
+    batches: Iterable[Batch], ended: Ended | None, progress: ProgressCallback | None
+) -> None:
+    """Do the runs of batches of one study in a process beside this one, which keeps its caches.
+
+    Raises:
+        VolfrepError: as `run_batch`.
+        Cancelled: the callback said so; the process has been ended.
+    """
+    child: _Child | None = None
+    try:
+        for batch in batches:
+            if batch.limits.memory_gb is not None:
+                resident_gb(os.getpid())
+            for design in batch.designs:
+                child = _run(batch, design, child, progress)
+                if ended is not None:
+                    ended(design.key)
+    finally:
+        if child is not None:
+            child.end()
+
+
+def _run(
+    batch: Batch, design: Design, child: _Child | None, progress: ProgressCallback | None
+) -> _Child | None:
+    """Do one run, twice where its process dies; the process that is left."""
+    for tried in range(1, TRIES + 1):
+        if not record_of(batch, design).missing(batch.actions, batch.asked, batch.retry):
+            return child
+        child = child or _Child(batch)
+        try:
+            ending = child.run(design, batch.limits, progress)
+        except BaseException:
+            child.end()
+            raise
+        if ending is None:
+            return child
+        child.end()
+        child = None
+        if ending.limited or tried == TRIES:
+            note(batch, design, ending.sentence)
+            break
+    return child
+
+
+@dataclass(frozen=True)
+class _Ending:
+    """Why a process has ended.
+
+    Attributes:
+        sentence: for the record.
+        limited: whether we have ended it, for a limit.
+    """
+
+    sentence: str
+    limited: bool
+
+
+class _Child:
+    """A process that does runs, one at a time."""
+
+    def __init__(self, batch: Batch) -> None:
+        threads = str(batch.threads or "")
+        environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+        if threads:
+            environment.update(dict.fromkeys(_THREADS, threads))
+        self._process = subprocess.Popen(
+            [sys.executable, "-c", _PROGRAM],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            env=environment,
+            creationflags=NO_WINDOW,
+        )
+        self._send(replace(batch, designs=(), apart=False, limits=Limits()))
+
+    def run(
+        self, design: Design, limits: Limits, progress: ProgressCallback | None
+    ) -> _Ending | None:
+        """Do one run; None once it is done, else why the process has ended.
+
+        Raises:
+            Cancelled: the callback said so.
+            VolfrepError: as the process says; the study cannot go on.
+        """
+        process, out = self._process, self._process.stdout
+        assert out is not None
+        stop = threading.Event()
+        broken: list[str] = []
+        watch = threading.Thread(
+            target=_watch, args=(process, limits, progress, stop, broken), daemon=True
+        )
+        watch.start()
+        try:
+            self._send(design)
+            answer = out.readline()
+        except OSError:  # it has died while it was spoken to
+            answer = b""
+        finally:
+            stop.set()
+            watch.join()
+        if broken == [CANCELLED]:
+            raise Cancelled("cancelled between runs")
+        if broken:
+            return _Ending(broken[0], limited=True)
+        if answer == _DONE:
+            return None
+        if answer:
+            raise VolfrepError(answer.decode().strip())
+        code = process.wait()
+        how = f"by signal {-code}" if code < 0 else f"with code {code}"
+        return _Ending(
+            f"The process of this run ended {how}, {TRIES} times: there may not be enough memory "
+            "for it.",
+            limited=False,
+        )
+
+    def end(self) -> None:
+        """End the process, whatever it does."""
+        self._process.kill()
+        self._process.wait()
+        for stream in (self._process.stdin, self._process.stdout):
+            if stream is not None:
+                with suppress(OSError):  # what was still to be sent has no reader any more
+                    stream.close()
+
+    def _send(self, value: object) -> None:
+        assert self._process.stdin is not None
+        pickle.dump(value, self._process.stdin)
+        self._process.stdin.flush()
+
+
+def resident_gb(process: int) -> float:
+    """The resident memory of a process, GB.
+
+    Raises:
+        VolfrepError: it cannot be told here.
+    """
+    if Path("/proc/self/statm").exists():
+        try:
+            pages = Path(f"/proc/{process}/statm").read_text().split()[1]
+            return int(pages) * os.sysconf("SC_PAGE_SIZE") / 1e9
+        except (OSError, IndexError):  # it has ended meanwhile
+            return 0.0
+    try:
+        import psutil
+    except ImportError as error:
+        raise VolfrepError(
+            "A limit of memory needs the package psutil here, which is not installed: run "
+            "'pip install psutil', or leave the limit out."
+        ) from error
+    try:
+        return float(psutil.Process(process).memory_info().rss) / 1e9
+    except psutil.NoSuchProcess:
+        return 0.0
+
+
+def _watch(
+    process: subprocess.Popen[bytes],
+    limits: Limits,
+    progress: ProgressCallback | None,
+    stop: threading.Event,
+    broken: list[str],
+) -> None:
+    """End a process that breaks a limit, or whose study is cancelled; note which."""
+    start = time.monotonic()
+    hours, memory = limits.hours, limits.memory_gb
+    while not stop.wait(LOOK):
+        if hours is not None and time.monotonic() - start > 3600.0 * hours:
+            broken.append(f"The run took more than the limit of {hours:g} hours, and was ended.")
+        elif memory is not None and resident_gb(process.pid) > memory:
+            broken.append(f"The run took more than the limit of {memory:g} GB, and was ended.")
+        elif progress is not None and progress(0.0, "") is False:
+            broken.append(CANCELLED)
+        if broken:
+            process.kill()
+            return
+
+
+def note(batch: Batch, design: Design, sentence: str) -> None:
+    """Write into a design's record why what is missing of it cannot be done."""
+    record = record_of(batch, design)
+    for name in record.missing(batch.actions, batch.asked, batch.retry):
+        record.results.pop(name, None)
+        record.errors[name] = sentence
+        record.keep(name, batch.asked, 0.0)
+    write_record(batch.asked.folder, record)
+
+
+def serve() -> None:
+    """What the process does until its pipe closes; called by nobody else."""
+    import signal
+
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # whoever started us decides
+    answers = os.fdopen(os.dup(1), "wb", buffering=0)
+    os.dup2(2, 1)  # what libraries print is no answer
+    sent: queue.SimpleQueue[object] = queue.SimpleQueue()
+    threading.Thread(target=_receive, args=(sys.stdin.buffer, sent), daemon=True).start()
+    batch = sent.get()
+    assert isinstance(batch, Batch)
+    from ..util.threads import use_threads
+
+    use_threads(batch.threads)
+    shared = Shared()
+    while True:
+        design = sent.get()
+        assert isinstance(design, Design)
+        try:
+            run_design(batch, design, bench_of(batch, design, shared))
+            answers.write(_DONE)
+        except VolfrepError as error:
+            answers.write(str(error).replace("\n", " ").encode() + b"\n")
+
+
+def _receive(stream: IO[bytes], sent: queue.SimpleQueue[object]) -> None:
+    """Pass on what is sent; end this process when nobody is there any more."""
+    while True:
+        try:
+            sent.put(pickle.load(stream))
+        except EOFError:
+            os._exit(0)

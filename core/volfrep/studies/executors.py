@@ -1,0 +1,254 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Who runs the batches: this process, processes beside it, or any `concurrent.futures.Executor`."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections import deque
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Executor, Future, ThreadPoolExecutor, wait
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from ..design.memory_guard import free_memory
+from ..util.errors import Cancelled, VolfrepError
+from ..util.progress import ProgressCallback
+from ..util.threads import threads
+from .apart import note, run_apart, run_batch
+from .runs import Batch
+
+#: How often the caller is told how far the runs are, s.
+TELL = 0.5
+#: The share of the free memory that the runs may take together.
+SHARE = 0.8
+#: A scheduler that does not answer within so long is not there, s.
+PATIENCE = 20
+
+
+@dataclass
+class Tally:
+    """How far a study is; told by forecasts, corrected by what the runs before have taken.
+
+    Attributes:
+        weights: expected seconds of each run that is to be done, by its key.
+        workers: side by side.
+        progress: called with the fraction done, and runs and time left in words.
+    """
+
+    weights: dict[str, float]
+    workers: int
+    progress: ProgressCallback | None
+    _ended: set[str] = field(default_factory=set)
+    _start: float = field(default_factory=time.monotonic)
+    _cancelled: threading.Event = field(default_factory=threading.Event)
+
+    def ended(self, key: str) -> None:
+        """Note a run's end."""
+        self._ended.add(key)
+
+    def goes_on(self, fraction: float = 0.0, stage: str = "") -> bool:
+        """A progress callback of a single run: False once the study is cancelled."""
+        return not self._cancelled.is_set()
+
+    def cancel(self) -> None:
+        """From now on every run is told to stop."""
+        self._cancelled.set()
+
+    def tell(self) -> bool:
+        """Say how far the study is; False when the caller says to stop."""
+        if self.progress is not None and self.progress(self.fraction, self.text) is False:
+            self.cancel()
+        return self.goes_on()
+
+    @property
+    def fraction(self) -> float:
+        """Done, of the expected time."""
+        total = sum(self.weights.values())
+        return self._done / total if total else 1.0
+
+    @property
+    def text(self) -> str:
+        """Runs done, and the time left."""
+        left = sum(self.weights.values()) - self._done
+        seconds = left / self.workers
+        if self._done > 0.0:
+            seconds = left * (time.monotonic() - self._start) / self._done
+        return f"{len(self._ended):,} of {len(self.weights):,} runs, {told_time(seconds)} left"
+
+    @property
+    def _done(self) -> float:
+        return sum(self.weights[key] for key in tuple(self._ended))
+
+
+def told_time(seconds: float) -> str:
+    """A time in words."""
+    if seconds < 90.0:
+        return f"about {seconds:.0f} s"
+    return (
+        f"about {seconds / 60.0:.0f} min" if seconds < 5400.0 else f"about {seconds / 3600:.1f} h"
+    )
+
+
+def fitting_workers(memory_gb: float, wanted: int | None) -> int:
+    """How many runs of so much memory each fit side by side; at most one a core.
+
+    Args:
+        memory_gb: of the largest run, as forecast.
+        wanted: taken as it is; None for as many as fit.
+
+    Raises:
+        VolfrepError: fewer than one is wanted.
+    """
+    if wanted is not None:
+        if wanted < 1:
+            raise VolfrepError(f"At least 1 worker is needed, not {wanted}.")
+        return wanted
+    fit = int(SHARE * free_memory() / (1e9 * max(memory_gb, 1e-3)))
+    return max(1, min(threads(), fit))
+
+
+@contextmanager
+def dask_executor(address: str) -> Iterator[tuple[Executor, int]]:
+    """The executor of a Dask scheduler, and how many runs it does side by side.
+
+    Raises:
+        VolfrepError: the package is missing, nobody answers, or there is no worker.
+    """
+    try:
+        from distributed import Client
+    except ImportError as error:
+        raise VolfrepError(
+            "A scheduler needs the package distributed, which is not installed: run "
+            "'pip install volfrep[dask]'."
+        ) from error
+    try:
+        client = Client(address, timeout=PATIENCE)
+    except (OSError, ValueError, TimeoutError) as error:
+        raise VolfrepError(
+            f"No Dask scheduler answers at '{address}': start 'dask scheduler', or correct the "
+            "address."
+        ) from error
+    with client:
+        try:
+            client.wait_for_workers(1, timeout=PATIENCE)
+        except TimeoutError as error:
+            raise VolfrepError(
+                f"The Dask scheduler at '{address}' has no worker: start 'dask worker {address}'."
+            ) from error
+        yield client.get_executor(pure=False), sum(client.nthreads().values())
+
+
+def run_here(batches: Sequence[Batch], tally: Tally) -> None:
+    """Run batches in this process, one after the other.
+
+    Raises:
+        Cancelled: the caller said so.
+    """
+
+    def ask(_: float = 0.0, __: str = "") -> bool:
+        return tally.tell()
+
+    for batch in batches:
+        if not ask():
+            raise Cancelled("the study was cancelled")
+        run_batch(batch, tally.ended, ask)
+    tally.tell()
+
+
+def run_beside(batches: Sequence[Batch], tally: Tally) -> None:
+    """Run batches in as many processes as the tally has workers.
+
+    Raises:
+        Cancelled: the caller said so; the processes have been ended.
+    """
+    left = deque(batches)
+    with ThreadPoolExecutor(tally.workers, "volfrep-study") as pool:
+        try:
+            futures = [
+                pool.submit(run_apart, _taken(left), tally.ended, tally.goes_on)
+                for _ in range(tally.workers)
+            ]
+            _wait(futures, tally)
+            for future in futures:
+                future.result()
+        except BaseException:  # cancelled, interrupted, or a folder that is gone: all runs stop
+            tally.cancel()
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
+
+
+def _taken(batches: deque[Batch]) -> Iterator[Batch]:
+    """Batches that nobody else has taken, until there are none."""
+    while True:
+        try:
+            yield batches.popleft()
+        except IndexError:
+            return
+
+
+def run_by(executor: Executor, batches: Sequence[Batch], tally: Tally) -> None:
+    """Run batches by any executor; what its workers cannot do is noted in the records.
+
+    Raises:
+        VolfrepError: the executor takes nothing more, or a worker cannot use the study's folder.
+        Cancelled: the caller said so; runs that have begun go on.
+    """
+    lost = _submitted(executor, batches, tally)
+    # Alone, a run that ends its worker takes no other one with it.
+    single = [replace(b, designs=(d,)) for b, _ in lost for d in b.designs]
+    for batch, error in _submitted(executor, single, tally):
+        why = f"The worker of this run was lost ({type(error).__name__}: {error})."
+        note(batch, batch.designs[0], why)
+
+
+def _submitted(
+    executor: Executor, batches: Sequence[Batch], tally: Tally
+) -> list[tuple[Batch, BaseException]]:
+    """Run batches; those whose workers were lost, with why."""
+    futures: list[Future[int]] = []
+
+    def count(batch: Batch) -> Callable[[Future[int]], None]:
+        def ended(future: Future[int]) -> None:
+            if not future.cancelled() and future.exception() is None:
+                for design in batch.designs:
+                    tally.ended(design.key)
+
+        return ended
+
+    try:
+        for batch in batches:
+            future = executor.submit(run_batch, batch)
+            future.add_done_callback(count(batch))
+            futures.append(future)
+    except RuntimeError as error:  # BrokenExecutor is one
+        raise VolfrepError(
+            f"The executor takes no more runs ({error}): start it anew; what is done is kept."
+        ) from error
+    try:
+        _wait(futures, tally)
+    except BaseException:
+        for future in futures:
+            future.cancel()
+        raise
+    lost = []
+    for batch, future in zip(batches, futures, strict=True):
+        why = future.exception()
+        if isinstance(why, VolfrepError):
+            raise why
+        if why is not None:
+            lost.append((batch, why))
+    return lost
+
+
+def _wait(futures: Sequence[Future[Any]], tally: Tally) -> None:
+    pending: set[Future[Any]] = set(futures)
+    while pending:
+        if not tally.tell():
+            raise Cancelled("the study was cancelled")
+        finished, pending = wait(pending, timeout=TELL)
+        for future in finished:
+            if isinstance(future.exception(), VolfrepError):
+                future.result()
+    tally.tell()

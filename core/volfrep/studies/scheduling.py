@@ -1,0 +1,170 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What is missing of a study's designs, cut into batches and given to who does them.
+
+Runs that need no mesh go first; forecasts say how many runs fit side by side, and how long they
+take.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from concurrent.futures import Executor
+from contextlib import ExitStack
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from ..mechanics.catalogue import known_cell
+from ..util.errors import VolfrepError
+from ..util.progress import ProgressCallback
+from ..util.threads import threads
+from ..util.version import VERSION
+from .actions import ACTIONS, Asked
+from .designs import Design
+from .executors import Tally, dask_executor, fitting_workers, run_beside, run_by, run_here
+from .expectation import planned
+from .records import Record, kept_part, read_record
+from .runs import Batch, Limits
+
+#: Expected seconds of a run without a mesh, with a cell of the catalogue and with another one.
+QUICK, HOMOGENISED = 0.02, 10.0
+#: Less work than this is done in this process, s: others take a second to start.
+WORTH_A_PROCESS = 5.0
+#: Batches for each worker, about: enough that none waits long for the last.
+BATCHES_EACH = 6
+#: Of the actions after a fill, each takes about this part of its time.
+AFTER_FILL = 0.2
+
+
+@dataclass(frozen=True)
+class How:
+    """How the runs of a study are done.
+
+    Attributes:
+        workers: runs side by side; 1 for this process; None for what cores and memory allow.
+        executor: that does them in their stead.
+        scheduler: of Dask, that does them in their stead.
+        shard: i and n: only every n-th design, beginning with the i-th.
+        limits: of each run.
+        retry: whether what failed is tried again.
+
+    Raises:
+        VolfrepError: at construction, where they do not go together.
+    """
+
+    workers: int | None = None
+    executor: Executor | None = None
+    scheduler: str | None = None
+    shard: tuple[int, int] = (1, 1)
+    limits: Limits = field(default_factory=Limits)
+    retry: bool = False
+
+    def __post_init__(self) -> None:
+        given = [v for v in (self.workers, self.executor, self.scheduler) if v is not None]
+        if len(given) > 1:
+            raise VolfrepError("Give one of workers, executor and scheduler: each says who works.")
+        if not 1 <= self.shard[0] <= self.shard[1]:
+            raise VolfrepError(
+                f"A shard is one of so many, such as 1/4 or 4/4, not {self.shard[0]}/"
+                f"{self.shard[1]}."
+            )
+
+
+class Job:
+    """Runs of a study's designs, as they were asked for."""
+
+    def __init__(
+        self, folder: Path, asked: Asked, how: How, progress: ProgressCallback | None
+    ) -> None:
+        self._folder, self._asked, self._how, self._progress = folder, asked, how, progress
+
+    def do(self, designs: Sequence[Design], actions: tuple[str, ...]) -> int:
+        """Do what is missing, what needs no mesh first; how many runs there were."""
+        done = 0
+        for meshed in (False, True):
+            names = tuple(name for name in actions if ACTIONS[name].meshed == meshed)
+            pending = [design for design in designs if self._is_missing(design, names)]
+            if pending:
+                self._run(pending, names, meshed)
+                done += len(pending)
+        return done
+
+    def _is_missing(self, design: Design, names: tuple[str, ...]) -> bool:
+        record = read_record(self._folder, design.key) or Record(design.key, "", {}, {})
+        return bool(record.missing(names, self._asked, self._how.retry))
+
+    def _run(self, designs: list[Design], names: tuple[str, ...], meshed: bool) -> None:
+        solids = {d.part.content: kept_part(self._folder, d.part.content) for d in designs}
+        plans = {d.key: planned(solids[d.part.content], d.spec) for d in designs}
+        table = dict.fromkeys(names, meshed)
+        weights = {d.key: weight(d, plans[d.key].seconds, table) for d in designs}
+        memory = max(plan.memory_gb for plan in plans.values()) if meshed else 0.2
+        how = self._how
+        with ExitStack() as open_until_done:
+            executor = how.executor
+            if how.scheduler is not None:
+                executor, workers = open_until_done.enter_context(dask_executor(how.scheduler))
+            elif executor is not None:
+                workers = getattr(executor, "_max_workers", threads())
+            elif how.workers is None and sum(weights.values()) < WORTH_A_PROCESS:
+                workers = 1
+            else:
+                workers = min(fitting_workers(memory, how.workers), len(designs))
+            beside = executor is None and workers > 1
+            batches = [
+                self._batch(group, names, workers if beside else 0)
+                for group in _grouped(designs, weights, workers, meshed)
+            ]
+            tally = Tally(weights, workers, self._progress)
+            if executor is not None:
+                run_by(executor, batches, tally)
+            elif beside:
+                run_beside(batches, tally)
+            else:
+                run_here(batches, tally)
+
+    def _batch(self, designs: list[Design], names: tuple[str, ...], beside: int) -> Batch:
+        how = self._how
+        each = max(1, threads() // beside) if beside else 0
+        return Batch(
+            tuple(designs), names, self._asked, VERSION, how.limits, how.retry, each, beside > 0
+        )
+
+
+def weight(design: Design, seconds: float, actions: Mapping[str, bool]) -> float:
+    """Expected seconds of a run with these actions, of which some need the mesh."""
+    total = 0.0
+    if "properties" in actions:
+        known = not design.spec.fillet and known_cell(design.spec.unit_cell()) is not None
+        total += QUICK if known else HOMOGENISED
+    meshed = sum(actions.values())
+    if meshed:
+        total += seconds * (1.0 + AFTER_FILL * (meshed - 1))
+    return total + QUICK
+
+
+def _grouped(
+    designs: list[Design], weights: Mapping[str, float], workers: int, meshed: bool
+) -> list[list[Design]]:
+    """Designs by worker and turn: side by side what shares a wall, or an endless lattice.
+
+    The longest batches come first.
+    """
+
+    def shared(design: Design) -> tuple[str, ...]:
+        spec = design.spec
+        target = () if spec.target is None else (repr(spec.target),)
+        wall = (design.part.content, f"{spec.shell!r}", repr(spec.open_faces))
+        cell = (spec.unit_cell().name, f"{spec.strut_radius / spec.cell_size:.9g}", *target)
+        return (*wall, *cell) if meshed else (*cell, *wall)
+
+    most = sum(weights.values()) / (BATCHES_EACH * workers)
+    groups: list[list[Design]] = [[]]
+    load, before = 0.0, ""
+    for design in sorted(designs, key=lambda d: (shared(d), d.key)):
+        kind = shared(design)[0]
+        if groups[-1] and (load >= most or (kind != before and load >= 0.5 * most)):
+            groups.append([])
+            load = 0.0
+        groups[-1].append(design)
+        load, before = load + weights[design.key], kind
+    return sorted(groups, key=lambda group: -sum(weights[d.key] for d in group))

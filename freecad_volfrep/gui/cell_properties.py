@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What a cell does, with a size, a radius and a material that can be changed: a part of windows."""
+
+from __future__ import annotations
+
+import html
+from typing import Any
+
+import FreeCADGui as Gui
+
+from freecad_volfrep.features.materials import material_of
+from freecad_volfrep.features.progress import run_job
+from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
+from volfrep.design.cells import UnitCell
+from volfrep.design.parameters.table import NOTHING
+from volfrep.util.errors import Cancelled, VolfrepError
+
+from .qt import QtCore, QtWidgets
+
+_CONTEXT = "VolfrepCells"
+#: What the fields begin with, mm.
+_SIZE, _RADIUS = 10.0, 1.0
+#: The figures follow once no value has changed for so long, ms.
+_SETTLED = 150
+_FIELDS = {
+    "CellSize": QT_TRANSLATE_NOOP("VolfrepCells", "Cell size L"),
+    "StrutRadius": QT_TRANSLATE_NOOP("VolfrepCells", "Strut radius r"),
+}
+
+
+class CellProperties(QtWidgets.QWidget):
+    """Density, moduli, strength and conductivity of the picked cell, each with its error.
+
+    Library cells are read off the catalogue at once; for others there is a button, because it takes
+    seconds.
+    """
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._cell: UnitCell | None = None
+        self._solid: Any = None
+        column = QtWidgets.QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        rows = QtWidgets.QFormLayout()
+        column.addLayout(rows)
+        self._timer = QtCore.QTimer(self)
+        self._timer.setSingleShot(True)
+        self._timer.timeout.connect(self._refresh)
+        self._fields = {name: self._length(name) for name in _FIELDS}
+        for name, field in self._fields.items():
+            rows.addRow(translate(_CONTEXT, _FIELDS[name]), field)
+        self._material = QtWidgets.QComboBox()
+        self._material.setObjectName("Material")
+        rows.addRow(translate(_CONTEXT, "Material"), self._material)
+        self._figures = QtWidgets.QLabel()
+        self._figures.setObjectName("Properties")
+        self._figures.setTextInteractionFlags(QtCore.Qt.TextSelectableByMouse)
+        column.addWidget(self._figures)
+        self._compute = QtWidgets.QPushButton(translate(_CONTEXT, "Compute"))
+        self._compute.setObjectName("ComputeProperties")
+        self._compute.setAutoDefault(False)
+        self._compute.setToolTip(
+            translate(_CONTEXT, "Homogenise this cell with this radius: it takes some seconds")
+        )
+        self._compute.clicked.connect(lambda _=False: self.compute())
+        column.addWidget(self._compute)
+        self._offer_materials()
+        self._material.currentIndexChanged.connect(lambda _: self._timer.start(0))
+
+    def begin_with(self, infill: Any) -> None:
+        """Take size, radius and material of an infill over."""
+        self._fields["CellSize"].setProperty("rawValue", infill.CellSize.Value)
+        self._fields["StrutRadius"].setProperty("rawValue", infill.StrutRadius.Value)
+        try:
+            self._solid = material_of(infill)
+        except VolfrepError:  # the infill itself says what is wrong with it
+            self._solid = None
+        self._offer_materials()
+
+    def show_cell(self, cell: UnitCell) -> None:
+        """Tell what this cell does."""
+        self._cell = cell
+        self._refresh()
+
+    def compute(self) -> None:
+        """Homogenise the cell; says here what is wrong with the values."""
+        from volfrep.mechanics.summary import cell_properties
+
+        cell, (size, radius) = self._cell, self._sizes()
+        assert cell is not None
+        material = self._material.currentData()
+        title = translate(_CONTEXT, "Properties of {name}").format(name=cell.name)
+        try:
+            found = run_job(title, lambda _: cell_properties(cell, size, radius, material=material))
+        except VolfrepError as error:
+            self._figures.setText(html.escape(str(error)))
+        except Cancelled:
+            return
+        else:
+            self._tell(found.rows())
+
+    def _length(self, name: str) -> Any:
+        spin = Gui.UiLoader().createWidget("Gui::QuantitySpinBox")
+        spin.setObjectName(name)
+        spin.setProperty("unit", "mm")
+        spin.setProperty("minimum", 0.0)
+        spin.setProperty("rawValue", {"CellSize": _SIZE, "StrutRadius": _RADIUS}[name])
+        spin.findChild(QtWidgets.QLineEdit).textChanged.connect(
+            lambda _: self._timer.start(_SETTLED)
+        )
+        return spin
+
+    def _offer_materials(self) -> None:
+        from volfrep.mechanics.materials import MATERIALS
+
+        self._material.blockSignals(True)
+        self._material.clear()
+        self._material.addItem(translate("App::Property", NOTHING))
+        for material in MATERIALS.values():
+            self._material.addItem(material.name, material)
+        if self._solid is not None:
+            row = self._material.findText(self._solid.name)
+            if row < 0:
+                self._material.addItem(self._solid.name, self._solid)
+                row = self._material.count() - 1
+            self._material.setCurrentIndex(row)
+        self._material.blockSignals(False)
+
+    def _sizes(self) -> tuple[float, float]:
+        return tuple(float(field.property("rawValue")) for field in self._fields.values())  # type: ignore[return-value]
+
+    def _refresh(self) -> None:
+        from volfrep.mechanics.catalogue import known_properties
+
+        if self._cell is None:
+            return
+        size, radius = self._sizes()
+        found = None
+        if size > 0.0:
+            found = known_properties(self._cell, size, radius, self._material.currentData())
+        if found is not None:
+            self._tell(found.rows())
+            return
+        self._figures.setText(
+            translate(
+                _CONTEXT, "This cell with this radius is not in the catalogue: press Compute."
+            )
+        )
+
+    def _tell(self, rows: list[tuple[str, str]]) -> None:
+        lines = "".join(
+            f"<tr><td>{html.escape(translate('VolfrepReport', name))}&nbsp;&nbsp;</td>"
+            f"<td>{html.escape(text)}</td></tr>"
+            for name, text in rows
+            if name not in ("cell", "material")
+        )
+        self._figures.setText(f"<table>{lines}</table>")

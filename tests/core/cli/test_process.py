@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The command as a process: closed and full streams, readers that leave, Ctrl-C at any time."""
+
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+COMMAND = [sys.executable, "-m", "volfrep"]
+BLOCK = ["block", "--count", "2,2,2", "--cell-size", "5", "--strut-radius", "0.5", "-o", "a.stl"]
+INTERRUPTED = b"volfrep: Interrupted, no file was left half-written.\n"
+needs_unix = pytest.mark.skipif(os.name == "nt", reason="streams of a Unix process")
+
+#: The command, interrupted while it imports a module; compiled ones make another error of it.
+IMPORTING = """
+import os, signal, sys
+import volfrep.__main__ as command
+
+class Finder:
+    def find_spec(self, name, path=None, target=None):
+        if name == MODULE:
+            try:
+                os.kill(os.getpid(), signal.SIGINT)
+            except KeyboardInterrupt:
+                if TURNED:
+                    raise ImportError("half imported") from None
+                raise
+
+sys.meta_path.insert(0, Finder())
+command.main()
+"""
+
+
+def run(arguments, folder, **streams):
+    return subprocess.run([*COMMAND, *arguments], cwd=folder, check=False, **streams)
+
+
+@needs_unix
+def test_a_full_standard_output_loses_text_and_no_file(tmp_path: Path) -> None:
+    with open("/dev/full", "w", encoding="ascii") as full:
+        done = run(BLOCK, tmp_path, stdout=full, stderr=subprocess.PIPE)
+    assert done.returncode == 2
+    assert done.stderr == (
+        b"volfrep: Standard output took no more text (No space left on device).\n"
+    )
+    assert os.listdir(tmp_path) == ["a.stl"]
+
+
+@needs_unix
+@pytest.mark.parametrize("arguments", [["cells"], ["--help"], ["--version"], ["fill", "--help"]])
+def test_a_full_standard_output_is_told_by_every_command(tmp_path: Path, arguments) -> None:
+    with open("/dev/full", "w", encoding="ascii") as full:
+        done = run(arguments, tmp_path, stdout=full, stderr=subprocess.PIPE)
+    assert done.stderr.startswith(b"volfrep: Standard output took no more text")
+    assert b"Traceback" not in done.stderr
+    assert done.returncode == 2
+
+
+@needs_unix
+@pytest.mark.parametrize("closed", ["1", "2", "0 1 2"])
+def test_closed_streams_are_no_hindrance(tmp_path: Path, closed) -> None:
+    """A closed stream's number would else be that of the next file that is opened."""
+    code = f"import os, sys\nfor n in map(int, {closed!r}.split()): os.close(n)\n"
+    code += f"os.execv(sys.executable, [sys.executable, '-m', 'volfrep', *{BLOCK!r}])"
+    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True)
+    assert done.returncode == 0
+    assert done.stderr == b""
+    plain = run([*BLOCK[:-1], "b.stl"], tmp_path, capture_output=True)
+    assert plain.returncode == 0
+    assert (tmp_path / "a.stl").read_bytes() == (tmp_path / "b.stl").read_bytes()
+
+
+@needs_unix
+def test_a_reader_that_leaves_ends_no_job(tmp_path: Path) -> None:
+    read, write = os.pipe()
+    os.close(read)
+    done = run(BLOCK, tmp_path, stdout=write, stderr=subprocess.PIPE)
+    os.close(write)
+    assert (done.returncode, done.stderr) == (0, b"")
+    assert os.listdir(tmp_path) == ["a.stl"]
+
+
+@needs_unix
+@pytest.mark.parametrize(
+    ("module", "turned"),
+    [("argparse", False), ("volfrep.cli.command", False), ("numpy", False), ("numpy", True),
+     ("scipy.sparse", True)],
+)  # fmt: skip
+def test_ctrl_c_during_an_import_is_an_interruption(tmp_path: Path, module, turned) -> None:
+    code = IMPORTING.replace("MODULE", repr(module)).replace("TURNED", str(turned))
+    done = subprocess.run(
+        [sys.executable, "-c", code, *BLOCK[:-1], "a.3mf"],
+        cwd=tmp_path,
+        capture_output=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )
+    assert done.stderr == INTERRUPTED
+    assert done.returncode == 130
+    assert os.listdir(tmp_path) == []
+
+
+def test_warnings_of_libraries_are_not_for_the_user(tmp_path: Path) -> None:
+    code = (
+        "import sys, numpy as np, volfrep.__main__ as command, volfrep.design.cells as cells\n"
+        "find = cells.find_cell\n"
+        "def warned(name):\n    np.float64(1.0) / np.zeros(1)\n    return find(name)\n"
+        "cells.find_cell = warned\n"
+        "import volfrep.design.spec as spec\nspec.find_cell = warned\n"
+        "command.main()"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code, *BLOCK], cwd=tmp_path, capture_output=True, check=False
+    )
+    assert (done.returncode, done.stderr) == (0, b"")

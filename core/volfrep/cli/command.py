@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..util.errors import VolfrepError
-from . import layers, material, printing_options, process, properties, solver_options, sweep
+from . import layers, material, printing_options, process, properties, sizing, solver_options, sweep
 from .files import check_files
 from .parameter_options import add_parameters, write_specification
 from .parser import Parser, Version, refuse_old, three_whole_numbers
@@ -111,6 +111,7 @@ def _parser() -> argparse.ArgumentParser:
     _add_unit(layers.add_command(add))
     properties.add_command(add)
 
+    sizing.add_command(add)
     sweep.add_command(add)
 
     check = add("check", _check, "Tell what a reader sees in a mesh file (STL, OBJ, PLY, 3MF).")
@@ -155,6 +156,7 @@ def _fill(options: argparse.Namespace) -> None:
     from ..io.solid import read_solid
     from ..jobs.rough_radius import roughly_aimed
     from ..jobs.targets import aimed
+    from ..util.workers import processes
 
     start = time.perf_counter()
     solid = read_solid(part, options.unit)
@@ -163,10 +165,14 @@ def _fill(options: argparse.Namespace) -> None:
     read_seconds = time.perf_counter() - start
     meshed = options.threemf != "beams" and not solver_options.needs_axes(options)
     if not options.quiet:
-        expected = forecast_fill(solid, roughly_aimed(solid, spec))
+        aim = roughly_aimed(solid, spec)
+        expected = forecast_fill(solid, aim, streamed=_writes_stl(options))
         print(f"Expected: {expected if meshed else expected.of_axes}.", flush=True)
-    with Progress(options.quiet) as progress:
-        infill = aimed(solid, spec, progress=progress, meshed=meshed)
+    with processes() as executor, Progress(options.quiet) as progress:
+        infill = aimed(
+            solid, spec, progress=progress, meshed=meshed, executor=executor,
+            streamed=_writes_stl(options),
+        )  # fmt: skip
         spec = infill.spec
         if solver_options.fill_axes(infill, options, start):
             return
@@ -267,7 +273,7 @@ def _finish(
     `domain` is what the lattice fills, for the print report; `write` writes the file where it is
     not a mesh.
     """
-    from ..io.write import write_mesh
+    from ..io.write import write_surface
     from ..io.write.threemf import write_3mf_beams
     from ..util.progress import peak_memory_mb
 
@@ -278,7 +284,7 @@ def _finish(
     if write is not None:
         warnings += write(result)
     elif beams is None:
-        write_mesh(result.mesh, options.output, figures=result.report.figures)
+        write_surface(result.surface, options.output, figures=result.report.figures)
     else:
         figures = result.report.figures
         write_3mf_beams(beams, options.output, result.mesh, figures=figures)

@@ -197,6 +197,12 @@ class LatticeSpec:
         return any(part is not None for part in parts)
 
     @property
+    def streams(self) -> bool:
+        """Whether a file of its result needs no mesh of what the wall does not cut: equal cells."""
+        whole = bool(self.open_faces) or self.drains is not None
+        return self.is_cut and not self.is_graded and not whole
+
+    @property
     def template_radius(self) -> float:
         """The radius that octants are meshed for, between the extremes, mm."""
         return self.struts.template_radius

@@ -27,16 +27,15 @@ def number(name: str, value: float, unit: str, *, positive: bool | None) -> floa
         VolfrepError: it is none, or out of the unit's range (`RANGES`); the text begins with the
             name.
     """
-    of = f" {unit}" * bool(unit)
-    in_unit = f" in {unit}" * bool(unit)
+    of, within = (f" {unit}", f" in {unit}") if unit else ("", "")
     try:
         result = float(value)
     except (TypeError, ValueError) as error:
-        raise VolfrepError(f"The {name} must be a number{in_unit}, not {value!r}.") from error
+        raise VolfrepError(f"The {name} must be a number{within}, not {value!r}.") from error
     except OverflowError:  # a whole number
         result = math.inf
     if not math.isfinite(result):
-        raise VolfrepError(f"The {name} must be a finite number{in_unit}, not {result}.")
+        raise VolfrepError(f"The {name} must be a finite number{within}, not {result}.")
     if positive and result <= 0:
         raise VolfrepError(f"The {name} must be above 0{of}, not {result:g}.")
     if positive is False and result < 0:

@@ -460,7 +460,7 @@ BY_FIELD = ["--radius-grading", "field"]
         (["--size-grading", "formula"], "needs --lambda-formula"),
         (["--size-grading", "formula", "--lambda-formula", "1 + t"], "'t'"),
         (["--size-grading", "linear", "--lambda-end", "0.4"], "folds the lattice at s ="),
-        ([*LINEAR, "--lambda-start", "-1"], "start must be above 0"),
+        ([*LINEAR, "--lambda-start", "-1"], "start must be above 0, not -1"),
         ([*LINEAR, "--grading-direction", "0,0,0"], "grading direction must not be zero"),
         (["--lambda-end", "2"], "--lambda-end has no effect without --size-grading"),
         (

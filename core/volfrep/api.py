@@ -95,9 +95,9 @@ class Part:
             VolfrepError: an unknown extension, or the path cannot be written; what was there
                 before stays.
         """
-        from .io.write import write_mesh
+        from .io.write import write_surface
 
-        write_mesh(self.result.mesh, path, figures=self.report.figures)
+        write_surface(self.result.surface, path, figures=self.report.figures)
 
     def check(
         self, process: str, build_direction: tuple[float, float, float] = (0.0, 0.0, 1.0)

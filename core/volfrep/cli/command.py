@@ -156,30 +156,37 @@ def _fill(options: argparse.Namespace) -> None:
     from ..io.solid import read_solid
     from ..jobs.rough_radius import roughly_aimed
     from ..jobs.targets import aimed
+    from ..util.workers import processes
 
     start = time.perf_counter()
     solid = read_solid(part, options.unit)
     if not solid.states_unit:
         refuse_scale(solid.bounds, spec.cell_size, part.name)
     read_seconds = time.perf_counter() - start
-    if not options.quiet:
-        print(f"Expected: {forecast_fill(solid, roughly_aimed(solid, spec))}.", flush=True)
     meshed = options.threemf != "beams" and not solver_options.needs_axes(options)
-    with Progress(options.quiet) as progress:
-        infill = aimed(solid, spec, progress=progress, meshed=meshed)
+    if not options.quiet:
+        aim = roughly_aimed(solid, spec)
+        expected = forecast_fill(solid, aim, streamed=_writes_stl(options))
+        print(f"Expected: {expected if meshed else expected.of_axes}.", flush=True)
+    with processes() as executor, Progress(options.quiet) as progress:
+        infill = aimed(
+            solid, spec, progress=progress, meshed=meshed, executor=executor,
+            streamed=_writes_stl(options),
+        )  # fmt: skip
         spec = infill.spec
         if solver_options.fill_axes(infill, options, start):
             return
         if options.threemf == "beams":
             printing_options.finish_beams(infill.beams, options, start)
             return
+        solver_options.settle_step(infill, options)
         beams = infill.beams if options.threemf == "both" else None
         result = infill.result
         domain = None
         if options.print_report is not None:
             domain = infill.cavity
         write = solver_options.writer(options, spec, infill, progress)
-        _finish(result, options, {"read": read_seconds}, beams, domain, write)
+        _finish(result, options, spec, {"read": read_seconds}, beams, domain, write)
         _picture(result, options, spec, solid)
 
 
@@ -216,7 +223,7 @@ def _block(options: argparse.Namespace) -> None:
             return
         result = block(spec, tuple(options.count), progress=progress)
         write = solver_options.writer(options, spec, None, progress)
-        _finish(result, options, {}, beams, write=write)
+        _finish(result, options, spec, {}, beams, write=write)
         _picture(result, options, spec)
 
 
@@ -255,6 +262,7 @@ def _check_targets(options: argparse.Namespace, spec: LatticeSpec) -> None:
 def _finish(
     result: Result,
     options: argparse.Namespace,
+    spec: LatticeSpec,
     before: dict[str, float],
     beams: BeamModel | None,
     domain: TriangleMesh | None = None,
@@ -265,7 +273,7 @@ def _finish(
     `domain` is what the lattice fills, for the print report; `write` writes the file where it is
     not a mesh.
     """
-    from ..io.write import write_mesh
+    from ..io.write import write_surface
     from ..io.write.threemf import write_3mf_beams
     from ..util.progress import peak_memory_mb
 
@@ -276,7 +284,7 @@ def _finish(
     if write is not None:
         warnings += write(result)
     elif beams is None:
-        write_mesh(result.mesh, options.output, figures=result.report.figures)
+        write_surface(result.surface, options.output, figures=result.report.figures)
     else:
         figures = result.report.figures
         write_3mf_beams(beams, options.output, result.mesh, figures=figures)
@@ -287,7 +295,7 @@ def _finish(
     )
     printing = None
     if options.print_report is not None:
-        printing = printing_options.report_of(result, options, domain)
+        printing = printing_options.report_of(result, options, spec, domain)
     tell(dataclasses.replace(report, warnings=warnings), options, printing)
 
 

@@ -33,8 +33,12 @@ SECONDS_PER_TRIANGLE = 4.5e-6
 SECONDS_PER_BLOCK_TRIANGLE = 4e-7
 #: Bytes at the peak: of every job, and for each triangle of a part and of a block.
 BYTES = 1.5e8
-BYTES_PER_TRIANGLE = 800.0
+BYTES_PER_TRIANGLE = 200.0
 BYTES_PER_BLOCK_TRIANGLE = 150.0
+#: How thick the layer of octants at the wall is, in units of L; bytes for each of its triangles,
+#: where the others go straight into the file.
+CUT_LAYER = 0.85
+BYTES_PER_CUT_TRIANGLE = 220.0
 #: Bytes that a cell of a block takes whose octants are written as they are laid.
 BYTES_PER_STREAMED_CELL = 5000
 #: Bytes of a triangle in a binary STL file.
@@ -61,16 +65,23 @@ class Forecast:
     stl_mb: float
     seconds: float
 
+    @property
+    def of_axes(self) -> str:
+        """Where nothing is meshed: the struts, and no triangles, memory and file of a mesh."""
+        return f"about {_rounded(self.cells)} cells, {_rounded(self.struts)} struts"
+
     def __str__(self) -> str:
         return (
-            f"about {_rounded(self.cells)} cells, {_rounded(self.struts)} struts, "
-            f"{_rounded(self.triangles)} triangles, {self.memory_gb:.2g} GB of memory, an STL "
-            f"file of {self.stl_mb:.2g} MB and {_duration(self.seconds)}"
+            f"{self.of_axes}, {_rounded(self.triangles)} triangles, {self.memory_gb:.2g} GB of "
+            f"memory, an STL file of {self.stl_mb:.2g} MB and {_duration(self.seconds)}"
         )
 
 
-def forecast_fill(solid: TriangleMesh, spec: LatticeSpec) -> Forecast:
-    """What `pipeline.fill` will come to; takes no longer than to add up the solid's triangles."""
+def forecast_fill(solid: TriangleMesh, spec: LatticeSpec, *, streamed: bool = False) -> Forecast:
+    """What `pipeline.fill` will come to; takes no longer than to add up the solid's triangles.
+
+    `streamed`: where the result goes straight into an STL file.
+    """
     volume = abs(solid.volume)
     area = solid.area
     inside = max(volume - area * spec.shell, LEAST_INSIDE * volume)
@@ -85,7 +96,11 @@ def forecast_fill(solid: TriangleMesh, spec: LatticeSpec) -> Forecast:
     grid = np.ceil(np.ptp(solid.bounds, axis=0) / spec.cell_size - 1e-6).prod()
     cells = min(cells, float(grid) * spec.cell_size**3 / one)
     seconds = SECONDS + wall + SECONDS_PER_TRIANGLE * triangles
-    return _forecast(cells, strut_shares(spec.unit_cell()), triangles, BYTES_PER_TRIANGLE, seconds)
+    held = BYTES_PER_TRIANGLE * triangles
+    if streamed and spec.streams:
+        at_wall = expected_triangles(spec, min(inside, CUT_LAYER * spec.cell_size * area))
+        held = min(held, BYTES_PER_CUT_TRIANGLE * at_wall)
+    return _forecast(cells, strut_shares(spec.unit_cell()), triangles, held / triangles, seconds)
 
 
 def forecast_block(spec: LatticeSpec, count: Sequence[int], *, streamed: bool = False) -> Forecast:

@@ -16,7 +16,7 @@ from .spec import LatticeSpec
 
 #: Bytes that a triangle takes at the peak: laid out and checked, or in the Boolean as well.
 BYTES_PER_TRIANGLE = 150
-BYTES_PER_BOOLEAN_TRIANGLE = 900
+BYTES_PER_BOOLEAN_TRIANGLE = 250
 #: Bytes that a cell of the grid takes while cells and octants are told apart.
 BYTES_PER_CELL = 500
 #: Bytes that a strut of each cell of a block takes where it stays an axis: 5.2 million of Octet

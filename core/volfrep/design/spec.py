@@ -53,7 +53,8 @@ class LatticeSpec:
         strut_radius: r, of every strut.
         shell: thickness of the closed skin; 0 trims the lattice at the outer surface.
         resolution: facets along L, and never fewer than struts need (`coarsest_resolution`); or
-        deviation: largest distance in mm between a facet and the exact strut. With neither,
+        deviation: distance in mm between a facet and the exact strut, kept within 1.5 times on
+            97 % of the surface; in the creases where struts meet it is more. With neither,
             the deviation is `DEFAULT_RELATIVE_DEVIATION` r.
         activation: ``touching`` (every cell that touches the domain), ``centre`` (cells whose
             centre lies inside it: the rule of the paper) or ``inside`` (cells that lie wholly
@@ -194,6 +195,12 @@ class LatticeSpec:
         """Whether the lattice is anything but equal cells along x, y, z."""
         parts = (self.size_grading, self.radius_grading, self.cell_map, self.orientation)
         return any(part is not None for part in parts)
+
+    @property
+    def streams(self) -> bool:
+        """Whether a file of its result needs no mesh of what the wall does not cut: equal cells."""
+        whole = bool(self.open_faces) or self.drains is not None
+        return self.is_cut and not self.is_graded and not whole
 
     @property
     def template_radius(self) -> float:

@@ -12,7 +12,7 @@ from ..grid.placement import part_map
 from ..lattice.padded_grid import PaddedGrid, padded_grid
 from ..mesh.triangle_mesh import TriangleMesh, box_of, concatenate
 from ..shell.domain import Domain
-from ..trim.boolean_trim import OctantRoles, octant_roles
+from ..trim.culling import OctantRoles, octant_roles
 from ..util.progress import Monitor
 from ..util.types import Bools
 

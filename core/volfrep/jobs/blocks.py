@@ -20,17 +20,18 @@ from ..grid.placement import Placement, block_placement, graded_wireframe
 from ..grid.sizes import mapped_volume
 from ..grid.strut_graph import CellGraph, Wireframe, cell_graph
 from ..io.write.stl import write_stl
-from ..io.write.stl_octants import keeps_corners, write_octants_stl
+from ..io.write.stl_octants import write_octants_stl
 from ..lattice.assembly import Layout, facets, lay_out
-from ..lattice.certificate import agree_on_faces, certify
+from ..lattice.certificate import agree_on_faces, certify, keeps_corners
 from ..lattice.padded_grid import keeps_places, vertices_of
-from ..mesh.quality import Quality, inspect, measure
+from ..mesh.quality import Quality, measure
 from ..mesh.triangle_mesh import TriangleMesh
 from ..octants.octant import octant_grid
 from ..octants.octant_mesh import OctantSpec, mesh_octants, octant_spec
 from ..reports.report import Report, told
 from ..reports.result import NOTHING_REMOVED, Result, report_of
 from ..trim.finish import finished, refuse_no_solid
+from ..trim.trimmed_surface import TrimmedSurface
 from ..util.errors import VolfrepError
 from ..util.numbers import whole
 from ..util.progress import Monitor, ProgressCallback, peak_memory_mb
@@ -87,23 +88,23 @@ def _meshed(laid: _Laid, spec: LatticeSpec, monitor: Monitor) -> Result:
         given = vertices_of(
             layout, lambda: laid.graph, cell, spec.struts, laid.octant_spec, placement, monitor
         )
-        mesh = TriangleMesh(given.vertices, facets(layout, monitor))
+        surface = TrimmedSurface(TriangleMesh(given.vertices, facets(layout, monitor)))
     removed = dict(NOTHING_REMOVED)
     with monitor.stage("check", 0.8, 1.0):
-        measured = measure(mesh, monitor) if spec.is_graded else certify(layout)
+        measured = measure(surface.mesh, monitor) if spec.is_graded else certify(layout)
         if measured.shells > 1 or measured.degenerate_triangles:
             # of no use to most blocks, and slow to import
             from ..trim.loose_pieces import clear, smallest_shell
 
-            cleared = clear(mesh, inspect(mesh, monitor), smallest_shell(laid.octant_spec))
-            mesh, measured = cleared.mesh, cleared.quality
+            cleared = clear(surface, smallest_shell(laid.octant_spec), monitor)
+            surface, measured = cleared.surface, cleared.quality
             removed["pieces_removed"] = cleared.pieces_removed
             removed["specks_removed"] = cleared.specks_removed
         moved = not keeps_places(spec.struts, placement)
-        mesh, measured, notes = finished(mesh, measured, monitor, moved)
+        surface, measured, notes = finished(surface, measured, monitor, moved)
     frame = graded_wireframe(laid.graph, spec.struts, placement)
     report = _report(laid, measured, frame, spec, monitor, removed)
-    return Result(mesh, frame, told(report, notes))
+    return Result(surface, frame, told(report, notes))
 
 
 def write_block_stl(
@@ -139,8 +140,9 @@ def write_block_stl(
         with monitor.stage("check", 0.4, 0.5):
             measured = certify(laid.layout)
             refuse_no_solid(measured)
-            streams = measured.shells == 1 and keeps_corners(laid.layout, measured.bounds)
-            streams = streams and agree_on_faces(laid.layout)
+            streams = measured.shells == 1 and agree_on_faces(laid.layout)
+            kinds, edge = laid.layout.octants.values(), 0.5 * spec.cell_size
+            streams = streams and keeps_corners(kinds, edge, measured.bounds)
         if streams:
             monitor.count("triangles laid", laid.layout.triangles)
             with monitor.stage("write", 0.5, 1.0):

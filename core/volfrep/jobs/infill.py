@@ -6,8 +6,9 @@ Each is computed when it is asked for, and kept.
 
 from __future__ import annotations
 
+from concurrent.futures import Executor
 from dataclasses import replace
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -37,22 +38,16 @@ from ..trim.beam_model import (
     reaching_into,
     refuse_fillets,
 )
-from ..trim.boolean_trim import KeptOctants
 from ..trim.clip_struts import Clipped
+from ..trim.culling import KeptOctants
 from ..trim.drains import Drained, trapped
 from ..trim.finish import finished, pieces_told, tidied
 from ..trim.held_struts import Held, axes_of, held
+from ..trim.laid import FIRST_MARGIN, Laid, in_place, lay
 from ..trim.loose_pieces import Cleared
 from ..trim.prune import Pruned, prune
-from ..trim.stage import (
-    FIRST_MARGIN,
-    Laid,
-    chosen_octants,
-    cut_lattice,
-    drained_part,
-    lay,
-    uncut_lattice,
-)
+from ..trim.stage import chosen_octants, cut_lattice, drained_part, uncut_lattice
+from ..trim.trimmed_surface import TrimmedSurface
 from ..util.cache import Kept, StageCache
 from ..util.content import content_of
 from ..util.errors import VolfrepError
@@ -67,9 +62,8 @@ class Infill:
     """A solid filled with a lattice, stage by stage.
 
     Every stage is an attribute: `domain`, `cells`, `struts`, `lattice`, `part`, `beams`, `axes`.
-    It is computed when it is first asked for, with those that it needs and no others, and kept;
-    all of them lie where the part lies. What a stage is made of is the key that it is kept under
-    in the cache, too: the solid, earlier stages, and parts of the specification.
+    It is computed when it is first asked for, with those that it needs, and kept; all lie where
+    the part lies. What a stage is made of is its key in the cache, too.
 
     Args:
         solid: checked closed mesh (from `volfrep.io.solid.read_solid` or `check_solid`), mm.
@@ -77,6 +71,8 @@ class Infill:
         cache: keeps the costly stages for other infills, as of the same solid with other struts.
         progress: called with the fraction done and the stage; returning False cancels.
         monitor: of a job that this is a part of, in place of one of its own.
+        executor: cuts the lattice at the wall, group by group; None: in this process.
+        streamed: whether its mesh is never asked for, but an STL file.
 
     Attributes:
         solid: the part.
@@ -103,11 +99,14 @@ class Infill:
         cache: StageCache | None = None,
         progress: ProgressCallback | None = None,
         monitor: Monitor | None = None,
+        executor: Executor | None = None,
+        streamed: bool = False,
     ) -> None:
         refuse_larger_cells(solid, spec.cell_size)
         self.solid, self.spec = solid, spec
         self.monitor = monitor or Monitor(progress)
-        self._cache = cache or StageCache()
+        self._cache, self._executor = cache or StageCache(), executor
+        self._streamed = streamed and spec.streams
         self._cell, self._grid, self._struts = spec.unit_cell(), spec.grid, spec.struts
         self._skin, self._boundary = spec.skin, spec.ending
         self._meshing = octant_spec(spec.cell_size, spec.struts, spec.detail)
@@ -147,9 +146,10 @@ class Infill:
 
     @cached_property
     def _cavity(self) -> tuple[TriangleMesh, Quality]:
-        clean = tidied(self.domain.mesh, shortest_edge(self.solid), self.monitor)
-        mesh, quality, _ = finished(clean, measure(clean), self.monitor, moved=False)
-        return mesh, quality
+        wall = TrimmedSurface(self.domain.mesh)
+        clean = tidied(wall, shortest_edge(self.solid), self.monitor)
+        clean, quality, _ = finished(clean, measure(clean.mesh), self.monitor, moved=False)
+        return clean.mesh, quality
 
     @cached_property
     def placement(self) -> Placement:
@@ -211,14 +211,15 @@ class Infill:
     @cached_property
     def cavity_result(self) -> Result:
         """The domain as a mesh, with the figures of the cells and struts that it will hold."""
-        return self._reported("domain", Cleared(*self._cavity, 0, 0))
+        mesh, quality = self._cavity
+        return self._reported("domain", Cleared(TrimmedSurface(mesh), quality, 0, 0))
 
     @cached_property
     def lattice(self) -> Result:
         """The lattice without the skin: trimmed to its domain, or its cells whole."""
         laid = self._laid(is_cut=self._boundary.is_trimmed)
         with self.monitor.stage("trim", 0.6, 1.0):
-            cleared = self._cut(laid) if self._boundary.is_trimmed else self._uncut(laid)
+            cleared = self._cut(laid)
         return self._reported("lattice", cleared)
 
     @cached_property
@@ -300,16 +301,18 @@ class Infill:
     def _laid(self, *, is_cut: bool) -> Laid:
         """The octants laid in the part, as of a lattice that a wall cuts, or as they are."""
         if is_cut not in self._laid_octants:
-            refuse_expected(self.spec, self.domain.mesh.volume)
+            refuse_expected(self.spec, 0.0 if self._streamed else self.domain.mesh.volume)
             _ = self.struts  # refused before anything is meshed
-            margin = 0.0 if keeps_places(self._struts, self.placement) else FIRST_MARGIN
-            if not is_cut:
-                margin = np.inf  # no wall that an octant could reach
+            keeps = keeps_places(self._struts, self.placement)
+            # Where nothing is cut there is no wall that an octant could reach.
+            margin = np.inf if not is_cut else 0.0 if keeps else FIRST_MARGIN
             with self.monitor.stage("tile", 0.4, 0.5):
                 first = self._octants(is_cut, margin)
             with self.monitor.stage("lattice", 0.5, 0.6):
-                self._laid_octants[is_cut] = lay(
-                    first, margin, lambda wider: self._octants(is_cut, wider), self._placed
+                self._laid_octants[is_cut] = (
+                    in_place(*first, self.placement.nudged(np.zeros(3)))
+                    if keeps and self.placement.mapping is None
+                    else lay(first, margin, partial(self._octants, is_cut), self._placed)
                 )
         return self._laid_octants[is_cut]
 
@@ -333,7 +336,7 @@ class Infill:
         (kept, octants), self._meshing, notes = until_sound(self._meshing, meshed)
         self._notes += notes
         refuse_solid_cells(octants, self._meshing)
-        refuse_too_large(self.spec, kept.grid, octants, kept.border)
+        refuse_too_large(self.spec, kept.grid, octants, kept.border, streamed=self._streamed)
         return kept, octants
 
     def _placed(self, layout: Layout) -> Deformed:
@@ -350,24 +353,21 @@ class Infill:
         return self.cells.padded.graph(self._cell, self.cells.active, self._boundary.is_endless)
 
     def _cut(self, laid: Laid, *, with_skin: bool = False) -> Cleared:
-        has_skin = self._skin is not None
+        keep = self._boundary.keep_pieces
+        if not (with_skin or self._boundary.is_trimmed):
+            return uncut_lattice(laid, self.solid, self._meshing, self.monitor, keep_pieces=keep)
         return cut_lattice(
-            laid, self.solid, self.domain, self._meshing, self.monitor,
-            has_skin=has_skin, with_skin=with_skin, keep_pieces=self._boundary.keep_pieces,
+            laid, self.solid, self.domain, self._meshing, self.monitor, keep_pieces=keep,
+            has_skin=self._skin is not None, with_skin=with_skin, executor=self._executor,
         )  # fmt: skip
-
-    def _uncut(self, laid: Laid) -> Cleared:
-        return uncut_lattice(
-            laid, self.solid, self._meshing, self.monitor, keep_pieces=self._boundary.keep_pieces
-        )
 
     def _reported(self, output: str, cleared: Cleared, drained: Drained | None = None) -> Result:
         """A mesh with the figures of what it is and of how it was made."""
         domain, pruned, warnings = self.domain, self.pruned, self.warnings
-        mesh, quality = cleared.mesh, cleared.quality
+        surface, quality = cleared.surface, cleared.quality
+        moved = not keeps_places(self._struts, self.placement)
         if output != "domain":
-            moved = not keeps_places(self._struts, self.placement)
-            mesh, quality, notes = finished(mesh, quality, self.monitor, moved)
+            surface, quality, notes = finished(surface, quality, self.monitor, moved)
             warnings += self._notes + notes
         if output == "lattice":
             warnings += pieces_told(
@@ -397,4 +397,4 @@ class Infill:
             report = replace(report, spec={**report.spec, "output": output})
         if output != "domain":
             report = judged(report, self.spec)
-        return Result(mesh, self.struts, report)
+        return Result(surface, self.struts, report)

@@ -22,6 +22,8 @@ def refuse_too_large(
     octants: dict[OctantKey, Octant],
     border: NDArray[np.bool_] | None,
     count: Sequence[int] | None = None,
+    *,
+    streamed: bool = False,
 ) -> None:
     """Refuse a lattice that would not fit.
 
@@ -31,6 +33,7 @@ def refuse_too_large(
         octants: their meshes.
         border: octants that go through the Boolean; None for none.
         count: cells of a block along x, y, z; None for a part.
+        streamed: whether no others are in memory.
 
     Raises:
         VolfrepError: it needs more memory than is free.
@@ -39,7 +42,7 @@ def refuse_too_large(
     present = grid.kind >= 0
     triangles = int(per_kind[grid.kind[present]].sum())
     in_boolean = 0 if border is None else int(per_kind[grid.kind[present & border]].sum())
-    refuse_memory(spec, triangles, in_boolean, count)
+    refuse_memory(spec, 0 if streamed else triangles, in_boolean, count)
 
 
 def refuse_solid_cells(octants: dict[OctantKey, Octant], spec: OctantSpec) -> None:

@@ -6,6 +6,8 @@ The stages are those of `volfrep.jobs.infill.Infill`, which computes any of them
 
 from __future__ import annotations
 
+from concurrent.futures import Executor
+
 from ..design.spec import LatticeSpec
 from ..mesh.triangle_mesh import TriangleMesh
 from ..reports.result import Result
@@ -20,6 +22,7 @@ def fill(
     *,
     progress: ProgressCallback | None = None,
     cache: StageCache | None = None,
+    executor: Executor | None = None,
 ) -> Result:
     """Fill a solid with a lattice: the stage of `Infill` that the specification's output names.
 
@@ -31,9 +34,10 @@ def fill(
         spec: what to make.
         progress: called with the fraction done and the stage; returning False cancels.
         cache: keeps the stages' results between runs.
+        executor: cuts the lattice at the wall, group by group; None: in this process.
 
     Raises:
         VolfrepError: the specification does not fit the solid; the text says what to change.
         Cancelled: the callback said so.
     """
-    return filled(solid, spec, progress=progress, cache=cache)[0]
+    return filled(solid, spec, progress=progress, cache=cache, executor=executor)[0]

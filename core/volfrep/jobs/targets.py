@@ -9,7 +9,9 @@ with what it missed by.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from concurrent.futures import Executor
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -52,6 +54,8 @@ def aimed(
     progress: ProgressCallback | None = None,
     cache: StageCache | None = None,
     meshed: bool = True,
+    executor: Executor | None = None,
+    streamed: bool = False,
 ) -> Infill:
     """The infill of a solid whose struts have the radius of the specification's target.
 
@@ -62,6 +66,8 @@ def aimed(
         cache: keeps the stages; the wall is found once.
         meshed: whether its result is made and measured; otherwise the radius is the first one,
             as for beams.
+        executor: as of `Infill`.
+        streamed: as of `Infill`.
 
     Raises:
         VolfrepError: no radius meets the target (the text says what can be had), or the
@@ -69,12 +75,13 @@ def aimed(
         Cancelled: the callback said so.
     """
     cache = cache or StageCache()
-    infill = Infill(solid, spec, progress=progress, cache=cache)
+    made_of = partial(Infill, solid, cache=cache, executor=executor, streamed=streamed)
+    infill = made_of(spec, progress=progress)
     target = spec.target
     if target is None or spec.output == "domain":
         return infill
     if target.aim == "stiffness":
-        return Infill(solid, _stiff(spec, target), progress=progress, cache=cache)
+        return made_of(_stiff(spec, target), progress=progress)
     monitor, domain = infill.monitor, infill.domain.mesh.volume
     frame = infill.struts
     with monitor.stage("target", 0.4, 0.4):
@@ -92,9 +99,7 @@ def aimed(
         search = _Search(spec, target, table, domain, skin)
     wanted = search.volume
     for made in range(1, MESHES + 1):
-        infill = Infill(
-            solid, search.specification(wanted), cache=cache, progress=progress, monitor=monitor
-        )
+        infill = made_of(search.specification(wanted), progress=progress, monitor=monitor)
         if not meshed:
             return infill
         report = infill.result.report
@@ -111,9 +116,10 @@ def filled(
     *,
     progress: ProgressCallback | None = None,
     cache: StageCache | None = None,
+    executor: Executor | None = None,
 ) -> tuple[Result, LatticeSpec]:
     """The result of `aimed`, and the specification with the radius that was found."""
-    infill = aimed(solid, spec, progress=progress, cache=cache)
+    infill = aimed(solid, spec, progress=progress, cache=cache, executor=executor)
     return infill.result, infill.spec
 
 

@@ -8,7 +8,8 @@ by where it lies. No coordinates are compared.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,6 +36,8 @@ class Layout:
         base: first vertex number of each vertex, edge, face and cell of the octants' complex, on
             the doubled grid: even places are planes between octants.
         count: of all vertices.
+        first: (3,) the corner that octant (0, 0, 0) has on its high side, counted from the grid's
+            origin: of a cutting of a larger grid, which keeps its coordinates to the last bit.
     """
 
     grid: OctantGrid
@@ -42,6 +45,12 @@ class Layout:
     places: list[NDArray[np.int64]]
     base: NDArray[np.int32]
     count: int
+    first: NDArray[np.int64] = field(default_factory=lambda: np.zeros(3, np.int64))
+
+    def frames(self, place: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """The grid corner that octants lie about, and the direction of their axes."""
+        corner, sign = frames(place)
+        return corner + self.first, sign
 
     @property
     def triangles(self) -> int:
@@ -68,33 +77,67 @@ def lay_out(grid: OctantGrid, octants: dict[OctantKey, Octant]) -> Layout:
 
 def numbers(layout: Layout, octant: Octant, place: NDArray[np.int64]) -> NDArray[np.int32]:
     """(k, n) numbers of the vertices of an octant at k places."""
-    used, column = np.unique(octant.entity, return_inverse=True)
-    first = np.stack(
-        [layout.base[tuple(_entity_positions(layout.grid, place, _STEPS[e]).T)] for e in used],
-        axis=1,
-    )
-    result: NDArray[np.int32] = first[:, column.ravel()] + octant.rank
+    return numbers_at(layout, octant.entity, octant.rank, place)
+
+
+def numbers_at(
+    layout: Layout, entity: NDArray[np.int8], rank: NDArray[np.int32], place: NDArray[np.int64]
+) -> NDArray[np.int32]:
+    """(k, n) numbers of vertices of an octant at k places, by their entities and ranks on these."""
+    used, column = np.unique(entity, return_inverse=True)
+    first = np.empty((len(place), len(used)), np.int32)
+    for k, e in enumerate(used):
+        first[:, k] = layout.base[tuple(_entity_positions(layout.grid, place, _STEPS[e]).T)]
+    result: NDArray[np.int32] = first[:, column.ravel()] + rank
     return result
 
 
 def coordinates(layout: Layout, monitor: Monitor) -> Floats:
     """(n, 3) coordinates of all the numbered vertices, mm."""
-    grid = layout.grid
     vertices = np.empty((layout.count, 3))
+    for number, points in placed_octants(layout, None, monitor):
+        vertices[number] = points
+    return vertices
+
+
+def coordinates_of(
+    layout: Layout, wanted: NDArray[np.int32], where: NDArray[np.bool_], monitor: Monitor
+) -> Floats:
+    """(k, 3) coordinates of some of the numbered vertices, mm.
+
+    Args:
+        layout: the numbered octants.
+        wanted: (k,) numbers, ascending.
+        where: octants that have all of them.
+        monitor: for cancel.
+    """
+    vertices = np.empty((len(wanted), 3))
+    for number, points in placed_octants(layout, where, monitor):
+        row = np.minimum(np.searchsorted(wanted, number), len(wanted) - 1)
+        found = wanted[row] == number
+        vertices[row[found]] = points[found]
+    return vertices
+
+
+def placed_octants(
+    layout: Layout, where: NDArray[np.bool_] | None, monitor: Monitor
+) -> Iterator[tuple[NDArray[np.int32], Floats]]:
+    """Octants some at a time: (k, n) numbers of their vertices and (k, n, 3) their coordinates."""
+    grid = layout.grid
     for key, place in zip(grid.keys, layout.places, strict=True):
         octant = layout.octants[key]
+        if where is not None:
+            place = place[where[tuple(place.T)]]
         if not len(octant.vertices):
             continue
         steps = in_steps(grid, octant)
         size = max(1, CHUNK_VERTICES // len(octant.vertices))
         for begin in range(0, len(place), size):
             part = place[begin : begin + size]
-            corner, sign = frames(part)
-            vertices[numbers(layout, octant, part)] = placed(
-                grid, corner[:, None, :], sign[:, None, :] * steps
-            )
+            corner, sign = layout.frames(part)
+            points = placed(grid, corner[:, None, :], sign[:, None, :] * steps)
+            yield numbers(layout, octant, part), points
             monitor.tick()
-    return vertices
 
 
 def in_steps(grid: OctantGrid, octant: Octant) -> Floats:
@@ -123,7 +166,7 @@ def box(layout: Layout) -> Floats:
             continue
         steps = in_steps(grid, octant)
         extremes = np.stack([steps.min(axis=0), steps.max(axis=0)])
-        corner, sign = frames(place)
+        corner, sign = layout.frames(place)
         ends = placed(grid, corner[:, None, :], sign[:, None, :] * extremes)
         boxes.append(box_of(ends.reshape(-1, 3)))
     return box_of(np.concatenate(boxes)) if boxes else np.zeros((2, 3))

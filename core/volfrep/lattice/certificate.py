@@ -11,7 +11,7 @@ them.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -21,12 +21,17 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
 from ..mesh.quality import Quality
-from ..octants.octant import OctantGrid, frames
+from ..octants.octant import OctantGrid
 from ..octants.octant_mesh import Octant
+from ..util.linalg import along
 from ..util.types import Floats, Ints
-from .assembly import Layout, box
+from .assembly import Layout, box, numbers_at
 
-_NO_EDGES = np.zeros((0, 4), np.int64)
+_NONE = np.zeros(0, np.int64)
+#: Facets whose heights are all above so many steps of single precision keep their corners in it.
+SAFE_STEPS = 4.0
+#: A direction, of length 1, in which few vertices of a regular mesh share a place.
+GENERIC = np.array([0.26740, 0.53480, 0.80153])
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,6 +45,7 @@ class _Kind:
         normal: (pieces, 3) integral of the normal over each, mm2.
         area: of all, mm2.
         open: by (axis, side): sorted (k, 4) open edges as entity and rank of start and end.
+        open_piece: by (axis, side): (k,) the piece of each.
         degenerate: triangles without an area, as specks have that no sample could follow.
         sound: every other edge is shared by two triangles, none of them joins two vertices of a
             face.
@@ -51,6 +57,7 @@ class _Kind:
     normal: Floats
     area: float
     open: dict[tuple[int, int], Ints]
+    open_piece: dict[tuple[int, int], Ints]
     degenerate: int
     sound: bool
 
@@ -64,49 +71,105 @@ def certify(layout: Layout) -> Quality:
     Raises:
         RuntimeError: the surface is not closed; the octants do not fit together.
     """
-    grid = layout.grid
-    kinds = [_look_at(layout.octants[key]) for key in grid.keys]
-    first = np.full(grid.kind.shape, -1, np.int64)
-    counts = np.array([kind.pieces for kind in kinds])
-    present = grid.kind >= 0
-    size = counts[grid.kind[present]]
-    first[present] = np.cumsum(size) - size
-    total = int(size.sum())
-
-    links = _fit_together(layout, kinds, first)
-    if not all(kind.sound for kind in kinds):
-        raise RuntimeError("an octant of the lattice is not a proper piece of surface")
     bounds = box(layout)
-    graph = coo_matrix((np.ones(len(links), bool), links.T), shape=(total, total))
-    shells, label = connected_components(graph, directed=False)
-    volume = np.zeros(shells)
-    triangles, degenerate, area = 0, 0, 0.0
-    for kind, key, place in zip(kinds, grid.keys, layout.places, strict=True):
-        corner, sign = frames(place)
-        offset = corner * grid.cell_size + grid.origin - bounds.mean(axis=0)
-        own = kind.volume + np.einsum("ki,pi->kp", offset * sign, kind.normal) / 3.0
-        index = first[tuple(place.T)][:, None] + np.arange(kind.pieces)
-        volume += np.bincount(label[index.ravel()], own.ravel(), minlength=shells)
-        triangles += len(place) * len(layout.octants[key].triangles)
-        degenerate += len(place) * kind.degenerate
-        area += len(place) * kind.area
-    euler = layout.count - triangles // 2
+    pieces = certify_pieces(layout, bounds.mean(axis=0))
+    if len(pieces.rim):
+        raise RuntimeError("two octants of the lattice do not fit together")
+    euler = layout.count - pieces.triangles // 2
+    shells = len(pieces.volume)
     return Quality(
-        triangles=triangles,
+        triangles=pieces.triangles,
         vertices=layout.count,
         watertight=True,
         open_edges=0,
         overused_edges=0,
         misoriented_edges=0,
-        degenerate_triangles=degenerate,
-        shells=int(shells),
-        bodies=int((volume > 0).sum()),
-        voids=int((volume < 0).sum()),
-        genus=int(shells) - euler // 2,
-        volume=float(volume.sum()),
-        area=area,
+        degenerate_triangles=pieces.degenerate,
+        shells=shells,
+        bodies=int((pieces.volume > 0).sum()),
+        voids=int((pieces.volume < 0).sum()),
+        genus=shells - euler // 2,
+        volume=float(pieces.volume.sum()),
+        area=pieces.area,
         bounds=bounds,
     )
+
+
+@dataclass(frozen=True, eq=False)
+class CertifiedPieces:
+    """What is proved of the octants of a layout, whose surface may go on elsewhere.
+
+    Attributes:
+        centre: (3,) that positions are measured from, mm.
+        volume: (pieces,) flux of the position over 3 through each connected piece, mm3: what it
+            encloses where it is closed.
+        normal: (pieces, 3) integral of the normal over each, mm2; zero where it is closed.
+        area: of all, mm2.
+        triangles: of all.
+        degenerate: triangles without an area.
+        rim: (e, 2) numbers of the vertices that each open edge runs from and to. Every other edge
+            is shared by two triangles.
+        piece_at_rim: (e,) the piece that each open edge belongs to.
+    """
+
+    centre: Floats
+    volume: Floats
+    normal: Floats
+    area: float
+    triangles: int
+    degenerate: int
+    rim: Ints
+    piece_at_rim: Ints
+
+    def volume_about(self, centre: Floats) -> Floats:
+        """(pieces,) `volume` with positions measured from another point."""
+        result: Floats = self.volume - along(self.normal, centre - self.centre) / 3.0
+        return result
+
+
+def certify_pieces(layout: Layout, centre: Floats) -> CertifiedPieces:
+    """The certificate of the octants of a layout whose surface may go on where octants are missing.
+
+    Args:
+        layout: the numbered octants.
+        centre: (3,) that positions are measured from, in lattice space, mm.
+
+    Raises:
+        RuntimeError: the octants do not fit together.
+    """
+    grid = layout.grid
+    kinds = [_look_at(layout.octants[key]) for key in grid.keys]
+    first = np.full(grid.kind.shape, -1, np.int64)
+    counts = np.array([kind.pieces for kind in kinds], np.int64)
+    present = grid.kind >= 0
+    size = counts[grid.kind[present]]
+    first[present] = np.cumsum(size) - size
+    total = int(size.sum())
+
+    links, rim, owner = _fit_together(layout, kinds, first)
+    if not all(kind.sound for kind in kinds):
+        raise RuntimeError("an octant of the lattice is not a proper piece of surface")
+    graph = coo_matrix((np.ones(len(links), bool), links.T), shape=(total, total))
+    pieces, label = connected_components(graph, directed=False) if total else (0, _NONE)
+    volume, normal = np.zeros(pieces), np.zeros((pieces, 3))
+    triangles, degenerate, area = 0, 0, 0.0
+    for kind, key, place in zip(kinds, grid.keys, layout.places, strict=True):
+        corner, sign = layout.frames(place)
+        offset = corner * grid.cell_size + grid.origin - centre
+        own = kind.volume + np.einsum("ki,pi->kp", offset * sign, kind.normal) / 3.0
+        index = first[tuple(place.T)][:, None] + np.arange(kind.pieces)
+        index = label[index.ravel()]
+        volume += np.bincount(index, own.ravel(), minlength=pieces)
+        for k in range(3):
+            across = sign[:, k, None] * kind.normal[:, k]
+            normal[:, k] += np.bincount(index, across.ravel(), minlength=pieces)
+        triangles += len(place) * len(layout.octants[key].triangles)
+        degenerate += len(place) * kind.degenerate
+        area += len(place) * kind.area
+    return CertifiedPieces(
+        centre, volume, normal, area, triangles, degenerate, rim,
+        label[owner].astype(np.int64),
+    )  # fmt: skip
 
 
 def _look_at(octant: Octant) -> _Kind:
@@ -121,16 +184,18 @@ def _look_at(octant: Octant) -> _Kind:
     # An open edge lies on exactly one face, every other one on none.
     sound = len(np.unique(forward)) == len(forward) and bool((on_one_face == is_open).all())
     sound &= len(np.unique(triangles)) == count
-    open_edges = {}
+    graph = coo_matrix((np.ones(len(start), bool), (start, end)), shape=(count, count))
+    pieces, piece = connected_components(graph, directed=False) if count else (0, np.zeros(0, int))
+    open_edges, open_piece = {}, {}
     name = np.stack([octant.entity.astype(np.int64), octant.rank.astype(np.int64)], axis=1)
     for axis in range(3):
         for side in (0, 2):
             here = is_open & (place[start, axis] == side) & (place[end, axis] == side)
             edges = np.concatenate([name[start[here]], name[end[here]]], axis=1)
-            open_edges[axis, side] = edges[np.lexsort(edges.T)]
+            order = np.lexsort(edges.T)
+            open_edges[axis, side] = edges[order]
+            open_piece[axis, side] = piece[start[here]][order].astype(np.int64)
 
-    graph = coo_matrix((np.ones(len(start), bool), (start, end)), shape=(count, count))
-    pieces, piece = connected_components(graph, directed=False) if count else (0, np.zeros(0, int))
     owner = piece[triangles[:, 0]]
     normal = np.stack(
         [np.bincount(owner, 0.5 * twice[:, k], minlength=pieces) for k in range(3)], axis=1
@@ -143,6 +208,7 @@ def _look_at(octant: Octant) -> _Kind:
         normal.astype(np.float64),
         float(0.5 * np.linalg.norm(twice, axis=1).sum()),
         open_edges,
+        open_piece,
         int((~twice.any(axis=1)).sum()),
         sound,
     )
@@ -163,6 +229,14 @@ class _Meeting:
     side: int
     kinds: tuple[int, int]
     where: NDArray[np.bool_]
+
+    def places(self, shape: tuple[int, ...], is_low: bool) -> Ints:
+        """(k, 3) the octants on the low, or on the high side, as `where` has the pairs."""
+        place = np.argwhere(self.where)
+        # The first pair is that of the first octant with what is before it.
+        place[:, self.axis] -= is_low
+        place[:, self.axis] %= shape[self.axis]
+        return place
 
 
 def _pairs(values: Ints, axis: int, closed: bool, none: int) -> tuple[Ints, Ints]:
@@ -190,24 +264,56 @@ def _meetings(grid: OctantGrid) -> Iterator[_Meeting]:
             yield _Meeting(axis, face, (pair // count - 1, pair % count - 1), code == value)
 
 
-def _fit_together(layout: Layout, kinds: list[_Kind], first: Ints) -> Ints:
-    """(k, 2) links between the pieces of neighbouring octants, after a look at every pair."""
+def _fit_together(layout: Layout, kinds: list[_Kind], first: Ints) -> tuple[Ints, Ints, Ints]:
+    """How the pieces of neighbouring octants are joined, after a look at every pair.
+
+    Returns:
+        (k, 2) links between pieces; (e, 2) open edges towards octants that are missing, as numbers
+        of their vertices; (e,) the piece of each.
+    """
     grid = layout.grid
-    links = [np.zeros((0, 2), np.int64)]
+    links, rim, owner = [np.zeros((0, 2), np.int64)], [np.zeros((0, 2), np.int64)], [_NONE]
     numbers = [_pairs(first, axis, grid.periodic[axis], -1) for axis in range(3)]
     for meeting in _meetings(grid):
         axis, side = meeting.axis, meeting.side
-        edges = [kinds[k].open[axis, side] if k >= 0 else _NO_EDGES for k in meeting.kinds]
+        low, high = (number[meeting.where] for number in numbers[axis])
+        if min(meeting.kinds) < 0:
+            alone = max(meeting.kinds)
+            if alone < 0 or not len(kinds[alone].open[axis, side]):
+                continue
+            is_low = meeting.kinds[0] >= 0
+            place = meeting.places(grid.kind.shape, is_low)
+            rim.append(_rim_edges(layout, kinds[alone].open[axis, side], place))
+            piece = kinds[alone].open_piece[axis, side]
+            owner.append(((low if is_low else high)[:, None] + piece).ravel())
+            continue
+        edges = [kinds[k].open[axis, side] for k in meeting.kinds]
         if not np.array_equal(edges[0], edges[1]):
             raise RuntimeError("two octants of the lattice do not fit together")
-        if min(meeting.kinds) < 0 or not len(edges[0]):
+        if not len(edges[0]):
             continue
         on_face = [_on_face(layout.octants[grid.keys[k]], axis, side) for k in meeting.kinds]
         pieces = [kinds[k].piece[own] for k, own in zip(meeting.kinds, on_face, strict=True)]
         pairs = np.unique(np.stack(pieces, axis=1), axis=0)
-        low, high = (number[meeting.where][:, None] for number in numbers[axis])
-        links.append(np.stack([(low + pairs[:, 0]).ravel(), (high + pairs[:, 1]).ravel()], axis=1))
-    return np.concatenate(links)
+        joined = low[:, None] + pairs[:, 0], high[:, None] + pairs[:, 1]
+        links.append(np.stack([ends.ravel() for ends in joined], axis=1))
+    return np.concatenate(links), np.concatenate(rim), np.concatenate(owner)
+
+
+def _rim_edges(layout: Layout, edges: Ints, place: Ints) -> Ints:
+    """(p k, 2) numbers of the ends of open edges, named by entity and rank, of octants at places.
+
+    They run as the triangles do whose edges they are.
+    """
+    ends = [
+        numbers_at(layout, edges[:, 2 * k].astype(np.int8), edges[:, 2 * k + 1].astype(np.int32),
+                   place)
+        for k in (0, 1)
+    ]  # fmt: skip
+    turned = ((place % 2) == 0).sum(axis=1) % 2 == 1
+    result = np.stack(ends, axis=2).astype(np.int64)
+    result[turned] = result[turned][:, :, ::-1]
+    return result.reshape(-1, 2)
 
 
 def agree_on_faces(layout: Layout) -> bool:
@@ -233,3 +339,53 @@ def _on_face(octant: Octant, axis: int, side: int) -> Ints:
     on_face = np.flatnonzero(octant.places[:, axis] == side)
     result: Ints = on_face[np.lexsort((octant.rank[on_face], octant.entity[on_face]))]
     return result
+
+
+def keeps_corners(octants: Iterable[Octant], size: float, bounds: Floats) -> bool:
+    """Whether no facet can lose a corner when its coordinates become single precision.
+
+    Nor can two vertices become one: they lie farther apart within an octant, and those that are
+    not on its faces lie farther from these, and so from the vertices of its neighbours.
+
+    Args:
+        octants: the kinds of octant that are laid.
+        size: their edge, mm.
+        bounds: (2, 3) of all that is laid, mm.
+    """
+    farthest = float(np.abs(bounds).max())
+    if not farthest < np.finfo(np.float32).max:
+        return False
+    safe = SAFE_STEPS * float(np.spacing(np.float32(farthest)))
+    return all(
+        _least_height(octant.vertices[octant.triangles]) > safe and _keeps_apart(octant, size, safe)
+        for octant in octants
+        if len(octant.triangles)
+    )
+
+
+def _keeps_apart(octant: Octant, size: float, safe: float) -> bool:
+    """Whether vertices are farther than `safe` from each other and from faces they are not on."""
+    points = octant.vertices
+    inner = points[octant.places == 1]
+    if min(inner.min(initial=size), (size - inner).min(initial=size)) <= safe:
+        return False
+    # Along a line on which few of them share a place, only the next ones can be that near.
+    place = along(points, GENERIC)
+    order = np.argsort(place)
+    points, place = points[order], place[order]
+    for ahead in range(1, len(points)):
+        near = np.flatnonzero(place[ahead:] - place[:-ahead] <= safe)
+        if not len(near):
+            break
+        gap = points[near + ahead] - points[near]
+        if (np.einsum("ij,ij->i", gap, gap) <= safe * safe).any():
+            return False
+    return True
+
+
+def _least_height(corners: Floats) -> float:
+    """The least height of (m, 3, 3) triangles, mm."""
+    sides = corners - np.roll(corners, 1, axis=1)
+    longest = np.linalg.norm(sides, axis=2).max(axis=1)
+    twice = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1)
+    return float((twice / longest).min())

@@ -22,12 +22,18 @@ STEPS = 16
 PASSES = 8
 #: Points whose hashes are found at a time.
 HASHED_ROWS = 1 << 16
+#: Triangles looked at at a time.
+BLOCK_TRIANGLES = 1 << 15
 
 
 def shortest_edge(mesh: TriangleMesh) -> float:
     """Length in mm below which an edge may not survive in a file of single precision."""
-    farthest = np.float32(np.abs(mesh.bounds).max(initial=1.0))
-    return float(STEPS * np.spacing(farthest))
+    return edge_within(mesh.bounds)
+
+
+def edge_within(bounds: NDArray[np.float64]) -> float:
+    """`shortest_edge` of a mesh with such bounds, (2, 3) mm."""
+    return float(STEPS * np.spacing(np.float32(np.abs(bounds).max(initial=1.0))))
 
 
 def remove_slivers(mesh: TriangleMesh, tolerance: float, among: int | None = None) -> TriangleMesh:
@@ -69,7 +75,12 @@ def _names(triangles: NDArray[np.int32]) -> NDArray[np.uint64]:
 
 def _slivers(points: NDArray[np.float64], triangles: NDArray[np.int32], tolerance: float) -> Ints:
     """The triangles with an edge or a height below the tolerance."""
-    corners = points[triangles]
+    starts = range(0, len(triangles), BLOCK_TRIANGLES)
+    found = [_slivers_in(points[triangles[k : k + BLOCK_TRIANGLES]], tolerance) + k for k in starts]
+    return np.concatenate([np.zeros(0, np.int64), *found])
+
+
+def _slivers_in(corners: NDArray[np.float64], tolerance: float) -> Ints:
     sides = [corners[:, k] - corners[:, k - 2] for k in range(3)]
     squares = np.stack([np.einsum("ij,ij->i", side, side) for side in sides])
     twice = np.cross(sides[0], sides[1])

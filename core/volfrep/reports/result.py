@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What a run hands out: a mesh, its wireframe, and its figures."""
+"""What a run hands out: a surface, its wireframe, and its figures."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -17,6 +18,7 @@ from ..grid.sizes import sizes
 from ..grid.strut_graph import Wireframe
 from ..mesh.quality import Quality
 from ..mesh.triangle_mesh import TriangleMesh
+from ..trim.trimmed_surface import TrimmedSurface
 from ..util.progress import Monitor, peak_memory_mb
 from .report import Report
 
@@ -35,14 +37,19 @@ class Result:
     """What a run made.
 
     Attributes:
-        mesh: the part, the lattice or the domain, as asked for.
+        surface: of the part, the lattice or the domain, as asked for.
         wireframe: the unique nodes and struts of the active cells.
         report: the figures.
     """
 
-    mesh: TriangleMesh
+    surface: TrimmedSurface
     wireframe: Wireframe
     report: Report
+
+    @cached_property
+    def mesh(self) -> TriangleMesh:
+        """The surface as one mesh, made when it is first asked for."""
+        return self.surface.whole(Monitor())
 
 
 def report_of(

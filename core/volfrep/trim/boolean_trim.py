@@ -1,83 +1,32 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The Boolean that trims the lattice to its domain and joins it to the skin.
-
-part = outer - (inner - lattice). The cavity (inner - lattice) lies strictly inside the part, so
-that the outer minus adds a reversed surface and intersects nothing. Only octants that the wall
-crosses go into the one Boolean, closed by flat caps where their neighbours are left out; octants
-wholly inside are put back afterwards, vertex on vertex: the Boolean hands the caps out untouched,
-and what it hands out untouched has exactly the coordinates that went in.
-"""
+"""The lattice trimmed to its domain: groups of octants at the wall are cut, and joined again."""
 
 from __future__ import annotations
 
+from collections import deque
+from collections.abc import Iterable, Iterator, Sequence
+from concurrent.futures import BrokenExecutor, Executor, Future
+from concurrent.futures import TimeoutError as FutureTimeoutError
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from itertools import islice
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..grid.activation import CellGrid, crossed_cells, inside_cells, wall_corners
-from ..grid.coordinate_map import STRAIGHT, CoordinateMap
-from ..lattice.assembly import Layout, facets, lay_out, neighbour_missing
-from ..mesh.booleans import from_library, to_library
-from ..mesh.triangle_mesh import TriangleMesh, compact
-from ..octants.caps import with_corners
-from ..octants.octant import OctantGrid, OctantKey, used_kinds, wrapped
-from ..octants.octant_mesh import Octant
-from ..util.errors import VolfrepError
-from ..util.progress import Monitor
-from ..util.types import Periodic
+from ..mesh.edge_table import pieces_of
+from ..mesh.float32_repair import shortest_edge
+from ..mesh.triangle_mesh import TriangleMesh, compact, concatenate
+from ..util.progress import POLL_SECONDS, Monitor
+from ..util.threads import threads
+from ..util.types import Bools, Floats, Ints
+from .culling import KeptOctants
+from .group_cut import Group, Piece, cut
+from .laid import Laid
+from .trimmed_surface import InnerOctants, TrimmedSurface, equal_rows
+from .wall_groups import Groups, grouped
 
-if TYPE_CHECKING:
-    import manifold3d
-
-#: An octant counts as crossed by the wall when the wall comes this near, in units of its edge:
-#: a wall that lies in an octant's face must cut the lattice on both sides of it.
-CROSSING_MARGIN = 1e-3
-
-
-@dataclass(frozen=True, eq=False)
-class OctantRoles:
-    """Where the octants lie with respect to the domain; both (nx, ny, nz) bool.
-
-    Attributes:
-        border: the wall crosses the octant.
-        inside: the octant lies wholly inside.
-    """
-
-    border: NDArray[np.bool_]
-    inside: NDArray[np.bool_]
-
-
-def octant_roles(
-    domain: TriangleMesh,
-    cells: CellGrid,
-    monitor: Monitor,
-    mapping: CoordinateMap | None = None,
-    margin: float = 0.0,
-) -> OctantRoles:
-    """Classify the octants of a grid of cells, and of the half cells about it.
-
-    Args:
-        domain: closed mesh of what the lattice fills.
-        cells: the grid.
-        monitor: for progress and cancel.
-        mapping: from lattice space to the part, where they differ.
-        margin: how near the wall may come to an octant that is not of the border, in units of its
-            edge: octants on struts that were moved reach beyond their places.
-    """
-    half = 0.5 * cells.cell_size
-    shape = [
-        2 * n + (0 if closed else 2) for n, closed in zip(cells.shape, cells.periodic, strict=True)
-    ]
-    grid = CellGrid(cells.origin - half, half, (shape[0], shape[1], shape[2]), cells.periodic)
-    if mapping is not None and not mapping.is_rigid:
-        margin += STRAIGHT * cells.cell_size / half  # where the wall is known no better
-    # The margin is on either side, the cell is enlarged by both.
-    border = crossed_cells(
-        grid, wall_corners(domain, mapping), monitor, CROSSING_MARGIN + 2.0 * margin
-    )
-    return OctantRoles(border, inside_cells(grid, domain, monitor, mapping) & ~border)
+#: Vertices of two groups are the same within this part of the shortest edge that files hold.
+SAME_VERTEX = 1e-4
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,228 +34,208 @@ class Trimmed:
     """The lattice trimmed to its domain.
 
     Attributes:
-        mesh: for a part: the cavity's surface, seen from the material. Otherwise the lattice.
-        on_wall: (m,) bool, triangles that lie on the domain's wall.
-        cut: how many of the first triangles came out of the Boolean; the others are put back.
-        boolean_triangles: triangles that went into the Boolean.
+        surface: for a part: the cavity's, seen from the material. Otherwise the lattice's.
+        on_wall: (m,) bool, triangles of its mesh that lie on the domain's wall.
     """
 
-    mesh: TriangleMesh
-    on_wall: NDArray[np.bool_]
-    cut: int
-    boolean_triangles: int
-
-
-@dataclass(frozen=True, eq=False)
-class KeptOctants:
-    """Culled octants: what is left of a lattice without those outside.
-
-    Attributes:
-        grid: the octants that are left.
-        border: (nx, ny, nz) bool, octants that go into the Boolean.
-        inside: octants that are put back afterwards.
-    """
-
-    grid: OctantGrid
-    border: NDArray[np.bool_]
-    inside: NDArray[np.bool_]
-
-    def lay_out(self, octants: dict[OctantKey, Octant]) -> Layout:
-        """The octants numbered, with corners for caps."""
-        half = 0.5 * self.grid.cell_size
-        capped = {key: with_corners(octants[key], half) for key in self.grid.keys}
-        return lay_out(self.grid, capped)
-
-
-def cull(grid: OctantGrid, roles: OctantRoles) -> KeptOctants:
-    """Cull the octants outside; `roles` is shaped as the grid."""
-    present = grid.kind >= 0
-    border, inside = roles.border & present, roles.inside & present
-    border = _without_pinches(border, present, grid.periodic)
-    inside = inside & ~border
-    kind = np.where(border | inside, grid.kind, np.int16(-1))
-    return KeptOctants(used_kinds(replace(grid, kind=kind)), border, inside)
-
-
-def keep_all(grid: OctantGrid) -> KeptOctants:
-    """A lattice that nothing cuts."""
-    return KeptOctants(used_kinds(grid), np.zeros(grid.kind.shape, bool), grid.kind >= 0)
+    surface: TrimmedSurface
+    on_wall: Bools
 
 
 def trim(
     domain: TriangleMesh,
-    kept: KeptOctants,
-    layout: Layout,
-    points: NDArray[np.float64],
+    laid: Laid,
     *,
     cavity: bool,
     monitor: Monitor,
+    executor: Executor | None = None,
 ) -> Trimmed:
     """Cut the lattice at the domain's wall.
 
+    Octants that the wall crosses are cut in groups, those inside follow where these are open. What
+    comes out is the same with any executor.
+
     Args:
         domain: closed mesh of what the lattice fills.
-        kept: the octants of the lattice.
-        layout: the same, numbered.
-        points: (n, 3) where their vertices are, mm.
+        laid: the octants of the lattice.
         cavity: True for domain - lattice turned inside out (the wall with holes where struts
             meet it, and the struts), False for domain & lattice.
         monitor: for progress and cancel.
+        executor: cuts groups beside each other; None: one after the other in this process.
 
     Raises:
         VolfrepError: the domain's mesh is not a solid that can be cut.
     """
     monitor.tick(0.1)
-    # Caps towards octants inside are taken off again where these are put back. Those on the
-    # outside lie beyond the wall; what a wall that grazes them leaves belongs to the surface.
-    caps, ends = _caps(layout, kept, monitor)
-    surface = np.concatenate([facets(layout, monitor, kept.border), ends])
-    inner = facets(layout, monitor, kept.inside)
-    monitor.tick(0.2)
-
-    import manifold3d
-
-    wall = _solid(domain, [len(domain.triangles)], monitor)
-    if wall.status() != manifold3d.Error.NoError:
-        raise VolfrepError(
-            f"The domain's surface cannot be cut ({wall.status().name}): repair the part's mesh."
-        )
-    capped = compact(TriangleMesh(points, np.concatenate([surface, caps])))
-    monitor.count("triangles into the Boolean", len(capped.triangles) + len(domain.triangles))
-    ids = manifold3d.Manifold.reserve_ids(2)
-    cutter = _solid(capped, [len(surface), len(caps)], monitor, ids)
-    if cutter.status() != manifold3d.Error.NoError:
-        raise RuntimeError(f"the lattice's border is not a manifold: {cutter.status()}")
-    monitor.tick(0.5)
-    result = monitor.call(lambda: (wall - cutter if cavity else wall ^ cutter).to_mesh64())
-    monitor.tick(0.9)
-    mesh, origin = _read(result)
-    is_cap = origin == ids + 1
-    put_back = _put_back(mesh, is_cap, points, caps, inner, cavity)
-    if put_back is None:
-        # Nothing to weld to: let all the octants go through the Boolean, which takes longer.
+    kept = laid.kept
+    inner = InnerOctants(laid, kept.inside) if kept.inside.any() else None
+    rim = np.zeros((0, 3)) if inner is None else inner.rim_points
+    found = _joined(grouped(laid, domain, monitor), rim, cavity, monitor, executor)
+    trimmed = TrimmedSurface(found.mesh, inner)
+    if not trimmed.is_joined:
+        # The Boolean has taken out vertices at the caps, as it may do between tiny triangles: let
+        # all the octants go through it, which takes longer.
         every = KeptOctants(kept.grid, kept.border | kept.inside, np.zeros_like(kept.inside))
-        return trim(domain, every, layout, points, cavity=cavity, monitor=monitor)
-    joined, from_inner = put_back
-    on_wall = np.concatenate([~np.isin(origin[~is_cap], (ids, ids + 1)), from_inner])
-    return Trimmed(
-        joined, on_wall, int((~is_cap).sum()), len(capped.triangles) + len(domain.triangles)
-    )
+        whole = replace(laid, kept=every)
+        return trim(domain, whole, cavity=cavity, monitor=monitor, executor=executor)
+    return Trimmed(trimmed, found.on_wall)
 
 
-def _without_pinches(
-    border: NDArray[np.bool_], present: NDArray[np.bool_], periodic: Periodic
-) -> NDArray[np.bool_]:
-    """The border, grown until no two of its octants touch along an edge or a corner only.
-
-    The caps of two such octants would share an edge between four triangles.
-    """
-    current = border.copy()
+def _joined(
+    groups: Groups, rim: Floats, cavity: bool, monitor: Monitor, executor: Executor | None
+) -> Joined:
+    """All groups, cut and joined; those that do not meet exactly are cut as one."""
+    same = SAME_VERTEX * shortest_edge(groups.wall)
+    pieces: dict[int, Piece] = {}
     while True:
-        padded = wrapped(current, periodic)
-        add = np.zeros_like(padded)
-        for axis in range(3):
-            a, b = (k for k in range(3) if k != axis)
-            for sign in (1, -1):
-                side_a = np.roll(padded, -1, axis=a)
-                side_b = np.roll(padded, -sign, axis=b)
-                diagonal = np.roll(side_a, -sign, axis=b)
-                pinch = padded & diagonal & ~side_a & ~side_b
-                add |= np.roll(pinch, 1, axis=a)
-                add |= np.roll(pinch, sign, axis=b)
-        for signs in ((1, 1, 1), (1, 1, -1), (1, -1, 1), (-1, 1, 1)):
-            opposite = np.roll(padded, [-s for s in signs], axis=(0, 1, 2))
-            between = np.zeros_like(padded)
-            for k in range(1, 7):
-                shift = [-(s if k >> axis & 1 else 0) for axis, s in enumerate(signs)]
-                between |= np.roll(padded, shift, axis=(0, 1, 2))
-            pinch = padded & opposite & ~between
-            for k in range(1, 7):
-                shift = [(s if k >> axis & 1 else 0) for axis, s in enumerate(signs)]
-                add |= np.roll(pinch, shift, axis=(0, 1, 2))
-        grown = current | (add[1:-1, 1:-1, 1:-1] & present)
-        if (grown == current).all():
-            return current
-        current = grown
+        missing = np.array([k for k in range(groups.count) if k not in pieces], np.int64)
+        given = groups.each(missing, cavity, monitor)
+        made = _cut(given, len(missing), executor, monitor)
+        pieces.update(zip(missing.tolist(), made, strict=True))
+        wrong = np.array([k for k, piece in pieces.items() if piece.defect], np.int64)
+        if groups.count == 1:
+            piece = pieces[0]
+            if len(wrong):
+                raise piece.error
+            return Joined(piece.mesh, piece.on_wall, wrong)
+        if not len(wrong):
+            together = [pieces[k] for k in range(groups.count)]
+            if cavity:
+                together.append(groups.untouched)
+            found = join(together, rim, same)
+            if not len(found.loose):
+                return found
+            wrong = found.loose[found.loose < groups.count]
+        if len(wrong) < 2:
+            wrong = np.arange(groups.count)
+        groups, number = groups.merged(wrong)
+        pieces = {int(number[k]): piece for k, piece in pieces.items() if k not in wrong}
 
 
-def _caps(
-    layout: Layout, kept: KeptOctants, monitor: Monitor
-) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """What closes the border's octants towards those inside, and towards nothing."""
-    inward, outward = [], []
-    for axis in range(3):
-        for high in (False, True):
-            every = neighbour_missing(layout.grid, kept.border, axis, high)
-            last = neighbour_missing(layout.grid, kept.border | kept.inside, axis, high)
-            inward.append(facets(layout, monitor, every & ~last, (axis, high)))
-            outward.append(facets(layout, monitor, every & last, (axis, high)))
-    return np.concatenate(inward), np.concatenate(outward)
+def _cut(
+    groups: Iterable[Group], count: int, executor: Executor | None, monitor: Monitor
+) -> Iterator[Piece]:
+    """What the Boolean leaves of groups, in their order."""
+    waiting = iter(groups)
+    ahead: deque[tuple[Group, Future[Piece]]] = deque()
+    for done in range(count):
+        if executor is None:
+            piece = cut(ahead.popleft()[0] if ahead else next(waiting), monitor)
+        else:
+            # Some groups ahead, so that no worker waits; not all, so that they take no memory.
+            for group in islice(waiting, 2 * threads() - len(ahead)):
+                ahead.append((group, _submitted(executor, group)))
+            group, future = ahead.popleft()
+            try:
+                piece = _finished(future, monitor)
+            except BrokenExecutor:  # a worker is gone, as for want of memory: go on without
+                executor, piece = None, cut(group, monitor)
+        for name, amount in piece.work.items():
+            monitor.count(name, amount)
+        monitor.tick(0.1 + 0.8 * (done + 1) / count)
+        yield piece
 
 
-def _solid(
-    mesh: TriangleMesh,
-    runs: list[int],
-    monitor: Monitor,
-    first_id: int | None = None,
-) -> manifold3d.Manifold:
-    """A manifold whose runs of triangles can be told apart after a Boolean."""
-    import manifold3d as library
-
-    ids = library.Manifold.reserve_ids(len(runs)) if first_id is None else first_id
-    source = to_library(
-        mesh,
-        run_index=np.concatenate([[0], np.cumsum(runs)]).astype(np.uint64) * np.uint64(3),
-        run_original_id=np.arange(ids, ids + len(runs), dtype=np.uint32),
-    )
-    return monitor.call(lambda: library.Manifold(source))
+def _submitted(executor: Executor, group: Group) -> Future[Piece]:
+    try:
+        return executor.submit(cut, group)
+    except BrokenExecutor as error:
+        broken: Future[Piece] = Future()
+        broken.set_exception(error)
+        return broken
 
 
-def _read(result: manifold3d.Mesh64) -> tuple[TriangleMesh, NDArray[np.int64]]:
-    """The Boolean's result, and the run that each triangle came from."""
-    index = np.asarray(result.run_index).astype(np.int64) // 3
-    origin = np.repeat(np.asarray(result.run_original_id).astype(np.int64), np.diff(index))
-    return from_library(result), origin
+def _finished(future: Future[Piece], monitor: Monitor) -> Piece:
+    """What a worker made; a cancel does not wait for it."""
+    while True:
+        try:
+            return future.result(timeout=POLL_SECONDS)
+        except FutureTimeoutError:
+            if future.done():
+                raise
+            monitor.tick()
 
 
-def _put_back(
-    cut: TriangleMesh,
-    is_cap: NDArray[np.bool_],
-    points: NDArray[np.float64],
-    caps: NDArray[np.int32],
-    inner: NDArray[np.int32],
-    cavity: bool,
-) -> tuple[TriangleMesh, NDArray[np.bool_]] | None:
-    """The cut border without its caps, and the octants inside, welded where the caps were.
+@dataclass(frozen=True, eq=False)
+class Joined:
+    """Pieces as one mesh.
 
-    None where the Boolean has taken out vertices there, as it may do between tiny triangles.
+    Attributes:
+        mesh: of all of them, first vertices first.
+        on_wall: (m,) bool, triangles that lie on the wall.
+        loose: pieces that are open where no other one nor the rim follows.
     """
-    rest = cut.triangles[~is_cap]
-    if cavity:
-        rest = rest[:, ::-1]
-    if not len(inner):
-        if is_cap.any():
-            raise RuntimeError("the Boolean left caps where no octant follows")
-        return compact(TriangleMesh(cut.vertices, rest)), np.zeros(0, bool)
-    # The rims of the caps are what both sides share; match their coordinates exactly.
-    seam_new = _shared(caps, inner, len(points))
-    seam_cut = _shared(cut.triangles[is_cap], rest, len(cut.vertices))
-    wanted, have = points[seam_new], cut.vertices[seam_cut]
-    order_new, order_cut = np.lexsort(wanted.T), np.lexsort(have.T)
-    if len(wanted) != len(have) or not np.array_equal(wanted[order_new], have[order_cut]):
-        return None
-    number = np.arange(len(points), dtype=np.int64) + len(cut.vertices)
-    number[seam_new[order_new]] = seam_cut[order_cut]
-    joined = TriangleMesh(
-        np.concatenate([cut.vertices, points]),
-        np.concatenate([rest, number[inner].astype(np.int32)]),
+
+    mesh: TriangleMesh
+    on_wall: Bools
+    loose: Ints
+
+
+def join(pieces: Sequence[Piece], rim: Floats, tolerance: float) -> Joined:
+    """Join pieces of a surface along their seams.
+
+    Vertices at open edges that lie within the tolerance of each other become one, in the place
+    that the first piece has. The same edge and facet met in both, so that they differ by rounding.
+
+    Args:
+        pieces: each closed but for its seams.
+        rim: (k, 3) vertices at which the whole may be open, mm.
+        tolerance: mm.
+    """
+    whole = concatenate(*(piece.mesh for piece in pieces))
+    on_wall = np.concatenate([piece.on_wall for piece in pieces])
+    first = np.cumsum([0] + [len(piece.mesh.vertices) for piece in pieces])
+    begin = np.cumsum([0] + [len(piece.mesh.triangles) for piece in pieces])
+    seam = np.concatenate([piece.rim + k for piece, k in zip(pieces, first, strict=False)])
+    owner = np.searchsorted(first, seam, "right") - 1
+    from scipy.spatial import cKDTree  # slow to import
+
+    points = whole.vertices[seam]
+    pairs = cKDTree(points).query_pairs(tolerance, output_type="ndarray").astype(np.int64)
+    count, cluster = pieces_of(pairs[:, 0], pairs[:, 1], len(seam))
+    # Of one piece no two vertices may become one.
+    loose = [_twice(cluster, owner)]
+    chosen = np.full(count, len(seam))
+    np.minimum.at(chosen, cluster, np.arange(len(seam)))
+    number = np.arange(len(whole.vertices), dtype=np.int32)
+    number[seam] = seam[chosen[cluster]]
+    triangles = number[whole.triangles]
+    at_rim = np.zeros(len(whole.vertices), bool)
+    row = equal_rows(rim, points[chosen])
+    at_rim[seam[chosen[row[row >= 0]]]] = True
+    loose.append(np.searchsorted(begin, _open(triangles, number, seam, at_rim), "right") - 1)
+    mesh = compact(TriangleMesh(whole.vertices, triangles))
+    return Joined(mesh, on_wall, np.unique(np.concatenate(loose)))
+
+
+def _twice(cluster: Ints, owner: Ints) -> Ints:
+    """The owners of more than one vertex of a cluster."""
+    pair, often = np.unique(cluster * (owner.max(initial=0) + 1) + owner, return_counts=True)
+    result: Ints = pair[often > 1] % (owner.max(initial=0) + 1)
+    return result
+
+
+def _open(
+    triangles: NDArray[np.int32], number: NDArray[np.int32], seam: Ints, at_rim: Bools
+) -> Ints:
+    """The triangles with an edge that does not run once each way and is not at the rim."""
+    at_seam = np.zeros(len(number), bool)
+    at_seam[number[seam]] = True
+    corners = at_seam[triangles]
+    some = np.flatnonzero(corners.sum(axis=1) >= 2)
+    start = triangles[some].astype(np.int64)
+    end = np.roll(start, -1, axis=1)
+    here = at_seam[start] & at_seam[end]
+    owner = np.repeat(some, 3).reshape(-1, 3)[here]
+    start, end = start[here], end[here]
+    size = np.int64(len(number))
+    key = start * size + end
+    key.sort()
+    back = end * size + start
+    ahead = np.searchsorted(key, start * size + end, "right") - np.searchsorted(
+        key, start * size + end
     )
-    return compact(joined), np.zeros(len(inner), bool)
-
-
-def _shared(one: NDArray[np.int32], two: NDArray[np.int32], count: int) -> NDArray[np.int64]:
-    """The vertices, ascending, that triangles of both sets have; `count` is of all vertices."""
-    in_one, in_two = np.zeros(count, bool), np.zeros(count, bool)
-    in_one[one] = True
-    in_two[two] = True
-    return np.flatnonzero(in_one & in_two)
+    behind = np.searchsorted(key, back, "right") - np.searchsorted(key, back)
+    wrong = (ahead != 1) | (behind > 1) | ((behind == 0) & ~(at_rim[start] & at_rim[end]))
+    result: Ints = owner[wrong]
+    return result

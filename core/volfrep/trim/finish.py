@@ -8,17 +8,22 @@ sends lines through what was moved since.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
+import numpy as np
+
 from ..mesh.float32_repair import (
+    edge_within,
     merging_vertices,
     separate_vertices,
-    shortest_edge,
     without_slivers,
 )
-from ..mesh.quality import Quality, measure
+from ..mesh.quality import Quality
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.self_intersection import crossing_near
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
+from .trimmed_surface import TrimmedSurface
 
 #: Lines see no crossing where less than this part of the volume is not enclosed once: rounding.
 ROUNDING = 1e-9
@@ -29,31 +34,38 @@ MOST_CROSSED = 0.05
 MOST_MOVED = 1e-3
 
 
-def tidied(
-    mesh: TriangleMesh, precision: float, monitor: Monitor, among: int | None = None
-) -> TriangleMesh:
-    """A mesh from a Boolean, without slivers where they can go.
+def tidied(surface: TrimmedSurface, precision: float, monitor: Monitor) -> TrimmedSurface:
+    """A surface from a Boolean, without slivers where they can go.
+
+    Octants beside its mesh have none.
 
     Args:
-        mesh: closed.
+        surface: closed.
         precision: `shortest_edge` of the part, mm.
         monitor: for cancel.
-        among: look for slivers in so many of the first triangles; None: in all.
     """
-    smooth, new = without_slivers(mesh, precision, among)
-    if monitor.call(lambda: crossing_near(smooth, new, precision)).any():
-        smooth = mesh  # a sliver is better than facets that cross
-    return smooth
+    smooth, new = without_slivers(surface.mesh, precision)
+    result = replace(surface, mesh=smooth)
+    about = smooth
+    if surface.octants is not None and new.any():
+        near = surface.octants.reached(smooth.vertices[smooth.triangles[new]])
+        if result.has_inner_edges(new):  # that octants may have, too
+            return tidied(surface.with_octants(near, monitor), precision, monitor)
+        about = result.with_octants(near, monitor).mesh
+        new = np.pad(new, (0, len(about.triangles) - len(new)))
+    if monitor.call(lambda: crossing_near(about, new, precision)).any():
+        return surface  # a sliver is better than facets that cross
+    return result
 
 
 def finished(
-    mesh: TriangleMesh, quality: Quality, monitor: Monitor, moved: bool
-) -> tuple[TriangleMesh, Quality, tuple[str, ...]]:
-    """A mesh as it is handed out, its quality that of any file of it, and sentences for the user.
+    surface: TrimmedSurface, quality: Quality, monitor: Monitor, moved: bool
+) -> tuple[TrimmedSurface, Quality, tuple[str, ...]]:
+    """A surface as it is handed out, its quality that of any file, and sentences for the user.
 
     Args:
-        mesh: closed.
-        quality: of the mesh.
+        surface: closed.
+        quality: of it.
         monitor: for progress and cancel.
         moved: whether the octants' vertices are elsewhere than they were meshed.
 
@@ -61,22 +73,30 @@ def finished(
         VolfrepError: it encloses no volume, runs through itself, or touches itself so that no
             file can hold it; the text says where.
     """
-    apart = separate_vertices(mesh, shortest_edge(mesh))
+    mesh = surface.mesh
+    apart = separate_vertices(mesh, edge_within(quality.bounds))
     if apart is not mesh:
-        again = measure(apart, monitor)
+        if surface.octants is not None:
+            moved_rows = (apart.vertices != mesh.vertices).any(axis=1)
+            about = apart.triangles[moved_rows[apart.triangles].any(axis=1)]
+            if surface.octants.reached(apart.vertices[about]).any():
+                whole = TrimmedSurface(surface.whole(monitor))
+                return finished(whole, quality, monitor, moved)
+        surface = replace(surface, mesh=apart)
+        again = surface.inspected(monitor).found.quality
         if abs(again.volume - quality.volume) > MOST_MOVED * abs(quality.volume):
             raise _finer_than_files(mesh)
         refuse_merging(apart)
-        mesh, quality = apart, again
+        quality = again
     refuse_no_solid(quality)
     if not moved:
-        return mesh, quality, ()
+        return surface, quality, ()
     from ..spatial.winding import windings  # of no use to most lattices
 
-    met = monitor.call(lambda: windings(mesh))
+    met = monitor.call(lambda: windings(surface.whole(monitor)))
     share = met.odd / quality.volume
     if met.place is None or share <= ROUNDING:
-        return mesh, quality, ()
+        return surface, quality, ()
     x, y, z = met.place
     where = (
         f"Struts have so little room about ({x:.4g}, {y:.4g}, {z:.4g}) that facets run through "
@@ -85,7 +105,7 @@ def finished(
     advice = "reduce the radius or let the cells be larger there"
     if share > MOST_CROSSED:
         raise VolfrepError(f"{where}, {advice}.")
-    return mesh, quality, (f"{where}; {advice} if that matters.",)
+    return surface, quality, (f"{where}; {advice} if that matters.",)
 
 
 def pieces_told(

@@ -3,31 +3,32 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.quality import Inspection, Quality, measure, remaining
+from ..mesh.quality import Quality, measure, remaining
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..octants.octant_mesh import OctantSpec
 from ..spatial.rays import inside_points
 from ..util.progress import Monitor
+from .trimmed_surface import TrimmedSurface
 
 
 @dataclass(frozen=True, eq=False)
 class Cleared:
-    """A trimmed mesh without what does not belong to it.
+    """A trimmed surface without what does not belong to it.
 
     Attributes:
-        mesh: what is left.
+        surface: what is left.
         quality: of it.
         pieces_removed: pieces of material that hung on nothing.
         specks_removed: shells smaller than a facet, which no sample could follow.
         volume_removed: of the pieces, mm3.
     """
 
-    mesh: TriangleMesh
+    surface: TrimmedSurface
     quality: Quality
     pieces_removed: int
     specks_removed: int
@@ -40,9 +41,9 @@ def smallest_shell(octant_spec: OctantSpec) -> float:
 
 
 def clear(
-    mesh: TriangleMesh,
-    found: Inspection,
+    surface: TrimmedSurface,
     smallest: float,
+    monitor: Monitor,
     *,
     floating: bool = False,
     keep: NDArray[np.int64] | None = None,
@@ -51,16 +52,19 @@ def clear(
     """Remove what hangs on nothing, and shells too small to mean anything.
 
     Args:
-        mesh: closed shells.
-        found: the mesh, inspected.
+        surface: closed shells.
         smallest: volume in mm3 below which a shell is dropped: less than a facet's size across,
             it is the remainder of a window or a bubble that the samples could not follow.
+        monitor: asked for a cancel.
         floating: every piece of material floats (in a cavity's surface, they are not the part).
-        keep: triangles whose shells stay, all other pieces of material go; None: all stay.
+        keep: triangles of the mesh whose shells stay, all other pieces of material go; None: all
+            stay.
         bodies: so many of the largest pieces of material stay, all others go; 0: all stay.
     """
+    joined = surface.inspected(monitor)
+    found, mesh = joined.found, surface.mesh
     label, volume = found.shell, found.volume
-    used = np.bincount(label, minlength=len(volume)) > 0
+    used = joined.beyond | (np.bincount(label, minlength=len(volume)) > 0)
     solid, void = used & (volume > 0), used & (volume <= 0)
     tiny = used & (np.abs(volume) < smallest)
     loose = solid & (tiny | floating)
@@ -73,19 +77,24 @@ def clear(
         loose |= solid
         loose[order[:bodies]] = False
     if not (loose | tiny).any():
-        return Cleared(mesh, found.quality, 0, 0)
+        return Cleared(surface, found.quality, 0, 0)
+    # What goes has to be in the mesh, with all that may lie in it.
+    alone = joined.beyond & (np.bincount(label, minlength=len(volume)) == 0)
+    if (joined.beyond & (loose | tiny)).any() or ((loose & ~tiny).any() and (void & alone).any()):
+        whole = TrimmedSurface(surface.whole(monitor))
+        return clear(whole, smallest, monitor, floating=floating, keep=keep, bodies=bodies)
     # A void inside a loose piece goes with it.
     inside_loose = np.zeros(len(volume), bool)
     if (loose & ~tiny).any() and (void & ~tiny).any():
         inside_loose = void & _enclosed(mesh, label, loose & ~tiny, void & ~tiny)
     gone = loose | tiny | inside_loose
     goes = gone[label]
-    left = compact(TriangleMesh(mesh.vertices, mesh.triangles[~goes]))
-    if found.quality.watertight and len(left.triangles):
+    left = replace(surface, mesh=compact(TriangleMesh(mesh.vertices, mesh.triangles[~goes])))
+    if found.quality.watertight and left.triangles:
         taken = measure(compact(TriangleMesh(mesh.vertices, mesh.triangles[goes])))
         quality = remaining(found.quality, taken, left.bounds, volume[used & ~gone])
     else:
-        quality = measure(left)
+        quality = left.inspected(monitor).found.quality
     pieces = loose & ~tiny
     return Cleared(left, quality, int(pieces.sum()), int(tiny.sum()), float(volume[pieces].sum()))
 

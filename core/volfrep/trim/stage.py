@@ -3,8 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from concurrent.futures import Executor
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,51 +14,29 @@ from ..design.memory_guard import cells_are_full
 from ..design.openings import DrainHoles
 from ..design.spec_parts import Skin
 from ..grid.strut_graph import Wireframe
-from ..lattice.assembly import Layout, facets
-from ..lattice.deform import Deformed
+from ..lattice.certificate import keeps_corners
 from ..lattice.strut_masks import without_struts
 from ..mesh.booleans import difference, intersection
-from ..mesh.float32_repair import shortest_edge
+from ..mesh.float32_repair import edge_within, shortest_edge
 from ..mesh.quality import combined, inspect, measure
-from ..mesh.triangle_mesh import TriangleMesh, compact, concatenate
-from ..octants.octant import OctantGrid, OctantKey, used_kinds
-from ..octants.octant_mesh import Octant, OctantSpec
+from ..mesh.triangle_mesh import TriangleMesh, concatenate
+from ..octants.octant import OctantGrid, used_kinds
+from ..octants.octant_mesh import OctantSpec
 from ..shell.domain import Domain
 from ..spatial.proximity import closest_points
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
-from ..util.types import Floats
-from .boolean_trim import KeptOctants, OctantRoles, cull, keep_all, trim
+from .boolean_trim import trim
+from .culling import KeptOctants, OctantRoles, cull, keep_all
 from .drains import Drained, drain
 from .finish import tidied
+from .laid import Laid
 from .loose_pieces import Cleared, clear, smallest_shell
 from .prune import Pruned
+from .trimmed_surface import TrimmedSurface
 
-#: Octants on moved struts mostly reach no farther out of their places than this, in units of
-#: their edges. Where they do, they are looked for so many times as far as the last ones reached.
-FIRST_MARGIN = 0.05
-SPARE_MARGIN = 1.05
-#: How often they are looked for farther out. From the second time on it is at least twice as far,
-#: so that the last time is more than the `SUPPORT` of three cells about an octant: a vertex hangs
-#: on the struts of its own cell, and none reaches there.
-MOST_WIDENINGS = 9
 #: Less of a domain than this is no lattice.
 NO_LATTICE = 1e-6
-
-
-@dataclass(frozen=True, eq=False)
-class Laid:
-    """Octants laid where their struts are.
-
-    Attributes:
-        kept: which octants there are.
-        layout: the same, numbered.
-        points: (n, 3) where their vertices are, mm.
-    """
-
-    kept: KeptOctants
-    layout: Layout
-    points: Floats
 
 
 def chosen_octants(
@@ -90,38 +68,6 @@ def chosen_octants(
     return replace(kept, grid=used_kinds(fewer))
 
 
-def lay(
-    first: tuple[KeptOctants, dict[OctantKey, Octant]],
-    margin: float,
-    within: Callable[[float], tuple[KeptOctants, dict[OctantKey, Octant]]],
-    place: Callable[[Layout], Deformed],
-) -> Laid:
-    """The octants laid where the struts are; with more of them, where struts reach far out.
-
-    Args:
-        first: the octants within the margin, and their meshes.
-        margin: how far out of their places octants may reach, in units of their edges.
-        within: gives the octants within a wider one.
-        place: gives where the vertices of numbered octants are.
-
-    Raises:
-        VolfrepError: octants reach out farther than `MOST_WIDENINGS` find.
-    """
-    kept, octants = first
-    for widening in range(MOST_WIDENINGS + 1):
-        layout = kept.lay_out(octants)
-        placed = place(layout)
-        if placed.excess <= margin + 1e-9:
-            return Laid(kept, layout, placed.vertices)
-        if widening < MOST_WIDENINGS:
-            margin = max(SPARE_MARGIN * placed.excess, 2.0 * margin if widening else 0.0)
-            kept, octants = within(margin)
-    raise VolfrepError(
-        f"Struts reach {placed.excess / 2.0:.1f} cells out of their places: grade the cells or "
-        "their radii less steeply."
-    )
-
-
 def cut_lattice(
     laid: Laid,
     solid: TriangleMesh,
@@ -131,6 +77,7 @@ def cut_lattice(
     *,
     has_skin: bool,
     with_skin: bool,
+    executor: Executor | None = None,
     keep_pieces: bool = False,
 ) -> Cleared:
     """The part or the lattice, without loose pieces and slivers, and its quality.
@@ -143,35 +90,38 @@ def cut_lattice(
         monitor: for progress and cancel.
         has_skin: whether a skin lies about the domain, which holds the lattice.
         with_skin: whether the lattice is joined to it.
+        executor: of the groups of octants that the wall cuts; None: this process.
         keep_pieces: pieces that hang on nothing stay.
 
     Raises:
         VolfrepError: nothing is left, or nothing would hold it.
     """
     wall = domain.wall
-    trimmed = trim(wall, laid.kept, laid.layout, laid.points, cavity=with_skin, monitor=monitor)
-    mesh, cut, removed, lost = trimmed.mesh, trimmed.cut, 0, 0.0
     smallest, precision = smallest_shell(octant_spec), shortest_edge(solid)
+    trimmed = trim(wall, laid, cavity=with_skin, monitor=monitor, executor=executor)
+    surface, removed, lost = trimmed.surface, 0, 0.0
+    if not _needs_no_look(laid, wall):
+        surface = TrimmedSurface(surface.whole(monitor))
     if has_skin and not (with_skin or keep_pieces):
         on_wall = np.flatnonzero(trimmed.on_wall)
-        held = clear(mesh, inspect(mesh, monitor), smallest, keep=on_wall)
-        mesh, cut = held.mesh, len(held.mesh.triangles)
+        held = clear(surface, smallest, monitor, keep=on_wall)
+        surface = held.surface
         removed, lost = held.pieces_removed, held.volume_removed
-        if removed and not len(mesh.triangles):
+        if removed and not surface.triangles:
             raise _nothing_holds()
-    mesh = tidied(mesh, precision, monitor, cut)
-    found = inspect(mesh, monitor)
+    surface = tidied(surface, precision, monitor)
     bodies = 0
     if not (has_skin or keep_pieces):
         bodies = max(1, inspect(solid).quality.bodies)
-    cleared = clear(mesh, found, smallest, floating=with_skin and not keep_pieces, bodies=bodies)
-    if not len(cleared.mesh.triangles):
+    floating = with_skin and not keep_pieces
+    cleared = clear(surface, smallest, monitor, floating=floating, bodies=bodies)
+    if not cleared.surface.triangles:
         if with_skin:
             raise cells_are_full(octant_spec.cell_size, octant_spec.strut_radius)
         raise VolfrepError(
             "No strut lies inside the part: reduce the cell size or move the origin."
         )
-    if with_skin and cleared.mesh is not mesh:
+    if with_skin and cleared.surface is not surface:
         # The cavity's surface counts as negative: what is left may be its wall only.
         cavity = wall.volume
         if cavity + cleared.quality.volume < NO_LATTICE * cavity:
@@ -187,8 +137,22 @@ def cut_lattice(
         )
     if not with_skin:
         return cleared
-    whole = concatenate(solid, cleared.mesh)
-    return replace(cleared, mesh=whole, quality=combined(measure(solid), cleared.quality))
+    cut = cleared.surface
+    both = replace(cut, mesh=concatenate(solid, cut.mesh))
+    return replace(cleared, surface=both, quality=combined(measure(solid), cleared.quality))
+
+
+def _needs_no_look(laid: Laid, wall: TriangleMesh) -> bool:
+    """Whether octants that the wall does not cross are right without a look at their triangles.
+
+    Files keep their vertices apart, and from what is new on the wall.
+    """
+    bounds = wall.bounds
+    return (
+        laid.is_proved_by_kind
+        and laid.clearance > edge_within(bounds)
+        and keeps_corners(laid.octants.values(), 0.5 * laid.layout.grid.cell_size, bounds)
+    )
 
 
 def drained_part(
@@ -205,11 +169,11 @@ def drained_part(
     Raises:
         VolfrepError: a hole cannot be where it is wanted.
     """
-    drained = drain(cleared.mesh, solid, domain.mesh, frame, skin.thickness, drains, monitor)
-    precision = shortest_edge(solid)
-    clean = tidied(drained.mesh, precision, monitor)
-    cleared = replace(cleared, mesh=clean, quality=measure(clean, monitor))
-    return cleared, replace(drained, mesh=clean)
+    part = cleared.surface.whole(monitor)
+    drained = drain(part, solid, domain.mesh, frame, skin.thickness, drains, monitor)
+    clean = tidied(TrimmedSurface(drained.mesh), shortest_edge(solid), monitor)
+    cleared = replace(cleared, surface=clean, quality=measure(clean.mesh, monitor))
+    return cleared, replace(drained, mesh=clean.mesh)
 
 
 def _opened(
@@ -223,7 +187,7 @@ def _opened(
     monitor: Monitor,
 ) -> Cleared:
     """The part, or its lattice, cut at its open faces, beyond which the cavity reaches."""
-    mesh = cleared.mesh
+    mesh = cleared.surface.whole(monitor)
     precision = shortest_edge(solid)
     if with_skin:
         void = mesh.reversed()
@@ -231,15 +195,15 @@ def _opened(
     else:
         lattice = mesh
         mesh = monitor.call(lambda: intersection(lattice, solid))
-    mesh = tidied(mesh, precision, monitor)
-    found = inspect(mesh, monitor)
+    surface = tidied(TrimmedSurface(mesh), precision, monitor)
     if keep_pieces:
-        rest = clear(mesh, found, smallest)
+        rest = clear(surface, smallest, monitor)
     elif with_skin:
-        rest = clear(mesh, found, smallest, bodies=inspect(solid).quality.bodies)
+        rest = clear(surface, smallest, monitor, bodies=inspect(solid).quality.bodies)
     else:
-        rest = clear(mesh, found, smallest, keep=_on_skin(mesh, domain, openings, precision))
-    if not len(rest.mesh.triangles):
+        held = _on_skin(surface.mesh, domain, openings, precision)
+        rest = clear(surface, smallest, monitor, keep=held)
+    if not rest.surface.triangles:
         raise _nothing_holds()
     return replace(
         rest,
@@ -268,11 +232,11 @@ def uncut_lattice(
     keep_pieces: bool = False,
 ) -> Cleared:
     """The lattice of whole cells as it is, without loose pieces, and its quality."""
-    whole = compact(TriangleMesh(laid.points, facets(laid.layout, monitor)))
-    mesh = tidied(whole, shortest_edge(whole), monitor)
-    found = inspect(mesh, monitor)
+    everywhere = laid.kept.grid.kind >= 0
+    mesh = laid.mesh(laid.facets(everywhere, monitor), everywhere, monitor)[0]
+    surface = tidied(TrimmedSurface(mesh), shortest_edge(mesh), monitor)
     bodies = 0 if keep_pieces else max(1, inspect(solid).quality.bodies)
-    return clear(mesh, found, smallest_shell(octant_spec), bodies=bodies)
+    return clear(surface, smallest_shell(octant_spec), monitor, bodies=bodies)
 
 
 def _nothing_holds() -> VolfrepError:

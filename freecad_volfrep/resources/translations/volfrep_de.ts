@@ -201,6 +201,10 @@
       <translation>Richtung</translation>
     </message>
     <message>
+      <source>Distance between a facet and the exact strut, kept away from the creases where struts meet; 0 for a thirty-fifth of the radius</source>
+      <translation>Abstand zwischen einer Facette und dem genauen Stab, eingehalten außer in den Kehlen zwischen Stäben; 0 für ein Fünfunddreißigstel des Radius</translation>
+    </message>
+    <message>
       <source>Domain</source>
       <translation>Füllraum</translation>
     </message>
@@ -343,10 +347,6 @@
     <message>
       <source>Lambda Start</source>
       <translation>Lambda am Anfang</translation>
-    </message>
-    <message>
-      <source>Largest distance between a facet and the exact strut; 0 for a thirty-fifth of the radius</source>
-      <translation>Größter Abstand zwischen einer Facette und der exakten Strebe; 0 für ein Fünfunddreißigstel des Radius</translation>
     </message>
     <message>
       <source>Lattice</source>
@@ -1546,6 +1546,10 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>Anzeige und Grenzen</translation>
     </message>
     <message>
+      <source>Distance between a facet and the exact strut, where the resolution is automatic; automatic: by the strut radius</source>
+      <translation>Abstand zwischen einer Facette und dem genauen Stab bei automatischer Auflösung; automatisch: nach dem Stabradius</translation>
+    </message>
+    <message>
       <source>Edge length L of a cell; automatic: about four cells across the thinnest side of the part</source>
       <translation>Kantenlänge L einer Zelle; automatisch: etwa vier Zellen über die dünnste Seite des Bauteils</translation>
     </message>
@@ -1560,10 +1564,6 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
     <message>
       <source>In Section View</source>
       <translation>In der Schnittansicht</translation>
-    </message>
-    <message>
-      <source>Largest distance between a facet and the exact strut, where the resolution is automatic; automatic: by the strut radius</source>
-      <translation>Größter Abstand zwischen einer Facette und der exakten Strebe, wo die Auflösung automatisch ist; automatisch: nach dem Strebenradius</translation>
     </message>
     <message>
       <source>Lattice</source>

@@ -201,6 +201,10 @@
       <translation>Direzione</translation>
     </message>
     <message>
+      <source>Distance between a facet and the exact strut, kept away from the creases where struts meet; 0 for a thirty-fifth of the radius</source>
+      <translation>Distanza tra una faccetta e l'asta esatta, rispettata lontano dagli spigoli in cui le aste si incontrano; 0 per un trentacinquesimo del raggio</translation>
+    </message>
+    <message>
       <source>Domain</source>
       <translation>Dominio</translation>
     </message>
@@ -343,10 +347,6 @@
     <message>
       <source>Lambda Start</source>
       <translation>Lambda all'inizio</translation>
-    </message>
-    <message>
-      <source>Largest distance between a facet and the exact strut; 0 for a thirty-fifth of the radius</source>
-      <translation>Distanza massima tra una faccetta e l'asta esatta; 0 per un trentacinquesimo del raggio</translation>
     </message>
     <message>
       <source>Lattice</source>
@@ -1546,6 +1546,10 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>Visualizzazione e limiti</translation>
     </message>
     <message>
+      <source>Distance between a facet and the exact strut, where the resolution is automatic; automatic: by the strut radius</source>
+      <translation>Distanza tra una faccetta e l'asta esatta, con la risoluzione automatica; automatica: secondo il raggio dell'asta</translation>
+    </message>
+    <message>
       <source>Edge length L of a cell; automatic: about four cells across the thinnest side of the part</source>
       <translation>Lunghezza L dello spigolo di una cella; automatica: circa quattro celle sul lato più sottile della parte</translation>
     </message>
@@ -1560,10 +1564,6 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
     <message>
       <source>In Section View</source>
       <translation>Nella vista in sezione</translation>
-    </message>
-    <message>
-      <source>Largest distance between a facet and the exact strut, where the resolution is automatic; automatic: by the strut radius</source>
-      <translation>Distanza massima tra una faccetta e l'asta esatta, dove la risoluzione è automatica; automatico: in base al raggio delle aste</translation>
     </message>
     <message>
       <source>Lattice</source>

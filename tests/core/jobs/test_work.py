@@ -16,10 +16,10 @@ SPEC = LatticeSpec("CVC", 5.0, 0.5, shell=1.0, resolution=8)
 
 
 @lru_cache
-def work(cells):
-    """Of a cube of so many cells along each axis, cut off the grid."""
+def cube(cells):
+    """The report of a cube of so many cells along each axis, cut off the grid."""
     spec = LatticeSpec("CVC", 5.0, 0.5, shell=0.0, resolution=8, origin=(2.2, 2.2, 2.2))
-    return fill(box((5.0 * cells,) * 3), spec).report.work
+    return fill(box((5.0 * cells,) * 3), spec).report
 
 
 @pytest.mark.parametrize("cell", LIBRARY)
@@ -41,18 +41,17 @@ def test_a_file_is_written_once(tmp_path):
 
 
 def test_the_boolean_grows_with_the_surface():
-    """Twice the size: four times the triangles in the Boolean, eight times those of the lattice."""
-    small, large = work(7), work(14)
-    inside = "triangles laid"
-    assert large[inside] > 6.5 * small[inside]
-    into = "triangles into the Boolean"
-    assert large[into] < 4.4 * small[into]
+    """Twice the size: four times the triangles laid and cut, eight times those of the lattice."""
+    small, large = cube(7), cube(14)
+    assert large.triangles > 6.5 * small.triangles
+    for figure in ("triangles laid", "triangles into the Boolean"):
+        assert large.work[figure] < 4.4 * small.work[figure]
 
 
 def test_cells_inside_do_not_enter_the_boolean():
     """On 14 cells along each axis less than half of the lattice is at the wall."""
-    done = work(14)
-    assert done["triangles into the Boolean"] < 0.5 * done["triangles laid"]
+    done = cube(14)
+    assert done.work["triangles into the Boolean"] < 0.5 * done.triangles
 
 
 def test_a_change_of_the_radius_finds_no_wall_again():

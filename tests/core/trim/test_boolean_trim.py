@@ -1,26 +1,41 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The lattice cut at the wall, and what is removed afterwards."""
 
+from concurrent.futures import BrokenExecutor, ProcessPoolExecutor, ThreadPoolExecutor
+from dataclasses import dataclass, replace
+
 import manifold3d
 import numpy as np
 import pytest
+import trimesh
 
 import samples
+from contract import assert_same_quality
 from volfrep.design.cells import LIBRARY
 from volfrep.grid.activation import make_grid
 from volfrep.grid.placement import NUDGE
-from volfrep.lattice.assembly import coordinates
 from volfrep.mesh import quality
 from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.octants.octant import ALL_ACTIVE, OctantGrid, OctantKey
 from volfrep.octants.octant_mesh import OctantSpec, mesh_octants
-from volfrep.trim.boolean_trim import cull, octant_roles, trim
+from volfrep.trim import boolean_trim, wall_groups
+from volfrep.trim.boolean_trim import trim
+from volfrep.trim.culling import cull, octant_roles
+from volfrep.trim.group_cut import open_vertices
+from volfrep.trim.laid import in_place
+from volfrep.trim.trimmed_surface import TrimmedSurface
 from volfrep.util.progress import Monitor
 
 L = 10.0
 
 
-def trimmed(domain, name="CVC", radius=1.0, cavity=True, grow=0):
+@dataclass
+class Found:
+    surface: TrimmedSurface
+    boolean_triangles: int
+
+
+def trimmed(domain, name="CVC", radius=1.0, cavity=True, grow=0, executor=None):
     """The lattice cut at the domain; with `grow`, that many more octants go into the Boolean."""
     cell, monitor = LIBRARY[name], Monitor()
     cells = make_grid(domain.bounds, L, (1.3, 2.1, 0.7))
@@ -31,16 +46,21 @@ def trimmed(domain, name="CVC", radius=1.0, cavity=True, grow=0):
     grid = OctantGrid([key], np.zeros(roles.border.shape, np.int16), cells.origin, L, True)
     octants = mesh_octants(cell, OctantSpec(L, radius, 0.0, 15), [key], monitor)
     kept = cull(grid, roles)
-    layout = kept.lay_out(octants)
-    points = coordinates(layout, monitor) + NUDGE * L
-    return trim(domain, kept, layout, points, cavity=cavity, monitor=monitor)
+    laid = in_place(kept, octants, NUDGE * L)
+    found = trim(domain, laid, cavity=cavity, monitor=monitor, executor=executor)
+    return Found(found.surface, monitor.work["triangles into the Boolean"])
+
+
+def mesh_of(found):
+    """All of the surface as one mesh."""
+    return found.surface.whole(Monitor())
 
 
 @pytest.mark.parametrize("name", LIBRARY)
 def test_lattice_and_cavity_share_the_domain_between_them(name):
     domain = samples.sphere(22.0)
-    lattice = trimmed(domain, name, cavity=False).mesh
-    cavity = trimmed(domain, name, cavity=True).mesh
+    lattice = mesh_of(trimmed(domain, name, cavity=False))
+    cavity = mesh_of(trimmed(domain, name, cavity=True))
     for mesh in (lattice, cavity):
         assert quality.measure(mesh).watertight
     # The cavity's surface is seen from the material: its volume counts as negative.
@@ -51,8 +71,38 @@ def test_octants_inside_are_put_back_as_the_boolean_would_have_left_them():
     domain = samples.sphere(25.0)
     some, everything = trimmed(domain), trimmed(domain, grow=1)
     assert some.boolean_triangles < 0.8 * everything.boolean_triangles
-    assert some.mesh.volume == pytest.approx(everything.mesh.volume, rel=1e-9)
-    assert quality.measure(some.mesh).genus == quality.measure(everything.mesh).genus
+    one, two = mesh_of(some), mesh_of(everything)
+    assert one.volume == pytest.approx(two.volume, rel=1e-9)
+    assert quality.measure(one).genus == quality.measure(two).genus
+
+
+@pytest.mark.parametrize("name", LIBRARY)
+@pytest.mark.parametrize("cavity", [True, False])
+def test_what_is_proved_of_octants_inside_is_what_their_triangles_show(name, cavity):
+    surface = trimmed(samples.sphere(25.0), name, cavity=cavity).surface
+    found = surface.inspected(Monitor()).found
+    whole = surface.whole(Monitor())
+    assert surface.octants is not None
+    assert len(surface.mesh.triangles) < len(whole.triangles) == surface.triangles
+    assert_same_quality(found.quality, quality.measure(whole))
+    # Shells, too: each triangle of the mesh has the volume of its own.
+    plain = quality.inspect(whole)
+    np.testing.assert_allclose(
+        found.volume[found.shell], plain.volume[plain.shell[: len(found.shell)]], rtol=1e-6
+    )
+
+
+def test_octants_that_do_not_fit_to_the_cut_are_found_out():
+    surface = trimmed(samples.sphere(25.0)).surface
+    mesh = surface.mesh
+    rim = (mesh.vertices == surface.octants.rim_points[0]).all(axis=1)
+    off = TriangleMesh(mesh.vertices + 1e-9 * rim[:, None], mesh.triangles)
+    with pytest.raises(RuntimeError, match="do not fit"):
+        replace(surface, mesh=off).inspected(Monitor())
+    away = ~rim[mesh.triangles].any(axis=1)
+    hole = TriangleMesh(mesh.vertices, mesh.triangles[~(away & (np.cumsum(away) == 1))])
+    found = replace(surface, mesh=hole).inspected(Monitor()).found.quality
+    assert (found.watertight, found.open_edges) == (False, 3)
 
 
 def test_the_boolean_takes_only_what_the_wall_crosses():
@@ -65,7 +115,7 @@ def test_the_boolean_takes_only_what_the_wall_crosses():
 
 def test_a_wall_in_the_cells_own_faces_cuts_cleanly():
     domain = samples.box((40.0, 30.0, 20.0), (1.3, 2.1, 0.7))
-    mesh = trimmed(domain, "Box", cavity=False).mesh
+    mesh = mesh_of(trimmed(domain, "Box", cavity=False))
     found = quality.measure(mesh)
     assert found.watertight
     assert found.bodies == 1
@@ -84,11 +134,11 @@ def test_a_mesh_that_is_no_solid_is_refused():
 def test_the_trimmed_lattice_has_the_genus_of_a_boolean_by_others():
     """Second opinion: the same lattice as one closed block, cut by manifold3d as a whole."""
     domain = samples.sphere(18.0)
-    ours = quality.measure(trimmed(domain, "Octahedron", cavity=False).mesh)
+    ours = quality.measure(mesh_of(trimmed(domain, "Octahedron", cavity=False)))
     everything = trimmed(
         samples.box((60.0, 60.0, 60.0), (-30.0, -30.0, -30.0)), "Octahedron", cavity=False
     )
-    block = everything.mesh
+    block = mesh_of(everything)
     solid = manifold3d.Manifold(
         manifold3d.Mesh64(block.vertices, block.triangles.astype(np.uint64))
     )
@@ -97,3 +147,94 @@ def test_the_trimmed_lattice_has_the_genus_of_a_boolean_by_others():
     )
     whole = solid ^ ball
     assert ours.volume == pytest.approx(whole.volume(), rel=1e-6)
+
+
+@pytest.fixture
+def small_groups(monkeypatch):
+    """Groups of so few triangles that a sample has several."""
+    monkeypatch.setattr(wall_groups, "GROUP_TRIANGLES", 12_000)
+
+
+def joined_of(monkeypatch):
+    """What is cut from here on is noted: how many groups there were, each time."""
+    counts = []
+    each = wall_groups.Groups.each
+
+    def noted(self, which, cavity, monitor):
+        counts.append(len(which))
+        return each(self, which, cavity, monitor)
+
+    monkeypatch.setattr(wall_groups.Groups, "each", noted)
+    return counts
+
+
+def tilted_box():
+    """Large flat facets in no plane of the cells'."""
+    box = trimesh.creation.box((47.0, 38.0, 29.0))
+    box.apply_transform(trimesh.transformations.rotation_matrix(0.4, (1, 2, 3)))
+    return TriangleMesh(np.asarray(box.vertices), box.faces.astype(np.int32))
+
+
+@pytest.mark.parametrize("cavity", [True, False])
+@pytest.mark.parametrize("name", ["CVC", "Box"])
+@pytest.mark.parametrize("domain", [tilted_box(), samples.sphere(22.0)], ids=["flat", "round"])
+def test_groups_give_the_surface_that_one_boolean_gives(
+    domain, name, cavity, small_groups, monkeypatch
+):
+    counts = joined_of(monkeypatch)
+    some = quality.measure(mesh_of(trimmed(domain, name, cavity=cavity)))
+    assert len(counts) == 1  # none had to be cut again
+    assert counts[0] > 3
+    monkeypatch.setattr(wall_groups, "GROUP_TRIANGLES", 10**9)
+    one = quality.measure(mesh_of(trimmed(domain, name, cavity=cavity)))
+    assert counts[1:] == [1]
+    assert some.watertight
+    assert some.volume == pytest.approx(one.volume, rel=1e-9)
+    assert some.area == pytest.approx(one.area, rel=1e-9)
+    for figure in ("shells", "bodies", "voids", "genus"):
+        assert getattr(some, figure) == getattr(one, figure)
+
+
+def test_the_surface_is_the_same_whoever_cuts_the_groups(small_groups):
+    domain = tilted_box()
+    alone = mesh_of(trimmed(domain))
+    with ThreadPoolExecutor(2) as threads, ProcessPoolExecutor(1) as process:
+        for executor in (threads, process):
+            mesh = mesh_of(trimmed(domain, executor=executor))
+            np.testing.assert_array_equal(mesh.vertices, alone.vertices)
+            np.testing.assert_array_equal(mesh.triangles, alone.triangles)
+
+
+def test_a_worker_that_is_gone_costs_time_and_nothing_else(small_groups):
+    class Gone(ThreadPoolExecutor):
+        taken = 0
+
+        def submit(self, *args):
+            Gone.taken += 1
+            if Gone.taken > 2:
+                raise BrokenExecutor("killed")
+            return super().submit(*args)
+
+    with Gone(1) as executor:
+        mesh = mesh_of(trimmed(tilted_box(), executor=executor))
+    np.testing.assert_array_equal(mesh.vertices, mesh_of(trimmed(tilted_box())).vertices)
+    assert Gone.taken > 2
+
+
+def test_groups_that_do_not_meet_are_cut_as_one(small_groups, monkeypatch):
+    counts = joined_of(monkeypatch)
+    real, spoilt = boolean_trim.cut, []
+
+    def spoiling(group, monitor=None):
+        piece = real(group, monitor)
+        if not spoilt:
+            # One triangle of the first group is lost.
+            spoilt.append(True)
+            mesh = TriangleMesh(piece.mesh.vertices, piece.mesh.triangles[:-1])
+            return replace(piece, mesh=mesh, on_wall=piece.on_wall[:-1], rim=open_vertices(mesh))
+        return piece
+
+    monkeypatch.setattr(boolean_trim, "cut", spoiling)
+    found = quality.measure(mesh_of(trimmed(tilted_box())))
+    assert found.watertight
+    assert len(counts) == 2

@@ -13,11 +13,12 @@ from volfrep.io.write import write_mesh
 from volfrep.jobs.blocks import block
 from volfrep.jobs.pipeline import fill
 from volfrep.mesh.float32_repair import without_slivers
-from volfrep.mesh.quality import inspect, measure
+from volfrep.mesh.quality import measure
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
 from volfrep.spatial.self_intersection import crossing_near, crossing_triangles
 from volfrep.trim.finish import finished, refuse_merging, tidied
 from volfrep.trim.loose_pieces import clear
+from volfrep.trim.trimmed_surface import TrimmedSurface
 from volfrep.util.errors import VolfrepError
 from volfrep.util.progress import Monitor
 
@@ -39,9 +40,9 @@ def test_bodies_that_nearly_touch_stay_two_in_every_file(tmp_path, extension, ga
     box = samples.box((10.0, 10.0, 10.0))
     # At the origin float32 tells more apart than decimals do; far from it, less.
     pair = concatenate(box, moved(box, (-10.0 - gap, 0.0, 0.0)), moved(box, (60.0, 70.0, 80.0)))
-    mesh, quality, notes = finished(pair, measure(pair), Monitor(), moved=False)
+    surface, quality, notes = finished(TrimmedSurface(pair), measure(pair), Monitor(), moved=False)
     path = tmp_path / f"a{extension}"
-    write_mesh(mesh, path)
+    write_mesh(surface.mesh, path)
     assert shells_read(path) == (quality.bodies, quality.voids, True) == (3, 0, True)
     assert notes == ()
 
@@ -55,7 +56,7 @@ def test_vertices_that_no_file_can_tell_apart_are_refused_with_their_place():
 def test_what_encloses_nothing_is_refused():
     for mesh in (samples.box().reversed(), concatenate(samples.box(), samples.box().reversed())):
         with pytest.raises(VolfrepError, match="no solid"):
-            finished(moved_apart(mesh), measure(mesh), Monitor(), moved=False)
+            finished(TrimmedSurface(moved_apart(mesh)), measure(mesh), Monitor(), moved=False)
 
 
 def moved_apart(mesh):
@@ -74,8 +75,8 @@ def test_flat_shells_that_go_leave_the_count_of_bodies_as_it_is():
         corners = random.normal(size=(4, 2)) @ plane.T * 0.01
         flat.append(TriangleMesh(corners + random.uniform(-5.0, 25.0, 3), faces))
     mesh = concatenate(samples.box(), *flat)
-    cleared = clear(mesh, inspect(mesh), 1e-3)
-    assert len(cleared.mesh.triangles) == 12
+    cleared = clear(TrimmedSurface(mesh), 1e-3, Monitor())
+    assert len(cleared.surface.mesh.triangles) == 12
     assert (cleared.quality.bodies, cleared.quality.voids) == (1, 0)
 
 
@@ -150,7 +151,7 @@ def test_slivers_stay_where_facets_would_cross_without_them(monkeypatch):
         return TriangleMesh(vertices, mesh.triangles), np.ones(len(mesh.triangles), bool)
 
     monkeypatch.setattr("volfrep.trim.finish.without_slivers", bad)
-    assert tidied(box, 1e-4, Monitor()) is box
+    assert tidied(TrimmedSurface(box), 1e-4, Monitor()).mesh is box
 
 
 def test_near_the_few_finds_what_everywhere_does():

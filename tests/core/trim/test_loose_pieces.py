@@ -8,6 +8,8 @@ from contract import assert_same_quality
 from volfrep.mesh import quality
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
 from volfrep.trim.loose_pieces import clear
+from volfrep.trim.trimmed_surface import TrimmedSurface
+from volfrep.util.progress import Monitor
 
 
 def _ball(radius, centre):
@@ -16,8 +18,8 @@ def _ball(radius, centre):
 
 
 def cleared_of(mesh, smallest, **rules):
-    cleared = clear(mesh, quality.inspect(mesh), smallest, **rules)
-    assert_same_quality(cleared.quality, quality.measure(cleared.mesh))
+    cleared = clear(TrimmedSurface(mesh), smallest, Monitor(), **rules)
+    assert_same_quality(cleared.quality, quality.measure(cleared.surface.mesh))
     return cleared
 
 
@@ -27,15 +29,15 @@ def test_pieces_that_float_in_a_cavity_go_with_the_voids_in_them():
     bubble = _ball(1.0, (-15, 0, 0)).reversed()
     cleared = cleared_of(concatenate(cavity, loose, bubble), 0.01, floating=True)
     assert cleared.pieces_removed == 1
-    assert quality.measure(cleared.mesh).shells == 2
-    assert cleared.mesh.volume == pytest.approx(cavity.volume + bubble.volume)
+    assert quality.measure(cleared.surface.mesh).shells == 2
+    assert cleared.surface.mesh.volume == pytest.approx(cavity.volume + bubble.volume)
 
 
 def test_without_a_skin_the_largest_body_stays():
     meshes = [_ball(3.0, (0, 0, 0)), _ball(6.0, (20, 0, 0)), _ball(2.0, (40, 0, 0))]
     cleared = cleared_of(concatenate(*meshes), 0.01, bodies=1)
     assert cleared.pieces_removed == 2
-    assert cleared.mesh.volume == pytest.approx(meshes[1].volume)
+    assert cleared.surface.mesh.volume == pytest.approx(meshes[1].volume)
 
 
 def test_specks_are_removed_and_counted_apart():
@@ -45,7 +47,7 @@ def test_specks_are_removed_and_counted_apart():
 
 def test_where_nothing_is_too_small_everything_stays():
     mesh = concatenate(_ball(5.0, (0, 0, 0)), _ball(1.0, (20, 0, 0)))
-    assert cleared_of(mesh, 0.1).mesh is mesh
+    assert cleared_of(mesh, 0.1).surface.mesh is mesh
 
 
 def test_a_mesh_with_a_hole_is_measured_anew():

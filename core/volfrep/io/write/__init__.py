@@ -13,6 +13,7 @@ from ...util.errors import VolfrepError
 
 if TYPE_CHECKING:
     from ...mesh.triangle_mesh import TriangleMesh
+    from ...trim.trimmed_surface import TrimmedSurface
     from ...util.progress import Monitor
 
 MeshWriter = Callable[["TriangleMesh", "str | os.PathLike[str]", "Monitor | None"], None]
@@ -82,3 +83,33 @@ def write_mesh(
         write_3mf(mesh, path, monitor, figures)
         return
     writer(mesh, path, monitor)
+
+
+def write_surface(
+    surface: TrimmedSurface,
+    path: str | os.PathLike[str],
+    monitor: Monitor | None = None,
+    *,
+    figures: Mapping[str, str] | None = None,
+) -> None:
+    """Write a surface in the format that the path's extension names; an STL without its mesh.
+
+    Args:
+        surface: in mm.
+        path: of the file; an old file stays if anything goes wrong.
+        monitor: told the progress, asked for a cancel.
+        figures: as of `write_mesh`.
+
+    Raises:
+        VolfrepError: as `write_mesh`.
+        Cancelled: when the monitor says so; no file is left behind.
+    """
+    if Path(path).suffix.lower() == ".stl":
+        from .stl_octants import write_surface_stl
+
+        write_surface_stl(surface, path, monitor)
+    else:
+        mesh_writer(path)  # refused before the mesh is made
+        from ...util.progress import Monitor
+
+        write_mesh(surface.whole(monitor or Monitor()), path, monitor, figures=figures)

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import os
 from collections import deque
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from itertools import islice
@@ -46,17 +46,18 @@ def write_stl(
             that lose a corner in float32; or the path cannot be written.
         Cancelled: when the monitor says so; no file is left behind.
     """
+    write_facets(path, len(mesh.triangles), mesh_blocks(mesh, path), monitor)
+
+
+def mesh_blocks(mesh: TriangleMesh, path: str | os.PathLike[str]) -> Iterator[Callable[[], Facets]]:
+    """The facets of a mesh in mm, block by block, for the file at the path.
+
+    Raises:
+        VolfrepError: as `write_stl`.
+    """
     vertices = single_precision(mesh, path)
-    starts = range(0, len(mesh.triangles), BLOCK_FACETS)
-    write_facets(
-        path,
-        len(mesh.triangles),
-        (
-            partial(_facets, vertices, mesh.triangles[start : start + BLOCK_FACETS], path)
-            for start in starts
-        ),
-        monitor,
-    )
+    for start in range(0, len(mesh.triangles), BLOCK_FACETS):
+        yield partial(_facets, vertices, mesh.triangles[start : start + BLOCK_FACETS], path)
 
 
 def write_facets(

@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Which octants the wall crosses, which lie inside, and which are left out."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..grid.activation import CellGrid, crossed_cells, inside_cells, wall_corners
+from ..grid.coordinate_map import STRAIGHT, CoordinateMap
+from ..lattice.assembly import Layout, lay_out
+from ..mesh.triangle_mesh import TriangleMesh
+from ..octants.caps import with_corners
+from ..octants.octant import OctantGrid, OctantKey, used_kinds, wrapped
+from ..octants.octant_mesh import Octant
+from ..util.progress import Monitor
+from ..util.types import Periodic
+
+#: An octant counts as crossed by the wall when the wall comes this near, in units of its edge:
+#: a wall that lies in an octant's face must cut the lattice on both sides of it.
+CROSSING_MARGIN = 1e-3
+
+
+@dataclass(frozen=True, eq=False)
+class OctantRoles:
+    """Where the octants lie with respect to the domain; both (nx, ny, nz) bool.
+
+    Attributes:
+        border: the wall crosses the octant.
+        inside: the octant lies wholly inside.
+    """
+
+    border: NDArray[np.bool_]
+    inside: NDArray[np.bool_]
+
+
+def octant_roles(
+    domain: TriangleMesh,
+    cells: CellGrid,
+    monitor: Monitor,
+    mapping: CoordinateMap | None = None,
+    margin: float = 0.0,
+) -> OctantRoles:
+    """Classify the octants of a grid of cells, and of the half cells about it.
+
+    Args:
+        domain: closed mesh of what the lattice fills.
+        cells: the grid.
+        monitor: for progress and cancel.
+        mapping: from lattice space to the part, where they differ.
+        margin: how near the wall may come to an octant that is not of the border, in units of its
+            edge: octants on struts that were moved reach beyond their places.
+    """
+    half = 0.5 * cells.cell_size
+    shape = [
+        2 * n + (0 if closed else 2) for n, closed in zip(cells.shape, cells.periodic, strict=True)
+    ]
+    grid = CellGrid(cells.origin - half, half, (shape[0], shape[1], shape[2]), cells.periodic)
+    if mapping is not None and not mapping.is_rigid:
+        margin += STRAIGHT * cells.cell_size / half  # where the wall is known no better
+    # The margin is on either side, the cell is enlarged by both.
+    border = crossed_cells(
+        grid, wall_corners(domain, mapping), monitor, CROSSING_MARGIN + 2.0 * margin
+    )
+    return OctantRoles(border, inside_cells(grid, domain, monitor, mapping) & ~border)
+
+
+@dataclass(frozen=True, eq=False)
+class KeptOctants:
+    """Culled octants: what is left of a lattice without those outside.
+
+    Attributes:
+        grid: the octants that are left.
+        border: (nx, ny, nz) bool, octants that go into the Boolean.
+        inside: octants that are put back afterwards.
+    """
+
+    grid: OctantGrid
+    border: NDArray[np.bool_]
+    inside: NDArray[np.bool_]
+
+    def lay_out(self, octants: dict[OctantKey, Octant]) -> Layout:
+        """The octants numbered, with corners for caps."""
+        half = 0.5 * self.grid.cell_size
+        capped = {key: with_corners(octants[key], half) for key in self.grid.keys}
+        return lay_out(self.grid, capped)
+
+
+def cull(grid: OctantGrid, roles: OctantRoles) -> KeptOctants:
+    """Cull the octants outside; `roles` is shaped as the grid."""
+    present = grid.kind >= 0
+    border, inside = roles.border & present, roles.inside & present
+    border = without_pinches(border, present, grid.periodic)
+    inside = inside & ~border
+    kind = np.where(border | inside, grid.kind, np.int16(-1))
+    return KeptOctants(used_kinds(replace(grid, kind=kind)), border, inside)
+
+
+def keep_all(grid: OctantGrid) -> KeptOctants:
+    """A lattice that nothing cuts."""
+    return KeptOctants(used_kinds(grid), np.zeros(grid.kind.shape, bool), grid.kind >= 0)
+
+
+def without_pinches(
+    border: NDArray[np.bool_], present: NDArray[np.bool_], periodic: Periodic
+) -> NDArray[np.bool_]:
+    """The border, grown until no two of its octants touch along an edge or a corner only.
+
+    The caps of two such octants would share an edge between four triangles.
+    """
+    current = border.copy()
+    while True:
+        padded = wrapped(current, periodic)
+        add = np.zeros_like(padded)
+        for axis in range(3):
+            a, b = (k for k in range(3) if k != axis)
+            for sign in (1, -1):
+                side_a = np.roll(padded, -1, axis=a)
+                side_b = np.roll(padded, -sign, axis=b)
+                diagonal = np.roll(side_a, -sign, axis=b)
+                pinch = padded & diagonal & ~side_a & ~side_b
+                add |= np.roll(pinch, 1, axis=a)
+                add |= np.roll(pinch, sign, axis=b)
+        for signs in ((1, 1, 1), (1, 1, -1), (1, -1, 1), (-1, 1, 1)):
+            opposite = np.roll(padded, [-s for s in signs], axis=(0, 1, 2))
+            between = np.zeros_like(padded)
+            for k in range(1, 7):
+                shift = [-(s if k >> axis & 1 else 0) for axis, s in enumerate(signs)]
+                between |= np.roll(padded, shift, axis=(0, 1, 2))
+            pinch = padded & opposite & ~between
+            for k in range(1, 7):
+                shift = [(s if k >> axis & 1 else 0) for axis, s in enumerate(signs)]
+                add |= np.roll(pinch, shift, axis=(0, 1, 2))
+        grown = current | (add[1:-1, 1:-1, 1:-1] & present)
+        if (grown == current).all():
+            return current
+        current = grown

@@ -1,0 +1,180 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The Boolean of one group of octants with the wall near it: a pure function, for any process.
+
+part = outer - (inner - lattice). The cavity (inner - lattice) lies strictly inside the part, so
+that the outer minus adds a reversed surface and intersects nothing. Octants go in closed by flat
+caps where their neighbours are left out; these follow where the caps were, vertex on vertex: the
+Boolean hands the caps out untouched, and what it hands out untouched has exactly the coordinates
+that went in.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..lattice.assembly import facets, neighbour_missing
+from ..mesh.booleans import from_library, to_library
+from ..mesh.triangle_mesh import TriangleMesh, compact, empty_mesh
+from ..util.errors import VolfrepError
+from ..util.progress import Monitor
+from ..util.types import Bools, Ints
+from .laid import Placed
+
+if TYPE_CHECKING:
+    import manifold3d
+
+
+@dataclass(frozen=True, eq=False)
+class Group:
+    """Octants at the wall that are cut together, and what they are cut by.
+
+    Attributes:
+        placed: the octants.
+        own: (nx, ny, nz) bool, those whose surface the group gives out.
+        beside: others that its part of the wall touches.
+        follow: where the lattice goes on.
+        wall: closed mesh, near the octants that of the domain, mm.
+        own_wall: (m,) bool, triangles of it whose remains the group gives out.
+        cavity: True for the wall less the lattice, turned inside out, False for what is in both.
+        alone: whether there is no other group; otherwise no source triangle is joined with
+            another in one plane, so that groups leave the same vertices where they meet.
+    """
+
+    placed: Placed
+    own: Bools
+    beside: Bools
+    follow: Bools
+    wall: TriangleMesh
+    own_wall: Bools
+    cavity: bool
+    alone: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Piece:
+    """What the Boolean left of a group.
+
+    Attributes:
+        mesh: open where other groups or octants inside follow.
+        on_wall: (m,) bool, its triangles that lie on the wall.
+        rim: vertices at open edges.
+        work: what was done, counted.
+        defect: what is not a solid; empty otherwise.
+    """
+
+    mesh: TriangleMesh
+    on_wall: Bools
+    rim: Ints
+    work: dict[str, int] = field(default_factory=dict)
+    defect: str = ""
+
+    @property
+    def error(self) -> Exception:
+        """What to raise for the defect."""
+        if self.defect.startswith("wall"):
+            what = self.defect.partition(" ")[2]
+            return VolfrepError(
+                f"The domain's surface cannot be cut ({what}): repair the part's mesh."
+            )
+        return RuntimeError(f"not a manifold: {self.defect}")
+
+
+def cut(group: Group, monitor: Monitor | None = None) -> Piece:
+    """Cut a group's octants at the wall, and the wall at them.
+
+    Args:
+        group: the octants and their wall.
+        monitor: for cancel; None where there is nobody to ask.
+    """
+    import manifold3d
+
+    asked, monitor = monitor or Monitor(), Monitor()
+    surfaces, caps = _surfaces(group, monitor)
+    every = np.concatenate([*surfaces, caps])
+    capped = group.placed.mesh(every, group.own | group.beside, monitor)[0]
+    monitor.count("triangles into the Boolean", len(every) + len(group.wall.triangles))
+    ids = manifold3d.Manifold.reserve_ids(5)
+    order = np.argsort(~group.own_wall, kind="stable")
+    wall_mesh = TriangleMesh(group.wall.vertices, group.wall.triangles[order])
+    owned = int(group.own_wall.sum())
+    wall = _solid(wall_mesh, [owned, len(order) - owned], ids, group.alone, asked)
+    sizes = [len(surfaces[0]), len(surfaces[1]), len(caps)]
+    cutter = _solid(capped, sizes, ids + 2, group.alone, asked)
+    for solid, what in ((wall, "wall"), (cutter, "lattice")):
+        if solid.status() != manifold3d.Error.NoError:
+            defect = f"{what} {solid.status().name}"
+            return Piece(empty_mesh(), np.zeros(0, bool), np.zeros(0, np.int64), {}, defect)
+    del capped, wall_mesh, every
+    cavity = group.cavity
+    result = asked.call(lambda: (wall - cutter if cavity else wall ^ cutter).to_mesh64())
+    mesh, origin = _read(result)
+    on_wall = origin == ids
+    kept = on_wall | (origin == ids + 2)
+    triangles = mesh.triangles[kept]
+    piece = compact(TriangleMesh(mesh.vertices, triangles[:, ::-1] if cavity else triangles))
+    return Piece(piece, on_wall[kept], open_vertices(piece), monitor.work)
+
+
+def _surfaces(group: Group, monitor: Monitor) -> tuple[list[NDArray[np.int32]], NDArray[np.int32]]:
+    """The surface of a group's own octants, of those beside them, and the caps in between.
+
+    Caps towards octants that follow are taken off again. Those towards nothing lie beyond the
+    wall; what a wall that grazes them leaves belongs to the surface.
+    """
+    layout, both = group.placed.layout, group.own | group.beside
+    caps: list[NDArray[np.int32]] = []
+    ends: tuple[list[NDArray[np.int32]], list[NDArray[np.int32]]] = ([], [])
+    for axis in range(3):
+        for high in (False, True):
+            every = neighbour_missing(layout.grid, both, axis, high)
+            last = neighbour_missing(layout.grid, both | group.follow, axis, high)
+            caps.append(facets(layout, monitor, every & ~last, (axis, high)))
+            for part, where in zip(ends, (group.own, group.beside), strict=True):
+                part.append(facets(layout, monitor, every & last & where, (axis, high)))
+    surfaces = [
+        np.concatenate([group.placed.facets(where, monitor), *part])
+        for part, where in zip(ends, (group.own, group.beside), strict=True)
+    ]
+    return surfaces, np.concatenate(caps)
+
+
+def _solid(
+    mesh: TriangleMesh, runs: list[int], first_id: int, alone: bool, monitor: Monitor
+) -> manifold3d.Manifold:
+    """A manifold whose runs of triangles can be told apart after a Boolean."""
+    import manifold3d as library
+
+    more: dict[str, NDArray[np.uint64]] = {}
+    if not alone:
+        more["face_id"] = np.arange(len(mesh.triangles), dtype=np.uint64)
+    source = to_library(
+        mesh,
+        run_index=np.concatenate([[0], np.cumsum(runs)]).astype(np.uint64) * np.uint64(3),
+        run_original_id=np.arange(first_id, first_id + len(runs), dtype=np.uint32),
+        **more,
+    )
+    return monitor.call(lambda: library.Manifold(source))
+
+
+def _read(result: manifold3d.Mesh64) -> tuple[TriangleMesh, NDArray[np.int64]]:
+    """The Boolean's result, and the run that each triangle came from."""
+    index = np.asarray(result.run_index).astype(np.int64) // 3
+    origin = np.repeat(np.asarray(result.run_original_id).astype(np.int64), np.diff(index))
+    return from_library(result), origin
+
+
+def open_vertices(mesh: TriangleMesh) -> Ints:
+    """The vertices at edges of one triangle, ascending."""
+    start = mesh.triangles.astype(np.int64)
+    end = np.roll(start, -1, axis=1)
+    size = np.int64(len(mesh.vertices))
+    key, back = (start * size + end).ravel(), (end * size + start).ravel()
+    key.sort()
+    place = np.minimum(np.searchsorted(key, back), len(key) - 1)
+    alone = key[place] != back if len(key) else np.zeros(0, bool)
+    result: Ints = np.unique(np.concatenate([start.ravel()[alone], end.ravel()[alone]]))
+    return result

@@ -11,7 +11,7 @@ SCREEN := xvfb-run -a -s "-screen 0 1600x1200x24 -dpi 96"
 .NOTPARALLEL:
 .PHONY: help setup demo test test-all lint format test-core test-random test-alone test-freecad \
 	test-gui test-in-freecad test-freecad-1 translations test-newest docs-pictures docs-tables \
-	test-escape torture bench bench-quick catalogue clean
+	test-escape torture fuzz bench bench-quick catalogue clean
 
 help: ## show this list
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 25
@@ -85,6 +85,9 @@ test-escape: setup ## Escape at ten random times in every long command of the wi
 
 docs-pictures: ## the tutorial's pictures anew, from those of the last make test-gui
 	@tools/docs_pictures.sh
+
+fuzz: setup ## random solids and options, judged without the engine (MINUTES=5, SEED=...)
+	@$(PYTHON) tools/fuzz.py --minutes $(or $(MINUTES),5) $(if $(SEED),--seed $(SEED))
 
 translations: setup ## refresh the .ts files from the sources, and compile them (lrelease)
 	@$(PYTHON) tools/translations.py

@@ -5,10 +5,12 @@
     xvfb-run python demo/render.py cells PICTURE.png
     xvfb-run python demo/render.py graded PICTURE.png
     xvfb-run python demo/render.py deformed PICTURE.png
+    xvfb-run python demo/render.py loads PICTURE.png
 
 The first cuts a corner out of a filled part so that its skin, its lattice and the cut faces are
 seen, each in a colour of its own; the second shows the library's unit cells with their names; the
-third blocks whose cells or struts vary; the fourth the paper's sample, pulled (see docs/solver.md).
+third blocks whose cells or struts vary; the fourth the paper's sample, pulled (see docs/solver.md);
+the fifth the load cases of a bracket (see docs/loads.md).
 """
 
 from __future__ import annotations
@@ -326,6 +328,27 @@ def _remove_box(
     return mesh, owner == tool.original_id()
 
 
+def loads(picture: str) -> None:
+    """Picture the load cases of demo/bracket_loads.toml, with pyvista (see tools/setup.sh)."""
+    root = Path(__file__).resolve().parents[1]
+    sys.path[:0] = [str(root), str(root / ".cache" / "plot")]
+    from bench.parts import lug_bracket
+    from volfrep.loads.load_file import read_load_cases
+    from volfrep.reports.load_picture import load_picture
+
+    bracket = lug_bracket()
+    cases = read_load_cases(Path(__file__).with_name("bracket_loads.toml"), bracket).cases
+    size = (900, 640)
+    sheet = Image.new("RGB", (2 * size[0], 2 * size[1]), "white")
+    with tempfile.TemporaryDirectory() as folder:
+        for k, case in enumerate(cases):
+            file = Path(folder) / f"{k}.png"
+            load_picture(bracket, case, file, size=size, y_up=True)
+            row, column = divmod(k, 2)
+            sheet.paste(Image.open(file), (column * size[0], row * size[1]))
+    sheet.resize(size, Image.LANCZOS).save(picture, optimize=True)
+
+
 def _turn(about_y: float, about_x: float) -> NDArray[np.float64]:
     """Rotation about Y, then about X, in degrees."""
     a, b = np.radians([about_y, about_x])
@@ -335,7 +358,7 @@ def _turn(about_y: float, about_x: float) -> NDArray[np.float64]:
     return rotation
 
 
-PICTURES = {"cells": cells, "graded": graded, "deformed": deformed}
+PICTURES = {"cells": cells, "graded": graded, "deformed": deformed, "loads": loads}
 
 
 def main(arguments: list[str]) -> None:

@@ -31,6 +31,7 @@ _EXPORTS = {
     "run_study": "freecad_volfrep.features.design_study",
     "apply_design": "freecad_volfrep.features.design_study",
     "make_fem_analysis": "freecad_volfrep.features.fem_analysis",
+    "size_lattice": "freecad_volfrep.features.sizing",
 }
 __all__ = [
     "ICONS",
@@ -43,6 +44,7 @@ __all__ = [
     "make_print_check",
     "make_solid",
     "run_study",
+    "size_lattice",
 ]
 
 

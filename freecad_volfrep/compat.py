@@ -10,6 +10,9 @@ from pathlib import Path
 
 import FreeCAD as App
 
+#: mm/s2
+STANDARD_GRAVITY = 9806.65
+
 
 def version() -> tuple[int, int]:
     """FreeCAD's version as numbers: (0, 20), (1, 0), (26, 3)..."""
@@ -47,3 +50,37 @@ def repair_lazy_loader() -> None:
     spec.loader.exec_module(package)
     for name in package.__all__:
         setattr(lazy_loader, name, getattr(package, name))
+
+
+def in_unit(value: float | App.Units.Quantity, unit: str) -> float:
+    """A property's value in a unit; FreeCAD 0.20 has mere numbers of N, MPa and mm there."""
+    return float(value.getValueAs(unit).Value) if hasattr(value, "getValueAs") else float(value)
+
+
+def prescribed(constraint: App.DocumentObject, axis: str) -> float | None:
+    """The displacement, mm, that a FEM constraint prescribes along x, y or z; None where free."""
+    if getattr(constraint, f"{axis}Fix", False):  # FreeCAD 0.20
+        return 0.0
+    if getattr(constraint, f"{axis}Free"):
+        return None
+    return in_unit(getattr(constraint, f"{axis}Displacement"), "mm")
+
+
+def prescribed_turn(constraint: App.DocumentObject, axis: str) -> float | None:
+    """The rotation, degrees, that a FEM constraint prescribes about an axis; None where free."""
+    if getattr(constraint, f"rot{axis}Fix", False):  # FreeCAD 0.20
+        return 0.0
+    if getattr(constraint, f"rot{axis}Free"):
+        return None
+    return in_unit(getattr(constraint, f"{axis}Rotation"), "deg")
+
+
+def gravity_of(constraint: App.DocumentObject) -> App.Vector:
+    """What a FEM constraint of self-weight pulls with, mm/s2; zero where it has no direction."""
+    if hasattr(constraint, "GravityDirection"):
+        direction = App.Vector(constraint.GravityDirection)
+        size = in_unit(constraint.GravityAcceleration, "mm/s^2")
+    else:  # FreeCAD 0.20
+        direction = App.Vector(constraint.Gravity_x, constraint.Gravity_y, constraint.Gravity_z)
+        size = STANDARD_GRAVITY
+    return direction.normalize() * size if direction.Length else direction

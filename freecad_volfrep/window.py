@@ -20,10 +20,10 @@ def register() -> None:
         register_screen(Screen(_run_on_thread, _progress_bar, _attach_view, _revive_view))
 
 
-def _run_on_thread(title: str, work: Callable[..., Any]) -> Any:
+def _run_on_thread(title: str, work: Callable[..., Any], keeps_best: bool) -> Any:
     from .gui.progress import run_on_thread
 
-    return run_on_thread(title, work)
+    return run_on_thread(title, work, keeps_best)
 
 
 def _progress_bar(title: str) -> Any:

@@ -3,6 +3,11 @@
 
 from __future__ import annotations
 
+import io
+import re
+import zipfile
+from typing import Any
+
 import FreeCAD as App
 import numpy as np
 
@@ -13,18 +18,29 @@ from .solids import parent_placement
 
 #: Taken where the user names no quantity.
 DEFAULT_QUANTITY = "vonMises"
+#: What a pipeline calls the quantities of a result object.
+PIPELINE_NAMES = {
+    "vonMises": "von Mises Stress",
+    "PrincipalMax": "Major Principal Stress",
+    "PrincipalMed": "Intermediate Principal Stress",
+    "PrincipalMin": "Minor Principal Stress",
+    "MaxShear": "Tresca Stress",
+    "DisplacementLengths": "Displacement",
+}
 
 
 def field_of_result(result: App.DocumentObject, quantity: str, frame: App.Placement) -> PointField:
     """A quantity of a FEM result at the nodes of its mesh.
 
     FreeCAD meshes a part where it lies in the document, so the nodes are taken to lie where the
-    result's mesh shows.
+    result's mesh, or the pipeline, shows.
 
     Args:
-        result: a solver's result object, a Fem::FemResultObject.
+        result: a solver's result object, a Fem::FemResultObject, or the pipeline that FreeCAD's
+            newer solver makes in its place, a Fem::FemPostPipeline.
         quantity: name of one of its lists of a number per node, such as ``vonMises`` (which is
-            also what an empty name means) or ``PrincipalMax``.
+            also what an empty name means) or ``PrincipalMax``; of a pipeline these, or an array of
+            its own such as ``Displacement``, of which the length counts.
         frame: the coordinate system that the points are wanted in.
 
     Raises:
@@ -32,20 +48,98 @@ def field_of_result(result: App.DocumentObject, quantity: str, frame: App.Placem
     """
     quantity = quantity.strip() or DEFAULT_QUANTITY
     label = result.Label
+    if result.isDerivedFrom("Fem::FemPostPipeline"):
+        points, values = _of_pipeline(result, quantity)
+        place = parent_placement(result).multiply(result.Placement)
+        return PointField(_placed(points, frame, place), values, source=f"{label}, {quantity}")
     if not result.isDerivedFrom("Fem::FemResultObject"):
         raise VolfrepError(
             f"'{label}' is no FEM result: choose the object with the results of a solver, such as "
-            "CCX_Results, as RadiusResult."
+            "CCX_Results or SolverCalculiXResult, as RadiusResult."
         )
     numbers = np.array(result.NodeNumbers, np.int64)
     if result.Mesh is None or not len(numbers):
         raise VolfrepError(f"The FEM result '{label}' is empty: run the solver.")
     values = _values(result, quantity, len(numbers))
     points = _points(result, numbers)
-    to_frame = frame.inverse().multiply(parent_placement(result.Mesh))
-    matrix = np.array(to_frame.toMatrix().A).reshape(4, 4)
-    placed = points @ matrix[:3, :3].T + matrix[:3, 3]
+    placed = _placed(points, frame, parent_placement(result.Mesh))
     return PointField(placed, values, source=f"{label}, {quantity}")
+
+
+def _placed(points: np.ndarray, frame: App.Placement, place: App.Placement) -> np.ndarray:
+    """(n, 3) points of one coordinate system in those of another."""
+    matrix = np.array(frame.inverse().multiply(place).toMatrix().A).reshape(4, 4)
+    placed: np.ndarray = points @ matrix[:3, :3].T + matrix[:3, 3]
+    return placed
+
+
+def _of_pipeline(pipeline: App.DocumentObject, quantity: str) -> tuple[np.ndarray, np.ndarray]:
+    """(n, 3) points and (n,) values of the step that a pipeline shows.
+
+    Raises:
+        VolfrepError: it is empty, lacks the quantity, or VTK is not installed for Python.
+    """
+    grid = _shown_grid(pipeline)
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    arrays = grid.GetPointData()
+    found = {}
+    for k in range(arrays.GetNumberOfArrays()):
+        array = arrays.GetArray(k)
+        if array is not None and array.GetNumberOfComponents() in (1, 3):
+            found[array.GetName()] = array
+    wanted = PIPELINE_NAMES.get(quantity, quantity).lower()
+    name = next((name for name in found if name.lower() == wanted), None)
+    if name is None:
+        raise VolfrepError(
+            f"The FEM result '{pipeline.Label}' has no '{quantity}': choose {', '.join(found)} as "
+            "RadiusColumn."
+        )
+    values = vtk_to_numpy(found[name]).astype(np.float64)
+    if values.ndim == 2:
+        values = np.linalg.norm(values, axis=1)
+    return vtk_to_numpy(grid.GetPoints().GetData()).astype(np.float64), values
+
+
+def _shown_grid(pipeline: App.DocumentObject) -> Any:
+    """VTK's grid of the step that a pipeline shows, from what it writes into a document.
+
+    Python gets at the data in no other way once a document was saved and opened.
+
+    Raises:
+        VolfrepError: there is none, or VTK is not installed for Python.
+    """
+    try:
+        from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+    except ImportError as error:
+        raise VolfrepError(
+            f"The FEM result '{pipeline.Label}' is read with the Python package vtk, which is not "
+            "installed: run 'pip install vtk', or 'apt-get install python3-vtk9'."
+        ) from error
+    grids = _grids(bytes(pipeline.dumpPropertyContent("Data")))
+    if not grids:
+        raise VolfrepError(
+            f"The FEM result '{pipeline.Label}' is empty: run the solver, or choose the "
+            "CCX_Results that it was made of."
+        )
+    step = 0
+    if hasattr(pipeline, "Frame"):
+        step = pipeline.getEnumerationsOfProperty("Frame").index(pipeline.Frame)
+    reader = vtkXMLUnstructuredGridReader()
+    reader.ReadFromInputStringOn()
+    reader.SetInputString(grids[min(step, len(grids) - 1)])
+    reader.Update()
+    return reader.GetOutput()
+
+
+def _grids(content: bytes) -> list[bytes]:
+    """The files of grids in a zip file, and in those that it holds, one for each step."""
+    with zipfile.ZipFile(io.BytesIO(content)) as files:
+        inner = [files.read(name) for name in files.namelist() if name.endswith(".zip")]
+        names = [name for name in files.namelist() if name.endswith(".vtu")]
+        names.sort(key=lambda name: [int(part) for part in re.findall(r"\d+", name)])
+        own = [files.read(name) for name in names]
+    return [grid for grid in own if grid] + [grid for file in inner for grid in _grids(file)]
 
 
 def _points(result: App.DocumentObject, numbers: np.ndarray) -> np.ndarray:

@@ -14,6 +14,9 @@ from volfrep.util.errors import VolfrepError
 
 from .meshes import from_freecad
 
+#: Before the kinds of elements.
+_A = {"Face": "a", "Edge": "an", "Vertex": "a"}
+
 
 def resolve_base(obj: App.DocumentObject) -> App.DocumentObject:
     """What to fill when `obj` was picked: the Body for a feature inside one, else `obj`."""
@@ -139,11 +142,47 @@ def face_middle(
     return middle.x, middle.y, middle.z
 
 
+def edge_points(owner: App.DocumentObject, name: str, frame: App.Placement) -> NDArray[np.float64]:
+    """(k, 3) points along an edge, in mm, in the coordinates of `frame`; two where it is straight.
+
+    Raises:
+        VolfrepError: there is no such edge.
+    """
+    edge = _element(owner, name, "Edge")
+    size = Part.getShape(owner).BoundBox.DiagonalLength
+    if edge.Curve.TypeId == "Part::GeomLine":
+        points = [vertex.Point for vertex in edge.Vertexes]
+    else:
+        points = edge.discretize(Deflection=min(size * RELATIVE_DEVIATION, MAX_DEVIATION))
+    to_frame = _to_frame(owner, frame)
+    return np.array([tuple(to_frame.multVec(point)) for point in points], np.float64)
+
+
+def vertex_point(
+    owner: App.DocumentObject, name: str, frame: App.Placement
+) -> tuple[float, float, float]:
+    """A vertex, in mm, in the coordinates of `frame`.
+
+    Raises:
+        VolfrepError: there is no such vertex.
+    """
+    point = _to_frame(owner, frame).multVec(_element(owner, name, "Vertex").Point)
+    return point.x, point.y, point.z
+
+
 def _face(owner: App.DocumentObject, name: str) -> Part.Face:
     """A face of an object, where the object is placed."""
+    return _element(owner, name, "Face")
+
+
+def _element(owner: App.DocumentObject, name: str, kind: str) -> Part.Shape:
+    """A face, an edge or a vertex of an object, where the object is placed."""
     shape = Part.getShape(resolve_base(owner), name, needSubElement=True)
-    if shape.isNull() or shape.ShapeType != "Face":
-        raise VolfrepError(f"'{owner.Label}' has no face '{name}' any more: choose a face again.")
+    if shape.isNull() or shape.ShapeType != kind:
+        what = kind.lower()
+        raise VolfrepError(
+            f"'{owner.Label}' has no {what} '{name}' any more: choose {_A[kind]} {what} again."
+        )
     return shape
 
 

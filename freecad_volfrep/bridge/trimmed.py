@@ -15,6 +15,7 @@ import Part
 
 from volfrep.grid.strut_graph import Wireframe
 from volfrep.mesh.triangle_mesh import TriangleMesh
+from volfrep.reports.estimate import refuse_wall
 from volfrep.util.errors import VolfrepError
 from volfrep.util.files import replacing
 from volfrep.util.progress import Monitor
@@ -23,8 +24,6 @@ from .exact import exact_lattice, plain_curves, silence
 from .faceted import faceted_solid
 from .solids import parent_placement, resolve_base
 
-#: A wall of more triangles is not handed to OpenCASCADE's Booleans.
-MOST_WALL_TRIANGLES = 3_000
 #: An exact part may differ in volume by this fraction from its mesh: coarse ones, of 8 facets a
 #: cell, are 0.6 % off. So may an offset wall from the mesh's wall.
 VOLUME_TOLERANCE = 1e-2
@@ -70,13 +69,9 @@ def plane_wall(mesh: TriangleMesh) -> Part.Shape:
     """A mesh as a solid, its coplanar triangles joined to faces.
 
     Raises:
-        VolfrepError: it has more than `MOST_WALL_TRIANGLES` triangles, or is not closed.
+        VolfrepError: OpenCASCADE does not cut at so many triangles, or it is not closed.
     """
-    if len(mesh.triangles) > MOST_WALL_TRIANGLES:
-        raise VolfrepError(
-            f"OpenCASCADE does not cut at a wall of {len(mesh.triangles):,} triangles (the limit "
-            f"is {MOST_WALL_TRIANGLES:,})."
-        )
+    refuse_wall(len(mesh.triangles))
     return faceted_solid(mesh).removeSplitter()
 
 

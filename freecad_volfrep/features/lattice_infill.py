@@ -134,6 +134,18 @@ class LatticeInfill:
         spec = _with_radius(spec, json.loads(obj.Report).get("target"))
         return check_solid(solid, obj.Base.Label), spec, self._cache
 
+    def wanted(self, obj: App.DocumentObject) -> tuple[TriangleMesh, LatticeSpec, StageCache]:
+        """As `inputs`, of the present properties: whether or not the mesh was made of them.
+
+        Raises:
+            VolfrepError: a property makes no sense, or there is no solid.
+        """
+        from volfrep.io.solid import check_solid
+
+        require_engine()
+        spec, solid = self.read(obj)
+        return check_solid(solid, obj.Base.Label), spec, self._cache
+
     def onDocumentRestored(self, obj: App.DocumentObject) -> None:  # noqa: N802
         """Bring an object of an older file up to the present table of properties.
 

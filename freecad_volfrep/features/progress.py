@@ -25,14 +25,17 @@ def job_title(text: str, obj: App.DocumentObject) -> str:
     return str(translate("VolfrepJobs", text)).format(label=obj.Label)
 
 
-def run_job(title: str, work: Callable[[ProgressCallback | None], T]) -> T:
+def run_job(
+    title: str, work: Callable[[ProgressCallback | None], T], *, keeps_best: bool = False
+) -> T:
     """What `work` returns or raises, called with a callback for its progress.
 
     In the window it runs on a thread of its own, so that the window lives meanwhile: it must
-    touch nothing of FreeCAD. Without a screen it is simply called, with None.
+    touch nothing of FreeCAD. Without a screen it is simply called, with None. What it returns after
+    a cancel is dropped, unless it is known to keep the best that it has (`keeps_best`).
     """
     window = screen()
-    return work(None) if window is None else window.run_on_thread(title, work)
+    return work(None) if window is None else window.run_on_thread(title, work, keeps_best)
 
 
 @contextmanager

@@ -105,6 +105,9 @@ PROPERTIES = (
     result("App::PropertyFloat", "Seconds", "Computing time of the last update"),
     result("App::PropertyString", "Report", "All figures of the last update, as JSON"),
     _internal("App::PropertyString", "Fingerprint", "Of all that the mesh was made from", ""),
+    _internal("App::PropertyVectorList", "SizedNodes", "Of SizedRadii, as Base lies", []),
+    _internal("App::PropertyFloatList", "SizedRadii", "That struts were sized to, mm", []),
+    _internal("App::PropertyString", "SizingReport", "What was asked and found, as JSON", ""),
     _internal("App::PropertyInteger", "SchemaVersion", "Of this table", SCHEMA_VERSION),
 )
 

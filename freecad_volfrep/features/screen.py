@@ -22,13 +22,14 @@ class Screen:
     """How a window shows things.
 
     Attributes:
-        run_on_thread: runs a job under a title on a thread of its own, and returns what it does.
+        run_on_thread: runs a job under a title on a thread of its own, and returns what it does,
+            also after a cancel if it is told so.
         progress_bar: gives the callback of a job under a title that stays on its thread.
         attach_view: gives an object of ours its view provider.
         revive_view: does so where FreeCAD has lost it.
     """
 
-    run_on_thread: Callable[[str, Callable[[ProgressCallback], Any]], Any]
+    run_on_thread: Callable[[str, Callable[[ProgressCallback], Any], bool], Any]
     progress_bar: Callable[[str], AbstractContextManager[ProgressCallback]]
     attach_view: Callable[[Any], None]
     revive_view: Callable[[Any], None]

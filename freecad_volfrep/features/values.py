@@ -19,6 +19,7 @@ from volfrep.design.parameters.table import CUSTOM_CELL
 
 from .materials import material_of
 from .quantities import density_of, number_of
+from .sized_radii import sized_field
 
 if TYPE_CHECKING:
     from volfrep.design.scattered_field import PointField
@@ -150,7 +151,7 @@ def _plain(obj: App.DocumentObject, parameter: Parameter) -> Any:
 
 
 def _field(obj: App.DocumentObject) -> PointField | None:
-    """The field of the FEM result or of the file; None where neither is chosen."""
+    """The field of the FEM result, of the file, or of the sized radii; None where there is none."""
     from freecad_volfrep.bridge.fem_fields import field_of_result
     from freecad_volfrep.bridge.solids import parent_placement
     from volfrep.design.scattered_field import read_point_field
@@ -165,4 +166,4 @@ def _field(obj: App.DocumentObject) -> PointField | None:
         return field_of_result(obj.RadiusResult, obj.RadiusColumn, parent_placement(obj))
     if obj.RadiusField:
         return read_point_field(obj.RadiusField, obj.RadiusColumn or None)
-    return None
+    return sized_field(obj)

@@ -234,6 +234,24 @@ def analyse(infill: App.DocumentObject) -> None:
         make_fem_analysis(infill.Document, infill, chosen)
 
 
+def size_lattice(infill: App.DocumentObject) -> None:
+    """Open the panel in which an infill's struts are sized for the document's load cases."""
+    from .size_panel import SizePanel
+
+    with errors_shown():
+        Gui.Control.showDialog(SizePanel(infill))
+
+
+def show_strut_results(infill: App.DocumentObject) -> None:
+    """Solve an infill's struts for the document's load cases, and show them in colours."""
+    from freecad_volfrep.features.sizing import solve_struts
+
+    from .strut_view import open_struts
+
+    with errors_shown():
+        open_struts(infill, solve_struts(infill))
+
+
 def _chosen(label: str, kinds: dict[str, tuple[str, Callable[[], str]]]) -> str | None:
     """The kind that the user picks by its title and what it will take; None for none.
 
@@ -456,6 +474,26 @@ _TABLE = (
         analyse,
     ),
     Command(
+        "VOLFREP_SizeLattice",
+        "size_lattice.svg",
+        "Size Lattice",
+        "Find the radii of the selected lattice infill's struts for the load cases of the FEM "
+        "workbench: least mass within limits, or most stiffness at a mass",
+        "L, Z",
+        infill_in_view,
+        size_lattice,
+    ),
+    Command(
+        "VOLFREP_StrutResults",
+        "strut_results.svg",
+        "Strut Results",
+        "Colour the struts of the selected lattice infill by radius, stress, buckling or "
+        "displacement under the load cases of the FEM workbench",
+        "L, R",
+        infill_in_view,
+        show_strut_results,
+    ),
+    Command(
         "VOLFREP_DesignStudy",
         "design_study.svg",
         "Design Study",
@@ -508,6 +546,8 @@ TOOLBARS = {
         "VOLFREP_Export",
         "VOLFREP_ToSolid",
         "VOLFREP_FemAnalysis",
+        "VOLFREP_SizeLattice",
+        "VOLFREP_StrutResults",
         "VOLFREP_DesignStudy",
     ],
 }

@@ -137,7 +137,7 @@ class NewInfillPage(Page):
                     QT_TRANSLATE_NOOP("VolfrepPreferences", "Deviation"),
                     QT_TRANSLATE_NOOP(
                         "VolfrepPreferences",
-                        "Largest distance between a facet and the exact strut, where the "
+                        "Distance between a facet and the exact strut, where the "
                         "resolution is automatic; automatic: by the strut radius",
                     ),
                     " mm",

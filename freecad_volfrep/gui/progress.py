@@ -40,6 +40,9 @@ STAGES = marked(
     "check",
     "crossings",
     "write",
+    "skin",
+    "sizing",
+    "proof",
 )
 _EVENT = QtCore.QEvent
 #: What a user does, none of which may reach FreeCAD while a job runs.
@@ -188,10 +191,11 @@ def progress_bar(title: str) -> Iterator[ProgressCallback]:
 _one_job = threading.Lock()
 
 
-def run_on_thread(title: str, work: Callable[[ProgressCallback], T]) -> T:
+def run_on_thread(title: str, work: Callable[[ProgressCallback], T], keeps_best: bool = False) -> T:
     """What `work` returns or raises, run on a thread of its own while the window lives.
 
-    `work` must touch nothing of FreeCAD or Qt; it gets the callback for its progress.
+    `work` must touch nothing of FreeCAD or Qt; it gets the callback for its progress. After a
+    cancel only work that keeps its best may return something.
 
     Raises:
         VolfrepError: another such job is running.
@@ -205,7 +209,8 @@ def run_on_thread(title: str, work: Callable[[ProgressCallback], T]) -> T:
             while not wait([job], timeout=BREATH).done:
                 progress.refresh()
             result = job.result()
-            progress.refuse_if_cancelled()
+            if not keeps_best:
+                progress.refuse_if_cancelled()
             return result
     finally:
         _one_job.release()

@@ -15,9 +15,9 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 from driving import (
     answer_panel,
     check,
+    choose_in_context_menu,
     click,
     click_item,
-    context_menu,
     look_at_all,
     move_mouse,
     picture,
@@ -150,7 +150,7 @@ def open_it_again(doc, infill):
     answer_panel("Close")
     wait_until(lambda: form() is None, 10)
     settle()
-    context_menu(made, "VOLFREP", "Design Study")
+    choose_in_context_menu(made, "VOLFREP", "Design Study")
     check("the context menu opens it", wait_until(lambda: form() is not None, 10))
     answer_panel("Close")
     check("and it closes", wait_until(lambda: form() is None, 10))

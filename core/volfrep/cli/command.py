@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..util.errors import VolfrepError
-from . import layers, material, printing_options, process, properties, solver_options, sweep
+from . import layers, material, printing_options, process, properties, sizing, solver_options, sweep
 from .files import check_files
 from .parameter_options import add_parameters, write_specification
 from .parser import Parser, Version, refuse_old, three_whole_numbers
@@ -111,6 +111,7 @@ def _parser() -> argparse.ArgumentParser:
     _add_unit(layers.add_command(add))
     properties.add_command(add)
 
+    sizing.add_command(add)
     sweep.add_command(add)
 
     check = add("check", _check, "Tell what a reader sees in a mesh file (STL, OBJ, PLY, 3MF).")
@@ -162,11 +163,11 @@ def _fill(options: argparse.Namespace) -> None:
     if not solid.states_unit:
         refuse_scale(solid.bounds, spec.cell_size, part.name)
     read_seconds = time.perf_counter() - start
+    meshed = options.threemf != "beams" and not solver_options.needs_axes(options)
     if not options.quiet:
         aim = roughly_aimed(solid, spec)
         expected = forecast_fill(solid, aim, streamed=_writes_stl(options))
-        print(f"Expected: {expected}.", flush=True)
-    meshed = options.threemf != "beams" and not solver_options.needs_axes(options)
+        print(f"Expected: {expected if meshed else expected.of_axes}.", flush=True)
     with processes() as executor, Progress(options.quiet) as progress:
         infill = aimed(
             solid, spec, progress=progress, meshed=meshed, executor=executor,
@@ -178,13 +179,14 @@ def _fill(options: argparse.Namespace) -> None:
         if options.threemf == "beams":
             printing_options.finish_beams(infill.beams, options, start)
             return
+        solver_options.settle_step(infill, options)
         beams = infill.beams if options.threemf == "both" else None
         result = infill.result
         domain = None
         if options.print_report is not None:
             domain = infill.cavity
         write = solver_options.writer(options, spec, infill, progress)
-        _finish(result, options, {"read": read_seconds}, beams, domain, write)
+        _finish(result, options, spec, {"read": read_seconds}, beams, domain, write)
         _picture(result, options, spec, solid)
 
 
@@ -221,7 +223,7 @@ def _block(options: argparse.Namespace) -> None:
             return
         result = block(spec, tuple(options.count), progress=progress)
         write = solver_options.writer(options, spec, None, progress)
-        _finish(result, options, {}, beams, write=write)
+        _finish(result, options, spec, {}, beams, write=write)
         _picture(result, options, spec)
 
 
@@ -260,6 +262,7 @@ def _check_targets(options: argparse.Namespace, spec: LatticeSpec) -> None:
 def _finish(
     result: Result,
     options: argparse.Namespace,
+    spec: LatticeSpec,
     before: dict[str, float],
     beams: BeamModel | None,
     domain: TriangleMesh | None = None,
@@ -292,7 +295,7 @@ def _finish(
     )
     printing = None
     if options.print_report is not None:
-        printing = printing_options.report_of(result, options, domain)
+        printing = printing_options.report_of(result, options, spec, domain)
     tell(dataclasses.replace(report, warnings=warnings), options, printing)
 
 

@@ -15,6 +15,7 @@ INPUTS = {
     "cell": "cell file",
     "radius_field": "field file",
     "material": "material file",
+    "loads": "load file",
 }
 #: The files that it writes, the same way.
 OUTPUTS = {
@@ -23,6 +24,7 @@ OUTPUTS = {
     "picture": "picture",
     "write_spec": "written specification",
     "json": "figures",
+    "radii": "radii",
 }
 
 

@@ -15,6 +15,7 @@ from ..util.errors import VolfrepError
 from .telling import print_rows, print_warnings
 
 if TYPE_CHECKING:
+    from ..design.spec import LatticeSpec
     from ..mesh.triangle_mesh import TriangleMesh
     from ..reports.printability import PrintReport
     from ..reports.result import Result
@@ -67,9 +68,13 @@ def check(options: argparse.Namespace, out: Path) -> None:
 
 
 def report_of(
-    result: Result, options: argparse.Namespace, domain: TriangleMesh | None
+    result: Result,
+    options: argparse.Namespace,
+    spec: LatticeSpec,
+    domain: TriangleMesh | None,
 ) -> PrintReport:
     """The print report that the options ask for."""
+    from ..reports.passage import ball_of
     from ..reports.printability import print_report
     from ..reports.processes import find_process
 
@@ -80,6 +85,7 @@ def report_of(
         build_direction=options.build_direction,
         density=result.report.spec["density"],
         domain=domain,
+        ball_mm=ball_of(spec),
     )
 
 

@@ -34,6 +34,7 @@ STEP_FORMS = ("faceted", "exact", "wireframe")
 DECKS = ("beams", "tetrahedra")
 STEP_SUFFIXES = (".step", ".stp")
 DECK_SUFFIX = ".inp"
+PLANE_FACES = "The file holds plane faces instead of exact surfaces."
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -121,6 +122,20 @@ def block_axes(spec: LatticeSpec, options: argparse.Namespace, start: float) -> 
 
     _write_axes(block_wireframe(spec, options.count), None, spec, options, start)
     return True
+
+
+def settle_step(infill: Infill, options: argparse.Namespace) -> None:
+    """Before a lattice is meshed: plane faces where its wall is too much for exact surfaces."""
+    if options.step != "exact" or not infill.spec.is_cut:
+        return
+    from ..reports.estimate import refuse_wall
+
+    walls = [infill.cavity, *([infill.solid] if infill.spec.with_skin else [])]
+    try:
+        refuse_wall(max(len(wall.triangles) for wall in walls))
+    except VolfrepError as error:
+        options.step = "faceted"
+        print_warnings([f"{error} {PLANE_FACES}"])
 
 
 def writer(
@@ -226,7 +241,7 @@ def _write_exact(
         )
     except VolfrepError as error:
         faceted = _write_faceted(result, options, spec)
-        return (*faceted, f"{error} The file holds plane faces instead of exact surfaces.")
+        return (*faceted, f"{error} {PLANE_FACES}")
     if not options.quiet:
         print_rows(("exact volume", f"{volume:,.1f} mm3 (mesh: {measured:,.1f} mm3)"))
     return warnings
@@ -239,6 +254,7 @@ def _write_tetrahedra(
     infill: Infill | None,
     progress: ProgressCallback,
 ) -> tuple[str, ...]:
+    from ..fem.joint_loads import side_joints
     from ..fem.tet_mesh import nodes_on, tetrahedra
     from ..io.write.calculix import write_tetrahedra
     from ..reports.estimate import estimate_tetrahedra
@@ -247,6 +263,8 @@ def _write_tetrahedra(
     _announce(estimate_tetrahedra(len(result.mesh.triangles), _asked(spec, options)), options)
     filled = tetrahedra(result.mesh, Monitor(progress))
     sets = {}
+    if infill is None or not infill.placement.is_cut:
+        sets = side_joints(filled, result.wireframe)
     if infill is not None:
         wall = infill.cavity if spec.output == "lattice" else infill.solid
         sets["SKIN"] = nodes_on(filled, wall)

@@ -65,11 +65,15 @@ class Forecast:
     stl_mb: float
     seconds: float
 
+    @property
+    def of_axes(self) -> str:
+        """Where nothing is meshed: the struts, and no triangles, memory and file of a mesh."""
+        return f"about {_rounded(self.cells)} cells, {_rounded(self.struts)} struts"
+
     def __str__(self) -> str:
         return (
-            f"about {_rounded(self.cells)} cells, {_rounded(self.struts)} struts, "
-            f"{_rounded(self.triangles)} triangles, {self.memory_gb:.2g} GB of memory, an STL "
-            f"file of {self.stl_mb:.2g} MB and {_duration(self.seconds)}"
+            f"{self.of_axes}, {_rounded(self.triangles)} triangles, {self.memory_gb:.2g} GB of "
+            f"memory, an STL file of {self.stl_mb:.2g} MB and {_duration(self.seconds)}"
         )
 
 

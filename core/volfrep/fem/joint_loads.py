@@ -20,6 +20,8 @@ from .tet_mesh import TetrahedralMesh
 
 #: Nodes outside a ball by this much, mm, still belong to it.
 TOLERANCE = 1e-6
+#: Joints this near to the outermost ones, in units of their radius, lie on the same side.
+ON_SIDE = 0.05
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,6 +64,26 @@ def balls_of(filled: TetrahedralMesh, frame: Wireframe, joints: Ints) -> list[Ba
             )
         balls.append(Ball(nodes, weight[nodes] / weight[nodes].sum()))
     return balls
+
+
+def side_joints(filled: TetrahedralMesh, frame: Wireframe) -> dict[str, Ints]:
+    """The nodes of the joints on each side of a lattice of whole cells, as XMIN to ZMAX.
+
+    Such a lattice touches its box with the tops of round joints, a node each: held there alone,
+    every joint would turn about it.
+    """
+    low, high = frame.nodes.min(axis=0), frame.nodes.max(axis=0)
+    sets = {}
+    for axis, letter in enumerate("XYZ"):
+        place = frame.nodes[:, axis]
+        near = ON_SIDE * frame.joint_radii
+        for name, on_side in (
+            (f"{letter}MIN", place <= low[axis] + near),
+            (f"{letter}MAX", place >= high[axis] - near),
+        ):
+            balls = balls_of(filled, frame, np.flatnonzero(on_side))
+            sets[name] = np.unique(np.concatenate([ball.nodes for ball in balls]))
+    return sets
 
 
 def joint_step(

@@ -24,12 +24,12 @@ from ..grid.strut_graph import Wireframe, cell_graph
 from ..lattice.padded_grid import least_width, padded_grid
 from ..mesh.quality import inspect
 from ..mesh.triangle_mesh import TriangleMesh
+from ..spatial.even_points import even_points
 from ..spatial.proximity import index_surface
 from ..spatial.rays import inside_points
 from ..trim.clip_struts import Pieces
 from ..trim.held_struts import largest
 from ..util.errors import VolfrepError
-from ..util.even_points import even_points
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
 from .rough_radius import lattice_volume, radius_of_volume

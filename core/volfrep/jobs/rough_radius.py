@@ -18,8 +18,8 @@ from ..design.spec_parts import MAX_RESOLUTION, largest_radius
 from ..mesh.triangle_mesh import TriangleMesh
 from ..octants import sdf
 from ..octants.octant import ALL_ACTIVE, OctantKey, octant_primitives
+from ..spatial.even_points import even_points
 from ..util.errors import VolfrepError
-from ..util.even_points import even_points
 from ..util.types import Floats
 from .stiffness_target import ratio_of_stiffness
 

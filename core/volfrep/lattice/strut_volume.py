@@ -16,8 +16,8 @@ from scipy.spatial import cKDTree
 
 from ..grid.strut_graph import Wireframe
 from ..mesh.triangle_mesh import TriangleMesh
+from ..spatial.even_points import even_points
 from ..spatial.winding import crossings
-from ..util.even_points import even_points
 from ..util.progress import Monitor
 from ..util.types import Floats
 

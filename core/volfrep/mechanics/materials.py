@@ -11,12 +11,14 @@ from __future__ import annotations
 
 import json
 import re
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
 from ..util.errors import VolfrepError
 from ..util.numbers import number
+from ..util.toml import toml_library
 
 MAX_FILE_BYTES = 100_000
 _NAME = re.compile(r"[A-Za-z0-9][-\w]{0,70}", re.ASCII)
@@ -179,44 +181,59 @@ def load_material(path: Path) -> SolidMaterial:
         raise VolfrepError(f"The material file '{path}' is too large to be one.")
     try:
         values = _parsed(data.decode("utf-8"), path)
+    except VolfrepError:
+        raise
     except (ValueError, RecursionError) as error:
         kind = path.suffix.lstrip(".").upper()
         raise VolfrepError(f"The material file '{path}' is not valid {kind}: {error}.") from error
     if not isinstance(values, dict):
         raise VolfrepError(f"The material file '{path}' must hold names and values.")
+    return material_of(values, f"the material file '{path}'", path.stem, path.name)
+
+
+def material_of(
+    values: Mapping[str, Any], where: str, name: str, source: str = "the user"
+) -> SolidMaterial:
+    """A material from the entries of a file, or of a table in one.
+
+    Args:
+        values: ``density``, ``young``, ``poisson`` and, if known, the other attributes by name.
+        where: they stand, for the sentences.
+        name: where the entries give none.
+        source: where the entries give none.
+
+    Raises:
+        VolfrepError: an entry is missing, unknown or makes no sense.
+    """
+    there = where[0].upper() + where[1:]
     unknown, missing = values.keys() - _FIELDS, {"density", "young", "poisson"} - values.keys()
     if unknown or missing:
         what = f"has no '{min(missing)}'" if missing else f"has an unknown entry '{min(unknown)}'"
         raise VolfrepError(
-            f"The material file '{path}' {what}: give density (g/cm3), young (MPa), poisson and, "
-            "if known, name, yield_stress (MPa), processes and source."
+            f"{there} {what}: give density (g/cm3), young (MPa), poisson and, if known, name, "
+            "yield_stress (MPa), processes and source."
         )
     try:
         numbers = {k: float(values[k]) for k in ("density", "young", "poisson")}
         limit = values.get("yield_stress")
         return SolidMaterial(
-            name=str(values.get("name", re.sub(r"[^-\w]", "_", path.stem))),
+            name=str(values.get("name", re.sub(r"[^-\w]", "_", name))),
             yield_stress=None if limit is None else float(limit),
             processes=tuple(str(name) for name in values.get("processes", ())),
-            source=str(values.get("source", path.name)),
+            source=str(values.get("source", source)),
             **numbers,
         )
     except (TypeError, ValueError) as error:
         if isinstance(error, VolfrepError):
-            raise VolfrepError(f"In the material file '{path}': {error}") from error
+            raise VolfrepError(f"In {where}: {error}") from error
         raise VolfrepError(
-            f"In the material file '{path}', density, young, poisson and yield_stress must be "
-            "numbers, processes a list of names."
+            f"In {where}, density, young, poisson and yield_stress must be numbers, processes a "
+            "list of names."
         ) from error
 
 
 def _parsed(text: str, path: Path) -> object:
     if path.suffix.lower() == ".json":
         return json.loads(text)
-    try:
-        import tomllib
-    except ModuleNotFoundError as error:
-        raise VolfrepError(
-            f"Cannot read '{path}': TOML needs Python 3.11 or later; give the material as JSON."
-        ) from error
-    return tomllib.loads(text)
+    values: object = toml_library("materials").loads(text)
+    return values

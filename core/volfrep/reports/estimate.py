@@ -37,6 +37,8 @@ MOST_BEAMS = 400_000
 #: Seconds that OpenCASCADE takes to cut a lattice at a wall, per strut; measured on lattices of
 #: 100 to 900 struts in a box, a cylinder, and a box with a hole.
 TRIM_SECONDS_PER_STRUT = 8e-3
+#: A wall of more triangles is not handed to OpenCASCADE's Booleans.
+MOST_WALL_TRIANGLES = 3_000
 #: Exact solids of more struts than this are not cut: the Boolean grows faster than its input.
 MOST_TRIMMED_STRUTS = 5_000
 
@@ -158,6 +160,19 @@ def estimate_exact(
         )
     reading = f"FreeCAD reads it in about {_seconds(found.read_seconds)}"
     return Estimate(what, seconds, found.megabytes, reading)
+
+
+def refuse_wall(triangles: int) -> None:
+    """Refuse a wall of so many triangles, at which exact surfaces would be cut.
+
+    Raises:
+        VolfrepError: OpenCASCADE's Booleans do not manage it.
+    """
+    if triangles > MOST_WALL_TRIANGLES:
+        raise VolfrepError(
+            f"OpenCASCADE does not cut at a wall of {triangles:,} triangles (the limit is "
+            f"{MOST_WALL_TRIANGLES:,})."
+        )
 
 
 def refuse_inexact(spec: LatticeSpec) -> None:

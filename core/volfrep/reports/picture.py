@@ -59,6 +59,19 @@ def picture(
     Raises:
         VolfrepError: pyvista is missing, the name does not end in .png, or it cannot be written.
     """
+    stage = new_stage(file, size)
+    for triangles, colour, ambient in _coloured(mesh, spec, solid, cut):
+        if len(triangles.triangles):
+            add_surface(stage, triangles, colour, ambient)
+    show_stage(stage, file)
+
+
+def new_stage(file: str | os.PathLike[str] | None, size: tuple[int, int] = SIZE) -> Any:
+    """An empty scene of pyvista, lit, for a PNG or, without one, for a window.
+
+    Raises:
+        VolfrepError: pyvista is missing, the name does not end in .png, or it cannot be written.
+    """
     library = drawing_library()
     if file is not None:
         check_picture(file)
@@ -68,19 +81,42 @@ def picture(
         light = library.Light(light_type="camera light", intensity=intensity)
         light.position = place
         stage.add_light(light)
-    for triangles, colour, ambient in _coloured(mesh, spec, solid, cut):
-        if len(triangles.triangles):
-            surface = _surface(library, triangles)
-            stage.add_mesh(
-                surface, color=colour, ambient=ambient, diffuse=1.0 - ambient, specular=0.12,
-                specular_power=25, smooth_shading=True, split_sharp_edges=True,
-                feature_angle=FEATURE_ANGLE,
-            )  # fmt: skip
+    return stage
+
+
+def add_surface(
+    stage: Any, mesh: TriangleMesh, colour: str, ambient: float = 0.25, opacity: float = 1.0
+) -> None:
+    """Put a mesh into a scene: of its colour so much is not shaded."""
+    stage.add_mesh(
+        _surface(drawing_library(), mesh), color=colour, ambient=ambient, diffuse=1.0 - ambient,
+        specular=0.12, specular_power=25, smooth_shading=True, split_sharp_edges=True,
+        feature_angle=FEATURE_ANGLE, opacity=opacity,
+    )  # fmt: skip
+
+
+def show_stage(
+    stage: Any, file: str | os.PathLike[str] | None, *, y_up: bool = False, zoom: float = 1.35
+) -> None:
+    """Look at all of a scene, and write it or open it in a window.
+
+    Args:
+        stage: the scene.
+        file: the PNG to write; None opens a window.
+        y_up: whether y is up, and not z.
+        zoom: how much of the picture is filled.
+
+    Raises:
+        VolfrepError: nothing can be drawn here, or the file cannot be written.
+    """
     stage.enable_anti_aliasing("ssaa")
     stage.enable_parallel_projection()
-    stage.camera_position = [tuple(VIEW), (0.0, 0.0, 0.0), (0.0, 0.0, 1.0)]
+    view, up = VIEW, np.array([0.0, 0.0, 1.0])
+    if y_up:
+        view, up = (vector[[0, 2, 1]] * (1.0, 1.0, -1.0) for vector in (view, up))
+    stage.camera_position = [tuple(view), (0.0, 0.0, 0.0), tuple(up)]
     stage.reset_camera()
-    stage.camera.zoom(1.35)
+    stage.camera.zoom(zoom)
     if file is None:
         stage.show()
         return

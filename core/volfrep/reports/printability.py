@@ -49,6 +49,8 @@ class PrintReport:
         narrowest_gap_mm: smallest gap between two struts without a common node; None where it is
             more than `LOOK_FOR` times the limit. Gaps to the skin do not count.
         narrowest_at: where, mm.
+        largest_ball_mm: diameter of the largest ball that gets through the endless lattice, by the
+            windows between struts that meet as well; None where the lattice is graded.
         inclinations: share of the struts' length by inclination, in classes of `CLASS` degrees.
         overhanging_share: share of the struts' length below the process's inclination.
         longest_overhang_mm: length in the part of the longest strut of these.
@@ -69,6 +71,7 @@ class PrintReport:
     thinnest_at: tuple[float, float, float] | None
     narrowest_gap_mm: float | None
     narrowest_at: tuple[float, float, float] | None
+    largest_ball_mm: float | None
     inclinations: tuple[float, ...]
     overhanging_share: float
     longest_overhang_mm: float
@@ -101,6 +104,8 @@ class PrintReport:
             ("thinnest strut", _against(thin, process.strut, "none")),
             ("narrowest gap", _against(gap, process.gap, f"over {LOOK_FOR * process.gap:g} mm")),
         ]
+        if self.largest_ball_mm is not None:
+            rows.append(("largest ball that gets out", f"{self.largest_ball_mm:.3g} mm"))
         if flat:
             overhang = f"{100 * self.overhanging_share:.1f} % of the struts' length"
             rows += [
@@ -136,6 +141,7 @@ def print_report(
     build_direction: tuple[float, float, float] = (0.0, 0.0, 1.0),
     density: float = 1.0,
     domain: TriangleMesh | None = None,
+    ball_mm: float | None = None,
 ) -> PrintReport:
     """Hold a part against a process.
 
@@ -146,6 +152,8 @@ def print_report(
         build_direction: from the build plate up, of any length.
         density: of the material, g/cm3.
         domain: closed mesh of what the lattice fills; struts outside do not count. None: all do.
+        ball_mm: diameter of the largest ball that gets through the lattice (`passage`); None where
+            it is not known.
 
     Raises:
         VolfrepError: the build direction is no direction.
@@ -187,6 +195,7 @@ def print_report(
         thinnest_at=thinnest_at,
         narrowest_gap_mm=None if narrowest is None else narrowest[0],
         narrowest_at=None if narrowest is None else _point(narrowest[1]),
+        largest_ball_mm=ball_mm,
         inclinations=tuple(float(share) for share in classes),
         overhanging_share=float(overhanging.sum()) / total,
         longest_overhang_mm=float(overhanging.max(initial=0.0)),

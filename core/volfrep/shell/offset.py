@@ -16,10 +16,10 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
 from ..mesh.triangle_mesh import TriangleMesh, compact, empty_mesh
+from ..spatial.even_points import even_points
 from ..spatial.proximity import closest_points, index_surface
 from ..spatial.rays import inside_points
 from ..util.errors import VolfrepError
-from ..util.even_points import even_points
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats
 from .adaptive_contour import find_wall

@@ -14,6 +14,7 @@ import subprocess
 import sys
 import threading
 import time
+from collections.abc import Iterable
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -63,35 +64,56 @@ def run_batch(
             "install the same version."
         )
     if batch.apart or batch.limits.any:
-        _run_apart(batch, ended, progress)
+        run_apart((batch,), ended, progress)
     else:
         run_in_turn(batch, ended, progress)
     return len(batch.designs)
 
 
-def _run_apart(batch: Batch, ended: Ended | None, progress: ProgressCallback | None) -> None:
-    if batch.limits.memory_gb is not None:
-        resident_gb(os.getpid())
+def run_apart(
+    batches: Iterable[Batch], ended: Ended | None, progress: ProgressCallback | None
+) -> None:
+    """Do the runs of batches of one study in a process beside this one, which keeps its caches.
+
+    Raises:
+        VolfrepError: as `run_batch`.
+        Cancelled: the callback said so; the process has been ended.
+    """
     child: _Child | None = None
     try:
-        for design in batch.designs:
-            for tried in range(1, TRIES + 1):
-                if not record_of(batch, design).missing(batch.actions, batch.asked, batch.retry):
-                    break
-                child = child or _Child(batch)
-                ending = child.run(design, batch.limits, progress)
-                if ending is None:
-                    break
-                child.end()
-                child = None
-                if ending.limited or tried == TRIES:
-                    note(batch, design, ending.sentence)
-                    break
-            if ended is not None:
-                ended(design.key)
+        for batch in batches:
+            if batch.limits.memory_gb is not None:
+                resident_gb(os.getpid())
+            for design in batch.designs:
+                child = _run(batch, design, child, progress)
+                if ended is not None:
+                    ended(design.key)
     finally:
         if child is not None:
             child.end()
+
+
+def _run(
+    batch: Batch, design: Design, child: _Child | None, progress: ProgressCallback | None
+) -> _Child | None:
+    """Do one run, twice where its process dies; the process that is left."""
+    for tried in range(1, TRIES + 1):
+        if not record_of(batch, design).missing(batch.actions, batch.asked, batch.retry):
+            return child
+        child = child or _Child(batch)
+        try:
+            ending = child.run(design, batch.limits, progress)
+        except BaseException:
+            child.end()
+            raise
+        if ending is None:
+            return child
+        child.end()
+        child = None
+        if ending.limited or tried == TRIES:
+            note(batch, design, ending.sentence)
+            break
+    return child
 
 
 @dataclass(frozen=True)

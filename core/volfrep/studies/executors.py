@@ -5,16 +5,18 @@ from __future__ import annotations
 
 import threading
 import time
+from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor, Future, ThreadPoolExecutor, wait
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 from ..design.memory_guard import free_memory
 from ..util.errors import Cancelled, VolfrepError
 from ..util.progress import ProgressCallback
 from ..util.threads import threads
-from .apart import note, run_batch
+from .apart import note, run_apart, run_batch
 from .runs import Batch
 
 #: How often the caller is told how far the runs are, s.
@@ -161,9 +163,13 @@ def run_beside(batches: Sequence[Batch], tally: Tally) -> None:
     Raises:
         Cancelled: the caller said so; the processes have been ended.
     """
+    left = deque(batches)
     with ThreadPoolExecutor(tally.workers, "volfrep-study") as pool:
         try:
-            futures = [pool.submit(run_batch, b, tally.ended, tally.goes_on) for b in batches]
+            futures = [
+                pool.submit(run_apart, _taken(left), tally.ended, tally.goes_on)
+                for _ in range(tally.workers)
+            ]
             _wait(futures, tally)
             for future in futures:
                 future.result()
@@ -171,6 +177,15 @@ def run_beside(batches: Sequence[Batch], tally: Tally) -> None:
             tally.cancel()
             pool.shutdown(wait=False, cancel_futures=True)
             raise
+
+
+def _taken(batches: deque[Batch]) -> Iterator[Batch]:
+    """Batches that nobody else has taken, until there are none."""
+    while True:
+        try:
+            yield batches.popleft()
+        except IndexError:
+            return
 
 
 def run_by(executor: Executor, batches: Sequence[Batch], tally: Tally) -> None:
@@ -227,8 +242,8 @@ def _submitted(
     return lost
 
 
-def _wait(futures: Sequence[Future[int]], tally: Tally) -> None:
-    pending: set[Future[int]] = set(futures)
+def _wait(futures: Sequence[Future[Any]], tally: Tally) -> None:
+    pending: set[Future[Any]] = set(futures)
     while pending:
         if not tally.tell():
             raise Cancelled("the study was cancelled")

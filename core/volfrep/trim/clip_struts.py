@@ -36,11 +36,17 @@ class Clipped:
     Attributes:
         wireframe: nodes and struts inside; a cut strut ends in a node of its own on the wall.
         on_wall: (n,) bool, nodes of the wireframe at which the wall holds the lattice.
+        owner: (m,) int64, the strut of the whole lattice that each strut is a piece of.
+        low: (m,) float64, where on it the piece begins, as a share of its length.
+        high: (m,) float64, where it ends.
         warnings: sentences for the user.
     """
 
     wireframe: Wireframe
     on_wall: Bools
+    owner: Ints
+    low: Floats
+    high: Floats
     warnings: tuple[str, ...] = ()
 
 
@@ -134,7 +140,7 @@ def _assemble(
         new_radii,
         np.concatenate(joints)[used],
     )
-    return Clipped(clipped, walls[used])
+    return Clipped(clipped, walls[used], owner, low, high)
 
 
 def _between(ends: Floats, share: Floats) -> Floats:

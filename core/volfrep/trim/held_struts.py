@@ -58,12 +58,18 @@ class Held:
         """
         if self.stays.all() and self.has_skin:
             return lattice
+        return chosen(lattice, self.whole(lattice))
+
+    def whole(self, lattice: Wireframe) -> Bools:
+        """(m,) the struts of the lattice that `without_loose` keeps."""
         count = len(lattice.struts)
+        if self.stays.all() and self.has_skin:
+            return np.ones(count, bool)
         stays = np.bincount(self.pieces.owner[self.stays], minlength=count) > 0
         outside = np.bincount(self.pieces.owner, minlength=count) == 0
         joined = np.zeros(len(lattice.nodes), bool)
         joined[lattice.struts[stays]] = True
-        return chosen(lattice, stays | (outside & joined[lattice.struts].any(axis=1)))
+        return np.asarray(stays | (outside & joined[lattice.struts].any(axis=1)))
 
     @property
     def told(self) -> tuple[str, ...]:
@@ -141,7 +147,11 @@ def axes_of(
     """
     if wall is None:
         frame = kept.without_loose(lattice)
-        clipped = Clipped(frame, np.zeros(len(frame.nodes), bool), kept.told)
+        owner = np.flatnonzero(kept.whole(lattice))
+        clipped = Clipped(
+            frame, np.zeros(len(frame.nodes), bool), owner, np.zeros(len(owner)),
+            np.ones(len(owner)), kept.told,
+        )  # fmt: skip
     else:
         clipped = replace(clip(lattice, wall, kept.left), warnings=kept.told)
         if openings is not None:
@@ -181,7 +191,10 @@ def _with_joints(clipped: Clipped, bodies: int) -> Clipped:
         "nothing, and are left out.",
     )
     used = np.unique(frame.struts[stays])
-    return Clipped(chosen(frame, stays), clipped.on_wall[used], clipped.warnings + told)
+    return Clipped(
+        chosen(frame, stays), clipped.on_wall[used], clipped.owner[stays], clipped.low[stays],
+        clipped.high[stays], clipped.warnings + told,
+    )  # fmt: skip
 
 
 def _volumes(pieces: Pieces, lattice: Wireframe) -> Floats:

@@ -27,28 +27,29 @@ def number(name: str, value: float, unit: str, *, positive: bool | None) -> floa
         VolfrepError: it is none, or out of the unit's range (`RANGES`); the text begins with the
             name.
     """
+    of, within = (f" {unit}", f" in {unit}") if unit else ("", "")
     try:
         result = float(value)
     except (TypeError, ValueError) as error:
-        raise VolfrepError(f"The {name} must be a number in {unit}, not {value!r}.") from error
+        raise VolfrepError(f"The {name} must be a number{within}, not {value!r}.") from error
     except OverflowError:  # a whole number
         result = math.inf
     if not math.isfinite(result):
-        raise VolfrepError(f"The {name} must be a finite number in {unit}, not {result}.")
+        raise VolfrepError(f"The {name} must be a finite number{within}, not {result}.")
     if positive and result <= 0:
-        raise VolfrepError(f"The {name} must be above 0 {unit}, not {result:g}.")
+        raise VolfrepError(f"The {name} must be above 0{of}, not {result:g}.")
     if positive is False and result < 0:
-        raise VolfrepError(f"The {name} must not be negative, not {result:g} {unit}.")
+        raise VolfrepError(f"The {name} must not be negative, not {result:g}{of}.")
     least, most = RANGES.get(unit, (0.0, math.inf))
     if positive is None:
         if abs(result) > most:
             raise VolfrepError(
-                f"The {name} must be from {-most:g} to {most:g} {unit}, not {result:g}."
+                f"The {name} must be from {-most:g} to {most:g}{of}, not {result:g}."
             )
     elif result and not least <= result <= most:
         nothing = "" if positive else "0 or "
         raise VolfrepError(
-            f"The {name} must be {nothing}from {least:g} to {most:g} {unit}, not {result:g}."
+            f"The {name} must be {nothing}from {least:g} to {most:g}{of}, not {result:g}."
         )
     return result
 

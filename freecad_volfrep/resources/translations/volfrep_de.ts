@@ -201,6 +201,10 @@
       <translation>Richtung</translation>
     </message>
     <message>
+      <source>Distance between a facet and the exact strut, kept away from the creases where struts meet; 0 for a thirty-fifth of the radius</source>
+      <translation>Abstand zwischen einer Facette und dem genauen Stab, eingehalten außer in den Kehlen zwischen Stäben; 0 für ein Fünfunddreißigstel des Radius</translation>
+    </message>
+    <message>
       <source>Domain</source>
       <translation>Füllraum</translation>
     </message>
@@ -343,10 +347,6 @@
     <message>
       <source>Lambda Start</source>
       <translation>Lambda am Anfang</translation>
-    </message>
-    <message>
-      <source>Largest distance between a facet and the exact strut; 0 for a thirty-fifth of the radius</source>
-      <translation>Größter Abstand zwischen einer Facette und der exakten Strebe; 0 für ein Fünfunddreißigstel des Radius</translation>
     </message>
     <message>
       <source>Lattice</source>
@@ -1132,6 +1132,17 @@
     </message>
   </context>
   <context>
+    <name>VOLFREP_SizeLattice</name>
+    <message>
+      <source>Find the radii of the selected lattice infill's struts for the load cases of the FEM workbench: least mass within limits, or most stiffness at a mass</source>
+      <translation>Die Radien der Streben der gewählten Gitterfüllung für die Lastfälle des FEM-Arbeitsbereichs finden: geringste Masse innerhalb von Grenzen, oder größte Steifigkeit bei einer Masse</translation>
+    </message>
+    <message>
+      <source>Size Lattice</source>
+      <translation>Gitter dimensionieren</translation>
+    </message>
+  </context>
+  <context>
     <name>VOLFREP_Statistics</name>
     <message>
       <source>Statistics</source>
@@ -1140,6 +1151,17 @@
     <message>
       <source>Tables of the selected lattice infills, or of all in the document: cells, struts, density, mass, times, memory</source>
       <translation>Tabellen der gewählten Gitterfüllungen oder aller im Dokument: Zellen, Streben, Dichte, Masse, Zeiten, Speicher</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_StrutResults</name>
+    <message>
+      <source>Colour the struts of the selected lattice infill by radius, stress, buckling or displacement under the load cases of the FEM workbench</source>
+      <translation>Die Streben der gewählten Gitterfüllung nach Radius, Spannung, Knicken oder Verschiebung unter den Lastfällen des FEM-Arbeitsbereichs einfärben</translation>
+    </message>
+    <message>
+      <source>Strut Results</source>
+      <translation>Strebenergebnisse</translation>
     </message>
   </context>
   <context>
@@ -1438,6 +1460,10 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>Eigenschaften des Gitters von {label}</translation>
     </message>
     <message>
+      <source>Sizing {label}</source>
+      <translation>{label} dimensionieren</translation>
+    </message>
+    <message>
       <source>Struts of {label}</source>
       <translation>Streben von {label}</translation>
     </message>
@@ -1520,6 +1546,10 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>Anzeige und Grenzen</translation>
     </message>
     <message>
+      <source>Distance between a facet and the exact strut, where the resolution is automatic; automatic: by the strut radius</source>
+      <translation>Abstand zwischen einer Facette und dem genauen Stab bei automatischer Auflösung; automatisch: nach dem Stabradius</translation>
+    </message>
+    <message>
       <source>Edge length L of a cell; automatic: about four cells across the thinnest side of the part</source>
       <translation>Kantenlänge L einer Zelle; automatisch: etwa vier Zellen über die dünnste Seite des Bauteils</translation>
     </message>
@@ -1534,10 +1564,6 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
     <message>
       <source>In Section View</source>
       <translation>In der Schnittansicht</translation>
-    </message>
-    <message>
-      <source>Largest distance between a facet and the exact strut, where the resolution is automatic; automatic: by the strut radius</source>
-      <translation>Größter Abstand zwischen einer Facette und der exakten Strebe, wo die Auflösung automatisch ist; automatisch: nach dem Strebenradius</translation>
     </message>
     <message>
       <source>Lattice</source>
@@ -1663,7 +1689,19 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>Gitter</translation>
     </message>
     <message>
+      <source>proof</source>
+      <translation>Nachweis</translation>
+    </message>
+    <message>
       <source>shell</source>
+      <translation>Haut</translation>
+    </message>
+    <message>
+      <source>sizing</source>
+      <translation>Dimensionieren</translation>
+    </message>
+    <message>
+      <source>skin</source>
       <translation>Haut</translation>
     </message>
     <message>
@@ -1718,6 +1756,10 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>Eingaben</translation>
     </message>
     <message>
+      <source>Notes</source>
+      <translation>Anmerkungen</translation>
+    </message>
+    <message>
       <source>Peak memory at the end of each stage, MB</source>
       <translation>Höchster Speicher am Ende jedes Schritts, MB</translation>
     </message>
@@ -1738,8 +1780,20 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>Sekunden je Schritt</translation>
     </message>
     <message>
+      <source>Steps</source>
+      <translation>Schritte</translation>
+    </message>
+    <message>
+      <source>Struts</source>
+      <translation>Streben</translation>
+    </message>
+    <message>
       <source>Surfaces that run through each other</source>
       <translation>Flächen, die sich durchdringen</translation>
+    </message>
+    <message>
+      <source>The same beams in CalculiX</source>
+      <translation>Dieselben Balken in CalculiX</translation>
     </message>
     <message>
       <source>The tables are on the clipboard.</source>
@@ -1790,6 +1844,10 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>Hüllquader</translation>
     </message>
     <message>
+      <source>buckling, % of its limit</source>
+      <translation>Knicken, % der Grenze</translation>
+    </message>
+    <message>
       <source>bulk</source>
       <translation>Kompressionsmodul</translation>
     </message>
@@ -1834,6 +1892,14 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>Dichte, g/cm3</translation>
     </message>
     <message>
+      <source>displacement, % of its limit</source>
+      <translation>Verschiebung, % der Grenze</translation>
+    </message>
+    <message>
+      <source>displacements differ by, %</source>
+      <translation>Verschiebungen weichen ab um, %</translation>
+    </message>
+    <message>
       <source>every place inside is enclosed once</source>
       <translation>jede Stelle im Inneren ist einmal umschlossen</translation>
     </message>
@@ -1844,6 +1910,10 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
     <message>
       <source>found</source>
       <translation>gefunden</translation>
+    </message>
+    <message>
+      <source>frequency, % of its limit</source>
+      <translation>Frequenz, % der Grenze</translation>
     </message>
     <message>
       <source>from</source>
@@ -1862,16 +1932,44 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>Knoten</translation>
     </message>
     <message>
+      <source>largest displacement, mm</source>
+      <translation>größte Verschiebung, mm</translation>
+    </message>
+    <message>
+      <source>largest radius, mm</source>
+      <translation>größter Radius, mm</translation>
+    </message>
+    <message>
+      <source>largest stress there over here</source>
+      <translation>größte Spannung dort zu hier</translation>
+    </message>
+    <message>
+      <source>largest stress, MPa</source>
+      <translation>größte Spannung, MPa</translation>
+    </message>
+    <message>
       <source>lattice</source>
       <translation>Gitter</translation>
+    </message>
+    <message>
+      <source>load before buckling, times</source>
+      <translation>Last bis zum Knicken, Vielfaches</translation>
     </message>
     <message>
       <source>loose pieces removed</source>
       <translation>entfernte lose Teile</translation>
     </message>
     <message>
+      <source>lowest frequency there over here</source>
+      <translation>niedrigste Frequenz dort zu hier</translation>
+    </message>
+    <message>
       <source>manifold</source>
       <translation>mannigfaltig</translation>
+    </message>
+    <message>
+      <source>mass of the struts, g</source>
+      <translation>Masse der Streben, g</translation>
     </message>
     <message>
       <source>mass, g</source>
@@ -1884,6 +1982,14 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
     <message>
       <source>most</source>
       <translation>höchster Wert</translation>
+    </message>
+    <message>
+      <source>most stressed strut, at x, y, z</source>
+      <translation>höchstbelastete Strebe, bei x, y, z</translation>
+    </message>
+    <message>
+      <source>most used limit</source>
+      <translation>am meisten genutzte Grenze</translation>
     </message>
     <message>
       <source>no</source>
@@ -1900,6 +2006,18 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
     <message>
       <source>nu</source>
       <translation>nu</translation>
+    </message>
+    <message>
+      <source>one radius, as near as it gets</source>
+      <translation>ein Radius, so nah es geht</translation>
+    </message>
+    <message>
+      <source>one radius, same limits</source>
+      <translation>ein Radius, gleiche Grenzen</translation>
+    </message>
+    <message>
+      <source>one radius, same mass</source>
+      <translation>ein Radius, gleiche Masse</translation>
     </message>
     <message>
       <source>output</source>
@@ -1934,6 +2052,10 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>kürzeste Kante</translation>
     </message>
     <message>
+      <source>sized</source>
+      <translation>dimensioniert</translation>
+    </message>
+    <message>
       <source>skin, mm</source>
       <translation>Haut, mm</translation>
     </message>
@@ -1950,8 +2072,16 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>kleinstes Radienverhältnis</translation>
     </message>
     <message>
+      <source>smallest radius, mm</source>
+      <translation>kleinster Radius, mm</translation>
+    </message>
+    <message>
       <source>status</source>
       <translation>Status</translation>
+    </message>
+    <message>
+      <source>step</source>
+      <translation>Schritt</translation>
     </message>
     <message>
       <source>step of its numbers</source>
@@ -1960,6 +2090,10 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
     <message>
       <source>strength</source>
       <translation>Festigkeit</translation>
+    </message>
+    <message>
+      <source>stress, % of its limit</source>
+      <translation>Spannung, % der Grenze</translation>
     </message>
     <message>
       <source>strut radius, mm</source>
@@ -2018,6 +2152,10 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>wasserdicht</translation>
     </message>
     <message>
+      <source>work of the loads, N mm</source>
+      <translation>Arbeit der Lasten, N mm</translation>
+    </message>
+    <message>
       <source>wrong neighbours</source>
       <translation>falsche Nachbarn</translation>
     </message>
@@ -2054,6 +2192,161 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
     </message>
   </context>
   <context>
+    <name>VolfrepSizePanel</name>
+    <message>
+      <source>Analyses of the FEM workbench: each is a load case</source>
+      <translation>Analysen des FEM-Arbeitsbereichs: jede ist ein Lastfall</translation>
+    </message>
+    <message>
+      <source>Buckling safety</source>
+      <translation>Sicherheit (Knicken)</translation>
+    </message>
+    <message>
+      <source>CalculiX's displacements of the same beams differ by {off:.2g} %.</source>
+      <translation>Die Verschiebungen von CalculiX für dieselben Balken weichen um {off:.2g} % ab.</translation>
+    </message>
+    <message>
+      <source>Cancelled before the first step.</source>
+      <translation>Vor dem ersten Schritt abgebrochen.</translation>
+    </message>
+    <message>
+      <source>Check with CalculiX</source>
+      <translation>Mit CalculiX prüfen</translation>
+    </message>
+    <message>
+      <source>Displacement</source>
+      <translation>Verschiebung</translation>
+    </message>
+    <message>
+      <source>Find the radii now and stay in this panel; Cancel in the status bar keeps the best design so far</source>
+      <translation>Die Radien jetzt finden und in diesem Fenster bleiben; Abbrechen in der Statusleiste behält den bisher besten Entwurf</translation>
+    </message>
+    <message>
+      <source>Frequency, Hz</source>
+      <translation>Frequenz, Hz</translation>
+    </message>
+    <message>
+      <source>Goal</source>
+      <translation>Ziel</translation>
+    </message>
+    <message>
+      <source>How many times the load may be before the first strut buckles; 0 for no limit</source>
+      <translation>Wievielmal so groß die Last sein darf, bevor die erste Strebe knickt; 0 für keine Grenze</translation>
+    </message>
+    <message>
+      <source>Largest radius</source>
+      <translation>Größter Radius</translation>
+    </message>
+    <message>
+      <source>Least mass</source>
+      <translation>Geringste Masse</translation>
+    </message>
+    <message>
+      <source>Let CalculiX solve the design, where it is installed, and say how far it agrees; where it finds more than a limit allows, the struts are made thicker</source>
+      <translation>Den Entwurf von CalculiX lösen lassen, wo es installiert ist, und sagen, wie weit es übereinstimmt; wo es mehr findet, als eine Grenze erlaubt, werden die Streben dicker</translation>
+    </message>
+    <message>
+      <source>Limit</source>
+      <translation>Grenze</translation>
+    </message>
+    <message>
+      <source>Load cases</source>
+      <translation>Lastfälle</translation>
+    </message>
+    <message>
+      <source>Mass, g</source>
+      <translation>Masse, g</translation>
+    </message>
+    <message>
+      <source>Most stiffness</source>
+      <translation>Größte Steifigkeit</translation>
+    </message>
+    <message>
+      <source>Nodes whose struts would grow together stay below it</source>
+      <translation>Knoten, deren Streben zusammenwachsen würden, bleiben darunter</translation>
+    </message>
+    <message>
+      <source>Size</source>
+      <translation>Dimensionieren</translation>
+    </message>
+    <message>
+      <source>Size Lattice: {label}</source>
+      <translation>Gitter dimensionieren: {label}</translation>
+    </message>
+    <message>
+      <source>Smallest radius</source>
+      <translation>Kleinster Radius</translation>
+    </message>
+    <message>
+      <source>Step</source>
+      <translation>Schritt</translation>
+    </message>
+    <message>
+      <source>Struts of {mass:.4g} g hold all limits; no one radius between these does.</source>
+      <translation>Streben von {mass:.4g} g halten alle Grenzen ein; kein einheitlicher Radius dazwischen tut das.</translation>
+    </message>
+    <message>
+      <source>Struts of {mass:.4g} g hold all limits; of one radius they would weigh {even:.4g} g.</source>
+      <translation>Streben von {mass:.4g} g halten alle Grenzen ein; mit einem einheitlichen Radius wögen sie {even:.4g} g.</translation>
+    </message>
+    <message>
+      <source>Struts of {mass:.4g} g, {gain:.3g} times as stiff as struts of one radius and the same mass.</source>
+      <translation>Streben von {mass:.4g} g, {gain:.3g}-mal so steif wie Streben eines einheitlichen Radius mit derselben Masse.</translation>
+    </message>
+    <message>
+      <source>The largest of any point under any case; 0 for no limit</source>
+      <translation>Die größte jedes Punktes in jedem Fall; 0 für keine Grenze</translation>
+    </message>
+    <message>
+      <source>The limit of {limit} cannot be held between these radii: {use:.0%} of it is used. Allow thicker struts, or larger cells.</source>
+      <translation>Die Grenze für {limit} ist mit diesen Radien nicht einzuhalten: {use:.0%} davon sind genutzt. Dickere Streben erlauben, oder größere Zellen.</translation>
+    </message>
+    <message>
+      <source>The lowest natural one, held as in the first case; 0 for no limit</source>
+      <translation>Die niedrigste Eigenfrequenz, gehalten wie im ersten Fall; 0 für keine Grenze</translation>
+    </message>
+    <message>
+      <source>The thinnest strut that the process prints</source>
+      <translation>Die dünnste Strebe, die das Verfahren druckt</translation>
+    </message>
+    <message>
+      <source>What is wanted</source>
+      <translation>Was gewünscht ist</translation>
+    </message>
+    <message>
+      <source>What the stiffest struts weigh together; 0 for what struts of StrutRadius do</source>
+      <translation>Was die steifsten Streben zusammen wiegen; 0 für das, was Streben mit StrutRadius wiegen</translation>
+    </message>
+    <message>
+      <source>Work, N mm</source>
+      <translation>Arbeit, N mm</translation>
+    </message>
+    <message>
+      <source>Yield safety</source>
+      <translation>Sicherheit (Fließen)</translation>
+    </message>
+    <message>
+      <source>Yield stress over the largest von Mises stress in a strut; 0 for no limit</source>
+      <translation>Fließgrenze geteilt durch die größte Von-Mises-Spannung in einer Strebe; 0 für keine Grenze</translation>
+    </message>
+    <message>
+      <source>buckling</source>
+      <translation>Knicken</translation>
+    </message>
+    <message>
+      <source>displacement</source>
+      <translation>Verschiebung</translation>
+    </message>
+    <message>
+      <source>frequency</source>
+      <translation>Frequenz</translation>
+    </message>
+    <message>
+      <source>stress</source>
+      <translation>Spannung</translation>
+    </message>
+  </context>
+  <context>
     <name>VolfrepSolids</name>
     <message>
       <source>Axes of the struts</source>
@@ -2070,6 +2363,45 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
     <message>
       <source>One solid of plane faces</source>
       <translation>Ein Volumenkörper aus ebenen Facetten</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepStrutView</name>
+    <message>
+      <source>Colour by</source>
+      <translation>Farbe nach</translation>
+    </message>
+    <message>
+      <source>Deformed</source>
+      <translation>Verformt</translation>
+    </message>
+    <message>
+      <source>Displacement, mm</source>
+      <translation>Verschiebung, mm</translation>
+    </message>
+    <message>
+      <source>Load case</source>
+      <translation>Lastfall</translation>
+    </message>
+    <message>
+      <source>Radius, mm</source>
+      <translation>Radius, mm</translation>
+    </message>
+    <message>
+      <source>Share of the buckling load</source>
+      <translation>Anteil der Knicklast</translation>
+    </message>
+    <message>
+      <source>Stress (von Mises), MPa</source>
+      <translation>Spannung (von Mises), MPa</translation>
+    </message>
+    <message>
+      <source>Strut results of {label}</source>
+      <translation>Strebenergebnisse von {label}</translation>
+    </message>
+    <message>
+      <source>{factor:g} times enlarged</source>
+      <translation>{factor:g}-fach vergrößert</translation>
     </message>
   </context>
   <context>

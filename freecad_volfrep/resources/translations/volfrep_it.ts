@@ -201,6 +201,10 @@
       <translation>Direzione</translation>
     </message>
     <message>
+      <source>Distance between a facet and the exact strut, kept away from the creases where struts meet; 0 for a thirty-fifth of the radius</source>
+      <translation>Distanza tra una faccetta e l'asta esatta, rispettata lontano dagli spigoli in cui le aste si incontrano; 0 per un trentacinquesimo del raggio</translation>
+    </message>
+    <message>
       <source>Domain</source>
       <translation>Dominio</translation>
     </message>
@@ -343,10 +347,6 @@
     <message>
       <source>Lambda Start</source>
       <translation>Lambda all'inizio</translation>
-    </message>
-    <message>
-      <source>Largest distance between a facet and the exact strut; 0 for a thirty-fifth of the radius</source>
-      <translation>Distanza massima tra una faccetta e l'asta esatta; 0 per un trentacinquesimo del raggio</translation>
     </message>
     <message>
       <source>Lattice</source>
@@ -1132,6 +1132,17 @@
     </message>
   </context>
   <context>
+    <name>VOLFREP_SizeLattice</name>
+    <message>
+      <source>Find the radii of the selected lattice infill's struts for the load cases of the FEM workbench: least mass within limits, or most stiffness at a mass</source>
+      <translation>Trova i raggi delle aste del riempimento reticolare selezionato per i casi di carico dell'ambiente FEM: massa minima entro i limiti, o rigidezza massima a una massa data</translation>
+    </message>
+    <message>
+      <source>Size Lattice</source>
+      <translation>Dimensiona reticolo</translation>
+    </message>
+  </context>
+  <context>
     <name>VOLFREP_Statistics</name>
     <message>
       <source>Statistics</source>
@@ -1140,6 +1151,17 @@
     <message>
       <source>Tables of the selected lattice infills, or of all in the document: cells, struts, density, mass, times, memory</source>
       <translation>Tabelle dei riempimenti reticolari selezionati, o di tutti quelli del documento: celle, aste, densità, massa, tempi, memoria</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_StrutResults</name>
+    <message>
+      <source>Colour the struts of the selected lattice infill by radius, stress, buckling or displacement under the load cases of the FEM workbench</source>
+      <translation>Colora le aste del riempimento reticolare selezionato per raggio, tensione, instabilità o spostamento sotto i casi di carico dell'ambiente FEM</translation>
+    </message>
+    <message>
+      <source>Strut Results</source>
+      <translation>Risultati delle aste</translation>
     </message>
   </context>
   <context>
@@ -1438,6 +1460,10 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>Proprietà del reticolo di {label}</translation>
     </message>
     <message>
+      <source>Sizing {label}</source>
+      <translation>Dimensionamento di {label}</translation>
+    </message>
+    <message>
       <source>Struts of {label}</source>
       <translation>Aste di {label}</translation>
     </message>
@@ -1520,6 +1546,10 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>Visualizzazione e limiti</translation>
     </message>
     <message>
+      <source>Distance between a facet and the exact strut, where the resolution is automatic; automatic: by the strut radius</source>
+      <translation>Distanza tra una faccetta e l'asta esatta, con la risoluzione automatica; automatica: secondo il raggio dell'asta</translation>
+    </message>
+    <message>
       <source>Edge length L of a cell; automatic: about four cells across the thinnest side of the part</source>
       <translation>Lunghezza L dello spigolo di una cella; automatica: circa quattro celle sul lato più sottile della parte</translation>
     </message>
@@ -1534,10 +1564,6 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
     <message>
       <source>In Section View</source>
       <translation>Nella vista in sezione</translation>
-    </message>
-    <message>
-      <source>Largest distance between a facet and the exact strut, where the resolution is automatic; automatic: by the strut radius</source>
-      <translation>Distanza massima tra una faccetta e l'asta esatta, dove la risoluzione è automatica; automatico: in base al raggio delle aste</translation>
     </message>
     <message>
       <source>Lattice</source>
@@ -1663,8 +1689,20 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>reticolo</translation>
     </message>
     <message>
+      <source>proof</source>
+      <translation>verifica</translation>
+    </message>
+    <message>
       <source>shell</source>
       <translation>guscio</translation>
+    </message>
+    <message>
+      <source>sizing</source>
+      <translation>dimensionamento</translation>
+    </message>
+    <message>
+      <source>skin</source>
+      <translation>pelle</translation>
     </message>
     <message>
       <source>tile</source>
@@ -1718,6 +1756,10 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>Dati</translation>
     </message>
     <message>
+      <source>Notes</source>
+      <translation>Note</translation>
+    </message>
+    <message>
       <source>Peak memory at the end of each stage, MB</source>
       <translation>Memoria massima alla fine di ogni fase, MB</translation>
     </message>
@@ -1738,8 +1780,20 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>Secondi per fase</translation>
     </message>
     <message>
+      <source>Steps</source>
+      <translation>Passi</translation>
+    </message>
+    <message>
+      <source>Struts</source>
+      <translation>Aste</translation>
+    </message>
+    <message>
       <source>Surfaces that run through each other</source>
       <translation>Superfici che si attraversano</translation>
+    </message>
+    <message>
+      <source>The same beams in CalculiX</source>
+      <translation>Le stesse travi in CalculiX</translation>
     </message>
     <message>
       <source>The tables are on the clipboard.</source>
@@ -1790,6 +1844,10 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>ingombro</translation>
     </message>
     <message>
+      <source>buckling, % of its limit</source>
+      <translation>instabilità, % del limite</translation>
+    </message>
+    <message>
       <source>bulk</source>
       <translation>modulo di comprimibilità</translation>
     </message>
@@ -1834,6 +1892,14 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>densità, g/cm3</translation>
     </message>
     <message>
+      <source>displacement, % of its limit</source>
+      <translation>spostamento, % del limite</translation>
+    </message>
+    <message>
+      <source>displacements differ by, %</source>
+      <translation>gli spostamenti differiscono del, %</translation>
+    </message>
+    <message>
       <source>every place inside is enclosed once</source>
       <translation>ogni punto interno è racchiuso una volta</translation>
     </message>
@@ -1844,6 +1910,10 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
     <message>
       <source>found</source>
       <translation>trovati</translation>
+    </message>
+    <message>
+      <source>frequency, % of its limit</source>
+      <translation>frequenza, % del limite</translation>
     </message>
     <message>
       <source>from</source>
@@ -1862,16 +1932,44 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>nodi</translation>
     </message>
     <message>
+      <source>largest displacement, mm</source>
+      <translation>spostamento massimo, mm</translation>
+    </message>
+    <message>
+      <source>largest radius, mm</source>
+      <translation>raggio massimo, mm</translation>
+    </message>
+    <message>
+      <source>largest stress there over here</source>
+      <translation>tensione massima là su qui</translation>
+    </message>
+    <message>
+      <source>largest stress, MPa</source>
+      <translation>tensione massima, MPa</translation>
+    </message>
+    <message>
       <source>lattice</source>
       <translation>reticolo</translation>
+    </message>
+    <message>
+      <source>load before buckling, times</source>
+      <translation>carico prima dell'instabilità, volte</translation>
     </message>
     <message>
       <source>loose pieces removed</source>
       <translation>pezzi isolati rimossi</translation>
     </message>
     <message>
+      <source>lowest frequency there over here</source>
+      <translation>frequenza minima là su qui</translation>
+    </message>
+    <message>
       <source>manifold</source>
       <translation>manifold</translation>
+    </message>
+    <message>
+      <source>mass of the struts, g</source>
+      <translation>massa delle aste, g</translation>
     </message>
     <message>
       <source>mass, g</source>
@@ -1884,6 +1982,14 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
     <message>
       <source>most</source>
       <translation>massimo</translation>
+    </message>
+    <message>
+      <source>most stressed strut, at x, y, z</source>
+      <translation>asta più sollecitata, in x, y, z</translation>
+    </message>
+    <message>
+      <source>most used limit</source>
+      <translation>limite più sfruttato</translation>
     </message>
     <message>
       <source>no</source>
@@ -1900,6 +2006,18 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
     <message>
       <source>nu</source>
       <translation>nu</translation>
+    </message>
+    <message>
+      <source>one radius, as near as it gets</source>
+      <translation>raggio unico, il più vicino possibile</translation>
+    </message>
+    <message>
+      <source>one radius, same limits</source>
+      <translation>raggio unico, stessi limiti</translation>
+    </message>
+    <message>
+      <source>one radius, same mass</source>
+      <translation>raggio unico, stessa massa</translation>
     </message>
     <message>
       <source>output</source>
@@ -1934,6 +2052,10 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>spigolo più corto</translation>
     </message>
     <message>
+      <source>sized</source>
+      <translation>dimensionato</translation>
+    </message>
+    <message>
       <source>skin, mm</source>
       <translation>guscio, mm</translation>
     </message>
@@ -1950,8 +2072,16 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>rapporto minimo dei raggi</translation>
     </message>
     <message>
+      <source>smallest radius, mm</source>
+      <translation>raggio minimo, mm</translation>
+    </message>
+    <message>
       <source>status</source>
       <translation>stato</translation>
+    </message>
+    <message>
+      <source>step</source>
+      <translation>passo</translation>
     </message>
     <message>
       <source>step of its numbers</source>
@@ -1960,6 +2090,10 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
     <message>
       <source>strength</source>
       <translation>resistenza</translation>
+    </message>
+    <message>
+      <source>stress, % of its limit</source>
+      <translation>tensione, % del limite</translation>
     </message>
     <message>
       <source>strut radius, mm</source>
@@ -2018,6 +2152,10 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>stagno</translation>
     </message>
     <message>
+      <source>work of the loads, N mm</source>
+      <translation>lavoro dei carichi, N mm</translation>
+    </message>
+    <message>
       <source>wrong neighbours</source>
       <translation>vicini sbagliati</translation>
     </message>
@@ -2054,6 +2192,161 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
     </message>
   </context>
   <context>
+    <name>VolfrepSizePanel</name>
+    <message>
+      <source>Analyses of the FEM workbench: each is a load case</source>
+      <translation>Analisi dell'ambiente FEM: ognuna è un caso di carico</translation>
+    </message>
+    <message>
+      <source>Buckling safety</source>
+      <translation>Sicurezza (instabilità)</translation>
+    </message>
+    <message>
+      <source>CalculiX's displacements of the same beams differ by {off:.2g} %.</source>
+      <translation>Gli spostamenti di CalculiX per le stesse travi differiscono del {off:.2g} %.</translation>
+    </message>
+    <message>
+      <source>Cancelled before the first step.</source>
+      <translation>Annullato prima del primo passo.</translation>
+    </message>
+    <message>
+      <source>Check with CalculiX</source>
+      <translation>Verifica con CalculiX</translation>
+    </message>
+    <message>
+      <source>Displacement</source>
+      <translation>Spostamento</translation>
+    </message>
+    <message>
+      <source>Find the radii now and stay in this panel; Cancel in the status bar keeps the best design so far</source>
+      <translation>Trova ora i raggi e resta in questo pannello; Annulla nella barra di stato tiene il progetto migliore finora</translation>
+    </message>
+    <message>
+      <source>Frequency, Hz</source>
+      <translation>Frequenza, Hz</translation>
+    </message>
+    <message>
+      <source>Goal</source>
+      <translation>Obiettivo</translation>
+    </message>
+    <message>
+      <source>How many times the load may be before the first strut buckles; 0 for no limit</source>
+      <translation>Quante volte il carico può essere prima che la prima asta si instabilizzi; 0 per nessun limite</translation>
+    </message>
+    <message>
+      <source>Largest radius</source>
+      <translation>Raggio massimo</translation>
+    </message>
+    <message>
+      <source>Least mass</source>
+      <translation>Massa minima</translation>
+    </message>
+    <message>
+      <source>Let CalculiX solve the design, where it is installed, and say how far it agrees; where it finds more than a limit allows, the struts are made thicker</source>
+      <translation>Fai risolvere il progetto a CalculiX, dove è installato, e di' quanto concorda; dove trova più di quanto un limite consenta, le aste diventano più spesse</translation>
+    </message>
+    <message>
+      <source>Limit</source>
+      <translation>Limite</translation>
+    </message>
+    <message>
+      <source>Load cases</source>
+      <translation>Casi di carico</translation>
+    </message>
+    <message>
+      <source>Mass, g</source>
+      <translation>Massa, g</translation>
+    </message>
+    <message>
+      <source>Most stiffness</source>
+      <translation>Rigidezza massima</translation>
+    </message>
+    <message>
+      <source>Nodes whose struts would grow together stay below it</source>
+      <translation>I nodi le cui aste si fonderebbero restano al di sotto</translation>
+    </message>
+    <message>
+      <source>Size</source>
+      <translation>Dimensiona</translation>
+    </message>
+    <message>
+      <source>Size Lattice: {label}</source>
+      <translation>Dimensiona reticolo: {label}</translation>
+    </message>
+    <message>
+      <source>Smallest radius</source>
+      <translation>Raggio minimo</translation>
+    </message>
+    <message>
+      <source>Step</source>
+      <translation>Passo</translation>
+    </message>
+    <message>
+      <source>Struts of {mass:.4g} g hold all limits; no one radius between these does.</source>
+      <translation>Aste di {mass:.4g} g rispettano tutti i limiti; nessun raggio unico tra questi lo fa.</translation>
+    </message>
+    <message>
+      <source>Struts of {mass:.4g} g hold all limits; of one radius they would weigh {even:.4g} g.</source>
+      <translation>Aste di {mass:.4g} g rispettano tutti i limiti; con un raggio unico peserebbero {even:.4g} g.</translation>
+    </message>
+    <message>
+      <source>Struts of {mass:.4g} g, {gain:.3g} times as stiff as struts of one radius and the same mass.</source>
+      <translation>Aste di {mass:.4g} g, {gain:.3g} volte più rigide di aste di raggio unico e della stessa massa.</translation>
+    </message>
+    <message>
+      <source>The largest of any point under any case; 0 for no limit</source>
+      <translation>Il massimo di ogni punto in ogni caso; 0 per nessun limite</translation>
+    </message>
+    <message>
+      <source>The limit of {limit} cannot be held between these radii: {use:.0%} of it is used. Allow thicker struts, or larger cells.</source>
+      <translation>Il limite di {limit} non può essere rispettato con questi raggi: ne è usato il {use:.0%}. Consenti aste più spesse, o celle più grandi.</translation>
+    </message>
+    <message>
+      <source>The lowest natural one, held as in the first case; 0 for no limit</source>
+      <translation>La più bassa propria, vincolata come nel primo caso; 0 per nessun limite</translation>
+    </message>
+    <message>
+      <source>The thinnest strut that the process prints</source>
+      <translation>L'asta più sottile che il processo stampa</translation>
+    </message>
+    <message>
+      <source>What is wanted</source>
+      <translation>Che cosa si vuole</translation>
+    </message>
+    <message>
+      <source>What the stiffest struts weigh together; 0 for what struts of StrutRadius do</source>
+      <translation>Quanto pesano insieme le aste più rigide; 0 per il peso delle aste di StrutRadius</translation>
+    </message>
+    <message>
+      <source>Work, N mm</source>
+      <translation>Lavoro, N mm</translation>
+    </message>
+    <message>
+      <source>Yield safety</source>
+      <translation>Sicurezza (snervamento)</translation>
+    </message>
+    <message>
+      <source>Yield stress over the largest von Mises stress in a strut; 0 for no limit</source>
+      <translation>Tensione di snervamento sulla massima tensione di von Mises in un'asta; 0 per nessun limite</translation>
+    </message>
+    <message>
+      <source>buckling</source>
+      <translation>instabilità</translation>
+    </message>
+    <message>
+      <source>displacement</source>
+      <translation>spostamento</translation>
+    </message>
+    <message>
+      <source>frequency</source>
+      <translation>frequenza</translation>
+    </message>
+    <message>
+      <source>stress</source>
+      <translation>tensione</translation>
+    </message>
+  </context>
+  <context>
     <name>VolfrepSolids</name>
     <message>
       <source>Axes of the struts</source>
@@ -2070,6 +2363,45 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
     <message>
       <source>One solid of plane faces</source>
       <translation>Un solido di facce piane</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepStrutView</name>
+    <message>
+      <source>Colour by</source>
+      <translation>Colora per</translation>
+    </message>
+    <message>
+      <source>Deformed</source>
+      <translation>Deformato</translation>
+    </message>
+    <message>
+      <source>Displacement, mm</source>
+      <translation>Spostamento, mm</translation>
+    </message>
+    <message>
+      <source>Load case</source>
+      <translation>Caso di carico</translation>
+    </message>
+    <message>
+      <source>Radius, mm</source>
+      <translation>Raggio, mm</translation>
+    </message>
+    <message>
+      <source>Share of the buckling load</source>
+      <translation>Quota del carico critico</translation>
+    </message>
+    <message>
+      <source>Stress (von Mises), MPa</source>
+      <translation>Tensione (von Mises), MPa</translation>
+    </message>
+    <message>
+      <source>Strut results of {label}</source>
+      <translation>Risultati delle aste di {label}</translation>
+    </message>
+    <message>
+      <source>{factor:g} times enlarged</source>
+      <translation>ingrandito {factor:g} volte</translation>
     </message>
   </context>
   <context>

@@ -61,6 +61,10 @@ def test_beams_take_no_mesh(
     assert block(tmp_path / "block.3mf", "--3mf", "beams") == 0
     assert re.search(r"struts +20 between 12 nodes, as beams", capsys.readouterr().out)
     assert model(tmp_path / "block.3mf").count("<b:beam ") == 20
+    assert fill(part, tmp_path / "part.3mf", "--3mf", "beams") == 0
+    told = capsys.readouterr()
+    assert re.search(r"Expected: about \d+ cells, \d+ struts\.\n", told.out)  # and no triangles
+    assert "do not know the beam lattice extension" in told.err
     assert fill(part, tmp_path / "part.3mf", "--3mf", "beams", "--quiet") == 0
     assert capsys.readouterr().out == ""
     assert model(tmp_path / "part.3mf").count("<b:beam ") == 3 * 3 * 4 * 4

@@ -156,11 +156,16 @@ def test_whole_cells_are_not_cut(
 
 
 @needs_freecad
-def test_plane_faces_with_a_message_where_opencascade_does_not_manage(
+def test_plane_faces_are_told_before_the_work_where_opencascade_does_not_manage(
     tmp_path: Path, part: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     ball = tmp_path / "ball.stl"
     write_stl(samples.sphere(11.0, 4), ball)
+
+    def met(*_: object, **__: object) -> None:
+        raise AssertionError("FreeCAD is asked for what it does not do")
+
+    monkeypatch.setattr("volfrep.io.freecad_process.write_exact_step", met)
     assert fill(ball, tmp_path / "ball.step", "--step", "exact") == 0
     assert "holds plane faces instead" in capsys.readouterr().err
     assert "CYLINDRICAL_SURFACE(" not in (tmp_path / "ball.step").read_text()

@@ -37,7 +37,13 @@ OTHERS = [
     (Skin(2.0), {"thickness": 3.0, "open_faces": (OpenPlane((0, 0, 0), (0, 0, 1)),)}),
     (
         Boundary(),
-        {"activation": "inside", "cut": "whole", "remove_dangling": True, "shortest_stub": 1.0},
+        {
+            "activation": "inside",
+            "cut": "whole",
+            "remove_dangling": True,
+            "shortest_stub": 1.0,
+            "keep_pieces": True,
+        },
     ),
     (Resolution(), {"facets": 20, "deviation": 0.1}),
     (
@@ -96,6 +102,7 @@ OTHERS = [
             "drains": None,
             "remove_dangling": True,
             "shortest_stub": 1.0,
+            "keep_pieces": True,
             "output": "domain",
             "fillet": 0.5,
             "origin": (0, 0, 0),

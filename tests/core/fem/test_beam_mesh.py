@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 from volfrep import LatticeSpec
-from volfrep.fem.beam_mesh import JOINT_LENGTH, beam_model
+from volfrep.fem.beam_mesh import JOINT_LENGTH, beam_model, fitted_beams
 from volfrep.fem.calculix import solve
 from volfrep.fem.model import StaticStep
 from volfrep.grid.strut_graph import Wireframe
 from volfrep.io.write.calculix import sides, write_beams
-from volfrep.jobs.blocks import block
+from volfrep.jobs.blocks import block, block_wireframe
 from volfrep.mechanics.materials import Material
 from volfrep.util.errors import VolfrepError
 
@@ -198,3 +198,11 @@ def test_without_calculix(tmp_path: Path, monkeypatch):
     monkeypatch.setenv("PATH", str(tmp_path))
     with pytest.raises(VolfrepError, match="not installed"):
         solve(tmp_path / "any.inp")
+
+
+@pytest.mark.parametrize(("radius", "told"), [(1.5, False), (1.6, True)])
+def test_struts_beyond_what_was_measured_are_told_with_the_range(radius, told):
+    spec = LatticeSpec("Octet", cell_size=10, strut_radius=radius)
+    frame = block_wireframe(spec, (1, 1, 1))
+    sentences = fitted_beams(frame, None, spec.unit_cell(), 10.0)[1]
+    assert [("up to 0.15" in sentence) for sentence in sentences] == [True] * told

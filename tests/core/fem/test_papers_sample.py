@@ -16,7 +16,7 @@ from volfrep import LatticeSpec
 from volfrep.design.cells import LIBRARY
 from volfrep.fem.beam_mesh import beam_model
 from volfrep.fem.calculix import solve
-from volfrep.fem.joint_loads import balls_of, joint_displacements, joint_step
+from volfrep.fem.joint_loads import balls_of, joint_displacements, joint_step, side_joints
 from volfrep.fem.model import StaticStep
 from volfrep.fem.tet_mesh import TetrahedralMesh, tetrahedra
 from volfrep.io.freecad_process import write_exact_step
@@ -108,3 +108,32 @@ def test_shares_of_a_joint_balance_about_its_middle(sample):
     assert step.shares.sum() == pytest.approx(1)
     with pytest.raises(VolfrepError, match="holds no node: is it the same lattice"):
         balls_of(filled, frame, np.array([len(frame.nodes) - 1]))
+
+
+@needs["ccx"]
+@needs["gmsh"]
+@pytest.mark.slow
+def test_the_sides_of_a_decks_tetrahedra_hold_whole_joints(sample, tmp_path: Path):
+    """Held and pulled by the deck's own sets, the sample moves as it does by its joints."""
+    frame, _, loaded = sample
+    filled = tetrahedra(block(SPEC, COUNT).mesh)
+    sets = side_joints(filled, frame)
+    path = tmp_path / "solid.inp"
+    write_tetrahedra(filled, path, step=StaticStep(sets["XMIN"], sets["XMAX"], FORCE))
+    moved = joint_displacements(solve(path), balls_of(filled, frame, loaded))[:, 0]
+    assert moved.mean() == pytest.approx(1.53, rel=0.03)
+
+
+def test_the_sides_of_a_decks_tetrahedra_are_balls_and_not_points(sample):
+    """Nodes spread evenly over the sample's box: as many on a side as its joints' balls hold."""
+    frame, fixed, loaded = sample
+    steps = [np.arange(-3.0, high, 0.5) for high in (63.0, 43.0, 23.0)]
+    nodes = np.stack(np.meshgrid(*steps), axis=-1).reshape(-1, 3)
+    rng = np.random.default_rng(0)
+    corners = rng.integers(0, len(nodes), (len(nodes), 10))
+    sets = side_joints(TetrahedralMesh(nodes, corners), frame)
+    ball = 4.0 / 3.0 * np.pi * frame.joint_radii[0] ** 3 / 0.5**3
+    for name, joints in (("XMIN", fixed), ("XMAX", loaded)):
+        assert len(sets[name]) == pytest.approx(len(joints) * ball, rel=0.05)
+        away = np.linalg.norm(nodes[sets[name]][:, None] - frame.nodes[joints], axis=2)
+        assert away.min(axis=1).max() <= frame.joint_radii[0] + 1e-6

@@ -9,9 +9,10 @@ from collections import namedtuple
 import numpy as np
 import pytest
 
+from exact import distances_to_one_cell
 from samples import SKEW
 from volfrep import LatticeSpec, VolfrepError
-from volfrep.design.cells import LIBRARY
+from volfrep.design.cells import LIBRARY, find_cell
 from volfrep.design.forecast import BYTES_PER_STREAMED_CELL
 from volfrep.design.grading import RadiusGrading
 from volfrep.design.profile import Profile
@@ -144,3 +145,18 @@ def test_more_facets_than_the_format_counts_are_refused(tmp_path, monkeypatch):
     with pytest.raises(VolfrepError, match="at most 1,000 triangles"):
         write_block_stl(SPEC, (2, 2, 2), tmp_path / "a.stl")
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("cell", ["Octet", "CVC"])
+def test_the_deviation_is_kept_but_in_the_creases(cell):
+    """As docs/limits.md has it, by distances from the struts themselves."""
+    spec = LatticeSpec(cell, cell_size=10, strut_radius=1, deviation=0.02)
+    mesh = block(spec, (1, 1, 1)).mesh
+    corners = mesh.vertices[mesh.triangles]
+    area = np.linalg.norm(np.cross(*(corners[:, 1:] - corners[:, :1]).swapaxes(0, 1)), axis=1)
+    random = np.random.default_rng(0)
+    chosen = corners[random.choice(len(area), 4000, p=area / area.sum())]
+    points = (random.dirichlet((1.0, 1.0, 1.0), 4000)[:, :, None] * chosen).sum(axis=1)
+    strays = np.abs(distances_to_one_cell(points, find_cell(cell), 10.0, 1.0))
+    assert (strays > 1.5 * 0.02).mean() < 0.035
+    assert strays.max() < 9 * 0.02

@@ -16,7 +16,12 @@ from volfrep.util import linalg
 ENGINE = Path(volfrep.__file__).parent
 #: Rooms that no coordinate of a file comes from, and modules that only tell figures.
 FIGURES = ("mechanics", "fem", "reports", "cli")
-FIGURES_OF = ("jobs/preview.py", "design/forecast.py", "grid/congruent_joints.py")
+FIGURES_OF = (
+    "jobs/preview.py",
+    "jobs/rough_radius.py",
+    "design/forecast.py",
+    "grid/congruent_joints.py",
+)
 LIBRARY = {"dot", "matmul", "tensordot", "inner", "vdot"}
 
 

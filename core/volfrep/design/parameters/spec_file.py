@@ -12,6 +12,7 @@ from typing import Any
 
 from ...util.errors import VolfrepError
 from ...util.files import check_writable, replacing
+from ...util.toml import read_toml
 from ..spec import LatticeSpec
 from .parameter import GROUPS
 from .specification import specification, values_of
@@ -20,8 +21,6 @@ from .values import from_plain, to_plain
 
 #: Keys of a file, in the table's order.
 KEYS = tuple(parameter.name for parameter in PARAMETERS if parameter.in_command)
-#: Bytes of the largest file that is read.
-LARGEST = 1_000_000
 _HEAD = "# A lattice for VOLFREP. Lengths are in mm, angles in degrees, the density in g/cm3."
 
 
@@ -97,29 +96,7 @@ def parsed(path: Path) -> dict[str, Any]:
     Raises:
         VolfrepError: it cannot be read, or is no TOML.
     """
-    try:
-        with path.open("rb") as file:
-            text = file.read(LARGEST + 1)
-    except OSError as error:
-        raise VolfrepError(f"{path} cannot be read: {error.strerror}.") from error
-    if len(text) > LARGEST:
-        raise VolfrepError(f"{path} has more than {LARGEST:,} bytes: that is no specification.")
-    try:
-        import tomllib
-    except ModuleNotFoundError:  # Python 3.10
-        try:
-            import tomli as tomllib  # type: ignore[import-not-found, no-redef, unused-ignore]
-        except ModuleNotFoundError as error:
-            raise VolfrepError(
-                "Specifications are read by Python 3.11 or later, or with the package tomli: run "
-                "'pip install tomli'."
-            ) from error
-    try:
-        return dict(tomllib.loads(text.decode()))
-    except UnicodeDecodeError as error:
-        raise VolfrepError(f"{path} is no text in UTF-8.") from error
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
-        raise VolfrepError(f"{path} is no TOML: {error}.") from error
+    return read_toml(path, "specification")
 
 
 def _value(path: Path, name: str, value: Any) -> Any:

@@ -323,7 +323,8 @@ PARAMETERS = (
     ),
     Parameter(
         "deviation", "length", "Mesh",
-        "Largest distance between a facet and the exact strut; 0 for a thirty-fifth of the radius",
+        "Distance between a facet and the exact strut, kept away from the creases where struts "
+        "meet; 0 for a thirty-fifth of the radius",
         default=0.0, instead_of=("resolution",),
     ),
     Parameter(

@@ -115,7 +115,8 @@ def write_tetrahedra(
         mesh: the tetrahedra.
         path: of the file (.inp); an old file stays if anything goes wrong.
         material: of the part.
-        sets: node sets by name, rows of the mesh's nodes; the sides of its box are added.
+        sets: node sets by name, rows of the mesh's nodes; the sides of its box are added where
+            they are not given.
         step: what to solve; None leaves constraints and loads to whoever includes the deck.
 
     Raises:

@@ -6,7 +6,7 @@ scipy's part for it is slow to load, as long as a small lattice takes: it is loa
 
 from __future__ import annotations
 
-from .types import Floats
+from ..util.types import Floats
 
 
 def even_points(dimensions: int, points_log2: int) -> Floats:

@@ -1,0 +1,326 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A filled part whose struts are sized for what it carries."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+
+from ..design.grading import RadiusGrading
+from ..design.profile import Profile
+from ..design.scattered_field import PointField
+from ..design.spec import LatticeSpec
+from ..design.spec_parts import largest_radius
+from ..grid.placement import NUDGE
+from ..grid.strut_graph import Wireframe
+from ..loads.load_cases import LoadCases
+from ..mesh.triangle_mesh import TriangleMesh
+from ..reports.sizing_report import PEAKS, sizing_report
+from ..sizing.analysis import Analysis, Limits, Problem, analysed
+from ..sizing.design_proof import proved, stricter_limits
+from ..sizing.model import SizingModel, elastic, sizing_model
+from ..sizing.node_radii import smoothing
+from ..sizing.optimise import Sized, Step, Watch, lightest, scaled_to_limits, stiffest, uniform
+from ..sizing.skin import skin_model
+from ..util.cache import StageCache
+from ..util.errors import Cancelled, VolfrepError
+from ..util.files import replacing
+from ..util.progress import Monitor, ProgressCallback
+from ..util.types import Floats
+from .infill import Infill
+
+#: Edges of the skin's triangles over the cell size, and over its thickness at least.
+SKIN_EDGE, SKIN_EDGE_LEAST = 0.6, 1.5
+#: Radii are stored in steps of this, mm, as files keep them.
+RADIUS_STEP = 1e-6
+
+
+@dataclass(frozen=True)
+class Goal:
+    """What is wanted of a design.
+
+    Attributes:
+        limits: none is gone beyond; without any, stiffness is what is wanted.
+        volume: mm3 of struts for the most stiffness; None for that of the specification's radius.
+        radius_min: mm, the thinnest strut that may be; None for half the specification's radius.
+        radius_max: mm, the thickest; None for what the cell bears.
+        smooth: share that a node's neighbours have in its radius, from 0 to 0.9.
+        weights: of the load cases, for stiffness; None for all alike.
+    """
+
+    limits: Limits = field(default_factory=Limits)
+    volume: float | None = None
+    radius_min: float | None = None
+    radius_max: float | None = None
+    smooth: float = 0.0
+    weights: tuple[float, ...] | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class SizedPart:
+    """A lattice whose radii follow what the part carries.
+
+    Attributes:
+        spec: of an ordinary graded lattice: its radius is a field of those at the nodes.
+        points: (n, 3) the nodes, in the part's coordinates as a field has them, mm.
+        radii: (n,) mm.
+        model: what was solved.
+        sized: the design, and how it was come to.
+        before: the lattice of one radius with the same volume.
+        even: the lattice of one radius that holds the same limits, and whether it does; None
+            without limits.
+        report: the figures.
+    """
+
+    spec: LatticeSpec
+    points: Floats
+    radii: Floats
+    model: SizingModel
+    sized: Sized
+    before: Analysis
+    even: tuple[Analysis, bool] | None
+    report: dict[str, Any] = field(repr=False)
+
+
+def size(
+    solid: TriangleMesh,
+    spec: LatticeSpec,
+    loads: LoadCases,
+    goal: Goal | None = None,
+    *,
+    most_steps: int = 60,
+    prove_it: bool = True,
+    progress: ProgressCallback | None = None,
+    monitor: Monitor | None = None,
+    cache: StageCache | None = None,
+    watch: Callable[[int, Step], bool] | None = None,
+) -> SizedPart:
+    """Size the struts of a part's lattice for its load cases.
+
+    Args:
+        solid: checked closed mesh, mm.
+        spec: what it is filled with; its radius is what the design begins with.
+        loads: the material, and what the part carries.
+        goal: least mass within limits, or most stiffness at a volume.
+        most_steps: of the search.
+        prove_it: let CalculiX solve the final design, where it is installed.
+        progress: called with the fraction done and the stage; returning False cancels before
+            there is a design, and afterwards keeps the best.
+        monitor: in place of one of its own.
+        cache: keeps the costly stages of the part.
+        watch: told of every step; returning False keeps the best so far.
+
+    Raises:
+        VolfrepError: the specification does not fit the part, nothing lies where a load acts, the
+            part is not held, or the goal cannot be.
+        Cancelled: the callback said so before there was a design.
+    """
+    goal = goal or Goal()
+    monitor = monitor or Monitor(progress)
+    if goal.limits.any and goal.volume is not None:
+        raise VolfrepError("Give limits for the least mass, or a volume for the most stiffness.")
+    if not 0.0 <= goal.smooth <= 0.9:
+        raise VolfrepError(f"The smoothing must be from 0 to 0.9, not {goal.smooth:g}.")
+    start = time.perf_counter()
+    infill = Infill(solid, spec, monitor=monitor, cache=cache)
+    model = _model(infill, loads, goal)
+    problem = model.problem
+    shape = problem.radii
+    first = np.clip(_given_radii(model.wireframe), problem.low, problem.high)
+    seconds = {"model": time.perf_counter() - start}
+    start = time.perf_counter()
+    notes: list[str] = []
+
+    def told(number: int, step: Step) -> bool:
+        try:
+            monitor.tick((number + 1) / most_steps)
+        except Cancelled:
+            return False  # there is a design: the best so far is kept
+        return watch is None or watch(number, step)
+
+    with monitor.stage("sizing", 0.4, 0.95):
+        sized, even = _designed(problem, goal, first, most_steps, told)
+    if not sized.holds:
+        uses = sized.analysis.uses
+        worst = max(uses, key=lambda name: uses[name])
+        notes.append(
+            f"The limit of {worst} cannot be held: with the thickest struts that the cells bear "
+            f"and that were allowed, {uses[worst]:.0%} of it is used."
+        )
+    if model.skin is not None and goal.limits.stress is not None:
+        shells, count = model.skin.shells, model.frame_nodes
+        felt = shells.stresses(sized.analysis.displacements[count:]).max(axis=1)
+        over = float(shells.area[felt > goal.limits.stress].sum() / shells.area.sum())
+        if over > PEAKS:
+            notes.append(
+                f"The skin, which is not sized, is stressed by more than {goal.limits.stress:.4g} "
+                f"MPa on {over:.1%} of its area, mostly where it is held and loaded: make it "
+                "thicker, or look at those places with solid elements."
+            )
+    if sized.stopped == "cancelled":
+        notes.append("The search was cancelled: this is the best design so far.")
+    final = _stored(problem, sized.analysis.radii, goal.limits)
+
+    def solve_again(design: Analysis) -> dict[str, Any] | None:
+        cell, size = spec.unit_cell(), spec.cell_size
+        return proved(model, cell, size, design, loads.material, notes, monitor)
+
+    proof = None
+    if prove_it and sized.stopped != "cancelled":
+        try:
+            with monitor.stage("proof", 0.95, 1.0):
+                proof = solve_again(final)
+                stricter = stricter_limits(goal.limits, final, proof)
+                if proof is not None and stricter != goal.limits and sized.holds:
+                    # Where CalculiX finds more than is allowed, the limits are that much stricter.
+                    found, _ = scaled_to_limits(problem, stricter, final.radii)
+                    final = _stored(problem, found.radii, goal.limits)
+                    proof = solve_again(final)
+        except Cancelled:
+            proof = None
+            notes.append("CalculiX was cancelled: no other solver has proved this design.")
+    radii = final.radii
+    sized = replace(sized, analysis=final)
+    same = shape.scaled_to(
+        np.full(len(radii), float(first.mean())),
+        final.volume, np.full(len(radii), 1e-3 * float(first.min())), problem.high,
+    )  # fmt: skip
+    before, _ = analysed(problem, same, goal.limits)
+    seconds["sizing"] = time.perf_counter() - start
+    points = model.wireframe.nodes
+    if infill.placement.is_cut:
+        points = points - NUDGE * spec.cell_size
+    graded = replace(
+        spec, strut_radius=float(np.median(radii)), radius_grading=radius_field(points, radii),
+        target=None,
+    )  # fmt: skip
+    report = sizing_report(
+        loads, model, sized, before, even, proof, seconds=seconds, notes=tuple(notes)
+    )
+    return SizedPart(graded, points, radii, model, sized, before, even, report)
+
+
+def solved(
+    solid: TriangleMesh,
+    spec: LatticeSpec,
+    loads: LoadCases,
+    *,
+    progress: ProgressCallback | None = None,
+    cache: StageCache | None = None,
+) -> tuple[SizingModel, Analysis]:
+    """What a part's struts do as they are: nothing is sized.
+
+    Args:
+        solid: checked closed mesh, mm.
+        spec: what it is filled with, graded or not.
+        loads: the material, and what the part carries.
+        progress: called with the fraction done and the stage; returning False cancels.
+        cache: keeps the costly stages of the part.
+
+    Raises:
+        VolfrepError: as `size`.
+        Cancelled: the callback said so.
+    """
+    infill = Infill(solid, spec, monitor=Monitor(progress), cache=cache)
+    frame = infill.struts
+    radii = np.zeros(len(frame.nodes))
+    radii[frame.struts] = frame.radii
+    used = radii[radii > 0.0]
+    goal = Goal(radius_min=0.999 * float(used.min()), radius_max=1.001 * float(used.max()))
+    model = _model(infill, loads, goal)
+    return model, analysed(model.problem, np.maximum(radii, goal.radius_min or 0.0), Limits())[0]
+
+
+def _stored(problem: Problem, radii: Floats, limits: Limits) -> Analysis:
+    """A design as files keep it: radii in whole steps, not thinner than they were."""
+    steps = np.ceil(radii / RADIUS_STEP - 1e-6) * RADIUS_STEP
+    return analysed(problem, steps, limits)[0]
+
+
+def radius_field(points: Floats, radii: Floats) -> RadiusGrading:
+    """Radii at nodes as a grading: a field of mm, each value its own radius."""
+    low, high = float(radii.min()), float(radii.max())
+    if high - low < RADIUS_STEP:
+        high = low + RADIUS_STEP
+    return RadiusGrading(
+        "field", Profile("linear", low, high), field=PointField(points, radii, "sizing"),
+        curve=((low, low), (high, high)),
+    )  # fmt: skip
+
+
+def write_radii(part: SizedPart, path: str | os.PathLike[str]) -> None:
+    """Write the radii as a table that ``--radius-field`` reads: x, y, z and radius, mm."""
+    with replacing(path) as file:
+        file.write(b"x,y,z,radius\n")
+        table = np.column_stack([part.points, part.radii])
+        file.writelines(b"%.9g,%.9g,%.9g,%.6f\n" % tuple(row) for row in table.tolist())
+
+
+def _model(infill: Infill, loads: LoadCases, goal: Goal) -> SizingModel:
+    """The part as it is solved."""
+    spec, material = infill.spec, loads.material
+    if spec.output == "domain":
+        raise VolfrepError("The output 'domain' holds no lattice to size: choose part or lattice.")
+    if spec.target is not None:
+        raise VolfrepError(
+            "Sizing chooses the radii itself: leave the target out, and give limits or a mass."
+        )
+    if spec.fillet:
+        raise VolfrepError("Struts with fillets cannot be sized: set the fillet to 0.")
+    wireframe, clipped = infill.struts, infill.axes
+    own = float(np.median(wireframe.radii))
+    least = goal.radius_min if goal.radius_min is not None else 0.5 * own
+    bears = 0.98 * largest_radius(spec.cell_size, spec.fillet)
+    most = bears if goal.radius_max is None else min(goal.radius_max, bears)
+    if not 0.0 < least <= most:
+        raise VolfrepError(
+            f"Radii from {least:.4g} to {most:.4g} mm make no sense: the smallest must be above 0 "
+            "and below the largest, which the cells do not bear beyond "
+            f"{bears:.4g} mm."
+        )
+    skin = None
+    if spec.with_skin:
+        edge = max(SKIN_EDGE * spec.cell_size, SKIN_EDGE_LEAST * spec.shell)
+        with infill.monitor.stage("skin", 0.3, 0.4):
+            skin = skin_model(
+                infill.solid, spec.shell, edge, elastic(material), infill.domain.openings,
+                infill.monitor,
+            )  # fmt: skip
+    model = sizing_model(
+        wireframe, clipped, spec.unit_cell(), spec.cell_size, material, loads.cases,
+        bounds=(least, most), skin=skin, solid=infill.solid,
+    )  # fmt: skip
+    if goal.smooth:
+        smoother = smoothing(wireframe.struts.astype(np.int64), len(wireframe.nodes), goal.smooth)
+        model = replace(model, problem=replace(model.problem, smoother=smoother))
+    return model
+
+
+def _given_radii(wireframe: Wireframe) -> Floats:
+    """(n,) mm, the radii at the nodes that the specification says."""
+    result = np.zeros(len(wireframe.nodes))
+    result[wireframe.struts] = wireframe.radii
+    return result
+
+
+def _designed(
+    problem: Problem, goal: Goal, first: Floats, most_steps: int, watch: Watch
+) -> tuple[Sized, tuple[Analysis, bool] | None]:
+    """The design, and with limits the lattice of one radius that holds them."""
+    if goal.limits.any:
+        sized = lightest(problem, goal.limits, first, most_steps=most_steps, watch=watch)
+        return sized, uniform(problem, goal.limits)
+    volume = problem.radii.volume(first) if goal.volume is None else goal.volume
+    weights = None if goal.weights is None else np.array(goal.weights, float)
+    if weights is not None and len(weights) != len(problem.cases):
+        raise VolfrepError(
+            f"There are {len(problem.cases)} load cases and {len(weights)} weights: give one for "
+            "each."
+        )
+    made = stiffest(problem, volume, first, weights=weights, most_steps=most_steps, watch=watch)
+    return made, None

@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What a part has to carry: how it is held, and its load cases. Units: mm, N, MPa, N mm, mm/s2."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from ..mechanics.materials import SolidMaterial
+from ..util.errors import VolfrepError
+from .regions import Region, Vector
+
+#: Where a support leaves an axis free.
+FREE = None
+Displacement = tuple[float | None, float | None, float | None]
+
+
+@dataclass(frozen=True)
+class Support:
+    """A region that is held, or moved by what is given.
+
+    Attributes:
+        region: where.
+        displacement: along x, y and z, mm; None leaves the axis free.
+        turns: about x, y and z: whether the nodes there may turn, if they can turn at all. A solid
+            has no say in it: it is held when three of its points are.
+        name: for messages and reports.
+    """
+
+    region: Region
+    displacement: Displacement = (0.0, 0.0, 0.0)
+    turns: tuple[bool, bool, bool] = (False, False, False)
+    name: str = "support"
+
+    def __post_init__(self) -> None:
+        given = [value for value in self.displacement if value is not None]
+        if not all(math.isfinite(value) for value in given):
+            raise VolfrepError(f"The displacement of '{self.name}' must be of finite numbers.")
+        if not given and all(self.turns):
+            raise VolfrepError(f"'{self.name}' holds nothing: fix it, or give a displacement.")
+
+
+@dataclass(frozen=True)
+class Force:
+    """A force that a region carries: its facets by their area, or its nodes alike.
+
+    Attributes:
+        region: where.
+        force: the whole of it, N.
+        at: a point that it acts through, mm, as if a stiff arm led there; None for the middle of
+            the region, so that it turns nothing there.
+        name: for messages and reports.
+    """
+
+    region: Region
+    force: Vector
+    at: Vector | None = None
+    name: str = "force"
+
+    def __post_init__(self) -> None:
+        _check(f"force of '{self.name}'", self.force)
+        if self.at is not None:
+            _check(f"point of '{self.name}'", self.at)
+
+
+@dataclass(frozen=True)
+class Moment:
+    """A moment that a region carries, as forces that add up to nothing but it.
+
+    Attributes:
+        region: where.
+        moment: N mm, right-handed about each axis.
+        name: for messages and reports.
+    """
+
+    region: Region
+    moment: Vector
+    name: str = "moment"
+
+    def __post_init__(self) -> None:
+        _check(f"moment of '{self.name}'", self.moment)
+
+
+@dataclass(frozen=True)
+class Pressure:
+    """A pressure on the facets of a region.
+
+    Attributes:
+        region: where.
+        pressure: MPa; positive pushes into the part, negative pulls.
+        name: for messages and reports.
+    """
+
+    region: Region
+    pressure: float
+    name: str = "pressure"
+
+    def __post_init__(self) -> None:
+        if not math.isfinite(self.pressure):
+            raise VolfrepError(f"The pressure of '{self.name}' must be a finite number.")
+
+
+Load = Force | Moment | Pressure
+
+
+@dataclass(frozen=True)
+class LoadCase:
+    """Loads that act together.
+
+    Attributes:
+        name: no other case has it.
+        supports: how the part is held.
+        loads: on regions.
+        acceleration: mm/s2: what pulls at every piece of the part by its mass, as gravity does, so
+            (0, 0, -9810) where z is up.
+    """
+
+    name: str
+    supports: tuple[Support, ...]
+    loads: tuple[Load, ...] = ()
+    acceleration: Vector = (0.0, 0.0, 0.0)
+
+    def __post_init__(self) -> None:
+        _check(f"acceleration of '{self.name}'", self.acceleration)
+        if not self.supports:
+            raise VolfrepError(f"The load case '{self.name}' has no support: the part would fly.")
+        moved = any(value for support in self.supports for value in support.displacement)
+        if not (self.loads or any(self.acceleration) or moved):
+            raise VolfrepError(
+                f"The load case '{self.name}' has no load: give a force, a moment, a pressure, an "
+                "acceleration or a displacement."
+            )
+
+
+@dataclass(frozen=True)
+class LoadCases:
+    """A material and all that a part of it has to carry.
+
+    Attributes:
+        material: of skin and struts.
+        cases: each by itself; at least one.
+    """
+
+    material: SolidMaterial
+    cases: tuple[LoadCase, ...]
+
+    def __post_init__(self) -> None:
+        names = [case.name for case in self.cases]
+        if not names:
+            raise VolfrepError("There is no load case: give at least one.")
+        twice = [name for k, name in enumerate(names) if name in names[:k]]
+        if twice:
+            raise VolfrepError(f"Two load cases have the name '{twice[0]}': rename one.")
+
+
+def _check(name: str, vector: Vector) -> None:
+    if len(vector) != 3 or not all(math.isfinite(value) for value in vector):
+        raise VolfrepError(f"The {name} must be three finite numbers.")

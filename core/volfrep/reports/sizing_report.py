@@ -1,0 +1,172 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What sizing came to: before and after, at the same mass and at the same limits."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from ..loads.load_cases import LoadCases
+from ..sizing.analysis import Analysis
+from ..sizing.model import SizingModel
+from ..sizing.optimise import Sized
+from ..util.types import Floats
+
+#: Peaks of stress on so much of the skin's area, as in a corner of a support, are not told.
+PEAKS = 0.001
+
+
+def sizing_report(
+    loads: LoadCases,
+    model: SizingModel,
+    sized: Sized,
+    before: Analysis,
+    even: tuple[Analysis, bool] | None,
+    proof: Mapping[str, Any] | None,
+    *,
+    seconds: Mapping[str, float],
+    notes: tuple[str, ...] = (),
+) -> dict[str, Any]:
+    """The figures as plain JSON values.
+
+    Args:
+        loads: material and cases.
+        model: what was solved.
+        sized: the design.
+        before: one radius, the same volume.
+        even: one radius, the same limits, and whether it holds them; None without limits.
+        proof: how far another solver agrees; None where none was asked.
+        seconds: by stage.
+        notes: sentences for the user.
+    """
+    problem, final, density = model.problem, sized.analysis, loads.material.density
+    skin_volume = 0.0
+    if model.skin is not None:
+        skin_volume = float((model.skin.shells.area * model.skin.shells.thickness).sum())
+    result: dict[str, Any] = {
+        "material": loads.material.as_dict(),
+        "struts": len(problem.structure.beams.struts),
+        "nodes": len(final.radii),
+        "radii_mm": [float(final.radii.min()), float(final.radii.max())],
+        "bounds_mm": [float(problem.low.min()), float(problem.high.max())],
+        "strut_volume_mm3": final.volume,
+        "strut_mass_g": final.volume * density / 1000.0,
+        "skin_mass_g": skin_volume * density / 1000.0,
+        "holds": sized.holds,
+        "uses": final.uses,
+        "cases": [_case(model, before, final, k) for k in range(len(problem.cases))],
+        "same_mass": {
+            "radius_mm": float(before.radii.mean()),
+            "stiffer": (before.compliance / final.compliance).tolist(),
+            "less_stress": float(before.stress.max() / final.stress.max()),
+        },
+        "stopped": sized.stopped,
+        "steps": [
+            {"strut_volume_mm3": step.volume, "compliance": step.compliance, "uses": step.uses}
+            for step in sized.steps
+        ],
+        "calculix": None if proof is None else dict(proof),
+        "seconds": dict(seconds),
+        "notes": list(notes),
+    }
+    if not np.isnan(final.frequency):
+        result["lowest_frequency_hz"] = final.frequency
+    if even is not None:
+        uniform, holds = even
+        result["same_limits"] = {
+            "radius_mm": float(uniform.radii.mean()),
+            "holds": holds,
+            "strut_volume_mm3": uniform.volume,
+            "mass_saved": 1.0 - final.volume / uniform.volume,
+        }
+    if model.skin is not None:
+        shells = model.skin.shells
+        count = model.frame_nodes
+        felt = shells.stresses(final.displacements[count:])
+        result["skin_stress_mpa"] = [all_but(row, shells.area, PEAKS) for row in felt.T]
+    return result
+
+
+def all_but(values: Floats, weights: Floats, share: float) -> float:
+    """The value that no more than a share of the weights goes beyond."""
+    order = np.argsort(values)
+    total = np.cumsum(weights[order])
+    return float(values[order[np.searchsorted(total, (1.0 - share) * total[-1])]])
+
+
+def sizing_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """The figures as lines for a user."""
+    low, high = report["radii_mm"]
+    rows: list[tuple[str, str]] = [
+        ("struts", f"{report['struts']:,}, radii {low:.3g} to {high:.3g} mm"),
+        ("strut mass", f"{report['strut_mass_g']:.4g} g of {report['material']['name']}"),
+    ]
+    if report["skin_mass_g"]:
+        rows.append(("skin mass", f"{report['skin_mass_g']:.4g} g"))
+    for name, use in report["uses"].items():
+        rows.append((f"{name} limit", f"{use:.1%} used"))
+    rows += [
+        (
+            f"case {case['name']}",
+            f"moves {case['displacement_mm']:.4g} mm, stress {case['stress_mpa']:.4g} MPa, "
+            f"{case['buckling']:.1%} of buckling; one radius of the same mass: "
+            f"{case['before']['displacement_mm']:.4g} mm, {case['before']['stress_mpa']:.4g} MPa",
+        )
+        for case in report["cases"]
+    ]
+    same = report["same_mass"]
+    rows.append(
+        (
+            "same mass",
+            f"{min(same['stiffer']):.2f} times as stiff as one radius of {same['radius_mm']:.3g} "
+            f"mm, {same['less_stress']:.2f} times less stress",
+        )
+    )
+    if "same_limits" in report:
+        even = report["same_limits"]
+        what = "holds the same limits" if even["holds"] else "does not even hold the limits"
+        rows.append(
+            (
+                "same limits",
+                f"one radius of {even['radius_mm']:.3g} mm {what} with "
+                f"{even['strut_volume_mm3'] / report['strut_volume_mm3']:.2f} times the mass",
+            )
+        )
+    if "skin_stress_mpa" in report:
+        most = max(report["skin_stress_mpa"])
+        rows.append(("skin stress", f"{most:.4g} MPa on all but {PEAKS:.1%} of its area"))
+    proof = report["calculix"]
+    if proof is not None:
+        off = max(proof["displacements_off"])
+        given = ", given how the skin moves" if proof["given_the_skin"] else ""
+        rows.append(
+            (
+                "CalculiX",
+                f"displacements {off:.2%} off, largest stress {proof['largest_stress'] - 1:+.2%}"
+                + given,
+            )
+        )
+    return rows
+
+
+def _case(model: SizingModel, before: Analysis, final: Analysis, k: int) -> dict[str, Any]:
+    """One load case: what is largest in it, and where."""
+    beams = model.problem.structure.beams
+    strut = int(np.argmax(final.stress[:, :, k].max(axis=1)))
+    place = model.problem.structure.nodes[beams.struts[strut]].mean(axis=0)
+    return {
+        "name": model.problem.cases[k].name,
+        "compliance_nmm": float(final.compliance[k]),
+        "displacement_mm": float(final.largest[k]),
+        "stress_mpa": float(final.stress[:, :, k].max()),
+        "worst_strut": {"number": strut, "middle_mm": place.tolist()},
+        "buckling": float(final.buckling[:, k].max()),
+        "before": {
+            "compliance_nmm": float(before.compliance[k]),
+            "displacement_mm": float(before.largest[k]),
+            "stress_mpa": float(before.stress[:, :, k].max()),
+            "buckling": float(before.buckling[:, k].max()),
+        },
+    }

@@ -1,0 +1,253 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What one set of radii at the nodes does: mass, stiffness, and how much of each limit it uses."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import csr_matrix
+
+from ..util.errors import VolfrepError
+from ..util.types import Bools, Floats
+from .node_radii import NodeRadii
+from .structure import Case, Structure
+from .strut_results import buckling_loads, stresses
+from .tapered_beams import energies
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What a design must not go beyond, in every load case; None for no limit.
+
+    Attributes:
+        stress: von Mises in struts and skin, MPa.
+        displacement: of any node, mm.
+        buckling: how many times the load may be before the first strut buckles.
+        frequency: the lowest natural one, Hz, with the first case's supports.
+    """
+
+    stress: float | None = None
+    displacement: float | None = None
+    buckling: float | None = None
+    frequency: float | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("stress", "displacement", "buckling", "frequency"):
+            value = getattr(self, name)
+            if value is not None and not (np.isfinite(value) and value > 0.0):
+                raise VolfrepError(f"The limit of {name} must be above 0, not {value}.")
+
+    @property
+    def any(self) -> bool:
+        """Whether there is a limit at all."""
+        return any(
+            value is not None
+            for value in (self.stress, self.displacement, self.buckling, self.frequency)
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """A structure whose radii are varied.
+
+    Attributes:
+        structure: struts, and a skin if there is one.
+        cases: what it carries.
+        radii: at the nodes, what struts get of them.
+        low: (n,) mm, the thinnest that each node's radius may be.
+        high: (n,) mm, the thickest.
+        watched: (nodes,) bool, where displacements are limited.
+        smoother: (n, n) by which each step's radii are evened out with their neighbours'; None for
+            not at all.
+    """
+
+    structure: Structure
+    cases: tuple[Case, ...]
+    radii: NodeRadii
+    low: Floats
+    high: Floats
+    watched: Bools
+    smoother: csr_matrix | None = None
+
+    def smoothed(self, radii: Floats) -> Floats:
+        """The radii, evened out."""
+        if self.smoother is None:
+            return radii
+        return np.asarray(np.clip(self.smoother @ radii, self.low, self.high))
+
+
+@dataclass(frozen=True, eq=False)
+class Analysis:
+    """What a design does.
+
+    Attributes:
+        radii: (n,) at the nodes, mm.
+        volume: of the struts, mm3.
+        compliance: (k,) N mm, work of the loads of each case.
+        displacements: (nodes, 6, k) mm and radians.
+        largest: (k,) watched displacement, mm.
+        forces: (m, 6, k) in the struts.
+        stress: (m, 2, k) von Mises at both ends of every strut, MPa.
+        buckling: (m, k) share of its buckling load that every strut carries.
+        frequency: lowest, Hz; nan where it was not asked for.
+        uses: by the name of each limit that is given, the largest share of it that is used: 1 at
+            the limit.
+        worst: by the same names, the case (or -1) and the strut or node where that is.
+    """
+
+    radii: Floats
+    volume: float
+    compliance: Floats
+    displacements: Floats
+    largest: Floats
+    forces: Floats
+    stress: Floats
+    buckling: Floats
+    frequency: float
+    uses: dict[str, float]
+    worst: dict[str, tuple[int, int]]
+
+    @property
+    def most_used(self) -> float:
+        """The largest share of any limit; 0 where there is none."""
+        return max(self.uses.values(), default=0.0)
+
+
+@dataclass(frozen=True, eq=False)
+class Changes:
+    """Derivatives to the radii at the nodes.
+
+    Attributes:
+        compliance: (n, k) of each case's.
+        displacement: (n, k) of each case's largest watched displacement, over the limit; None
+            without one.
+        frequency: (n,) of the limit over the lowest frequency; None without one.
+    """
+
+    compliance: Floats
+    displacement: Floats | None
+    frequency: Floats | None
+
+
+def analysed(
+    problem: Problem, radii: Floats, limits: Limits, *, with_changes: bool = False
+) -> tuple[Analysis, Changes | None]:
+    """Solve a design, and say how much it uses of the limits.
+
+    Args:
+        problem: what carries what.
+        radii: (n,) at the nodes, mm.
+        limits: whose use is asked for.
+        with_changes: whether derivatives are, too.
+
+    Raises:
+        VolfrepError: a part of the structure can move freely.
+    """
+    structure, beams = problem.structure, problem.structure.beams
+    of_struts = problem.radii.of_struts(radii)
+    moved, factors = structure.displacements(of_struts, problem.cases)
+    forces = structure.forces(of_struts, moved)
+    loads = structure.all_loads(of_struts, problem.cases)
+    compliance = np.einsum("nik,nik->k", loads, moved)
+    stress = stresses(beams, of_struts, forces).mises
+    critical = buckling_loads(beams, of_struts, len(structure.nodes))
+    buckling = np.maximum(-forces[:, 0], 0.0) / critical[:, None]
+    size = np.where(problem.watched[:, None], np.linalg.norm(moved[:, :3], axis=1), 0.0)
+
+    uses: dict[str, float] = {}
+    worst: dict[str, tuple[int, int]] = {}
+    if limits.stress is not None:
+        strut, _, case = np.unravel_index(int(np.argmax(stress)), stress.shape)
+        uses["stress"] = float(stress.max()) / limits.stress
+        worst["stress"] = int(case), int(strut)
+    if limits.buckling is not None:
+        strut, case = np.unravel_index(int(np.argmax(buckling)), buckling.shape)
+        uses["buckling"] = float(buckling.max()) * limits.buckling
+        worst["buckling"] = int(case), int(strut)
+    node, case = np.unravel_index(int(np.argmax(size)), size.shape)
+    if limits.displacement is not None:
+        uses["displacement"] = float(size.max()) / limits.displacement
+        worst["displacement"] = int(case), int(node)
+    frequency, mode = np.nan, None
+    if limits.frequency is not None:
+        held = problem.cases[0].held
+        found, modes = structure.modes(of_struts, held, 1, factor=factors[0], tolerance=1e-6)
+        frequency, mode = float(found[0]), modes
+        uses["frequency"] = limits.frequency / frequency
+        worst["frequency"] = -1, -1
+    analysis = Analysis(
+        radii, problem.radii.volume(radii), compliance, moved, size.max(axis=0), forces,
+        stress, buckling, frequency, uses, worst,
+    )  # fmt: skip
+    if not with_changes:
+        return analysis, None
+
+    slopes = beams.flexibility_changes(of_struts)
+
+    def change(one: Floats, other: Floats) -> Floats:
+        """(n, k) of the work of forces in the strain of others."""
+        work = energies(one, other)
+        return np.stack(
+            [
+                problem.radii.to_nodes(np.einsum("mf,mef->me", work[:, :, k], slopes))
+                for k in range(work.shape[2])
+            ],
+            axis=1,
+        )
+
+    def heavier(other: Floats) -> Floats:
+        """(n, k) of the work of what acceleration pulls with in displacements (nodes, 6, k)."""
+        result = np.zeros((len(radii), len(problem.cases)))
+        for k, case in enumerate(problem.cases):
+            if any(case.acceleration):
+                pull = np.zeros(moved.shape[:2])
+                pull[:, :3] = case.acceleration
+                result[:, k] = _mass_change(problem, of_struts, other[:, :, k], pull)
+        return result
+
+    of_displacement = of_frequency = None
+    if limits.displacement is not None:
+        way = np.zeros((len(moved), 6, len(factors)))
+        every = np.arange(len(factors))
+        far = np.argmax(size, axis=0)
+        way[far, :3, every] = moved[far, :3, every] / np.maximum(size[far, every], 1e-300)[:, None]
+        back = structure.answers(factors, way)
+        virtual = structure.forces(of_struts, back)
+        of_displacement = change(virtual, forces) + heavier(back)
+        of_displacement = of_displacement / limits.displacement
+    if limits.frequency is not None and mode is not None:
+        strained = structure.forces(of_struts, mode)
+        rate = (2.0 * np.pi * frequency) ** 2
+        # d w2 = mode (dK - w2 dM) mode, and dK is - K dF K.
+        stiffer = -change(strained, strained)[:, 0]
+        mass = _mass_change(problem, of_struts, mode[:, :, 0], mode[:, :, 0])
+        of_frequency = -0.5 * (stiffer - rate * mass) / rate * limits.frequency / frequency
+    of_compliance = change(forces, forces) + 2.0 * heavier(moved)
+    return analysis, Changes(of_compliance, of_displacement, of_frequency)
+
+
+def _mass_change(problem: Problem, of_struts: Floats, left: Floats, right: Floats) -> Floats:
+    """(n,) derivative of left M right to the radii at the nodes, by a step at each strut's end.
+
+    Of motions (nodes, 6); the mass is the struts'.
+    """
+    beams = problem.structure.beams
+    first, second = beams.struts.T
+
+    def felt(radii: Floats) -> Floats:
+        one, between, two = beams.mass(radii)
+        return np.asarray(
+            np.einsum("mi,mij,mj->m", left[first], one, right[first])
+            + np.einsum("mi,mij,mj->m", left[first], between, right[second])
+            + np.einsum("mi,mij,mj->m", right[first], between, left[second])
+            + np.einsum("mi,mij,mj->m", left[second], two, right[second])
+        )
+
+    result = np.empty(of_struts.shape)
+    for end in (0, 1):
+        step = np.zeros(of_struts.shape)
+        step[:, end] = 1e-4 * of_struts[:, end]
+        change = felt(of_struts + step) - felt(of_struts - step)
+        result[:, end] = change / (2.0 * step[:, end])
+    return problem.radii.to_nodes(result)

@@ -1,0 +1,226 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A part with its lattice as a structure that can be sized: struts cut at the wall, skin, loads."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any, cast
+
+import numpy as np
+from scipy.sparse import csr_matrix
+from scipy.sparse.csgraph import connected_components
+
+from ..design.cells import UnitCell
+from ..grid.strut_graph import Wireframe
+from ..loads.load_cases import LoadCase
+from ..loads.nodal_loads import Body, nodal_case
+from ..loads.regions import AnyOf, Region, simple_regions
+from ..mechanics.catalogue import joint_law
+from ..mechanics.frame import SQUARE_SECTION
+from ..mechanics.materials import SolidMaterial
+from ..mesh.triangle_mesh import TriangleMesh
+from ..spatial.proximity import closest_points
+from ..trim.clip_struts import Clipped
+from ..util.errors import VolfrepError
+from ..util.types import Bools, Floats, Ints
+from .analysis import Problem
+from .node_radii import NodeRadii, joint_overlap, largest_radii
+from .skin import SkinModel, ties_to
+from .structure import NO_TIES, Case, Structure
+from .tapered_beams import Elastic, beams_of, end_table
+
+
+@dataclass(frozen=True, eq=False)
+class SizingModel:
+    """What is sized.
+
+    Attributes:
+        problem: to be solved and varied; its radii are those of the whole wireframe's nodes.
+        wireframe: of the active cells, whole.
+        struts: (m,) which strut of the wireframe each piece is a part of.
+        skin: its shells; None for none. Its nodes follow those of the struts' pieces.
+        on_wall: (n,) bool, of the pieces' nodes, those that the skin holds.
+    """
+
+    problem: Problem
+    wireframe: Wireframe
+    struts: Ints
+    skin: SkinModel | None
+    on_wall: Bools
+
+    @property
+    def frame_nodes(self) -> int:
+        """How many of the structure's nodes are the struts'."""
+        return len(self.on_wall)
+
+
+def elastic(material: SolidMaterial) -> Elastic:
+    """A material for beams and shells: t/mm3 in place of g/cm3."""
+    return Elastic(material.young, material.poisson, material.density * 1e-9)
+
+
+def sizing_model(
+    wireframe: Wireframe,
+    clipped: Clipped,
+    cell: UnitCell,
+    cell_size: float,
+    material: SolidMaterial,
+    cases: Sequence[LoadCase],
+    *,
+    bounds: tuple[float, float],
+    skin: SkinModel | None = None,
+    solid: TriangleMesh | None = None,
+) -> SizingModel:
+    """Struts, skin and loads as one structure.
+
+    Args:
+        wireframe: of the active cells, whole, mm.
+        clipped: the same struts, cut at the domain's wall.
+        cell: the unit cell.
+        cell_size: L, mm.
+        material: of struts and skin.
+        cases: what the part carries.
+        bounds: the smallest radius that a strut may have, and the largest, mm; nodes where struts
+            would meet before their middles have less.
+        skin: its shells; None for a bare lattice.
+        solid: the part, on which regions are looked up; needed with a skin.
+
+    Raises:
+        VolfrepError: nothing of the part lies where a load acts, or no strut hangs together.
+    """
+    frame, owner, low, high = clipped.wireframe, clipped.owner, clipped.low, clipped.high
+    hung = _hanging_together(frame, clipped.on_wall if skin is not None else None)
+    struts = frame.struts.astype(np.int64)[hung]
+    owner, low, high = owner[hung], low[hung], high[hung]
+    count = len(wireframe.nodes)
+    first, second = wireframe.struts.astype(np.int64)[owner].T
+    rows = np.repeat(np.arange(2 * len(owner)), 2)
+    columns = np.stack([first, second, first, second], axis=1).ravel()
+    shares = np.stack([1.0 - low, low, 1.0 - high, high], axis=1).ravel()
+    ends = csr_matrix((shares, (rows, columns)), shape=(2 * len(owner), count))
+    ends.eliminate_zeros()
+
+    least, most = bounds
+    largest = largest_radii(wireframe.nodes, wireframe.struts.astype(np.int64), most)
+    if least > largest.min():
+        raise VolfrepError(
+            f"Struts of radius {least:.4g} mm are the thinnest allowed, and where they are "
+            f"nearest to each other no more than {largest.min():.4g} mm fits: allow thinner "
+            "struts, or make the cells larger."
+        )
+    span = frame.nodes[struts[:, 1]] - frame.nodes[struts[:, 0]]
+    length = np.linalg.norm(span, axis=1)
+    whole = np.zeros(count)
+    inside = np.zeros(len(frame.nodes), bool)
+    inside[struts.ravel()] = True
+    # Nodes of the pieces that are the wireframe's own have joints that are counted twice.
+    own = np.full(len(frame.nodes), -1, np.int64)
+    for side, uncut, node in ((0, low == 0.0, first), (1, high == 1.0, second)):
+        own[struts[uncut, side]] = node[uncut]
+    overlap = joint_overlap(frame.nodes, struts, 1.0 + 0.5 * (least + most) / cell_size)
+    at = own >= 0
+    whole[own[at]] = overlap[at]
+    shape = NodeRadii(ends, length, whole)
+
+    alone = np.bincount(struts.ravel(), minlength=len(frame.nodes)) == 1
+    held = skin is not None and clipped.on_wall
+    on_wall = np.asarray(
+        clipped.on_wall & inside if skin is not None else np.zeros(len(inside), bool)
+    )
+    del held
+    stuff = elastic(material)
+    table = end_table(joint_law(cell, cell_size, "square"), least, float(largest.max()))
+    joined = ~(clipped.on_wall & alone)[struts]
+    nodes, ties, blocks = frame.nodes, NO_TIES, None
+    facets = np.empty((0, 3), np.int64)
+    places = nodes
+    if skin is not None:
+        tied = np.flatnonzero(on_wall)
+        ties = ties_to(skin, nodes[tied], tied, len(nodes))
+        blocks = replace(
+            skin.blocks,
+            rows=skin.blocks.rows + len(nodes),
+            columns=skin.blocks.columns + len(nodes),
+        )
+        facets = skin.outside.triangles[skin.used].astype(np.int64)
+        places = np.concatenate([nodes, skin.outside.vertices])
+        nodes = np.concatenate([nodes, skin.middle])
+    beams = beams_of(nodes, struts, stuff, joined=joined, section=SQUARE_SECTION, ends=table)
+    structure = Structure(nodes, beams, ties, blocks)
+
+    # What can be held and loaded: struts' nodes that are there, and the skin's.
+    there = np.zeros(len(nodes), bool)
+    there[: len(inside)] = inside & ~on_wall
+    if skin is not None:
+        there[len(inside) + np.unique(facets)] = True
+    body_rows = np.flatnonzero(there)
+    new_row = np.cumsum(there) - 1
+    reach = np.zeros(len(nodes))
+    reach[: len(inside)] = frame.joint_radii
+    body = Body(
+        places[body_rows],
+        new_row[facets + len(inside)] if len(facets) else facets,
+        reach[body_rows],
+        np.ones(len(body_rows), bool),
+    )
+    laid = []
+    for case in cases:
+        chosen = case if skin is None or solid is None else _on_skin(case, solid, body)
+        nodal = nodal_case(body, chosen)
+        fixed, loads, moved = (np.zeros((len(nodes), 6), kind) for kind in (bool, float, float))
+        fixed[body_rows], loads[body_rows], moved[body_rows] = nodal.held, nodal.loads, nodal.moved
+        x, y, z = nodal.acceleration.tolist()
+        laid.append(Case(fixed, loads, moved if moved.any() else None, (x, y, z), nodal.name))
+    problem = Problem(structure, tuple(laid), shape, np.full(count, least), largest, there)
+    return SizingModel(problem, wireframe, owner, skin, on_wall)
+
+
+def _hanging_together(frame: Wireframe, on_wall: Bools | None) -> Bools:
+    """(m,) struts of the largest piece; with a skin, those that hang on it somewhere."""
+    struts = frame.struts
+    count = len(frame.nodes)
+    near = csr_matrix((np.ones(len(struts)), (struts[:, 0], struts[:, 1])), shape=(count, count))
+    _, piece = connected_components(near, directed=False)
+    if on_wall is None:
+        return np.asarray(piece[struts[:, 0]] == np.argmax(np.bincount(piece[struts[:, 0]])))
+    kept = np.zeros(piece.max() + 1, bool)
+    kept[piece[on_wall]] = True
+    return np.asarray(kept[piece[struts[:, 0]]])
+
+
+@dataclass(frozen=True, eq=False)
+class _Found:
+    """A region whose facets of the skin were found on the part itself, which has finer ones."""
+
+    region: Region
+    taken: Bools
+
+    def distance(self, points: Floats) -> Floats:
+        return self.region.distance(points)
+
+    def facets(self, mesh: TriangleMesh, tolerance: float) -> Bools:
+        del mesh, tolerance
+        return self.taken
+
+    def __str__(self) -> str:
+        return str(self.region)
+
+
+def _on_skin(case: LoadCase, solid: TriangleMesh, body: Body) -> LoadCase:
+    """A load case whose regions take those facets of the skin that lie on what they take of it."""
+    surface = body.surface()
+    middles = surface.vertices[surface.triangles].mean(axis=1)
+    nearest = closest_points(solid, middles)[2]
+    tolerance = 1e-4 * float(np.linalg.norm(np.ptp(solid.bounds, axis=0)))
+
+    def found(region: Region) -> Region:
+        parts = tuple(
+            cast(Any, _Found(simple, simple.facets(solid, tolerance)[nearest]))
+            for simple in simple_regions(region)
+        )
+        return parts[0] if len(parts) == 1 else AnyOf(parts)
+
+    supports = tuple(replace(entry, region=found(entry.region)) for entry in case.supports)
+    loads = tuple(replace(entry, region=found(entry.region)) for entry in case.loads)
+    return replace(case, supports=supports, loads=loads)

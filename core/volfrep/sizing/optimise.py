@@ -1,0 +1,332 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Radii at nodes for least mass within limits, or for most stiffness at a mass.
+
+Stress and buckling, which each strut has by itself, are met by stress ratios, as in fully stressed
+design (R. H. Gallagher, "Fully stressed design", in Optimum Structural Design, 1973); stiffness,
+displacement and frequency, which the struts share, by optimality criteria (L. Berke & N. S. Khot,
+AGARD LS 70, 1974). Every design on the way is brought to its limits by one factor for all radii,
+and the lightest that holds them is kept.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import minimize
+
+from ..util.errors import VolfrepError
+from ..util.types import Floats
+from .analysis import Analysis, Changes, Limits, Problem, analysed
+
+#: No radius changes by more than this factor in a step.
+_MOVE = 1.25
+#: How a use falls with all radii, as a power: stress, displacement, buckling, frequency.
+_POWERS = {"stress": 2.6, "displacement": 3.0, "buckling": 4.0, "frequency": 1.0}
+#: Powers of a stress ratio, a buckling ratio and a criterion by which a radius is changed.
+_STRESSED, _BUCKLED, _CRITERION = 0.35, 0.22, 0.3
+#: What one factor does to a design is believed when it is nearer to 1 than this.
+_NEAR = 1.08
+#: How a use falls with a node's radius, as it is foreseen; and how far in one step at most.
+_POWER, _FALL = 3.0, 0.6
+#: A design holds its limits when none is used more than this.
+HOLDS = 1.0 + 1e-3
+#: Steps without so much improvement end the search.
+_PATIENCE, _BETTER, _FEWEST = 8, 2e-3, 15
+#: So many of the lightest designs are brought to their limits in the end.
+_KEPT = 3
+#: Steps towards the limits by one factor.
+_SCALINGS = 14
+
+
+@dataclass(frozen=True)
+class Step:
+    """A design on the way.
+
+    Attributes:
+        volume: of its struts when scaled to the limits (or at the given volume), mm3.
+        compliance: the sum over the cases, weighted, N mm.
+        uses: of the limits, before scaling.
+        near: whether it is so near to its limits that scaling is believed.
+    """
+
+    volume: float
+    compliance: float
+    uses: dict[str, float]
+    near: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Sized:
+    """A design, and how it was come to.
+
+    Attributes:
+        analysis: of the final radii.
+        steps: all on the way.
+        stopped: why: ``converged``, ``steps`` or ``cancelled``.
+        holds: whether it holds all limits.
+    """
+
+    analysis: Analysis
+    steps: tuple[Step, ...]
+    stopped: str
+    holds: bool
+
+
+#: Told a step's number and the step; returns False to stop, and the best so far is kept.
+Watch = Callable[[int, Step], bool]
+
+
+def _go_on(number: int, step: Step) -> bool:
+    del number, step
+    return True
+
+
+def stiffest(
+    problem: Problem,
+    volume: float,
+    start: Floats,
+    *,
+    weights: Floats | None = None,
+    most_steps: int = 60,
+    watch: Watch = _go_on,
+) -> Sized:
+    """The radii that make the weighted sum of the cases' compliances least at a volume.
+
+    Args:
+        problem: what carries what.
+        volume: of the struts, mm3.
+        start: (n,) radii to begin with, mm.
+        weights: (k,) of the cases; None for those by which all count alike at the start.
+        most_steps: it ends then, or when it has converged.
+        watch: told of every step.
+
+    Raises:
+        VolfrepError: the volume lies outside what the bounds allow, a case has no forces, or the
+            structure moves freely.
+    """
+    shape, low, high = problem.radii, problem.low, problem.high
+    least, most = shape.volume(low), shape.volume(high)
+    if not least <= volume <= most:
+        raise VolfrepError(
+            f"A volume of {volume:.4g} mm3 of struts cannot be reached with radii between "
+            f"{low.min():.3g} and {high.max():.3g} mm, which make {least:.4g} to {most:.4g} mm3."
+        )
+    radii = shape.scaled_to(start, volume, low, high)
+    none = Limits()
+    steps: list[Step] = []
+    best: Analysis | None = None
+    best_value, since, stopped = np.inf, 0, "steps"
+    for number in range(most_steps):
+        found, changes = analysed(problem, radii, none, with_changes=True)
+        assert changes is not None
+        if not (found.compliance > 0.0).all():
+            raise VolfrepError(
+                "Stiffness is how little a part gives way to forces, and a load case has none: "
+                "give limits instead, or forces."
+            )
+        if weights is None:
+            weights = 1.0 / np.maximum(np.abs(found.compliance), 1e-300) / len(found.compliance)
+        value = float(weights @ found.compliance)
+        steps.append(Step(found.volume, value, {}, True))
+        since = 0 if value < best_value * (1.0 - _BETTER) else since + 1
+        if value < best_value:
+            best, best_value = found, value
+        if not watch(number, steps[-1]):
+            stopped = "cancelled"
+            break
+        if since >= _PATIENCE:
+            stopped = "converged"
+            break
+        gain = np.maximum(-(changes.compliance @ weights), 0.0)
+        cost = np.maximum(shape.volume_change(radii), 1e-9)
+        merit = gain / cost
+        merit = np.maximum(merit / max(float(merit.max()), 1e-300), 1e-6)
+        wanted = np.clip(merit**_CRITERION, 1e-3, None)
+        radii = _moved(problem, radii, problem.smoothed(radii * wanted) / radii, volume)
+    assert best is not None
+    return Sized(best, tuple(steps), stopped, True)
+
+
+def _moved(problem: Problem, radii: Floats, wanted: Floats, volume: float) -> Floats:
+    """Radii times what is wanted times one factor, within bounds and moves, at a volume."""
+    low = np.maximum(problem.low, radii / _MOVE)
+    high = np.minimum(problem.high, radii * _MOVE)
+    return problem.radii.scaled_to(radii * wanted, volume, low, high)
+
+
+def lightest(
+    problem: Problem,
+    limits: Limits,
+    start: Floats,
+    *,
+    most_steps: int = 60,
+    watch: Watch = _go_on,
+) -> Sized:
+    """The radii with the least volume that hold all limits.
+
+    Args:
+        problem: what carries what.
+        limits: at least one.
+        start: (n,) radii to begin with, mm.
+        most_steps: it ends then, or when it has converged.
+        watch: told of every step.
+
+    Raises:
+        VolfrepError: there is no limit, or the structure moves freely.
+    """
+    if not limits.any:
+        raise VolfrepError("Least mass needs a limit: stress, displacement, buckling, frequency.")
+    radii = np.clip(start, problem.low, problem.high)
+    steps: list[Step] = []
+    best: list[tuple[float, Floats]] = []
+    least, since, stopped = np.inf, 0, "steps"
+    for number in range(most_steps):
+        found, changes = analysed(problem, radii, limits, with_changes=True)
+        assert changes is not None
+        factor = _factor(found)
+        scaled = np.clip(radii * factor, problem.low, problem.high)
+        volume = problem.radii.volume(scaled)
+        near = 1.0 / _NEAR < factor < _NEAR
+        steps.append(Step(volume, float(found.compliance.sum()), dict(found.uses), near))
+        if near:
+            since = 0 if volume < least * (1.0 - _BETTER) else since + 1
+            least = min(least, volume)
+            best = sorted([*best, (volume, scaled)], key=lambda entry: entry[0])[:_KEPT]
+        if not watch(number, steps[-1]):
+            stopped = "cancelled"
+            break
+        if since >= _PATIENCE and number >= _FEWEST:
+            stopped = "converged"
+            break
+        radii = problem.smoothed(_lighter(problem, found, changes, limits))
+    tried = [scaled_to_limits(problem, limits, chosen) for _, chosen in best or [(0.0, radii)]]
+    final, holds = min(tried, key=lambda entry: (not entry[1], entry[0].volume))
+    return Sized(final, tuple(steps), stopped, holds)
+
+
+def uniform(problem: Problem, limits: Limits) -> tuple[Analysis, bool]:
+    """One radius for all nodes, the smallest that holds all limits, and whether it does hold them.
+
+    Nodes whose bounds do not allow it get the nearest that they do.
+    """
+    start = np.full(len(problem.low), float(np.sqrt(problem.low.min() * problem.high.max())))
+    return scaled_to_limits(problem, limits, start)
+
+
+def scaled_to_limits(problem: Problem, limits: Limits, radii: Floats) -> tuple[Analysis, bool]:
+    """A design brought to its limits by one factor for all radii, and whether it holds them."""
+    radii = np.clip(radii, problem.low, problem.high)
+
+    def at(log: float) -> Analysis:
+        scaled = np.clip(radii * np.exp(log), problem.low, problem.high)
+        return analysed(problem, scaled, limits)[0]
+
+    # From radii that hold, or do not, to the other side in growing steps; then between the two.
+    place, found = 0.0, at(0.0)
+    most = float(np.log((problem.high / radii).max()))
+    least = float(np.log((problem.low / radii).min()))
+    light = heavy = None
+    for _ in range(_SCALINGS):
+        if found.most_used <= 1.0:
+            heavy = place, found
+        else:
+            light = place, found
+        if 1.0 - 5e-4 <= found.most_used <= 1.0:
+            break
+        if light is None:
+            if place <= least:
+                break
+            place = max(least, min(place + np.log(_factor(found)), place - 0.02) - 0.01)
+        elif heavy is None:
+            if place >= most:
+                return found, found.most_used <= HOLDS
+            place = min(most, max(place + np.log(_factor(found)), place + 0.02) + 0.01)
+        else:
+            (low, one), (high, other) = light, heavy
+            over, under = np.log(one.most_used), np.log(other.most_used)
+            if high - low < 1e-4:
+                break
+            share = np.clip(over / (over - under), 0.1, 0.9)
+            place = low + share * (high - low)
+        found = at(place)
+    if heavy is not None:
+        return heavy[1], True
+    return found, found.most_used <= HOLDS
+
+
+def _factor(found: Analysis) -> float:
+    """That for all radii which is expected to bring the worst use to 1."""
+    return float(max(use ** (1.0 / _POWERS[name]) for name, use in found.uses.items()))
+
+
+def _lighter(problem: Problem, found: Analysis, changes: Changes, limits: Limits) -> Floats:
+    """The next design: each node as thick as its struts' stresses and the shared limits ask for."""
+    radii, shape = found.radii, problem.radii
+    # Radii that go beyond what they may in one step are left for the next one.
+    low = np.maximum(problem.low, radii / _MOVE)
+    high = np.minimum(problem.high, radii * _MOVE)
+    felt = np.zeros(found.stress.shape[:2])
+    if limits.stress is not None:
+        felt = np.maximum(felt, (found.stress.max(axis=2) / limits.stress) ** _STRESSED)
+    if limits.buckling is not None:
+        used = (found.buckling.max(axis=1) * limits.buckling) ** _BUCKLED
+        felt = np.maximum(felt, used[:, None])
+    if felt.any():
+        entries = shape.ends.tocoo()
+        part = entries.data > 0.3
+        needed = np.zeros(len(radii))
+        np.maximum.at(needed, entries.col[part], felt.ravel()[entries.row[part]])
+        low = np.clip(radii * needed, low, high)
+    shared, uses = [], []
+    if changes.displacement is not None and limits.displacement is not None:
+        shared.append(changes.displacement)
+        uses.append(found.largest / limits.displacement)
+    if changes.frequency is not None:
+        shared.append(changes.frequency[:, None])
+        uses.append(np.array([found.uses["frequency"]]))
+    if not shared:
+        return low
+    cost = np.maximum(shape.volume_change(radii), 1e-9)
+    return cheapest(radii, cost, np.concatenate(uses), np.concatenate(shared, axis=1), low, high)
+
+
+def cheapest(
+    radii: Floats, cost: Floats, uses: Floats, changes: Floats, low: Floats, high: Floats
+) -> Floats:
+    """(n,) radii of least cost that hold shared limits, as far as these are foreseen.
+
+    Each use is taken as a sum over the nodes: of r^-3 where a larger radius lessens it, else of r.
+    That is convex and separable, so that prices of the limits, one each, give the radii in closed
+    form, and are found where the dual is largest (C. Fleury, Int. J. Num. Meth. Eng. 14, 1979).
+
+    Args:
+        radii: (n,) now, mm.
+        cost: (n,) of a radius, per mm.
+        uses: (c,) of the shared limits, 1 at the limit.
+        changes: (n, c) their derivatives to the radii.
+        low: (n,) bounds of this step, mm.
+        high: (n,) mm.
+    """
+    helps = np.maximum(-changes, 0.0) * radii[:, None] / _POWER
+    hurts = np.maximum(changes, 0.0)
+    scale = float(cost @ radii)
+    # A use that cannot be mended in one step is only asked to fall as far as it can.
+    asked = np.maximum(1.0, _FALL * uses)
+
+    def chosen(prices: Floats) -> Floats:
+        gain = helps @ prices
+        share = _POWER * gain / (radii * (cost / scale + hurts @ prices))
+        return np.asarray(np.clip(radii * share ** (1.0 / (_POWER + 1.0)), low, high))
+
+    def dual(prices: Floats) -> tuple[float, Floats]:
+        at = chosen(prices)
+        ratio = at / radii
+        left = uses + helps.T @ (ratio**-_POWER - 1.0) + hurts.T @ (at - radii) - asked
+        return -float(cost @ (at - radii) / scale + prices @ left), -left
+
+    first = np.full(len(uses), 1.0 / len(uses))
+    bounds = [(0.0, 1e6)] * len(uses)
+    found = minimize(dual, first, jac=True, bounds=bounds, method="L-BFGS-B")
+    return chosen(found.x)

@@ -1,0 +1,249 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Flat triangles as thin shells with three displacements and three turns at each corner.
+
+In its plane: the optimal triangle with drilling freedoms (C. A. Felippa, Comput. Methods Appl.
+Mech. Eng. 192, 2003), exact for bending of rectangles; across it: the discrete Kirchhoff triangle
+(J.-L. Batoz, K.-J. Bathe & L.-W. Ho, Int. J. Num. Meth. Eng. 15, 1980). All triangles at once.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..util.types import Floats, Ints
+from .structure import Blocks
+from .tapered_beams import Elastic
+
+#: The betas of the optimal triangle, by rows of its matrix.
+_BETA = np.array([[1.0, 2.0, 1.0], [0.0, 1.0, -1.0], [-1.0, -1.0, -2.0]])
+#: Middles of the edges in area coordinates: exact for what is quadratic.
+_PLACES = np.array([[0.5, 0.0], [0.5, 0.5], [0.0, 0.5]])
+
+
+@dataclass(frozen=True, eq=False)
+class Shells:
+    """Triangles of a thickness each.
+
+    Attributes:
+        triangles: (t, 3) int64, rows of the structure's nodes.
+        axes: (t, 3, 3) along the first edge, across it in the plane, and the normal.
+        corners: (t, 3, 2) in the plane, mm.
+        thickness: (t,) mm.
+        material: of all.
+    """
+
+    triangles: Ints
+    axes: Floats
+    corners: Floats
+    thickness: Floats
+    material: Elastic
+
+    @property
+    def area(self) -> Floats:
+        """(t,) mm2."""
+        one, two = self.corners[:, 1], self.corners[:, 2]
+        return np.asarray(0.5 * (one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]))
+
+    def blocks(self) -> Blocks:
+        """Stiffness and mass as blocks between the nodes."""
+        whole = np.zeros((len(self.triangles), 18, 18))
+        plane = np.array([0, 1, 5, 6, 7, 11, 12, 13, 17])
+        across = np.array([2, 3, 4, 8, 9, 10, 14, 15, 16])
+        whole[:, plane[:, None], plane] = self._membrane()
+        whole[:, across[:, None], across] = self._bending()
+        turn = np.zeros_like(whole)
+        for corner in range(0, 18, 3):
+            turn[:, corner : corner + 3, corner : corner + 3] = self.axes
+        stiffness = turn.swapaxes(1, 2) @ whole @ turn
+        weight = self.material.density * self.area * self.thickness / 12.0
+        inertia = weight * self.thickness**2 / 12.0
+        each = np.zeros((len(weight), 6))
+        each[:, :3], each[:, 3:] = weight[:, None], inertia[:, None]
+        shared = (1.0 + np.eye(3))[None, :, :, None, None] * (each[:, :, None] * np.eye(6))[
+            :, None, None
+        ]
+        rows = np.repeat(self.triangles, 3, axis=1).ravel()
+        columns = np.tile(self.triangles, (1, 3)).ravel()
+        split = stiffness.reshape(-1, 3, 6, 3, 6).swapaxes(2, 3).reshape(-1, 6, 6)
+        return Blocks(rows, columns, split, shared.reshape(-1, 6, 6))
+
+    def stresses(self, displacements: Floats) -> Floats:
+        """(t, k) the larger von Mises stress of both sides in the middle, MPa, of (n, 6, k)."""
+        moved = displacements[self.triangles].copy()  # (t, 3, 6, k)
+        moved = np.einsum("tij,tcgjk->tcgik", self.axes, moved.reshape(*moved.shape[:2], 2, 3, -1))
+        moved = moved.reshape(len(self.triangles), 18, -1)
+        plane = self._plane_stress()
+        (x, y) = (self.corners[..., 0], self.corners[..., 1])
+        strain = np.zeros((len(x), 3, 18))
+        for corner in range(3):
+            one, two = (corner + 1) % 3, (corner + 2) % 3
+            strain[:, 0, 6 * corner] = strain[:, 2, 6 * corner + 1] = y[:, one] - y[:, two]
+            strain[:, 1, 6 * corner + 1] = strain[:, 2, 6 * corner] = x[:, two] - x[:, one]
+        strain /= (2.0 * self.area)[:, None, None]
+        even = plane @ (strain @ moved)
+        across = np.array([2, 3, 4, 8, 9, 10, 14, 15, 16])
+        curved = self._curvature(np.full(2, 1.0 / 3.0)) @ moved[:, across]
+        bent = 0.5 * self.thickness[:, None, None] * (plane @ curved)
+        worst = np.zeros((len(x), moved.shape[2]))
+        for side in (even + bent, even - bent):
+            xx, yy, xy = side[:, 0], side[:, 1], side[:, 2]
+            worst = np.maximum(worst, np.sqrt(xx**2 - xx * yy + yy**2 + 3.0 * xy**2))
+        return worst
+
+    def _plane_stress(self) -> Floats:
+        """(3, 3) stress of strain, E / (1 - nu2)."""
+        nu = self.material.poisson
+        matrix = np.array([[1.0, nu, 0.0], [nu, 1.0, 0.0], [0.0, 0.0, 0.5 * (1.0 - nu)]])
+        return np.asarray(self.material.young / (1.0 - nu**2) * matrix)
+
+    def _membrane(self) -> Floats:
+        """(t, 9, 9) in the plane: two displacements and the turn about the normal."""
+        (x1, x2, x3), (y1, y2, y3) = self.corners[..., 0].T, self.corners[..., 1].T
+        x12, x23, x31, y12, y23, y31 = x1 - x2, x2 - x3, x3 - x1, y1 - y2, y2 - y3, y3 - y1
+        x21, x32, x13, y21, y32, y13 = -x12, -x23, -x31, -y12, -y23, -y31
+        area, thick, nil = self.area, self.thickness, np.zeros(len(x1))
+        alpha = 1.5
+        lumped = np.array(
+            [
+                [y23, nil, x32],
+                [nil, x32, y23],
+                [alpha / 6 * y23 * (y13 - y21), alpha / 6 * x32 * (x31 - x12),
+                 alpha / 3 * (x31 * y13 - x12 * y21)],
+                [y31, nil, x13],
+                [nil, x13, y31],
+                [alpha / 6 * y31 * (y21 - y32), alpha / 6 * x13 * (x12 - x23),
+                 alpha / 3 * (x12 * y21 - x23 * y32)],
+                [y12, nil, x21],
+                [nil, x21, y12],
+                [alpha / 6 * y12 * (y32 - y13), alpha / 6 * x21 * (x23 - x31),
+                 alpha / 3 * (x23 * y32 - x31 * y13)],
+            ]
+        ).transpose(2, 0, 1) * (0.5 * thick)[:, None, None]  # fmt: skip
+        plane = self._plane_stress()
+        basic = lumped @ plane @ lumped.swapaxes(1, 2) / (area * thick)[:, None, None]
+        squares = np.stack([x21**2 + y21**2, x32**2 + y32**2, x13**2 + y13**2], axis=1)
+        natural = np.array(
+            [
+                [y23 * y13, y31 * y21, y12 * y32],
+                [x23 * x13, x31 * x21, x12 * x32],
+                [y23 * x31 + x32 * y13, y31 * x12 + x13 * y21, y12 * x23 + x21 * y32],
+            ]
+        ).transpose(2, 0, 1)
+        natural = natural * squares[:, None, :] / (4.0 * area**2)[:, None, None]
+        along = natural.swapaxes(1, 2) @ plane @ natural
+        (b1, b2, b3), (b4, b5, b6), (b7, b8, b9) = _BETA
+        kinds = [
+            np.array([[b1, b2, b3], [b4, b5, b6], [b7, b8, b9]]),
+            np.array([[b9, b7, b8], [b3, b1, b2], [b6, b4, b5]]),
+            np.array([[b5, b6, b4], [b8, b9, b7], [b2, b3, b1]]),
+        ]
+        scale = (2.0 / 3.0 * area)[:, None, None] / squares[:, :, None]
+        corner = [kind * scale for kind in kinds]
+        higher = np.zeros((len(x1), 3, 3))
+        for one, two in ((0, 1), (1, 2), (2, 0)):
+            edge = 0.5 * (corner[one] + corner[two])
+            higher += edge.swapaxes(1, 2) @ along @ edge
+        rigid = np.zeros((len(x1), 3, 9))
+        for node, (dx, dy) in enumerate(((x32, y32), (x13, y13), (x21, y21))):
+            rigid[:, :, 3 * node] = (dx / (4.0 * area))[:, None]
+            rigid[:, :, 3 * node + 1] = (dy / (4.0 * area))[:, None]
+            rigid[:, node, 3 * node + 2] = 1.0
+        beta = max(0.5 * (1.0 - 4.0 * self.material.poisson**2), 0.01)
+        factor = (0.75 * beta * thick * area)[:, None, None]
+        result: Floats = basic + factor * (rigid.swapaxes(1, 2) @ higher @ rigid)
+        return result
+
+    def _bending(self) -> Floats:
+        """(t, 9, 9) across the plane: displacement and two turns."""
+        plane = self._plane_stress()
+        rigidity = (self.thickness**3 / 12.0 * self.area / 3.0)[:, None, None]
+        result = np.zeros((len(self.thickness), 9, 9))
+        for place in _PLACES:
+            curved = self._curvature(place)
+            result += rigidity * (curved.swapaxes(1, 2) @ plane @ curved)
+        return result
+
+    def _curvature(self, place: Floats) -> Floats:
+        """(t, 3, 9) curvatures at a place (xi, eta) of displacements and turns."""
+        x, y = self.corners[..., 0], self.corners[..., 1]
+        xi, eta = place
+        p, q, t, r = {}, {}, {}, {}
+        for k, (i, j) in ((4, (1, 2)), (5, (2, 0)), (6, (0, 1))):
+            dx, dy = x[:, i] - x[:, j], y[:, i] - y[:, j]
+            square = dx**2 + dy**2
+            p[k], q[k] = -6 * dx / square, 3 * dx * dy / square
+            t[k], r[k] = -6 * dy / square, 3 * dy**2 / square
+        a, b = 1 - 2 * xi, 1 - 2 * eta
+        x_xi = [
+            p[6] * a + (p[5] - p[6]) * eta,
+            q[6] * a - (q[5] + q[6]) * eta,
+            -4 + 6 * (xi + eta) + r[6] * a - eta * (r[5] + r[6]),
+            -p[6] * a + eta * (p[4] + p[6]),
+            q[6] * a - eta * (q[6] - q[4]),
+            -2 + 6 * xi + r[6] * a + eta * (r[4] - r[6]),
+            -eta * (p[5] + p[4]),
+            eta * (q[4] - q[5]),
+            -eta * (r[5] - r[4]),
+        ]
+        y_xi = [
+            t[6] * a + eta * (t[5] - t[6]),
+            1 + r[6] * a - eta * (r[5] + r[6]),
+            -q[6] * a + eta * (q[5] + q[6]),
+            -t[6] * a + eta * (t[4] + t[6]),
+            -1 + r[6] * a + eta * (r[4] - r[6]),
+            -q[6] * a - eta * (q[4] - q[6]),
+            -eta * (t[4] + t[5]),
+            eta * (r[4] - r[5]),
+            -eta * (q[4] - q[5]),
+        ]
+        x_eta = [
+            -p[5] * b - xi * (p[6] - p[5]),
+            q[5] * b - xi * (q[5] + q[6]),
+            -4 + 6 * (xi + eta) + r[5] * b - xi * (r[5] + r[6]),
+            xi * (p[4] + p[6]),
+            xi * (q[4] - q[6]),
+            -xi * (r[6] - r[4]),
+            p[5] * b - xi * (p[4] + p[5]),
+            q[5] * b + xi * (q[4] - q[5]),
+            -2 + 6 * eta + r[5] * b + xi * (r[4] - r[5]),
+        ]
+        y_eta = [
+            -t[5] * b - xi * (t[6] - t[5]),
+            1 + r[5] * b - xi * (r[5] + r[6]),
+            -q[5] * b + xi * (q[5] + q[6]),
+            xi * (t[4] + t[6]),
+            xi * (r[4] - r[6]),
+            -xi * (q[4] - q[6]),
+            t[5] * b - xi * (t[4] + t[5]),
+            -1 + r[5] * b + xi * (r[4] - r[5]),
+            -q[5] * b - xi * (q[4] - q[5]),
+        ]
+        hx, hy, kx, ky = (np.stack(row, axis=1) for row in (x_xi, y_xi, x_eta, y_eta))
+        x31, x12 = (x[:, 2] - x[:, 0])[:, None], (x[:, 0] - x[:, 1])[:, None]
+        y31, y12 = (y[:, 2] - y[:, 0])[:, None], (y[:, 0] - y[:, 1])[:, None]
+        result: Floats = (
+            np.stack(
+                [
+                    y31 * hx + y12 * kx,
+                    -x31 * hy - x12 * ky,
+                    -x31 * hx - x12 * kx + y31 * hy + y12 * ky,
+                ],
+                axis=1,
+            )
+            / (2.0 * self.area)[:, None, None]
+        )
+        return result
+
+
+def shells_of(nodes: Floats, triangles: Ints, thickness: Floats, material: Elastic) -> Shells:
+    """Triangles between nodes (n, 3), mm."""
+    triangles = triangles.astype(np.int64)
+    a, b, c = nodes[triangles].swapaxes(0, 1)
+    along = (b - a) / np.linalg.norm(b - a, axis=1)[:, None]
+    normal = np.cross(along, c - a)
+    normal /= np.linalg.norm(normal, axis=1)[:, None]
+    axes = np.stack([along, np.cross(normal, along), normal], axis=1)
+    corners = np.einsum("tij,tcj->tci", axes[:, :2], np.stack([a, b, c], axis=1) - a[:, None])
+    return Shells(triangles, axes, corners, np.broadcast_to(thickness, len(a)), material)

@@ -1,0 +1,229 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The skin as shells in the middle of its thickness, and the struts that end in it.
+
+Where the part is thinner than two skins it is solid: there the shells of both sides have half of
+its thickness each, and the material between them holds them together.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import csr_matrix
+
+from ..design.openings import lie_on
+from ..mesh.triangle_mesh import TriangleMesh
+from ..spatial.proximity import closest_points
+from ..spatial.rays import segment_crossings
+from ..util.progress import Monitor
+from ..util.types import Bools, Floats, Ints
+from .shell_elements import Shells, shells_of
+from .skin_mesh import even_surface
+from .structure import Blocks, Ties
+from .tapered_beams import Elastic, cross_matrix
+
+#: A corner of the middle surface lies no farther from the outside's than this many times the depth.
+_FARTHEST = 2.0
+#: Directions in which the planes about a vertex agree to less than this say nothing of its place.
+_FLAT = 0.03
+#: Where a line inwards meets the other side nearer than so many thicknesses, the part is solid.
+_SOLID = 2.02
+
+
+@dataclass(frozen=True, eq=False)
+class SkinModel:
+    """A skin's shells.
+
+    Attributes:
+        outside: the part's surface in even triangles, mm; a row of its vertices is a shell's node.
+        middle: (n, 3) the same vertices in the middle of the skin, mm.
+        shells: triangles between them, those of open faces left out.
+        used: (t,) bool, which triangles of `outside` have a shell.
+        blocks: stiffness and mass, of shells and of what is solid between them.
+    """
+
+    outside: TriangleMesh
+    middle: Floats
+    shells: Shells
+    used: Bools
+    blocks: Blocks
+
+
+def skin_model(
+    solid: TriangleMesh,
+    thickness: float,
+    edge: float,
+    material: Elastic,
+    openings: TriangleMesh | None = None,
+    monitor: Monitor | None = None,
+) -> SkinModel:
+    """The skin of a part as shells.
+
+    Args:
+        solid: the part, closed, mm.
+        thickness: of the skin, mm.
+        edge: how long the triangles' edges are to be, mm.
+        material: of the skin.
+        openings: the faces that have none.
+        monitor: asked for a cancel.
+    """
+    outside = even_surface(solid, edge, monitor)
+    triangles = outside.triangles.astype(np.int64)
+    corners = outside.vertices[triangles]
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    doubled = np.linalg.norm(normal, axis=1)
+    normal /= np.maximum(doubled, 1e-300)[:, None]
+    used = doubled > 1e-9 * doubled.max()
+    if openings is not None:
+        used &= ~lie_on(openings, corners.mean(axis=1), 0.02 * edge)
+    room = _room(outside, triangles, normal, doubled, _SOLID * thickness)
+    # Each side has its half of what is solid.
+    local = np.minimum(thickness, 0.5 * room)
+    middle = _inwards(outside.vertices, triangles[used], normal[used], doubled[used], 0.5 * local)
+    kept = triangles[used]
+    shells = shells_of(middle, kept, local[kept].mean(axis=1), material)
+    blocks = shells.blocks()
+    solid_nodes = np.flatnonzero(room < _SOLID * thickness)
+    if len(solid_nodes) and len(kept):
+        shares = np.repeat(shells.area / 3.0, 3)
+        area = np.bincount(kept.ravel(), shares, len(middle)).astype(np.float64)
+        between = _held_together(middle, kept, solid_nodes, room, area, material)
+        blocks = Blocks(
+            np.concatenate([blocks.rows, between.rows]),
+            np.concatenate([blocks.columns, between.columns]),
+            np.concatenate([blocks.stiffness, between.stiffness]),
+            np.concatenate([blocks.mass, between.mass]),
+        )
+    return SkinModel(outside, middle, shells, used, blocks)
+
+
+def ties_to(skin: SkinModel, nodes: Floats, rows: Ints, offset: int) -> Ties:
+    """Struts' ends that move as the skin does where they meet it.
+
+    Args:
+        skin: the shells.
+        nodes: (k, 3) places of the struts' ends, mm.
+        rows: (k,) their rows among the structure's nodes.
+        offset: the row of the skin's first node among them.
+    """
+    triangles = skin.shells.triangles
+    surface = TriangleMesh(skin.middle, triangles.astype(np.int32))
+    foot, _, triangle = closest_points(surface, nodes)
+    shares = _barycentric(skin.middle[triangles[triangle]], foot)
+    arm = cross_matrix(nodes - foot)
+    blocks = np.zeros((len(nodes), 3, 6, 6))
+    for corner in range(3):
+        share = shares[:, corner, None, None]
+        blocks[:, corner, :3, :3] = blocks[:, corner, 3:, 3:] = share * np.eye(3)
+        blocks[:, corner, :3, 3:] = -share * arm
+    return Ties(rows, triangles[triangle] + offset, blocks)
+
+
+def _barycentric(corners: Floats, points: Floats) -> Floats:
+    """(k, 3) shares of the corners (k, 3, 3) in points of their planes."""
+    a, b, c = corners.swapaxes(0, 1)
+    one, two, to = b - a, c - a, points - a
+    d11, d12, d22 = ((x * y).sum(axis=1) for x, y in ((one, one), (one, two), (two, two)))
+    p1, p2 = (to * one).sum(axis=1), (to * two).sum(axis=1)
+    rest = np.maximum(d11 * d22 - d12**2, 1e-300)
+    second, third = (d22 * p1 - d12 * p2) / rest, (d11 * p2 - d12 * p1) / rest
+    return np.stack([1.0 - second - third, second, third], axis=1)
+
+
+def _room(
+    mesh: TriangleMesh, triangles: Ints, normal: Floats, weight: Floats, far: float
+) -> Floats:
+    """(n,) how thick the part is below each vertex, mm; `far` where it is thicker."""
+    mean = np.zeros_like(mesh.vertices)
+    for corner in range(3):
+        np.add.at(mean, triangles[:, corner], normal * weight[:, None])
+    mean /= np.maximum(np.linalg.norm(mean, axis=1), 1e-300)[:, None]
+    start = mesh.vertices - 1e-3 * far * mean
+    segment, place, way = segment_crossings(mesh, start, mesh.vertices - far * mean)
+    result = np.full(len(mesh.vertices), far)
+    leaves = way > 0
+    np.minimum.at(result, segment[leaves], far * (1e-3 + 0.999 * place[leaves]))
+    # A vertex on the rim of a thin plate looks along the plate: it is as thick as about it.
+    near = csr_matrix(
+        (np.ones(6 * len(triangles)), (
+            triangles[:, [0, 1, 1, 2, 2, 0]].ravel(), triangles[:, [1, 0, 2, 1, 0, 2]].ravel()
+        )), shape=(len(result),) * 2,
+    )  # fmt: skip
+    near.data[:] = 1.0
+    known = (result < far).astype(float)
+    number = np.asarray(near @ known).ravel()
+    about = np.asarray(near @ (result * known)).ravel() / np.maximum(number, 1.0)
+    rim = (result >= far) & (number > 0.0)
+    return np.maximum(np.where(rim, about, result), 0.02 * far)
+
+
+def _inwards(
+    vertices: Floats, triangles: Ints, normal: Floats, weight: Floats, depth: Floats
+) -> Floats:
+    """Vertices moved so that the planes of their triangles lie deeper by (n,) `depth`."""
+    square = np.zeros((len(vertices), 3, 3))
+    right = np.zeros_like(vertices)
+    outer = normal[:, :, None] * normal[:, None, :] * weight[:, None, None]
+    for corner in range(3):
+        np.add.at(square, triangles[:, corner], outer)
+        np.add.at(right, triangles[:, corner], normal * weight[:, None])
+    values, axes = np.linalg.eigh(square)
+    known = values > _FLAT * np.maximum(values[:, -1:], 1e-300)
+    along = np.einsum("nji,nj->ni", axes, right)
+    step = np.where(known, along / np.where(known, values, 1.0), 0.0)
+    move = -depth[:, None] * np.einsum("nij,nj->ni", axes, step)
+    size = np.linalg.norm(move, axis=1)
+    limit = np.minimum(1.0, _FARTHEST * depth / np.maximum(size, 1e-300))
+    return np.asarray(vertices + move * limit[:, None])
+
+
+def _held_together(
+    middle: Floats,
+    triangles: Ints,
+    nodes: Ints,
+    room: Floats,
+    area: Floats,
+    material: Elastic,
+) -> Blocks:
+    """The material between two shells as springs from each node to the shell beyond.
+
+    Half of it at each side: E A / d against being pulled apart and G A / d against sliding, with
+    d between the shells. Both are carried to the point half-way, so that bending of the two
+    together is that of one plate.
+    """
+    mean = np.zeros_like(middle)
+    corners = middle[triangles]
+    way = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    for corner in range(3):
+        np.add.at(mean, triangles[:, corner], way)
+    mean /= np.maximum(np.linalg.norm(mean, axis=1), 1e-300)[:, None]
+    surface = TriangleMesh(middle, triangles.astype(np.int32))
+    start, gap = middle[nodes], 0.5 * room[nodes]
+    foot, away, triangle = closest_points(surface, start - gap[:, None] * mean[nodes])
+    beyond = triangles[triangle]
+    faces = np.einsum("ij,ij->i", way[triangle], mean[nodes]) < 0.0
+    own = (beyond == nodes[:, None]).any(axis=1)
+    good = faces & ~own & (away < gap) & (area[nodes] > 0)
+    nodes, foot, beyond, gap = nodes[good], foot[good], beyond[good], gap[good]
+    shares = _barycentric(middle[beyond], foot)
+    half = 0.5 * (middle[nodes] + foot)
+    follow = np.zeros((len(nodes), 4, 3, 6))
+    follow[:, 0, :, :3] = np.eye(3)
+    follow[:, 0, :, 3:] = -cross_matrix(half - middle[nodes])
+    arm = cross_matrix(half - foot)
+    for corner in range(3):
+        share = shares[:, corner, None, None]
+        follow[:, corner + 1, :, :3] = -share * np.eye(3)
+        follow[:, corner + 1, :, 3:] = share * arm
+    along = mean[nodes][:, :, None] * mean[nodes][:, None, :]
+    stiff = 0.5 * (area[nodes] / gap)[:, None, None]
+    spring = stiff * (material.young * along + material.shear * (np.eye(3) - along))
+    rows = np.concatenate([nodes[:, None], beyond], axis=1)
+    blocks = np.einsum("nami,nmp,nbpj->nabij", follow, spring, follow, optimize=True)
+    return Blocks(
+        np.repeat(rows, 4, axis=1).ravel(),
+        np.tile(rows, (1, 4)).ravel(),
+        blocks.reshape(-1, 6, 6),
+        np.zeros((blocks.shape[0] * 16, 6, 6)),
+    )

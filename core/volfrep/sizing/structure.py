@@ -1,0 +1,268 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What carries: struts, what else is stiff, and how both hang together; solved for load cases."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from scipy import sparse
+from scipy.sparse.linalg import LinearOperator, eigsh
+
+from ..util.types import Bools, Floats, Ints
+from .block_matrix import BlockPattern, Factored, factored, masked
+from .tapered_beams import Beams
+
+_UNIT = np.eye(6)
+
+
+@dataclass(frozen=True, eq=False)
+class Case:
+    """Loads that act together, on the nodes.
+
+    Attributes:
+        held: (n, 6) bool, which displacements (x, y, z) and turns are given.
+        loads: (n, 6) forces, N, and moments, N mm.
+        moved: (n, 6) mm and radians, how what is held is moved; None for not at all.
+        acceleration: (3,) mm/s2, what pulls at all that has a mass.
+        name: for messages and reports.
+    """
+
+    held: Bools
+    loads: Floats
+    moved: Floats | None = None
+    acceleration: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    name: str = "load"
+
+
+@dataclass(frozen=True, eq=False)
+class Ties:
+    """Nodes that move as others do.
+
+    Attributes:
+        nodes: (t,) rows of the structure's nodes.
+        leaders: (t, 3) the nodes that each follows.
+        blocks: (t, 3, 6, 6) what each leader's displacement and turn give to its own.
+    """
+
+    nodes: Ints
+    leaders: Ints
+    blocks: Floats
+
+
+NO_TIES = Ties(np.empty(0, np.int64), np.empty((0, 3), np.int64), np.empty((0, 3, 6, 6)))
+
+
+@dataclass(frozen=True, eq=False)
+class Blocks:
+    """Blocks of a stiffness or a mass that no radius changes, both halves of it.
+
+    Attributes:
+        rows, columns: (c,) nodes.
+        stiffness, mass: (c, 6, 6).
+    """
+
+    rows: Ints
+    columns: Ints
+    stiffness: Floats
+    mass: Floats
+
+
+@dataclass(frozen=True, eq=False)
+class Structure:
+    """Nodes, the struts between them, and what else is there.
+
+    Attributes:
+        nodes: (n, 3) mm.
+        beams: the struts.
+        ties: nodes that follow others.
+        fixed_blocks: of a skin; None for none.
+    """
+
+    nodes: Floats
+    beams: Beams
+    ties: Ties = NO_TIES
+    fixed_blocks: Blocks | None = None
+    _pattern: BlockPattern = field(init=False, repr=False)
+    _tied: Bools = field(init=False, repr=False)
+    _ends: tuple[Ints, Floats] = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        struts = self.beams.struts
+        leader_of = np.full(len(self.nodes), -1, np.int64)
+        leader_of[self.ties.nodes] = np.arange(len(self.ties.nodes))
+        tied = (leader_of[struts] >= 0).any(axis=1)
+        # Struts with an end that follows others have three leaders at each end, where an end
+        # of its own counts as one that leads itself.
+        ends = struts[tied]
+        leaders = np.repeat(ends[:, :, None], 3, axis=2)
+        blocks = np.zeros((*ends.shape, 3, 6, 6))
+        blocks[:, :, 0] = _UNIT
+        follows = leader_of[ends]
+        leaders[follows >= 0] = self.ties.leaders[follows[follows >= 0]]
+        blocks[follows >= 0] = self.ties.blocks[follows[follows >= 0]]
+        leaders, blocks = leaders.reshape(-1, 6), blocks.reshape(-1, 6, 6, 6)
+        first, second = struts[~tied].T
+        rows = [first, first, second, second, np.repeat(leaders, 6, axis=1).ravel()]
+        columns = [first, second, first, second, np.tile(leaders, (1, 6)).ravel()]
+        if self.fixed_blocks is not None:
+            rows.append(self.fixed_blocks.rows)
+            columns.append(self.fixed_blocks.columns)
+        pattern = BlockPattern(self.nodes, np.concatenate(rows), np.concatenate(columns))
+        object.__setattr__(self, "_pattern", pattern)
+        object.__setattr__(self, "_tied", tied)
+        object.__setattr__(self, "_ends", (leaders, blocks))
+
+    def factored(self, radii: Floats, held: Bools) -> Factored:
+        """The stiffness of struts with these radii (m, 2), ready to be solved.
+
+        Raises:
+            VolfrepError: a part of the structure can move without resistance.
+        """
+        parts = self.beams.stiffness(self.beams.flexibility(radii))
+        return factored(self._pattern, self._assembled(parts, "stiffness"), held)
+
+    def mass(self, radii: Floats) -> sparse.csc_matrix:
+        """The consistent mass, t and t mm2, in the pattern's order."""
+        return self._assembled(self.beams.mass(radii), "mass")
+
+    def displacements(self, radii: Floats, cases: Sequence[Case]) -> tuple[Floats, list[Factored]]:
+        """How the nodes move in every load case.
+
+        Args:
+            radii: (m, 2) of the struts, mm.
+            cases: what they carry.
+
+        Returns:
+            (n, 6, cases) mm and radians; and each case's factored stiffness, of which cases with
+            equal supports share one.
+
+        Raises:
+            VolfrepError: a part of the structure can move without resistance.
+        """
+        factors: list[Factored] = []
+        for k, case in enumerate(cases):
+            held = case.held
+            same = next((j for j in range(k) if np.array_equal(cases[j].held, held)), None)
+            factors.append(self.factored(radii, held) if same is None else factors[same])
+        loads = self.all_loads(radii, cases)
+        moved = None
+        if any(case.moved is not None for case in cases):
+            still = np.zeros((len(self.nodes), 6))
+            given = [still if case.moved is None else case.moved for case in cases]
+            moved = np.stack(given, axis=-1)
+        return self.answers(factors, loads, moved), factors
+
+    def answers(
+        self, factors: Sequence[Factored], loads: Floats, moved: Floats | None = None
+    ) -> Floats:
+        """(n, 6, k) displacements under loads (n, 6, k), each with its factored stiffness."""
+        loads = self.led(loads)
+        result = np.zeros_like(loads)
+        kinds = {id(factor): factor for factor in factors}
+        for name, factor in kinds.items():
+            own = np.array([id(each) == name for each in factors])
+            given = None if moved is None else moved[:, :, own]
+            result[:, :, own] = factor.displacements(loads[:, :, own], given)
+        return self.followed(result)
+
+    def all_loads(self, radii: Floats, cases: Sequence[Case]) -> Floats:
+        """(n, 6, cases) N and N mm, with what accelerations add."""
+        loads = np.stack([case.loads for case in cases], axis=-1)
+        if any(any(case.acceleration) for case in cases):
+            mass = self.mass(radii)
+            for k, case in enumerate(cases):
+                pull = np.zeros_like(case.loads)
+                pull[:, :3] = case.acceleration
+                # On leaders already: what follows them has no unknowns of its own.
+                loads[:, :, k] += self._pattern.restored(mass @ self._pattern.ordered(pull))
+        return loads
+
+    def forces(self, radii: Floats, displacements: Floats) -> Floats:
+        """(m, 6, k) in the struts, see `Beams.forces`, of displacements (n, 6, k)."""
+        first, second = self.beams.struts.T
+        flexibility = self.beams.flexibility(radii)
+        return self.beams.forces(flexibility, displacements[first], displacements[second])
+
+    def followed(self, displacements: Floats) -> Floats:
+        """The displacements (n, 6, k) with those of the nodes that follow others."""
+        ties = self.ties
+        if len(ties.nodes):
+            displacements = displacements.copy()
+            displacements[ties.nodes] = np.einsum(
+                "tlij,tljk->tik", ties.blocks, displacements[ties.leaders]
+            )
+        return displacements
+
+    def led(self, loads: Floats) -> Floats:
+        """Loads (n, 6) or (n, 6, k) with those on nodes that follow others at their leaders."""
+        ties = self.ties
+        if not len(ties.nodes):
+            return loads
+        given = loads if loads.ndim == 3 else loads[:, :, None]
+        result = given.copy()
+        result[ties.nodes] = 0.0
+        shares = np.einsum("tlji,tjk->tlik", ties.blocks, given[ties.nodes])
+        np.add.at(result, ties.leaders, shares)
+        return result if loads.ndim == 3 else result[:, :, 0]
+
+    def modes(
+        self,
+        radii: Floats,
+        held: Bools,
+        count: int = 6,
+        *,
+        factor: Factored | None = None,
+        tolerance: float = 1e-8,
+    ) -> tuple[Floats, Floats]:
+        """Natural frequencies and their modes.
+
+        Args:
+            radii: (m, 2) of the struts, mm.
+            held: (n, 6) bool.
+            count: how many of the lowest.
+            factor: the stiffness of these radii and supports, if it is there.
+            tolerance: of the eigenvalues, relative.
+
+        Returns:
+            (count,) Hz, and (n, 6, count) modes of unit mass.
+
+        Raises:
+            VolfrepError: a part of the structure can move without resistance.
+        """
+        factor = factor or self.factored(radii, held)
+        mass = masked(self.mass(radii), factor.free, 0.0)
+        size = mass.shape[0]
+        inverse = LinearOperator((size, size), lambda b: factor.solve(np.asarray(b, float)))
+        start = np.where(factor.free, np.cos(np.arange(size)), 0.0)
+        values, vectors = eigsh(
+            factor.matrix, count, mass, sigma=0.0, OPinv=inverse, v0=start, tol=tolerance
+        )
+        order = np.argsort(values)
+        modes = self.followed(self._pattern.restored(vectors[:, order]))
+        return np.sqrt(np.maximum(values[order], 0.0)) / (2.0 * np.pi), modes
+
+    def _assembled(self, parts: tuple[Floats, Floats, Floats], name: str) -> sparse.csc_matrix:
+        tied, (_, ends) = self._tied, self._ends
+        first, between, second = (part[~tied] for part in parts)
+        blocks = [first, between, between.swapaxes(1, 2), second]
+        if tied.any():
+            of_first, of_second = ends[:, :3], ends[:, 3:]
+            first, between, second = (part[tied] for part in parts)
+            whole = np.empty((len(first), 6, 6, 6, 6))
+            whole[:, :3, :3] = _led(of_first, first, of_first)
+            whole[:, :3, 3:] = _led(of_first, between, of_second)
+            whole[:, 3:, :3] = _led(of_second, between.swapaxes(1, 2), of_first)
+            whole[:, 3:, 3:] = _led(of_second, second, of_second)
+            blocks.append(whole.reshape(-1, 6, 6))
+        if self.fixed_blocks is not None:
+            blocks.append(getattr(self.fixed_blocks, name))
+        return self._pattern.matrix(np.concatenate(blocks))
+
+
+def _led(left: Floats, block: Floats, right: Floats) -> Floats:
+    """(t, 3, 3, 6, 6) what a block between two ends is between their leaders."""
+    half = block[:, None] @ right  # (t, 3, 6, 6)
+    result: Floats = left.swapaxes(2, 3)[:, :, None] @ half[:, None]
+    return result

@@ -1,0 +1,249 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""From the constraints of FreeCAD's FEM workbench to load cases: an analysis is one of them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import Any
+
+import FreeCAD as App
+
+from freecad_volfrep.compat import gravity_of, in_unit, prescribed, prescribed_turn
+from volfrep.loads.load_cases import Force, Load, LoadCase, LoadCases, Pressure, Support
+from volfrep.loads.regions import AnyOf, NearPoint, OnFacets, OnLine, Region, Vector
+from volfrep.mechanics.materials import SolidMaterial
+from volfrep.util.errors import VolfrepError
+
+from .solids import edge_points, face_facets, vertex_point
+
+READ = "fixed, displacement, force, pressure and self-weight"
+
+
+def is_analysis(obj: App.DocumentObject) -> bool:
+    """Whether an object is an analysis of the FEM workbench."""
+    return bool(obj.isDerivedFrom("Fem::FemAnalysis"))
+
+
+def has_loads(analysis: App.DocumentObject) -> bool:
+    """Whether an analysis has a constraint of a kind that is read, so that it may be a case."""
+    return any(_kind_of(member) in _READERS for member in _constraints(analysis))
+
+
+def load_cases_of(
+    analyses: Sequence[App.DocumentObject],
+    frame: App.Placement,
+    material: SolidMaterial | None = None,
+) -> LoadCases:
+    """The load cases that some analyses are, in the coordinates of `frame`.
+
+    All constraints of an analysis act together, as they do when FreeCAD solves it; its label is the
+    name of the case. What is suppressed is left out.
+
+    Args:
+        analyses: of the FEM workbench.
+        frame: the coordinate system of the part.
+        material: in place of the analyses' own.
+
+    Raises:
+        VolfrepError: an analysis has a constraint of another kind, no support or no load, or there
+            is no one material.
+    """
+    cases = tuple(_case(analysis, frame) for analysis in analyses)
+    return LoadCases(material or _one_material(analyses), cases)
+
+
+def _case(analysis: App.DocumentObject, frame: App.Placement) -> LoadCase:
+    supports: list[Support] = []
+    loads: list[Load] = []
+    pull = App.Vector()
+    for constraint in _constraints(analysis):
+        read = _READERS.get(_kind_of(constraint))
+        if read is None:
+            raise VolfrepError(
+                f"'{constraint.Label}' of '{analysis.Label}' is a constraint that is not read for "
+                f"load cases: these are {READ}. Suppress it or take it out of the analysis."
+            )
+        if getattr(constraint, "EnableAmplitude", False) or any(
+            getattr(constraint, f"has{axis}Formula", False) for axis in "XYZ"
+        ):
+            raise VolfrepError(
+                f"'{constraint.Label}' changes in time or by a formula: give it a plain value."
+            )
+        made = read(constraint, frame)
+        if isinstance(made, Support):
+            supports.append(made)
+        elif isinstance(made, App.Vector):
+            pull += made
+        else:
+            loads.append(made)
+    return LoadCase(analysis.Label, tuple(supports), tuple(loads), _tuple(pull))
+
+
+def _constraints(analysis: App.DocumentObject) -> list[App.DocumentObject]:
+    return [
+        member
+        for member in analysis.Group
+        if member.isDerivedFrom("Fem::Constraint") and not getattr(member, "Suppressed", False)
+    ]
+
+
+def _kind_of(constraint: App.DocumentObject) -> str:
+    """The kind of a constraint; those made in Python have one type and say it by their proxy."""
+    if constraint.TypeId != "Fem::ConstraintPython":
+        return str(constraint.TypeId)
+    return str(getattr(constraint.Proxy, "Type", ""))
+
+
+def _fixed(constraint: App.DocumentObject, frame: App.Placement) -> Support:
+    return Support(_region(constraint, frame), name=constraint.Label)
+
+
+def _displacement(constraint: App.DocumentObject, frame: App.Placement) -> Support:
+    """A constraint of displacement, whose axes are the document's.
+
+    Raises:
+        VolfrepError: it turns the part, or its axes are not the part's.
+    """
+    moved = [prescribed(constraint, axis) for axis in "xyz"]
+    turned = [prescribed_turn(constraint, axis) for axis in "xyz"]
+    if any(turned):
+        raise VolfrepError(
+            f"'{constraint.Label}' turns its nodes by an angle, which is not read: hold the turn "
+            "at 0 or leave it free."
+        )
+    if not frame.Rotation.isIdentity():
+        moved = _moved_in(constraint, moved, frame)
+    return Support(
+        _region(constraint, frame),
+        (moved[0], moved[1], moved[2]),
+        (turned[0] is None, turned[1] is None, turned[2] is None),
+        constraint.Label,
+    )
+
+
+def _moved_in(
+    constraint: App.DocumentObject, moved: list[float | None], frame: App.Placement
+) -> list[float | None]:
+    if all(value is None for value in moved):
+        return moved
+    if any(value is None for value in moved):
+        raise VolfrepError(
+            f"'{constraint.Label}' holds axes of the document, and the part lies in an App::Part "
+            "that is turned: hold all three, or turn the App::Part back."
+        )
+    return list(_tuple(frame.Rotation.inverted().multVec(App.Vector(*moved))))
+
+
+def _force(constraint: App.DocumentObject, frame: App.Placement) -> Force:
+    size = in_unit(constraint.Force, "N")
+    along = frame.Rotation.inverted().multVec(constraint.DirectionVector)
+    return Force(
+        _region(constraint, frame, alike=True), _tuple(along * size), name=constraint.Label
+    )
+
+
+def _pressure(constraint: App.DocumentObject, frame: App.Placement) -> Pressure:
+    size = in_unit(constraint.Pressure, "MPa") * (-1.0 if constraint.Reversed else 1.0)
+    return Pressure(_region(constraint, frame), size, constraint.Label)
+
+
+def _self_weight(constraint: App.DocumentObject, frame: App.Placement) -> App.Vector:
+    return frame.Rotation.inverted().multVec(gravity_of(constraint))
+
+
+_READERS: dict[str, Callable[[App.DocumentObject, App.Placement], Support | Load | App.Vector]] = {
+    "Fem::ConstraintFixed": _fixed,
+    "Fem::ConstraintDisplacement": _displacement,
+    "Fem::ConstraintForce": _force,
+    "Fem::ConstraintPressure": _pressure,
+    "Fem::ConstraintSelfWeight": _self_weight,
+}
+
+
+def _region(constraint: App.DocumentObject, frame: App.Placement, alike: bool = False) -> Region:
+    """The faces, edges and vertices that a constraint refers to.
+
+    Raises:
+        VolfrepError: it refers to nothing, or to what is not there any more; or, where they have to
+            be alike, to elements of different kinds.
+    """
+    pairs = [(owner, name) for owner, names in constraint.References for name in names]
+    if not pairs or not all(name for _, name in pairs):
+        raise VolfrepError(
+            f"'{constraint.Label}' refers to no face, edge or vertex: choose some of the part's."
+        )
+    if alike and len({name.rstrip("0123456789") for _, name in pairs}) > 1:
+        raise VolfrepError(
+            f"'{constraint.Label}' refers to faces, edges and vertices together: make a force of "
+            "each kind."
+        )
+    regions = tuple(_element(owner, name, frame) for owner, name in pairs)
+    return regions[0] if len(regions) == 1 else AnyOf(regions)
+
+
+def _element(owner: App.DocumentObject, name: str, frame: App.Placement) -> Region:
+    said = f"{name} of {owner.Label}"
+    if name.startswith("Face"):
+        return OnFacets(face_facets(owner, name, frame), said)
+    if name.startswith("Edge"):
+        return OnLine(edge_points(owner, name, frame), said)
+    return NearPoint(vertex_point(owner, name, frame))
+
+
+def _one_material(analyses: Sequence[App.DocumentObject]) -> SolidMaterial:
+    found = [
+        _material(member)
+        for analysis in analyses
+        for member in analysis.Group
+        if member.isDerivedFrom("App::MaterialObject")
+        and getattr(member, "Category", "Solid") == "Solid"
+        and not getattr(member, "Suppressed", False)
+    ]
+    if not found:
+        raise VolfrepError(
+            "The analyses have no material: add one with the FEM workbench, or choose one here."
+        )
+    other = [m for m in found if replace(m, name=found[0].name, source=found[0].source) != found[0]]
+    if other:
+        raise VolfrepError(
+            f"The analyses have different materials, '{found[0].name}' and '{other[0].name}': a "
+            "part is printed of one."
+        )
+    return found[0]
+
+
+def _material(obj: App.DocumentObject) -> SolidMaterial:
+    """A material of the FEM workbench.
+
+    Raises:
+        VolfrepError: a figure is missing or makes no sense.
+    """
+    values: dict[str, str] = obj.Material
+
+    def figure(key: str, unit: str) -> float:
+        try:
+            quantity = App.Units.Quantity(values[key])
+            # Of a plain number FreeCAD 0.20 makes nonsense when asked for it in no unit.
+            return float(quantity.getValueAs(unit).Value if unit else quantity.Value)
+        except (KeyError, ValueError, ArithmeticError) as error:
+            wanted = f"a number in {unit}" if unit else "a number"
+            raise VolfrepError(
+                f"The material '{obj.Label}' has no {key} that is {wanted}: edit it."
+            ) from error
+
+    limit = figure("YieldStrength", "MPa") if values.get("YieldStrength") else None
+    name = re.sub(r"[^-\w]", "_", values.get("Name", "") or obj.Name, flags=re.ASCII)
+    return SolidMaterial(
+        name.lstrip("_-") or "material",
+        figure("Density", "g/cm^3"),
+        figure("YoungsModulus", "MPa"),
+        figure("PoissonRatio", ""),
+        limit or None,
+        source=f"'{obj.Label}' of the document",
+    )
+
+
+def _tuple(vector: Any) -> Vector:
+    return float(vector.x), float(vector.y), float(vector.z)

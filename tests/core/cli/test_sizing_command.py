@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""`volfrep size`: from a part and its load cases to a part whose struts follow them."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+import trimesh
+
+from command import run
+from volfrep.io.solid import read_triangles
+from volfrep.io.write.stl import write_stl
+from volfrep.mesh.triangle_mesh import TriangleMesh
+
+LATTICE = ["--cell", "CVC", "--cell-size", "10", "--strut-radius", "0.8"]
+WHOLE = ["--shell", "0", "--boundary", "whole", "--activation", "inside"]
+LOADS = """
+material = "Ti-6Al-4V"
+yield_stress = 900
+[[support]]
+plane = { point = [0, 0, 0], normal = [1, 0, 0] }
+fixed = true
+[[case]]
+name = "down"
+[[case.load]]
+plane = { point = [40, 0, 0], normal = [1, 0, 0] }
+force = [0, 0, -100]
+[[case]]
+name = "aside"
+[[case.load]]
+plane = { point = [40, 0, 0], normal = [1, 0, 0] }
+force = [0, 100, 0]
+"""
+
+
+@pytest.fixture
+def part(tmp_path: Path) -> Path:
+    shape = trimesh.creation.box((40, 20, 20))
+    shape.apply_translation((20, 10, 10))
+    mesh = TriangleMesh(np.array(shape.vertices), np.array(shape.faces).astype(np.int32))
+    write_stl(mesh, tmp_path / "part.stl")
+    (tmp_path / "loads.toml").write_text(LOADS, encoding="utf-8")
+    return tmp_path / "part.stl"
+
+
+def size(part: Path, *more: object) -> int:
+    loads, out = part.with_name("loads.toml"), part.with_name("out.stl")
+    return run("size", part, "--loads", loads, "-o", out, *LATTICE, "--quiet", *more)
+
+
+def refusal(part: Path, capsys: pytest.CaptureFixture[str], *more: object) -> str:
+    assert size(part, *more) == 2
+    assert not part.with_name("out.stl").exists()
+    return capsys.readouterr().err
+
+
+def test_the_sized_part_is_an_ordinary_graded_one(part: Path, tmp_path: Path) -> None:
+    radii, spec, report = (tmp_path / name for name in ("r.csv", "s.toml", "report.json"))
+    more = ("--radii", radii, "--write-spec", spec, "--report", report, "--no-proof")
+    assert size(part, *WHOLE, "--safety", "3", *more) == 0
+    again = tmp_path / "again.stl"
+    assert run("fill", part, "-o", again, "--spec", spec, "--quiet") == 0
+    assert again.read_bytes() == (tmp_path / "out.stl").read_bytes()
+    told = json.loads(report.read_text(encoding="utf-8"))
+    figures = told["sizing"]
+    assert figures["holds"]
+    assert figures["uses"]["stress"] == pytest.approx(1.0, abs=5e-3)
+    assert max(case["stress_mpa"] for case in figures["cases"]) <= 300.5
+    assert figures["same_limits"]["mass_saved"] > 0.1
+    assert figures["strut_volume_mm3"] == pytest.approx(told["part"]["volume_mm3"], rel=0.01)
+
+
+def test_with_a_skin_the_struts_end_in_it_and_both_are_told(
+    part: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    report = part.with_name("report.json")
+    loads, out = part.with_name("loads.toml"), part.with_name("out.stl")
+    done = run(
+        "size", part, "--loads", loads, "-o", out, *LATTICE, "--shell", 1, "--steps", 4,
+        "--report", report, "--no-proof",
+    )  # fmt: skip
+    assert done == 0
+    told = capsys.readouterr().out
+    assert "skin mass" in told
+    assert "as stiff as one radius" in told
+    figures = json.loads(report.read_text(encoding="utf-8"))
+    skin = (40 * 20 * 20 - 38 * 18 * 18) * 4.41e-3
+    assert figures["sizing"]["skin_mass_g"] == pytest.approx(skin, rel=0.01)
+    assert min(figures["sizing"]["same_mass"]["stiffer"]) >= 1.0
+    assert read_triangles(out).volume == pytest.approx(figures["part"]["volume_mm3"], rel=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("more", "says"),
+    [
+        (["--max-stress", "100", "--safety", "2"], "give one of them"),
+        (["--max-stress", "100", "--strut-mass", "3"], "least mass, or a volume"),
+        (["--safety", "0"], "--safety must be above 0"),
+        (["--max-stress", "-1"], "limit of stress must be above 0"),
+        (["--strut-mass", "900"], "cannot be reached"),
+        (["--thinnest", "3", "--thickest", "2"], "make no sense"),
+        (["--steps", "0"], "at least one step"),
+        (["--fillet", "0.2"], "set the fillet to 0"),
+        (["--smooth", "2"], "from 0 to 0.9"),
+        (["--colour", "stress"], "give it"),
+        (["--write-spec", "s.toml"], "give --radii"),
+    ],
+)
+def test_what_makes_no_sense_is_refused(
+    part: Path, capsys: pytest.CaptureFixture[str], more: list[str], says: str
+) -> None:
+    assert says in refusal(part, capsys, *WHOLE, *more)
+
+
+def test_a_part_that_is_not_held_is_refused(part: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    loads = part.with_name("loads.toml")
+    text = LOADS.replace("fixed = true", "x = 0")
+    loads.write_text(text, encoding="utf-8")
+    assert "move freely" in refusal(part, capsys, *WHOLE, "--no-proof")
+
+
+def test_a_target_for_the_radius_is_refused(part: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    loads, out = part.with_name("loads.toml"), part.with_name("out.stl")
+    lattice = ["--cell", "CVC", "--cell-size", 10, "--relative-density", 0.1]
+    assert run("size", part, "--loads", loads, "-o", out, *lattice, "--quiet") == 2
+    assert "leave the target out" in capsys.readouterr().err
+
+
+def test_limits_that_cannot_be_held_are_told(
+    part: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert size(part, *WHOLE, "--max-stress", "1", "--steps", "2", "--no-proof") == 0
+    assert "limit of stress cannot be held" in capsys.readouterr().err

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A part's struts solved as they are, and a search for radii that is cancelled."""
+
+import numpy as np
+import pytest
+import trimesh
+
+from volfrep.design.spec import LatticeSpec
+from volfrep.jobs.sizing import Goal, size, solved
+from volfrep.loads.load_cases import Force, LoadCase, LoadCases, Support
+from volfrep.loads.regions import InPlane
+from volfrep.mechanics.materials import find_material
+from volfrep.mesh.triangle_mesh import TriangleMesh
+from volfrep.sizing.analysis import Limits
+from volfrep.sizing.strut_state import strut_states
+from volfrep.util.errors import Cancelled
+
+SPEC = LatticeSpec("BCC", cell_size=10, strut_radius=0.8, shell=0)
+
+
+def beam():
+    box = trimesh.creation.box((40, 20, 20))
+    return TriangleMesh(np.array(box.vertices), np.array(box.faces, np.int32))
+
+
+def bent(force=-200.0):
+    left, right = (InPlane((x, 0, 0), (1, 0, 0)) for x in (-20.0, 20.0))
+    case = LoadCase("bend", (Support(left),), (Force(right, (0, 0, force)),))
+    return LoadCases(find_material("Ti-6Al-4V"), (case,))
+
+
+def test_what_is_solved_is_what_was_designed():
+    goal = Goal(limits=Limits(displacement=0.3), radius_min=0.3, radius_max=1.6)
+    part = size(beam(), SPEC, bent(), goal, prove_it=False)
+    assert part.sized.holds
+    model, analysis = solved(beam(), part.spec, bent())
+    assert analysis.largest == pytest.approx(part.sized.analysis.largest, rel=5e-4)
+    (state,) = strut_states(model.problem, analysis)
+    assert state.stress.max() == pytest.approx(part.sized.analysis.stress.max(), rel=5e-4)
+    # Twice the force, twice the displacement.
+    _, doubled = solved(beam(), part.spec, bent(-400.0))
+    assert doubled.largest == pytest.approx(2.0 * analysis.largest)
+
+
+def test_a_cancelled_search_keeps_the_best_and_asks_no_other_solver():
+    asked = []
+
+    def progress(fraction, stage):
+        asked.append(stage)
+        return asked.count("sizing") < 5
+
+    goal = Goal(limits=Limits(displacement=0.3), radius_min=0.3, radius_max=1.6)
+    part = size(beam(), SPEC, bent(), goal, progress=progress)
+    assert part.sized.stopped == "cancelled"
+    assert 1 <= len(part.sized.steps) < 5
+    assert part.sized.analysis.uses["displacement"] <= 1.001
+    assert "proof" not in asked
+
+
+def test_a_search_that_is_cancelled_before_it_began_has_nothing():
+    with pytest.raises(Cancelled):
+        size(beam(), SPEC, bent(), progress=lambda fraction, stage: False)

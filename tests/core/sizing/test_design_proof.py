@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A final design solved by CalculiX too: bare, and given how its skin moves."""
+
+import shutil
+
+import numpy as np
+import pytest
+import trimesh
+
+from volfrep import LatticeSpec
+from volfrep.io.solid import check_solid
+from volfrep.jobs.sizing import Goal, size
+from volfrep.loads.load_cases import Force, LoadCase, LoadCases, Support
+from volfrep.loads.regions import InPlane
+from volfrep.mechanics.materials import find_material
+from volfrep.mesh.triangle_mesh import TriangleMesh
+from volfrep.sizing.analysis import Limits
+from volfrep.sizing.design_proof import stricter_limits
+
+needs_calculix = pytest.mark.skipif(
+    shutil.which("ccx") is None, reason="CalculiX (ccx) is not installed"
+)
+
+
+def sized(limits: Limits, **more):
+    shape = trimesh.creation.box((20, 10, 10))
+    shape.apply_translation((10, 5, 5))
+    solid = check_solid(TriangleMesh(shape.vertices, shape.faces.astype(np.int32)), "box")
+    wall, tip = (InPlane((x, 0, 0), (1, 0, 0)) for x in (0.0, 20.0))
+    case = LoadCase("down", (Support(wall),), (Force(tip, (0, 0, -50.0)),))
+    loads = LoadCases(find_material("Ti-6Al-4V"), (case,))
+    spec = LatticeSpec("CVC", **{"cell_size": 10, "strut_radius": 0.7, **more})
+    return size(solid, spec, loads, Goal(limits), most_steps=8)
+
+
+@needs_calculix
+def test_a_bare_design_holds_its_limits_in_calculix():
+    made = sized(Limits(stress=400.0), boundary="whole", activation="centre")
+    proof = made.report["calculix"]
+    assert max(proof["displacements_off"]) < 0.015
+    assert made.sized.analysis.uses["stress"] * proof["largest_stress"] < 1.01
+
+
+@needs_calculix
+def test_struts_under_a_skin_are_stressed_as_calculix_says_given_how_it_moves():
+    made = sized(Limits(stress=400.0), shell=0.8, cell_size=5, strut_radius=0.4)
+    proof = made.report["calculix"]
+    assert proof["given_the_skin"]
+    assert max(proof["displacements_off"]) < 0.01
+    assert proof["largest_stress"] == pytest.approx(1.0, abs=0.03)
+
+
+def test_limits_are_stricter_where_calculix_finds_more():
+    class Design:
+        uses = {"stress": 1.0, "displacement": 0.9, "frequency": 1.0}  # noqa: RUF012
+
+    limits = Limits(stress=100.0, displacement=2.0, frequency=50.0)
+    proof = {
+        "given_the_skin": False, "largest_stress": 1.25, "largest_displacement": [0.9, 1.05],
+        "lowest_frequency": 0.8,
+    }  # fmt: skip
+    assert stricter_limits(limits, Design(), proof) == Limits(80.0, 2.0, None, 62.5)
+    skinned = {**proof, "given_the_skin": True}
+    assert stricter_limits(limits, Design(), skinned) == Limits(80.0, 2.0, None, 50.0)
+    assert stricter_limits(limits, Design(), None) == limits

@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Shells against closed forms of plates and beams, and a skin's middle surface."""
+
+import numpy as np
+import pytest
+import trimesh
+
+from volfrep.mesh.triangle_mesh import TriangleMesh
+from volfrep.sizing.shell_elements import shells_of
+from volfrep.sizing.skin import skin_model, ties_to
+from volfrep.sizing.skin_mesh import even_surface
+from volfrep.sizing.structure import Case, Structure
+from volfrep.sizing.tapered_beams import Elastic, beams_of
+
+STEEL = Elastic(210_000.0, 0.3, 7.85e-9)
+NO_STRUTS = beams_of(np.eye(3), np.empty((0, 2), np.int64), STEEL)
+
+
+def plate(along, across, length, width):
+    x, y = np.meshgrid(
+        np.linspace(0, length, along + 1), np.linspace(0, width, across + 1), indexing="ij"
+    )
+    nodes = np.stack([x.ravel(), y.ravel(), 0.0 * x.ravel()], axis=1)
+    i, j = np.meshgrid(np.arange(along), np.arange(across), indexing="ij")
+    a = (i * (across + 1) + j).ravel()
+    b = a + across + 1
+    rows = [np.stack([a, b, b + 1], axis=1), np.stack([a, b + 1, a + 1], axis=1)]
+    return nodes, np.concatenate(rows)
+
+
+def turned():
+    """A rotation that leaves no axis where it was."""
+    return trimesh.transformations.rotation_matrix(0.9, [1, 2, 3])[:3, :3]
+
+
+def solved(nodes, triangles, thickness, held, force):
+    """Displacements in the plate's own axes, of a plate that lies askew."""
+    turn = turned()
+    shells = shells_of(nodes @ turn.T, triangles, np.array(thickness), STEEL)
+    structure = Structure(nodes @ turn.T, NO_STRUTS, fixed_blocks=shells.blocks())
+    loads = np.zeros((len(nodes), 6))
+    loads[:, :3] = force @ turn.T
+    moved, _ = structure.displacements(np.empty((0, 2)), [Case(held, loads)])
+    return moved[:, :3, 0] @ turn, shells, moved
+
+
+def strip(way, size):
+    nodes, triangles = plate(20, 2, 100.0, 10.0)
+    held = np.repeat(nodes[:, :1] < 1e-9, 6, axis=1)
+    tip = nodes[:, 0] > 100 - 1e-9
+    force = np.zeros_like(nodes)
+    force[tip, way] = size * np.array([0.25, 0.5, 0.25])
+    moved, shells, whole = solved(nodes, triangles, 1.0, held, force)
+    return moved[tip, way].mean(), shells, whole
+
+
+def test_a_strip_bends_in_its_plane_and_across_it():
+    in_plane = 10 * 100**3 / 3 / 210_000 / (1000 / 12) + 10 * 120 / (210_000 / 2.6) / 10
+    assert strip(1, 10.0)[0] == pytest.approx(in_plane, rel=0.01)
+    across = 0.1 * 100**3 / 3 / 210_000 / (10 / 12)
+    moved, shells, whole = strip(2, 0.1)
+    assert moved == pytest.approx(across, rel=0.02)  # it is a plate where it is clamped
+    assert shells.stresses(whole).max() == pytest.approx(0.1 * 100 * 6 / 10, rel=0.06)
+
+
+def test_a_clamped_square_plate_under_a_force_in_its_middle():
+    """w = 0.0056 P a2 / D (S. Timoshenko & S. Woinowsky-Krieger, Theory of Plates and Shells)."""
+    nodes, triangles = plate(16, 16, 100.0, 100.0)
+    on_edge = (nodes[:, :2] < 1e-9).any(axis=1) | (nodes[:, :2] > 100 - 1e-9).any(axis=1)
+    force = np.zeros_like(nodes)
+    middle = int(np.argmin(np.linalg.norm(nodes[:, :2] - 50, axis=1)))
+    force[middle, 2] = 1.0
+    moved, _, _ = solved(nodes, triangles, 1.0, np.repeat(on_edge[:, None], 6, axis=1), force)
+    rigidity = 210_000 / 12 / (1 - 0.09)
+    assert moved[middle, 2] == pytest.approx(0.0056 * 100**2 / rigidity, rel=0.02)
+
+
+def test_shells_weigh_what_they_hold():
+    nodes, triangles = plate(3, 2, 30.0, 20.0)
+    blocks = shells_of(nodes, triangles, np.array(0.5), STEEL).blocks()
+    assert blocks.mass[:, 0, 0].sum() == pytest.approx(30 * 20 * 0.5 * STEEL.density)
+
+
+def box(x, y, z):
+    mesh = trimesh.creation.box((x, y, z))
+    return TriangleMesh(mesh.vertices, mesh.faces.astype(np.int32))
+
+
+def test_an_even_surface_keeps_edges_and_volume():
+    even = even_surface(box(40, 30, 20), 5.0)
+    assert even.volume == pytest.approx(40 * 30 * 20)
+    a, b, c = even.corners()
+    lengths = np.linalg.norm(np.concatenate([b - a, c - b, a - c]), axis=1)
+    assert lengths.max() < 9.0
+    assert np.median(lengths) == pytest.approx(5.0, rel=0.3)
+
+
+def test_the_middle_of_a_boxs_skin_is_a_smaller_box():
+    skin = skin_model(box(40, 30, 20), 2.0, 5.0, STEEL)
+    inner = TriangleMesh(skin.middle, skin.outside.triangles)
+    assert inner.volume == pytest.approx(38 * 28 * 18)
+    assert skin.shells.thickness == pytest.approx(2.0)
+
+
+def test_where_the_part_is_thin_both_sides_make_one_solid_plate():
+    """A clamped strip of 3 mm under a skin of 2 mm bends as a plate of 3 mm."""
+    length, width, thick = 60.0, 12.0, 3.0
+    skin = skin_model(box(length, width, thick), 2.0, 2.5, STEEL)
+    assert np.median(skin.shells.thickness) == pytest.approx(thick / 2, rel=0.06)
+    structure = Structure(skin.middle, NO_STRUTS, fixed_blocks=skin.blocks)
+    x = skin.outside.vertices[:, 0]
+    held = np.repeat((x < -length / 2 + 1e-6)[:, None], 6, axis=1)
+    tip = x > length / 2 - 1e-6
+    loads = np.zeros((len(x), 6))
+    loads[tip, 2] = 1.0 / tip.sum()
+    moved, _ = structure.displacements(np.empty((0, 2)), [Case(held, loads)])
+    beam = length**3 / 3 / 210_000 / (width * thick**3 / 12)
+    assert moved[tip, 2, 0].mean() == pytest.approx(beam, rel=0.15)
+
+
+def test_a_strut_that_ends_in_the_skin_moves_with_it():
+    skin = skin_model(box(40, 30, 20), 2.0, 5.0, STEEL)
+    ends = np.array([[18.0, 3.0, 1.0], [2.0, 13.0, -4.0]])  # on the inner wall
+    ties = ties_to(skin, ends, np.array([0, 1]), 0)
+    turn, shift = np.array([1e-3, -2e-3, 5e-4]), np.array([0.1, 0.2, -0.3])
+    rigid = np.concatenate(
+        [shift + np.cross(turn, skin.middle), np.broadcast_to(turn, skin.middle.shape)], axis=1
+    )
+    followed = np.einsum("tlij,tlj->ti", ties.blocks, rigid[ties.leaders])
+    assert followed[:, :3] == pytest.approx(shift + np.cross(turn, ends))
+    assert followed[:, 3:] == pytest.approx(np.tile(turn, (2, 1)))

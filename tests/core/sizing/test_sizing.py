@@ -1,0 +1,201 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Radii at nodes: volume, bounds, derivatives, and designs that are better than one radius."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from volfrep import LatticeSpec
+from volfrep.design.cells import LIBRARY
+from volfrep.jobs.blocks import block, block_wireframe
+from volfrep.jobs.sizing import radius_field
+from volfrep.mechanics.catalogue import joint_law
+from volfrep.mechanics.frame import SQUARE_SECTION
+from volfrep.sizing.analysis import Limits, Problem, analysed
+from volfrep.sizing.node_radii import (
+    NodeRadii,
+    joint_overlap,
+    largest_radii,
+    smoothing,
+    whole_struts,
+)
+from volfrep.sizing.optimise import HOLDS, cheapest, lightest, stiffest, uniform
+from volfrep.sizing.structure import Case, Structure
+from volfrep.sizing.tapered_beams import Elastic, beams_of, end_table
+from volfrep.util.errors import VolfrepError
+
+TITANIUM = Elastic(110_000.0, 0.34, 4.41e-9)
+WAYS = ((0.0, 0.0, -1.0), (0.0, 1.0, 0.0), (1.0, 0.0, 0.0))
+
+
+def cantilever(cell="CVC", count=(6, 2, 2), radius=0.6, cases=1, size=10.0):
+    """A block clamped at x = 0 and loaded at its other end, and its radius at every node."""
+    frame = block_wireframe(LatticeSpec(cell, cell_size=size, strut_radius=radius), count)
+    nodes, struts = frame.nodes, frame.struts.astype(np.int64)
+    low = np.full(len(nodes), 0.5 * radius)
+    high = largest_radii(nodes, struts, 2.0 * radius)
+    ends = end_table(joint_law(LIBRARY[cell], size, "square"), low.min(), high.max())
+    beams = beams_of(nodes, struts, TITANIUM, section=SQUARE_SECTION, ends=ends)
+    held = np.repeat(nodes[:, :1] < 1e-6, 6, axis=1)
+    tip = nodes[:, 0] > size * count[0] - 1e-6
+    loads = np.zeros((cases, len(nodes), 6))
+    for k, way in enumerate(WAYS[:cases]):
+        loads[k, tip, :3] = 200.0 * np.array(way) / tip.sum()
+    shape = NodeRadii(
+        whole_struts(struts, len(nodes)), beams.length, joint_overlap(nodes, struts, 1.08)
+    )
+    problem = Problem(
+        Structure(nodes, beams), tuple(Case(held, load) for load in loads), shape, low, high,
+        np.ones(len(nodes), bool),
+    )  # fmt: skip
+    return problem, np.full(len(nodes), radius)
+
+
+@pytest.mark.parametrize("cell", list(LIBRARY))
+def test_struts_and_joints_have_the_volume_of_their_mesh(cell):
+    spec = LatticeSpec(cell, cell_size=10.0, strut_radius=0.8)
+    made = block(spec, (2, 2, 2))
+    frame, struts = made.wireframe, made.wireframe.struts.astype(np.int64)
+    length = np.linalg.norm(np.diff(frame.nodes[struts], axis=1)[:, 0], axis=1)
+    overlap = joint_overlap(frame.nodes, struts, 1.08)
+    shape = NodeRadii(whole_struts(struts, len(frame.nodes)), length, overlap)
+    found = shape.volume(np.full(len(frame.nodes), 0.8))
+    assert found == pytest.approx(made.report.volume_mm3, rel=3e-3)
+
+
+def test_the_volume_changes_with_a_radius_as_told():
+    problem, radii = cantilever()
+    shape, step = problem.radii, np.zeros(len(radii))
+    step[17] = 1e-5
+    change = (shape.volume(radii + step) - shape.volume(radii - step)) / 2e-5
+    assert shape.volume_change(radii)[17] == pytest.approx(change, rel=1e-6)
+    aim = 1.3 * shape.volume(radii)
+    scaled = shape.scaled_to(radii, aim, problem.low, problem.high)
+    assert shape.volume(scaled) == pytest.approx(aim)
+
+
+def test_struts_part_before_their_middles_at_the_largest_radius():
+    """At a right angle they part at r from the node; at 60 degrees at r / tan 30."""
+    nodes = np.array([[0, 0, 0], [10, 0, 0], [0, 10, 0]], float)
+    pair = np.array([[0, 1], [0, 2]])
+    square = largest_radii(nodes, pair, 99.0)[0]
+    assert 0.8 * 5.0 < square < 5.0
+    nodes[2] = 10 * np.array([0.5, np.sqrt(0.75), 0])
+    sixty = largest_radii(nodes, pair, 99.0)[0]
+    assert 0.8 * 5.0 < sixty / np.tan(np.radians(30)) < 5.0
+    assert largest_radii(nodes, pair, 1.0)[0] == 1.0
+
+
+@pytest.mark.parametrize("cell", list(LIBRARY))
+def test_a_lattice_whose_radii_jump_between_their_bounds_has_a_mesh(cell):
+    frame = block_wireframe(LatticeSpec(cell, cell_size=10.0, strut_radius=0.5), (2, 1, 1))
+    high = largest_radii(frame.nodes, frame.struts.astype(np.int64), 2.5)
+    radii = np.where(np.arange(len(high)) % 3 == 0, 0.4, high)
+    spec = LatticeSpec(cell, cell_size=10.0, radius_grading=radius_field(frame.nodes, radii))
+    made = block(spec, (2, 1, 1))
+    assert made.report.watertight
+    assert made.report.bodies == 1
+
+
+def test_derivatives_are_those_of_differences():
+    problem, radii = cantilever(count=(4, 2, 2), cases=3)
+    heavy = replace(problem.cases[1], acceleration=(2e8, -3e8, 1e8))
+    problem = replace(problem, cases=(problem.cases[0], heavy, problem.cases[2]))
+    radii = radii * (1.0 + 0.3 * np.sin(np.arange(len(radii))) ** 2)
+    limits = Limits(stress=100.0, displacement=1.0, frequency=100.0)
+    found, changes = analysed(problem, radii, limits, with_changes=True)
+    step = np.zeros(len(radii))
+    step[23] = 1e-4
+    high, low = (analysed(problem, radii + sign * step, limits)[0] for sign in (1, -1))
+    assert changes.compliance[23] == pytest.approx(
+        (high.compliance - low.compliance) / 2e-4, rel=1e-4
+    )
+    worst = int(np.argmax(found.largest))
+    assert changes.displacement[23, worst] == pytest.approx(
+        (high.uses["displacement"] - low.uses["displacement"]) / 2e-4, rel=1e-3
+    )
+    assert changes.frequency[23] == pytest.approx(
+        (high.uses["frequency"] - low.uses["frequency"]) / 2e-4, rel=1e-3
+    )
+
+
+@pytest.mark.parametrize("cell", list(LIBRARY))
+def test_a_sized_cantilever_is_much_stiffer_than_an_even_one_of_its_volume(cell):
+    problem, radii = cantilever(cell)
+    even, _ = analysed(problem, radii, Limits())
+    made = stiffest(problem, even.volume, radii)
+    assert made.analysis.volume == pytest.approx(even.volume, rel=1e-3)
+    assert (made.analysis.radii >= problem.low - 1e-12).all()
+    assert (made.analysis.radii <= problem.high + 1e-12).all()
+    assert even.compliance[0] > 1.4 * made.analysis.compliance[0]
+
+
+def test_the_lightest_design_holds_its_limits_and_saves_mass():
+    problem, radii = cantilever(cases=2)
+    even, _ = analysed(problem, radii, Limits(stress=1.0, displacement=1.0))
+    limits = Limits(
+        stress=float(even.stress.max()), displacement=even.uses["displacement"], buckling=2.0
+    )
+    made = lightest(problem, limits, radii, most_steps=30)
+    one, holds = uniform(problem, limits)
+    assert made.holds
+    assert holds
+    assert made.analysis.most_used <= HOLDS
+    assert one.most_used <= HOLDS
+    assert one.volume == pytest.approx(even.volume, rel=0.01)
+    assert made.analysis.volume < 0.8 * one.volume
+
+
+def test_a_frequency_is_reached_with_less_mass():
+    problem, radii = cantilever(count=(4, 1, 1))
+    swings, _ = problem.structure.modes(problem.radii.of_struts(radii), problem.cases[0].held, 1)
+    made = lightest(problem, Limits(frequency=float(swings[0])), radii, most_steps=20)
+    assert made.holds
+    assert made.analysis.frequency >= swings[0] * (1 - 2e-3)
+    assert made.analysis.volume < 0.8 * problem.radii.volume(radii)
+
+
+def test_limits_that_cannot_be_held_are_told():
+    problem, radii = cantilever(count=(3, 1, 1))
+    made = lightest(problem, Limits(stress=1.0), radii, most_steps=4)
+    assert not made.holds
+    with pytest.raises(VolfrepError, match="needs a limit"):
+        lightest(problem, Limits(), radii)
+    case = problem.cases[0]
+    pushed = replace(case, loads=0.0 * case.loads, moved=np.where(case.held, 0.1, 0.0))
+    with pytest.raises(VolfrepError, match="has none"):
+        stiffest(replace(problem, cases=(pushed,)), 300.0, radii)
+    with pytest.raises(VolfrepError, match="cannot be reached"):
+        stiffest(problem, 1e9, radii)
+    with pytest.raises(VolfrepError, match="above 0"):
+        Limits(stress=-1.0)
+
+
+def test_a_search_that_is_stopped_keeps_the_best_so_far():
+    problem, radii = cantilever()
+    volume = problem.radii.volume(radii)
+    made = stiffest(problem, volume, radii, watch=lambda number, _: number < 3)
+    assert made.stopped == "cancelled"
+    assert len(made.steps) == 4
+    assert made.analysis.compliance[0] == pytest.approx(
+        min(step.compliance for step in made.steps) * made.steps[0].compliance
+        * analysed(problem, radii, Limits())[0].compliance[0]
+    )  # fmt: skip
+
+
+def test_smoothing_keeps_what_is_even_and_lessens_steps():
+    struts = np.array([[0, 1], [1, 2], [2, 3]])
+    mean = smoothing(struts, 4, 0.5)
+    assert mean @ np.ones(4) == pytest.approx(1.0)
+    assert (mean @ np.array([1.0, 0, 0, 0])).tolist() == [0.5, 0.25, 0, 0]
+
+
+def test_prices_of_shared_limits_give_the_least_cost():
+    """Two bars in a row, compliance 1 / r^3 each: equal radii of least cost."""
+    radii = np.array([1.0, 1.5])
+    uses = np.array([(radii**-3).sum()])
+    changes = -3.0 * (radii**-4)[:, None]
+    low, high = 0.3 * radii, 3.0 * radii
+    found = cheapest(radii, np.ones(2), uses, changes, low, high)
+    assert found == pytest.approx([2 ** (1 / 3)] * 2, rel=1e-3)

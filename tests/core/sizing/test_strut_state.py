@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The state of struts under each load case."""
+
+import numpy as np
+import pytest
+
+from volfrep.sizing.analysis import Limits, Problem, analysed
+from volfrep.sizing.node_radii import NodeRadii, whole_struts
+from volfrep.sizing.structure import Case, Structure
+from volfrep.sizing.strut_state import drawn_factor, strut_states, value_range
+from volfrep.sizing.tapered_beams import Elastic, beams_of
+
+YOUNG, LENGTH, RADIUS = 2000.0, 100.0, 2.0
+AREA, INERTIA = np.pi * RADIUS**2, 0.25 * np.pi * RADIUS**4
+
+
+@pytest.fixture(scope="module")
+def states():
+    """A rod of two struts along x, held at one end: pushed, then bent."""
+    nodes = np.array([[0, 0, 0], [0.5 * LENGTH, 0, 0], [LENGTH, 0, 0]])
+    struts = np.array([[0, 1], [1, 2]])
+    held = np.zeros((3, 6), bool)
+    held[0] = True
+    loads = np.zeros((2, 3, 6))
+    loads[0, 2, 0], loads[1, 2, 2] = -30.0, 6.0
+    cases = tuple(
+        Case(held, load, name=name) for name, load in zip(("push", "bend"), loads, strict=True)
+    )
+    radii = NodeRadii(whole_struts(struts, 3), np.full(2, 0.5 * LENGTH), np.zeros(3))
+    low = np.full(3, 0.1)
+    structure = Structure(nodes, beams_of(nodes, struts, Elastic(YOUNG)))
+    problem = Problem(structure, cases, radii, low, 100 * low, np.ones(3, bool))
+    return strut_states(problem, analysed(problem, np.full(3, RADIUS), Limits())[0])
+
+
+def test_a_rod_says_what_the_closed_forms_say(states):
+    push, bend = states
+    assert [state.name for state in states] == ["push", "bend"]
+    assert push.radii.tolist() == [[RADIUS, RADIUS], [RADIUS, RADIUS]]
+    assert push.stress == pytest.approx(np.full((2, 2), 30.0 / AREA))
+    assert push.displacement[:, 1] == pytest.approx(30 * LENGTH / YOUNG / AREA * np.array([0.5, 1]))
+    assert push.moved[1, 1, 0] < 0
+    moment = 6.0 * LENGTH * np.array([[1, 0.5], [0.5, 0]])
+    shear = np.sqrt(3.0) * 4.0 / 3.0 * 6.0 / AREA
+    assert bend.stress == pytest.approx(np.maximum(moment * RADIUS / INERTIA, shear))
+    assert (bend.buckling[:, 0] == bend.buckling[:, 1]).all()
+    assert push.buckling.min() > 0
+    assert bend.buckling.max() < 1e-9
+
+
+def test_all_cases_have_one_scale_and_one_enlargement(states):
+    assert value_range(states, "radii") == (RADIUS, RADIUS)
+    low, high = value_range(states, "stress")
+    assert (low, high) == (0.0, max(state.stress.max() for state in states))
+    factor = drawn_factor(states)
+    most = max(state.displacement.max() for state in states)
+    assert 0.02 * LENGTH <= factor * most <= 0.0501 * LENGTH
+    assert f"{factor:e}"[0] in "125"

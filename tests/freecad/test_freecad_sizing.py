@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Size Lattice and Strut Results without a window: from analyses to radii in the document."""
+
+import json
+import shutil
+from dataclasses import replace
+
+import pytest
+from test_freecad_fem_loads import add, analysis_of, face_at
+
+from freecad_volfrep import make_lattice_infill, size_lattice
+from freecad_volfrep.features.sized_radii import store_radii
+from freecad_volfrep.features.sizing import (
+    GOALS,
+    Wish,
+    analyses_of,
+    first_wish,
+    size_struts,
+    solve_struts,
+)
+from volfrep.util.errors import VolfrepError
+
+BEAM = {
+    "CellType": "BCC",
+    "CellSize": 10,
+    "StrutRadius": 0.8,
+    "ShellThickness": 0,
+    "Resolution": 13,
+    "AutoUpdate": False,  # what is sized needs no mesh
+}
+
+
+@pytest.fixture
+def infill(doc):
+    """A cantilever of 4 x 2 x 2 cells without a skin."""
+    box = doc.addObject("Part::Box", "Beam")
+    box.Length, box.Width, box.Height = 40, 20, 20
+    doc.recompute()
+    return make_lattice_infill(doc, box, **BEAM)
+
+
+def loaded(infill, name="bend", force=200.0):
+    """An analysis: the left side held, the right one pushed down."""
+    doc, box = infill.Document, infill.Base
+    analysis = analysis_of(doc, name)
+    add(analysis, "Fixed", [(box, face_at(box, (0, 10, 10)))])
+    load = add(analysis, "Force", [(box, face_at(box, (40, 10, 10)))], Force=force,
+               Direction=(box, [upright(box)]))  # fmt: skip
+    load.Reversed = load.DirectionVector.z > 0
+    doc.recompute()
+    return analysis
+
+
+def upright(box):
+    """The name of an edge along z."""
+    for k, edge in enumerate(box.Shape.Edges):
+        if abs(edge.tangentAt(0).z) > 0.99:
+            return f"Edge{k + 1}"
+    raise AssertionError
+
+
+def wish(**values):
+    """Least mass at half the yield stress, and no other solver, unless it says otherwise."""
+    return Wish(**{**vars(Wish("mass", 2.0, 0, 0, 0, 0, 0.3, 1.6, prove=False)), **values})
+
+
+def test_struts_are_sized_stored_and_stay_within_their_limits(infill):
+    analyses = [loaded(infill)]
+    assert analyses_of(infill) == analyses
+    steps = []
+    outcome = size_struts(infill, analyses, wish(displacement=0.3, prove=True), steps.append)
+    assert outcome.holds
+    assert len(steps) == len(outcome.steps) > 3
+    stress = max(state.stress.max() for state in outcome.states)
+    moved = max(state.displacement.max() for state in outcome.states)
+    assert stress <= 1.01 * 903 / 2
+    assert moved <= 1.01 * 0.3
+    assert "of one radius they would weigh" in outcome.summary()
+    titles = [table.title for table in outcome.tables()]
+    assert titles[:2] == ["Struts", "Load case bend"]
+    assert titles[-1] == "Steps"
+    if shutil.which("ccx"):
+        assert titles[2] == "The same beams in CalculiX"
+        assert max(outcome.part.report["calculix"]["displacements_off"]) < 0.01
+        assert "CalculiX's displacements of the same beams differ by" in outcome.summary()
+    else:
+        assert "no other solver has proved this design" in outcome.summary()
+    assert json.loads(outcome.to_json())["struts"] == len(outcome.states[0].radii)
+
+    store_radii(infill, outcome.part.points, outcome.part.radii)
+    assert infill.Proxy.update(infill), infill.Status
+    assert infill.StrutRadii == pytest.approx(
+        [outcome.part.radii.min(), outcome.part.radii.max()], abs=1e-4
+    )
+    # The lattice that was made does what the design did.
+    (state,) = solve_struts(infill)
+    assert state.stress.max() == pytest.approx(stress, rel=1e-3)
+    assert state.displacement.max() == pytest.approx(moved, rel=1e-3)
+
+
+def test_the_stiffest_struts_of_a_mass_beat_one_radius(infill):
+    analyses = [loaded(infill)]
+    outcome = size_struts(infill, analyses, wish(goal="stiffness"))
+    before, after = outcome.part.before, outcome.part.sized.analysis
+    assert after.volume == pytest.approx(before.volume, rel=2e-3)
+    assert before.compliance[0] > 1.3 * after.compliance[0]
+    assert "times as stiff" in outcome.summary()
+    heavier = size_struts(infill, analyses, wish(goal="stiffness", mass=1.5 * outcome.mass))
+    assert heavier.mass == pytest.approx(1.5 * outcome.mass, rel=5e-3)
+
+
+def test_every_analysis_is_a_case(infill):
+    analyses = [loaded(infill), loaded(infill, "light", 50.0)]
+    states = solve_struts(infill)
+    assert [state.name for state in states] == ["bend", "light"]
+    assert states[0].stress == pytest.approx(4.0 * states[1].stress, rel=1e-6)
+    outcome = size_struts(infill, analyses[1:], wish())
+    assert [state.name for state in outcome.states] == ["light"]
+
+
+def test_what_cannot_be_sized_is_told(doc, infill):
+    with pytest.raises(VolfrepError, match="has no analysis with loads: make one with the FEM"):
+        analyses_of(infill)
+    analysis = loaded(infill)
+    with pytest.raises(VolfrepError, match="No load case is chosen"):
+        size_struts(infill, [], wish())
+    with pytest.raises(VolfrepError, match="Least mass needs a limit"):
+        size_struts(infill, [analysis], wish(safety=0))
+    with pytest.raises(VolfrepError, match="must be above 0 and below the largest"):
+        size_struts(infill, [analysis], wish(smallest=2.0))
+    (material,) = [o for o in analysis.Group if o.isDerivedFrom("App::MaterialObject")]
+    material.Material = {k: v for k, v in material.Material.items() if k != "YieldStrength"}
+    with pytest.raises(VolfrepError, match="has no YieldStrength, which a safety"):
+        size_struts(infill, [analysis], wish())
+    outcome = size_struts(infill, [analysis], wish(safety=0, displacement=1e-5))
+    assert not outcome.holds
+    assert "The limit of displacement cannot be held" in outcome.summary()
+
+
+def test_a_script_sizes_in_one_call(infill):
+    loaded(infill)
+    outcome = size_lattice(infill, safety=2, smallest=0.3, largest=1.6, prove=False)
+    assert outcome.holds
+    assert infill.RadiusGrading == "Field"
+    assert list(infill.SizedRadii) == pytest.approx(outcome.part.radii)
+    assert json.loads(infill.SizingReport)["holds"] is True
+    with pytest.raises(VolfrepError, match="A wish has no 'safty': choose from goal, safety"):
+        size_lattice(infill, safty=2)
+
+
+def test_an_infill_stays_as_it_is_until_radii_are_stored(infill):
+    before = infill.Fingerprint, infill.RadiusGrading
+    analysis = loaded(infill)
+    size_struts(infill, [analysis], replace(first_wish(infill), prove=False))
+    assert (infill.Fingerprint, infill.RadiusGrading) == before
+    assert set(GOALS) == {"mass", "stiffness"}

@@ -1,0 +1,259 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Size Lattice and Strut Results by real clicks: the panel, cancel, the colours, one step of undo.
+
+Run it with tools/run_gui.sh.
+"""
+
+import FreeCAD as App
+import FreeCADGui as Gui
+import ObjectsFem
+from driving import (
+    answer_panel,
+    check,
+    click,
+    context_menu,
+    figures,
+    look_at_all,
+    picture,
+    run_checks,
+    select,
+    settle,
+    shades,
+    toolbar_button,
+    view_3d,
+    wait_until,
+    xdotool,
+)
+from PySide import QtCore, QtGui
+
+OLD = App.Version()[0] == "0" and App.Version()[1] == "20"
+TITANIUM = {
+    "Name": "Ti-6Al-4V",
+    "YoungsModulus": "110 GPa",
+    "PoissonRatio": "0.34",
+    "Density": "4410 kg/m^3",
+    "YieldStrength": "903 MPa",
+}
+
+
+def loaded(size=(60, 20, 20), cell=10, shell=0.0):
+    """A document with a lattice beam, held at one end, and two analyses of it."""
+    from freecad_volfrep import make_lattice_infill
+
+    doc = App.newDocument("Sizing")
+    doc.UndoMode = 1
+    box = doc.addObject("Part::Box", "Beam")
+    box.Length, box.Width, box.Height = size
+    doc.recompute()
+    obj = make_lattice_infill(
+        doc, box, CellType="BCC", CellSize=cell, StrutRadius=0.08 * cell, ShellThickness=shell
+    )
+    doc.recompute()
+    faces = {face.CenterOfMass.x: k + 1 for k, face in enumerate(box.Shape.Faces)}
+    edges = enumerate(box.Shape.Edges, 1)
+    along_z = next(k for k, edge in edges if abs(edge.tangentAt(0).z) > 0.99)
+    for name, force in (("bend", 200.0), ("light", 80.0)):
+        analysis = ObjectsFem.makeAnalysis(doc, name)
+        material = ObjectsFem.makeMaterialSolid(doc, "Material")
+        material.Material = TITANIUM
+        held = ObjectsFem.makeConstraintFixed(doc, "Fixed")
+        held.References = [(box, f"Face{faces[0.0]}")]
+        push = ObjectsFem.makeConstraintForce(doc, "Force")
+        push.References = [(box, f"Face{faces[float(size[0])]}")]
+        push.Force = force if OLD else f"{force} N"
+        push.Direction = (box, [f"Edge{along_z}"])
+        for member in (material, held, push):
+            analysis.addObject(member)
+        doc.recompute()
+        push.Reversed = push.DirectionVector.z > 0
+        doc.recompute()
+    box.Visibility = False
+    for member in doc.Objects:
+        if member.isDerivedFrom("Fem::Constraint"):
+            member.ViewObject.Visibility = False
+    look_at_all()
+    return doc, obj
+
+
+def sizing_panel():
+    """The open panel of Size Lattice, or None."""
+    found = Gui.getMainWindow().findChildren(QtGui.QWidget, "VolfrepSizePanel")
+    return next((widget for widget in found if widget.isVisible()), None)
+
+
+def part(name, kind=QtGui.QWidget):
+    return sizing_panel().findChild(kind, name)
+
+
+def dock():
+    """The window of strut results, or None."""
+    found = Gui.getMainWindow().findChildren(QtGui.QDockWidget, "VolfrepStrutView")
+    return next((widget for widget in found if widget.isVisible()), None)
+
+
+def reports():
+    found = Gui.getMainWindow().findChildren(QtGui.QDialog, "VolfrepReport")
+    return [window for window in found if window.isVisible()]
+
+
+def open_panel(obj):
+    select(obj)
+    click(toolbar_button("Size Lattice"))
+    check("a click opens the panel", wait_until(lambda: sizing_panel() is not None, 10))
+
+
+def size_and_take(doc, obj):
+    """Size by clicks, look at the struts, take it, undo it."""
+    before = obj.Mesh.CountFacets, obj.Volume.Value
+    steps = doc.UndoCount
+    open_panel(obj)
+    picture("sizing_1_panel")
+    cases = part("Cases", QtGui.QListWidget)
+    check("both analyses are offered", [cases.item(k).text() for k in range(cases.count())]
+          == ["bend", "light"])  # fmt: skip
+    shown = {name: part(name).isVisible() for name in ("safety", "mass")}
+    check("the mass is asked for the most stiffness only", shown == {"safety": True, "mass": False})
+    click(part("Size"))
+    check("there are steps", wait_until(lambda: part("Steps").rowCount() > 3, 60))
+    found = wait_until(lambda: "hold all limits" in part("Said").text(), 90)
+    check("it says what was found", found, part("Said").text())
+    figures["said"] = part("Said").text()
+    check("the struts are shown", dock() is not None)
+    check("the mesh is still the old one", obj.Mesh.CountFacets == before[0])
+    picture("sizing_2_sized")
+    figures["shades"] = shades("sizing_2_sized", view_3d())
+    check("in colours", figures["shades"] > 200, figures["shades"])
+    answer_panel("OK")
+    check("the panel closes", wait_until(lambda: sizing_panel() is None, 90))
+    settle()
+    check("it is up to date", obj.Status == "Up to date", obj.Status)
+    check("it is graded", obj.RadiusGrading == "Field" and len(obj.SizedRadii) > 10)
+    check("it is lighter", obj.Volume.Value < before[1], (obj.Volume.Value, before[1]))
+    check("the struts went", dock() is None)
+    check("the infill is shown", obj.ViewObject.Visibility)
+    check("a report opens", len(reports()) == 1)
+    picture("sizing_3_taken")
+    check("it is one step", doc.UndoCount == steps + 1, (doc.UndoCount, steps))
+    doc.undo()
+    doc.recompute()
+    check("which is taken back", (obj.Mesh.CountFacets, obj.Volume.Value) == before)
+
+
+def cancel_the_panel(doc, obj):
+    """Cancel of the panel leaves nothing behind."""
+    before = obj.Mesh.CountFacets, obj.RadiusGrading
+    steps = doc.UndoCount
+    open_panel(obj)
+    goal = part("Goal", QtGui.QComboBox)
+    goal.setCurrentIndex(goal.findData("stiffness"))
+    settle()
+    shown = {name: part(name).isVisible() for name in ("safety", "mass")}
+    check("limits go with another goal", shown == {"safety": False, "mass": True}, shown)
+    click(part("Prove"))
+    check("a check by CalculiX may be left out", not part("Prove").isChecked())
+    click(part("Size"))
+    check("it is stiffer", wait_until(lambda: "times as stiff" in part("Said").text(), 90),
+          part("Said").text())  # fmt: skip
+    figures["said of stiffness"] = part("Said").text()
+    answer_panel("Cancel")
+    check("the panel closes", wait_until(lambda: sizing_panel() is None, 10))
+    settle()
+    check("nothing is left", (obj.Mesh.CountFacets, obj.RadiusGrading) == before)
+    check("no step either", doc.UndoCount == steps, (doc.UndoCount, steps))
+    check("the struts went", dock() is None)
+    check("the infill is shown", obj.ViewObject.Visibility)
+
+
+def escape_keeps_the_best(doc, obj):
+    """Escape ends a long search, and the best design so far can be taken."""
+    open_panel(obj)
+    field = part("displacement")
+    click(field)
+    xdotool("key", "ctrl+a")
+    xdotool("type", "2")
+    xdotool("key", "Tab")
+    settle()
+    table = part("Steps", QtGui.QTableWidget)
+
+    def press():
+        if table.rowCount() >= 3:
+            xdotool("key", "Escape")
+        else:
+            QtCore.QTimer.singleShot(50, press)
+
+    QtCore.QTimer.singleShot(50, press)
+    click(part("Size"))
+    check("it ended", wait_until(lambda: part("Said").text() != "", 90))
+    figures["steps before Escape"] = table.rowCount()
+    figures["said after Escape"] = part("Said").text()
+    check("early", 3 <= table.rowCount() < 30, table.rowCount())
+    check("with a design", dock() is not None, part("Said").text())
+    picture("sizing_4_escaped")
+    answer_panel("Cancel")
+    check("the panel closes", wait_until(lambda: sizing_panel() is None, 10))
+
+
+def show_results(doc, obj):
+    """Strut Results of a lattice as it is, by the menus; cases, quantities, deformed."""
+    context_menu(obj, "VOLFREP", "Strut Results")
+    check("the context menu opens it", wait_until(lambda: dock() is not None, 60))
+    settle()
+    check("the infill makes room", not obj.ViewObject.Visibility)
+    case = dock().findChild(QtGui.QComboBox, "Case")
+    quantity = dock().findChild(QtGui.QComboBox, "Quantity")
+    check("both cases", [case.itemText(k) for k in range(case.count())] == ["bend", "light"])
+    drawn = {}
+    for k in range(quantity.count()):
+        quantity.setCurrentIndex(k)
+        settle()
+        picture(f"results_{quantity.itemData(k)}")
+        drawn[quantity.itemData(k)] = shades(f"results_{quantity.itemData(k)}", view_3d())
+    figures["shades of results"] = drawn
+    check("every quantity is drawn", min(drawn.values()) > 150, drawn)
+    click(dock().findChild(QtGui.QCheckBox, "Deformed"))
+    factor = dock().findChild(QtGui.QLabel, "Factor").text()
+    check("deformed says how much", factor.endswith("times enlarged"), factor)
+    picture("results_deformed")
+    dock().close()
+    settle()
+    check("closing shows the infill again", obj.ViewObject.Visibility)
+    scene = Gui.activeDocument().activeView().getSceneGraph()
+    names = [scene.getChild(k).getName().getString() for k in range(scene.getNumChildren())]
+    check("and leaves nothing in the view", "VolfrepStrutResults" not in names, names)
+
+
+def without_an_analysis(doc, obj):
+    """Where nothing says what the part carries, both commands say so and change nothing."""
+    for analysis in [one for one in doc.Objects if one.isDerivedFrom("Fem::FemAnalysis")]:
+        for member in analysis.Group:
+            doc.removeObject(member.Name)
+        doc.removeObject(analysis.Name)
+    steps = doc.UndoCount
+    for name in ("Size Lattice", "Strut Results"):
+        select(obj)
+        click(toolbar_button(name))
+        check(f"{name} opens nothing", sizing_panel() is None and dock() is None)
+    check("no step either", doc.UndoCount == steps and not doc.HasPendingTransaction)
+    check("the infill is shown", obj.ViewObject.Visibility)
+
+
+def close_the_document(doc, obj):
+    """What is shown goes with its document, and with its object."""
+    select(obj)
+    click(toolbar_button("Strut Results"))
+    check("a click opens it", wait_until(lambda: dock() is not None, 60))
+    App.closeDocument(doc.Name)
+    check("it goes with the document", wait_until(lambda: dock() is None, 10))
+
+
+run_checks(
+    "sizing",
+    {
+        size_and_take: loaded,
+        cancel_the_panel: loaded,
+        escape_keeps_the_best: lambda: loaded((120, 40, 40)),
+        show_results: loaded,
+        without_an_analysis: loaded,
+        close_the_document: loaded,
+    },
+)

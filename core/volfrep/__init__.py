@@ -14,6 +14,7 @@ from .util.version import VERSION
 
 if TYPE_CHECKING:
     from .api import Part, as_solid, block, fill, slice_layers
+    from .api_networks import mesh_network
     from .design.parameters.spec_file import read_spec, write_spec
     from .design.spec import LatticeSpec
     from .io.solid import read_solid
@@ -49,7 +50,7 @@ _HOMES = {
     "Study": "studies.study",
     "read_study": "studies.study",
     "fill": "api",
-    "network": "api",
+    "mesh_network": "api_networks",
     "slice_layers": "api",
     "Report": "reports.report",
     "read_solid": "io.solid",
@@ -76,7 +77,7 @@ __all__ = [
     "block",
     "evaluate",
     "fill",
-    "network",
+    "mesh_network",
     "properties",
     "read_solid",
     "read_spec",

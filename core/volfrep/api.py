@@ -197,7 +197,7 @@ def fill(
     """
     from .jobs.targets import filled
 
-    wanted = _specification(spec, parameters, material)
+    wanted = specified(spec, parameters, material)
     solid = as_solid(part, unit)
     cache = cache or StageCache()
     result, found = filled(solid, wanted, progress=progress, cache=cache)
@@ -234,34 +234,8 @@ def block(
     from .jobs.blocks import block as make_block
     from .jobs.targets import aimed_block
 
-    wanted = aimed_block(_specification(spec, parameters, material), count, progress=progress)
+    wanted = aimed_block(specified(spec, parameters, material), count, progress=progress)
     return Part(make_block(wanted, count, progress=progress), wanted, None, StageCache())
-
-
-def network(
-    graph: str | os.PathLike[str] | tuple[Any, ...],
-    spec: LatticeSpec | None = None,
-    *,
-    progress: ProgressCallback | None = None,
-    **parameters: Any,
-) -> Part:
-    """The nodes and struts of any graph, meshed as they are; `fill` takes a ``network``, too.
-
-    Args:
-        graph: a file, or nodes, struts and radii as `volfrep.design.networks.make_network` has them.
-        spec: what to make.
-        progress: as of `fill`.
-        parameters: as of `fill`.
-
-    Raises:
-        VolfrepError: the graph or the specification makes no sense; or `Cancelled`.
-    """
-    from .design.networks import make_network, read_network
-    from .jobs.networks import network_alone
-
-    found = make_network(*graph[:3]) if isinstance(graph, tuple) else read_network(graph)
-    wanted = _specification(spec, {**parameters, "network": found}, None)
-    return Part(network_alone(wanted, progress=progress), wanted, None, StageCache())
 
 
 def slice_layers(
@@ -308,7 +282,7 @@ def slice_layers(
     """
     from .jobs.slices import write_layers
 
-    wanted = _specification(spec, parameters, material)
+    wanted = specified(spec, parameters, material)
     return write_layers(
         as_solid(part, unit), wanted, folder, layer=layer, pixel=pixel, form=form,
         progress=progress, cache=cache,
@@ -355,9 +329,14 @@ def as_solid(
     return check_solid(TriangleMesh(points, rows.astype(np.int32)), "mesh")
 
 
-def _specification(
+def specified(
     spec: LatticeSpec | None, parameters: dict[str, Any], material: str | None
 ) -> LatticeSpec:
+    """The specification with parameters of a call on top of it, as `fill` takes them.
+
+    Raises:
+        VolfrepError: there is no such parameter, or they make no sense.
+    """
     known = {field.name for field in dataclasses.fields(LatticeSpec)} | set(AIMS)
     unknown = [name for name in parameters if name not in known]
     if unknown:

@@ -99,7 +99,7 @@ def test_a_job_of_ours_is_timed_looked_at_and_removed(tmp_path):
     assert not list(tmp_path.iterdir())
     failed = measuring.our_block(context, "CVC", 0)
     assert failed["failed"]
-    assert "above 0" in failed["note"]
+    assert "from 1 to" in failed["note"]
 
 
 def test_a_process_is_ended_at_its_limit():

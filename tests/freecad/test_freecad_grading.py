@@ -227,14 +227,14 @@ def test_results_that_are_no_field_are_refused(doc, box):
         ({"SizeGrading": "Linear", "LambdaEnd": 0.3}, "folds the lattice"),
         ({"SizeGrading": "Linear", "LambdaStart": -1}, "above 0, not -1"),
         ({"SizeGrading": "Formula", "LambdaFormula": "1 +"}, "cannot be read"),
-        ({"SizeGrading": "Linear", "GradingDirection": App.Vector()}, "must have a length"),
+        ({"SizeGrading": "Linear", "GradingDirection": App.Vector()}, "must not be zero"),
         ({"RadiusGrading": "Direction", "RadiusEnd": 8}, "too thick for a cell"),
         ({"RadiusGrading": "Skin", "RadiusReach": 0}, "above 0 mm"),
         ({"RadiusGrading": "Field"}, "choose a FEM result"),
         ({"RadiusGrading": "Field", "RadiusField": "/nowhere/none.csv"}, "none.csv"),
         ({"RadiusGrading": "Field", "RadiusCurve": "1;2"}, "is no pair"),
         ({"CellMap": "Cylindrical", "MapAround": 2}, "whole number from 4"),
-        ({"CellMap": "Cylindrical", "MapAxis": App.Vector()}, "must have a length"),
+        ({"CellMap": "Cylindrical", "MapAxis": App.Vector()}, "must not be zero"),
     ],
 )
 def test_bad_values_are_told_and_the_last_mesh_stays(doc, infill, values, message):

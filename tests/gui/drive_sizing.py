@@ -11,7 +11,7 @@ from driving import (
     answer_panel,
     check,
     click,
-    context_menu,
+    click_menu,
     figures,
     look_at_all,
     picture,
@@ -195,8 +195,9 @@ def escape_keeps_the_best(doc, obj):
 
 def show_results(doc, obj):
     """Strut Results of a lattice as it is, by the menus; cases, quantities, deformed."""
-    context_menu(obj, "VOLFREP", "Strut Results")
-    check("the context menu opens it", wait_until(lambda: dock() is not None, 60))
+    select(obj)
+    click_menu("VOLFREP", "Strut Results")
+    check("the menu opens it", wait_until(lambda: dock() is not None, 60))
     settle()
     check("the infill makes room", not obj.ViewObject.Visibility)
     case = dock().findChild(QtGui.QComboBox, "Case")

@@ -71,6 +71,7 @@ def add_command(add: Callable[[str, Callable[[argparse.Namespace], None], str], 
 
 
 def _size(options: argparse.Namespace) -> None:
+    spec = specification(options)
     check_files(options)
     out = Path(options.output)
 
@@ -87,7 +88,6 @@ def _size(options: argparse.Namespace) -> None:
         raise VolfrepError("A specification names the file of its radii: give --radii, too.")
     if options.steps < 1:
         raise VolfrepError(f"There must be at least one step, not {options.steps}.")
-    spec = specification(options)
 
     from ..io.read.units import refuse_scale
     from ..io.solid import read_solid

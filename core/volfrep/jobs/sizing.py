@@ -127,8 +127,9 @@ def size(
     if not 0.0 <= goal.smooth <= 0.9:
         raise VolfrepError(f"The smoothing must be from 0 to 0.9, not {goal.smooth:g}.")
     start = time.perf_counter()
+    cache = cache or StageCache()
     infill = Infill(solid, spec, monitor=monitor, cache=cache)
-    model = _model(infill, loads, goal)
+    model = _model(infill, loads, goal, cache)
     problem = model.problem
     shape = problem.radii
     first = np.clip(_given_radii(model.wireframe), problem.low, problem.high)
@@ -226,13 +227,14 @@ def solved(
         VolfrepError: as `size`.
         Cancelled: the callback said so.
     """
+    cache = cache or StageCache()
     infill = Infill(solid, spec, monitor=Monitor(progress), cache=cache)
     frame = infill.struts
     radii = np.zeros(len(frame.nodes))
     radii[frame.struts] = frame.radii
     used = radii[radii > 0.0]
     goal = Goal(radius_min=0.999 * float(used.min()), radius_max=1.001 * float(used.max()))
-    model = _model(infill, loads, goal)
+    model = _model(infill, loads, goal, cache)
     return model, analysed(model.problem, np.maximum(radii, goal.radius_min or 0.0), Limits())[0]
 
 
@@ -261,7 +263,7 @@ def write_radii(part: SizedPart, path: str | os.PathLike[str]) -> None:
         file.writelines(b"%.9g,%.9g,%.9g,%.6f\n" % tuple(row) for row in table.tolist())
 
 
-def _model(infill: Infill, loads: LoadCases, goal: Goal) -> SizingModel:
+def _model(infill: Infill, loads: LoadCases, goal: Goal, cache: StageCache) -> SizingModel:
     """The part as it is solved."""
     spec, material = infill.spec, loads.material
     if spec.output == "domain":
@@ -273,6 +275,14 @@ def _model(infill: Infill, loads: LoadCases, goal: Goal) -> SizingModel:
     if spec.fillet:
         raise VolfrepError("Struts with fillets cannot be sized: set the fillet to 0.")
     wireframe, clipped = infill.struts, infill.axes
+    if spec.radius_grading is not None:
+        # Which ends at a wall are too short for a beam goes by the radius: those of the
+        # specification's own, so that a design is solved as it was sized.
+        plain = Infill(
+            infill.solid, replace(spec, radius_grading=None), monitor=infill.monitor, cache=cache
+        )
+        if np.array_equal(plain.struts.struts, wireframe.struts):
+            clipped = plain.axes
     own = float(np.median(wireframe.radii))
     least = goal.radius_min if goal.radius_min is not None else 0.5 * own
     bears = 0.98 * largest_radius(spec.cell_size, spec.fillet)

@@ -122,9 +122,11 @@ def step_to_primitives(
     value[none] = 0.0
     gradient[none] = 0.0
     jacobian: Floats = gradient.reshape(-1, 3, 3) * loose[:, None, :]
-    normal = np.einsum("nik,njk->nij", jacobian, jacobian) + 1e-6 * np.eye(3)
+    # Not `einsum`, whose last bits hang on where in the batch a row lies: neighbours that see the
+    # same on their common face must come to the same place.
+    normal = (jacobian[:, :, None, :] * jacobian[:, None, :, :]).sum(axis=3) + 1e-6 * np.eye(3)
     factor = solved(normal, value.reshape(-1, 3))
-    return np.asarray(-np.einsum("nki,nk->ni", jacobian, factor))
+    return np.asarray(-(jacobian * factor[:, :, None]).sum(axis=1))
 
 
 def shortened(steps: Floats, longest: float) -> Floats:

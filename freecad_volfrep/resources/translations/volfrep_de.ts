@@ -2318,6 +2318,10 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>Die Verschiebungen von CalculiX für dieselben Balken weichen um {off:.2g} % ab.</translation>
     </message>
     <message>
+      <source>CalculiX's displacements of the same beams, given how the skin moves, differ by {off:.2g} %.</source>
+      <translation>Die Verschiebungen von CalculiX für dieselben Balken weichen, bei gegebener Bewegung der Haut, um {off:.2g} % ab.</translation>
+    </message>
+    <message>
       <source>Cancelled before the first step.</source>
       <translation>Vor dem ersten Schritt abgebrochen.</translation>
     </message>

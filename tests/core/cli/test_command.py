@@ -7,6 +7,7 @@ import re
 import signal
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -180,7 +181,7 @@ def test_the_tables_of_files_hold_every_option_that_takes_one(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     taken = {"part", "cell", "material"}  # PART, and what takes a name, too
-    for command in ("fill", "block", "properties"):
+    for command in ("fill", "block", "size", "properties"):
         with pytest.raises(SystemExit):
             cli.run([command, "--help"])
         usage = capsys.readouterr().out
@@ -189,19 +190,18 @@ def test_the_tables_of_files_hold_every_option_that_takes_one(
     assert taken == {*cli_files.INPUTS, *cli_files.OUTPUTS}
 
 
+def inputs_and_outputs() -> Iterator[tuple[str, str, str]]:
+    """What each command could mix up: of the files it reads and of those it writes one each."""
+    for command in ("fill", "block", "size"):
+        is_size = command == "size"
+        reads = set(cli_files.INPUTS) - ({"material"} if is_size else {"loads"})
+        writes = set(cli_files.OUTPUTS) - ({"json"} if is_size else {"json", "radii"})
+        for source in sorted(reads - ({"part", "network_file"} if command == "block" else set())):
+            yield from ((command, source, output) for output in sorted(writes))
+
+
 @pytest.mark.parametrize("way", ["its name", "a symbolic link", "a hard link"])
-@pytest.mark.parametrize("output", [name for name in cli_files.OUTPUTS if name != "json"])
-@pytest.mark.parametrize(
-    ("command", "source"),
-    [
-        *(("fill", source) for source in cli_files.INPUTS),
-        *(
-            ("block", source)
-            for source in cli_files.INPUTS
-            if source not in ("part", "network_file")
-        ),
-    ],
-)
+@pytest.mark.parametrize(("command", "source", "output"), list(inputs_and_outputs()))
 def test_no_output_is_an_input(
     capsys: pytest.CaptureFixture[str],
     tmp_path: Path,
@@ -219,7 +219,9 @@ def test_no_output_is_an_input(
         "radius_field": tmp_path / "field.csv",
         "network_file": tmp_path / "graph.csv",
         "material": tmp_path / "metal.toml",
+        "loads": tmp_path / "loads.toml",
     }
+    files["loads"].write_text("[material]\nname = 'PA12'\n")
     files["material"].write_text("young = 100000.0\npoisson = 0.3\ndensity = 4.0\n")
     files["spec"].write_text("cell_size = 10.0\n")
     save_cell(UnitCell("own", box.nodes, box.struts), files["cell"])
@@ -232,11 +234,15 @@ def test_no_output_is_an_input(
         (os.symlink if way == "a symbolic link" else os.link)(files[source], target)
     new = {name: tmp_path / f"new.{name}" for name in cli_files.OUTPUTS}
     outputs = new | {"output": tmp_path / "new.stl"} | {output: target}
-    arguments = [command, *([part, "--shell", 2] if command == "fill" else ["--count", "1,1,1"])]
+    arguments = [command, *(["--count", "1,1,1"] if command == "block" else [part, "--shell", 2])]
     arguments += ["-o", outputs["output"], "--report", outputs["report"], "--cell", files["cell"]]
     arguments += ["--write-spec", outputs["write_spec"], "--spec", files["spec"]]
     arguments += ["--picture", outputs["picture"]]
-    arguments += ["--material", files["material"], "--strut-radius", 1, "--radius-grading", "field"]
+    if command == "size":
+        arguments += ["--loads", files["loads"], "--radii", outputs["radii"]]
+    else:
+        arguments += ["--material", files["material"]]
+    arguments += ["--strut-radius", 1, "--radius-grading", "field"]
     arguments += ["--radius-field", files["radius_field"], "--radius-curve", "1:1,2:0.8"]
     if source == "network_file":
         arguments += ["--network", "file", "--network-file", files["network_file"]]

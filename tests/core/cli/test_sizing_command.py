@@ -113,6 +113,16 @@ def test_what_makes_no_sense_is_refused(
     assert says in refusal(part, capsys, *WHOLE, *more)
 
 
+@pytest.mark.parametrize("option", ["--radii", "--report", "--write-spec"])
+@pytest.mark.parametrize(("source", "called"), [("part.stl", "part"), ("loads.toml", "load file")])
+def test_no_output_is_an_input(
+    part: Path, capsys: pytest.CaptureFixture[str], option: str, source: str, called: str
+) -> None:
+    before = part.with_name(source).read_bytes()
+    assert f"is the {called} itself" in refusal(part, capsys, option, part.with_name(source))
+    assert part.with_name(source).read_bytes() == before
+
+
 def test_a_part_that_is_not_held_is_refused(part: Path, capsys: pytest.CaptureFixture[str]) -> None:
     loads = part.with_name("loads.toml")
     text = LOADS.replace("fixed = true", "x = 0")

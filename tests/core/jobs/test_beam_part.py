@@ -112,5 +112,5 @@ def test_what_beams_cannot_hold_is_refused():
         block_beams(LatticeSpec(fillet=0.2), (1, 1, 1))
     with pytest.raises(VolfrepError, match="holds no lattice"):
         beam_model(solid, LatticeSpec(**{**vars(SPEC), "output": "domain"}))
-    with pytest.raises(VolfrepError, match="three whole numbers"):
+    with pytest.raises(VolfrepError, match="must be a whole number"):
         block_beams(SPEC, (1, 0, 1))

@@ -183,7 +183,7 @@ def test_what_cannot_be_made_is_refused_with_a_sentence(changes, message):
 
 @pytest.mark.parametrize("count", [(0, 1, 1), (1, 1), (1.5, 1, 1), (-2, 1, 1)])
 def test_a_senseless_count_is_refused(count):
-    with pytest.raises(VolfrepError, match="whole numbers"):
+    with pytest.raises(VolfrepError, match="whole number"):
         block(SMALL, count)
 
 

@@ -1,11 +1,16 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A part's struts solved as they are, and a search for radii that is cancelled."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import trimesh
 
+from volfrep.design.grading import RadiusGrading
+from volfrep.design.profile import Profile
 from volfrep.design.spec import LatticeSpec
+from volfrep.jobs.infill import Infill
 from volfrep.jobs.sizing import Goal, size, solved
 from volfrep.loads.load_cases import Force, LoadCase, LoadCases, Support
 from volfrep.loads.regions import InPlane
@@ -60,3 +65,17 @@ def test_a_cancelled_search_keeps_the_best_and_asks_no_other_solver():
 def test_a_search_that_is_cancelled_before_it_began_has_nothing():
     with pytest.raises(Cancelled):
         size(beam(), SPEC, bent(), progress=lambda fraction, stage: False)
+
+
+def test_a_graded_lattice_ends_at_the_wall_where_the_one_of_its_own_radius_does():
+    """A design, whose radii have changed since, is solved as it was sized."""
+    tube = trimesh.creation.cylinder(17.0, 40.0, sections=48)
+    tube.apply_transform(trimesh.transformations.rotation_matrix(np.pi / 2, (0, 1, 0)))
+    solid = TriangleMesh(np.array(tube.vertices), np.array(tube.faces, np.int32))
+    plain = LatticeSpec("CVC", cell_size=10, strut_radius=1.0, shell=0)
+    graded = replace(plain, radius_grading=RadiusGrading("direction", Profile("linear", 0.5, 2.0)))
+    ends = [len(Infill(solid, spec).axes.wireframe.struts) for spec in (plain, graded)]
+    assert ends[0] != ends[1], "thinner struts end elsewhere"
+    one, other = (solved(solid, spec, bent())[0].problem.structure for spec in (plain, graded))
+    assert other.nodes == pytest.approx(one.nodes)
+    assert (other.beams.struts == one.beams.struts).all()

@@ -15,7 +15,8 @@ from volfrep.util import linalg
 
 ENGINE = Path(volfrep.__file__).parent
 #: Rooms that no coordinate of a file comes from, and modules that only tell figures.
-FIGURES = ("mechanics", "fem", "reports", "cli")
+#: What a solver finds (loads, radii sized to them) is no more exact than its own sums.
+FIGURES = ("mechanics", "fem", "reports", "cli", "loads", "sizing")
 FIGURES_OF = (
     "jobs/preview.py",
     "jobs/rough_radius.py",

@@ -25,7 +25,7 @@ def png(pixels: Bools, grid: PixelGrid) -> bytes:
         pixels: (rows, columns), from low y to high y.
         grid: of the pixels; their size becomes the picture's resolution.
     """
-    from PIL import Image  # slow to import
+    from PIL import Image  # comes with scikit-image; slow to import
 
     rows, columns = pixels.shape
     bits = np.packbits(pixels[::-1], axis=1).tobytes()

@@ -390,7 +390,6 @@ _TABLE = (
         "Select a lattice infill and faces of its solid: they get no skin",
         "L, O",
         selected_infill_and_faces,
-        selected_infill_or_study,
         open_faces,
     ),
     Command(

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from ..util.content import content_of, held
 from ..util.errors import VolfrepError
+from ..util.numbers import number_rows
 from ..util.types import Floats
 
 #: A custom cell's file may not be larger than this, nor have more nodes or struts.
@@ -183,8 +184,8 @@ def make_cell(name: str, nodes: object, struts: object, where: str = "unit cell"
     >>> cell.nodes.shape, cell.is_mirror_symmetric
     ((3, 3), False)
     """
-    points = _rows(nodes, 3, MAX_NODES, "node", where)
-    index = _rows(struts, 2, MAX_STRUTS, "strut", where)
+    points = number_rows(nodes, 3, "node", where, MAX_NODES)
+    index = number_rows(struts, 2, "strut", where, MAX_STRUTS)
     bad = np.flatnonzero(((points < 0.0) | (points > 1.0)).any(axis=1))
     if len(bad):
         raise VolfrepError(
@@ -218,22 +219,6 @@ def make_cell(name: str, nodes: object, struts: object, where: str = "unit cell"
     if len(loose):
         raise VolfrepError(f"In the {where}, node {loose[0]} has no strut: remove it or join it.")
     return UnitCell(name, points, pairs)
-
-
-def _rows(value: object, width: int, most: int, noun: str, where: str) -> NDArray[np.float64]:
-    try:
-        rows = np.array(value, float)
-    except (TypeError, ValueError, OverflowError) as error:
-        raise VolfrepError(
-            f"In the {where}, every {noun} must be a list of {width} numbers."
-        ) from error
-    if rows.ndim != 2 or rows.shape[1] != width or not len(rows):
-        raise VolfrepError(f"In the {where}, every {noun} must be a list of {width} numbers.")
-    if len(rows) > most:
-        raise VolfrepError(f"The {where} has {len(rows)} {noun}s: the limit is {most}.")
-    if not np.isfinite(rows).all():
-        raise VolfrepError(f"In the {where}, a {noun} holds a number that is not finite.")
-    return rows
 
 
 #: The library's cells by name, sorted by what they are for.

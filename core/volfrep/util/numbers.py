@@ -5,8 +5,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from .errors import VolfrepError
+
+if TYPE_CHECKING:
+    from .types import Floats
 
 #: The least and the most that a number of each unit may be. Files hold single precision: what lies
 #: farther than a kilometre from the origin would be known to a tenth of a millimetre.
@@ -89,3 +93,35 @@ def direction(name: str, values: Sequence[float]) -> None:
         raise VolfrepError(
             f"The {name} must have a length from {least:g} to {most:g}, not {length:g}."
         )
+
+
+def number_rows(
+    value: object, width: int, noun: str, where: str, most: int | None = None
+) -> Floats:
+    """(n, width) finite numbers of a table that a file or a user gives.
+
+    Args:
+        value: the rows.
+        width: numbers in each.
+        noun: what a row is, such as "node".
+        where: what the table belongs to.
+        most: rows that there may be.
+
+    Raises:
+        VolfrepError: it is none, has no rows, or too many.
+    """
+    import numpy as np  # the table of parameters is read without it
+
+    try:
+        rows = np.array(value, float)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise VolfrepError(
+            f"In the {where}, every {noun} must be a list of {width} numbers."
+        ) from error
+    if rows.ndim != 2 or rows.shape[1] != width or not len(rows):
+        raise VolfrepError(f"In the {where}, every {noun} must be a list of {width} numbers.")
+    if most is not None and len(rows) > most:
+        raise VolfrepError(f"The {where} has {len(rows)} {noun}s: the limit is {most}.")
+    if not np.isfinite(rows).all():
+        raise VolfrepError(f"In the {where}, a {noun} holds a number that is not finite.")
+    return rows

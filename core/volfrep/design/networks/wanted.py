@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ...util.content import content_of, held
 from ...util.errors import VolfrepError
-from ...util.numbers import number
+from ...util.numbers import number, number_rows
 from ..expression import SAMPLES, Expression, compile_expression
 
 #: Random networks: edges of the points' Voronoi cells, or between points that are neighbours.
@@ -130,7 +130,7 @@ def make_network(
     >>> bent.nodes.shape, bent.struts.shape
     ((3, 3), (2, 2))
     """
-    points, pairs = _table(nodes, 3, "node", where), _table(struts, 2, "strut", where)
+    points, pairs = number_rows(nodes, 3, "node", where), number_rows(struts, 2, "strut", where)
     if len(pairs) > MAX_STRUTS:
         raise VolfrepError(f"The {where} has {len(pairs):,} struts: the limit is {MAX_STRUTS:,}.")
     with np.errstate(invalid="ignore"):
@@ -174,17 +174,3 @@ def make_network(
     return GivenNetwork(
         points[used], rows.reshape(-1, 2), thick[first] if len(thick) else thick, source
     )
-
-
-def _table(value: object, width: int, noun: str, where: str) -> NDArray[np.float64]:
-    try:
-        rows = np.array(value, float)
-    except (TypeError, ValueError, OverflowError) as error:
-        raise VolfrepError(
-            f"In the {where}, every {noun} must be a list of {width} numbers."
-        ) from error
-    if rows.ndim != 2 or rows.shape[1] != width or not len(rows):
-        raise VolfrepError(f"In the {where}, every {noun} must be a list of {width} numbers.")
-    if not np.isfinite(rows).all():
-        raise VolfrepError(f"In the {where}, a {noun} holds a number that is not finite.")
-    return rows

@@ -107,6 +107,10 @@ def _of_solid(base: App.DocumentObject | None) -> SolidMaterial:
     return SolidMaterial(plain or "Material", source=f"the document's {name}", **values)
 
 
+#: What FreeCAD 1.0 and later call the material of a shape that was given none.
+_UNCHOSEN = "Default"
+
+
 def _cards(base: App.DocumentObject) -> Iterator[tuple[str, Mapping[str, Any]]]:
     """Names and entries of the materials that FreeCAD knows of a solid, the nearest first.
 
@@ -116,7 +120,7 @@ def _cards(base: App.DocumentObject) -> Iterator[tuple[str, Mapping[str, Any]]]:
     for obj in dict.fromkeys((base, base.getLinkedObject(True))):
         shaped = getattr(obj, "ShapeMaterial", None)
         entries = getattr(shaped, "PhysicalProperties", None)
-        if entries:
+        if entries and shaped.Name != _UNCHOSEN:
             yield str(shaped.Name), entries
         linked = getattr(obj, "Material", None)
         entries = linked if isinstance(linked, Mapping) else getattr(linked, "Material", None)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import FreeCAD as App
 import FreeCADGui as Gui
-from PySide import QtCore, QtGui
+from PySide import QtGui
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from driving import (
@@ -17,7 +17,7 @@ from driving import (
     check,
     choose_in_context_menu,
     click,
-    click_item,
+    click_in_tree,
     look_at_all,
     move_mouse,
     picture,
@@ -137,9 +137,7 @@ def open_it_again(doc, infill):
     run_study(made)
     doc.recompute()
     settle()
-    tree = next(t for t in Gui.getMainWindow().findChildren(QtGui.QTreeWidget) if t.isVisible())
-    item = tree.findItems(made.Label, QtCore.Qt.MatchExactly | QtCore.Qt.MatchRecursive)[0]
-    click_item(tree, item)
+    click_in_tree(made.Label)
     xdotool("click", "--repeat", 2, "--delay", 60, 1)
     check("a double click opens it", wait_until(lambda: form() is not None, 10))
     check("with its values", part("Values1").text() == "0.8, 0.9, 1.0", part("Values1").text())

@@ -215,8 +215,12 @@ def click(widget):
         over = QtGui.QApplication.widgetAt(middle(widget))
         return over is not None and (over is widget or widget.isAncestorOf(over))
 
+    def can_be_clicked():
+        _scroll_to(widget)  # again: what is above it may grow
+        return widget.isVisible() and is_on_top()
+
     in_sight(widget)
-    wait_until(lambda: widget.isVisible() and is_on_top())
+    wait_until(can_be_clicked)
     move_mouse(middle(widget))
     press_button()
     settle()
@@ -224,15 +228,22 @@ def click(widget):
 
 def in_sight(widget):
     """Scroll what a widget is in, so that it is seen: FreeCAD 1.1 leaves panels less room."""
-    for area in Gui.getMainWindow().findChildren(QtGui.QScrollArea):
-        if area.isAncestorOf(widget):
-            area.ensureWidgetVisible(widget)
+    _scroll_to(widget)
     settle()
 
 
+def _scroll_to(widget):
+    for area in Gui.getMainWindow().findChildren(QtGui.QScrollArea):
+        if area.isAncestorOf(widget):
+            area.ensureWidgetVisible(widget)
+
+
 def middle(widget):
-    """Where a widget's middle is on the screen."""
-    return widget.mapToGlobal(widget.rect().center())
+    """Where a widget's middle is on the screen; a box to tick is where its mark is."""
+    point = widget.rect().center()
+    if isinstance(widget, (QtGui.QCheckBox, QtGui.QRadioButton)):
+        point.setX(min(point.x(), 10))
+    return widget.mapToGlobal(point)
 
 
 def when_dialog(kind, act):

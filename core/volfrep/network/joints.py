@@ -18,6 +18,7 @@ import numpy as np
 from scipy.spatial import ConvexHull, cKDTree
 
 from ..grid.strut_graph import Wireframe
+from ..util.linalg import times
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
 from .half_struts import HalfStruts, ball_directions, ball_scale
@@ -241,7 +242,7 @@ def _ball_points(
     for begin in range(0, len(halves.node), 20_000):
         some = slice(begin, begin + 20_000)
         node = halves.node[some]
-        along = halves.along[some] @ ways.T * radius[node, None]
+        along = times(halves.along[some], ways.T) * radius[node, None]
         across = np.sqrt(np.maximum(radius[node, None] ** 2 - along**2, 0.0))
         beside = across - halves.radius[some, None] - halves.slope[some, None] * along
         away = np.hypot(np.minimum(along, 0.0), np.maximum(beside, 0.0))

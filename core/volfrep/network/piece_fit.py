@@ -76,7 +76,8 @@ class Pieces:
             normal = np.cross(b - a, c - a)
             area = np.linalg.norm(normal, axis=1)
             of = self._node[rows[:, 0]]
-            off = np.mean([self._off(weights @ place[rows], of) for weights in _QUADRATURE], axis=0)
+            points = np.einsum("qk,mkj->qmj", _QUADRATURE, place[rows])
+            off = np.mean([self._off(some, of) for some in points], axis=0)
             lean, weight, total = np.zeros_like(place), np.zeros(len(place)), np.zeros(len(place))
             for corner in range(3):
                 np.add.at(lean, rows[:, corner], normal)

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING
 
 from ..util.errors import VolfrepError
 from . import layers, material, printing_options, process, properties, sizing, solver_options, sweep
-from .files import check_files
+from .files import check_files, read_part
 from .parameter_options import add_parameters, write_specification
 from .parser import Parser, Version, refuse_old, three_whole_numbers
 from .telling import Progress, print_rows, tell
@@ -153,22 +153,17 @@ def _add_output(parser: argparse.ArgumentParser) -> None:
 
 
 def _fill(options: argparse.Namespace) -> None:
-    part = Path(options.part)
     spec = material.specified(options)
     _check_targets(options, spec)
     write_specification(options, spec)
 
     from ..design.forecast import forecast_fill
-    from ..io.read.units import refuse_scale
-    from ..io.solid import read_solid
     from ..jobs.rough_radius import roughly_aimed
     from ..jobs.targets import aimed
     from ..util.workers import processes
 
     start = time.perf_counter()
-    solid = read_solid(part, options.unit)
-    if not solid.states_unit:
-        refuse_scale(solid.bounds, spec.cell_size, part.name)
+    solid = read_part(options, spec.cell_size)
     read_seconds = time.perf_counter() - start
     meshed = options.threemf != "beams" and not solver_options.needs_axes(options)
     if not options.quiet:

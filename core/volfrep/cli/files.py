@@ -5,8 +5,12 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from ..util.errors import VolfrepError
+
+if TYPE_CHECKING:
+    from ..io.solid import Solid
 
 #: What the command calls its input files, by the names of the options that give them.
 INPUTS = {
@@ -57,6 +61,26 @@ def check_files(options: argparse.Namespace, *, folder: bool = False) -> None:
                     f"The {name} and the {other} cannot both be written to '{outputs[name]}': "
                     "give another name."
                 )
+
+
+def read_part(options: argparse.Namespace, cell_size: float) -> Solid:
+    """The solid that the options name, proved.
+
+    Args:
+        options: with `part` and `unit`.
+        cell_size: L in mm; a part of a file without a unit must be of a size that goes with it.
+
+    Raises:
+        VolfrepError: it is no solid, or of another size by far.
+    """
+    from ..io.read.units import refuse_scale
+    from ..io.solid import read_solid
+
+    part = Path(options.part)
+    solid = read_solid(part, options.unit)
+    if not solid.states_unit:
+        refuse_scale(solid.bounds, cell_size, part.name)
+    return solid
 
 
 def _given(options: argparse.Namespace, table: dict[str, str]) -> dict[str, str]:

@@ -8,11 +8,10 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 from . import material
-from .files import check_files
+from .files import check_files, read_part
 from .parameter_options import add_parameters, write_specification
 from .telling import Progress, print_rows, print_warnings
 
@@ -54,13 +53,9 @@ def _slice(options: argparse.Namespace) -> None:
     check_files(options, folder=True)
     write_specification(options, spec)
 
-    from ..io.read.units import refuse_scale
-    from ..io.solid import read_solid
     from ..jobs.slices import write_layers
 
-    solid = read_solid(Path(options.part), options.unit)
-    if not solid.states_unit:
-        refuse_scale(solid.bounds, spec.cell_size, Path(options.part).name)
+    solid = read_part(options, spec.cell_size)
     with Progress(options.quiet) as progress:
         made = write_layers(
             solid, spec, options.output, layer=options.layer, pixel=options.pixel,

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..util.errors import VolfrepError
-from .files import check_files
+from .files import check_files, read_part
 from .parameter_options import add_parameters, specification
 from .telling import Progress, print_rows, print_warnings, tell
 
@@ -89,8 +89,6 @@ def _size(options: argparse.Namespace) -> None:
     if options.steps < 1:
         raise VolfrepError(f"There must be at least one step, not {options.steps}.")
 
-    from ..io.read.units import refuse_scale
-    from ..io.solid import read_solid
     from ..jobs.infill import Infill
     from ..jobs.sizing import size, write_radii
     from ..loads.load_file import read_load_cases
@@ -98,9 +96,7 @@ def _size(options: argparse.Namespace) -> None:
     from ..util.cache import StageCache
     from ..util.files import replacing
 
-    solid = read_solid(options.part, options.unit)
-    if not solid.states_unit:
-        refuse_scale(solid.bounds, spec.cell_size, Path(options.part).name)
+    solid = read_part(options, spec.cell_size)
     loads = read_load_cases(options.loads, solid)
     if spec.density != loads.material.density:
         from dataclasses import replace

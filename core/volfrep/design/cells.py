@@ -37,6 +37,10 @@ class UnitCell:
         name: what a user picks it by.
         nodes: N, (n, 3) float64, in units of the cell size L, each coordinate in [0, 1].
         struts: M, (m, 2) int64, rows of `nodes`.
+        edges: of its box along x, y, z, in units of L; nodes are in units of these. (1, 1, 1) for
+            a cube.
+        widths: (m,) float64, what the lattice's radius is multiplied by at each strut; none, (0,),
+            for 1.
         source: the file that it was read from; empty for none.
         use: what it is for, a key of `USES`; empty where nobody said.
         about: what it is, in a few words.
@@ -50,6 +54,8 @@ class UnitCell:
     name: str
     nodes: NDArray[np.float64] = field(compare=False)
     struts: NDArray[np.int64] = field(compare=False)
+    edges: tuple[float, float, float] = (1.0, 1.0, 1.0)
+    widths: NDArray[np.float64] = field(default_factory=lambda: np.zeros(0), compare=False)
     source: str = field(default="", compare=False, repr=False)
     use: str = field(default="", compare=False, repr=False)
     about: str = field(default="", compare=False, repr=False)
@@ -59,7 +65,13 @@ class UnitCell:
     def __post_init__(self) -> None:
         object.__setattr__(self, "nodes", held(self.nodes, np.float64))
         object.__setattr__(self, "struts", held(self.struts, np.int64))
-        object.__setattr__(self, "_content", content_of(self.nodes, self.struts))
+        object.__setattr__(self, "widths", held(self.widths, np.float64))
+        object.__setattr__(self, "_content", content_of(self.nodes, self.struts, self.widths))
+
+    @property
+    def is_plain(self) -> bool:
+        """Whether it is a cube with struts of one radius, of which octants are made."""
+        return self.edges == (1.0, 1.0, 1.0) and not len(self.widths)
 
     @property
     def maxwell_number(self) -> int:
@@ -132,8 +144,11 @@ def find_cell(name: str) -> UnitCell:
 def load_cell(path: str | os.PathLike[str]) -> UnitCell:
     """Read a custom cell: ``{"name": …, "nodes": [[x, y, z], …], "struts": [[i, j], …]}``.
 
-    Nodes are in units of L within [0, 1], struts are pairs of node indices from 0. It may tell a
-    ``use``, a key of `USES`, a few words ``about`` it, and in ``also`` a list of other names.
+    Nodes are in units of L within [0, 1], struts are pairs of node indices from 0. ``edges`` are
+    three lengths of its box in units of L where it is no cube, and nodes are in units of these;
+    ``widths`` are one number for each strut where the lattice's radius is multiplied by it. The
+    file may tell a ``use``, a key of `USES`, a few words ``about`` the cell, and in ``also`` a list
+    of other names.
 
     Raises:
         VolfrepError: naming the file and what is wrong in it.
@@ -170,11 +185,22 @@ def load_cell(path: str | os.PathLike[str]) -> UnitCell:
         raise VolfrepError(f"In the cell file '{file}', 'about' must be a text.")
     if not isinstance(also, list) or not all(isinstance(other, str) for other in also):
         raise VolfrepError(f"In the cell file '{file}', 'also' must be a list of names.")
-    cell = make_cell(name.strip(), data["nodes"], data["struts"], f"cell file '{file}'")
+    cell = make_cell(
+        name.strip(), data["nodes"], data["struts"], f"cell file '{file}'",
+        edges=data.get("edges", (1.0, 1.0, 1.0)), widths=data.get("widths", ()),
+    )  # fmt: skip
     return replace(cell, source=str(file), use=use, about=about, also=tuple(also))
 
 
-def make_cell(name: str, nodes: object, struts: object, where: str = "unit cell") -> UnitCell:
+def make_cell(
+    name: str,
+    nodes: object,
+    struts: object,
+    where: str = "unit cell",
+    *,
+    edges: object = (1.0, 1.0, 1.0),
+    widths: object = (),
+) -> UnitCell:
     """A validated cell from lists or arrays; `where` names the source in error messages.
 
     Raises:
@@ -218,7 +244,26 @@ def make_cell(name: str, nodes: object, struts: object, where: str = "unit cell"
     loose = np.setdiff1d(np.arange(len(points)), pairs)
     if len(loose):
         raise VolfrepError(f"In the {where}, node {loose[0]} has no strut: remove it or join it.")
-    return UnitCell(name, points, pairs)
+    x, y, z = _numbers(edges, 3, "edges", where)
+    factors = [] if widths == () else _numbers(widths, len(pairs), "widths", where)
+    return UnitCell(name, points, pairs, (x, y, z), np.array(factors))
+
+
+def _numbers(values: object, count: int, name: str, where: str) -> list[float]:
+    """So many numbers from a tenth to ten.
+
+    Raises:
+        VolfrepError: they are none.
+    """
+    fits = isinstance(values, (list, tuple, np.ndarray)) and len(values) == count
+    if not fits or not all(
+        isinstance(value, (int, float)) and 0.1 <= value <= 10.0
+        for value in values  # type: ignore[attr-defined]
+    ):
+        raise VolfrepError(
+            f"In the {where}, '{name}' must be a list of {count} numbers from 0.1 to 10."
+        )
+    return [float(value) for value in values]  # type: ignore[attr-defined]
 
 
 #: The library's cells by name, sorted by what they are for.

@@ -15,7 +15,7 @@ import numpy as np
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.types import Floats
 from .cells import UnitCell
-from .networks import RandomNetwork
+from .networks import CellNetwork, RandomNetwork
 from .spec import LatticeSpec
 
 #: At a joint a strut's surface is buried in the others up to so many radii from the node.
@@ -115,6 +115,13 @@ def _forecast_network(solid: TriangleMesh, spec: LatticeSpec, inside: float) -> 
     if isinstance(wanted, RandomNetwork):
         points = wanted.points or max(1.0, inside / spec.cell_size**3)
         struts = points * STRUTS_PER_POINT[wanted.kind]
+    elif isinstance(wanted, CellNetwork):
+        cell = spec.unit_cell()
+        edges = spec.cell_size * np.array(cell.edges)
+        # A cell that the wall merely touches is there too.
+        reached = inside + 0.5 * solid.area * float(edges.mean())
+        points = max(1.0, reached / float(edges.prod()))
+        struts = points * float(strut_shares(cell).sum())
     else:
         assert wanted is not None
         points, struts = 1.0, float(len(wanted.struts))

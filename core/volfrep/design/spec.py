@@ -10,7 +10,7 @@ from ..util.errors import VolfrepError
 from ..util.numbers import number
 from .cells import UnitCell, find_cell, joint_radius
 from .grading import CellMap, Orientation, RadiusGrading, SizeGrading, as_plain
-from .networks import GivenNetwork, RandomNetwork
+from .networks import CellNetwork, GivenNetwork, RandomNetwork
 from .openings import DrainHoles, OpenFace
 from .spec_parts import (
     ACTIVATIONS,
@@ -80,7 +80,8 @@ class LatticeSpec:
         orientation: the lattice turned; None for along x, y, z.
         keep_radius: where cells are stretched or bent, struts stay straight and round: the nodes
             are moved and joined anew. False: they are deformed with their cells, as published.
-        network: nodes and struts in place of cells (`volfrep.design.networks`); None for cells.
+        network: nodes and struts in place of cells (`volfrep.design.networks`); None for cells,
+            which becomes a `CellNetwork` where these are no cubes or their struts differ.
             `cell_size` is then how far apart random points lie where their number is not given.
         target: what `strut_radius` is to be chosen for (`volfrep.jobs.targets` does); None where
             it counts as it is.
@@ -121,11 +122,13 @@ class LatticeSpec:
     orientation: Orientation | None = None
     keep_radius: bool = True
     target: Target | None = None
-    network: GivenNetwork | RandomNetwork | None = None
+    network: GivenNetwork | RandomNetwork | CellNetwork | None = None
 
     def __post_init__(self) -> None:
         if isinstance(self.cell, str):
             object.__setattr__(self, "cell", find_cell(self.cell))
+        if self.network is None and not self.unit_cell().is_plain:
+            object.__setattr__(self, "network", CellNetwork())
         grid = self.grid
         object.__setattr__(self, "origin", grid.origin)
         object.__setattr__(self, "open_faces", tuple(self.open_faces))
@@ -166,6 +169,11 @@ class LatticeSpec:
         }
         for what, is_given in given.items():
             if is_given:
+                if isinstance(self.network, CellNetwork):
+                    raise VolfrepError(
+                        f"A {what} is for cells that are cubes with struts of one radius, which "
+                        f"'{self.unit_cell().name}' is not: leave it out, or choose another cell."
+                    )
                 raise VolfrepError(f"A {what} is for cells and not for a network: leave it out.")
 
     @property

@@ -14,6 +14,7 @@ import numpy as np
 
 from ..design.forecast import BYTES_PER_STREAMED_CELL
 from ..design.memory_guard import BYTES_PER_STRUT, refuse_block, refuse_expected
+from ..design.networks import CellNetwork
 from ..design.spec import LatticeSpec
 from ..grid.activation import CellGrid
 from ..grid.placement import Placement, block_placement, graded_wireframe
@@ -73,6 +74,8 @@ def block(
         VolfrepError: the counts make no sense or the block would not fit into memory.
         Cancelled: the callback said so.
     """
+    if spec.network is not None:
+        return _beside(spec, count, progress)
     monitor = Monitor(progress)
     cells, placement = _block_placement(spec, count)
     refuse_expected(spec, math.prod(cells.shape) * spec.cell_size**3, cells.shape)
@@ -130,7 +133,7 @@ def write_block_stl(
             disk, or the path cannot be written.
         Cancelled: the callback said so; no file is left behind.
     """
-    if spec.is_graded:
+    if spec.is_graded or spec.network is not None:
         result = block(spec, count, progress=progress)
     else:
         cells, placement = _block_placement(spec, count)
@@ -166,7 +169,7 @@ def measured_block(
         VolfrepError: as `block`.
         Cancelled: the callback said so.
     """
-    if spec.is_graded:
+    if spec.is_graded or spec.network is not None:
         return block(spec, count, progress=progress).report
     cells, placement = _block_placement(spec, count)
     monitor = Monitor(progress)
@@ -187,11 +190,30 @@ def block_wireframe(spec: LatticeSpec, count: Sequence[int]) -> Wireframe:
     Raises:
         VolfrepError: the counts make no sense, or the block would not fit into memory.
     """
+    if spec.network is not None:
+        return _beside(spec, count, None).wireframe
     cells, placement = _block_placement(spec, count)
     refuse_block(cells.shape, BYTES_PER_STRUT * len(spec.unit_cell().struts))
     active = np.ones(cells.shape, bool)
     graph = cell_graph(spec.unit_cell(), active, spec.cell_size, cells.origin, cells.periodic)
     return graded_wireframe(graph, spec.struts, placement)
+
+
+def _beside(spec: LatticeSpec, count: Sequence[int], progress: ProgressCallback | None) -> Result:
+    """A block of cells that are no cubes, or whose struts differ.
+
+    Raises:
+        VolfrepError: the specification is of another network.
+    """
+    # of no use to most blocks, and slow to import
+    from .networks.infill import cells_beside, network_alone
+
+    if not isinstance(spec.network, CellNetwork):
+        raise VolfrepError("A block is of cells and not of a network: choose 'network' or 'fill'.")
+    shape = [whole("count", n, 1, MOST_CELLS) for n in count]
+    corner = np.zeros(3) if spec.origin is None else np.array(spec.origin, float)
+    laid = cells_beside(spec, (shape[0], shape[1], shape[2]), corner)
+    return network_alone(replace(spec, network=laid), progress=progress)
 
 
 def _block_placement(spec: LatticeSpec, count: Sequence[int]) -> tuple[CellGrid, Placement]:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..design.memory_guard import cells_are_full, refuse_memory
+from ..design.networks import CellNetwork
 from ..design.spec import LatticeSpec
 from ..mesh.triangle_mesh import TriangleMesh
 from ..octants.octant import OctantGrid, OctantKey
@@ -54,6 +55,11 @@ def refuse_solid_cells(octants: dict[OctantKey, Octant], spec: OctantSpec) -> No
 def refuse_other_struts(solid: TriangleMesh, spec: LatticeSpec, *, is_of_cells: bool) -> None:
     """Raise a `VolfrepError` where a cell is larger than the part, or a job knows no networks."""
     if spec.network is not None:
+        if is_of_cells and isinstance(spec.network, CellNetwork):
+            raise VolfrepError(
+                "This is done with cells that are cubes with struts of one radius, which "
+                f"'{spec.unit_cell().name}' is not: choose another cell."
+            )
         if is_of_cells:
             raise VolfrepError("This is done with cells and not with a network: leave it out.")
         return

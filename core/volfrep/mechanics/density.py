@@ -21,7 +21,7 @@ from ..octants import sdf as frep
 from ..octants.sdf import Primitives
 from ..util.errors import VolfrepError
 from ..util.types import Floats, Ints
-from .endless import EndlessCell, endless_cell, own_primitives
+from .endless import EndlessCell, endless_cell, own_primitives, refuse_odd
 
 #: Sets of Sobol points, and points of a set in each body.
 SETS = 8
@@ -68,6 +68,7 @@ def relative_density(cell: UnitCell, radius: float, fillet: float = 0.0) -> Dens
             f"Struts of radius {radius:.4g} L with a fillet of {fillet:.4g} L do not fit a cell: "
             "joint and fillet must be below half of it."
         )
+    refuse_odd(cell)
     endless = endless_cell(cell)
     sets = _shares(endless, radius, 0.0)
     if fillet:

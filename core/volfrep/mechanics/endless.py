@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from ..design.cells import NODE_TOLERANCE, UnitCell, joint_radius
 from ..octants import sdf
 from ..octants.sdf import Field, Primitives
+from ..util.errors import VolfrepError
 from ..util.types import Floats, Ints
 
 #: Points that are looked up together: blocks of so many voxels along an edge.
@@ -69,6 +70,20 @@ def endless_cell(cell: UnitCell) -> EndlessCell:
     return EndlessCell(
         places / _STEPS, number[first], ends[first, 0] / _STEPS, ends[first, 1] / _STEPS
     )
+
+
+def refuse_odd(cell: UnitCell) -> None:
+    """Refuse a cell that is no cube, or whose struts differ: what is computed here is of others.
+
+    Raises:
+        VolfrepError: it is one.
+    """
+    if not cell.is_plain:
+        raise VolfrepError(
+            f"Properties, joints and targets are of cells that are cubes with struts of one "
+            f"radius, which '{cell.name}' is not: leave out what asks for them, or choose another "
+            "cell."
+        )
 
 
 def strains_held(cell: UnitCell) -> int:

@@ -20,7 +20,7 @@ from ..util.errors import VolfrepError
 from ..util.types import Floats
 from .assembly import Nodes, System, assemble, look_back, nodes_of, solve
 from .elements import SHEARS, hexahedron, solid_stiffness
-from .endless import EndlessCell, endless_cell
+from .endless import EndlessCell, endless_cell, refuse_odd
 from .voxels import Voxels, voxels_of
 
 #: Voxels along a strut's radius on the finest grid: of an octant, and of a whole cell.
@@ -135,6 +135,7 @@ def homogenise(
     Raises:
         VolfrepError: the cell does not hang together.
     """
+    refuse_odd(cell)
     endless = endless_cell(cell)
     octant = cell.is_mirror_symmetric
     sizes = grid_sizes(endless, radius, octant, along)

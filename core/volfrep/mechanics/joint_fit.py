@@ -16,7 +16,7 @@ import numpy as np
 
 from ..design.cells import UnitCell
 from ..util.types import Floats
-from .endless import endless_cell
+from .endless import endless_cell, refuse_odd
 from .frame import CIRCLE, Ends, PeriodicFrame, Section, frame_tensor
 from .tensor import compliance, young
 
@@ -56,6 +56,7 @@ class JointFit:
 
 def periodic_frame(cell: UnitCell) -> PeriodicFrame:
     """The frame of a cell, lengths in units of L."""
+    refuse_odd(cell)
     endless = endless_cell(cell)
     return PeriodicFrame(len(endless.nodes), endless.struts, endless.start, endless.end)
 

@@ -3,10 +3,11 @@
 
 from .files import read_network
 from .laid_cells import laid_along, laid_into, layers_on
-from .wanted import KINDS, GivenNetwork, RandomNetwork, make_network
+from .wanted import KINDS, CellNetwork, GivenNetwork, RandomNetwork, make_network
 
 __all__ = [
     "KINDS",
+    "CellNetwork",
     "GivenNetwork",
     "RandomNetwork",
     "laid_along",

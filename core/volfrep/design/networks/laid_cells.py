@@ -75,7 +75,7 @@ def laid_into(
     nodes, struts = _joined(places.reshape(-1, 3), merged, cell, len(boxes))
     corner_rows = _merged(points, same)[boxes]
     _refuse_misfits(cell, merged.reshape(len(boxes), -1), corner_rows, where)
-    return make_network(nodes, struts, (), where, source)
+    return make_network(nodes, struts, (), where, source, np.tile(cell.widths, len(boxes)))
 
 
 def laid_along(
@@ -120,7 +120,7 @@ def laid_along(
         )
     merged = _merged(places, SAME_PLACE * float(length.min()))
     nodes, struts = _joined(places[inverse.ravel()], merged[inverse.ravel()], cell, total)
-    return make_network(nodes, struts, (), where)
+    return make_network(nodes, struts, (), where, widths=np.tile(cell.widths, total))
 
 
 def layers_on(

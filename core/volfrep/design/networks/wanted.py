@@ -31,6 +31,8 @@ class GivenNetwork:
         source: the file that it was read from; empty for none.
         thickness: of the layers on the quadrilaterals of that file, mm; 0 for none.
         layers: how many these are.
+        widths: (m,) float64, what the lattice's own radius is multiplied by at each strut; none,
+            (0,), for 1.
     """
 
     nodes: NDArray[np.float64] = field(compare=False)
@@ -39,17 +41,37 @@ class GivenNetwork:
     source: str = field(default="", compare=False)
     thickness: float = field(default=0.0, compare=False)
     layers: int = field(default=1, compare=False)
+    widths: NDArray[np.float64] = field(default_factory=lambda: np.zeros(0), compare=False)
     _content: bytes = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        for name, dtype in (("nodes", np.float64), ("struts", np.int64), ("radii", np.float64)):
+        arrays = {
+            "nodes": np.float64,
+            "struts": np.int64,
+            "radii": np.float64,
+            "widths": np.float64,
+        }
+        for name, dtype in arrays.items():
             object.__setattr__(self, name, held(getattr(self, name), dtype))
-        object.__setattr__(self, "_content", content_of(self.nodes, self.struts, self.radii))
+        content = content_of(self.nodes, self.struts, self.radii, self.widths)
+        object.__setattr__(self, "_content", content)
 
     def as_plain(self) -> str:
         """It in a few words."""
         words = f"{len(self.struts)} struts between {len(self.nodes)} nodes"
         return words + f" of {self.source}" * bool(self.source)
+
+
+@dataclass(frozen=True)
+class CellNetwork:
+    """The chosen cell side by side, where it is no cube or its struts differ (`UnitCell.is_plain`).
+
+    Octants are for cubes; such cells are meshed joint by joint, as networks are.
+    """
+
+    def as_plain(self) -> str:
+        """It in a few words."""
+        return "cells that are no cubes, or whose struts differ"
 
 
 @dataclass(frozen=True)
@@ -114,7 +136,12 @@ class RandomNetwork:
 
 
 def make_network(
-    nodes: object, struts: object, radii: object = (), where: str = "network", source: str = ""
+    nodes: object,
+    struts: object,
+    radii: object = (),
+    where: str = "network",
+    source: str = "",
+    widths: object = (),
 ) -> GivenNetwork:
     """A validated network from lists or arrays; `where` names the source in error messages.
 
@@ -126,6 +153,7 @@ def make_network(
         radii: (m,) or (m, 2), or of the nodes (n,), mm; none for the lattice's own.
         where: what it is called in errors.
         source: the file that it is from.
+        widths: (m,), what the lattice's own radius is multiplied by; none for 1.
 
     Raises:
         VolfrepError: naming the first node or strut that is wrong.
@@ -175,6 +203,8 @@ def make_network(
     _, first = np.unique(index, axis=0, return_index=True)
     first.sort()
     used, rows = np.unique(index[first], return_inverse=True)
+    wide = np.asarray(widths, float)
     return GivenNetwork(
-        points[used], rows.reshape(-1, 2), thick[first] if len(thick) else thick, source
-    )
+        points[used], rows.reshape(-1, 2), thick[first] if len(thick) else thick, source,
+        widths=wide[first] if len(wide) else wide,
+    )  # fmt: skip

@@ -165,7 +165,7 @@ def values_of(spec: LatticeSpec) -> dict[str, Any]:
         found["network_thickness"] = abs(spec.network.thickness)
         found["network_layers"] = spec.network.layers
         found["network_reversed"] = spec.network.thickness < 0.0
-    elif spec.network is not None:
+    elif isinstance(spec.network, RandomNetwork):
         found |= {
             name: getattr(spec.network, attribute) for name, attribute in _NETWORK_VALUES.items()
         }

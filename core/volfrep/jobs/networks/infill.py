@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from ...design.cells import joint_radius
-from ...design.networks import GivenNetwork, RandomNetwork
+from ...design.networks import CellNetwork, GivenNetwork, RandomNetwork, laid_along
 from ...design.spec import LatticeSpec
 from ...design.spec_parts import DEFAULT_RELATIVE_DEVIATION
 from ...grid.activation import CellGrid
@@ -75,11 +75,33 @@ def network_frame(
         radii = network.radii
     else:
         radii = node_radii(spec.struts, nodes, placement)[rows]
+        if network is not None and len(network.widths):
+            radii = radii * network.widths[:, None]
     thickest = np.zeros(len(nodes))
     np.maximum.at(thickest, rows, radii)
     length = np.linalg.norm(nodes[rows[:, 1]] - nodes[rows[:, 0]], axis=1)
     joints = joint_radius(thickest, float(np.median(length)))
     return Wireframe(placement.nudged(nodes), rows, np.array(radii), joints)
+
+
+def cells_about(bounds: Floats, spec: LatticeSpec) -> GivenNetwork:
+    """Cells of any box side by side, as many as cover the bounds of a domain.
+
+    The first one's corner lies at the specification's origin, or where the bounds begin.
+    """
+    size = spec.cell_size * np.array(spec.unit_cell().edges)
+    start = bounds[0] if spec.origin is None else np.array(spec.origin)
+    first = np.floor((bounds[0] - start) / size + 1e-6)
+    last = np.ceil((bounds[1] - start) / size - 1e-6)
+    counts = [int(n) for n in last - first]
+    return cells_beside(spec, (counts[0], counts[1], counts[2]), start + first * size)
+
+
+def cells_beside(spec: LatticeSpec, counts: tuple[int, int, int], corner: Floats) -> GivenNetwork:
+    """So many cells of any box along x, y, z from a corner on, mm."""
+    cell = spec.unit_cell()
+    whole = spec.cell_size * np.array(cell.edges) * counts
+    return laid_along(cell, lambda q: corner + q * whole, counts, f"cells '{cell.name}'")
 
 
 def meshed(frame: Wireframe, spec: LatticeSpec, monitor: Monitor) -> NetworkSurface:
@@ -148,6 +170,8 @@ class NetworkInfill(Infill):
                     wanted, domain, self.spec.cell_size, shortest, depth, self.monitor
                 )
             return network_frame(nodes, None, struts, self.spec, placement)
+        if isinstance(wanted, CellNetwork):
+            wanted = cells_about(self.domain.mesh.bounds, self.spec)
         assert wanted is not None
         return network_frame(wanted.nodes, wanted, wanted.struts, self.spec, placement)
 

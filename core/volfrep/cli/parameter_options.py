@@ -28,9 +28,6 @@ def add_parameters(parser: argparse.ArgumentParser, *, of_block: bool = False) -
         parser: of a command.
         of_block: whether the command makes free-standing blocks.
     """
-    files = parser.add_argument_group("a whole specification")
-    files.add_argument("--spec", metavar="FILE.toml", help="read it; options override its entries")
-    files.add_argument("--write-spec", metavar="FILE.toml", help="write the one in force")
     for group, title in GROUPS.items():
         rows = [p for p in PARAMETERS if p.group == group and p.in_command]
         rows = [p for p in rows if p.of_block or not of_block]

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 from ..util.errors import VolfrepError
 from .files import check_files, read_part
 from .parameter_options import add_parameters, specification
+from .run_options import add_run_options
 from .telling import Progress, print_rows, print_warnings, tell
 
 if TYPE_CHECKING:
@@ -25,48 +26,13 @@ if TYPE_CHECKING:
     from ..sizing.optimise import Step
 
 _TEXT = "Fill a solid with a lattice whose struts are sized for its load cases."
-COLOURS = ("radius", "stress", "buckling", "displacement")
 
 
 def add_command(add: Callable[[str, Callable[[argparse.Namespace], None], str], Any]) -> None:
     """Add the command with `cli`'s own function for that."""
     parser = add("size", _size, _TEXT)
-    option = parser.add_argument
-    option("part", metavar="PART", help="the closed solid, as for fill")
-    option("--unit", help="of the file's lengths, as for fill")
-    option("--loads", required=True, metavar="FILE.toml", help="load cases, see docs/loads.md")
-    option(
-        "-o", "--output", required=True, metavar="FILE",
-        help="the part with its sized lattice: .stl, .3mf, .ply or .obj",
-    )  # fmt: skip
-    option("--radii", metavar="FILE.csv", help="the radii at the nodes, as --radius-field reads it")
-    option("--report", metavar="FILE.json", help="write the figures, before and after")
-    option("--quiet", action="store_true", help="print nothing but errors")
-    goal = parser.add_argument_group(
-        "what is wanted: limits for the least mass, or the most stiffness at a mass"
-    ).add_argument
-    goal("--max-stress", type=float, metavar="MPA", help="largest von Mises stress in a strut")
-    goal("--safety", type=float, metavar="S", help="the same as the material's yield over this")
-    goal("--max-displacement", type=float, metavar="MM", help="of any node, in any case")
-    goal("--buckling", type=float, metavar="F", help="loads times this buckle no strut")
-    goal("--min-frequency", type=float, metavar="HZ", help="lowest natural frequency")
-    goal(
-        "--strut-mass", type=float, metavar="G",
-        help="of the struts, for the most stiffness (default: what the strut radius makes)",
-    )  # fmt: skip
-    goal("--thinnest", type=float, metavar="MM", help="smallest radius (default: half the radius)")
-    goal("--thickest", type=float, metavar="MM", help="largest radius (default: what cells bear)")
-    goal(
-        "--smooth", type=float, default=0.0, metavar="S",
-        help="share of its neighbours in each node's radius, 0 to 0.9 (default 0)",
-    )  # fmt: skip
-    goal("--steps", type=int, default=60, metavar="N", help="at most (default 60)")
-    goal("--no-proof", action="store_true", help="do not let CalculiX solve the final design")
-    seen = parser.add_argument_group("a picture of it").add_argument
-    seen("--picture", metavar="FILE.png", help="the struts in colour (needs pyvista)")
-    seen("--colour", choices=COLOURS, help="what the colour tells (default radius)")
-    seen("--case", metavar="NAME", help="of which load case (default: the first)")
-    seen("--deformed", type=float, metavar="F", help="displacements drawn so many times as large")
+    parser.add_argument("part", metavar="PART", help="the closed solid, as for fill")
+    add_run_options(parser, "size")
     add_parameters(parser)
 
 

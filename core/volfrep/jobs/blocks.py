@@ -27,7 +27,8 @@ from ..lattice.padded_grid import keeps_places, vertices_of
 from ..mesh.quality import Quality, measure
 from ..mesh.triangle_mesh import TriangleMesh
 from ..octants.octant import octant_grid
-from ..octants.octant_mesh import OctantSpec, mesh_octants, octant_spec
+from ..octants.octant_mesh import mesh_octants, octant_spec
+from ..octants.octant_spec import OctantSpec
 from ..reports.report import Report, told
 from ..reports.result import NOTHING_REMOVED, Result, report_of
 from ..trim.finish import finished, refuse_no_solid

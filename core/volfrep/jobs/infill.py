@@ -27,8 +27,9 @@ from ..lattice.padded_grid import (
 from ..mesh.float32_repair import shortest_edge
 from ..mesh.quality import Quality, inspect, measure
 from ..mesh.triangle_mesh import TriangleMesh
-from ..octants.octant import OctantKey
-from ..octants.octant_mesh import Octant, OctantSpec, mesh_octants, octant_spec
+from ..octants.octant import Octant, OctantKey
+from ..octants.octant_mesh import mesh_octants, octant_spec
+from ..octants.octant_spec import OctantSpec
 from ..reports.result import Result, report_of
 from ..shell.domain import Domain, find_domain
 from ..trim.beam_model import (

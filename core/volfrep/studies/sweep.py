@@ -26,8 +26,8 @@ from .designs import Design, Designs, Part, design_of, designs_of, named_part, r
 from .expectation import planned
 from .page import write_page
 from .records import keep_part, prepare, read_record
-from .runs import Limits
-from .scheduling import How, Job, weight
+from .running.runs import Limits
+from .running.scheduling import How, Job, weight
 from .study import Front, Study, read_study
 from .table import Table, table_of, write_csv, write_parquet
 

@@ -12,10 +12,10 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from ..design.memory_guard import free_memory
-from ..util.errors import Cancelled, VolfrepError
-from ..util.progress import ProgressCallback
-from ..util.threads import threads
+from ...design.memory_guard import free_memory
+from ...util.errors import Cancelled, VolfrepError
+from ...util.progress import ProgressCallback
+from ...util.threads import threads
 from .apart import note, run_apart, run_batch
 from .runs import Batch
 

@@ -13,12 +13,13 @@ import traceback
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from ..design.parameters.table import BY_NAME
-from ..util.errors import Cancelled, VolfrepError
-from ..util.progress import ProgressCallback
-from .actions import ACTIONS, Asked, Bench, Shared
-from .designs import Design, shown_values
-from .records import Record, kept_part, read_record, write_record
+from ...design.parameters.table import BY_NAME
+from ...util.errors import Cancelled, VolfrepError
+from ...util.progress import ProgressCallback
+from ..actions import Asked
+from ..designs import Design, shown_values
+from ..records import Record, kept_part, read_record, write_record
+from .bench import FIGURES, Bench, Shared
 
 #: What is said of a run whose process ran out of memory.
 NO_MEMORY = "There was not enough memory for this run: use larger cells or a coarser resolution."
@@ -108,7 +109,7 @@ def run_design(batch: Batch, design: Design, bench: Bench) -> None:
         record.errors.pop(name, None)
         record.notes.pop(name, None)
         try:
-            record.results[name] = ACTIONS[name].act(bench)
+            record.results[name] = FIGURES[name](bench)
         except VolfrepError as error:
             record.errors[name] = str(error)
         except Cancelled:

@@ -20,20 +20,20 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import IO
 
-from ..util.errors import Cancelled, VolfrepError
-from ..util.progress import ProgressCallback
-from ..util.subprocesses import NO_WINDOW
-from ..util.version import VERSION
-from .actions import Shared
-from .designs import Design
-from .records import write_record
+from ...util.errors import Cancelled, VolfrepError
+from ...util.progress import ProgressCallback
+from ...util.subprocesses import NO_WINDOW
+from ...util.version import VERSION
+from ..designs import Design
+from ..records import write_record
+from .bench import Shared
 from .runs import Batch, Ended, Limits, bench_of, record_of, run_design, run_in_turn
 
 #: How often a run is looked at, s.
 LOOK = 0.2
 #: A process that dies by itself gets its run again, so often; then the run is at fault.
 TRIES = 2
-_PROGRAM = "from volfrep.studies.apart import serve; serve()"
+_PROGRAM = "from volfrep.studies.running.apart import serve; serve()"
 _DONE = b"done\n"
 CANCELLED = "cancelled"
 #: Variables by which linear algebra is told its threads.
@@ -270,7 +270,7 @@ def serve() -> None:
     threading.Thread(target=_receive, args=(sys.stdin.buffer, sent), daemon=True).start()
     batch = sent.get()
     assert isinstance(batch, Batch)
-    from ..util.threads import use_threads
+    from ...util.threads import use_threads
 
     use_threads(batch.threads)
     shared = Shared()

@@ -13,16 +13,16 @@ from contextlib import ExitStack
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from ..mechanics.catalogue import known_cell
-from ..util.errors import VolfrepError
-from ..util.progress import ProgressCallback
-from ..util.threads import threads
-from ..util.version import VERSION
-from .actions import ACTIONS, Asked
-from .designs import Design
+from ...mechanics.catalogue import known_cell
+from ...util.errors import VolfrepError
+from ...util.progress import ProgressCallback
+from ...util.threads import threads
+from ...util.version import VERSION
+from ..actions import ACTIONS, Asked
+from ..designs import Design
+from ..expectation import planned
+from ..records import Record, kept_part, read_record
 from .executors import Tally, dask_executor, fitting_workers, run_beside, run_by, run_here
-from .expectation import planned
-from .records import Record, kept_part, read_record
 from .runs import Batch, Limits
 
 #: Expected seconds of a run without a mesh, with a cell of the catalogue and with another one.

@@ -98,7 +98,8 @@ RUN_OPTIONS = (
         "UNIT",
     ),
     RunOption(
-        "count", ("block",), "cells along x, y and z", "NX,NY,NZ", read=three_whole_numbers, required=True,
+        "count", ("block",), "cells along x, y and z", "NX,NY,NZ",
+        read=three_whole_numbers, required=True,
     ),
     RunOption(
         "spec", LATTICE, "read a specification; options override its entries",

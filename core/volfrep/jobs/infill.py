@@ -19,11 +19,7 @@ from ..grid.strut_graph import CellGraph, Wireframe, cell_graph
 from ..io.solid import Solid
 from ..lattice.assembly import Layout
 from ..lattice.deform import Deformed
-from ..lattice.padded_grid import (
-    keeps_places,
-    least_width,
-    vertices_of,
-)
+from ..lattice.padded_grid import keeps_places, least_width, vertices_of
 from ..mesh.float32_repair import shortest_edge
 from ..mesh.quality import Quality, inspect, measure
 from ..mesh.triangle_mesh import TriangleMesh

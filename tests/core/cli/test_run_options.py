@@ -21,7 +21,7 @@ def test_a_command_has_an_option_once(command: str) -> None:
 
 
 def test_a_name_stands_for_the_same_file_in_every_command() -> None:
-    for stored in {row.stored for row in RUN_OPTIONS}:
+    for stored in {row.stored for row in RUN_OPTIONS if row.commands != ("sweep",)}:
         rows = [row for row in RUN_OPTIONS if row.stored == stored]
         assert len({row.reads for row in rows}) == 1
         assert len({row.writes for row in rows if row.commands != ("sweep",)}) == 1

@@ -66,7 +66,7 @@ def run_batch(
     if batch.apart or batch.limits.any:
         run_apart((batch,), ended, progress)
     else:
-        run_in_turn(batch, ended, progress)
+        run_in_turn((batch,), ended, progress)
     return len(batch.designs)
 
 

@@ -17,7 +17,7 @@ from ...util.errors import Cancelled, VolfrepError
 from ...util.progress import ProgressCallback
 from ...util.threads import threads
 from .apart import note, run_apart, run_batch
-from .runs import Batch
+from .runs import Batch, run_in_turn
 
 #: How often the caller is told how far the runs are, s.
 TELL = 0.5
@@ -150,10 +150,8 @@ def run_here(batches: Sequence[Batch], tally: Tally) -> None:
     def ask(_: float = 0.0, __: str = "") -> bool:
         return tally.tell()
 
-    for batch in batches:
-        if not ask():
-            raise Cancelled("the study was cancelled")
-        run_batch(batch, tally.ended, ask)
+    limited = any(batch.limits.any for batch in batches)
+    (run_apart if limited else run_in_turn)(_asking(batches, ask), tally.ended, ask)
     tally.tell()
 
 
@@ -177,6 +175,14 @@ def run_beside(batches: Sequence[Batch], tally: Tally) -> None:
             tally.cancel()
             pool.shutdown(wait=False, cancel_futures=True)
             raise
+
+
+def _asking(batches: Sequence[Batch], ask: Callable[[], bool]) -> Iterator[Batch]:
+    """Batches in turn, as long as the caller wants more."""
+    for batch in batches:
+        if not ask():
+            raise Cancelled("the study was cancelled")
+        yield batch
 
 
 def _taken(batches: deque[Batch]) -> Iterator[Batch]:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import time
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 from ...design.parameters.table import BY_NAME
@@ -81,18 +81,21 @@ class Batch:
 Ended = Callable[[str], None]
 
 
-def run_in_turn(batch: Batch, ended: Ended | None, progress: ProgressCallback | None) -> None:
-    """Do the runs of a batch in this process; `apart.run_batch` says more.
+def run_in_turn(
+    batches: Iterable[Batch], ended: Ended | None, progress: ProgressCallback | None
+) -> None:
+    """Do the runs of batches of one study in this process; `apart.run_batch` says more.
 
     Raises:
         VolfrepError: the study's folder cannot be used.
         Cancelled: the callback said so; the run that was going on leaves no record.
     """
     shared = Shared()
-    for design in batch.designs:
-        run_design(batch, design, bench_of(batch, design, shared, progress))
-        if ended is not None:
-            ended(design.key)
+    for batch in batches:
+        for design in batch.designs:
+            run_design(batch, design, bench_of(batch, design, shared, progress))
+            if ended is not None:
+                ended(design.key)
 
 
 def run_design(batch: Batch, design: Design, bench: Bench) -> None:

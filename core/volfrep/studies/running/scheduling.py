@@ -29,8 +29,9 @@ from .runs import Batch, Limits
 QUICK, HOMOGENISED = 0.02, 10.0
 #: Less work than this is done in this process, s: others take a second to start.
 WORTH_A_PROCESS = 5.0
-#: Batches for each worker, about: enough that none waits long for the last.
-BATCHES_EACH = 6
+#: A batch is this part of what is left for each worker: long ones first, single runs last, so that
+#: nobody waits for more than one run in the end.
+SHARE_OF_THE_REST = 0.5
 #: Of the actions after a fill, each takes about this part of its time.
 AFTER_FILL = 0.2
 
@@ -112,7 +113,7 @@ class Job:
             beside = executor is None and workers > 1
             batches = [
                 self._batch(group, names, workers if beside else 0)
-                for group in _grouped(designs, weights, workers, meshed)
+                for group in grouped(designs, weights, workers, meshed)
             ]
             tally = Tally(weights, workers, self._progress)
             if executor is not None:
@@ -142,29 +143,38 @@ def weight(design: Design, seconds: float, actions: Mapping[str, bool]) -> float
     return total + QUICK
 
 
-def _grouped(
-    designs: list[Design], weights: Mapping[str, float], workers: int, meshed: bool
+def grouped(
+    designs: Sequence[Design], weights: Mapping[str, float], workers: int, meshed: bool
 ) -> list[list[Design]]:
-    """Designs by worker and turn: side by side what shares a wall, or an endless lattice.
+    """Designs in batches, in the order in which workers take them.
 
-    The longest batches come first.
+    What shares a wall, or an endless lattice, is side by side, and of what shares a wall the
+    longest run comes first. Batches become shorter down to single runs.
+
+    Args:
+        designs: to be done.
+        weights: expected seconds of each, by its key.
+        workers: that take batches.
+        meshed: whether they share walls, or endless lattices.
     """
 
-    def shared(design: Design) -> tuple[str, ...]:
+    def order(design: Design) -> tuple[str | float, ...]:
         spec = design.spec
-        target = () if spec.target is None else (repr(spec.target),)
         wall = (design.part.content, f"{spec.shell!r}", repr(spec.open_faces))
-        cell = (spec.unit_cell().name, f"{spec.strut_radius / spec.cell_size:.9g}", *target)
-        return (*wall, *cell) if meshed else (*cell, *wall)
+        if meshed:
+            return (*wall, -weights[design.key], design.key)
+        target = "" if spec.target is None else repr(spec.target)
+        ratio = f"{spec.strut_radius / spec.cell_size:.9g}"
+        return (spec.unit_cell().name, ratio, target, *wall, design.key)
 
-    most = sum(weights.values()) / (BATCHES_EACH * workers)
-    groups: list[list[Design]] = [[]]
-    load, before = 0.0, ""
-    for design in sorted(designs, key=lambda d: (shared(d), d.key)):
-        kind = shared(design)[0]
-        if groups[-1] and (load >= most or (kind != before and load >= 0.5 * most)):
+    left = sum(weights.values())
+    groups: list[list[Design]] = []
+    load, most = 0.0, 0.0
+    for design in sorted(designs, key=order):
+        if load >= most:
             groups.append([])
-            load = 0.0
+            load, most = 0.0, SHARE_OF_THE_REST * left / workers
         groups[-1].append(design)
-        load, before = load + weights[design.key], kind
-    return sorted(groups, key=lambda group: -sum(weights[d.key] for d in group))
+        load += weights[design.key]
+        left -= weights[design.key]
+    return groups

@@ -21,8 +21,7 @@ from .run_options import add_run_options
 from .telling import Progress, print_rows, print_warnings, tell
 
 if TYPE_CHECKING:
-    from ..jobs.sizing import Goal, SizedPart
-    from ..mechanics.materials import SolidMaterial
+    from ..jobs.sizing import SizedPart
     from ..sizing.optimise import Step
 
 _TEXT = "Fill a solid with a lattice whose struts are sized for its load cases."
@@ -56,7 +55,7 @@ def _size(options: argparse.Namespace) -> None:
         raise VolfrepError(f"There must be at least one step, not {options.steps}.")
 
     from ..jobs.infill import Infill
-    from ..jobs.sizing import size, write_radii
+    from ..jobs.sizing import GOALS, goal_of, size, write_radii
     from ..loads.load_file import read_load_cases
     from ..reports.sizing_report import sizing_rows
     from ..util.cache import StageCache
@@ -68,7 +67,8 @@ def _size(options: argparse.Namespace) -> None:
         from dataclasses import replace
 
         spec = replace(spec, density=loads.material.density)
-    goal = _goal(options, loads.material)
+    asked = {name: getattr(options, name) for name in GOALS}
+    goal = goal_of(loads.material, asked, lambda name: f"--{name.replace('_', '-')}")
     cache = StageCache()
     start = time.perf_counter()
     with Progress(options.quiet) as progress:
@@ -95,33 +95,6 @@ def _size(options: argparse.Namespace) -> None:
         print_rows(*sizing_rows(made.report), ("sizing time", f"{seconds:.1f} s"))
 
 
-def _goal(options: argparse.Namespace, material: SolidMaterial) -> Goal:
-    from ..jobs.sizing import Goal
-    from ..sizing.analysis import Limits
-
-    stress = options.max_stress
-    if options.safety is not None:
-        if stress is not None:
-            raise VolfrepError("--max-stress and --safety say the same: give one of them.")
-        if material.yield_stress is None:
-            raise VolfrepError(
-                f"The material '{material.name}' has no yield stress for --safety: give "
-                "--max-stress, or yield_stress in the load file."
-            )
-        if not options.safety > 0.0:
-            raise VolfrepError(f"--safety must be above 0, not {options.safety:g}.")
-        stress = material.yield_stress / options.safety
-    limits = Limits(stress, options.max_displacement, options.buckling, options.min_frequency)
-    volume = None
-    if options.strut_mass is not None:
-        if not options.strut_mass > 0.0:
-            raise VolfrepError(f"--strut-mass must be above 0 g, not {options.strut_mass:g}.")
-        volume = options.strut_mass * 1000.0 / material.density
-    return Goal(
-        limits, volume, options.thinnest, options.thickest, options.smooth
-    )  # fmt: skip
-
-
 def _teller(quiet: bool) -> Callable[[int, Step], bool] | None:
     """Tells every step on standard error, if it is a terminal."""
     if quiet or not sys.stderr.isatty():
@@ -139,14 +112,10 @@ def _teller(quiet: bool) -> Callable[[int, Step], bool] | None:
 def _write_specification(options: argparse.Namespace, made: SizedPart) -> None:
     if options.write_spec is None:
         return
-    from dataclasses import replace
-
     from ..design.parameters.spec_file import write_values
-    from ..design.parameters.specification import values_of
+    from ..jobs.sizing import values_with_radii
 
-    assert made.spec.radius_grading is not None
-    grading = replace(made.spec.radius_grading, field=str(options.radii))
-    write_values(values_of(replace(made.spec, radius_grading=grading)), options.write_spec)
+    write_values(values_with_radii(made, options.radii), options.write_spec)
 
 
 def _picture(options: argparse.Namespace, made: SizedPart) -> None:

@@ -7,8 +7,8 @@ What is behind a row is a function of the same name in `running.bench`.
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +23,21 @@ Figure = float | int | str | bool | None
 
 
 @dataclass(frozen=True)
+class Loads:
+    """A load file.
+
+    Attributes:
+        path: where every worker sees it.
+        content: all that it says, as text.
+        material: of it, as plain JSON values.
+    """
+
+    path: Path
+    content: str
+    material: Mapping[str, Any]
+
+
+@dataclass(frozen=True)
 class Asked:
     """What the actions of a study take.
 
@@ -31,12 +46,16 @@ class Asked:
         process: of the print check.
         export: extension of the files.
         folder: of the study, for files.
+        loads: what the part carries; None where nothing asks for it.
+        goal: what is wanted of sized struts, as numbers by name.
     """
 
     material: SolidMaterial | None
     process: Process | None
     export: str
     folder: Path
+    loads: Loads | None = None
+    goal: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -66,6 +85,14 @@ def _process(asked: Asked) -> Any:
     return None if asked.process is None else dataclasses.asdict(asked.process)
 
 
+def _loads(asked: Asked) -> Any:
+    return None if asked.loads is None else [asked.loads.content, dict(asked.loads.material)]
+
+
+def _goal(asked: Asked) -> Any:
+    return [_loads(asked), dict(asked.goal)]
+
+
 _ROWS = (
     Action("forecast", "mass, cells, triangles, time and memory, before any work",
            meshed=False),
@@ -74,6 +101,10 @@ _ROWS = (
     Action("fill", "the part is made and measured"),
     Action("measure", "what a reader of its file sees: defects, angles, edges"),
     Action("print", "the print check against a process", settings=_process),
+    Action("solve", "its struts and skin under the load cases: displacement, stress, buckling",
+           settings=_loads),
+    Action("size", "its struts sized for the load cases; what they come to", settings=_goal,
+           file=lambda asked: ("sized", ".toml")),
     Action("export", "its file, in the study's folder",
            settings=lambda asked: asked.export, file=lambda asked: ("files", asked.export)),
     Action("picture", "a picture, cut open (needs pyvista)",
@@ -82,8 +113,13 @@ _ROWS = (
 #: The actions by their names, in the order in which they are done.
 ACTIONS = {action.name: action for action in _ROWS}
 
+#: Those that look at what the part carries.
+CARRIED = ("solve", "size")
 
-def check_actions(names: Sequence[str], process: str | None, export: str) -> None:
+
+def check_actions(
+    names: Sequence[str], process: str | None, export: str, loads: object = None
+) -> None:
     """Refuse, before any work, actions that cannot be done.
 
     Raises:
@@ -98,6 +134,11 @@ def check_actions(names: Sequence[str], process: str | None, export: str) -> Non
         if process is None:
             raise VolfrepError("The action 'print' needs a process, such as process = \"SLS\".")
         find_process(process)
+    for name in CARRIED:
+        if name in names and loads is None:
+            raise VolfrepError(
+                f"The action '{name}' needs what the part carries: loads = \"loads.toml\"."
+            )
     if "export" in names and export.lower() not in MESH_WRITERS:
         raise VolfrepError(
             f"Nothing is written as '{export}': choose {', '.join(sorted(MESH_WRITERS))}."

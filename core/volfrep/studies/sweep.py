@@ -21,7 +21,7 @@ from ..util.progress import ProgressCallback
 from ..util.types import Floats
 from ..util.version import VERSION
 from . import pareto
-from .actions import ACTIONS, Asked
+from .actions import ACTIONS, Asked, Loads
 from .designs import Design, Designs, Part, design_of, designs_of, named_part, read_part
 from .expectation import planned
 from .page import write_page
@@ -182,11 +182,22 @@ def _begun(study: Study, folder: str | os.PathLike[str]) -> tuple[Path, tuple[Pa
     at = Path(folder).resolve()
     prepare(at)
     parts = []
+    loads = None
     for given in study.parts:
         source, solid = read_part(given, study.unit)
         parts.append(named_part(source, solid))
         keep_part(at, parts[-1].content, solid)
-    asked = Asked(study.solid_material(), study.print_process(), study.export, at)
+        if study.loads is not None:
+            from ..jobs.sizing import goal_of
+            from ..loads.load_file import read_load_cases
+
+            path = Path(study.loads).resolve()
+            material = read_load_cases(path, solid).material
+            loads = Loads(path, path.read_text(encoding="utf-8"), material.as_dict())
+            goal_of(material, study.goal, lambda name: f"size.{name}")
+    asked = Asked(
+        study.solid_material(), study.print_process(), study.export, at, loads, study.goal
+    )
     return at, tuple(parts), asked
 
 

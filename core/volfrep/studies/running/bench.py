@@ -10,20 +10,25 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+from ...design.parameters.spec_file import write_values
 from ...design.spec import LatticeSpec
 from ...io.solid import Solid
 from ...io.write import mesh_writer
 from ...jobs.infill import Infill
 from ...jobs.preview import PartDepth
+from ...jobs.sizing import goal_of, size, solved, values_with_radii, write_radii
 from ...jobs.targets import aimed
+from ...loads.load_cases import LoadCases
+from ...loads.load_file import read_load_cases
 from ...mechanics.catalogue import known_properties
 from ...mechanics.materials import SolidMaterial
 from ...mechanics.summary import MODULI, RATIOS, cell_properties
 from ...reports.mesh_report import mesh_report
 from ...reports.picture import picture
 from ...reports.printability import print_report
+from ...sizing.analysis import Analysis
 from ...util.cache import StageCache
-from ...util.errors import VolfrepError
+from ...util.errors import Cancelled, VolfrepError
 from ...util.progress import ProgressCallback
 from ..actions import Asked, Figure
 from ..expectation import Expectation, expected
@@ -63,6 +68,7 @@ class Bench:
         asked: by the study.
         shared: with other runs.
         progress: asked for a cancel.
+        notes: sentences for the user, by the names of actions.
     """
 
     key: str
@@ -72,6 +78,7 @@ class Bench:
     asked: Asked
     shared: Shared
     progress: ProgressCallback | None = None
+    notes: dict[str, list[str]] = field(default_factory=dict)
 
     @cached_property
     def expectation(self) -> Expectation:
@@ -101,6 +108,18 @@ class Bench:
         if isinstance(self._infill, VolfrepError):
             raise self._infill
         return self._infill
+
+    @cached_property
+    def loads(self) -> LoadCases:
+        """What the part carries."""
+        assert self.asked.loads is not None, "the study was checked"
+        return read_load_cases(self.asked.loads.path, self.solid)
+
+    def one_radius(self) -> LatticeSpec:
+        """The specification with the radius that meets its target, if it has one."""
+        if self.spec.target is None:
+            return self.spec
+        return dataclasses.replace(self.infill.spec, target=None)
 
     def file(self, kind: str, suffix: str) -> Path:
         """Where a file of this design goes, in a folder of its kind."""
@@ -148,6 +167,7 @@ def _endless(place: tuple[Any, float, float], material: SolidMaterial | None) ->
 
 def _fill(bench: Bench) -> dict[str, Figure]:
     report = bench.infill.result.report
+    bench.notes["fill"] = list(report.warnings)
     return {
         "strut_radius_mm": bench.infill.spec.strut_radius,
         "relative_density": report.relative_density,
@@ -202,6 +222,63 @@ def _print(bench: Bench) -> dict[str, Figure]:
     }
 
 
+def _solve(bench: Bench) -> dict[str, Figure]:
+    loads = bench.loads
+    _, found = solved(
+        bench.solid, bench.one_radius(), loads, progress=bench.progress, cache=bench.shared.cache
+    )
+    told = _carried(found, [case.name for case in loads.cases])
+    limit = loads.material.yield_stress
+    told["safety"] = None if limit is None else _rounded(limit / float(found.stress.max()))
+    return told
+
+
+def _size(bench: Bench) -> dict[str, Figure]:
+    loads = bench.loads
+    goal = goal_of(loads.material, bench.asked.goal, lambda name: f"size.{name}")
+    spec = dataclasses.replace(bench.one_radius(), density=loads.material.density)
+    made = size(
+        bench.solid, spec, loads, goal, prove_it=False, progress=bench.progress,
+        cache=bench.shared.cache,
+    )  # fmt: skip
+    if made.sized.stopped == "cancelled":
+        raise Cancelled("the study was cancelled")
+    path = bench.file("sized", ".toml")
+    radii = path.with_suffix(".csv")
+    write_radii(made, radii)
+    write_values(values_with_radii(made, radii), path)
+    report = made.report
+    bench.notes["size"] = list(report["notes"])
+    told: dict[str, Figure] = {
+        "holds": report["holds"],
+        "strut_mass_g": _rounded(report["strut_mass_g"]),
+        "thinnest_mm": _rounded(report["radii_mm"][0]),
+        "thickest_mm": _rounded(report["radii_mm"][1]),
+        **_carried(made.sized.analysis, [case.name for case in loads.cases]),
+        "stiffer": _rounded(min(report["same_mass"]["stiffer"])),
+    }
+    if "same_limits" in report:
+        told["mass_saved"] = _rounded(report["same_limits"]["mass_saved"])
+    return {**told, "file": f"sized/{path.name}"}
+
+
+def _carried(found: Analysis, cases: list[str]) -> dict[str, Figure]:
+    """What is largest in any load case, and in which."""
+    worst = int(found.largest.argmax())
+    return {
+        "displacement_mm": _rounded(found.largest[worst]),
+        "case": cases[worst],
+        "stress_mpa": _rounded(found.stress.max()),
+        "buckling": _rounded(found.buckling.max()),
+        "compliance_nmm": _rounded(found.compliance.max()),
+    }
+
+
+def _rounded(value: float) -> float:
+    """To six digits: the last ones hang on how many threads sum."""
+    return float(f"{value:.6g}")
+
+
 def _export(bench: Bench) -> dict[str, Figure]:
     path = bench.file("files", bench.asked.export)
     mesh_writer(path)(bench.infill.result.mesh, path, None)
@@ -222,6 +299,8 @@ FIGURES: dict[str, Callable[[Bench], dict[str, Figure]]] = {
     "fill": _fill,
     "measure": _measure,
     "print": _print,
+    "solve": _solve,
+    "size": _size,
     "export": _export,
     "picture": _picture,
 }

@@ -126,8 +126,8 @@ def run_design(batch: Batch, design: Design, bench: Bench) -> None:
             )
             record.notes[name] = [traceback.format_exc()]
         record.keep(name, batch.asked, time.perf_counter() - start)
-        if name == "fill" and name in record.results:
-            record.notes[name] = list(bench.infill.result.report.warnings)
+        if name in bench.notes:
+            record.notes[name] = bench.notes[name]
     if missing:
         write_record(batch.asked.folder, record)
 

@@ -27,6 +27,10 @@ SHARE = 0.8
 PATIENCE = 20
 
 
+#: Says how far runs are, of how many are done, how many there are, and the seconds left.
+Words = Callable[[int, int, float], str]
+
+
 @dataclass
 class Tally:
     """How far a study is; told by forecasts, corrected by what the runs before have taken.
@@ -35,11 +39,13 @@ class Tally:
         weights: expected seconds of each run that is to be done, by its key.
         workers: side by side.
         progress: called with the fraction done, and runs and time left in words.
+        words: of runs done, all of them, and seconds left.
     """
 
     weights: dict[str, float]
     workers: int
     progress: ProgressCallback | None
+    words: Words
     _ended: set[str] = field(default_factory=set)
     _start: float = field(default_factory=time.monotonic)
     _cancelled: threading.Event = field(default_factory=threading.Event)
@@ -75,11 +81,16 @@ class Tally:
         seconds = left / self.workers
         if self._done > 0.0:
             seconds = left * (time.monotonic() - self._start) / self._done
-        return f"{len(self._ended):,} of {len(self.weights):,} runs, {told_time(seconds)} left"
+        return self.words(len(self._ended), len(self.weights), seconds)
 
     @property
     def _done(self) -> float:
         return sum(self.weights[key] for key in tuple(self._ended))
+
+
+def told_state(done: int, runs: int, seconds: float) -> str:
+    """How far runs are, in words."""
+    return f"{done:,} of {runs:,} runs, {told_time(seconds)} left"
 
 
 def told_time(seconds: float) -> str:

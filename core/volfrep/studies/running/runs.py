@@ -52,6 +52,19 @@ class Limits:
         return self.hours is not None or self.memory_gb is not None
 
 
+@dataclass(frozen=True)
+class Interpreter:
+    """A Python that can run the engine in processes.
+
+    Attributes:
+        executable: path of the program.
+        path: folders in which it finds the engine and what that needs, beside its own.
+    """
+
+    executable: str
+    path: tuple[str, ...]
+
+
 @dataclass(frozen=True, eq=False)
 class Batch:
     """Runs for one worker, one after the other.
@@ -65,6 +78,7 @@ class Batch:
         retry: whether what failed is tried again.
         threads: that each run may use; 0 for all.
         apart: whether runs have a process of their own, which may die without harm.
+        interpreter: of these processes; None for the one that starts them.
     """
 
     designs: tuple[Design, ...]
@@ -75,6 +89,7 @@ class Batch:
     retry: bool
     threads: int
     apart: bool
+    interpreter: Interpreter | None = None
 
 
 #: Called when a run has ended, with its design's key.

@@ -22,8 +22,17 @@ from ..actions import ACTIONS, Asked
 from ..designs import Design
 from ..expectation import planned
 from ..records import Record, kept_part, read_record
-from .executors import Tally, dask_executor, fitting_workers, run_beside, run_by, run_here
-from .runs import Batch, Limits
+from .executors import (
+    Tally,
+    Words,
+    dask_executor,
+    fitting_workers,
+    run_beside,
+    run_by,
+    run_here,
+    told_state,
+)
+from .runs import Batch, Interpreter, Limits
 
 #: Expected seconds of a run without a mesh, with a cell of the catalogue and with another one.
 QUICK, HOMOGENISED = 0.02, 10.0
@@ -47,6 +56,8 @@ class How:
         shard: i and n: only every n-th design, beginning with the i-th.
         limits: of each run.
         retry: whether what failed is tried again.
+        interpreter: of processes beside this one; None for this one's.
+        words: say how far the runs are: of runs done, all of them, and seconds left.
 
     Raises:
         VolfrepError: at construction, where they do not go together.
@@ -58,6 +69,8 @@ class How:
     shard: tuple[int, int] = (1, 1)
     limits: Limits = field(default_factory=Limits)
     retry: bool = False
+    interpreter: Interpreter | None = None
+    words: Words = told_state
 
     def __post_init__(self) -> None:
         given = [v for v in (self.workers, self.executor, self.scheduler) if v is not None]
@@ -115,7 +128,7 @@ class Job:
                 self._batch(group, names, workers if beside else 0)
                 for group in grouped(designs, weights, workers, meshed)
             ]
-            tally = Tally(weights, workers, self._progress)
+            tally = Tally(weights, workers, self._progress, how.words)
             if executor is not None:
                 run_by(executor, batches, tally)
             elif beside:
@@ -127,7 +140,15 @@ class Job:
         how = self._how
         each = max(1, threads() // beside) if beside else 0
         return Batch(
-            tuple(designs), names, self._asked, VERSION, how.limits, how.retry, each, beside > 0
+            tuple(designs),
+            names,
+            self._asked,
+            VERSION,
+            how.limits,
+            how.retry,
+            each,
+            beside > 0,
+            how.interpreter,
         )
 
 

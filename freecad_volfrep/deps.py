@@ -50,6 +50,20 @@ def python_executable() -> str:
     return candidates[0].name
 
 
+def engine_folders() -> tuple[str, ...]:
+    """The folders that hold the engine and its packages, in the order in which they are found.
+
+    FreeCAD's own folders are not among them: they hide packages of the same name.
+    """
+    folders = {}
+    for module in ("volfrep", *PACKAGES):
+        spec = importlib.util.find_spec(module)
+        if spec is not None and spec.origin is not None:
+            place = Path(spec.origin).parent
+            folders[str(place.parent if spec.submodule_search_locations else place)] = None
+    return tuple(folders)
+
+
 def install_command(packages: list[str]) -> str:
     """The command, for a shell, that installs the packages where this FreeCAD finds them."""
     pins = [f"{name}=={importlib.metadata.version(name)}" for name in SHARED if _installed(name)]

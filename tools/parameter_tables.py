@@ -3,10 +3,13 @@
 
     .venv/bin/python tools/parameter_tables.py
 
-A table stands between two comments in a page of docs/, the first of which names its groups:
+A table stands between two comments in a page of docs/, the first of which names its groups, or the
+commands whose other options it lists:
 
     <!-- parameters: Cell size, Strut radius -->
     <!-- end of parameters -->
+    <!-- options: fill, block -->
+    <!-- end of options -->
 """
 
 from __future__ import annotations
@@ -18,11 +21,15 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "core"))
 
+from volfrep.cli.run_options import RUN_OPTIONS, RunOption  # noqa: E402
 from volfrep.design.parameters import GROUPS, PARAMETERS, Need, Parameter  # noqa: E402
 from volfrep.design.parameters.parameter import SHAPES  # noqa: E402
 
 _PLACE = re.compile(
     r"(<!-- parameters: (?P<groups>[^>]*) -->\n).*?(<!-- end of parameters -->)", re.DOTALL
+)
+_OPTIONS = re.compile(
+    r"(<!-- options: (?P<commands>[^>]*) -->\n).*?(<!-- end of options -->)", re.DOTALL
 )
 _HEAD = "| option | property | default | meaning | applies with |\n|---|---|---|---|---|\n"
 
@@ -31,9 +38,30 @@ def refreshed(text: str) -> str:
     """A page with its tables as they should be.
 
     Raises:
-        ValueError: it asks for a group that there is not.
+        ValueError: it asks for a group, or a command, that there is not.
     """
-    return _PLACE.sub(lambda found: found[1] + _table(found["groups"]) + found[3], text)
+    text = _PLACE.sub(lambda found: found[1] + _table(found["groups"]) + found[3], text)
+    return _OPTIONS.sub(lambda found: found[1] + _options(found["commands"]) + found[3], text)
+
+
+def _options(wanted: str) -> str:
+    """The options of some commands that are none of the lattice's."""
+    commands = [name.strip() for name in wanted.split(",")]
+    known = {name for row in RUN_OPTIONS for name in row.commands}
+    strange = [name for name in commands if name not in known]
+    if strange:
+        raise ValueError(f"No options are known of a command '{strange[0]}'.")
+    rows = [row for row in RUN_OPTIONS if set(commands) & set(row.commands)]
+    lines = [_option(row, [name for name in commands if name in row.commands]) for row in rows]
+    return "| option | command | meaning |\n|---|---|---|\n" + "".join(lines)
+
+
+def _option(row: RunOption, commands: list[str]) -> str:
+    shape = "|".join(row.choices) or row.shape
+    names = f"-{row.short}, {row.option}" if row.short else row.option
+    option = f"{names} {shape}".strip().replace("|", "\\|")
+    needed = " (to be given)" if row.required else ""
+    return f"| `{option}` | {', '.join(commands)} | {row.help}{needed} |\n"
 
 
 def _table(wanted: str) -> str:

@@ -9,7 +9,7 @@ from typing import Any
 from .api import Part, specified
 from .design.networks import make_network, read_network
 from .design.spec import LatticeSpec
-from .jobs.networks import network_alone
+from .jobs.networks.alone import network_alone
 from .util.cache import StageCache
 from .util.progress import ProgressCallback
 

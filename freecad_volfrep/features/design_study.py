@@ -6,13 +6,15 @@ from __future__ import annotations
 import hashlib
 import json
 import re
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import FreeCAD as App
 
+from freecad_volfrep.deps import engine_folders, python_executable
 from freecad_volfrep.engine import require_engine
+from freecad_volfrep.translation import translate
 from volfrep.design.cells import LIBRARY
 from volfrep.design.parameters import BY_NAME, PARAMETERS, Parameter
 from volfrep.design.parameters.parameter import effective
@@ -29,6 +31,7 @@ from .screen import attach_view, revive_view
 from .values import plain_values, values_in_effect
 
 if TYPE_CHECKING:
+    from volfrep.studies.running.runs import Interpreter
     from volfrep.studies.study import Study
 
 #: Kinds of parameters that can vary.
@@ -42,6 +45,10 @@ _AIMED = {"target_density": "relative_density", "target_mass": "mass"}
 #: So many times its present value, a number begins with.
 _AROUND = (0.8, 0.9, 1.0, 1.1, 1.25)
 _RANGE = re.compile(r"\s*(.+?)\s+to\s+(.+?)\s+in\s+(\d+)\s*")
+IN_TURN = (
+    "The Python that goes with this FreeCAD cannot run the engine by itself: runs are done one "
+    "after the other."
+)
 NOT_RUN = "Not run yet"
 CANCELLED = "Cancelled: what was done is kept, and the next start goes on from there."
 
@@ -244,12 +251,17 @@ def run_study(obj: App.DocumentObject) -> bool:
     from volfrep.studies.sweep import sweep
 
     study, folder = study_of(obj), _folder(obj)
+    python = _python(python_executable(), engine_folders())
+    if python is None:
+        App.Console.PrintMessage(f"VOLFREP, {obj.Label}: {IN_TURN}\n")
     try:
-        # In this process: FreeCAD's Python cannot be told to be another one's.
         made = run_job(
             job_title("Studying {label}", obj.Infill),
-            lambda progress: sweep(study, folder, workers=1, progress=progress),
-        )
+            lambda progress: sweep(
+                study, folder, workers=1 if python is None else None, interpreter=python,
+                progress=progress, words=_how_far,
+            ),
+        )  # fmt: skip
     except Cancelled:
         obj.Status = CANCELLED
         App.Console.PrintMessage(f"VOLFREP, {obj.Label}: {CANCELLED}\n")
@@ -309,6 +321,23 @@ def apply_design(obj: App.DocumentObject, key: str) -> bool:
             value = str(value).capitalize()
         set_value(infill, parameter.property_name, value)
     return bool(infill.Proxy.update(infill))
+
+
+@cache
+def _python(executable: str, folders: tuple[str, ...]) -> Interpreter | None:
+    """The interpreter that goes with this FreeCAD; None where it cannot run the engine."""
+    from volfrep.studies.running.apart import runs_engine
+    from volfrep.studies.running.runs import Interpreter
+
+    python = Interpreter(executable, folders)
+    return python if runs_engine(python) else None
+
+
+def _how_far(done: int, runs: int, seconds: float) -> str:
+    """How far a study is, for the window."""
+    left = f"{seconds:.0f} s" if seconds < 90.0 else f"{seconds / 60.0:.0f} min"
+    told = translate("VolfrepProgress", "{done} of {runs} runs, about {time} left")
+    return str(told).format(done=done, runs=runs, time=left)
 
 
 def _cell(word: str) -> str:

@@ -107,7 +107,7 @@ class PrintCheck:
         from freecad_volfrep.bridge.beams import place_in_document, placed_lattice
         from freecad_volfrep.bridge.meshes import to_freecad
         from freecad_volfrep.bridge.solids import mesh_in_document, placed
-        from volfrep.jobs.networks import infill_of
+        from volfrep.jobs.networks.infill import infill_of
         from volfrep.mesh.triangle_mesh import TriangleMesh, compact
         from volfrep.reports.printability import overhanging_facets, print_report, unit_direction
         from volfrep.reports.processes import find_process

@@ -1,22 +1,34 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The workbench's commands: thin, the work is in `features`."""
+"""The table of the workbench's commands, its toolbars and its menu."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from pathlib import Path
-from typing import Any
-
-import FreeCAD as App
 import FreeCADGui as Gui
 
-from freecad_volfrep.deps import missing_packages
-from freecad_volfrep.translation import QT_TRANSLATE_NOOP, marked, translate
-from volfrep.util.errors import VolfrepError
+from freecad_volfrep.translation import QT_TRANSLATE_NOOP
 
-from .command import Command, undo_step
-from .messages import ask, choose, errors_shown, file_name, tell, tell_error, tell_written
-from .qt import QtWidgets
+from .command import Command
+from .export_commands import analyse, export, make_solid_of
+from .infill_commands import (
+    browse_cells,
+    edit_infill,
+    fill_solids,
+    fillable_selection,
+    open_faces,
+    preview_only,
+    show_example,
+    update_infill,
+)
+from .result_commands import (
+    check_print,
+    open_help,
+    report_mesh,
+    show_section,
+    show_statistics,
+    show_strut_results,
+    size_lattice,
+    study_designs,
+)
 from .selection import (
     infill_in_view,
     selected_infill,
@@ -24,314 +36,7 @@ from .selection import (
     selected_infill_or_study,
     selected_mesh,
     selected_or_all_infills,
-    selected_solids,
 )
-
-#: Names of FEM models, marked for translation.
-MODEL_NAMES = marked("VolfrepCommands", "beams", "tetrahedra")
-
-
-def fillable_selection() -> list[App.DocumentObject] | None:
-    """The selected solids; anything that is selected where packages are missing.
-
-    So a click says what to install.
-    """
-    if missing_packages():
-        return Gui.Selection.getSelection() or None
-    return selected_solids() or None
-
-
-def fill_solids(bases: list[App.DocumentObject]) -> None:
-    """Fill one solid by way of its task panel, several at once; a cancelled job leaves nothing."""
-    doc = App.ActiveDocument
-    doc.openTransaction(translate("VOLFREP_LatticeInfill", "Lattice Infill"))
-    try:
-        if len(bases) == 1:
-            open_panel(doc, bases[0])
-            return  # the panel's OK or Cancel ends the transaction
-        kept = fill_selected(doc, bases)
-    except BaseException:
-        doc.abortTransaction()
-        raise
-    if not kept:
-        doc.abortTransaction()
-        return
-    doc.commitTransaction()
-
-
-def open_panel(doc: App.Document, base: App.DocumentObject) -> None:
-    """Make an infill with sizes that suit the base, not computed yet, and open its task panel."""
-    from .task_panel import TaskPanel
-
-    with errors_shown():
-        obj = make_suitable_infill(doc, base)
-        Gui.Control.showDialog(TaskPanel(obj))
-        return
-    doc.abortTransaction()
-
-
-def make_suitable_infill(doc: App.Document, base: App.DocumentObject) -> App.DocumentObject:
-    """An infill with the preferred values, and sizes that suit the base."""
-    from freecad_volfrep.bridge.solids import SolidReader, parent_placement
-    from freecad_volfrep.features.factory import make_lattice_infill, preferred_values
-
-    low, high = SolidReader().read(base, parent_placement(base)).bounds
-    return make_lattice_infill(doc, base, **preferred_values(tuple(high - low)))
-
-
-def fill_selected(doc: App.Document, bases: list[App.DocumentObject]) -> bool:
-    """Fill every base with sizes that suit it and show the results; False if cancelled.
-
-    An infill that cannot be computed stays, marked, so that its sizes can be corrected.
-    """
-    failures = []
-    with errors_shown():
-        for base in bases:
-            obj = make_suitable_infill(doc, base)
-            obj.Proxy.update(obj)  # a large job too: whoever clicks wants it
-            if obj.Proxy.was_cancelled:
-                return False
-            if obj.isValid():
-                base.Visibility = False
-                Gui.Selection.clearSelection()
-                Gui.Selection.addSelection(obj)
-            else:
-                failures.append(f"{obj.Label}: {obj.getStatusString()}")
-        if failures:
-            tell_error("\n".join(failures))
-        return True
-    return False
-
-
-def edit_infill(obj: App.DocumentObject) -> None:
-    """Open the task panel of an infill."""
-    Gui.getDocument(obj.Document.Name).setEdit(obj.Name)
-
-
-def update_infill(obj: App.DocumentObject) -> None:
-    """Compute now, AutoUpdate or not."""
-    with undo_step(obj.Document, translate("VOLFREP_Update", "Update Lattice Infill")):
-        obj.Proxy.update(obj)
-
-
-def open_faces(selected: tuple[App.DocumentObject, Any]) -> None:
-    """Leave the selected faces of the infill's solid without a skin."""
-    from freecad_volfrep.features.openings import open_faces
-
-    infill, faces = selected
-    with undo_step(infill.Document, translate("VOLFREP_OpenFaces", "Open Faces")):
-        open_faces(infill, faces)
-        infill.Document.recompute()
-
-
-def check_print(infill: App.DocumentObject) -> None:
-    """Show the overhanging facets in red on the infill, and what else a printer would mind."""
-    from freecad_volfrep.features.print_check import make_print_check
-
-    doc = infill.Document
-    with undo_step(doc, translate("VOLFREP_PrintCheck", "Print Check")):
-        check = make_print_check(doc, infill)
-        doc.recompute()
-        cancelled = check.Proxy.was_cancelled
-        if cancelled:
-            doc.removeObject(check.Name)
-    if cancelled:
-        return
-    if check.isValid():
-        Gui.Selection.clearSelection()
-        App.Console.PrintMessage(f"VOLFREP, {check.Label}:\n{check.Text}\n")
-
-
-def study_designs(obj: App.DocumentObject) -> None:
-    """Open a design study; of an infill, make one first."""
-    from freecad_volfrep.features.design_study import DesignStudy, make_design_study
-
-    from .study_panel import open_study
-
-    doc = obj.Document
-    if not isinstance(obj.Proxy, DesignStudy):
-        with undo_step(doc, translate("VOLFREP_DesignStudy", "Design Study")):
-            obj = make_design_study(doc, obj)
-            obj.recompute()
-    open_study(obj)
-
-
-def show_section(obj: App.DocumentObject) -> None:
-    """Cut the object open on the screen."""
-    from .section_view import open_section
-
-    open_section(obj)
-
-
-def export(obj: App.DocumentObject) -> None:
-    """Ask for the file's name and write it."""
-    from freecad_volfrep.features.export import export_mesh, formats_of
-    from freecad_volfrep.features.solver_files import CONTENTS, estimate_file
-
-    folder = Path(obj.Document.FileName).parent if obj.Document.FileName else Path.home()
-    formats = {form.filter: form for form in formats_of(obj)}
-    path, chosen = QtWidgets.QFileDialog.getSaveFileName(
-        Gui.getMainWindow(),
-        translate("VOLFREP_Export", "Export Lattice"),
-        str(folder / f"{file_name(obj.Label)}.stl"),
-        ";;".join(formats),
-    )
-    if not path:
-        return
-    form = formats[chosen]
-    if Path(path).suffix.lower() != form.suffix and form.content != "mesh":
-        path = str(Path(path).with_suffix(form.suffix))
-    elif not Path(path).suffix:
-        path += form.suffix
-    with errors_shown(box=True):
-        if form.content in CONTENTS and not ask(
-            translate("VolfrepCommands", "{file}: {estimate}. Write it?").format(
-                file=Path(path).name, estimate=estimate_file(obj, form.content)
-            )
-        ):
-            return
-        export_mesh(obj, path, form.content)
-        tell_written(path)
-
-
-def make_solid_of(obj: App.DocumentObject) -> None:
-    """Say what each kind of solid takes, ask which, and make it."""
-    from freecad_volfrep.features.solids import kinds_of, make_kind
-
-    doc = obj.Document
-    kinds = {
-        kind.name: (translate("VolfrepSolids", kind.title), lambda kind=kind: kind.predict(obj))
-        for kind in kinds_of(obj)
-    }
-    question = translate("VolfrepCommands", "Make of '{label}':").format(label=obj.Label)
-    chosen = _chosen(question, kinds)
-    if chosen is None:
-        return
-    with undo_step(doc, translate("VOLFREP_ToSolid", "Lattice To Solid")), errors_shown():
-        make_kind(doc, obj, chosen)
-        obj.Visibility = False
-    doc.recompute()
-
-
-def analyse(infill: App.DocumentObject) -> None:
-    """Say what each model takes, ask which, and make an analysis of it."""
-    from freecad_volfrep.features.fem_analysis import MODELS, estimate_analysis, make_fem_analysis
-
-    chosen = _chosen(
-        translate("VolfrepCommands", "Analyse '{label}' with:").format(label=infill.Label),
-        {
-            model: (
-                translate("VolfrepCommands", model),
-                lambda m=model: estimate_analysis(infill, m),
-            )
-            for model in MODELS
-        },
-    )
-    if chosen is None:
-        return
-    step = translate("VOLFREP_FemAnalysis", "FEM Analysis")
-    with undo_step(infill.Document, step), errors_shown():
-        make_fem_analysis(infill.Document, infill, chosen)
-
-
-def size_lattice(infill: App.DocumentObject) -> None:
-    """Open the panel in which an infill's struts are sized for the document's load cases."""
-    from .size_panel import SizePanel
-
-    with errors_shown():
-        Gui.Control.showDialog(SizePanel(infill))
-
-
-def show_strut_results(infill: App.DocumentObject) -> None:
-    """Solve an infill's struts for the document's load cases, and show them in colours."""
-    from freecad_volfrep.features.sizing import solve_struts
-
-    from .strut_view import open_struts
-
-    with errors_shown():
-        open_struts(infill, solve_struts(infill))
-
-
-def _chosen(label: str, kinds: dict[str, tuple[str, Callable[[], str]]]) -> str | None:
-    """The kind that the user picks by its title and what it will take; None for none.
-
-    `kinds` gives, by name, the title and what predicts; kinds that are refused are named above
-    the list, and alone they are an error.
-    """
-    offered, refused = {}, []
-    for name, (title, predict) in kinds.items():
-        try:
-            offered[f"{title}: {predict()}"] = name
-        except VolfrepError as error:
-            refused.append(f"{title}: {error}")
-    if not offered:
-        tell_error("\n".join(refused))
-        return None
-    item = choose(label, list(offered), refused)
-    return None if item is None else offered[item]
-
-
-def preview_only(infill: App.DocumentObject) -> None:
-    """Show the struts of the present values without making a mesh, or take them away."""
-    from .preview_only import toggle_preview
-
-    with errors_shown():
-        if toggle_preview(infill):
-            said = translate(
-                "VolfrepCommands", "{label}: preview shown, figures in the report view"
-            )
-        else:
-            said = translate("VolfrepCommands", "{label}: preview off")
-        tell(said.format(label=infill.Label))
-
-
-def report_mesh(obj: App.DocumentObject) -> None:
-    """Look at a mesh and show what was found in a window."""
-    from freecad_volfrep.features.mesh_check import check_mesh
-
-    from .report_window import show_report
-
-    with errors_shown():
-        tables = check_mesh(obj)
-        title = translate("VolfrepCommands", "Check Mesh: {label}").format(label=obj.Label)
-        show_report(title, f"{obj.Label} check", tables)
-
-
-def show_statistics(infills: list[App.DocumentObject]) -> None:
-    """Show the figures of infills in a window."""
-    from freecad_volfrep.features.statistics import statistics
-
-    from .report_window import show_report
-
-    name = infills[0].Label if len(infills) == 1 else infills[0].Document.Label
-    with errors_shown():
-        title = translate("VOLFREP_Statistics", "Statistics")
-        show_report(title, f"{name} statistics", statistics(infills))
-
-
-def browse_cells(_: object) -> None:
-    """Open the window of unit cells."""
-    from .cell_library import show_cell_library
-
-    show_cell_library()
-
-
-def open_help(_: object) -> None:
-    """Open the window of help pages."""
-    from .help_window import show_help
-
-    show_help()
-
-
-def show_example(name: str) -> None:
-    """Model and fill an example in a new document, and look at all of it."""
-    from freecad_volfrep.examples.filled import open_example
-
-    with errors_shown():
-        infill = open_example(name)
-        infill.Base.Visibility = not infill.Mesh.CountFacets  # the part, where it was cancelled
-        Gui.activeDocument().activeView().viewIsometric()
-        Gui.SendMsgToActiveView("ViewFit")
 
 
 def always() -> tuple[()]:

@@ -18,12 +18,12 @@ from freecad_volfrep.bridge.solids import placed
 from freecad_volfrep.translation import translate
 
 from . import drawing
+from .object_dock import ObjectDock, close_docks, docks_of
 from .preview_view import PreviewView
 from .qt import QtCore, QtWidgets
 
-#: Name of the plane in the infill's scene, and of the dock.
+#: Name of the plane in the infill's scene.
 NODE = "VolfrepSection"
-DOCK = "VolfrepSectionView"
 AXES = "XYZ"
 #: The slider's steps from one side of the infill to the other.
 STEPS = 1000
@@ -93,7 +93,7 @@ class Section:
             self._cut_faces = None
 
 
-class SectionDock(QtWidgets.QDockWidget):
+class SectionDock(ObjectDock):
     """The plane's axis, place and side; closing it removes the plane.
 
     Args:
@@ -101,14 +101,11 @@ class SectionDock(QtWidgets.QDockWidget):
         preview: what is drawn in its place, if anything.
     """
 
+    NAME = "VolfrepSectionView"
+
     def __init__(self, obj: App.DocumentObject, preview: PreviewView | None = None) -> None:
-        super().__init__(Gui.getMainWindow())
-        self.setObjectName(DOCK)
-        self.setAttribute(QtCore.Qt.WA_DeleteOnClose)
-        self.setWindowTitle(
-            translate("VolfrepSectionView", "Section of {label}").format(label=obj.Label)
-        )
-        self._obj, self._doc = obj, obj.Document
+        title = translate("VolfrepSectionView", "Section of {label}").format(label=obj.Label)
+        super().__init__(obj, title)
         self._preview = preview
         self._section: Section | None = Section(obj, preview)
         self._axis = QtWidgets.QComboBox()
@@ -131,16 +128,11 @@ class SectionDock(QtWidgets.QDockWidget):
         self._offset.valueChanged.connect(lambda _: self._cut())
         self._flip.toggled.connect(lambda _: self._cut())
         self.centre()
-        App.addDocumentObserver(self)
 
     def show_cut_faces(self) -> None:
         """Fill what is cut through in the present display mode."""
         if self._section is not None:
             self._section.show_cut_faces()
-
-    def shows(self, obj: App.DocumentObject) -> bool:
-        """Whether this is the section of the object."""
-        return bool(self._obj == obj)
 
     def centre(self) -> None:
         """Put the plane in the middle of the mesh along the axis, and open it to the user."""
@@ -151,12 +143,6 @@ class SectionDock(QtWidgets.QDockWidget):
         self._offset.setValue(0.5 * (low + high))
         self._cut()
 
-    def closeEvent(self, event: Any) -> None:  # noqa: N802
-        """Show all of the infill again."""
-        App.removeDocumentObserver(self)
-        self._release()
-        super().closeEvent(event)
-
     def slotChangedObject(self, obj: App.DocumentObject, name: str) -> None:  # noqa: N802
         """Called by FreeCAD: the plane stays where it is while a new mesh may be larger."""
         if obj == self._obj and name == "Mesh":
@@ -164,25 +150,15 @@ class SectionDock(QtWidgets.QDockWidget):
             self._cut()
             self.show_cut_faces()
 
-    def slotDeletedObject(self, obj: App.DocumentObject) -> None:  # noqa: N802
-        """Called by FreeCAD: there is nothing to cut any more."""
-        if obj == self._obj:
-            self._close_later()
-
-    def slotDeletedDocument(self, doc: App.Document) -> None:  # noqa: N802
-        """Called by FreeCAD as well."""
-        if doc == self._doc:
-            self._close_later()
-
-    def _close_later(self) -> None:
-        """Closing takes the observer away that FreeCAD is calling just now."""
-        self._section = None
-        QtCore.QTimer.singleShot(0, self.close)
-
-    def _release(self) -> None:
+    def take_away(self) -> None:
+        """Show all of the infill again."""
         if self._section is not None:
             self._section.remove()
             self._section = None
+
+    def forget(self, document_too: bool) -> None:
+        """The plane is gone with the infill's scene."""
+        self._section = None
 
     def _lay_out(self) -> None:
         panel = QtWidgets.QWidget()
@@ -235,32 +211,22 @@ def open_section(obj: App.DocumentObject, preview: PreviewView | None = None) ->
         obj: a mesh object.
         preview: what is drawn in its place, if anything: it is cut with it.
     """
-    for old in _docks():
-        old.close()
+    close_docks(SectionDock)
     dock = SectionDock(obj, preview)
-    Gui.getMainWindow().addDockWidget(QtCore.Qt.BottomDockWidgetArea, dock)
+    dock.put_up()
     return dock
 
 
 def close_section(obj: App.DocumentObject) -> bool:
     """Show all of the object again; returns whether it was cut open."""
-    shown = [dock for dock in _docks() if dock.shows(obj)]
-    for dock in shown:
-        dock.close()
-    return bool(shown)
+    return close_docks(SectionDock, obj)
 
 
 def refresh_section(obj: App.DocumentObject) -> None:
     """Fill cut faces anew where the object is cut open: it is shown in another way."""
-    for dock in _docks():
+    for dock in docks_of(SectionDock):
         if dock.shows(obj):
             dock.show_cut_faces()
-
-
-def _docks() -> list[SectionDock]:
-    """Those that are open."""
-    found = Gui.getMainWindow().findChildren(QtWidgets.QDockWidget, DOCK)
-    return [dock for dock in found if isinstance(dock, SectionDock) and dock.isVisible()]
 
 
 def _draws_cuts(view: Any) -> bool:

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import FreeCAD as App
 import FreeCADGui as Gui
@@ -16,14 +16,14 @@ from volfrep.sizing.strut_state import QUANTITIES, drawn_factor, value_range
 
 from . import drawing
 from .coloured_struts import coloured_struts, colours_of, legend
-from .qt import QtCore, QtWidgets
+from .object_dock import ObjectDock, close_docks
+from .qt import QtWidgets
 
 if TYPE_CHECKING:
     from volfrep.sizing.strut_state import StrutState
 
-#: Name of what hangs in the view's scene, and of the dock.
+#: Name of what hangs in the view's scene.
 NODE = "VolfrepStrutResults"
-DOCK = "VolfrepStrutView"
 #: Colour of the solid's edges.
 OUTLINE = (0.75, 0.75, 0.75)
 #: What struts may be coloured by, marked for translation: `volfrep.sizing.strut_state.QUANTITIES`.
@@ -36,7 +36,7 @@ QUANTITY_NAMES = marked(
 )
 
 
-class StrutDock(QtWidgets.QDockWidget):
+class StrutDock(ObjectDock):
     """Draws the struts of an infill in place of it until it is closed.
 
     Args:
@@ -44,16 +44,14 @@ class StrutDock(QtWidgets.QDockWidget):
         states: its struts in each load case.
     """
 
+    NAME = "VolfrepStrutView"
+
     def __init__(self, obj: App.DocumentObject, states: Sequence[StrutState]) -> None:
         from pivy import coin
 
-        super().__init__(Gui.getMainWindow())
-        self.setObjectName(DOCK)
-        self.setAttribute(QtCore.Qt.WA_DeleteOnClose)
-        self.setWindowTitle(
-            translate("VolfrepStrutView", "Strut results of {label}").format(label=obj.Label)
-        )
-        self._obj, self._doc, self._states = obj, obj.Document, tuple(states)
+        title = translate("VolfrepStrutView", "Strut results of {label}").format(label=obj.Label)
+        super().__init__(obj, title)
+        self._states = tuple(states)
         self._was_visible = {
             shown: shown.ViewObject.Visibility for shown in (obj, obj.Base) if shown is not None
         }
@@ -82,7 +80,6 @@ class StrutDock(QtWidgets.QDockWidget):
         self._quantity.currentIndexChanged.connect(lambda _: self.draw())
         self._deformed.toggled.connect(lambda _: self.draw())
         self.draw()
-        App.addDocumentObserver(self)
 
     def draw(self) -> None:
         """Draw the struts of the chosen case by the chosen quantity."""
@@ -109,35 +106,19 @@ class StrutDock(QtWidgets.QDockWidget):
         self._root.addChild(drawing.separate(turn, drawing.unpickable(), struts, self._outline))
         self._root.addChild(legend(translate("VolfrepStrutView", QUANTITIES[name]), low, high))
 
-    def shows(self, obj: App.DocumentObject) -> bool:
-        """Whether these are the struts of the object."""
-        return bool(self._obj == obj)
-
-    def closeEvent(self, event: Any) -> None:  # noqa: N802
-        """Show the infill again."""
-        App.removeDocumentObserver(self)
-        self._release()
-        super().closeEvent(event)
-
     def slotChangedObject(self, obj: App.DocumentObject, name: str) -> None:  # noqa: N802
         """Called by FreeCAD: the struts of a new mesh are others."""
         if obj == self._obj and name == "Mesh":
-            QtCore.QTimer.singleShot(0, self.close)
+            self.close_later()
 
-    def slotDeletedObject(self, obj: App.DocumentObject) -> None:  # noqa: N802
-        """Called by FreeCAD: there is nothing to show any more."""
-        if obj == self._obj:
-            self._was_visible.clear()
-            QtCore.QTimer.singleShot(0, self.close)
-
-    def slotDeletedDocument(self, doc: App.Document) -> None:  # noqa: N802
-        """Called by FreeCAD as well."""
-        if doc == self._doc:
-            self._was_visible.clear()
+    def forget(self, document_too: bool) -> None:
+        """There is nothing to be shown again; with the document, the scene is gone."""
+        self._was_visible.clear()
+        if document_too:
             self._scene = None
-            QtCore.QTimer.singleShot(0, self.close)
 
-    def _release(self) -> None:
+    def take_away(self) -> None:
+        """Show the infill again."""
         if self._scene is not None:
             self._scene.removeChild(self._root)
             self._scene = None
@@ -162,20 +143,12 @@ class StrutDock(QtWidgets.QDockWidget):
 
 def open_struts(obj: App.DocumentObject, states: Sequence[StrutState]) -> StrutDock:
     """Show what an infill's struts carry, in place of what is shown of struts already."""
-    for old in _docks():
-        old.close()
+    close_docks(StrutDock)
     dock = StrutDock(obj, states)
-    Gui.getMainWindow().addDockWidget(QtCore.Qt.BottomDockWidgetArea, dock)
+    dock.put_up()
     return dock
 
 
 def close_struts(obj: App.DocumentObject) -> None:
     """Show the infill itself again."""
-    for dock in _docks():
-        if dock.shows(obj):
-            dock.close()
-
-
-def _docks() -> list[StrutDock]:
-    found = Gui.getMainWindow().findChildren(QtWidgets.QDockWidget, DOCK)
-    return [dock for dock in found if isinstance(dock, StrutDock) and dock.isVisible()]
+    close_docks(StrutDock, obj)

@@ -3,34 +3,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import FreeCAD as App
 import FreeCADGui as Gui
 
 from freecad_volfrep.features.live_preview import TARGETS, LivePreview, Shown
-from freecad_volfrep.features.quantities import number_of, set_value
-from freecad_volfrep.translation import QT_TRANSLATE_NOOP, marked, spaced, translate
+from freecad_volfrep.features.quantities import set_value
+from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 from volfrep.design import parameters
-from volfrep.design.cells import LIBRARY, load_cell
-from volfrep.design.field_files import TABLE_SUFFIXES, VTK_SUFFIXES
-from volfrep.design.parameters.table import CUSTOM_CELL
-from volfrep.design.target import read_direction
 from volfrep.util.errors import VolfrepError
 
-from .cell_library import cell_files
-from .cell_picture import cell_icon
-from .file_field import FileField
 from .messages import WRONG
 from .preview_only import end_preview
 from .preview_view import PreviewView
+from .property_fields import PropertyFields, is_read_only, label_of, said_property
 from .qt import OK_CANCEL, QtCore, QtWidgets
 from .section_view import close_section, open_section
 
 #: The preview waits until no value has changed for so long, ms.
 SETTLED = 120
-PICTURE = 48
 #: What the panel shows, by group: properties of the object. Those that do not apply are hidden.
 GROUPS = {
     group: names
@@ -46,19 +38,11 @@ GROUPS = {
 #: The switches of what is shown in the view.
 PREVIEW = QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Preview")
 CELLS = QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Cells")
-#: What the files of a field hold.
-POINTS = QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Points and values")
-MATERIAL = QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Material")
-#: What the list of materials holds beside their names.
-ENTRIES = marked("App::Property", "None", "Custom", "Of the solid")
 #: Above this group are the figures: what is used most is seen without scrolling.
 SECOND = "Boundary"
 #: Least width of a field, px: the panel must fit beside FreeCAD's tree.
 FIELD = 82
-_HIDDEN, _READ_ONLY = "Hidden", "ReadOnly"
-#: Fields of plain numbers with a unit. FreeCAD's own take no "M" of MPa, and 0.20 has no masses.
-UNITS = {"TargetMass": "g", "TargetStiffness": "MPa"}
-_LARGEST = 1e9
+_HIDDEN = "Hidden"
 
 
 class TaskPanel:
@@ -82,7 +66,9 @@ class TaskPanel:
         }
         for shown in self._was_visible:
             shown.ViewObject.Visibility = False
-        self._bindings: list[Any] = []
+        self._fields = PropertyFields(
+            obj, self._value_changed, lambda text: self._say(text, wrong=True)
+        )
         self._rows: dict[str, tuple[Any, Any]] = {}
         self._boxes: list[tuple[Any, tuple[str, ...]]] = []
         self._shown: Shown | None = None
@@ -154,19 +140,19 @@ class TaskPanel:
         form.setWindowTitle(self._obj.Label)
         column = QtWidgets.QVBoxLayout(form)
         column.setContentsMargins(0, 0, 0, 0)
-        column.addWidget(self._cell_picker())
+        column.addWidget(self._fields.cell_picker())
         for title, names in GROUPS.items():
             if title == SECOND:
                 self._add_figures(column)
-            box = QtWidgets.QGroupBox(_property(title))
+            box = QtWidgets.QGroupBox(said_property(title))
             rows = QtWidgets.QFormLayout(box)
             rows.setContentsMargins(6, 4, 6, 4)
             rows.setRowWrapPolicy(QtWidgets.QFormLayout.WrapLongRows)
             for name in names:
-                label, widget = QtWidgets.QLabel(_label(name)), self._editor(name)
+                label, widget = QtWidgets.QLabel(label_of(name)), self._fields.field(name)
                 widget.setObjectName(name)
                 widget.setMinimumWidth(FIELD)
-                widget.setToolTip(_property(self._obj.getDocumentationOfProperty(name)))
+                widget.setToolTip(said_property(self._obj.getDocumentationOfProperty(name)))
                 rows.addRow(label, widget)
                 self._rows[name] = label, widget
             column.addWidget(box)
@@ -221,118 +207,12 @@ class TaskPanel:
         if not close_section(self._obj):
             open_section(self._obj, self._view)
 
-    def _cell_picker(self) -> Any:
-        picker = QtWidgets.QListWidget()
-        picker.setObjectName("CellType")
-        picker.setViewMode(QtWidgets.QListView.IconMode)
-        picker.setIconSize(QtCore.QSize(PICTURE, PICTURE))
-        picker.setMovement(QtWidgets.QListView.Static)
-        picker.setResizeMode(QtWidgets.QListView.Adjust)
-        picker.setFixedHeight(2 * PICTURE + 60)
-        picker.setMinimumWidth(4 * PICTURE)
-        for name in self._obj.getEnumerationsOfProperty("CellType"):
-            item = QtWidgets.QListWidgetItem(name, picker)
-            if name == CUSTOM_CELL:
-                self._own = item
-                self._draw_own_cell()
-            else:
-                item.setIcon(cell_icon(LIBRARY[name], PICTURE))
-            if name == self._obj.CellType:
-                picker.setCurrentItem(item)
-        picker.currentTextChanged.connect(self._setter("CellType"))
-        return picker
-
-    def _draw_own_cell(self) -> None:
-        """Show the cell of the object's file, or an empty cube; the figures say what is wrong."""
-        try:
-            cell = load_cell(self._obj.CellFile) if self._obj.CellFile else None
-        except VolfrepError:
-            cell = None
-        self._own.setIcon(cell_icon(cell, PICTURE))
-
-    def _editor(self, name: str) -> Any:
-        """A widget for a property, by the property's type."""
-        kind = self._obj.getTypeIdOfProperty(name)
-        if kind == "App::PropertyEnumeration":
-            choice = QtWidgets.QComboBox()
-            choice.setMinimumContentsLength(4)
-            choice.setSizeAdjustPolicy(QtWidgets.QComboBox.AdjustToMinimumContentsLengthWithIcon)
-            for value in self._obj.getEnumerationsOfProperty(name):
-                choice.addItem(_property(value), value)
-            choice.setCurrentIndex(choice.findData(getattr(self._obj, name)))
-            choice.currentIndexChanged.connect(lambda row: self._setter(name)(choice.itemData(row)))
-            return choice
-        if kind == "App::PropertyBool":
-            box = QtWidgets.QCheckBox()
-            box.setChecked(getattr(self._obj, name))
-            box.toggled.connect(self._setter(name))
-            return box
-        if kind == "App::PropertyString":
-            line = QtWidgets.QLineEdit(getattr(self._obj, name))
-            line.editingFinished.connect(lambda: self._setter(name)(line.text()))
-            return line
-        if kind == "App::PropertyFile":
-            return FileField(getattr(self._obj, name), _files(name), self._setter(name))
-        if name in UNITS:
-            return self._number_field(name)
-        if kind == "App::PropertyVector":
-            way = QtWidgets.QLineEdit(_direction_text(getattr(self._obj, name)))
-            way.editingFinished.connect(lambda: self._set_direction(name, way.text()))
-            return way
-        spin = Gui.UiLoader().createWidget("Gui::QuantitySpinBox")
-        spin.setProperty("unit", "mm" if kind == "App::PropertyLength" else "")
-        spin.setProperty("minimum", 0.0)
-        present = getattr(self._obj, name)
-        spin.setProperty("rawValue", getattr(present, "Value", present))
-        # Its own signal has a type that Python's Qt does not know.
-        spin.findChild(QtWidgets.QLineEdit).textChanged.connect(
-            lambda _: self._setter(name)(spin.property("rawValue"))
-        )
-        binding = Gui.ExpressionBinding(spin)
-        binding.bind(self._obj, name)
-        self._bindings.append(binding)
-        return spin
-
-    def _number_field(self, name: str) -> Any:
-        """A number of the unit that `quantities` have for the property."""
-        field = _PlainNumber()
-        field.setRange(0.0, _LARGEST)
-        field.setDecimals(3)
-        field.setStepType(QtWidgets.QAbstractSpinBox.AdaptiveDecimalStepType)
-        field.setSuffix(f" {UNITS[name]}")
-        field.setValue(number_of(self._obj, name))
-        field.setEnabled(not self._is_driven(name))
-
-        def changed(value: float) -> None:
-            if not self._is_driven(name) and value != number_of(self._obj, name):
-                set_value(self._obj, name, value)
-                self._timer.start(SETTLED)
-
-        field.valueChanged.connect(changed)
-        return field
-
-    def _is_driven(self, name: str) -> bool:
-        """Whether an expression says what the property is."""
-        return any(path.strip(".") == name for path, _ in self._obj.ExpressionEngine)
-
-    def _setter(self, name: str) -> Callable[[Any], None]:
-        """Sets a property that the user has changed, and asks for a new preview."""
-
-        def set_value(value: Any) -> None:
-            present = getattr(self._obj, name)
-            if self._is_driven(name) or _READ_ONLY in self._obj.getEditorMode(name):
-                return
-            if value == getattr(present, "Value", present):
-                return
-            setattr(self._obj, name, value)
-            if name == "RadiusDrivenBy":
-                self._begin_target(value)
-            if name == "CellFile":
-                self._draw_own_cell()
-            self._show_rows()
-            self._timer.start(SETTLED)
-
-        return set_value
+    def _value_changed(self, name: str) -> None:
+        """Show what applies now, and a new preview once nothing changes any more."""
+        if name == "RadiusDrivenBy":
+            self._begin_target(self._obj.RadiusDrivenBy)
+        self._show_rows()
+        self._timer.start(SETTLED)
 
     def _show_rows(self) -> None:
         """Hide what does not apply, as the property editor does."""
@@ -341,9 +221,7 @@ class TaskPanel:
                 widget.setVisible(_HIDDEN not in self._obj.getEditorMode(name))
         for box, names in self._boxes:
             box.setVisible(any(_HIDDEN not in self._obj.getEditorMode(name) for name in names))
-        self._rows["StrutRadius"][1].setEnabled(
-            _READ_ONLY not in self._obj.getEditorMode("StrutRadius")
-        )
+        self._rows["StrutRadius"][1].setEnabled(not is_read_only(self._obj, "StrutRadius"))
 
     def _begin_target(self, driver: str) -> None:
         """Begin with what the lattice that is shown comes to: it stays as it is at first."""
@@ -352,21 +230,7 @@ class TaskPanel:
         if value is None:
             return
         set_value(self._obj, name, float(f"{value:.3g}"))
-        field = self._rows[name][1]
-        field.setProperty("value" if name in UNITS else "rawValue", number_of(self._obj, name))
-
-    def _set_direction(self, name: str, text: str) -> None:
-        """Take a direction over; what is none is said, and the last one shown again."""
-        try:
-            self._setter(name)(App.Vector(*read_direction(text)))
-        except ValueError:
-            self._say(
-                translate(
-                    "VolfrepTaskPanel",
-                    "'{text}' is no direction: write 100, 110, 111 or three numbers such as 1,2,0.",
-                ).format(text=text),
-                wrong=True,
-            )
+        self._fields.show(name, self._rows[name][1])
 
     def _tell_radius(self, radius: float) -> None:
         """Show the radius that was found where something else drives it."""
@@ -383,44 +247,3 @@ class TaskPanel:
         Gui.Control.closeDialog()
         if Gui.ActiveDocument is not None:
             Gui.ActiveDocument.resetEdit()
-
-
-class _PlainNumber(QtWidgets.QDoubleSpinBox):
-    """A number without zeros at its end, which would push the unit out of a narrow panel."""
-
-    def textFromValue(self, value: float) -> str:  # noqa: N802
-        """As Qt asks for it."""
-        locale = self.locale()
-        locale.setNumberOptions(QtCore.QLocale.OmitGroupSeparator)
-        return str(locale.toString(float(value), "g", 7))
-
-
-def _files(name: str) -> str:
-    """The kinds of files for a property, as Qt's file dialog takes them."""
-    if name == "MaterialFile":
-        return f"{translate('VolfrepTaskPanel', MATERIAL)} (*.toml *.json)"
-    if name == "CellFile":
-        return cell_files()
-    suffixes = " ".join(f"*{suffix}" for suffix in TABLE_SUFFIXES + VTK_SUFFIXES)
-    return f"{translate('VolfrepTaskPanel', POINTS)} ({suffixes})"
-
-
-def _direction_text(way: App.Vector) -> str:
-    """A direction as the panel's field shows and takes it."""
-    numbers = tuple(way)
-    for short in ("100", "110", "111"):
-        if numbers == read_direction(short):
-            return short
-    return ", ".join(f"{number:g}" for number in numbers)
-
-
-def _label(name: str) -> str:
-    """A property's name in the user's words; in English only its first letter is a capital."""
-    text = spaced(name)
-    said = _property(text)
-    return text.capitalize() if said == text else said
-
-
-def _property(text: str) -> str:
-    """A property's name, description or value, in the context that FreeCAD has for them."""
-    return str(translate("App::Property", text))

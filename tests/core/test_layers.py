@@ -18,6 +18,9 @@ ROOMS = (
 )  # fmt: skip
 MOST_MODULES = 14
 MOST_LINES = 400
+#: Modules one of which imports the next, wherever in it the import stands; of rooms as well.
+LONGEST_CHAIN = 24
+LONGEST_CHAIN_OF_ROOMS = 13
 
 
 def modules() -> dict[str, Path]:
@@ -66,6 +69,32 @@ def test_no_imports_go_round() -> None:
             break
         targets = {name: needs for name, needs in targets.items() if name not in free}
     assert targets == {}
+
+
+def longest(targets: dict[str, set[str]]) -> list[str]:
+    """The longest chain of names one of which has the next among its targets."""
+    chains: dict[str, list[str]] = {}
+
+    def chain(name: str) -> list[str]:
+        if name not in chains:
+            below = (chain(target) for target in sorted(targets[name]))
+            chains[name] = [name, *max(below, key=len, default=[])]
+        return chains[name]
+
+    return max((chain(name) for name in targets), key=len)
+
+
+def test_chains_of_imports_are_no_longer_than_they_were() -> None:
+    known = modules()
+    targets = {name: set(imports(name, path, known)) - {name, ""} for name, path in known.items()}
+    del targets[""]
+    assert len(longest(targets)) <= LONGEST_CHAIN, longest(targets)
+    rooms: dict[str, set[str]] = {room: set() for room in ROOMS}
+    for name, needs in targets.items():
+        room = name.split(".")[0]
+        if room in rooms:
+            rooms[room] |= {need.split(".")[0] for need in needs} - {room}
+    assert len(longest(rooms)) <= LONGEST_CHAIN_OF_ROOMS, longest(rooms)
 
 
 @pytest.mark.parametrize("room", [p.name for p in sorted(ENGINE.iterdir()) if p.is_dir()])

@@ -15,6 +15,7 @@ PACKAGE = "freecad_volfrep"
 #: Low to high: what stands here imports from itself and from what stands before it. Modules beside
 #: the folders, which only look at FreeCAD and the engine, are the lowest.
 LAYERS = ("", "bridge", "exact_job", "features", "revival", "examples", "gui", "window")
+MOST_LINES = 400
 
 
 def modules() -> dict[str, Path]:
@@ -80,3 +81,8 @@ def test_objects_are_shown_by_what_the_window_registers() -> None:
     known = modules()
     assert f"{PACKAGE}.features.screen" in imports_of("window", known)
     assert any(target.startswith(f"{PACKAGE}.gui") for target in imports_of("window", known))
+
+
+def test_no_module_is_long() -> None:
+    lines = {name: len(path.read_text("utf-8").splitlines()) for name, path in modules().items()}
+    assert {name: count for name, count in lines.items() if count > MOST_LINES} == {}

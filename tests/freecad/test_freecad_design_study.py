@@ -122,3 +122,24 @@ def test_a_study_varies_what_drives_the_radius(doc, infill):
     assert apply_design(study, thick["key"])
     assert infill.TargetDensity == 0.25
     assert infill.RelativeDensity == pytest.approx(0.25, rel=0.005)
+
+
+def test_runs_are_done_in_processes_beside_freecad(doc, infill, monkeypatch):
+    from volfrep.studies.running import apart, scheduling
+
+    start, started = apart._Child.__init__, []
+
+    def starting(child, batch):
+        started.append(batch.interpreter.executable)
+        start(child, batch)
+
+    monkeypatch.setattr(apart._Child, "__init__", starting)
+    monkeypatch.setattr(scheduling, "WORTH_A_PROCESS", 0.0)
+    monkeypatch.setattr(scheduling, "fitting_workers", lambda *_: 2)
+    study = make_design_study(doc, infill, StrutRadius="0.9, 1.1")
+    study.Fill = True
+    assert run_study(study)
+    rows = designs_of_study(study)
+    assert [row["state"] for row in rows] == ["done", "done"], rows
+    assert all("python" in path for path in started)
+    assert len(started) >= 2

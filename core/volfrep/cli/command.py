@@ -17,12 +17,12 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..design.parameters import BY_NAME
 from ..util.errors import VolfrepError
 from . import layers, material, printing_options, process, properties, sizing, solver_options, sweep
 from .files import check_files, read_part
 from .parameter_options import add_parameters, set_parameter, write_specification
-from .parser import Parser, Version, refuse_old, three_whole_numbers
+from .parser import Parser, Version, refuse_old
+from .run_options import add_run_options, refuse_extensions
 from .telling import Progress, print_rows, tell
 
 if TYPE_CHECKING:
@@ -96,28 +96,23 @@ def _parser() -> argparse.ArgumentParser:
         metavar="PART",
         help="the closed solid: STL, OBJ, PLY or 3MF, or with FreeCAD at hand STEP, IGES or BREP",
     )
-    _add_unit(fill)
-    _add_output(fill)
+    add_run_options(fill, "fill")
     add_parameters(fill)
 
     block = add("block", _block, "Make a free-standing block of whole cells with round struts.")
-    block.add_argument(
-        "--count", type=three_whole_numbers, required=True, metavar="NX,NY,NZ", help="cells"
-    )
-    _add_output(block)
+    add_run_options(block, "block")
     add_parameters(block, of_block=True)
 
     network = add(
         "network", _network, "Mesh the nodes and struts of a file, or cells laid into its mesh."
     )
-    network.add_argument("file", metavar="FILE", help=BY_NAME["network_file"].help)
-    _add_output(network)
+    add_run_options(network, "network")
     laid = ("network_thickness", "network_layers", "network_reversed")
     add_parameters(network, of_block=True, also=laid)
 
     add("cells", _cells, "List the library of unit cells.")
 
-    _add_unit(layers.add_command(add))
+    layers.add_command(add)
     properties.add_command(add)
 
     sizing.add_command(add)
@@ -125,33 +120,8 @@ def _parser() -> argparse.ArgumentParser:
 
     check = add("check", _check, "Tell what a reader sees in a mesh file (STL, OBJ, PLY, 3MF).")
     check.add_argument("file", metavar="FILE")
-    _add_unit(check)
+    add_run_options(check, "check")
     return parser
-
-
-def _add_unit(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
-        "--unit",
-        help="of the file's lengths: mm, cm, m, inch, ft or um (default: what the file says, else "
-        "mm)",
-    )
-
-
-def _add_output(parser: argparse.ArgumentParser) -> None:
-    add = parser.add_argument
-    add(
-        "-o",
-        "--output",
-        required=True,
-        metavar="FILE",
-        help="what to write: .stl, .3mf, .ply, .obj, .step or .inp",
-    )
-    add("--report", metavar="FILE.json", help="write the figures of the run as JSON")
-    add("--picture", metavar="FILE.png", help="write a picture, cut open (needs pyvista)")
-    add("--quiet", action="store_true", help="print nothing but errors")
-    material.add_options(parser)
-    printing_options.add_options(parser)
-    solver_options.add_options(parser)
 
 
 def _fill(options: argparse.Namespace) -> None:
@@ -167,7 +137,7 @@ def _fill(options: argparse.Namespace) -> None:
     start = time.perf_counter()
     solid = read_part(options, spec.cell_size)
     read_seconds = time.perf_counter() - start
-    meshed = options.threemf != "beams" and not solver_options.needs_axes(options)
+    meshed = solver_options.is_meshed(options)
     if not options.quiet:
         aim = roughly_aimed(solid, spec)
         expected = forecast_fill(solid, aim, streamed=_writes_stl(options))
@@ -204,7 +174,7 @@ def _block(options: argparse.Namespace) -> None:
     from ..jobs.targets import aimed_block
 
     start = time.perf_counter()
-    meshed = options.threemf != "beams" and not solver_options.needs_axes(options)
+    meshed = solver_options.is_meshed(options)
     spec = aimed_block(spec, options.count, meshed=meshed)
     if solver_options.block_axes(spec, options, start):
         return
@@ -232,7 +202,7 @@ def _block(options: argparse.Namespace) -> None:
 
 
 def _network(options: argparse.Namespace) -> None:
-    from ..jobs.networks import network_alone
+    from ..jobs.networks.alone import network_alone
     from ..trim.beam_model import BeamModel
 
     set_parameter(options, "network", "file")
@@ -278,6 +248,7 @@ def _check_targets(options: argparse.Namespace, spec: LatticeSpec) -> None:
 
     check_files(options)
     out = Path(options.output)
+    refuse_extensions(options, "fill", out)
     if not solver_options.is_deck(out):
         mesh_writer(out)
     printing_options.check(options, out)

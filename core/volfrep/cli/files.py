@@ -8,29 +8,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..util.errors import VolfrepError
+from .run_options import INPUTS, OUTPUTS
 
 if TYPE_CHECKING:
     from ..io.solid import Solid
-
-#: What the command calls its input files, by the names of the options that give them.
-INPUTS = {
-    "part": "part",
-    "spec": "specification",
-    "cell": "cell file",
-    "radius_field": "field file",
-    "network_file": "network file",
-    "material": "material file",
-    "loads": "load file",
-}
-#: The files that it writes, the same way.
-OUTPUTS = {
-    "output": "output",
-    "report": "report",
-    "picture": "picture",
-    "write_spec": "written specification",
-    "json": "figures",
-    "radii": "radii",
-}
 
 
 def check_files(options: argparse.Namespace, *, folder: bool = False) -> None:

@@ -13,39 +13,21 @@ from typing import Any
 from . import material
 from .files import check_files, read_part
 from .parameter_options import add_parameters, write_specification
+from .run_options import add_run_options
 from .telling import Progress, print_rows, print_warnings
 
 _TEXT = "Write a filled part in layers along z, straight from its struts: no mesh is made."
 
 
-def add_command(add: Callable[[str, Callable[[argparse.Namespace], None], str], Any]) -> Any:
-    """Add the command with `cli`'s own function for that; returns its parser."""
+def add_command(add: Callable[[str, Callable[[argparse.Namespace], None], str], Any]) -> None:
+    """Add the command with `cli`'s own function for that."""
     parser = add("slice", _slice, _TEXT)
     parser.set_defaults(process=None)
-    option = parser.add_argument
-    option("part", metavar="PART", help="the closed solid, as it stands on the build plate")
-    option(
-        "-o", "--output", required=True, metavar="FOLDER",
-        help="to make; one that holds layers is replaced",
-    )  # fmt: skip
-    option("--layer", type=float, required=True, metavar="MM", help="height of a layer")
-    option(
-        "--pixel", type=float, metavar="MM",
-        help="edge of a pixel of the pictures (default: the height of a layer)",
-    )  # fmt: skip
-    option(
-        "--format", choices=("png", "svg", "cli"), default="png",
-        help="a picture of one bit a pixel a layer, for resin printers (default); a drawing a "
-        "layer; or one file of the common layer interface, for metal printers",
-    )  # fmt: skip
-    option(
-        "--material", metavar="M",
-        help="a name of the table in docs/cells.md, or a .toml or .json file: its density gives "
-        "the mass",
-    )  # fmt: skip
-    option("--quiet", action="store_true", help="print nothing but errors")
+    parser.add_argument(
+        "part", metavar="PART", help="the closed solid, as it stands on the build plate"
+    )
+    add_run_options(parser, "slice")
     add_parameters(parser)
-    return parser
 
 
 def _slice(options: argparse.Namespace) -> None:

@@ -13,32 +13,11 @@ from typing import TYPE_CHECKING
 
 from ..util.errors import VolfrepError
 from .parameter_options import specification
+from .solver_options import DECK_SUFFIX, is_deck, is_meshed
 from .telling import print_warnings
 
 if TYPE_CHECKING:
     from ..design.spec import LatticeSpec
-
-_DECK = ".inp"
-#: Forms that hold no mesh, which a print report is made of.
-_NO_MESH = ("wireframe", "beams")
-
-
-def add_options(parser: argparse.ArgumentParser) -> None:
-    """The options of the commands that make a lattice."""
-    add = parser.add_argument_group("what it is printed of, and how").add_argument
-    add(
-        "--material",
-        metavar="M",
-        help="a name of the table in docs/cells.md, or the path of a .toml or .json file: its "
-        "density gives the mass, its modulus goes into an .inp file; of such a file also "
-        "NAME,E,NU in MPa (default PETG,2100,0.38)",
-    )
-    add(
-        "--process",
-        metavar="P",
-        help="FFF, SLA, SLS, MJF, LPBF or EBM: adds its print report where there is a mesh, and "
-        "says if it does not print the material",
-    )
 
 
 def apply(options: argparse.Namespace, out: Path) -> tuple[str, ...]:
@@ -59,10 +38,10 @@ def apply(options: argparse.Namespace, out: Path) -> tuple[str, ...]:
         options.solid = find_material(options.material)
         if "," in options.material:
             # Without a density it says something about a deck only.
-            if out.suffix.lower() != _DECK:
+            if not is_deck(out):
                 raise VolfrepError(
-                    f"'{out}' cannot hold what --material asks for: give it the extension {_DECK}, "
-                    "or name a material with a density."
+                    f"'{out}' cannot hold what --material asks for: give it the extension "
+                    f"{DECK_SUFFIX}, or name a material with a density."
                 )
         elif options.density is None:
             options.density = options.solid.density
@@ -71,9 +50,7 @@ def apply(options: argparse.Namespace, out: Path) -> tuple[str, ...]:
     from ..reports.processes import find_process
 
     process = find_process(options.process)
-    deck = out.suffix.lower() == _DECK and (options.inp or "beams") in _NO_MESH
-    meshless = deck or options.step in _NO_MESH or options.threemf == "beams"
-    if options.print_report is None and not meshless:
+    if options.print_report is None and is_meshed(options):
         options.print_report = process.name
     if options.solid is None or not options.solid.processes:
         return ()

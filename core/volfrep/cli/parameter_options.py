@@ -31,9 +31,6 @@ def add_parameters(
         of_block: whether the command makes free-standing blocks.
         also: parameters that it has though blocks have not.
     """
-    files = parser.add_argument_group("a whole specification")
-    files.add_argument("--spec", metavar="FILE.toml", help="read it; options override its entries")
-    files.add_argument("--write-spec", metavar="FILE.toml", help="write the one in force")
     for group, title in GROUPS.items():
         rows = [p for p in PARAMETERS if p.group == group and p.in_command]
         rows = [p for p in rows if p.of_block or not of_block or p.name in also]

@@ -81,3 +81,12 @@ def three_whole_numbers(text: str) -> tuple[int, int, int]:
             f"'{text}' is not three whole numbers with commas, NX,NY,NZ, such as 10,10,10"
         ) from error
     return x, y, z
+
+
+def shard(text: str) -> tuple[int, int]:
+    """I of N, from 1 on."""
+    try:
+        one, of = (int(number) for number in text.split("/"))
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(f"'{text}' is no shard, I/N, such as 1/4") from error
+    return one, of

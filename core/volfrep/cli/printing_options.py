@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..util.errors import VolfrepError
+from .solver_options import is_meshed
 from .telling import print_rows, print_warnings
 
 if TYPE_CHECKING:
@@ -22,36 +23,17 @@ if TYPE_CHECKING:
     from ..trim.beam_model import BeamModel
 
 
-def add_options(parser: argparse.ArgumentParser) -> None:
-    """The options of the commands that make a lattice."""
-    add = parser.add_argument
-    add(
-        "--3mf",
-        dest="threemf",
-        choices=("mesh", "beams", "both"),
-        help="what a 3MF file holds: the part as triangles (default), its lattice as beams of the "
-        "beam lattice extension (small, and made without a mesh), or both",
-    )
-    add(
-        "--print-report",
-        metavar="PROCESS",
-        help="say how the part suits a printing process: FFF, SLA, SLS, MJF, LPBF or EBM",
-    )
-
-
 def check(options: argparse.Namespace, out: Path) -> None:
     """Refuse options that do not go together, before any work.
 
     Raises:
         VolfrepError: naming them.
     """
-    if options.threemf is not None and out.suffix.lower() != ".3mf":
-        raise VolfrepError(f"'{out}' cannot hold what --3mf asks for: give it the extension .3mf.")
     if options.picture is not None:
         from ..reports.picture import check_picture
 
         check_picture(options.picture)
-        if options.threemf == "beams" or options.step == "wireframe" or options.inp == "beams":
+        if not is_meshed(options):
             raise VolfrepError(
                 "A picture is made of the mesh, which beams do without: leave it out."
             )

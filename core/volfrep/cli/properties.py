@@ -12,6 +12,7 @@ from collections.abc import Callable
 from typing import Any
 
 from .files import check_files
+from .run_options import add_run_options
 from .telling import print_rows
 
 _TEXT = "Tell density, stiffness, strength and conductance of a cell's lattice."
@@ -20,25 +21,8 @@ _TEXT = "Tell density, stiffness, strength and conductance of a cell's lattice."
 def add_command(add: Callable[[str, Callable[[argparse.Namespace], None], str], Any]) -> None:
     """Add the command with `cli`'s own function for that."""
     parser = add("properties", _properties, _TEXT)
-    option = parser.add_argument
-    option("cell", metavar="CELL", help="a library cell, or a cell's .json file")
-    option("--cell-size", type=float, required=True, metavar="MM", help="edge L of a cell")
-    size = parser.add_mutually_exclusive_group(required=True)
-    size.add_argument("--strut-radius", type=float, metavar="MM", help="radius r of the struts")
-    size.add_argument(
-        "--relative-density", type=float, metavar="D", help="from 0 to 1, in place of the radius"
-    )
-    option(
-        "--fillet", type=float, default=0.0, metavar="MM", help="round at the joints (default 0)"
-    )
-    option(
-        "--material",
-        metavar="M",
-        help="of the solid: a name of the table (see docs/cells.md), a .toml or .json file, or "
-        "NAME,E,NU; without one, figures are in units of the solid's",
-    )
-    option("--voxels", type=int, metavar="N", help="along L (default: what the radius asks for)")
-    option("--json", metavar="FILE", help="write the figures, and their errors, as JSON")
+    parser.add_argument("cell", metavar="CELL", help="a library cell, or a cell's .json file")
+    add_run_options(parser, "properties")
 
 
 def _properties(options: argparse.Namespace) -> None:

@@ -17,56 +17,21 @@ from typing import TYPE_CHECKING, Any
 from ..util.errors import VolfrepError
 from .files import check_files, read_part
 from .parameter_options import add_parameters, specification
+from .run_options import add_run_options
 from .telling import Progress, print_rows, print_warnings, tell
 
 if TYPE_CHECKING:
-    from ..jobs.sizing import Goal, SizedPart
-    from ..mechanics.materials import SolidMaterial
+    from ..jobs.sizing import SizedPart
     from ..sizing.optimise import Step
 
 _TEXT = "Fill a solid with a lattice whose struts are sized for its load cases."
-COLOURS = ("radius", "stress", "buckling", "displacement")
 
 
 def add_command(add: Callable[[str, Callable[[argparse.Namespace], None], str], Any]) -> None:
     """Add the command with `cli`'s own function for that."""
     parser = add("size", _size, _TEXT)
-    option = parser.add_argument
-    option("part", metavar="PART", help="the closed solid, as for fill")
-    option("--unit", help="of the file's lengths, as for fill")
-    option("--loads", required=True, metavar="FILE.toml", help="load cases, see docs/loads.md")
-    option(
-        "-o", "--output", required=True, metavar="FILE",
-        help="the part with its sized lattice: .stl, .3mf, .ply or .obj",
-    )  # fmt: skip
-    option("--radii", metavar="FILE.csv", help="the radii at the nodes, as --radius-field reads it")
-    option("--report", metavar="FILE.json", help="write the figures, before and after")
-    option("--quiet", action="store_true", help="print nothing but errors")
-    goal = parser.add_argument_group(
-        "what is wanted: limits for the least mass, or the most stiffness at a mass"
-    ).add_argument
-    goal("--max-stress", type=float, metavar="MPA", help="largest von Mises stress in a strut")
-    goal("--safety", type=float, metavar="S", help="the same as the material's yield over this")
-    goal("--max-displacement", type=float, metavar="MM", help="of any node, in any case")
-    goal("--buckling", type=float, metavar="F", help="loads times this buckle no strut")
-    goal("--min-frequency", type=float, metavar="HZ", help="lowest natural frequency")
-    goal(
-        "--strut-mass", type=float, metavar="G",
-        help="of the struts, for the most stiffness (default: what the strut radius makes)",
-    )  # fmt: skip
-    goal("--thinnest", type=float, metavar="MM", help="smallest radius (default: half the radius)")
-    goal("--thickest", type=float, metavar="MM", help="largest radius (default: what cells bear)")
-    goal(
-        "--smooth", type=float, default=0.0, metavar="S",
-        help="share of its neighbours in each node's radius, 0 to 0.9 (default 0)",
-    )  # fmt: skip
-    goal("--steps", type=int, default=60, metavar="N", help="at most (default 60)")
-    goal("--no-proof", action="store_true", help="do not let CalculiX solve the final design")
-    seen = parser.add_argument_group("a picture of it").add_argument
-    seen("--picture", metavar="FILE.png", help="the struts in colour (needs pyvista)")
-    seen("--colour", choices=COLOURS, help="what the colour tells (default radius)")
-    seen("--case", metavar="NAME", help="of which load case (default: the first)")
-    seen("--deformed", type=float, metavar="F", help="displacements drawn so many times as large")
+    parser.add_argument("part", metavar="PART", help="the closed solid, as for fill")
+    add_run_options(parser, "size")
     add_parameters(parser)
 
 
@@ -90,7 +55,7 @@ def _size(options: argparse.Namespace) -> None:
         raise VolfrepError(f"There must be at least one step, not {options.steps}.")
 
     from ..jobs.infill import Infill
-    from ..jobs.sizing import size, write_radii
+    from ..jobs.sizing import GOALS, goal_of, size, write_radii
     from ..loads.load_file import read_load_cases
     from ..reports.sizing_report import sizing_rows
     from ..util.cache import StageCache
@@ -102,7 +67,8 @@ def _size(options: argparse.Namespace) -> None:
         from dataclasses import replace
 
         spec = replace(spec, density=loads.material.density)
-    goal = _goal(options, loads.material)
+    asked = {name: getattr(options, name) for name in GOALS}
+    goal = goal_of(loads.material, asked, lambda name: f"--{name.replace('_', '-')}")
     cache = StageCache()
     start = time.perf_counter()
     with Progress(options.quiet) as progress:
@@ -129,33 +95,6 @@ def _size(options: argparse.Namespace) -> None:
         print_rows(*sizing_rows(made.report), ("sizing time", f"{seconds:.1f} s"))
 
 
-def _goal(options: argparse.Namespace, material: SolidMaterial) -> Goal:
-    from ..jobs.sizing import Goal
-    from ..sizing.analysis import Limits
-
-    stress = options.max_stress
-    if options.safety is not None:
-        if stress is not None:
-            raise VolfrepError("--max-stress and --safety say the same: give one of them.")
-        if material.yield_stress is None:
-            raise VolfrepError(
-                f"The material '{material.name}' has no yield stress for --safety: give "
-                "--max-stress, or yield_stress in the load file."
-            )
-        if not options.safety > 0.0:
-            raise VolfrepError(f"--safety must be above 0, not {options.safety:g}.")
-        stress = material.yield_stress / options.safety
-    limits = Limits(stress, options.max_displacement, options.buckling, options.min_frequency)
-    volume = None
-    if options.strut_mass is not None:
-        if not options.strut_mass > 0.0:
-            raise VolfrepError(f"--strut-mass must be above 0 g, not {options.strut_mass:g}.")
-        volume = options.strut_mass * 1000.0 / material.density
-    return Goal(
-        limits, volume, options.thinnest, options.thickest, options.smooth
-    )  # fmt: skip
-
-
 def _teller(quiet: bool) -> Callable[[int, Step], bool] | None:
     """Tells every step on standard error, if it is a terminal."""
     if quiet or not sys.stderr.isatty():
@@ -173,14 +112,10 @@ def _teller(quiet: bool) -> Callable[[int, Step], bool] | None:
 def _write_specification(options: argparse.Namespace, made: SizedPart) -> None:
     if options.write_spec is None:
         return
-    from dataclasses import replace
-
     from ..design.parameters.spec_file import write_values
-    from ..design.parameters.specification import values_of
+    from ..jobs.sizing import values_with_radii
 
-    assert made.spec.radius_grading is not None
-    grading = replace(made.spec.radius_grading, field=str(options.radii))
-    write_values(values_of(replace(made.spec, radius_grading=grading)), options.write_spec)
+    write_values(values_with_radii(made, options.radii), options.write_spec)
 
 
 def _picture(options: argparse.Namespace, made: SizedPart) -> None:

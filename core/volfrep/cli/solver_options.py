@@ -30,29 +30,9 @@ if TYPE_CHECKING:
     #: Writes a result's file and returns sentences for the user.
     Writer = Callable[[Result], tuple[str, ...]]
 
-STEP_FORMS = ("faceted", "exact", "wireframe")
-DECKS = ("beams", "tetrahedra")
 STEP_SUFFIXES = (".step", ".stp")
 DECK_SUFFIX = ".inp"
 PLANE_FACES = "The file holds plane faces instead of exact surfaces."
-
-
-def add_options(parser: argparse.ArgumentParser) -> None:
-    """The options of the commands that make a lattice."""
-    add = parser.add_argument_group("files for CAD and for a solver").add_argument
-    add(
-        "--step",
-        choices=STEP_FORMS,
-        help="what a .step file holds: a plane face for every triangle (faceted, default); "
-        "cylinders, cones and spheres (exact, by an installed FreeCAD); or the struts' axes "
-        "(wireframe)",
-    )
-    add(
-        "--inp",
-        choices=DECKS,
-        help="what an .inp file for CalculiX holds: struts as beams with stiff ends (beams, "
-        "default), or the part as second-order tetrahedra by Gmsh (tetrahedra)",
-    )
 
 
 def is_deck(out: Path) -> bool:
@@ -67,14 +47,6 @@ def check(options: argparse.Namespace, out: Path, spec: LatticeSpec) -> None:
         VolfrepError: naming them.
     """
     suffix = out.suffix.lower()
-    if options.step is not None and suffix not in STEP_SUFFIXES:
-        raise VolfrepError(
-            f"'{out}' cannot hold what --step asks for: give it the extension .step."
-        )
-    if options.inp is not None and not is_deck(out):
-        raise VolfrepError(
-            f"'{out}' cannot hold what --inp asks for: give it the extension {DECK_SUFFIX}."
-        )
     if suffix in STEP_SUFFIXES and options.step is None:
         options.step = "faceted"
     if is_deck(out) and options.inp is None:
@@ -163,7 +135,13 @@ def writer(
 
 def needs_axes(options: argparse.Namespace) -> bool:
     """Whether a form is asked for that is made of the struts' axes, without a mesh."""
-    return bool(options.step == "wireframe" or options.inp == "beams")
+    deck = options.inp or ("beams" if is_deck(Path(options.output)) else None)
+    return bool(options.step == "wireframe" or deck == "beams")
+
+
+def is_meshed(options: argparse.Namespace) -> bool:
+    """Whether a mesh is made at all, of which pictures and reports are."""
+    return options.threemf != "beams" and not needs_axes(options)
 
 
 def _write_axes(

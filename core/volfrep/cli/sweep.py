@@ -10,6 +10,7 @@ import argparse
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
+from .run_options import add_run_options
 from .telling import Progress, print_rows, print_warnings
 
 if TYPE_CHECKING:
@@ -22,28 +23,11 @@ _MOST_TOLD = 5
 
 def add_command(add: Callable[[str, Callable[[argparse.Namespace], None], str], Any]) -> None:
     """Add the command with `cli`'s own function for that."""
-    option = add("sweep", _sweep, _TEXT).add_argument
-    option("study", metavar="STUDY.toml", help="parts, what varies, what is done: docs/studies.md")
-    option(
-        "-o",
-        "--output",
-        required=True,
-        metavar="FOLDER",
-        help="of records, table and page; what is done there is not done again",
+    parser = add("sweep", _sweep, _TEXT)
+    parser.add_argument(
+        "study", metavar="STUDY.toml", help="parts, what varies, what is done: docs/studies.md"
     )
-    option("--dry-run", action="store_true", help="say how many designs there are, and the time")
-    option(
-        "--workers",
-        type=int,
-        metavar="N",
-        help="runs side by side (default: as many as cores and memory allow)",
-    )
-    option("--scheduler", metavar="ADDRESS", help="of Dask, such as tcp://HOST:8786, for the runs")
-    option("--shard", type=_shard, default=(1, 1), metavar="I/N", help="only one part in N of them")
-    option("--limit-hours", type=float, metavar="H", help="end a run that takes longer")
-    option("--limit-memory", type=float, metavar="GB", help="end a run that takes more")
-    option("--retry-failed", action="store_true", help="try again what failed before")
-    option("--quiet", action="store_true", help="print nothing but errors")
+    add_run_options(parser, "sweep")
 
 
 def _sweep(options: argparse.Namespace) -> None:
@@ -52,7 +36,7 @@ def _sweep(options: argparse.Namespace) -> None:
 
     study = read_study(options.study)
     if options.dry_run:
-        from ..studies.executors import told_time
+        from ..studies.running.executors import told_time
         from ..studies.sweep import forecast_study
 
         found, seconds, memory = forecast_study(study)
@@ -106,12 +90,3 @@ def _warn(what: str, sentences: Mapping[str, int]) -> None:
 
 def _twice(count: int) -> str:
     return f", {count:,} combinations more are the same as one of them" if count else ""
-
-
-def _shard(text: str) -> tuple[int, int]:
-    """I of N, from 1 on."""
-    try:
-        one, of = (int(number) for number in text.split("/"))
-    except ValueError as error:
-        raise argparse.ArgumentTypeError(f"'{text}' is no shard, I/N, such as 1/4") from error
-    return one, of

@@ -12,7 +12,7 @@ from ..trim.clip_struts import Clipped
 from ..util.cache import StageCache
 from ..util.progress import ProgressCallback
 from .blocks import block_wireframe
-from .networks import infill_of
+from .networks.infill import infill_of
 
 
 def beam_model(

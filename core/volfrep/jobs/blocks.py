@@ -28,7 +28,8 @@ from ..lattice.padded_grid import keeps_places, vertices_of
 from ..mesh.quality import Quality, measure
 from ..mesh.triangle_mesh import TriangleMesh
 from ..octants.octant import octant_grid
-from ..octants.octant_mesh import OctantSpec, mesh_octants, octant_spec
+from ..octants.octant_mesh import mesh_octants, octant_spec
+from ..octants.octant_spec import OctantSpec
 from ..reports.report import Report, told
 from ..reports.result import NOTHING_REMOVED, Result, report_of
 from ..trim.finish import finished, refuse_no_solid
@@ -206,7 +207,7 @@ def _beside(spec: LatticeSpec, count: Sequence[int], progress: ProgressCallback 
         VolfrepError: the specification is of another network.
     """
     # of no use to most blocks, and slow to import
-    from .networks.infill import cells_beside, network_alone
+    from .networks.alone import cells_beside, network_alone
 
     if not isinstance(spec.network, CellNetwork):
         raise VolfrepError("A block is of cells and not of a network: choose 'network' or 'fill'.")

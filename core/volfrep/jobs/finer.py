@@ -9,7 +9,8 @@ from dataclasses import replace
 from typing import TypeVar
 
 from ..design.spec_parts import MAX_RESOLUTION
-from ..octants.octant_mesh import FacetsCross, OctantSpec
+from ..octants.octant_mesh import FacetsCross
+from ..octants.octant_spec import OctantSpec
 
 T = TypeVar("T")
 

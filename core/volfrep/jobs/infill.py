@@ -19,16 +19,13 @@ from ..grid.strut_graph import CellGraph, Wireframe, cell_graph
 from ..io.solid import Solid
 from ..lattice.assembly import Layout
 from ..lattice.deform import Deformed
-from ..lattice.padded_grid import (
-    keeps_places,
-    least_width,
-    vertices_of,
-)
+from ..lattice.padded_grid import keeps_places, least_width, vertices_of
 from ..mesh.float32_repair import shortest_edge
 from ..mesh.quality import Quality, inspect, measure
 from ..mesh.triangle_mesh import TriangleMesh
-from ..octants.octant import OctantKey
-from ..octants.octant_mesh import Octant, OctantSpec, mesh_octants, octant_spec
+from ..octants.octant import Octant, OctantKey
+from ..octants.octant_mesh import mesh_octants, octant_spec
+from ..octants.octant_spec import OctantSpec
 from ..reports.result import Result, report_of
 from ..shell.domain import Domain, find_domain
 from ..trim.beam_model import (

@@ -12,8 +12,8 @@ from ..design.memory_guard import cells_are_full, refuse_memory
 from ..design.networks import CellNetwork
 from ..design.spec import LatticeSpec
 from ..mesh.triangle_mesh import TriangleMesh
-from ..octants.octant import OctantGrid, OctantKey
-from ..octants.octant_mesh import Octant, OctantSpec
+from ..octants.octant import Octant, OctantGrid, OctantKey
+from ..octants.octant_spec import OctantSpec
 from ..util.errors import VolfrepError
 
 

@@ -5,13 +5,14 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 
 from ..design.grading import RadiusGrading
+from ..design.parameters.specification import values_of
 from ..design.profile import Profile
 from ..design.scattered_field import PointField
 from ..design.spec import LatticeSpec
@@ -19,6 +20,7 @@ from ..design.spec_parts import largest_radius
 from ..grid.placement import NUDGE
 from ..grid.strut_graph import Wireframe
 from ..loads.load_cases import LoadCases
+from ..mechanics.materials import SolidMaterial
 from ..mesh.triangle_mesh import TriangleMesh
 from ..reports.sizing_report import PEAKS, sizing_report
 from ..sizing.analysis import Analysis, Limits, Problem, analysed
@@ -38,6 +40,11 @@ from .infill import Infill
 SKIN_EDGE, SKIN_EDGE_LEAST = 0.6, 1.5
 #: Radii are stored in steps of this, mm, as files keep them.
 RADIUS_STEP = 1e-6
+#: What a user may want: limits, or a mass of struts, and between which radii, how even.
+GOALS = (
+    "max_stress", "safety", "max_displacement", "buckling", "min_frequency", "strut_mass",
+    "thinnest", "thickest", "smooth",
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -59,6 +66,52 @@ class Goal:
     radius_max: float | None = None
     smooth: float = 0.0
     weights: tuple[float, ...] | None = None
+
+
+def goal_of(
+    material: SolidMaterial,
+    asked: Mapping[str, float | None],
+    named: Callable[[str], str] = str,
+) -> Goal:
+    """The goal that a user has written down.
+
+    Args:
+        material: of the part.
+        asked: of `GOALS`, what was given; the stress as it is or by a safety against yielding, the
+            mass of the struts in g.
+        named: what the user calls one of them, for messages.
+
+    Raises:
+        VolfrepError: there is no goal of a name, two say the same, or a number makes no sense.
+    """
+    given = {name: float(value) for name, value in asked.items() if value is not None}
+    for name in given:
+        if name not in GOALS:
+            raise VolfrepError(f"There is no goal '{named(name)}': choose from {', '.join(GOALS)}.")
+    for name in ("safety", "strut_mass"):
+        if not given.get(name, 1.0) > 0.0:
+            raise VolfrepError(f"{named(name)} must be above 0, not {given[name]:g}.")
+    stress = given.get("max_stress")
+    if "safety" in given:
+        if stress is not None:
+            raise VolfrepError(
+                f"{named('max_stress')} and {named('safety')} say the same: give one of them."
+            )
+        if material.yield_stress is None:
+            raise VolfrepError(
+                f"The material '{material.name}' has no yield stress for {named('safety')}: give "
+                f"{named('max_stress')}, or yield_stress in the load file."
+            )
+        stress = material.yield_stress / given["safety"]
+    volume = None
+    if "strut_mass" in given:
+        volume = given["strut_mass"] * 1000.0 / material.density
+    limits = Limits(
+        stress, given.get("max_displacement"), given.get("buckling"), given.get("min_frequency")
+    )
+    return Goal(
+        limits, volume, given.get("thinnest"), given.get("thickest"), given.get("smooth", 0.0)
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -261,6 +314,13 @@ def write_radii(part: SizedPart, path: str | os.PathLike[str]) -> None:
         file.write(b"x,y,z,radius\n")
         table = np.column_stack([part.points, part.radii])
         file.writelines(b"%.9g,%.9g,%.9g,%.6f\n" % tuple(row) for row in table.tolist())
+
+
+def values_with_radii(part: SizedPart, path: str | os.PathLike[str]) -> dict[str, Any]:
+    """What a specification's file says of a sized part whose radii are in a file of their own."""
+    assert part.spec.radius_grading is not None
+    grading = replace(part.spec.radius_grading, field=str(path))
+    return values_of(replace(part.spec, radius_grading=grading))
 
 
 def _model(infill: Infill, loads: LoadCases, goal: Goal, cache: StageCache) -> SizingModel:

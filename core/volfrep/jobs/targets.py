@@ -35,7 +35,7 @@ from ..util.errors import VolfrepError
 from ..util.progress import ProgressCallback
 from .blocks import block_volume, block_wireframe, measured_block
 from .infill import Infill
-from .networks import infill_of
+from .networks.infill import infill_of
 from .rough_radius import radius_range
 from .stiffness_target import ratio_of_stiffness
 

@@ -16,8 +16,7 @@ from numpy.typing import NDArray
 
 from ..mesh.triangle_mesh import TriangleMesh, box_of
 from ..octants import caps
-from ..octants.octant import OctantGrid, OctantKey, frames
-from ..octants.octant_mesh import STEPS, Octant
+from ..octants.octant import STEPS, Octant, OctantGrid, OctantKey, frames
 from ..util.progress import Monitor
 from ..util.types import Floats
 

@@ -21,8 +21,7 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
 from ..mesh.quality import Quality
-from ..octants.octant import OctantGrid
-from ..octants.octant_mesh import Octant
+from ..octants.octant import Octant, OctantGrid
 from ..util.linalg import along
 from ..util.types import Floats, Ints
 from .assembly import Layout, box, numbers_at

@@ -21,7 +21,7 @@ from ..grid.node_frames import NodeFrames, node_frames
 from ..grid.placement import Placement, node_radii
 from ..grid.strut_graph import CellGraph, cell_graph
 from ..octants.octant import ALL_ACTIVE, OctantGrid, OctantKey, octant_grid, octant_mirrors
-from ..octants.octant_mesh import OctantSpec
+from ..octants.octant_spec import OctantSpec
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats
 from .assembly import Layout, coordinates

@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 from ..design.cells import UnitCell, joint_radius
 from ..grid.strut_graph import neighbour_table
 from ..octants import sdf
-from ..octants.octant import NEIGHBOURS, OctantKey, octant_graph
-from ..octants.octant_mesh import Octant, OctantSpec
+from ..octants.octant import NEIGHBOURS, Octant, OctantKey, octant_graph
+from ..octants.octant_spec import OctantSpec
 from ..util.types import Floats, Ints
 from .strut_masks import cells_of_nodes
 

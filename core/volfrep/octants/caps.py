@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from .octant_mesh import Octant
+from .octant import Octant
 
 _CORNERS = np.array(list(itertools.product((0, 2), repeat=3)))
 _WEIGHTS = np.array([9, 3, 1])

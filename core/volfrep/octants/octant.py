@@ -33,6 +33,9 @@ ALL_ACTIVE = 0xFF
 #: would make marching cubes put several vertices on one grid point. Not a round number, so that
 #: a radius that is a multiple of the step cannot meet it.
 ZERO_BAND = 1.2345e-3
+#: Vertices lie at whole steps of an octant's edge over this, so that octants which share a vertex
+#: can give it the very same coordinates.
+STEPS = float(1 << 26)
 
 
 @dataclass(frozen=True, order=True)
@@ -199,6 +202,32 @@ def raw_octant(samples: Floats, cell_size: float) -> RawOctant:
     place = np.concatenate([place, np.ones((added, 3), np.int8)])
     order = np.concatenate([order, order.max() + 1 + np.arange(added)])
     return RawOctant(found * step, triangles, place, order)
+
+
+@dataclass(frozen=True, eq=False)
+class Octant:
+    """The finished surface inside one octant, in the octant's frame.
+
+    Attributes:
+        vertices: (n, 3) float64, mm, in whole steps (`STEPS`).
+        triangles: (m, 3) int32, counter-clockwise seen from outside.
+        entity: (n,) int8, 9 px + 3 py + pz with p 0 on the low face, 1 between, 2 on the high
+            face: which face or edge of the octant the vertex is shared on; 13 inside.
+        rank: (n,) int32, number of the vertex among those of its entity; the same number in
+            every octant that shares the entity.
+        solid_corners: (2, 2, 2) bool, whether the octant's corners are inside the lattice.
+    """
+
+    vertices: Floats
+    triangles: NDArray[np.int32]
+    entity: NDArray[np.int8]
+    rank: NDArray[np.int32]
+    solid_corners: NDArray[np.bool_]
+
+    @property
+    def places(self) -> Ints:
+        """(n, 3) per axis 0 on the low face, 1 between, 2 on the high face."""
+        return np.stack(np.unravel_index(self.entity.astype(np.int64), (3, 3, 3)), axis=1)
 
 
 def wrapped(values: NDArray[np.bool_], periodic: Periodic) -> NDArray[np.bool_]:

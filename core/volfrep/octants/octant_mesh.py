@@ -4,14 +4,13 @@
 from __future__ import annotations
 
 import hashlib
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..design.cells import UnitCell, joint_radius
+from ..design.cells import UnitCell
 from ..design.spec_parts import Resolution, Struts
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
@@ -19,21 +18,20 @@ from ..util.types import Floats, Ints
 from . import sdf
 from .constrained_mesh import Surface
 from .isotropic_remesh import even_out
-from .octant import OctantKey, RawOctant, octant_primitives, raw_octant, sample_octant
+from .octant import (
+    STEPS,
+    Octant,
+    OctantKey,
+    RawOctant,
+    octant_primitives,
+    raw_octant,
+    sample_octant,
+)
+from .octant_spec import OctantSpec
 from .sdf import Field, Primitives
 from .surface_fit import fit
 from .untangle import untangled
 
-#: The sampling step is at most this, in units of r: no strut slips between the samples.
-COARSEST_STEP = 0.75
-#: Primitives are kept near a vertex up to this distance beyond the nearest, in wanted edges:
-#: vertices move by one edge, and a facet reaches another one further, in both distances.
-NEAR_EDGES = 3.0
-#: An octant's mesh does not depend on struts farther from it than this, in wanted edges.
-INFLUENCE_EDGES = 2.0
-#: Vertices lie at whole steps of an octant's edge over this, so that octants which share a vertex
-#: can give it the very same coordinates.
-STEPS = float(1 << 26)
 #: Samples are clamped to so many steps: farther from the surface only their sign matters.
 SEEN_STEPS = 2.0
 #: Pieces are meshed together up to about this many vertices.
@@ -44,84 +42,10 @@ class FacetsCross(VolfrepError):
     """Facets of an octant run through each other, whatever is done about it."""
 
 
-@dataclass(frozen=True)
-class OctantSpec:
-    """What the mesh of an octant depends on, and nothing else.
-
-    Attributes:
-        cell_size: L, mm.
-        strut_radius: r, mm.
-        fillet: joint fillet, mm.
-        facets: facet edges along L.
-
-    >>> spec = OctantSpec(cell_size=10.0, strut_radius=1.0, fillet=0.0, facets=20)
-    >>> spec.edge, spec.steps, spec.step
-    (0.5, 10, 0.5)
-    """
-
-    cell_size: float
-    strut_radius: float
-    fillet: float
-    facets: int
-
-    @property
-    def edge(self) -> float:
-        """Wanted edge length, mm."""
-        return self.cell_size / self.facets
-
-    @property
-    def influence(self) -> float:
-        """Struts whose axes are farther than this from an octant do not show in it, mm."""
-        joint = joint_radius(self.strut_radius, self.cell_size)
-        return float(joint + INFLUENCE_EDGES * max(self.edge, self.step) + 2.0 * self.fillet)
-
-    @property
-    def reach(self) -> float:
-        """Struts whose surfaces are farther than this from a vertex do not matter to it, mm."""
-        return NEAR_EDGES * self.edge + 2.0 * self.fillet
-
-    @property
-    def step(self) -> float:
-        """Between the samples, mm."""
-        return 0.5 * self.cell_size / self.steps
-
-    @property
-    def steps(self) -> int:
-        """Sampling steps along an octant."""
-        finest = self.cell_size / (COARSEST_STEP * self.strut_radius)
-        return math.ceil(0.5 * max(self.facets, finest))
-
-
 def octant_spec(cell_size: float, struts: Struts, detail: Resolution) -> OctantSpec:
     """What the octants of a lattice are meshed for, with cells of a size in mm."""
     facets = detail.along_cell(cell_size, struts)
     return OctantSpec(cell_size, struts.template_radius, struts.fillet, facets)
-
-
-@dataclass(frozen=True, eq=False)
-class Octant:
-    """The finished surface inside one octant, in the octant's frame.
-
-    Attributes:
-        vertices: (n, 3) float64, mm, in whole steps (`STEPS`).
-        triangles: (m, 3) int32, counter-clockwise seen from outside.
-        entity: (n,) int8, 9 px + 3 py + pz with p 0 on the low face, 1 between, 2 on the high
-            face: which face or edge of the octant the vertex is shared on; 13 inside.
-        rank: (n,) int32, number of the vertex among those of its entity; the same number in
-            every octant that shares the entity.
-        solid_corners: (2, 2, 2) bool, whether the octant's corners are inside the lattice.
-    """
-
-    vertices: Floats
-    triangles: NDArray[np.int32]
-    entity: NDArray[np.int8]
-    rank: NDArray[np.int32]
-    solid_corners: NDArray[np.bool_]
-
-    @property
-    def places(self) -> Ints:
-        """(n, 3) per axis 0 on the low face, 1 between, 2 on the high face."""
-        return np.stack(np.unravel_index(self.entity.astype(np.int64), (3, 3, 3)), axis=1)
 
 
 def mesh_octants(

@@ -1,40 +1,40 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What can be done with a design: a row of one table each, and the figures that it gives.
+"""What can be done with a design: a row each of one table, read by all that speaks about studies.
 
-A further action, such as solving with a load case, is one function of a `Bench` and one row.
+What is behind a row is a function of the same name in `running.bench`.
 """
 
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from ..design.spec import LatticeSpec
-from ..io.solid import Solid
-from ..io.write import MESH_WRITERS, mesh_writer
-from ..jobs.infill import Infill
-from ..jobs.preview import PartDepth
-from ..jobs.targets import aimed
-from ..mechanics.catalogue import known_properties
+from ..io.write import MESH_WRITERS
 from ..mechanics.materials import SolidMaterial
-from ..mechanics.summary import MODULI, RATIOS, cell_properties
-from ..reports.mesh_report import mesh_report
-from ..reports.picture import drawing_library, picture
-from ..reports.printability import print_report
+from ..reports.picture import drawing_library
 from ..reports.processes import Process, find_process
-from ..util.cache import StageCache
 from ..util.errors import VolfrepError
-from ..util.progress import ProgressCallback
-from .expectation import Expectation, expected
 
 #: A figure of the table: a number, a word, a truth.
 Figure = float | int | str | bool | None
-#: Figures of the endless lattice, beside the moduli and ratios.
-LIMITS = ("strength", "shear_strength", "conductivity")
+
+
+@dataclass(frozen=True)
+class Loads:
+    """A load file.
+
+    Attributes:
+        path: where every worker sees it.
+        content: all that it says, as text.
+        material: of it, as plain JSON values.
+    """
+
+    path: Path
+    content: str
+    material: Mapping[str, Any]
 
 
 @dataclass(frozen=True)
@@ -46,87 +46,16 @@ class Asked:
         process: of the print check.
         export: extension of the files.
         folder: of the study, for files.
+        loads: what the part carries; None where nothing asks for it.
+        goal: what is wanted of sized struts, as numbers by name.
     """
 
     material: SolidMaterial | None
     process: Process | None
     export: str
     folder: Path
-
-
-@dataclass
-class Shared:
-    """What the runs of one batch share, so that it is made once.
-
-    Attributes:
-        solids: the parts, by their content.
-        cache: the stages of the fill before, such as the wall of the same skin.
-        depths: of the parts, by their content and open faces.
-        properties: of endless lattices, by what they hang on.
-    """
-
-    solids: dict[str, Solid] = field(default_factory=dict)
-    cache: StageCache = field(default_factory=StageCache)
-    depths: dict[Any, PartDepth] = field(default_factory=dict)
-    properties: dict[Any, dict[str, Figure]] = field(default_factory=dict)
-
-
-@dataclass(eq=False)
-class Bench:
-    """A design on the bench: what its actions see, made when first looked at.
-
-    Attributes:
-        key: of the design.
-        solid: the part.
-        spec: what is made.
-        up: the build direction.
-        asked: by the study.
-        shared: with other runs.
-        progress: asked for a cancel.
-    """
-
-    key: str
-    solid: Solid
-    spec: LatticeSpec
-    up: tuple[float, float, float]
-    asked: Asked
-    shared: Shared
-    progress: ProgressCallback | None = None
-
-    @cached_property
-    def expectation(self) -> Expectation:
-        """What it will come to."""
-        faces = self.spec.open_faces
-        place = (id(self.solid), faces)
-        if place not in self.shared.depths:
-            self.shared.depths[place] = PartDepth(self.solid, faces)
-        return expected(self.solid, self.spec, self.shared.depths[place])
-
-    @cached_property
-    def _infill(self) -> Infill | VolfrepError:
-        try:
-            made = aimed(self.solid, self.spec, progress=self.progress, cache=self.shared.cache)
-            _ = made.result
-        except VolfrepError as error:
-            return error
-        return made
-
-    @property
-    def infill(self) -> Infill:
-        """The filled part; what hinders it is found once.
-
-        Raises:
-            VolfrepError: the specification does not fit the part.
-        """
-        if isinstance(self._infill, VolfrepError):
-            raise self._infill
-        return self._infill
-
-    def file(self, kind: str, suffix: str) -> Path:
-        """Where a file of this design goes, in a folder of its kind."""
-        folder = self.asked.folder / kind
-        folder.mkdir(exist_ok=True)
-        return folder / f"{self.key}{suffix}"
+    loads: Loads | None = None
+    goal: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -136,7 +65,6 @@ class Action:
     Attributes:
         name: as a study calls it.
         help: one phrase.
-        act: gives the figures, by their names; not how long it took.
         meshed: whether it needs the filled part.
         settings: what of the asked its figures hang on, as plain JSON values.
         file: the folder and suffix of the file that it leaves, if it leaves one.
@@ -144,116 +72,9 @@ class Action:
 
     name: str
     help: str
-    act: Callable[[Bench], dict[str, Figure]]
     meshed: bool = True
     settings: Callable[[Asked], Any] = lambda asked: None
     file: Callable[[Asked], tuple[str, str] | None] = lambda asked: None
-
-
-def _forecast(bench: Bench) -> dict[str, Figure]:
-    found = bench.expectation
-    told = dataclasses.asdict(found.forecast)
-    told["strut_radius_mm"] = found.strut_radius
-    told["relative_density"] = found.relative_density
-    told["volume_mm3"], told["mass_g"] = found.volume_mm3, found.mass_g
-    return told
-
-
-def _properties(bench: Bench) -> dict[str, Figure]:
-    spec, material = bench.spec, bench.asked.material
-    if spec.is_graded:
-        raise VolfrepError(
-            "A lattice that is graded, mapped or turned has no one stiffness: leave 'properties' "
-            "out, or the grading."
-        )
-    cell, radius = spec.unit_cell(), bench.expectation.strut_radius
-    ratio, fillet = radius / spec.cell_size, spec.fillet / spec.cell_size
-    # Sizes of one shape differ in the last digits of r / L only.
-    place = (cell, float(f"{ratio:.9g}"), float(f"{fillet:.9g}"))
-    if place not in bench.shared.properties:
-        bench.shared.properties[place] = _endless(place, material)
-    return dict(bench.shared.properties[place])
-
-
-def _endless(place: tuple[Any, float, float], material: SolidMaterial | None) -> dict[str, Figure]:
-    """Read off the catalogue where it has the cell, else homogenised."""
-    cell, ratio, fillet = place
-    found = None if fillet else known_properties(cell, 1.0, ratio, material)
-    source = "catalogue" if found is not None else "homogenised"
-    if found is None:
-        found = cell_properties(cell, 1.0, ratio, fillet=fillet, material=material)
-    told: dict[str, Figure] = {"relative_density": found.relative_density}
-    told |= {name: found.values[name] for name in (*MODULI, *RATIOS, *LIMITS)}
-    return {**told, "from": source}
-
-
-def _fill(bench: Bench) -> dict[str, Figure]:
-    report = bench.infill.result.report
-    return {
-        "strut_radius_mm": bench.infill.spec.strut_radius,
-        "relative_density": report.relative_density,
-        "volume_mm3": report.volume_mm3,
-        "mass_g": report.mass_g,
-        "area_mm2": report.area_mm2,
-        "cells": report.cells_active,
-        "struts": report.struts,
-        "triangles": report.triangles,
-        "bodies": report.bodies,
-        "voids": report.voids,
-        "genus": report.genus,
-        "watertight": report.watertight,
-        "warnings": len(report.warnings),
-    }
-
-
-def _measure(bench: Bench) -> dict[str, Figure]:
-    report = mesh_report(bench.infill.result.mesh)
-    return {
-        "printable": report.printable,
-        "open_edges": report.quality.open_edges,
-        "defects": len(report.defects),
-        "smallest_angle_deg": report.shapes.smallest_angle,
-        "shortest_edge_mm": report.shortest_edge,
-    }
-
-
-def _print(bench: Bench) -> dict[str, Figure]:
-    process = bench.asked.process
-    assert process is not None, "the study was checked"
-    infill = bench.infill
-    report = print_report(
-        infill.result.mesh,
-        infill.result.wireframe,
-        process,
-        build_direction=bench.up,
-        density=bench.spec.density,
-        domain=infill.cavity,
-    )
-    return {
-        "findings": len(report.findings),
-        "thinnest_strut_mm": report.thinnest_strut_mm,
-        "narrowest_gap_mm": report.narrowest_gap_mm,
-        "overhanging_share": report.overhanging_share,
-        "longest_overhang_mm": report.longest_overhang_mm,
-        "longest_bridge_mm": report.longest_bridge_mm,
-        "overhang_area_mm2": report.overhang_area_mm2,
-        "voids": report.voids,
-        "void_volume_mm3": report.void_volume_mm3,
-        "said": " ".join(report.findings),
-    }
-
-
-def _export(bench: Bench) -> dict[str, Figure]:
-    path = bench.file("files", bench.asked.export)
-    mesh_writer(path)(bench.infill.result.mesh, path, None)
-    return {"file": f"files/{path.name}", "bytes": path.stat().st_size}
-
-
-def _picture(bench: Bench) -> dict[str, Figure]:
-    path = bench.file("pictures", ".png")
-    infill = bench.infill
-    picture(infill.result.mesh, infill.spec, path, solid=bench.solid, size=PICTURE_SIZE)
-    return {"file": f"pictures/{path.name}"}
 
 
 def _material(asked: Asked) -> Any:
@@ -264,26 +85,41 @@ def _process(asked: Asked) -> Any:
     return None if asked.process is None else dataclasses.asdict(asked.process)
 
 
-#: Pixels of a study's pictures.
-PICTURE_SIZE = (900, 600)
+def _loads(asked: Asked) -> Any:
+    return None if asked.loads is None else [asked.loads.content, dict(asked.loads.material)]
+
+
+def _goal(asked: Asked) -> Any:
+    return [_loads(asked), dict(asked.goal)]
+
+
 _ROWS = (
-    Action("forecast", "mass, cells, triangles, time and memory, before any work", _forecast,
+    Action("forecast", "mass, cells, triangles, time and memory, before any work",
            meshed=False),
-    Action("properties", "stiffness, strength and conductivity of the endless lattice", _properties,
+    Action("properties", "stiffness, strength and conductivity of the endless lattice",
            meshed=False, settings=_material),
-    Action("fill", "the part is made and measured", _fill),
-    Action("measure", "what a reader of its file sees: defects, angles, edges", _measure),
-    Action("print", "the print check against a process", _print, settings=_process),
-    Action("export", "its file, in the study's folder", _export,
+    Action("fill", "the part is made and measured"),
+    Action("measure", "what a reader of its file sees: defects, angles, edges"),
+    Action("print", "the print check against a process", settings=_process),
+    Action("solve", "its struts and skin under the load cases: displacement, stress, buckling",
+           settings=_loads),
+    Action("size", "its struts sized for the load cases; what they come to", settings=_goal,
+           file=lambda asked: ("sized", ".toml")),
+    Action("export", "its file, in the study's folder",
            settings=lambda asked: asked.export, file=lambda asked: ("files", asked.export)),
-    Action("picture", "a picture, cut open (needs pyvista)", _picture,
+    Action("picture", "a picture, cut open (needs pyvista)",
            file=lambda asked: ("pictures", ".png")),
 )  # fmt: skip
 #: The actions by their names, in the order in which they are done.
 ACTIONS = {action.name: action for action in _ROWS}
 
+#: Those that look at what the part carries.
+CARRIED = ("solve", "size")
 
-def check_actions(names: Sequence[str], process: str | None, export: str) -> None:
+
+def check_actions(
+    names: Sequence[str], process: str | None, export: str, loads: object = None
+) -> None:
     """Refuse, before any work, actions that cannot be done.
 
     Raises:
@@ -298,6 +134,11 @@ def check_actions(names: Sequence[str], process: str | None, export: str) -> Non
         if process is None:
             raise VolfrepError("The action 'print' needs a process, such as process = \"SLS\".")
         find_process(process)
+    for name in CARRIED:
+        if name in names and loads is None:
+            raise VolfrepError(
+                f"The action '{name}' needs what the part carries: loads = \"loads.toml\"."
+            )
     if "export" in names and export.lower() not in MESH_WRITERS:
         raise VolfrepError(
             f"Nothing is written as '{export}': choose {', '.join(sorted(MESH_WRITERS))}."

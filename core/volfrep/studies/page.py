@@ -35,6 +35,7 @@ COLOURS = ("#0072b2", "#e69f00", "#009e73", "#d55e00", "#cc79a7", "#56b4e9", "#0
 #: What is drawn against the mass, where the table has it.
 AGAINST_MASS = (
     "properties.E100", "properties.E111", "properties.G", "properties.strength",
+    "solve.displacement_mm", "solve.stress_mpa",
     "print.findings", "print.overhang_area_mm2", f"{SECONDS}fill", "forecast.seconds",
 )  # fmt: skip
 MASSES = ("fill.mass_g", "forecast.mass_g")

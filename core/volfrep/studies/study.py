@@ -22,8 +22,8 @@ from .sampling import SAMPLINGS, Range
 
 #: Keys of a study's file.
 _KEYS = (
-    "part", "parts", "unit", "spec", "do", "material", "process", "export", "sampling", "samples",
-    "seed", "fixed", "vary", "designs", "front",
+    "part", "parts", "unit", "spec", "do", "material", "process", "loads", "export", "sampling",
+    "samples", "seed", "fixed", "vary", "designs", "size", "front",
 )  # fmt: skip
 _FRONT_KEYS = ("objectives", "do", "designs")
 #: What an objective may ask for.
@@ -80,6 +80,9 @@ class Study:
         material: the solid's, itself or as `find_material` takes it: its density where none is
             given, its modulus and yield stress in the properties.
         process: of the print check.
+        loads: file of the load cases (docs/loads.md) that ``solve`` and ``size`` look at; its own
+            material holds there.
+        goal: of ``size``: limits or a mass, as numbers by name (`jobs.sizing.GOALS`).
         export: extension of the files that the action ``export`` writes.
         unit: of the files' lengths; None for what they say.
 
@@ -98,6 +101,8 @@ class Study:
     front: Front | None = None
     material: str | SolidMaterial | None = None
     process: str | None = None
+    loads: str | os.PathLike[str] | None = None
+    goal: Mapping[str, float] = field(default_factory=dict)
     export: str = ".stl"
     unit: str | None = None
 
@@ -126,7 +131,9 @@ class Study:
         both = names & self.fixed.keys()
         if both:
             raise VolfrepError(f"'{min(both)}' is fixed and varies: leave one of them out.")
-        check_actions(self.all_actions, self.process, self.export)
+        check_actions(self.all_actions, self.process, self.export, self.loads)
+        if self.goal and "size" not in self.all_actions:
+            raise VolfrepError("A goal of sizing has no effect without the action 'size'.")
         for name in self.front.objectives if self.front is not None else ():
             if name.partition(".")[0] not in self.do:
                 raise VolfrepError(
@@ -209,6 +216,8 @@ def _study(folder: Path, data: Mapping[str, Any]) -> Study:
         front=_front(data),
         material=_text(data, "material", None),
         process=_text(data, "process", None),
+        loads=None if "loads" not in data else str(folder / _text(data, "loads")),
+        goal=_numbers(data, "size"),
         export=_text(data, "export", ".stl"),
         unit=_text(data, "unit", None),
     )
@@ -274,6 +283,14 @@ def _text(data: Mapping[str, Any], name: str, default: Any = "") -> Any:
     if value is not None and not isinstance(value, str):
         raise VolfrepError(f"'{name}' is a text, not {value!r}.")
     return value
+
+
+def _numbers(data: Mapping[str, Any], name: str) -> dict[str, float]:
+    table = _table(data, name)
+    for key, value in table.items():
+        if isinstance(value, bool) or not isinstance(value, (int, float)):
+            raise VolfrepError(f"'{name}.{key}' is a number, not {value!r}.")
+    return {key: float(value) for key, value in table.items()}
 
 
 def _whole(data: Mapping[str, Any], name: str, default: int) -> int:

@@ -21,13 +21,14 @@ from ..util.progress import ProgressCallback
 from ..util.types import Floats
 from ..util.version import VERSION
 from . import pareto
-from .actions import ACTIONS, Asked
+from .actions import ACTIONS, Asked, Loads
 from .designs import Design, Designs, Part, design_of, designs_of, named_part, read_part
 from .expectation import planned
 from .page import write_page
 from .records import keep_part, prepare, read_record
-from .runs import Limits
-from .scheduling import How, Job, weight
+from .running.executors import Words, told_state
+from .running.runs import Interpreter, Limits
+from .running.scheduling import How, Job, weight
 from .study import Front, Study, read_study
 from .table import Table, table_of, write_csv, write_parquet
 
@@ -71,6 +72,8 @@ def sweep(
     limit_memory: float | None = None,
     retry_failed: bool = False,
     progress: ProgressCallback | None = None,
+    interpreter: Interpreter | None = None,
+    words: Words = told_state,
 ) -> Swept:
     """Make many designs, and a table of them, a page to look at, and their Pareto front.
 
@@ -87,6 +90,8 @@ def sweep(
         retry_failed: try again what failed.
         progress: called with the fraction done, and runs and time left in words; returning False
             cancels.
+        interpreter: of the processes, where this program is no Python that can start itself.
+        words: say how far the runs are: of runs done, all of them, and seconds left.
 
     Raises:
         VolfrepError: the study cannot be begun; a run that fails ends nothing.
@@ -101,7 +106,7 @@ def sweep(
     (4, ['BCC', 'BCC', 'CVC', 'CVC'])
     """
     limits = Limits(limit_hours, limit_memory)
-    how = How(workers, executor, scheduler, shard, limits, retry_failed)
+    how = How(workers, executor, scheduler, shard, limits, retry_failed, interpreter, words)
     study = study if isinstance(study, Study) else read_study(study)
     at, parts, asked = _begun(study, folder)
     found = designs_of(study, parts)
@@ -182,11 +187,22 @@ def _begun(study: Study, folder: str | os.PathLike[str]) -> tuple[Path, tuple[Pa
     at = Path(folder).resolve()
     prepare(at)
     parts = []
+    loads = None
     for given in study.parts:
         source, solid = read_part(given, study.unit)
         parts.append(named_part(source, solid))
         keep_part(at, parts[-1].content, solid)
-    asked = Asked(study.solid_material(), study.print_process(), study.export, at)
+        if study.loads is not None:
+            from ..jobs.sizing import goal_of
+            from ..loads.load_file import read_load_cases
+
+            path = Path(study.loads).resolve()
+            material = read_load_cases(path, solid).material
+            loads = Loads(path, path.read_text(encoding="utf-8"), material.as_dict())
+            goal_of(material, study.goal, lambda name: f"size.{name}")
+    asked = Asked(
+        study.solid_material(), study.print_process(), study.export, at, loads, study.goal
+    )
     return at, tuple(parts), asked
 
 

@@ -13,8 +13,7 @@ from ..grid.coordinate_map import STRAIGHT, CoordinateMap
 from ..lattice.assembly import Layout, lay_out
 from ..mesh.triangle_mesh import TriangleMesh
 from ..octants.caps import with_corners
-from ..octants.octant import OctantGrid, OctantKey, used_kinds, wrapped
-from ..octants.octant_mesh import Octant
+from ..octants.octant import Octant, OctantGrid, OctantKey, used_kinds, wrapped
 from ..util.progress import Monitor
 from ..util.types import Periodic
 

@@ -17,12 +17,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..lattice.assembly import facets, neighbour_missing
+from ..lattice.placed_octants import Placed
 from ..mesh.booleans import from_library, to_library
 from ..mesh.triangle_mesh import TriangleMesh, compact, empty_mesh
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 from ..util.types import Bools, Ints
-from .laid import Placed
 
 if TYPE_CHECKING:
     import manifold3d

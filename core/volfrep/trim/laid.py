@@ -8,17 +8,14 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..lattice.assembly import Layout, coordinates_of, facets, lay_out, numbers, placed_octants
+from ..lattice.assembly import Layout, lay_out
 from ..lattice.certificate import agree_on_faces
 from ..lattice.deform import Deformed
-from ..mesh.triangle_mesh import TriangleMesh
-from ..octants.octant import OctantKey, used_kinds
-from ..octants.octant_mesh import Octant
+from ..lattice.placed_octants import Placed
+from ..octants.octant import Octant, OctantKey
 from ..util.errors import VolfrepError
-from ..util.progress import Monitor
-from ..util.types import Bools, Floats, Ints
+from ..util.types import Bools, Floats
 from .culling import CROSSING_MARGIN, KeptOctants
 
 #: Octants on moved struts mostly reach no farther out of their places than this, in units of
@@ -29,95 +26,6 @@ SPARE_MARGIN = 1.05
 #: so that the last time is more than the `SUPPORT` of three cells about an octant: a vertex hangs
 #: on the struts of its own cell, and none reaches there.
 MOST_WIDENINGS = 9
-
-
-@dataclass(frozen=True, eq=False)
-class Placed:
-    """Numbered octants where their struts are.
-
-    Attributes:
-        layout: the octants, numbered, with corners for caps.
-        points: (n, 3) where their vertices are, mm; None where they keep their places in lattice
-            space but for the shift.
-        shift: (3,) by which all are moved, mm.
-    """
-
-    layout: Layout
-    points: Floats | None
-    shift: Floats
-
-    def coordinates(self, wanted: NDArray[np.int32], where: Bools, monitor: Monitor) -> Floats:
-        """(k, 3) where some vertices are, mm.
-
-        Args:
-            wanted: (k,) their numbers, ascending.
-            where: octants that have all of them.
-            monitor: for cancel.
-        """
-        if self.points is not None:
-            return self.points[wanted]
-        result: Floats = coordinates_of(self.layout, wanted, where, monitor) + self.shift
-        return result
-
-    def mesh(
-        self, triangles: NDArray[np.int32], where: Bools, monitor: Monitor
-    ) -> tuple[TriangleMesh, NDArray[np.int32]]:
-        """Triangles of numbered vertices as a mesh, and the number of each of its vertices.
-
-        Args:
-            triangles: (m, 3) of numbers.
-            where: octants that have all their vertices.
-            monitor: for cancel.
-        """
-        used = np.zeros(self.layout.count, bool)
-        used[triangles] = True
-        wanted = np.flatnonzero(used).astype(np.int32)
-        local = np.cumsum(used, dtype=np.int32)[triangles] - np.int32(1)
-        return TriangleMesh(self.coordinates(wanted, where, monitor), local), wanted
-
-    def facets(self, where: Bools, monitor: Monitor) -> NDArray[np.int32]:
-        """(m, 3) the surface in some octants, of numbered vertices."""
-        return facets(self.layout, monitor, where)
-
-    def boxes(self, where: Bools, monitor: Monitor) -> tuple[Ints, Floats, Floats]:
-        """(k, 3) places of some octants with vertices, and (k, 3) corners of their boxes, mm.
-
-        All that a struts' solid has in an octant lies in the box of its vertices and corners.
-        """
-        some = [place[where[tuple(place.T)]] for place in self.layout.places]
-        low, high = [np.zeros((0, 3))], [np.zeros((0, 3))]
-        for number, points in placed_octants(self.layout, where, monitor):
-            own = points + self.shift if self.points is None else self.points[number]
-            low.append(own.min(axis=1))
-            high.append(own.max(axis=1))
-        pairs = zip(self.layout.grid.keys, some, strict=True)
-        places = [place for key, place in pairs if len(self.layout.octants[key].vertices)]
-        return np.concatenate([np.zeros((0, 3), np.int64), *places]), *map(
-            np.concatenate, (low, high)
-        )
-
-    def cutting(self, index: Ints) -> tuple[Placed, tuple[slice, ...]]:
-        """Octants at some places, (k, 3), and the part of the grid that they are laid on."""
-        grid, box, low = self.layout.grid, [], np.zeros(3, np.int64)
-        for axis, closed in enumerate(grid.periodic):
-            if closed:
-                box.append(slice(None))
-                continue
-            # One more on every side, for their neighbours; frames alternate: an even one first.
-            low[axis] = max(int(index[:, axis].min()) - 1, 0) // 2 * 2
-            box.append(slice(int(low[axis]), int(index[:, axis].max()) + 2))
-        kind = np.full_like(grid.kind[tuple(box)], -1)
-        kind[tuple((index - low).T)] = grid.kind[tuple(index.T)]
-        some = used_kinds(replace(grid, kind=kind))
-        octants = {key: self.layout.octants[key] for key in some.keys}
-        layout = replace(lay_out(some, octants), first=self.layout.first + low // 2)
-        if self.points is None:
-            return Placed(layout, None, self.shift), tuple(box)
-        points = np.empty((layout.count, 3))
-        for key, place in zip(some.keys, layout.places, strict=True):
-            theirs = numbers(self.layout, octants[key], place + low)
-            points[numbers(layout, octants[key], place)] = self.points[theirs]
-        return Placed(layout, points, self.shift), tuple(box)
 
 
 @dataclass(frozen=True, eq=False)

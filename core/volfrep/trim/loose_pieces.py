@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ..mesh.quality import Quality, measure, remaining
 from ..mesh.triangle_mesh import TriangleMesh, compact
-from ..octants.octant_mesh import OctantSpec
+from ..octants.octant_spec import OctantSpec
 from ..spatial.rays import inside_points
 from ..util.progress import Monitor
 from .trimmed_surface import TrimmedSurface

@@ -21,7 +21,7 @@ from ..mesh.float32_repair import edge_within, shortest_edge
 from ..mesh.quality import combined, inspect, measure
 from ..mesh.triangle_mesh import TriangleMesh, concatenate
 from ..octants.octant import OctantGrid, used_kinds
-from ..octants.octant_mesh import OctantSpec
+from ..octants.octant_spec import OctantSpec
 from ..shell.domain import Domain
 from ..spatial.proximity import closest_points
 from ..util.errors import VolfrepError

@@ -1868,6 +1868,10 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <source>write</source>
       <translation>Schreiben</translation>
     </message>
+    <message>
+      <source>{done} of {runs} runs, about {time} left</source>
+      <translation>{done} von {runs} Läufen, noch etwa {time}</translation>
+    </message>
   </context>
   <context>
     <name>VolfrepReport</name>

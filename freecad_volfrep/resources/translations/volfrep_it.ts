@@ -1868,6 +1868,10 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <source>write</source>
       <translation>scrittura</translation>
     </message>
+    <message>
+      <source>{done} of {runs} runs, about {time} left</source>
+      <translation>{done} esecuzioni su {runs}, ancora circa {time}</translation>
+    </message>
   </context>
   <context>
     <name>VolfrepReport</name>

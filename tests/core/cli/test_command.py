@@ -16,7 +16,7 @@ import pytest
 import trimesh
 
 from volfrep.cli import command as cli
-from volfrep.cli import files as cli_files
+from volfrep.cli import run_options
 from volfrep.design.cells import LIBRARY, USES, UnitCell
 from volfrep.design.drawn_cell import save_cell
 from volfrep.io.solid import read_triangles
@@ -187,15 +187,15 @@ def test_the_tables_of_files_hold_every_option_that_takes_one(
         usage = capsys.readouterr().out
         flags = re.findall(r"--?([\w-]+) (?:FILE|OUT)\b", usage)
         taken |= {"output" if flag == "o" else flag.replace("-", "_") for flag in flags}
-    assert taken == {*cli_files.INPUTS, *cli_files.OUTPUTS}
+    assert taken == {*run_options.INPUTS, *run_options.OUTPUTS}
 
 
 def inputs_and_outputs() -> Iterator[tuple[str, str, str]]:
     """What each command could mix up: of the files it reads and of those it writes one each."""
     for command in ("fill", "block", "size"):
         is_size = command == "size"
-        reads = set(cli_files.INPUTS) - ({"material"} if is_size else {"loads"})
-        writes = set(cli_files.OUTPUTS) - ({"json"} if is_size else {"json", "radii"})
+        reads = set(run_options.INPUTS) - ({"material"} if is_size else {"loads"})
+        writes = set(run_options.OUTPUTS) - ({"json"} if is_size else {"json", "radii"})
         for source in sorted(reads - ({"part", "network_file"} if command == "block" else set())):
             yield from ((command, source, output) for output in sorted(writes))
 
@@ -232,7 +232,7 @@ def test_no_output_is_an_input(
     if way != "its name":
         target = tmp_path / "other.stl"
         (os.symlink if way == "a symbolic link" else os.link)(files[source], target)
-    new = {name: tmp_path / f"new.{name}" for name in cli_files.OUTPUTS}
+    new = {name: tmp_path / f"new.{name}" for name in run_options.OUTPUTS}
     outputs = new | {"output": tmp_path / "new.stl"} | {output: target}
     arguments = [command, *(["--count", "1,1,1"] if command == "block" else [part, "--shell", 2])]
     arguments += ["-o", outputs["output"], "--report", outputs["report"], "--cell", files["cell"]]
@@ -247,7 +247,7 @@ def test_no_output_is_an_input(
     if source == "network_file":
         arguments += ["--network", "file", "--network-file", files["network_file"]]
     said = refused(capsys, *arguments)
-    assert f"is the {cli_files.INPUTS[source]} itself" in said
+    assert f"is the {run_options.INPUTS[source]} itself" in said
     assert {file: file.read_bytes() for file in files.values()} == before
     assert not list(tmp_path.glob("new.*"))
 

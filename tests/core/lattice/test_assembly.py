@@ -14,7 +14,8 @@ from volfrep.mesh import quality
 from volfrep.mesh.triangle_mesh import TriangleMesh, compact
 from volfrep.octants.caps import with_corners
 from volfrep.octants.octant import ALL_ACTIVE, OctantGrid, OctantKey, octant_grid
-from volfrep.octants.octant_mesh import OctantSpec, mesh_octants
+from volfrep.octants.octant_mesh import mesh_octants
+from volfrep.octants.octant_spec import OctantSpec
 from volfrep.util.progress import Monitor
 
 L = 10.0

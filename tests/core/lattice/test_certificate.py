@@ -11,7 +11,8 @@ from volfrep.lattice.assembly import lay, lay_out
 from volfrep.lattice.certificate import agree_on_faces, certify
 from volfrep.mesh import quality
 from volfrep.octants.octant import octant_grid
-from volfrep.octants.octant_mesh import OctantSpec, mesh_octants
+from volfrep.octants.octant_mesh import mesh_octants
+from volfrep.octants.octant_spec import OctantSpec
 from volfrep.util.progress import Monitor
 
 SKEW = make_cell("skew", [[0, 0, 0], [1, 1, 1], [0.3, 0.6, 0.45]], [[0, 2], [2, 1]])

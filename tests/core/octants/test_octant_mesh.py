@@ -7,7 +7,8 @@ import pytest
 from samples import SKEW
 from volfrep.design.cells import LIBRARY, PAPERS, find_cell
 from volfrep.octants.octant import octant_grid
-from volfrep.octants.octant_mesh import OctantSpec, mesh_octants
+from volfrep.octants.octant_mesh import mesh_octants
+from volfrep.octants.octant_spec import OctantSpec
 from volfrep.util.progress import Monitor
 
 

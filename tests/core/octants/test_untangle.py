@@ -13,7 +13,8 @@ from volfrep.jobs.blocks import block, write_block_stl
 from volfrep.jobs.finer import until_sound
 from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.octants.octant import OctantKey
-from volfrep.octants.octant_mesh import FacetsCross, OctantSpec, mesh_octants, octant_spec
+from volfrep.octants.octant_mesh import FacetsCross, mesh_octants, octant_spec
+from volfrep.octants.octant_spec import OctantSpec
 from volfrep.spatial.self_intersection import crossing_triangles
 from volfrep.util.errors import VolfrepError
 from volfrep.util.progress import Monitor

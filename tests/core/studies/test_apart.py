@@ -20,7 +20,8 @@ from swept import timeless
 from volfrep import Study, VolfrepError
 from volfrep.io.solid import check_solid
 from volfrep.io.write.stl import write_stl
-from volfrep.studies import apart, page
+from volfrep.studies import page
+from volfrep.studies.running import apart
 
 BOX = check_solid(samples.box((24.0, 16.0, 16.0)), "box")
 FILLED = Study(
@@ -90,7 +91,7 @@ def test_a_process_that_dies_gets_its_run_again_and_then_is_at_fault(
 
 
 def test_a_process_ends_when_nobody_is_there_any_more(tmp_path: Path) -> None:
-    program = "from volfrep.studies.apart import serve; serve()"
+    program = "from volfrep.studies.running.apart import serve; serve()"
     child = subprocess.Popen([sys.executable, "-c", program], stdin=subprocess.PIPE)
     assert child.stdin is not None
     child.stdin.close()

@@ -19,7 +19,8 @@ import volfrep
 from swept import timeless
 from volfrep import Study, VolfrepError
 from volfrep.io.solid import check_solid
-from volfrep.studies import executors, page
+from volfrep.studies import page
+from volfrep.studies.running import executors
 
 BOX = check_solid(samples.box((24.0, 16.0, 16.0)), "box")
 STUDY = Study(

@@ -20,7 +20,9 @@ from volfrep import Cancelled, Front, Range, Study, VolfrepError
 from volfrep.io.solid import check_solid
 from volfrep.io.write.stl import write_stl
 from volfrep.mechanics.materials import find_material
-from volfrep.studies import actions, page
+from volfrep.studies import page
+from volfrep.studies.actions import ACTIONS
+from volfrep.studies.running import bench
 
 BOX = check_solid(samples.box((24.0, 16.0, 16.0)), "box")
 QUICK = Study(
@@ -147,16 +149,17 @@ def test_a_run_that_fails_keeps_its_sentence_and_ends_nothing(tmp_path: Path) ->
     assert volfrep.sweep(study, tmp_path, workers=1, retry_failed=True).runs == 2  # two kinds
 
 
+def test_behind_every_action_is_a_function() -> None:
+    assert list(bench.FIGURES) == list(ACTIONS)
+
+
 def test_a_defect_of_the_engine_is_told_and_ends_nothing(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def broken(bench: actions.Bench) -> dict:
+    def broken(_: bench.Bench) -> dict:
         raise KeyError("no such thing")
 
-    row = actions.ACTIONS["forecast"]
-    monkeypatch.setitem(
-        actions.ACTIONS, "forecast", actions.Action("forecast", row.help, broken, meshed=False)
-    )
+    monkeypatch.setitem(bench.FIGURES, "forecast", broken)
     made = volfrep.sweep(QUICK, tmp_path, workers=1)
     assert made.count("failed") == 6
     assert "defect of VOLFREP" in made.table.column("error")[0]

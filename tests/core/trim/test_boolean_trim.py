@@ -17,7 +17,8 @@ from volfrep.grid.placement import NUDGE
 from volfrep.mesh import quality
 from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.octants.octant import ALL_ACTIVE, OctantGrid, OctantKey
-from volfrep.octants.octant_mesh import OctantSpec, mesh_octants
+from volfrep.octants.octant_mesh import mesh_octants
+from volfrep.octants.octant_spec import OctantSpec
 from volfrep.trim import boolean_trim, wall_groups
 from volfrep.trim.boolean_trim import trim
 from volfrep.trim.culling import cull, octant_roles

@@ -19,15 +19,7 @@ def write_obj(
 ) -> None:
     """Write an OBJ file, beside the target and then renamed.
 
-    Args:
-        mesh: in mm.
-        path: of the file; an old file stays if anything goes wrong.
-        monitor: told the progress, asked for a cancel.
-
-    Raises:
-        VolfrepError: the mesh is empty, holds coordinates that float32 cannot, or has triangles
-            that lose a corner in float32; or the path cannot be written.
-        Cancelled: when the monitor says so; no file is left behind.
+    Arguments and errors as of `stl.write_stl`.
     """
     vertices = lines("v %.9g %.9g %.9g\n", as_text(mesh, path))
     faces = lines("f %d %d %d\n", mesh.triangles + np.int32(1))

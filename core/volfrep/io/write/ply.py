@@ -35,15 +35,7 @@ def write_ply(
 ) -> None:
     """Write a binary PLY, beside the target and then renamed.
 
-    Args:
-        mesh: in mm.
-        path: of the file; an old file stays if anything goes wrong.
-        monitor: told the progress, asked for a cancel.
-
-    Raises:
-        VolfrepError: the mesh is empty, holds coordinates that float32 cannot, or has triangles
-            that lose a corner in float32; or the path cannot be written.
-        Cancelled: when the monitor says so; no file is left behind.
+    Arguments and errors as of `stl.write_stl`.
     """
     vertices = single_precision(mesh, path)
     refuse_lost_corners(vertices, mesh.triangles, path)

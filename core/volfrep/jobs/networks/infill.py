@@ -8,34 +8,29 @@ from functools import cached_property
 
 import numpy as np
 
-from ...design.cells import joint_radius
-from ...design.networks import CellNetwork, GivenNetwork, RandomNetwork, laid_along
+from ...design.networks import CellNetwork, RandomNetwork
 from ...design.spec import LatticeSpec
-from ...design.spec_parts import DEFAULT_RELATIVE_DEVIATION
 from ...grid.activation import CellGrid
-from ...grid.placement import Placement, node_radii
 from ...grid.strut_graph import Wireframe
 from ...lattice.padded_grid import PaddedGrid
-from ...mesh.edge_table import plural
-from ...mesh.float32_repair import shortest_edge
 from ...mesh.triangle_mesh import TriangleMesh
 from ...network.random_graph import random_graph
-from ...network.surface import NetworkSurface, network_surface, sides_for
-from ...reports.result import Result, report_of
+from ...network.surface import NetworkSurface
+from ...reports.result import Result
 from ...spatial.proximity import closest_points
 from ...spatial.rays import inside_points
 from ...trim.boolean_trim import Trimmed
-from ...trim.finish import finished, tidied
 from ...trim.group_cut import cut_mesh
-from ...trim.loose_pieces import Cleared, clear
+from ...trim.loose_pieces import Cleared
 from ...trim.stage import cleared_cut, drained_part
 from ...trim.trimmed_surface import TrimmedSurface
 from ...util.cache import StageCache
 from ...util.errors import VolfrepError
 from ...util.progress import Monitor, ProgressCallback
-from ...util.types import Floats, Ints
+from ...util.types import Floats
 from ..active_cells import ActiveCells
 from ..infill import Infill
+from .alone import cells_about, meshed, network_frame, overlaps_told, uncut
 
 #: Struts of a random network are drawn together where they are shorter than so many radii.
 SHORTEST = 4.0
@@ -57,86 +52,6 @@ def infill_of(
         solid, spec, cache=cache, progress=progress, monitor=monitor, executor=executor,
         streamed=streamed,
     )  # fmt: skip
-
-
-def network_frame(
-    nodes: Floats,
-    network: GivenNetwork | None,
-    struts: Ints,
-    spec: LatticeSpec,
-    placement: Placement,
-) -> Wireframe:
-    """A network's wireframe in the part: radii of its own, or those of the specification.
-
-    Joint spheres have radius r (1 + r / L), with the median length of a strut for L.
-    """
-    rows = struts.astype(np.int32)
-    if network is not None and len(network.radii) and spec.radius_grading is None:
-        radii = network.radii
-    else:
-        radii = node_radii(spec.struts, nodes, placement)[rows]
-        if network is not None and len(network.widths):
-            radii = radii * network.widths[:, None]
-    thickest = np.zeros(len(nodes))
-    np.maximum.at(thickest, rows, radii)
-    length = np.linalg.norm(nodes[rows[:, 1]] - nodes[rows[:, 0]], axis=1)
-    joints = joint_radius(thickest, float(np.median(length)))
-    return Wireframe(placement.nudged(nodes), rows, np.array(radii), joints)
-
-
-def cells_about(bounds: Floats, spec: LatticeSpec) -> GivenNetwork:
-    """Cells of any box side by side, as many as cover the bounds of a domain.
-
-    The first one's corner lies at the specification's origin, or where the bounds begin.
-    """
-    size = spec.cell_size * np.array(spec.unit_cell().edges)
-    start = bounds[0] if spec.origin is None else np.array(spec.origin)
-    first = np.floor((bounds[0] - start) / size + 1e-6)
-    last = np.ceil((bounds[1] - start) / size - 1e-6)
-    counts = [int(n) for n in last - first]
-    return cells_beside(spec, (counts[0], counts[1], counts[2]), start + first * size)
-
-
-def cells_beside(spec: LatticeSpec, counts: tuple[int, int, int], corner: Floats) -> GivenNetwork:
-    """So many cells of any box along x, y, z from a corner on, mm."""
-    cell = spec.unit_cell()
-    whole = spec.cell_size * np.array(cell.edges) * counts
-    return laid_along(cell, lambda q: corner + q * whole, counts, f"cells '{cell.name}'")
-
-
-def meshed(frame: Wireframe, spec: LatticeSpec, monitor: Monitor) -> NetworkSurface:
-    """The surface of a network at the specification's resolution or deviation."""
-    radius = float(np.median(frame.radii))
-    relative = DEFAULT_RELATIVE_DEVIATION
-    if spec.deviation is not None:
-        relative = spec.deviation / radius
-    elif spec.resolution is not None:
-        relative = (spec.cell_size / spec.resolution / radius) ** 2 / 16.0
-    return network_surface(frame, sides_for(relative), monitor)
-
-
-def overlaps_told(made: NetworkSurface, frame: Wireframe) -> tuple[str, ...]:
-    """A sentence on struts that overlap others; none where none do."""
-    if not made.united:
-        return ()
-    count = len(frame.struts)
-    parts = []
-    if len(made.crowded):
-        x, y, z = frame.nodes[frame.struts[made.crowded[0]]].mean(axis=0)
-        parts.append(
-            f"{plural(len(made.crowded), 'strut')} too short or too narrow at a joint, as at "
-            f"({x:.4g}, {y:.4g}, {z:.4g})"
-        )
-    if len(made.overlapping):
-        one = made.overlapping[0, 0]
-        place = frame.nodes[frame.struts[one]].mean(axis=0) if one < count else None
-        place = frame.nodes[one - count] if place is None else place
-        x, y, z = place
-        parts.append(
-            f"{plural(len(made.overlapping), 'pair')} of struts that run into each other, as at "
-            f"({x:.4g}, {y:.4g}, {z:.4g})"
-        )
-    return (f"United as they overlap: {' and '.join(parts)}; thinner struts would not.",)
 
 
 class NetworkInfill(Infill):
@@ -235,44 +150,3 @@ class NetworkInfill(Infill):
             has_skin=self.spec.skin is not None, with_skin=with_skin,
             keep_pieces=self.spec.keep_pieces,
         )  # fmt: skip
-
-
-def uncut(made: NetworkSurface, smallest: float, monitor: Monitor) -> Cleared:
-    """A network that nothing cuts, without slivers, and its quality."""
-    surface = tidied(TrimmedSurface(made.mesh), shortest_edge(made.mesh), monitor)
-    return clear(surface, smallest, monitor)
-
-
-def network_alone(spec: LatticeSpec, *, progress: ProgressCallback | None = None) -> Result:
-    """A given network as it is, in free space.
-
-    Raises:
-        VolfrepError: the specification has no given network, or it cannot be meshed.
-        Cancelled: the callback said so.
-    """
-    wanted, monitor = spec.network, Monitor(progress)
-    if not isinstance(wanted, GivenNetwork):
-        raise VolfrepError("A network in free space is one of a file: give its nodes and struts.")
-
-    def depth(_: Floats) -> Floats:
-        raise VolfrepError(
-            "A network in free space has no skin to grade the radius by: grade it along a "
-            "direction or by a field."
-        )
-
-    bounds = np.stack([wanted.nodes.min(axis=0), wanted.nodes.max(axis=0)])
-    placement = Placement(spec.cell_size, None, bounds, depth)
-    frame = network_frame(wanted.nodes, wanted, wanted.struts, spec, placement)
-    with monitor.stage("lattice", 0.0, 0.8):
-        made = meshed(frame, spec, monitor)
-    smallest = float((0.2 * np.median(frame.radii)) ** 3)
-    cleared = uncut(made, smallest, monitor)
-    surface, quality, notes = finished(cleared.surface, cleared.quality, monitor, moved=False)
-    hull = made.mesh.bounds
-    none = CellGrid(np.zeros(3), spec.cell_size, (0, 0, 0))
-    report = report_of(
-        quality, frame, none, np.zeros((0, 0, 0), bool), placement, spec, monitor,
-        domain_volume=float(np.prod(hull[1] - hull[0])),
-        warnings=overlaps_told(made, frame) + notes,
-    )  # fmt: skip
-    return Result(surface, frame, report)

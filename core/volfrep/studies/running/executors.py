@@ -12,12 +12,12 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from ..design.memory_guard import free_memory
-from ..util.errors import Cancelled, VolfrepError
-from ..util.progress import ProgressCallback
-from ..util.threads import threads
+from ...design.memory_guard import free_memory
+from ...util.errors import Cancelled, VolfrepError
+from ...util.progress import ProgressCallback
+from ...util.threads import threads
 from .apart import note, run_apart, run_batch
-from .runs import Batch
+from .runs import Batch, run_in_turn
 
 #: How often the caller is told how far the runs are, s.
 TELL = 0.5
@@ -25,6 +25,10 @@ TELL = 0.5
 SHARE = 0.8
 #: A scheduler that does not answer within so long is not there, s.
 PATIENCE = 20
+
+
+#: Says how far runs are, of how many are done, how many there are, and the seconds left.
+Words = Callable[[int, int, float], str]
 
 
 @dataclass
@@ -35,11 +39,13 @@ class Tally:
         weights: expected seconds of each run that is to be done, by its key.
         workers: side by side.
         progress: called with the fraction done, and runs and time left in words.
+        words: of runs done, all of them, and seconds left.
     """
 
     weights: dict[str, float]
     workers: int
     progress: ProgressCallback | None
+    words: Words
     _ended: set[str] = field(default_factory=set)
     _start: float = field(default_factory=time.monotonic)
     _cancelled: threading.Event = field(default_factory=threading.Event)
@@ -75,11 +81,16 @@ class Tally:
         seconds = left / self.workers
         if self._done > 0.0:
             seconds = left * (time.monotonic() - self._start) / self._done
-        return f"{len(self._ended):,} of {len(self.weights):,} runs, {told_time(seconds)} left"
+        return self.words(len(self._ended), len(self.weights), seconds)
 
     @property
     def _done(self) -> float:
         return sum(self.weights[key] for key in tuple(self._ended))
+
+
+def told_state(done: int, runs: int, seconds: float) -> str:
+    """How far runs are, in words."""
+    return f"{done:,} of {runs:,} runs, {told_time(seconds)} left"
 
 
 def told_time(seconds: float) -> str:
@@ -150,10 +161,8 @@ def run_here(batches: Sequence[Batch], tally: Tally) -> None:
     def ask(_: float = 0.0, __: str = "") -> bool:
         return tally.tell()
 
-    for batch in batches:
-        if not ask():
-            raise Cancelled("the study was cancelled")
-        run_batch(batch, tally.ended, ask)
+    limited = any(batch.limits.any for batch in batches)
+    (run_apart if limited else run_in_turn)(_asking(batches, ask), tally.ended, ask)
     tally.tell()
 
 
@@ -177,6 +186,14 @@ def run_beside(batches: Sequence[Batch], tally: Tally) -> None:
             tally.cancel()
             pool.shutdown(wait=False, cancel_futures=True)
             raise
+
+
+def _asking(batches: Sequence[Batch], ask: Callable[[], bool]) -> Iterator[Batch]:
+    """Batches in turn, as long as the caller wants more."""
+    for batch in batches:
+        if not ask():
+            raise Cancelled("the study was cancelled")
+        yield batch
 
 
 def _taken(batches: deque[Batch]) -> Iterator[Batch]:

@@ -13,24 +13,34 @@ from contextlib import ExitStack
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from ..mechanics.catalogue import known_cell
-from ..util.errors import VolfrepError
-from ..util.progress import ProgressCallback
-from ..util.threads import threads
-from ..util.version import VERSION
-from .actions import ACTIONS, Asked
-from .designs import Design
-from .executors import Tally, dask_executor, fitting_workers, run_beside, run_by, run_here
-from .expectation import planned
-from .records import Record, kept_part, read_record
-from .runs import Batch, Limits
+from ...mechanics.catalogue import known_cell
+from ...util.errors import VolfrepError
+from ...util.progress import ProgressCallback
+from ...util.threads import threads
+from ...util.version import VERSION
+from ..actions import ACTIONS, Asked
+from ..designs import Design
+from ..expectation import planned
+from ..records import Record, kept_part, read_record
+from .executors import (
+    Tally,
+    Words,
+    dask_executor,
+    fitting_workers,
+    run_beside,
+    run_by,
+    run_here,
+    told_state,
+)
+from .runs import Batch, Interpreter, Limits
 
 #: Expected seconds of a run without a mesh, with a cell of the catalogue and with another one.
 QUICK, HOMOGENISED = 0.02, 10.0
 #: Less work than this is done in this process, s: others take a second to start.
 WORTH_A_PROCESS = 5.0
-#: Batches for each worker, about: enough that none waits long for the last.
-BATCHES_EACH = 6
+#: A batch is this part of what is left for each worker: long ones first, single runs last, so that
+#: nobody waits for more than one run in the end.
+SHARE_OF_THE_REST = 0.5
 #: Of the actions after a fill, each takes about this part of its time.
 AFTER_FILL = 0.2
 
@@ -46,6 +56,8 @@ class How:
         shard: i and n: only every n-th design, beginning with the i-th.
         limits: of each run.
         retry: whether what failed is tried again.
+        interpreter: of processes beside this one; None for this one's.
+        words: say how far the runs are: of runs done, all of them, and seconds left.
 
     Raises:
         VolfrepError: at construction, where they do not go together.
@@ -57,6 +69,8 @@ class How:
     shard: tuple[int, int] = (1, 1)
     limits: Limits = field(default_factory=Limits)
     retry: bool = False
+    interpreter: Interpreter | None = None
+    words: Words = told_state
 
     def __post_init__(self) -> None:
         given = [v for v in (self.workers, self.executor, self.scheduler) if v is not None]
@@ -112,9 +126,9 @@ class Job:
             beside = executor is None and workers > 1
             batches = [
                 self._batch(group, names, workers if beside else 0)
-                for group in _grouped(designs, weights, workers, meshed)
+                for group in grouped(designs, weights, workers, meshed)
             ]
-            tally = Tally(weights, workers, self._progress)
+            tally = Tally(weights, workers, self._progress, how.words)
             if executor is not None:
                 run_by(executor, batches, tally)
             elif beside:
@@ -126,7 +140,15 @@ class Job:
         how = self._how
         each = max(1, threads() // beside) if beside else 0
         return Batch(
-            tuple(designs), names, self._asked, VERSION, how.limits, how.retry, each, beside > 0
+            tuple(designs),
+            names,
+            self._asked,
+            VERSION,
+            how.limits,
+            how.retry,
+            each,
+            beside > 0,
+            how.interpreter,
         )
 
 
@@ -142,29 +164,38 @@ def weight(design: Design, seconds: float, actions: Mapping[str, bool]) -> float
     return total + QUICK
 
 
-def _grouped(
-    designs: list[Design], weights: Mapping[str, float], workers: int, meshed: bool
+def grouped(
+    designs: Sequence[Design], weights: Mapping[str, float], workers: int, meshed: bool
 ) -> list[list[Design]]:
-    """Designs by worker and turn: side by side what shares a wall, or an endless lattice.
+    """Designs in batches, in the order in which workers take them.
 
-    The longest batches come first.
+    What shares a wall, or an endless lattice, is side by side, and of what shares a wall the
+    longest run comes first. Batches become shorter down to single runs.
+
+    Args:
+        designs: to be done.
+        weights: expected seconds of each, by its key.
+        workers: that take batches.
+        meshed: whether they share walls, or endless lattices.
     """
 
-    def shared(design: Design) -> tuple[str, ...]:
+    def order(design: Design) -> tuple[str | float, ...]:
         spec = design.spec
-        target = () if spec.target is None else (repr(spec.target),)
         wall = (design.part.content, f"{spec.shell!r}", repr(spec.open_faces))
-        cell = (spec.unit_cell().name, f"{spec.strut_radius / spec.cell_size:.9g}", *target)
-        return (*wall, *cell) if meshed else (*cell, *wall)
+        if meshed:
+            return (*wall, -weights[design.key], design.key)
+        target = "" if spec.target is None else repr(spec.target)
+        ratio = f"{spec.strut_radius / spec.cell_size:.9g}"
+        return (spec.unit_cell().name, ratio, target, *wall, design.key)
 
-    most = sum(weights.values()) / (BATCHES_EACH * workers)
-    groups: list[list[Design]] = [[]]
-    load, before = 0.0, ""
-    for design in sorted(designs, key=lambda d: (shared(d), d.key)):
-        kind = shared(design)[0]
-        if groups[-1] and (load >= most or (kind != before and load >= 0.5 * most)):
+    left = sum(weights.values())
+    groups: list[list[Design]] = []
+    load, most = 0.0, 0.0
+    for design in sorted(designs, key=order):
+        if load >= most:
             groups.append([])
-            load = 0.0
+            load, most = 0.0, SHARE_OF_THE_REST * left / workers
         groups[-1].append(design)
-        load, before = load + weights[design.key], kind
-    return sorted(groups, key=lambda group: -sum(weights[d.key] for d in group))
+        load += weights[design.key]
+        left -= weights[design.key]
+    return groups

@@ -20,20 +20,20 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import IO
 
-from ..util.errors import Cancelled, VolfrepError
-from ..util.progress import ProgressCallback
-from ..util.subprocesses import NO_WINDOW
-from ..util.version import VERSION
-from .actions import Shared
-from .designs import Design
-from .records import write_record
-from .runs import Batch, Ended, Limits, bench_of, record_of, run_design, run_in_turn
+from ...util.errors import Cancelled, VolfrepError
+from ...util.progress import ProgressCallback
+from ...util.subprocesses import NO_WINDOW
+from ...util.version import VERSION
+from ..designs import Design
+from ..records import write_record
+from .bench import Shared
+from .runs import Batch, Ended, Interpreter, Limits, bench_of, record_of, run_design, run_in_turn
 
 #: How often a run is looked at, s.
 LOOK = 0.2
 #: A process that dies by itself gets its run again, so often; then the run is at fault.
 TRIES = 2
-_PROGRAM = "from volfrep.studies.apart import serve; serve()"
+_PROGRAM = "from volfrep.studies.running.apart import serve; serve()"
 _DONE = b"done\n"
 CANCELLED = "cancelled"
 #: Variables by which linear algebra is told its threads.
@@ -66,7 +66,7 @@ def run_batch(
     if batch.apart or batch.limits.any:
         run_apart((batch,), ended, progress)
     else:
-        run_in_turn(batch, ended, progress)
+        run_in_turn((batch,), ended, progress)
     return len(batch.designs)
 
 
@@ -134,11 +134,12 @@ class _Child:
 
     def __init__(self, batch: Batch) -> None:
         threads = str(batch.threads or "")
-        environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+        python = batch.interpreter or _this()
+        environment = _environment(python)
         if threads:
             environment.update(dict.fromkeys(_THREADS, threads))
         self._process = subprocess.Popen(
-            [sys.executable, "-c", _PROGRAM],
+            [python.executable, "-c", _PROGRAM],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             env=environment,
@@ -200,6 +201,28 @@ class _Child:
         assert self._process.stdin is not None
         pickle.dump(value, self._process.stdin)
         self._process.stdin.flush()
+
+
+def runs_engine(python: Interpreter) -> bool:
+    """Whether an interpreter finds the engine and all that it needs, and the same version."""
+    program = f"{_PROGRAM.partition(';')[0]}, VERSION; assert VERSION == {VERSION!r}"
+    try:
+        tried = subprocess.run(
+            [python.executable, "-c", program], env=_environment(python), creationflags=NO_WINDOW,
+            stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+            check=False,
+        )  # fmt: skip
+    except OSError:
+        return False
+    return tried.returncode == 0
+
+
+def _this() -> Interpreter:
+    return Interpreter(sys.executable, tuple(filter(None, sys.path)))
+
+
+def _environment(python: Interpreter) -> dict[str, str]:
+    return {**os.environ, "PYTHONPATH": os.pathsep.join(python.path)}
 
 
 def resident_gb(process: int) -> float:
@@ -270,7 +293,7 @@ def serve() -> None:
     threading.Thread(target=_receive, args=(sys.stdin.buffer, sent), daemon=True).start()
     batch = sent.get()
     assert isinstance(batch, Batch)
-    from ..util.threads import use_threads
+    from ...util.threads import use_threads
 
     use_threads(batch.threads)
     shared = Shared()

@@ -10,15 +10,16 @@ from __future__ import annotations
 
 import time
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
-from ..design.parameters.table import BY_NAME
-from ..util.errors import Cancelled, VolfrepError
-from ..util.progress import ProgressCallback
-from .actions import ACTIONS, Asked, Bench, Shared
-from .designs import Design, shown_values
-from .records import Record, kept_part, read_record, write_record
+from ...design.parameters.table import BY_NAME
+from ...util.errors import Cancelled, VolfrepError
+from ...util.progress import ProgressCallback
+from ..actions import Asked
+from ..designs import Design, shown_values
+from ..records import Record, kept_part, read_record, write_record
+from .bench import FIGURES, Bench, Shared
 
 #: What is said of a run whose process ran out of memory.
 NO_MEMORY = "There was not enough memory for this run: use larger cells or a coarser resolution."
@@ -51,6 +52,19 @@ class Limits:
         return self.hours is not None or self.memory_gb is not None
 
 
+@dataclass(frozen=True)
+class Interpreter:
+    """A Python that can run the engine in processes.
+
+    Attributes:
+        executable: path of the program.
+        path: folders in which it finds the engine and what that needs, beside its own.
+    """
+
+    executable: str
+    path: tuple[str, ...]
+
+
 @dataclass(frozen=True, eq=False)
 class Batch:
     """Runs for one worker, one after the other.
@@ -64,6 +78,7 @@ class Batch:
         retry: whether what failed is tried again.
         threads: that each run may use; 0 for all.
         apart: whether runs have a process of their own, which may die without harm.
+        interpreter: of these processes; None for the one that starts them.
     """
 
     designs: tuple[Design, ...]
@@ -74,24 +89,28 @@ class Batch:
     retry: bool
     threads: int
     apart: bool
+    interpreter: Interpreter | None = None
 
 
 #: Called when a run has ended, with its design's key.
 Ended = Callable[[str], None]
 
 
-def run_in_turn(batch: Batch, ended: Ended | None, progress: ProgressCallback | None) -> None:
-    """Do the runs of a batch in this process; `apart.run_batch` says more.
+def run_in_turn(
+    batches: Iterable[Batch], ended: Ended | None, progress: ProgressCallback | None
+) -> None:
+    """Do the runs of batches of one study in this process; `apart.run_batch` says more.
 
     Raises:
         VolfrepError: the study's folder cannot be used.
         Cancelled: the callback said so; the run that was going on leaves no record.
     """
     shared = Shared()
-    for design in batch.designs:
-        run_design(batch, design, bench_of(batch, design, shared, progress))
-        if ended is not None:
-            ended(design.key)
+    for batch in batches:
+        for design in batch.designs:
+            run_design(batch, design, bench_of(batch, design, shared, progress))
+            if ended is not None:
+                ended(design.key)
 
 
 def run_design(batch: Batch, design: Design, bench: Bench) -> None:
@@ -108,7 +127,7 @@ def run_design(batch: Batch, design: Design, bench: Bench) -> None:
         record.errors.pop(name, None)
         record.notes.pop(name, None)
         try:
-            record.results[name] = ACTIONS[name].act(bench)
+            record.results[name] = FIGURES[name](bench)
         except VolfrepError as error:
             record.errors[name] = str(error)
         except Cancelled:
@@ -122,8 +141,8 @@ def run_design(batch: Batch, design: Design, bench: Bench) -> None:
             )
             record.notes[name] = [traceback.format_exc()]
         record.keep(name, batch.asked, time.perf_counter() - start)
-        if name == "fill" and name in record.results:
-            record.notes[name] = list(bench.infill.result.report.warnings)
+        if name in bench.notes:
+            record.notes[name] = bench.notes[name]
     if missing:
         write_record(batch.asked.folder, record)
 

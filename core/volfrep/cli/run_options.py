@@ -1,0 +1,331 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The table of what is said to a run beside the lattice: files, forms, limits. A new one is a row.
+
+Commands, what they read and write, and docs/engine.md follow from it, as the lattice's options do
+from `design.parameters`. Read without numpy, so that ``--help`` answers at once.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ..util.errors import VolfrepError
+from .parser import shard, three_whole_numbers
+
+MESHED = ("fill", "block", "network")
+LATTICE = (*MESHED, "slice", "size")
+SPEC_GROUP = "a whole specification"
+MATERIAL_GROUP = "what it is printed of, and how"
+FORM_GROUP = "files for CAD and for a solver"
+GOAL_GROUP = "what is wanted: limits for the least mass, or the most stiffness at a mass"
+SIZED_PICTURE_GROUP = "a picture of it"
+
+
+@dataclass(frozen=True)
+class RunOption:
+    """A row of the table.
+
+    Attributes:
+        name: the option without its hyphens.
+        commands: that have it.
+        help: one phrase.
+        shape: how its value is written; empty for a switch.
+        group: its title in the command's help; empty for the first one.
+        read: what its text becomes.
+        default: what holds where it is not given.
+        choices: the words that it takes.
+        required: whether it must be given.
+        reads: what the command calls the file that it names and that is read.
+        writes: the same, of a file that is written.
+        extensions: of the output, without which it has no effect; empty for any.
+        place: where its value is kept, if not by its name.
+        either: of options with the same word here just one is given.
+        short: another name, of one letter.
+    """
+
+    name: str
+    commands: tuple[str, ...]
+    help: str
+    shape: str = ""
+    group: str = ""
+    read: Callable[[str], Any] | None = None
+    default: Any = None
+    choices: tuple[str, ...] = ()
+    required: bool = False
+    reads: str = ""
+    writes: str = ""
+    extensions: tuple[str, ...] = ()
+    place: str = ""
+    either: str = ""
+    short: str = ""
+
+    @property
+    def option(self) -> str:
+        """As it is typed."""
+        return f"--{self.name}"
+
+    @property
+    def stored(self) -> str:
+        """The attribute that holds its value."""
+        return self.place or self.name.replace("-", "_")
+
+
+RUN_OPTIONS = (
+    RunOption(
+        "output", MESHED, "what to write: .stl, .3mf, .ply, .obj, .step or .inp",
+        "FILE", required=True, writes="output", short="o",
+    ),
+    RunOption(
+        "output", ("size",), "the part with its sized lattice: .stl, .3mf, .ply or .obj",
+        "FILE", required=True, writes="output", short="o",
+    ),
+    RunOption(
+        "output", ("slice",), "to make; one that holds layers is replaced",
+        "FOLDER", required=True, writes="output", short="o",
+    ),
+    RunOption(
+        "output", ("sweep",),
+        "of records, table and page; what is done there is not done again",
+        "FOLDER", required=True, short="o",
+    ),
+    RunOption(
+        "unit", ("fill", "slice", "size", "check"),
+        "of the file's lengths: mm, cm, m, inch, ft or um (default: what the file says, else mm)",
+        "UNIT",
+    ),
+    RunOption(
+        "count", ("block",), "cells along x, y and z", "NX,NY,NZ",
+        read=three_whole_numbers, required=True,
+    ),
+    RunOption(
+        "spec", LATTICE, "read a specification; options override its entries",
+        "FILE.toml", SPEC_GROUP, reads="specification",
+    ),
+    RunOption(
+        "write-spec", LATTICE, "write the specification in force",
+        "FILE.toml", SPEC_GROUP, writes="written specification",
+    ),
+    RunOption(
+        "report", MESHED, "write the figures of the run as JSON", "FILE.json", writes="report",
+    ),
+    RunOption(
+        "report", ("size",), "write the figures, before and after", "FILE.json", writes="report",
+    ),
+    RunOption(
+        "picture", MESHED, "write a picture, cut open (needs pyvista)",
+        "FILE.png", writes="picture",
+    ),
+    RunOption(
+        "3mf", MESHED,
+        "what a 3MF file holds: the part as triangles (default), its lattice as beams of the beam "
+        "lattice extension (small, and made without a mesh), or both",
+        "WORD", choices=("mesh", "beams", "both"), extensions=(".3mf",), place="threemf",
+    ),
+    RunOption(
+        "step", MESHED,
+        "what a .step file holds: a plane face for every triangle (faceted, default); cylinders, "
+        "cones and spheres (exact, by an installed FreeCAD); or the struts' axes (wireframe)",
+        "WORD", FORM_GROUP, choices=("faceted", "exact", "wireframe"),
+        extensions=(".step", ".stp"),
+    ),
+    RunOption(
+        "inp", MESHED,
+        "what an .inp file for CalculiX holds: struts as beams with stiff ends (beams, default), "
+        "or the part as second-order tetrahedra by Gmsh (tetrahedra)",
+        "WORD", FORM_GROUP, choices=("beams", "tetrahedra"), extensions=(".inp",),
+    ),
+    RunOption(
+        "material", MESHED,
+        "a name of the table in docs/cells.md, or the path of a .toml or .json file: its density "
+        "gives the mass, its modulus goes into an .inp file; of such a file also NAME,E,NU in MPa "
+        "(default PETG,2100,0.38)",
+        "M", MATERIAL_GROUP, reads="material file",
+    ),
+    RunOption(
+        "material", ("slice",),
+        "a name of the table in docs/cells.md, or a .toml or .json file: its density gives the "
+        "mass",
+        "M", reads="material file",
+    ),
+    RunOption(
+        "material", ("properties",),
+        "of the solid: a name of the table (see docs/cells.md), a .toml or .json file, or "
+        "NAME,E,NU; without one, figures are in units of the solid's",
+        "M", reads="material file",
+    ),
+    RunOption(
+        "process", MESHED,
+        "FFF, SLA, SLS, MJF, LPBF or EBM: adds its print report where there is a mesh, and says if "
+        "it does not print the material",
+        "P", MATERIAL_GROUP,
+    ),
+    RunOption(
+        "print-report", MESHED,
+        "say how the part suits a printing process: FFF, SLA, SLS, MJF, LPBF or EBM", "PROCESS",
+    ),
+    RunOption(
+        "layer", ("slice",), "height of a layer", "MM", read=float, required=True,
+    ),
+    RunOption(
+        "pixel", ("slice",), "edge of a pixel of the pictures (default: the height of a layer)",
+        "MM", read=float,
+    ),
+    RunOption(
+        "format", ("slice",),
+        "a picture of one bit a pixel a layer, for resin printers (default); a drawing a layer; or "
+        "one file of the common layer interface, for metal printers",
+        "WORD", choices=("png", "svg", "cli"), default="png",
+    ),
+    RunOption(
+        "loads", ("size",), "load cases, see docs/loads.md",
+        "FILE.toml", required=True, reads="load file",
+    ),
+    RunOption(
+        "radii", ("size",), "the radii at the nodes, as --radius-field reads it",
+        "FILE.csv", writes="radii",
+    ),
+    RunOption(
+        "max-stress", ("size",), "largest von Mises stress in a strut",
+        "MPA", GOAL_GROUP, float,
+    ),
+    RunOption(
+        "safety", ("size",), "the same as the material's yield over this", "S", GOAL_GROUP, float,
+    ),
+    RunOption(
+        "max-displacement", ("size",), "of any node, in any case", "MM", GOAL_GROUP, float,
+    ),
+    RunOption(
+        "buckling", ("size",), "loads times this buckle no strut", "F", GOAL_GROUP, float,
+    ),
+    RunOption("min-frequency", ("size",), "lowest natural frequency", "HZ", GOAL_GROUP, float),
+    RunOption(
+        "strut-mass", ("size",),
+        "of the struts, for the most stiffness (default: what the strut radius makes)",
+        "G", GOAL_GROUP, float,
+    ),
+    RunOption(
+        "thinnest", ("size",), "smallest radius (default: half the radius)",
+        "MM", GOAL_GROUP, float,
+    ),
+    RunOption(
+        "thickest", ("size",), "largest radius (default: what cells bear)",
+        "MM", GOAL_GROUP, float,
+    ),
+    RunOption(
+        "smooth", ("size",), "share of its neighbours in each node's radius, 0 to 0.9 (default 0)",
+        "S", GOAL_GROUP, float, 0.0,
+    ),
+    RunOption("steps", ("size",), "of the search, at most (default 60)", "N", GOAL_GROUP, int, 60),
+    RunOption(
+        "no-proof", ("size",), "do not let CalculiX solve the final design", group=GOAL_GROUP,
+    ),
+    RunOption(
+        "picture", ("size",), "the struts in colour (needs pyvista)",
+        "FILE.png", SIZED_PICTURE_GROUP, writes="picture",
+    ),
+    RunOption(
+        "colour", ("size",), "what the colour tells (default radius)",
+        "WORD", SIZED_PICTURE_GROUP, choices=("radius", "stress", "buckling", "displacement"),
+    ),
+    RunOption(
+        "case", ("size",), "of which load case (default: the first)", "NAME", SIZED_PICTURE_GROUP,
+    ),
+    RunOption(
+        "deformed", ("size",), "displacements drawn so many times as large",
+        "F", SIZED_PICTURE_GROUP, float,
+    ),
+    RunOption(
+        "cell-size", ("properties",), "edge L of a cell", "MM", read=float, required=True,
+    ),
+    RunOption(
+        "strut-radius", ("properties",), "radius r of the struts", "MM", read=float,
+        either="size",
+    ),
+    RunOption(
+        "relative-density", ("properties",), "from 0 to 1, in place of the radius", "D",
+        read=float, either="size",
+    ),
+    RunOption(
+        "fillet", ("properties",), "round at the joints (default 0)", "MM", read=float, default=0.0,
+    ),
+    RunOption(
+        "voxels", ("properties",), "along L (default: what the radius asks for)", "N", read=int,
+    ),
+    RunOption(
+        "json", ("properties",), "write the figures, and their errors, as JSON",
+        "FILE", writes="figures",
+    ),
+    RunOption(
+        "dry-run", ("sweep",), "say how many designs there are, and the time",
+    ),
+    RunOption(
+        "workers", ("sweep",),
+        "runs side by side (default: as many as cores and memory allow)", "N", read=int,
+    ),
+    RunOption(
+        "scheduler", ("sweep",), "of Dask, such as tcp://HOST:8786, for the runs", "ADDRESS",
+    ),
+    RunOption(
+        "shard", ("sweep",), "only one part in N of them", "I/N", read=shard, default=(1, 1),
+    ),
+    RunOption("limit-hours", ("sweep",), "end a run that takes longer", "H", read=float),
+    RunOption("limit-memory", ("sweep",), "end a run that takes more", "GB", read=float),
+    RunOption("retry-failed", ("sweep",), "try again what failed before"),
+    RunOption("quiet", (*LATTICE, "sweep"), "print nothing but errors"),
+)  # fmt: skip
+#: Arguments without hyphens, and options of the table of parameters, that name files which are
+#: read; what the command calls them.
+_OTHER_INPUTS = {
+    "part": "part",
+    "cell": "cell file",
+    "radius_field": "field file",
+    "network_file": "network file",
+}
+#: What the command calls its input files, by where the options keep their names.
+INPUTS = _OTHER_INPUTS | {row.stored: row.reads for row in RUN_OPTIONS if row.reads}
+#: The files that it writes, the same way.
+OUTPUTS = {row.stored: row.writes for row in RUN_OPTIONS if row.writes}
+
+
+def add_run_options(parser: argparse.ArgumentParser, command: str) -> None:
+    """Add the options of a command, in the order and the groups of the table."""
+    groups: dict[str, Any] = {"": parser}
+    for row in RUN_OPTIONS:
+        if command not in row.commands:
+            continue
+        if row.group not in groups:
+            groups[row.group] = parser.add_argument_group(row.group)
+        into = groups[row.group]
+        if row.either:
+            if row.either not in groups:
+                groups[row.either] = into.add_mutually_exclusive_group(required=True)
+            into = groups[row.either]
+        names = ([f"-{row.short}"] if row.short else []) + [row.option]
+        said: dict[str, Any] = {"help": row.help.replace("%", "%%"), "dest": row.stored}
+        if row.shape:
+            said |= {"default": row.default, "required": row.required}
+            said |= {"choices": row.choices} if row.choices else {"metavar": row.shape}
+            said |= {"type": row.read} if row.read is not None else {}
+        else:
+            said["action"] = "store_true"
+        into.add_argument(*names, **said)
+
+
+def refuse_extensions(options: argparse.Namespace, command: str, out: Path) -> None:
+    """Refuse an option that the output's kind of file has no place for.
+
+    Raises:
+        VolfrepError: naming it, and the extension that it needs.
+    """
+    for row in RUN_OPTIONS:
+        if command not in row.commands or not row.extensions:
+            continue
+        if getattr(options, row.stored) is not None and out.suffix.lower() not in row.extensions:
+            raise VolfrepError(
+                f"'{out}' cannot hold what {row.option} asks for: give it the extension "
+                f"{row.extensions[0]}."
+            )

@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Commands that hand a lattice infill on: as a file, as a solid, as an analysis."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import FreeCAD as App
+import FreeCADGui as Gui
+
+from freecad_volfrep.translation import marked, translate
+from volfrep.util.errors import VolfrepError
+
+from .command import undo_step
+from .messages import ask, choose, errors_shown, file_name, tell_error, tell_written
+from .qt import QtWidgets
+
+#: Names of FEM models, marked for translation.
+MODEL_NAMES = marked("VolfrepCommands", "beams", "tetrahedra")
+
+
+def export(obj: App.DocumentObject) -> None:
+    """Ask for the file's name and write it."""
+    from freecad_volfrep.features.export import export_mesh, formats_of
+    from freecad_volfrep.features.solver_files import CONTENTS, estimate_file
+
+    folder = Path(obj.Document.FileName).parent if obj.Document.FileName else Path.home()
+    formats = {form.filter: form for form in formats_of(obj)}
+    path, chosen = QtWidgets.QFileDialog.getSaveFileName(
+        Gui.getMainWindow(),
+        translate("VOLFREP_Export", "Export Lattice"),
+        str(folder / f"{file_name(obj.Label)}.stl"),
+        ";;".join(formats),
+    )
+    if not path:
+        return
+    form = formats[chosen]
+    if Path(path).suffix.lower() != form.suffix and form.content != "mesh":
+        path = str(Path(path).with_suffix(form.suffix))
+    elif not Path(path).suffix:
+        path += form.suffix
+    with errors_shown(box=True):
+        if form.content in CONTENTS and not ask(
+            translate("VolfrepCommands", "{file}: {estimate}. Write it?").format(
+                file=Path(path).name, estimate=estimate_file(obj, form.content)
+            )
+        ):
+            return
+        export_mesh(obj, path, form.content)
+        tell_written(path)
+
+
+def make_solid_of(obj: App.DocumentObject) -> None:
+    """Say what each kind of solid takes, ask which, and make it."""
+    from freecad_volfrep.features.solids import kinds_of, make_kind
+
+    doc = obj.Document
+    kinds = {
+        kind.name: (translate("VolfrepSolids", kind.title), lambda kind=kind: kind.predict(obj))
+        for kind in kinds_of(obj)
+    }
+    question = translate("VolfrepCommands", "Make of '{label}':").format(label=obj.Label)
+    chosen = _chosen(question, kinds)
+    if chosen is None:
+        return
+    with undo_step(doc, translate("VOLFREP_ToSolid", "Lattice To Solid")), errors_shown():
+        make_kind(doc, obj, chosen)
+        obj.Visibility = False
+    doc.recompute()
+
+
+def analyse(infill: App.DocumentObject) -> None:
+    """Say what each model takes, ask which, and make an analysis of it."""
+    from freecad_volfrep.features.fem_analysis import MODELS, estimate_analysis, make_fem_analysis
+
+    chosen = _chosen(
+        translate("VolfrepCommands", "Analyse '{label}' with:").format(label=infill.Label),
+        {
+            model: (
+                translate("VolfrepCommands", model),
+                lambda m=model: estimate_analysis(infill, m),
+            )
+            for model in MODELS
+        },
+    )
+    if chosen is None:
+        return
+    step = translate("VOLFREP_FemAnalysis", "FEM Analysis")
+    with undo_step(infill.Document, step), errors_shown():
+        make_fem_analysis(infill.Document, infill, chosen)
+
+
+def _chosen(label: str, kinds: dict[str, tuple[str, Callable[[], str]]]) -> str | None:
+    """The kind that the user picks by its title and what it will take; None for none.
+
+    `kinds` gives, by name, the title and what predicts; kinds that are refused are named above
+    the list, and alone they are an error.
+    """
+    offered, refused = {}, []
+    for name, (title, predict) in kinds.items():
+        try:
+            offered[f"{title}: {predict()}"] = name
+        except VolfrepError as error:
+            refused.append(f"{title}: {error}")
+    if not offered:
+        tell_error("\n".join(refused))
+        return None
+    item = choose(label, list(offered), refused)
+    return None if item is None else offered[item]

@@ -1,0 +1,226 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Fields for the properties of an infill, by their types, as its task panel shows them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import FreeCAD as App
+import FreeCADGui as Gui
+
+from freecad_volfrep.features.quantities import number_of, set_value
+from freecad_volfrep.translation import QT_TRANSLATE_NOOP, marked, spaced, translate
+from volfrep.design.cells import LIBRARY, load_cell
+from volfrep.design.field_files import TABLE_SUFFIXES, VTK_SUFFIXES
+from volfrep.design.parameters.table import CUSTOM_CELL
+from volfrep.design.target import read_direction
+from volfrep.util.errors import VolfrepError
+
+from .cell_library import cell_files
+from .cell_picture import cell_icon
+from .file_field import FileField
+from .qt import QtCore, QtWidgets
+
+#: Size of a cell's picture, px.
+PICTURE = 48
+#: What the files of a field hold.
+POINTS = QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Points and values")
+MATERIAL = QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Material")
+#: What the list of materials holds beside their names.
+ENTRIES = marked("App::Property", "None", "Custom", "Of the solid")
+#: Fields of plain numbers with a unit. FreeCAD's own take no "M" of MPa, and 0.20 has no masses.
+UNITS = {"TargetMass": "g", "TargetStiffness": "MPa"}
+_LARGEST = 1e9
+
+
+class PropertyFields:
+    """Fields that hold the properties of an infill and set them when the user changes them.
+
+    Args:
+        obj: the infill.
+        changed: called with the name of a property that the user has changed.
+        refused: called with a sentence where what was typed is no value.
+    """
+
+    def __init__(
+        self,
+        obj: App.DocumentObject,
+        changed: Callable[[str], None],
+        refused: Callable[[str], None],
+    ) -> None:
+        self._obj, self._changed, self._refused = obj, changed, refused
+        self._bindings: list[Any] = []
+
+    def cell_picker(self) -> Any:
+        """The list of unit cells with their pictures."""
+        picker = QtWidgets.QListWidget()
+        picker.setObjectName("CellType")
+        picker.setViewMode(QtWidgets.QListView.IconMode)
+        picker.setIconSize(QtCore.QSize(PICTURE, PICTURE))
+        picker.setMovement(QtWidgets.QListView.Static)
+        picker.setResizeMode(QtWidgets.QListView.Adjust)
+        picker.setFixedHeight(2 * PICTURE + 60)
+        picker.setMinimumWidth(4 * PICTURE)
+        for name in self._obj.getEnumerationsOfProperty("CellType"):
+            item = QtWidgets.QListWidgetItem(name, picker)
+            if name == CUSTOM_CELL:
+                self._own = item
+                self._draw_own_cell()
+            else:
+                item.setIcon(cell_icon(LIBRARY[name], PICTURE))
+            if name == self._obj.CellType:
+                picker.setCurrentItem(item)
+        picker.currentTextChanged.connect(self._setter("CellType"))
+        return picker
+
+    def _draw_own_cell(self) -> None:
+        """Show the cell of the object's file, or an empty cube; the figures say what is wrong."""
+        try:
+            cell = load_cell(self._obj.CellFile) if self._obj.CellFile else None
+        except VolfrepError:
+            cell = None
+        self._own.setIcon(cell_icon(cell, PICTURE))
+
+    def field(self, name: str) -> Any:
+        """A widget for a property, by the property's type."""
+        kind = self._obj.getTypeIdOfProperty(name)
+        if kind == "App::PropertyEnumeration":
+            choice = QtWidgets.QComboBox()
+            choice.setMinimumContentsLength(4)
+            choice.setSizeAdjustPolicy(QtWidgets.QComboBox.AdjustToMinimumContentsLengthWithIcon)
+            for value in self._obj.getEnumerationsOfProperty(name):
+                choice.addItem(said_property(value), value)
+            choice.setCurrentIndex(choice.findData(getattr(self._obj, name)))
+            choice.currentIndexChanged.connect(lambda row: self._setter(name)(choice.itemData(row)))
+            return choice
+        if kind == "App::PropertyBool":
+            box = QtWidgets.QCheckBox()
+            box.setChecked(getattr(self._obj, name))
+            box.toggled.connect(self._setter(name))
+            return box
+        if kind == "App::PropertyString":
+            line = QtWidgets.QLineEdit(getattr(self._obj, name))
+            line.editingFinished.connect(lambda: self._setter(name)(line.text()))
+            return line
+        if kind == "App::PropertyFile":
+            return FileField(getattr(self._obj, name), _files(name), self._setter(name))
+        if name in UNITS:
+            return self._number_field(name)
+        if kind == "App::PropertyVector":
+            way = QtWidgets.QLineEdit(_direction_text(getattr(self._obj, name)))
+            way.editingFinished.connect(lambda: self._set_direction(name, way.text()))
+            return way
+        spin = Gui.UiLoader().createWidget("Gui::QuantitySpinBox")
+        spin.setProperty("unit", "mm" if kind == "App::PropertyLength" else "")
+        spin.setProperty("minimum", 0.0)
+        present = getattr(self._obj, name)
+        spin.setProperty("rawValue", getattr(present, "Value", present))
+        # Its own signal has a type that Python's Qt does not know.
+        spin.findChild(QtWidgets.QLineEdit).textChanged.connect(
+            lambda _: self._setter(name)(spin.property("rawValue"))
+        )
+        binding = Gui.ExpressionBinding(spin)
+        binding.bind(self._obj, name)
+        self._bindings.append(binding)
+        return spin
+
+    def _number_field(self, name: str) -> Any:
+        """A number of the unit that `quantities` have for the property."""
+        field = _PlainNumber()
+        field.setRange(0.0, _LARGEST)
+        field.setDecimals(3)
+        field.setStepType(QtWidgets.QAbstractSpinBox.AdaptiveDecimalStepType)
+        field.setSuffix(f" {UNITS[name]}")
+        field.setValue(number_of(self._obj, name))
+        field.setEnabled(not self._is_driven(name))
+
+        def changed(value: float) -> None:
+            if not self._is_driven(name) and value != number_of(self._obj, name):
+                set_value(self._obj, name, value)
+                self._changed(name)
+
+        field.valueChanged.connect(changed)
+        return field
+
+    def show(self, name: str, field: Any) -> None:
+        """Show a number in its field that was not typed there."""
+        field.setProperty("value" if name in UNITS else "rawValue", number_of(self._obj, name))
+
+    def _is_driven(self, name: str) -> bool:
+        """Whether an expression says what the property is."""
+        return any(path.strip(".") == name for path, _ in self._obj.ExpressionEngine)
+
+    def _setter(self, name: str) -> Callable[[Any], None]:
+        """Sets a property that the user has changed, and tells of it."""
+
+        def set_value(value: Any) -> None:
+            present = getattr(self._obj, name)
+            if self._is_driven(name) or is_read_only(self._obj, name):
+                return
+            if value == getattr(present, "Value", present):
+                return
+            setattr(self._obj, name, value)
+            if name == "CellFile":
+                self._draw_own_cell()
+            self._changed(name)
+
+        return set_value
+
+    def _set_direction(self, name: str, text: str) -> None:
+        """Take a direction over; what is none is said, and the last one shown again."""
+        try:
+            self._setter(name)(App.Vector(*read_direction(text)))
+        except ValueError:
+            self._refused(
+                translate(
+                    "VolfrepTaskPanel",
+                    "'{text}' is no direction: write 100, 110, 111 or three numbers such as 1,2,0.",
+                ).format(text=text)
+            )
+
+
+class _PlainNumber(QtWidgets.QDoubleSpinBox):
+    """A number without zeros at its end, which would push the unit out of a narrow panel."""
+
+    def textFromValue(self, value: float) -> str:  # noqa: N802
+        """As Qt asks for it."""
+        locale = self.locale()
+        locale.setNumberOptions(QtCore.QLocale.OmitGroupSeparator)
+        return str(locale.toString(float(value), "g", 7))
+
+
+def _files(name: str) -> str:
+    """The kinds of files for a property, as Qt's file dialog takes them."""
+    if name == "MaterialFile":
+        return f"{translate('VolfrepTaskPanel', MATERIAL)} (*.toml *.json)"
+    if name == "CellFile":
+        return cell_files()
+    suffixes = " ".join(f"*{suffix}" for suffix in TABLE_SUFFIXES + VTK_SUFFIXES)
+    return f"{translate('VolfrepTaskPanel', POINTS)} ({suffixes})"
+
+
+def _direction_text(way: App.Vector) -> str:
+    """A direction as the panel's field shows and takes it."""
+    numbers = tuple(way)
+    for short in ("100", "110", "111"):
+        if numbers == read_direction(short):
+            return short
+    return ", ".join(f"{number:g}" for number in numbers)
+
+
+def is_read_only(obj: App.DocumentObject, name: str) -> bool:
+    """Whether the property editor shows a property that something else decides."""
+    return "ReadOnly" in obj.getEditorMode(name)
+
+
+def label_of(name: str) -> str:
+    """A property's name in the user's words; in English only its first letter is a capital."""
+    text = spaced(name)
+    said = said_property(text)
+    return text.capitalize() if said == text else said
+
+
+def said_property(text: str) -> str:
+    """A property's name, description or value, in the context that FreeCAD has for them."""
+    return str(translate("App::Property", text))

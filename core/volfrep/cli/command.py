@@ -17,6 +17,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..design.parameters import BY_NAME
 from ..util.errors import VolfrepError
 from . import layers, material, printing_options, process, properties, sizing, solver_options, sweep
 from .files import check_files, read_part
@@ -106,6 +107,7 @@ def _parser() -> argparse.ArgumentParser:
     network = add(
         "network", _network, "Mesh the nodes and struts of a file, or cells laid into its mesh."
     )
+    network.add_argument("file", metavar="FILE", help=BY_NAME["network_file"].help)
     add_run_options(network, "network")
     laid = ("network_thickness", "network_layers", "network_reversed")
     add_parameters(network, of_block=True, also=laid)

@@ -10,6 +10,7 @@ import base64
 import html
 import io
 import os
+import shlex
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -166,10 +167,15 @@ def _cards(
             for name in dict.fromkeys(shown)
             if row[name] is not None
         )
-        command = command_of(design, study, _source(design), f"{key}{study.export}")
+        commands = [command_of(design, study, _source(design), f"{key}{study.export}")]
+        if row.get("size.file"):
+            spec = str(folder / row["size.file"])
+            sized = ["-o", f"{key}_sized{study.export}", "--spec", spec]
+            commands.append(shlex.join(["volfrep", "fill", _source(design), *sized]))
+        told = "".join(f"<pre>{_text(command)}</pre>" for command in commands)
         parts.append(
             f'<div class="card" id="{key}">{_picture(folder, row)}<h3>{key}</h3>'
-            f"<table>{lines}</table><pre>{_text(command)}</pre></div>"
+            f"<table>{lines}</table>{told}</div>"
         )
     return [*parts, "</div>"]
 
@@ -177,7 +183,8 @@ def _cards(
 #: What a card shows beside what varies and what is aimed at.
 _MORE = (
     "fill.mass_g", "fill.triangles", "fill.watertight", "measure.printable", "print.findings",
-    "print.said", "error",
+    "print.said", "solve.displacement_mm", "solve.stress_mpa", "size.strut_mass_g", "size.stiffer",
+    "size.mass_saved", "error",
 )  # fmt: skip
 
 

@@ -22,6 +22,7 @@ from volfrep.io.solid import check_solid
 from volfrep.io.write.stl import write_stl
 from volfrep.studies import page
 from volfrep.studies.running import apart
+from volfrep.studies.running.runs import Interpreter
 
 BOX = check_solid(samples.box((24.0, 16.0, 16.0)), "box")
 FILLED = Study(
@@ -96,6 +97,30 @@ def test_a_process_ends_when_nobody_is_there_any_more(tmp_path: Path) -> None:
     assert child.stdin is not None
     child.stdin.close()
     assert child.wait() == 0
+
+
+def test_an_interpreter_is_asked_whether_it_runs_the_engine(tmp_path: Path) -> None:
+    assert apart.runs_engine(Interpreter(sys.executable, tuple(filter(None, sys.path))))
+    assert not apart.runs_engine(Interpreter(str(tmp_path / "python"), ()))
+    (tmp_path / "volfrep").mkdir()
+    (tmp_path / "volfrep" / "__init__.py").touch()  # another engine, which has no studies
+    assert not apart.runs_engine(Interpreter(sys.executable, (str(tmp_path),)))
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="a shell script stands for the interpreter")
+def test_runs_are_done_by_the_interpreter_that_is_named(tmp_path: Path) -> None:
+    named = tmp_path / "python"
+    named.write_text(f'#!/bin/sh\ntouch "{tmp_path}/called"\nexec "{sys.executable}" "$@"\n')
+    named.chmod(0o755)
+    python = Interpreter(str(named), tuple(filter(None, sys.path)))
+    told = []
+    made = volfrep.sweep(
+        FILLED, tmp_path / "runs", workers=2, interpreter=python,
+        words=lambda done, runs, _: f"{done}/{runs}", progress=lambda _, text: told.append(text),
+    )  # fmt: skip
+    assert made.count("done") == 4
+    assert (tmp_path / "called").is_file()
+    assert told[-1] == "4/4"
 
 
 def _study_file(folder: Path, count: int, actions: list[str]) -> Path:

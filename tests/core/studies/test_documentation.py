@@ -17,18 +17,26 @@ from volfrep.studies.designs import combinations
 TEXT = (Path(__file__).resolve().parents[3] / "docs" / "studies.md").read_text(encoding="utf-8")
 
 
-def shown(language: str) -> str:
-    """The one example in a language."""
-    (example,) = re.findall(rf"```{language}\n(.*?)```", TEXT, re.DOTALL)
-    return str(example)
+def shown(language: str) -> list[str]:
+    """The examples in a language."""
+    return re.findall(rf"```{language}\n(.*?)```", TEXT, re.DOTALL)
 
 
 def test_the_studys_file_is_one(tmp_path: Path) -> None:
     pytest.importorskip("pyvista", reason="its pictures need the optional package pyvista")
-    (tmp_path / "study.toml").write_text(shown("toml"))
+    whole, _ = shown("toml")
+    (tmp_path / "study.toml").write_text(whole)
     study = read_study(tmp_path / "study.toml")
     assert len(combinations(study)) == 450
     assert study.vary["shell"] == (1.5, 2.0, 3.0)
+
+
+def test_what_is_said_of_loads_is_a_studys_too(tmp_path: Path) -> None:
+    _, loads = shown("toml")
+    (tmp_path / "study.toml").write_text(f'part = "bracket.stl"\nvary.cell = ["BCC"]\n{loads}')
+    study = read_study(tmp_path / "study.toml")
+    assert study.all_actions == ("forecast", "solve", "size")
+    assert study.goal == {"safety": 3.0, "thinnest": 0.4}
 
 
 def test_every_action_has_its_row() -> None:
@@ -42,7 +50,8 @@ def test_an_optimiser_asks_and_is_told(tmp_path: Path, monkeypatch: pytest.Monke
     monkeypatch.chdir(tmp_path)
     write_stl(samples.box(), tmp_path / "bracket.stl")
     names: dict = {}
-    exec(shown("python"), names)
+    (example,) = shown("python")
+    exec(example, names)
     trials = names["search"].trials
     assert len(trials) == 30
     assert {trial.state.name for trial in trials} == {"COMPLETE"}

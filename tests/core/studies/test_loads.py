@@ -11,7 +11,7 @@ import pytest
 import samples
 import volfrep
 from command import run
-from volfrep import Study, VolfrepError
+from volfrep import Front, Study, VolfrepError
 from volfrep.io.solid import check_solid, read_triangles
 from volfrep.io.write.stl import write_stl
 from volfrep.studies.study import read_study
@@ -77,7 +77,13 @@ def test_twice_the_load_moves_twice_as_far_and_is_a_new_question(
 
 
 def test_a_sized_design_is_made_by_its_specification(beam: Study, tmp_path: Path) -> None:
-    study = replace(beam, do=("size", "solve"), goal={"safety": 3.0}, vary={"strut_radius": (0.8,)})
+    study = replace(
+        beam,
+        do=("size", "solve"),
+        goal={"safety": 3.0},
+        vary={"strut_radius": (0.8,)},
+        front=Front({"size.strut_mass_g": "least"}),
+    )
     runs = tmp_path / "runs"
     made = volfrep.sweep(study, runs, workers=1)
     assert made.count("done") == 1, made.table.column("error")
@@ -92,6 +98,8 @@ def test_a_sized_design_is_made_by_its_specification(beam: Study, tmp_path: Path
     assert read_triangles(out).volume * density / 1000.0 == pytest.approx(
         row["size.strut_mass_g"], rel=0.02
     )
+    page = (runs / "index.html").read_text(encoding="utf-8")
+    assert f"_sized.stl --spec {spec}" in page
     spec.unlink()
     assert volfrep.sweep(study, runs, workers=1).runs == 1
 

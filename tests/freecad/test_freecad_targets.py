@@ -245,6 +245,28 @@ def test_the_material_of_freecads_solid_is_taken_over(doc, box):
         specification_of(obj)
 
 
+def test_the_material_chosen_for_a_shape_is_taken_over(doc, box):
+    """FreeCAD 1.0 and later: a shape has a material of the library's own."""
+    if not hasattr(box, "ShapeMaterial"):
+        pytest.skip("this FreeCAD's shapes have no materials")
+    import Materials
+
+    manager = Materials.MaterialManager()
+    chosen = next(one for one in manager.Materials.values() if one.Name == "CalculiX-Steel")
+    box.ShapeMaterial = manager.getMaterial(chosen.UUID)
+    obj = make_lattice_infill(doc, box, **LATTICE, PrintMaterial="Of the solid")
+    doc.recompute()
+    assert density_of(obj) == pytest.approx(7.9)
+    assert mass_of(obj) == pytest.approx(obj.Volume.Value * 7.9 / 1000.0)
+    solver = for_solver(obj)
+    assert (solver.young, solver.poisson, solver.name) == (210_000.0, 0.3, "CalculiX-Steel")
+    other = next(one for one in manager.Materials.values() if "YoungsModulus" not in
+                 one.PhysicalProperties and "Density" in one.PhysicalProperties)  # fmt: skip
+    box.ShapeMaterial = manager.getMaterial(other.UUID)
+    with pytest.raises(VolfrepError, match="has no YoungsModulus that can be read"):
+        specification_of(obj)
+
+
 def test_a_change_of_material_makes_no_new_mesh(doc, box):
     obj = make_lattice_infill(doc, box, **LATTICE)
     doc.recompute()

@@ -135,6 +135,26 @@ def test_the_shipped_ends_give_frames_the_moduli_of_the_solid(name):
             assert shear == pytest.approx(wanted.G, rel=0.09 if key == "square" else 0.25)
 
 
+@pytest.mark.parametrize(
+    ("name", "shear"),
+    [("Box", 0.01), ("CVC", 0.05), ("BCC", 0.09), ("FCC", 0.16), ("Octet", 0.16),
+     ("Octahedron", 0.29)],
+)  # fmt: skip
+def test_thick_struts_keep_e_and_what_a_beam_can_of_g(name, shear):
+    """A beam's stiffness across is at most a third of that along it: G is left too high."""
+    known, ratio = catalogue()[name], 0.15
+    frame = periodic_frame(LIBRARY[name])
+    ends = known.joint(ratio, "square")
+    wanted = moduli(known.tensor(ratio))
+    found = moduli(
+        frame_tensor(frame, ratio, ends, section=SECTIONS["square"], longest=LONGEST_END)
+    )
+    along = found.E100
+    assert along == pytest.approx(wanted.E100, rel=0.025)
+    assert -0.01 < found.G / wanted.G - 1.0 < shear
+    assert 0.75 < found.bulk / wanted.bulk < 0.9
+
+
 def test_only_the_librarys_own_cells_are_known():
     octet = LIBRARY["Octet"]
     assert known_cell(octet) is catalogue()["Octet"]
@@ -181,4 +201,4 @@ class TestBlocksBetweenPlates:
         solid, _ = plates.solid_force(name, ratio, tmp_path)
         profile = joint_law(LIBRARY[name], plates.SIZE, "square")
         beams = plates.beam_force(plates.beams_of(name, ratio, joint_law=profile), tmp_path)
-        assert beams == pytest.approx(solid, rel=plates.WITHIN.get((name, ratio), 0.05))
+        assert beams == pytest.approx(solid, rel=0.05)

@@ -91,6 +91,16 @@ def test_what_a_lattice_does_is_read_off_at_once_within_its_errors(material):
     assert read.relative_density == pytest.approx(computed.relative_density, rel=1e-3)
 
 
+def test_the_modulus_in_any_direction():
+    found = known_properties(LIBRARY["CVC"], 10.0, 1.0, find_material("PA12"))
+    for name, way in (("E100", (0, 2, 0)), ("E110", (1, 0, -1)), ("E111", (-1, 1, 1))):
+        assert found.young(way) == pytest.approx(found.values[name], rel=1e-6)
+    assert found.values["E100"] < found.young((1, 2, 0)) < found.values["E110"]
+    for none in ((0, 0, 0), (1, 0), (1, np.inf, 0)):
+        with pytest.raises(VolfrepError, match="direction is three numbers"):
+            found.young(none)
+
+
 def test_what_the_catalogue_does_not_know_is_not_guessed():
     assert known_properties(LIBRARY["Octet"], 10.0, 4.0) is None
     own = dataclasses.replace(LIBRARY["Octet"], name="mine")

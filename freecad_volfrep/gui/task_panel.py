@@ -10,7 +10,7 @@ import FreeCAD as App
 import FreeCADGui as Gui
 
 from freecad_volfrep.features.live_preview import TARGETS, LivePreview, Shown
-from freecad_volfrep.features.quantities import number_of, set_value
+from freecad_volfrep.features.quantities import is_driven, number_of, set_expression, set_value
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, marked, spaced, translate
 from volfrep.design import parameters
 from volfrep.design.cells import LIBRARY, load_cell
@@ -25,7 +25,7 @@ from .file_field import FileField
 from .messages import WRONG
 from .preview_only import end_preview
 from .preview_view import PreviewView
-from .qt import OK_CANCEL, QtCore, QtWidgets
+from .qt import OK_CANCEL, QtCore, QtGui, QtWidgets
 from .section_view import close_section, open_section
 
 #: The preview waits until no value has changed for so long, ms.
@@ -301,26 +301,34 @@ class TaskPanel:
         field.setStepType(QtWidgets.QAbstractSpinBox.AdaptiveDecimalStepType)
         field.setSuffix(f" {UNITS[name]}")
         field.setValue(number_of(self._obj, name))
-        field.setEnabled(not self._is_driven(name))
 
         def changed(value: float) -> None:
-            if not self._is_driven(name) and value != number_of(self._obj, name):
+            if not is_driven(self._obj, name) and value != number_of(self._obj, name):
                 set_value(self._obj, name, value)
                 self._timer.start(SETTLED)
 
-        field.valueChanged.connect(changed)
-        return field
+        def finished() -> None:
+            formula = field.take_formula()
+            if formula is not None:
+                try:
+                    set_expression(self._obj, name, formula)
+                except Exception as error:  # whatever FreeCAD raises for an expression
+                    self._say(f"{formula}: {error}", wrong=True)
+                else:
+                    self._timer.start(SETTLED)
+            if is_driven(self._obj, name):
+                field.setValue(number_of(self._obj, name))
 
-    def _is_driven(self, name: str) -> bool:
-        """Whether an expression says what the property is."""
-        return any(path.strip(".") == name for path, _ in self._obj.ExpressionEngine)
+        field.valueChanged.connect(changed)
+        field.editingFinished.connect(finished)
+        return field
 
     def _setter(self, name: str) -> Callable[[Any], None]:
         """Sets a property that the user has changed, and asks for a new preview."""
 
         def set_value(value: Any) -> None:
             present = getattr(self._obj, name)
-            if self._is_driven(name) or _READ_ONLY in self._obj.getEditorMode(name):
+            if is_driven(self._obj, name) or _READ_ONLY in self._obj.getEditorMode(name):
                 return
             if value == getattr(present, "Value", present):
                 return
@@ -386,7 +394,38 @@ class TaskPanel:
 
 
 class _PlainNumber(QtWidgets.QDoubleSpinBox):
-    """A number without zeros at its end, which would push the unit out of a narrow panel."""
+    """A number without zeros at its end, which would push the unit out of a narrow panel.
+
+    FreeCAD's expressions cannot be bound to it, so one is typed behind a "=", as its own boxes
+    begin one; "=" alone ends it. `take_formula` gives it when the editing is finished.
+    """
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._formula: str | None = None
+        self.findChild(QtWidgets.QLineEdit).textEdited.connect(self._typed)
+
+    def take_formula(self) -> str | None:
+        """What was typed behind a "=" since it was last asked; None: a number, or nothing."""
+        formula, self._formula = self._formula, None
+        return formula
+
+    def _typed(self, text: str) -> None:
+        plain = text.strip()
+        self._formula = self._without_unit(plain[1:]) if plain.startswith("=") else None
+
+    def _without_unit(self, text: str) -> str:
+        return text.removesuffix(self.suffix()).strip()
+
+    def validate(self, text: str, place: int) -> Any:
+        """As Qt asks for it."""
+        if text.strip().startswith("="):
+            return QtGui.QValidator.Acceptable, text, place
+        return super().validate(text, place)
+
+    def valueFromText(self, text: str) -> float:  # noqa: N802
+        """As Qt asks for it."""
+        return self.value() if text.strip().startswith("=") else super().valueFromText(text)
 
     def textFromValue(self, value: float) -> str:  # noqa: N802
         """As Qt asks for it."""

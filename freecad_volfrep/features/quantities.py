@@ -51,6 +51,39 @@ def set_value(obj: App.DocumentObject, name: str, value: Any) -> None:
     setattr(obj, name, value)
 
 
+def set_expression(obj: App.DocumentObject, name: str, text: str) -> None:
+    """Let an expression say what a property is, now and when the document is recomputed.
+
+    Args:
+        obj: that has the property.
+        name: of the property.
+        text: the expression; one without a unit is in the unit that `set_value` takes. Empty: none
+            any more.
+
+    Raises:
+        Exception: of FreeCAD's, with its sentence on what is wrong; what was there stays.
+    """
+    if not text.strip():
+        obj.setExpression(name, None)
+        return
+    value = obj.evalExpression(text)
+    unit = UNITS.get(obj.getTypeIdOfProperty(name))
+    if unit is not None and isinstance(value, (int, float)):
+        text = f"({text}) * 1 {unit}"
+    before = getattr(obj, name)
+    set_value(obj, name, value)
+    try:
+        obj.setExpression(name, text)
+    except Exception:
+        setattr(obj, name, before)
+        raise
+
+
+def is_driven(obj: App.DocumentObject, name: str) -> bool:
+    """Whether an expression says what a property is."""
+    return any(path.strip(".") == name for path, _ in obj.ExpressionEngine)
+
+
 def mass_of(obj: App.DocumentObject) -> float:
     """The mass of an object, g."""
     return number_of(obj, "Mass")

@@ -9,7 +9,7 @@ from typing import Any
 import FreeCAD as App
 import FreeCADGui as Gui
 
-from freecad_volfrep.features.quantities import number_of, set_value
+from freecad_volfrep.features.quantities import is_driven, number_of, set_expression, set_value
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, marked, spaced, translate
 from volfrep.design.cells import LIBRARY, load_cell
 from volfrep.design.field_files import TABLE_SUFFIXES, VTK_SUFFIXES
@@ -20,7 +20,7 @@ from volfrep.util.errors import VolfrepError
 from .cell_library import cell_files
 from .cell_picture import cell_icon
 from .file_field import FileField
-from .qt import QtCore, QtWidgets
+from .qt import QtCore, QtGui, QtWidgets
 
 #: Size of a cell's picture, px.
 PICTURE = 48
@@ -133,30 +133,38 @@ class PropertyFields:
         field.setStepType(QtWidgets.QAbstractSpinBox.AdaptiveDecimalStepType)
         field.setSuffix(f" {UNITS[name]}")
         field.setValue(number_of(self._obj, name))
-        field.setEnabled(not self._is_driven(name))
 
         def changed(value: float) -> None:
-            if not self._is_driven(name) and value != number_of(self._obj, name):
+            if not is_driven(self._obj, name) and value != number_of(self._obj, name):
                 set_value(self._obj, name, value)
                 self._changed(name)
 
+        def finished() -> None:
+            formula = field.take_formula()
+            if formula is not None:
+                try:
+                    set_expression(self._obj, name, formula)
+                except Exception as error:  # whatever FreeCAD raises for an expression
+                    self._refused(f"{formula}: {error}")
+                else:
+                    self._changed(name)
+            if is_driven(self._obj, name):
+                field.setValue(number_of(self._obj, name))
+
         field.valueChanged.connect(changed)
+        field.editingFinished.connect(finished)
         return field
 
     def show(self, name: str, field: Any) -> None:
         """Show a number in its field that was not typed there."""
         field.setProperty("value" if name in UNITS else "rawValue", number_of(self._obj, name))
 
-    def _is_driven(self, name: str) -> bool:
-        """Whether an expression says what the property is."""
-        return any(path.strip(".") == name for path, _ in self._obj.ExpressionEngine)
-
     def _setter(self, name: str) -> Callable[[Any], None]:
         """Sets a property that the user has changed, and tells of it."""
 
         def set_value(value: Any) -> None:
             present = getattr(self._obj, name)
-            if self._is_driven(name) or is_read_only(self._obj, name):
+            if is_driven(self._obj, name) or is_read_only(self._obj, name):
                 return
             if value == getattr(present, "Value", present):
                 return
@@ -181,7 +189,38 @@ class PropertyFields:
 
 
 class _PlainNumber(QtWidgets.QDoubleSpinBox):
-    """A number without zeros at its end, which would push the unit out of a narrow panel."""
+    """A number without zeros at its end, which would push the unit out of a narrow panel.
+
+    FreeCAD's expressions cannot be bound to it, so one is typed behind a "=", as its own boxes
+    begin one; "=" alone ends it. `take_formula` gives it when the editing is finished.
+    """
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._formula: str | None = None
+        self.findChild(QtWidgets.QLineEdit).textEdited.connect(self._typed)
+
+    def take_formula(self) -> str | None:
+        """What was typed behind a "=" since it was last asked; None: a number, or nothing."""
+        formula, self._formula = self._formula, None
+        return formula
+
+    def _typed(self, text: str) -> None:
+        plain = text.strip()
+        self._formula = self._without_unit(plain[1:]) if plain.startswith("=") else None
+
+    def _without_unit(self, text: str) -> str:
+        return text.removesuffix(self.suffix()).strip()
+
+    def validate(self, text: str, place: int) -> Any:
+        """As Qt asks for it."""
+        if text.strip().startswith("="):
+            return QtGui.QValidator.Acceptable, text, place
+        return super().validate(text, place)
+
+    def valueFromText(self, text: str) -> float:  # noqa: N802
+        """As Qt asks for it."""
+        return self.value() if text.strip().startswith("=") else super().valueFromText(text)
 
     def textFromValue(self, value: float) -> str:  # noqa: N802
         """As Qt asks for it."""

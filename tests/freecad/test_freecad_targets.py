@@ -10,7 +10,14 @@ from freecad_volfrep import make_lattice_infill
 from freecad_volfrep.features.live_preview import LivePreview
 from freecad_volfrep.features.materials import advice, for_solver, process_of
 from freecad_volfrep.features.print_check import make_print_check
-from freecad_volfrep.features.quantities import density_of, mass_of, number_of, set_value
+from freecad_volfrep.features.quantities import (
+    density_of,
+    is_driven,
+    mass_of,
+    number_of,
+    set_expression,
+    set_value,
+)
 from freecad_volfrep.features.values import specification_of
 from volfrep.design.target import Target
 from volfrep.util.errors import VolfrepError
@@ -243,6 +250,47 @@ def test_the_material_of_freecads_solid_is_taken_over(doc, box):
     made.Material = {"Name": "Steel", "Density": "7850 kg/m^3"}
     with pytest.raises(VolfrepError, match="YoungsModulus"):
         specification_of(obj)
+
+
+def test_the_material_chosen_for_a_shape_is_taken_over(doc, box):
+    """FreeCAD 1.0 and later: a shape has a material of the library's own."""
+    if not hasattr(box, "ShapeMaterial"):
+        pytest.skip("this FreeCAD's shapes have no materials")
+    import Materials
+
+    manager = Materials.MaterialManager()
+    chosen = next(one for one in manager.Materials.values() if one.Name == "CalculiX-Steel")
+    box.ShapeMaterial = manager.getMaterial(chosen.UUID)
+    obj = make_lattice_infill(doc, box, **LATTICE, PrintMaterial="Of the solid")
+    doc.recompute()
+    assert density_of(obj) == pytest.approx(7.9)
+    assert mass_of(obj) == pytest.approx(obj.Volume.Value * 7.9 / 1000.0)
+    solver = for_solver(obj)
+    assert (solver.young, solver.poisson, solver.name) == (210_000.0, 0.3, "CalculiX-Steel")
+    other = next(one for one in manager.Materials.values() if "YoungsModulus" not in
+                 one.PhysicalProperties and "Density" in one.PhysicalProperties)  # fmt: skip
+    box.ShapeMaterial = manager.getMaterial(other.UUID)
+    with pytest.raises(VolfrepError, match="has no YoungsModulus that can be read"):
+        specification_of(obj)
+
+
+@pytest.mark.parametrize(("name", "unit"), [("TargetMass", "g"), ("TargetStiffness", "MPa")])
+def test_expressions_say_targets_in_the_unit_that_is_shown(doc, box, name, unit):
+    obj = driven(doc, box, name.removeprefix("Target"), PrintMaterial="PA12", **{name: 20.0})
+    set_expression(obj, name, "2 * 10.5")
+    assert is_driven(obj, name)
+    assert number_of(obj, name) == pytest.approx(21.0)
+    doc.recompute()
+    assert number_of(obj, name) == pytest.approx(21.0)
+    with pytest.raises(Exception, match="what"):
+        set_expression(obj, name, "2 * what")
+    assert number_of(obj, name) == pytest.approx(21.0)
+    assert is_driven(obj, name)
+    set_expression(obj, name, " ")
+    assert not is_driven(obj, name)
+    if obj.getTypeIdOfProperty(name) != "App::PropertyFloat":  # which knows no units
+        set_expression(obj, name, f"3 * 2000 {unit} / 1000")
+        assert number_of(obj, name) == pytest.approx(6.0)
 
 
 def test_a_change_of_material_makes_no_new_mesh(doc, box):

@@ -267,7 +267,7 @@ def choose(name, text):
 
 def drive_the_radius(doc, obj):
     """Density, mass and stiffness in place of the radius: the preview shows the one found."""
-    from freecad_volfrep.features.quantities import number_of
+    from freecad_volfrep.features.quantities import is_driven, number_of
 
     open_to_edit(obj)
     shown = panel_part("StrutRadius")
@@ -295,6 +295,21 @@ def drive_the_radius(doc, obj):
     figures = panel_part("Figures").text()
     begun = f"mass {mass:.3g}"[:8] in figures
     check("a mass begins with what there is", begun, (mass, figures))
+    field, more = panel_part("TargetMass"), round(1.1 * mass, 3)
+    type_value("TargetMass", f"={more}/2 + {more}/2")
+    check("an expression says the mass", is_driven(obj, "TargetMass"), obj.ExpressionEngine)
+    check("which the field shows", abs(field.value() / more - 1) < 1e-3, (field.value(), more))
+    check("and the figures", f"mass {more:.3g}"[:8] in panel_part("Figures").text(),
+          panel_part("Figures").text())  # fmt: skip
+    type_value("TargetMass", "=2*what")
+    check("what is none is said", "=" not in field.text() and "what" in
+          panel_part("Figures").text(), panel_part("Figures").text())  # fmt: skip
+    check("and changes nothing", is_driven(obj, "TargetMass"), obj.ExpressionEngine)
+    type_value("TargetMass", "=")
+    check("nothing ends the expression", not is_driven(obj, "TargetMass"), obj.ExpressionEngine)
+    type_value("TargetMass", f"{mass:.4g}")
+    check("and a number is one again",
+          abs(number_of(obj, "TargetMass") / mass - 1) < 1e-3, obj.TargetMass)  # fmt: skip
     choose("RadiusDrivenBy", "Stiffness")
     type_value("StiffnessDirection", "111")
     check("a direction is set", tuple(obj.StiffnessDirection) == (1, 1, 1))

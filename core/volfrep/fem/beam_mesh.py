@@ -189,8 +189,8 @@ def _too_thick(wireframe: Wireframe, cell_size: float) -> tuple[str, ...]:
         return ()
     return (
         f"Struts of r/L = {ratio:.2g} are hardly beams: these were held against solid elements up "
-        f"to {MEASURED_TO:g}, where they are within 5 % (FCC 9 % too soft); beyond it they may be "
-        "farther off, and tetrahedra are safer.",
+        f"to {MEASURED_TO:g}, where they are within 5 %; beyond it they may be farther off, and "
+        "tetrahedra are safer.",
     )
 
 

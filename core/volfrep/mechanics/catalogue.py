@@ -362,33 +362,31 @@ def main(arguments: list[str]) -> None:
 
     With ``--fit`` only the ends are fitted anew, to the stiffness that is known.
     """
-    names = [name for name in arguments if name != "--fit"] or [
-        name for name, cell in LIBRARY.items() if is_listed(cell)
-    ]
+    data = json.loads(FILE.read_text(encoding="utf-8"))
+    known: dict[str, Any] = data["cells"]
+    names = [name for name in arguments if name != "--fit"]
     if "--fit" in arguments:
-        computed = {name: refitted(catalogue()[name]) for name in names}
+        for name in names or list(known):
+            known[name].update(_fits(refitted(catalogue()[name])))
     else:
-        computed = {name: compute(name, lambda text: print(text, flush=True)) for name in names}
-    cells = {**(catalogue() if FILE.exists() else {}), **computed}
-    data: dict[str, Any] = {
-        "about": "Endless lattices of round struts with joint spheres, no fillet; moduli over the "
-        "solid's E, strengths over its yield stress; made by volfrep.mechanics.catalogue.",
-        "poisson": POISSON,
-        "names": NAMES,
-        "cells": {
-            name: {
-                "ratios": cells[name].ratios.tolist(),
-                "values": _short(cells[name].values),
-                "errors": _short(cells[name].errors, 2),
-                "doubts": _short(cells[name].doubts, 2),
-                "ends": {key: _short(rows, 4) for key, rows in cells[name].ends.items()},
-                "misfit": {key: _short(rows, 2) for key, rows in cells[name].misfit.items()},
+        for name in names or [name for name, cell in LIBRARY.items() if is_listed(cell)]:
+            cell = compute(name, lambda text: print(text, flush=True))
+            known[name] = {
+                "ratios": cell.ratios.tolist(),
+                "values": _short(cell.values),
+                "errors": _short(cell.errors, 2),
+                "doubts": _short(cell.doubts, 2),
+                **_fits(cell),
             }
-            for name in LIBRARY
-            if name in cells
-        },
-    }
+    data["cells"] = {name: known[name] for name in LIBRARY if name in known}
     FILE.write_text(json.dumps(data, indent=1) + "\n", encoding="utf-8")
+
+
+def _fits(cell: CatalogueCell) -> dict[str, Any]:
+    return {
+        "ends": {key: _short(rows, 4) for key, rows in cell.ends.items()},
+        "misfit": {key: _short(rows, 2) for key, rows in cell.misfit.items()},
+    }
 
 
 def _short(rows: Floats, digits: int = 6) -> list[list[float]]:

@@ -31,11 +31,8 @@ _FIRST = np.log([1.0, 1.5, 2.0])
 _TOWARDS = np.log([1.0, 1.5, 2.0])
 _PULL = 0.01
 #: Weights of E along the axes, G in the planes of the faces, E along the diagonals, and the bulk
-#: modulus. Struts of up to `_SLENDER` of their length in radius can meet both E and G; of thicker
-#: ones E goes first, and the bulk modulus, which lattices between plates feel, counts for more.
+#: modulus.
 _WEIGHTS = np.array([1.0, 0.25, 0.2, 0.05])
-_WEIGHTS_OF_THICK = np.array([1.0, 0.15, 0.15, 0.14])
-_SLENDER = 0.15
 _COUNTS = np.array([3, 3, 4, 1])
 _DIAGONALS = np.array([[1, 1, 1], [1, 1, -1], [1, -1, 1], [-1, 1, 1]], float)
 
@@ -87,8 +84,6 @@ def fit_joint(
     wanted = _moduli(tensor)
 
     free = 3 if widen else 2
-    shortest = np.linalg.norm(frame.end - frame.start, axis=1).min()
-    chosen = _WEIGHTS if radius <= _SLENDER * shortest else _WEIGHTS_OF_THICK
 
     def ends_of(place: Floats) -> Ends:
         length, axial, wider = np.exp(place) if widen else (*np.exp(place), 1.0)
@@ -102,7 +97,7 @@ def fit_joint(
 
     def residuals(place: Floats) -> Floats:
         errors = missed(place)
-        weights = np.repeat(chosen / np.sqrt(_COUNTS), _COUNTS)
+        weights = np.repeat(_WEIGHTS / np.sqrt(_COUNTS), _COUNTS)
         return np.concatenate([weights * errors, _PULL * (place - _TOWARDS[:free])])
 
     first = _FIRST

@@ -2,9 +2,9 @@
 """Materials to print with, as built: typical figures with their sources, and the user's own.
 
 A printed material depends on machine, parameters, direction and treatment: these are figures to
-begin with. `source` says whose they are, and which of them were not read there: those are usual
-figures of such a material, to be held against your supplier's. Where a figure is a Poisson's ratio
-that no data sheet gives, it is the handbook's for the wrought or moulded material.
+begin with. `source` says of each figure whose it is, and which were not read there ("not
+checked"): those are usual figures of such a material, to be held against your supplier's. Data
+sheets give no Poisson's ratio: it is the handbook's for the wrought or moulded material.
 """
 
 from __future__ import annotations
@@ -101,28 +101,39 @@ MATERIALS = {
     material.name.lower(): material
     for material in (
         SolidMaterial("Ti-6Al-4V", 4.41, 110_000, 0.34, 1_000, ("LPBF", "EBM"),
-                      "EOS Titanium Ti64, data sheet (M 290, 30 um): density; others not checked"),
+                      "EOS Titanium Ti64, data sheet (M 290, 30 um): density; modulus, nu and "
+                      "yield not checked (FreeCAD's card of the wrought alloy: 114,000, 0.33 and "
+                      "910; JAMPT measured 1,130 by LPBF, 996 by EBM)"),
         SolidMaterial("AlSi10Mg", 2.67, 70_000, 0.33, 240, _METAL,
-                      "EOS Aluminium AlSi10Mg, data sheet (upright)"),
+                      "EOS Aluminium AlSi10Mg, data sheet (upright): density, modulus, yield; nu: "
+                      "handbook"),
         SolidMaterial("316L", 7.97, 185_000, 0.30, 480, _METAL,
-                      "EOS StainlessSteel 316L-4441, process data sheet (M 290, 20 um, upright); "
-                      "modulus not checked"),
+                      "EOS StainlessSteel 316L-4441, process data sheet (M 290, 20 um, upright): "
+                      "density and yield (M 400-4, 40 um: 7.9 and 490); modulus not checked, the "
+                      "sheets give none; nu: handbook"),
         SolidMaterial("IN718", 8.15, 160_000, 0.29, 634, _METAL,
-                      "EOS NickelAlloy IN718, process data sheet (M 290, 40 um) as "
-                      "others quote it: density; others "
-                      "not checked"),
+                      "EOS NickelAlloy IN718, process data sheet (M 290, 40 um) as others quote "
+                      "it: density; modulus and yield not checked; nu: handbook"),
         SolidMaterial("PA12", 0.93, 1_550, 0.40, 42, _POWDER,
-                      "EOS PA 2200, data sheet as others quote it (upright; along X 1,600 and "
-                      "48 MPa); density not checked"),
-        SolidMaterial("PA11", 0.99, 1_600, 0.40, 48, _POWDER, "EOS PA 1101, not checked"),
+                      "EOS PA 2200, data sheet as others quote it: modulus and strength (upright; "
+                      "along X 1,600 and 48 MPa); density not checked; nu: handbook"),
+        SolidMaterial("PA11", 0.99, 1_600, 0.40, 48, _POWDER,
+                      "EOS PA 1101: not checked in its sheet, but within what additive.tools "
+                      "gives for PA11 (0.93-1.00, 1,000-2,000, 37-48); nu: handbook"),
         SolidMaterial("PLA", 1.24, 2_350, 0.36, 49.5, ("FFF",),
-                      "Ultimaker PLA, not checked"),
+                      "Ultimaker PLA, data sheet as others quote it: modulus and yield; density "
+                      "and nu: FreeCAD's card PLA-Generic"),
         SolidMaterial("PETG", 1.27, 2_100, 0.38, 47, ("FFF",),
-                      "Prusament PETG, data sheet as others quote it: density; modulus: the "
-                      "VOLFREP paper's sample; yield not checked"),
-        SolidMaterial("ABS", 1.10, 1_680, 0.39, 39, ("FFF",), "Ultimaker ABS, not checked"),
+                      "Prusament PETG, data sheet as others quote it: density; modulus and nu: "
+                      "the VOLFREP paper's sample; yield not checked in the sheet, but within "
+                      "what additive.tools gives for strength (44-56)"),
+        SolidMaterial("ABS", 1.10, 1_680, 0.39, 39, ("FFF",),
+                      "Ultimaker ABS: not checked (FreeCAD's card ABS-Generic: density 1.06, nu "
+                      "0.37)"),
         SolidMaterial("Resin", 1.17, 2_800, 0.40, 65, ("SLA",),
-                      "Formlabs Clear Resin V4 after curing, not checked"),
+                      "Formlabs Clear Resin V4 after curing: modulus not checked; density and "
+                      "strength not checked in its sheet, but within what renato.design gives for "
+                      "clear resins (1.1-1.2, 38-65); nu: handbook"),
     )
 }  # fmt: skip
 _FIELDS = {"name", "density", "young", "poisson", "yield_stress", "processes", "source"}

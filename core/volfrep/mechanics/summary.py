@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..design.cells import UnitCell, find_cell
 from ..design.spec_parts import Grid, Struts
@@ -18,7 +19,7 @@ from .density import radius_of_density, relative_density
 from .homogenise import Homogenised, homogenise
 from .materials import SolidMaterial, find_material
 from .strength import STRESSES, stresses
-from .tensor import moduli
+from .tensor import moduli, young
 
 #: Poisson's ratio of the solid where no material is given.
 POISSON = 0.3
@@ -63,6 +64,21 @@ class CellProperties:
     errors: dict[str, Any]
     von_mises: dict[str, float]
     along: int
+
+    def young(self, direction: ArrayLike) -> float:
+        """Young's modulus along a direction, such as (1, 2, 0), in the unit of the moduli.
+
+        Raises:
+            VolfrepError: it is no direction.
+
+        >>> octet = cell_properties("Octet", 10, 0.5, along=16)
+        >>> round(octet.young((1, 1, 1)) / octet.values["E111"], 6)
+        1.0
+        """
+        way = np.asarray(direction, float)
+        if way.shape != (3,) or not 0.0 < np.linalg.norm(way) < np.inf:
+            raise VolfrepError(f"A direction is three numbers, not all 0, not {direction!r}.")
+        return float(young(self.stiffness, way))
 
     def as_dict(self) -> dict[str, Any]:
         """The figures as plain JSON values; the errors under ``errors``, by the same names."""

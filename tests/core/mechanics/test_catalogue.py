@@ -91,6 +91,16 @@ def test_what_a_lattice_does_is_read_off_at_once_within_its_errors(material):
     assert read.relative_density == pytest.approx(computed.relative_density, rel=1e-3)
 
 
+def test_the_modulus_in_any_direction():
+    found = known_properties(LIBRARY["CVC"], 10.0, 1.0, find_material("PA12"))
+    for name, way in (("E100", (0, 2, 0)), ("E110", (1, 0, -1)), ("E111", (-1, 1, 1))):
+        assert found.young(way) == pytest.approx(found.values[name], rel=1e-6)
+    assert found.values["E100"] < found.young((1, 2, 0)) < found.values["E110"]
+    for none in ((0, 0, 0), (1, 0), (1, np.inf, 0)):
+        with pytest.raises(VolfrepError, match="direction is three numbers"):
+            found.young(none)
+
+
 def test_what_the_catalogue_does_not_know_is_not_guessed():
     assert known_properties(LIBRARY["Octet"], 10.0, 4.0) is None
     own = dataclasses.replace(LIBRARY["Octet"], name="mine")
@@ -133,6 +143,26 @@ def test_the_shipped_ends_give_frames_the_moduli_of_the_solid(name):
             along, shear = found.E100, found.G
             assert along == pytest.approx(wanted.E100, rel=0.02 if key == "square" else 0.05)
             assert shear == pytest.approx(wanted.G, rel=0.09 if key == "square" else 0.25)
+
+
+@pytest.mark.parametrize(
+    ("name", "shear"),
+    [("Box", 0.01), ("CVC", 0.05), ("BCC", 0.09), ("FCC", 0.16), ("Octet", 0.16),
+     ("Octahedron", 0.29)],
+)  # fmt: skip
+def test_thick_struts_keep_e_and_what_a_beam_can_of_g(name, shear):
+    """A beam's stiffness across is at most a third of that along it: G is left too high."""
+    known, ratio = catalogue()[name], 0.15
+    frame = periodic_frame(LIBRARY[name])
+    ends = known.joint(ratio, "square")
+    wanted = moduli(known.tensor(ratio))
+    found = moduli(
+        frame_tensor(frame, ratio, ends, section=SECTIONS["square"], longest=LONGEST_END)
+    )
+    along = found.E100
+    assert along == pytest.approx(wanted.E100, rel=0.025)
+    assert -0.01 < found.G / wanted.G - 1.0 < shear
+    assert 0.75 < found.bulk / wanted.bulk < 0.9
 
 
 def test_only_the_librarys_own_cells_are_known():
@@ -181,4 +211,4 @@ class TestBlocksBetweenPlates:
         solid, _ = plates.solid_force(name, ratio, tmp_path)
         profile = joint_law(LIBRARY[name], plates.SIZE, "square")
         beams = plates.beam_force(plates.beams_of(name, ratio, joint_law=profile), tmp_path)
-        assert beams == pytest.approx(solid, rel=plates.WITHIN.get((name, ratio), 0.05))
+        assert beams == pytest.approx(solid, rel=0.05)

@@ -25,7 +25,8 @@ from volfrep.mechanics.voxels import voxels_of
 
 #: Octet, solid elements, nu = 0.3: the fits of Watts et al., Struct. Multidisc. Optim. 60 (2019)
 #: 1887 (LLNL MultiscaleTopOpt, MIT licence): relative density, E, nu, G. They are cubic in the
-#: density, and at low densities E / density does not tend to the 1 / 9 that it must tend to.
+#: density, and at low densities E / density does not tend to the 1 / 9 that it must tend to. At 0.2
+#: E is 3.3 % too low: tetrahedra of Gmsh's say so, too (test_octet_tetrahedra).
 OCTET = (
     (0.1, 0.01504, 0.332, 0.01060),
     (0.2, 0.03652, 0.324, 0.02468),
@@ -67,19 +68,26 @@ def test_a_slender_box_is_three_sets_of_columns():
 
 @pytest.mark.slow
 def test_slender_kelvin_cells_tend_to_the_stiffness_of_zhu_knott_and_mills():
-    """Joints of struts that are only 0.35 L long still stiffen them by 7 % at r = 0.01 L."""
+    """E over the closed form is 1 + 2.3 r/l - ...: joints stiffen struts that are 0.35 L long.
+
+    At r = 0.01 L, as thin as voxels reach, that is still 6.6 %; a parabola through three radii
+    tells the limit of none.
+    """
     cell = kelvin()
     assert (len(cell.nodes), len(cell.struts)) == (24, 36)
-    ratios = []
-    for x in (0.01, 0.02):
-        strut, area, inertia = np.sqrt(2) / 4, np.pi * x**2, np.pi * x**4 / 4
+    strut, radii, over = np.sqrt(2) / 4, (0.01, 0.015, 0.02), []
+    for x in radii:
+        area, inertia = np.pi * x**2, np.pi * x**4 / 4
         expected = 6 * np.sqrt(2) * inertia / strut**4 / (1 + 12 * inertia / area / strut**2)
         bare = moduli(frame_tensor(periodic_frame(cell), x))
         # The closed form has no shear deformation.
         assert pytest.approx(expected, rel=0.03) == bare.E100
-        ratios.append(moduli(homogenise(cell, x).tensor).E100 / expected)
-    assert 1.0 < ratios[0] < ratios[1]
-    assert 2 * ratios[0] - ratios[1] == pytest.approx(1.0, abs=0.05)
+        over.append(moduli(homogenise(cell, x).tensor).E100 / expected)
+    curve = np.polynomial.Polynomial.fit(np.array(radii) / strut, over, 2).convert()
+    limit, slope, bend = curve.coef
+    assert limit == pytest.approx(1.0, abs=0.03)
+    assert slope == pytest.approx(2.3, abs=0.4)
+    assert bend < 0.0
 
 
 def test_a_full_cell_is_the_solid_itself():

@@ -31,7 +31,11 @@ def test_the_table_is_complete_and_every_process_is_known():
     }
     assert {material.name for material in MATERIALS.values()} == names
     for material in MATERIALS.values():
+        # Of each figure: who says it, or that nobody was asked.
         assert material.source
+        for figure in ("density", "modulus", "nu", "yield|strength"):
+            told = any(word in material.source for word in figure.split("|"))
+            assert told or "not checked" in material.source, (material.name, figure)
         assert material.yield_stress
         assert set(material.processes) <= set(PROCESSES)
         assert material.processes

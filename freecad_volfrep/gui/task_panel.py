@@ -16,16 +16,17 @@ from volfrep.design import parameters
 from volfrep.design.cells import LIBRARY, load_cell
 from volfrep.design.field_files import TABLE_SUFFIXES, VTK_SUFFIXES
 from volfrep.design.parameters.table import CUSTOM_CELL
+from volfrep.design.parameters.wall_rows import WALLS
 from volfrep.design.target import read_direction
 from volfrep.util.errors import VolfrepError
 
 from .cell_library import cell_files
-from .cell_picture import cell_icon
+from .cell_picture import cell_icon, wall_icon
 from .file_field import FileField
 from .messages import WRONG
 from .preview_only import end_preview
 from .preview_view import PreviewView
-from .qt import OK_CANCEL, QtCore, QtWidgets
+from .qt import OK_CANCEL, QtCore, QtGui, QtWidgets
 from .section_view import close_section, open_section
 
 #: The preview waits until no value has changed for so long, ms.
@@ -236,7 +237,7 @@ class TaskPanel:
                 self._own = item
                 self._draw_own_cell()
             else:
-                item.setIcon(cell_icon(LIBRARY[name], PICTURE))
+                item.setIcon(_icon(name))
             if name == self._obj.CellType:
                 picker.setCurrentItem(item)
         picker.currentTextChanged.connect(self._setter("CellType"))
@@ -383,6 +384,11 @@ class TaskPanel:
         Gui.Control.closeDialog()
         if Gui.ActiveDocument is not None:
             Gui.ActiveDocument.resetEdit()
+
+
+def _icon(name: str) -> QtGui.QIcon:
+    """The picture of a cell of the library, of struts or of walls."""
+    return wall_icon(name, PICTURE) if name in WALLS else cell_icon(LIBRARY[name], PICTURE)
 
 
 class _PlainNumber(QtWidgets.QDoubleSpinBox):

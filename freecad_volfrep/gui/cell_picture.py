@@ -69,10 +69,11 @@ def wall_icon(name: str, size: int = 72) -> QtGui.QIcon:
     x, y = np.meshgrid(np.arange(size) + 0.5 - size / 2, size / 2 - 0.5 - np.arange(size))
     start = scale * (x[..., None] * _VIEW[0] + y[..., None] * _VIEW[1])
     # Lines towards whoever looks leave the cube at the face that is seen.
-    ends = (np.sign(_VIEW[2]) * 0.5 - start) / _VIEW[2]
-    begins = (-np.sign(_VIEW[2]) * 0.5 - start) / _VIEW[2]
+    towards = np.cross(_VIEW[0], _VIEW[1])
+    ends = (np.sign(towards) * 0.5 - start) / towards
+    begins = (-np.sign(towards) * 0.5 - start) / towards
     face = ends.argmin(axis=2)
-    point = start + ends.min(axis=2)[..., None] * _VIEW[2]
+    point = start + ends.min(axis=2)[..., None] * towards
     seen = begins.max(axis=2) < ends.min(axis=2)
     formula = compile_expression(SURFACES[name].formula, VARIABLES)
     value = np.abs(formula(*np.moveaxis(4.0 * np.pi * (point + 0.5), -1, 0)))

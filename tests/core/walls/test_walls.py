@@ -21,6 +21,7 @@ from volfrep.design.profile import Profile
 from volfrep.design.target import Target
 from volfrep.design.walls import SURFACES, PeriodicSurface, Wall
 from volfrep.io.solid import check_solid
+from volfrep.io.write.stl import as_read
 from volfrep.jobs.blocks import block, write_block_stl
 from volfrep.jobs.networks import infill_of
 from volfrep.lattice.assembly import lay, lay_out
@@ -28,6 +29,7 @@ from volfrep.lattice.certificate import agree_on_faces, certify
 from volfrep.mesh.quality import measure
 from volfrep.octants.octant import OctantGrid, octant_mirrors
 from volfrep.spatial.even_points import even_points
+from volfrep.spatial.piercing import piercing_pairs
 from volfrep.util.progress import Monitor
 from volfrep.walls.laying import closed_octants, octants_of_cells
 from volfrep.walls.midsurface import midsurface
@@ -131,7 +133,13 @@ def test_blocks_of_gyroid_grow_by_a_genus_of_three_for_each_primitive_cell() -> 
     assert np.diff(euler, 3)[0] == 6 * 2 * 2 * (2 - 2 * 3)
 
 
-@pytest.mark.parametrize("name", SURFACES)
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param(name, marks=pytest.mark.slow) if name not in ("Gyroid", "Neovius") else name
+        for name in SURFACES
+    ],
+)
 def test_what_is_proved_by_kinds_of_octants_holds_on_the_triangles(name) -> None:
     layout = laid_block(octants(name, thickness=0.6, facets=30), 2)
     assert_same_quality(certify(layout), measure(lay(layout, Monitor())))
@@ -148,7 +156,13 @@ def test_a_sheet_is_as_thick_as_wanted_from_side_to_side() -> None:
     assert np.quantile(found, [0.03, 0.97]) == pytest.approx(0.8, rel=0.05)
 
 
-@pytest.mark.parametrize("name", ["Gyroid", "Schwarz P"])
+def test_a_filled_part_does_not_run_through_itself() -> None:
+    spec = LatticeSpec("Gyroid", 9.0, shell=1.0, resolution=16, wall=Wall("sheet", 1.2))
+    made = volfrep.fill(samples.box((24.0, 20.0, 16.0)), spec)
+    assert len(piercing_pairs(as_read(made.result.mesh))) == 0
+
+
+@pytest.mark.parametrize("name", ["Gyroid", pytest.param("Schwarz P", marks=pytest.mark.slow)])
 def test_a_blocks_density_is_that_of_a_point_count(name) -> None:
     report = block(LatticeSpec(name, SIZE, wall=Wall("sheet", 0.8)), (2, 2, 2)).report
     assert report.watertight
@@ -183,8 +197,14 @@ _stages = StageCache()
         {"cell": "Gyroid"},
         {"cell": "Gyroid", "shell": 0.0},
         {"cell": "Schwarz D", "wall": Wall("skeleton")},
-        {"cell": "Neovius", "wall": Wall("complement", offset=-0.3), "output": "lattice"},
-        {"cell": "Gyroid", "orientation": Orientation((1.0, 2.0, 3.0), 25.0)},
+        pytest.param(
+            {"cell": "Neovius", "wall": Wall("complement", offset=-0.3), "output": "lattice"},
+            marks=pytest.mark.slow,
+        ),
+        pytest.param(
+            {"cell": "Gyroid", "orientation": Orientation((1.0, 2.0, 3.0), 25.0)},
+            marks=pytest.mark.slow,
+        ),
     ],
     ids=["skin", "no skin", "skeleton", "complement", "turned"],
 )
@@ -216,6 +236,7 @@ def test_walls_in_a_part_with_an_open_face_keep_the_contract() -> None:
     check_contract(check_solid(samples.box((30.0, 28.0, 18.0)), "box"), spec, ())
 
 
+@pytest.mark.slow
 def test_walls_about_an_axis_keep_the_contract() -> None:
     spec = LatticeSpec("Gyroid", 9.0, shell=1.0, resolution=16, cell_map=CellMap("cylindrical"),
                        wall=Wall("sheet", 1.2))  # fmt: skip
@@ -226,8 +247,8 @@ def test_walls_about_an_axis_keep_the_contract() -> None:
     ("target", "wall"),
     [
         (Target("relative_density", 0.2), Wall()),
-        (Target("relative_density", 0.35), Wall("skeleton")),
-        (Target("mass", 9.0), Wall()),
+        pytest.param(Target("relative_density", 0.35), Wall("skeleton"), marks=pytest.mark.slow),
+        pytest.param(Target("mass", 9.0), Wall(), marks=pytest.mark.slow),
     ],
 )
 def test_walls_come_out_with_their_target(target, wall) -> None:

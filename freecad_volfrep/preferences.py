@@ -47,8 +47,9 @@ class Colour(Preference):
 
 def _cells() -> list[str]:
     from volfrep.design.cells import LIBRARY
+    from volfrep.design.walls import SURFACES
 
-    return list(LIBRARY)
+    return [*LIBRARY, *SURFACES]
 
 
 CELL_TYPE = Preference("NewCellType", "CVC", choices=_cells)

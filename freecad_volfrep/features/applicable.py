@@ -24,7 +24,12 @@ CONTROLS = tuple(
 )
 _SHOWN, _READ_ONLY, _HIDDEN = 0, 1, 2
 #: Properties that are shown, but written by us, unless another one has this value.
-_DRIVEN = {"StrutRadius": ("RadiusDrivenBy", "Radius"), "Density": ("PrintMaterial", NOTHING)}
+_DRIVEN = {
+    "StrutRadius": ("RadiusDrivenBy", "Radius"),
+    "WallThickness": ("RadiusDrivenBy", "Radius"),
+    "WallOffset": ("RadiusDrivenBy", "Radius"),
+    "Density": ("PrintMaterial", NOTHING),
+}
 
 
 def show_applicable(obj: App.DocumentObject) -> None:
@@ -39,7 +44,7 @@ def show_applicable(obj: App.DocumentObject) -> None:
             applies = applies and getattr(obj, parameter.switch_name)
         _show(obj, parameter.property_name, applies)
     for name, (driver, own) in _DRIVEN.items():
-        if getattr(obj, driver) != own:
+        if getattr(obj, driver) != own and "Hidden" not in obj.getEditorMode(name):
             obj.setEditorMode(name, _READ_ONLY)
 
 

@@ -219,7 +219,7 @@ class LatticeInfill:
         obj.Placement = placement  # assigning a mesh also assigns the mesh's placement
         _write_results(obj, result)
         if spec.target is not None:
-            _tell_driven(obj, "StrutRadius", made.strut_radius)
+            _tell_driven(obj, *_thickness(made))
         obj.Fingerprint = fingerprint
         obj.Status = UP_TO_DATE
 
@@ -282,9 +282,10 @@ def fingerprint_of(spec: LatticeSpec, solid: TriangleMesh) -> str:
     if isinstance(spec.network, GivenNetwork):
         for array in (spec.network.nodes, spec.network.struts, spec.network.radii):
             digest.update(array.tobytes())
-    cell = spec.unit_cell()
-    digest.update(np.ascontiguousarray(cell.nodes, np.float64).tobytes())
-    digest.update(np.ascontiguousarray(cell.struts, np.int64).tobytes())
+    if spec.surface is None:
+        cell = spec.unit_cell()
+        digest.update(np.ascontiguousarray(cell.nodes, np.float64).tobytes())
+        digest.update(np.ascontiguousarray(cell.struts, np.int64).tobytes())
     # To a thousandth of a micrometre, so that the rounding of a placement that is undone, or of
     # a file that was saved and opened, does not count as a change; plus zero turns -0 to 0.
     digest.update((np.round(solid.vertices, 6) + 0.0).tobytes())
@@ -296,13 +297,26 @@ def _with_radius(spec: LatticeSpec, found: dict[str, Any] | None) -> LatticeSpec
     """The specification with the radius that a report says was found, in place of its target."""
     if spec.target is None or found is None:
         return spec
-    return replace(spec, strut_radius=found["strut_radius_mm"], target=None)
+    if spec.surface is None:
+        return replace(spec, strut_radius=found["strut_radius_mm"], target=None)
+    name = "thickness" if spec.wall.is_sheet else "offset"
+    return replace(spec, wall=replace(spec.wall, **{name: found[f"wall_{name}_mm"]}), target=None)
+
+
+def _thickness(spec: LatticeSpec) -> tuple[str, float]:
+    """The property that says how thick struts or walls are, and what it is."""
+    if spec.surface is None:
+        return "StrutRadius", spec.strut_radius
+    if spec.wall.is_sheet:
+        return "WallThickness", spec.wall.thickness
+    return "WallOffset", spec.wall.offset
 
 
 def _tell_driven(obj: App.DocumentObject, name: str, value: float) -> None:
     """Show in a property what drives it has come to; what an expression drives stays."""
     expressions = {path.lstrip(".") for path, _ in obj.ExpressionEngine}
-    before = number_of(obj, name) if name == "Density" else getattr(obj, name).Value
+    plain = name in ("Density", "WallOffset")
+    before = number_of(obj, name) if plain else getattr(obj, name).Value
     if name not in expressions and before != value:
         set_value(obj, name, value)
 

@@ -10,6 +10,7 @@ import FreeCAD as App
 
 from volfrep.design.parameters import BY_NAME, GROUPS, PARAMETERS, Parameter
 from volfrep.design.parameters.table import CUSTOM_CELL, NOTHING, OWN_MATERIAL, SOLIDS_MATERIAL
+from volfrep.design.parameters.wall_rows import WALLS
 from volfrep.util.errors import VolfrepError
 
 from .applicable import show_applicable
@@ -130,7 +131,7 @@ def ensure_properties(obj: App.DocumentObject) -> None:
         for parameter in PARAMETERS
         if parameter.choices
     }
-    choices[BY_NAME["cell"].property_name] = [*LIBRARY, CUSTOM_CELL]
+    choices[BY_NAME["cell"].property_name] = [*LIBRARY, *WALLS, CUSTOM_CELL]
     choices[BY_NAME["print_material"].property_name] = [
         NOTHING,
         *(material.name for material in MATERIALS.values()),

@@ -109,6 +109,8 @@ def _lattice(obj: App.DocumentObject) -> dict[str, str]:
         return {}
     if spec.size_grading is not None or spec.struts.is_graded or spec.output == "domain":
         return {}
+    if spec.surface is not None:
+        return {}
     material, cell = material_of(obj), spec.unit_cell()
     size, radius = spec.cell_size, spec.strut_radius
     found = None if spec.fillet else known_properties(cell, size, radius, material)

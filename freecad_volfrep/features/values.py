@@ -95,11 +95,12 @@ def values_in_effect(obj: App.DocumentObject) -> tuple[dict[str, Any], Target | 
                 "The cell type Custom needs a cell: choose its .json file as CellFile."
             )
     target = None if values["make"] == "domain" else _target(values, material)
-    if target is not None:
+    if target is not None and "strut_radius" in values:
         values["strut_radius"] = first_radius(values["cell_size"], values["fillet"])
     for name in ("radius_start", "radius_end"):
         if name in values:
-            values[name] = values[name] or values["strut_radius"]
+            usual = "strut_radius" if "strut_radius" in values else "wall_thickness"
+            values[name] = values[name] or values[usual]
     if "radius_field" in values:
         values["radius_field"] = _field(obj)
     if values.get("network") == "faces":

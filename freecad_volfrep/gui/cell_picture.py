@@ -51,3 +51,37 @@ def cell_icon(cell: UnitCell | None, size: int = 72) -> QtGui.QIcon:
             line(nodes[strut[0]], nodes[strut[1]])
     painter.end()
     return QtGui.QIcon(pixmap)
+
+
+def wall_icon(name: str, size: int = 72) -> QtGui.QIcon:
+    """A cell of walls seen from a corner: where they meet the faces of its cube.
+
+    Of a formula of one's own the cube is empty.
+    """
+    from volfrep.design.expression import compile_expression
+    from volfrep.design.walls import SURFACES
+    from volfrep.walls.midsurface import VARIABLES
+
+    if name not in SURFACES:
+        return cell_icon(None, size)
+    corners = np.array([[k & 1, k >> 1 & 1, k >> 2 & 1] for k in range(8)], float) - 0.5
+    scale = np.ptp((corners @ _VIEW.T)[:, :2], axis=0).max() / (0.92 * size)
+    x, y = np.meshgrid(np.arange(size) + 0.5 - size / 2, size / 2 - 0.5 - np.arange(size))
+    start = scale * (x[..., None] * _VIEW[0] + y[..., None] * _VIEW[1])
+    # Lines towards whoever looks leave the cube at the face that is seen.
+    towards = np.cross(_VIEW[0], _VIEW[1])
+    ends = (np.sign(towards) * 0.5 - start) / towards
+    begins = (-np.sign(towards) * 0.5 - start) / towards
+    face = ends.argmin(axis=2)
+    point = start + ends.min(axis=2)[..., None] * towards
+    seen = begins.max(axis=2) < ends.min(axis=2)
+    formula = compile_expression(SURFACES[name].formula, VARIABLES)
+    value = np.abs(formula(*np.moveaxis(4.0 * np.pi * (point + 0.5), -1, 0)))
+    solid = value < np.quantile(value[seen], 0.4)
+    shade = np.array([0.75, 0.9, 1.0])[face]
+    pixels = np.zeros((size, size, 4), np.uint8)
+    for channel, (dark, light) in enumerate(((45, 225), (105, 230), (180, 238))):
+        pixels[..., channel] = shade * np.where(solid, dark, light)
+    pixels[..., 3] = np.where(seen, 255, 0)
+    image = QtGui.QImage(pixels.tobytes(), size, size, 4 * size, QtGui.QImage.Format_RGBA8888)
+    return QtGui.QIcon(QtGui.QPixmap.fromImage(image.copy()))

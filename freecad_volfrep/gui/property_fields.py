@@ -14,11 +14,12 @@ from freecad_volfrep.translation import QT_TRANSLATE_NOOP, marked, spaced, trans
 from volfrep.design.cells import LIBRARY, load_cell
 from volfrep.design.field_files import TABLE_SUFFIXES, VTK_SUFFIXES
 from volfrep.design.parameters.table import CUSTOM_CELL
+from volfrep.design.parameters.wall_rows import WALLS
 from volfrep.design.target import read_direction
 from volfrep.util.errors import VolfrepError
 
 from .cell_library import cell_files
-from .cell_picture import cell_icon
+from .cell_picture import cell_icon, wall_icon
 from .file_field import FileField
 from .qt import QtCore, QtGui, QtWidgets
 
@@ -68,7 +69,7 @@ class PropertyFields:
                 self._own = item
                 self._draw_own_cell()
             else:
-                item.setIcon(cell_icon(LIBRARY[name], PICTURE))
+                item.setIcon(_icon(name))
             if name == self._obj.CellType:
                 picker.setCurrentItem(item)
         picker.currentTextChanged.connect(self._setter("CellType"))
@@ -186,6 +187,11 @@ class PropertyFields:
                     "'{text}' is no direction: write 100, 110, 111 or three numbers such as 1,2,0.",
                 ).format(text=text)
             )
+
+
+def _icon(name: str) -> QtGui.QIcon:
+    """The picture of a cell of the library, of struts or of walls."""
+    return wall_icon(name, PICTURE) if name in WALLS else cell_icon(LIBRARY[name], PICTURE)
 
 
 class _PlainNumber(QtWidgets.QDoubleSpinBox):

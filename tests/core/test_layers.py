@@ -12,14 +12,14 @@ import pytest
 ENGINE = Path(__file__).resolve().parents[2] / "core" / "volfrep"
 #: The rooms, low to high: a room imports from itself and from those before it.
 ROOMS = (
-    "util", "mesh", "spatial", "design", "shell", "grid", "octants", "lattice", "network",
-    "mechanics", "trim", "fem", "slicing", "io", "loads", "sizing", "reports", "jobs", "studies",
-    "cli",
+    "util", "mesh", "spatial", "design", "shell", "grid", "octants", "lattice", "walls",
+    "network", "mechanics", "trim", "fem", "slicing", "io", "loads", "sizing", "reports", "jobs",
+    "studies", "cli",
 )  # fmt: skip
 MOST_MODULES = 14
 MOST_LINES = 400
 #: Modules one of which imports the next, wherever in it the import stands; of rooms as well.
-LONGEST_CHAIN = 24
+LONGEST_CHAIN = 25
 LONGEST_CHAIN_OF_ROOMS = 13
 
 

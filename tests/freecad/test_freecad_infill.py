@@ -403,8 +403,8 @@ def test_the_factory_refuses_what_there_is_not(doc, box):
     count = len(doc.Objects)
     with pytest.raises(VolfrepError, match="no property 'Radius': choose from Base"):
         make_lattice_infill(doc, box, Radius=1)
-    with pytest.raises(VolfrepError, match="CellType cannot be 'Gyroid': choose one of Octahedron"):
-        make_lattice_infill(doc, box, CellType="Gyroid")
+    with pytest.raises(VolfrepError, match="CellType cannot be 'Gyrate': choose one of Octahedron"):
+        make_lattice_infill(doc, box, CellType="Gyrate")
     with pytest.raises(VolfrepError, match="CellSize cannot be 'large'"):
         make_lattice_infill(doc, box, CellSize="large")
     assert len(doc.Objects) == count

@@ -299,6 +299,7 @@ def _finish(
 
 def _cells(_: argparse.Namespace) -> None:
     from ..design.cells import LIBRARY, USES
+    from ..design.walls import FORMULA, SURFACES
     from ..mechanics.endless import strains_held
 
     print(f"{'name':<25}{'nodes':>6}{'struts':>8}{'Maxwell':>9}  {'carries by':<13}also known as")
@@ -313,6 +314,10 @@ def _cells(_: argparse.Namespace) -> None:
             f"{cell.maxwell_number:>9}  {carries:<13}{', '.join(cell.also)}"
         )
         print(row.rstrip())
+    print("\nWalls, along a surface")
+    for surface in SURFACES.values():
+        print(f"{surface.name:<25}{surface.about}")
+    print(f"{FORMULA:<25}a formula of your own, of x, y and z")
 
 
 def _check(options: argparse.Namespace) -> None:

@@ -58,7 +58,7 @@ def tell(report: Report, options: argparse.Namespace, printing: PrintReport | No
     print_rows(
         ("file", f"{options.output}, {size:.1f} MB"),
         ("cells", f"{report.cells_active:,} active of {report.cells_total:,} ({grid})"),
-        ("struts", f"{report.struts:,} between {report.nodes:,} nodes"),
+        _lattice(report),
         *_sizes(report),
         ("triangles", f"{report.triangles:,}"),
         ("watertight", f"{_yes(report.watertight)}, {_bodies(report.bodies, report.voids)}"),
@@ -85,6 +85,17 @@ def print_warnings(warnings: Sequence[str]) -> None:
         print(f"volfrep: warning: {warning}", file=sys.stderr)
 
 
+def _lattice(report: Report) -> tuple[str, str]:
+    """What the lattice consists of."""
+    wall = report.spec.get("wall")
+    if wall is None:
+        return "struts", f"{report.struts:,} between {report.nodes:,} nodes"
+    size = f"{wall['thickness']:g} mm thick" if "thickness" in wall else f"{wall['offset']:+g} mm"
+    if report.spec["radius_grading"] is not None:
+        size = "graded"
+    return "walls", f"{report.spec['cell']}, {wall['kind']}, {size}"
+
+
 def _target(report: Report) -> list[tuple[str, str]]:
     """What the radius was chosen for, and what was reached; nothing where it was given."""
     target = report.target
@@ -93,8 +104,9 @@ def _target(report: Report) -> list[tuple[str, str]]:
     along = "along " + ",".join(f"{part:g}" for part in target.get("direction", ()))
     along = f" {along} in {target['unit']}" if "direction" in target else ""
     aim = target["aim"].replace("_", " ")
+    found = next(name for name in target if name.endswith("_mm"))
     return [
-        ("strut radius", f"{target['strut_radius_mm']:.5g} mm"),
+        (found.removesuffix("_mm").replace("_", " "), f"{target[found]:.5g} mm"),
         ("target", f"{aim}{along}: {target['value']:.5g}, {target['reached']:.5g} reached"),
     ]
 
@@ -104,14 +116,13 @@ def _sizes(report: Report) -> list[tuple[str, str]]:
     gradings = ("size_grading", "radius_grading", "cell_map", "orientation")
     if all(report.spec[name] is None for name in gradings):
         return []
+    of_struts = (("strut lengths", report.strut_lengths_mm), ("strut radii", report.strut_radii_mm))
     return [
         (name, f"{least:.4g} to {most:.4g} mm")
         for name, (least, most) in (
-            ("cell edges", report.cell_edges_mm),
-            ("strut lengths", report.strut_lengths_mm),
-            ("strut radii", report.strut_radii_mm),
+            ("cell edges", report.cell_edges_mm), *(of_struts if report.struts else ())
         )
-    ]
+    ]  # fmt: skip
 
 
 def _removed(report: Report) -> list[tuple[str, str]]:

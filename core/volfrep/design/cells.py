@@ -20,6 +20,7 @@ from ..util.content import content_of, held
 from ..util.errors import VolfrepError
 from ..util.numbers import number_rows
 from ..util.types import Floats
+from .walls.library import SURFACES
 
 #: A custom cell's file may not be larger than this, nor have more nodes or struts.
 MAX_FILE_BYTES = 1_000_000
@@ -136,8 +137,8 @@ def find_cell(name: str) -> UnitCell:
     if name.lower().endswith(".json"):
         return load_cell(name)
     raise VolfrepError(
-        f"There is no unit cell named '{name}': choose one of {', '.join(LIBRARY)}, "
-        "or give the path of a cell's .json file."
+        f"There is no unit cell named '{name}': choose one of {', '.join(LIBRARY)}, for walls one "
+        f"of {', '.join(SURFACES)}, or give the path of a cell's .json file."
     )
 
 

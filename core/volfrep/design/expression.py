@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Formulas of one variable that a user types, evaluated by walking their syntax tree.
+"""Formulas of one variable, or of a few, that a user types; their syntax tree is evaluated.
 
 Nothing is ever handed to Python to run: the text is parsed, every node of the tree is checked
 against what is listed here, and the nodes are evaluated as numpy operations on float64. So a
@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import ast
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
@@ -113,41 +113,48 @@ _BOOLEAN: dict[type[ast.boolop], Callable[[Any, Any], Any]] = {
     ast.Or: np.logical_or,
 }
 
-_ALLOWED = (
-    "use numbers, s, pi, e, + - * / // % **, comparisons, 'and', 'or', 'not', 'a if b else c', "
-    f"and the functions {', '.join(FUNCTIONS)}"
-)
+
+def _allowed(variables: tuple[str, ...]) -> str:
+    return (
+        f"use numbers, {', '.join(variables)}, pi, e, + - * / // % **, comparisons, 'and', 'or', "
+        f"'not', 'a if b else c', and the functions {', '.join(FUNCTIONS)}"
+    )
 
 
 @dataclass(frozen=True)
 class Expression:
-    """A formula of s that has passed `compile_expression`; two of the same text are equal.
+    """A formula that has passed `compile_expression`; two of the same text are equal.
 
     Attributes:
         text: the formula as it was given, without the blanks about it.
+        variables: what it is a formula of.
     """
 
     text: str
-    _tree: ast.expr = field(repr=False, compare=False)
+    variables: tuple[str, ...] = (VARIABLE,)
+    _tree: ast.expr = field(kw_only=True, repr=False, compare=False)
 
-    def __call__(self, s: ArrayLike) -> Floats:
-        """The formula's values at `s`: float64 of the shape of `s`.
+    def __call__(self, *at: ArrayLike) -> Floats:
+        """The formula's values: float64 of the shape that its variables have in common.
 
         A comparison is 1 where it holds and 0 elsewhere. Where the formula has no value (a
         division by zero, the logarithm of a negative number) the result is nan or infinite.
         """
-        at = np.asarray(s, dtype=np.float64)
+        values = [np.asarray(value, dtype=np.float64) for value in at]
+        shape = np.broadcast_shapes(*(value.shape for value in values))
+        known = dict(zip(self.variables, values, strict=True))
         with np.errstate(all="ignore"):  # what is not finite is the caller's to judge
-            return np.array(np.broadcast_to(_evaluate(self._tree, at), at.shape))
+            return np.array(np.broadcast_to(_evaluate(self._tree, known), shape))
 
 
-def compile_expression(text: str) -> Expression:
-    """Parse and check a formula of s.
+def compile_expression(text: str, variables: tuple[str, ...] = (VARIABLE,)) -> Expression:
+    """Parse and check a formula.
 
     Args:
         text: up to 500 characters, for instance ``1 + 0.5 * sin(2 * pi * s)``. Besides numbers
-            it may hold s, pi and e, + - * / // % **, comparisons, ``and``, ``or``, ``not``,
-            ``a if b else c``, and the `FUNCTIONS`.
+            it may hold its variables, pi and e, + - * / // % **, comparisons, ``and``, ``or``,
+            ``not``, ``a if b else c``, and the `FUNCTIONS`.
+        variables: what it is a formula of.
 
     Raises:
         VolfrepError: naming the part that cannot be read or is not allowed, and what is.
@@ -190,11 +197,11 @@ def compile_expression(text: str) -> Expression:
                 f"The formula '{_short(text)}' is nested too deeply: the limit is {MAX_DEPTH} "
                 "levels."
             )
-        complaint = _complaint(node)
+        complaint = _complaint(node, variables)
         if complaint:
             part = ast.get_source_segment(text, node) or text
             raise VolfrepError(f"In the formula, '{_short(part)}' {complaint}.")
-    return Expression(text, tree)
+    return Expression(text, variables, _tree=tree)
 
 
 def check_finite(expression: Expression) -> None:
@@ -227,37 +234,38 @@ def _walk(tree: ast.expr) -> Iterator[tuple[ast.expr, int]]:
         waiting.extend((child, depth + 1) for child in reversed(children))
 
 
-def _complaint(node: ast.expr) -> str:
+def _complaint(node: ast.expr, variables: tuple[str, ...]) -> str:
     """What is wrong with a node by itself, or nothing."""
+    allowed = _allowed(variables)
     if isinstance(node, ast.Constant):
-        return _complaint_of_number(node.value)
+        return _complaint_of_number(node.value, allowed)
     if isinstance(node, ast.Name):
-        if node.id == VARIABLE or node.id in CONSTANTS:
+        if node.id in variables or node.id in CONSTANTS:
             return ""
         if node.id in FUNCTIONS:
             return f"is a function: write {FUNCTIONS[node.id].usage}"
-        return f"is not known: {_ALLOWED}"
+        return f"is not known: {allowed}"
     if isinstance(node, ast.Call):
         return _complaint_of_call(node)
     if isinstance(node, ast.BinOp):
         if isinstance(node.op, ast.BitXor):
             return "uses '^': write ** for a power"
-        return "" if type(node.op) in _BINARY else f"is not allowed: {_ALLOWED}"
+        return "" if type(node.op) in _BINARY else f"is not allowed: {allowed}"
     if isinstance(node, ast.UnaryOp):
-        return "" if type(node.op) in _UNARY else f"is not allowed: {_ALLOWED}"
+        return "" if type(node.op) in _UNARY else f"is not allowed: {allowed}"
     if isinstance(node, ast.Compare):
         known = all(type(op) in _COMPARISON for op in node.ops)
-        return "" if known else f"is not allowed: {_ALLOWED}"
+        return "" if known else f"is not allowed: {allowed}"
     if isinstance(node, ast.Tuple):
         return "is more than one value: write decimals with a point and one formula only"
     if isinstance(node, ast.BoolOp | ast.IfExp):
         return ""
-    return f"is not allowed: {_ALLOWED}"
+    return f"is not allowed: {allowed}"
 
 
-def _complaint_of_number(value: object) -> str:
+def _complaint_of_number(value: object, allowed: str) -> str:
     if isinstance(value, bool) or not isinstance(value, int | float):
-        return f"is not allowed: {_ALLOWED}"
+        return f"is not allowed: {allowed}"
     # Compared before the conversion, which an integer of 400 digits would not survive.
     return "" if value <= 1e300 else "is too large a number: keep it below 1e300"
 
@@ -271,13 +279,13 @@ def _complaint_of_call(call: ast.Call) -> str:
     return ""
 
 
-def _evaluate(node: ast.expr, s: Floats) -> Any:
-    """The value of a checked node, broadcastable to the shape of `s`."""
+def _evaluate(node: ast.expr, s: Mapping[str, Floats]) -> Any:
+    """The value of a checked node, broadcastable to the shape of the variables."""
     match node:
         case ast.Constant(value=int() | float() as number):
             return np.float64(number)
         case ast.Name(id=name):
-            return s if name == VARIABLE else np.float64(CONSTANTS[name])
+            return s[name] if name in s else np.float64(CONSTANTS[name])
         case ast.BinOp(left=left, op=op, right=right):
             return _BINARY[type(op)](_evaluate(left, s), _evaluate(right, s))
         case ast.UnaryOp(op=op, operand=operand):

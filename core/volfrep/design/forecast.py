@@ -36,6 +36,8 @@ SECONDS_PER_BLOCK_TRIANGLE = 4e-7
 STRUTS_PER_POINT = {"voronoi": 9.0, "delaunay": 7.5}
 TRIANGLES_PER_STRUT = 110.0
 SECONDS_PER_NETWORK_TRIANGLE = 1e-5
+#: Facets on one side of a wall in a cell, for each facet along its edge squared.
+TRIANGLES_OF_SIDE = 8.0
 #: Bytes at the peak: of every job, and for each triangle of a part and of a block.
 BYTES = 1.5e8
 BYTES_PER_TRIANGLE = 200.0
@@ -73,7 +75,8 @@ class Forecast:
     @property
     def of_axes(self) -> str:
         """Where nothing is meshed: the struts, and no triangles, memory and file of a mesh."""
-        return f"about {_rounded(self.cells)} cells, {_rounded(self.struts)} struts"
+        struts = f", {_rounded(self.struts)} struts" if self.struts else ""
+        return f"about {_rounded(self.cells)} cells{struts}"
 
     def __str__(self) -> str:
         return (
@@ -107,7 +110,7 @@ def forecast_fill(solid: TriangleMesh, spec: LatticeSpec, *, streamed: bool = Fa
     if streamed and spec.streams:
         at_wall = expected_triangles(spec, min(inside, CUT_LAYER * spec.cell_size * area))
         held = min(held, BYTES_PER_CUT_TRIANGLE * at_wall)
-    return _forecast(cells, strut_shares(spec.unit_cell()), triangles, held / triangles, seconds)
+    return _forecast(cells, _shares_of(spec), triangles, held / triangles, seconds)
 
 
 def _forecast_network(solid: TriangleMesh, spec: LatticeSpec, inside: float) -> Forecast:
@@ -140,8 +143,8 @@ def forecast_block(spec: LatticeSpec, count: Sequence[int], *, streamed: bool = 
     layers = np.asarray(count, np.float64)
     cells = float(layers.prod())
     # Outside the block there is nobody to share a strut with.
-    shares = strut_shares(spec.unit_cell(), 0.5 * (1.0 + 1.0 / layers))
-    triangles = cells * float(_facets(spec) @ shares)
+    shares = _shares_of(spec, 0.5 * (1.0 + 1.0 / layers))
+    triangles = cells * _triangles_of_cell(spec, shares)
     in_pieces = streamed and not spec.is_graded
     seconds = SECONDS + SECONDS_PER_BLOCK_TRIANGLE * triangles * (0.5 if in_pieces else 1.0)
     if in_pieces:
@@ -153,8 +156,18 @@ def forecast_block(spec: LatticeSpec, count: Sequence[int], *, streamed: bool = 
 
 def expected_triangles(spec: LatticeSpec, volume: float) -> float:
     """Triangles of the lattice in a volume of mm3, about."""
-    per_cell = float(_facets(spec) @ strut_shares(spec.unit_cell()))
-    return volume / cell_volume(spec) * per_cell
+    return volume / cell_volume(spec) * _triangles_of_cell(spec, _shares_of(spec))
+
+
+def _shares_of(spec: LatticeSpec, on_face: Floats | float = 0.5) -> Floats:
+    """`strut_shares` of a lattice; of walls, which have no struts, nothing."""
+    return strut_shares(spec.unit_cell(), on_face) if spec.surface is None else np.zeros(0)
+
+
+def _triangles_of_cell(spec: LatticeSpec, shares: Floats) -> float:
+    if spec.surface is not None:
+        return TRIANGLES_OF_SIDE * (1 + spec.wall.is_sheet) * spec.facets_along_cell**2
+    return float(_facets(spec) @ shares)
 
 
 def _facets(spec: LatticeSpec) -> Floats:
@@ -193,7 +206,7 @@ def _forecast(
 ) -> Forecast:
     return Forecast(
         cells=max(1, round(cells)),
-        struts=max(1, round(cells * float(shares.sum()))),
+        struts=max(1, round(cells * float(shares.sum()))) if len(shares) else 0,
         triangles=round(triangles),
         memory_gb=(BYTES + bytes_per_triangle * triangles) / 1e9,
         stl_mb=STL_BYTES * triangles / 1e6,

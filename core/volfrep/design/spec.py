@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from ..util.errors import VolfrepError
@@ -25,6 +25,8 @@ from .spec_parts import (
     Struts,
 )
 from .target import Target
+from .walls import PeriodicSurface, Wall, find_surface
+from .walls.wanted import wanted_facets
 
 __all__ = [
     "ACTIVATIONS",
@@ -48,8 +50,8 @@ class LatticeSpec:
     one, and hashes alike, if and only if all its content is equal.
 
     Attributes:
-        cell: name of a library cell, path of a cell's JSON file, or a `UnitCell`; a `UnitCell`
-            once it is made.
+        cell: name of a library cell, path of a cell's JSON file, or a `UnitCell`; for walls the
+            name of a surface or a `PeriodicSurface`. One of the two classes once it is made.
         cell_size: L, edge of the cubic cell.
         strut_radius: r, of every strut.
         shell: thickness of the closed skin; 0 trims the lattice at the outer surface.
@@ -84,7 +86,9 @@ class LatticeSpec:
             which becomes a `CellNetwork` where these are no cubes or their struts differ.
             `cell_size` is then how far apart random points lie where their number is not given.
         target: what `strut_radius` is to be chosen for (`volfrep.jobs.targets` does); None where
-            it counts as it is.
+            it counts as it is. Of walls, the thickness or offset is chosen.
+        wall: what is solid beside a cell's surface (`volfrep.design.walls`); of no effect for
+            struts. A radius grading is that of the thickness of a sheet, in mm.
 
     Raises:
         VolfrepError: at construction, naming the first value that makes no sense.
@@ -99,7 +103,7 @@ class LatticeSpec:
     volfrep.util.errors.VolfrepError: The strut radius must be above 0 mm, not 0.
     """
 
-    cell: str | UnitCell = "CVC"
+    cell: str | UnitCell | PeriodicSurface = "CVC"
     cell_size: float = 10.0
     strut_radius: float = 1.0
     shell: float = 2.0
@@ -123,11 +127,13 @@ class LatticeSpec:
     keep_radius: bool = True
     target: Target | None = None
     network: GivenNetwork | RandomNetwork | CellNetwork | None = None
+    wall: Wall = field(default_factory=Wall)
 
     def __post_init__(self) -> None:
         if isinstance(self.cell, str):
-            object.__setattr__(self, "cell", find_cell(self.cell))
-        if self.network is None and not self.unit_cell().is_plain:
+            cell = find_surface(self.cell) or find_cell(self.cell)
+            object.__setattr__(self, "cell", cell)
+        if self.network is None and self.surface is None and not self.unit_cell().is_plain:
             object.__setattr__(self, "network", CellNetwork())
         grid = self.grid
         object.__setattr__(self, "origin", grid.origin)
@@ -135,11 +141,14 @@ class LatticeSpec:
         number("strut radius", self.strut_radius, "mm", positive=True)
         number("shell thickness", self.shell, "mm", positive=False)
         number("density", self.density, "g/cm3", positive=True)
-        if self.network is None:
-            self.struts.refuse_too_thick(grid.size)
+        if self.network is not None:
+            self._refuse_beside_network()
+        elif self.surface is not None:
+            self._refuse_beside_walls()
             _ = self.facets_along_cell
         else:
-            self._refuse_beside_network()
+            self.struts.refuse_too_thick(grid.size)
+            _ = self.facets_along_cell
         _ = self.ending
         if self.target is not None and self.radius_grading is not None:
             raise VolfrepError(
@@ -166,6 +175,7 @@ class LatticeSpec:
             "fillet": self.fillet > 0.0,
             "removal of dangling struts": self.remove_dangling or self.shortest_stub > 0.0,
             "target": self.target is not None,
+            "wall": self.surface is not None,
         }
         for what, is_given in given.items():
             if is_given:
@@ -175,6 +185,29 @@ class LatticeSpec:
                         f"'{self.unit_cell().name}' is not: leave it out, or choose another cell."
                     )
                 raise VolfrepError(f"A {what} is for cells and not for a network: leave it out.")
+
+    def _refuse_beside_walls(self) -> None:
+        """Refuse what is about struts, of which walls have none."""
+        given = {
+            "fillet": self.fillet > 0.0,
+            "removal of dangling struts": self.remove_dangling or self.shortest_stub > 0.0,
+            "target of stiffness": self.target is not None and self.target.aim == "stiffness",
+            "radius grading": self.radius_grading is not None and not self.wall.is_sheet,
+        }
+        for what, is_given in given.items():
+            if is_given:
+                kind = "walls" if what != "radius grading" else f"a {self.wall.kind}"
+                raise VolfrepError(f"A {what} is not for {kind}: leave it out.")
+        if self.boundary != "trim" or self.activation != "touching":
+            raise VolfrepError(
+                "Walls are cut at the wall of what they fill: choose the boundary trim and the "
+                "activation touching."
+            )
+        if self.thicknesses[1] >= self.cell_size:
+            raise VolfrepError(
+                f"Walls of {self.thicknesses[1]:g} mm are too thick for a cell of "
+                f"{self.cell_size:g} mm: reduce the thickness or enlarge the cell."
+            )
 
     @property
     def grid(self) -> Grid:
@@ -186,6 +219,20 @@ class LatticeSpec:
         """How thick struts are, and how they meet."""
         radius = self.strut_radius if self.radius_grading is None else self.radius_grading
         return Struts(radius, self.fillet, self.keep_radius)
+
+    @property
+    def surface(self) -> PeriodicSurface | None:
+        """The surface that walls follow; None where the lattice is of struts."""
+        return self.cell if isinstance(self.cell, PeriodicSurface) else None
+
+    @property
+    def thicknesses(self) -> tuple[float, float]:
+        """The smallest and the largest thickness of a sheet, mm; 0 for one side of a surface."""
+        if not self.wall.is_sheet:
+            return 0.0, 0.0
+        if self.radius_grading is not None:
+            return self.radius_grading.extremes
+        return self.wall.thickness, self.wall.thickness
 
     @property
     def skin(self) -> Skin | None:
@@ -240,11 +287,22 @@ class LatticeSpec:
     @property
     def facets_along_cell(self) -> int:
         """How many facet edges fit along L: the resolution, or what the deviation asks for."""
-        return self.detail.along_cell(self.cell_size, self.struts)
+        if self.surface is None:
+            return self.detail.along_cell(self.cell_size, self.struts)
+        wanted = self.resolution or wanted_facets(self.cell_size, self.detail.deviation)
+        facets = max(wanted, self.coarsest_resolution)
+        if facets > MAX_RESOLUTION:
+            raise VolfrepError(
+                f"Such walls need {facets} facets along a cell: the limit is {MAX_RESOLUTION}; "
+                "make them thicker, the cells smaller or the deviation larger."
+            )
+        return facets
 
     @property
     def coarsest_resolution(self) -> int:
-        """Facets along L below which struts would not have their volume."""
+        """Facets along L below which struts would not have their volume, or sheets have gaps."""
+        if self.surface is not None:
+            return self.wall.coarsest(self.cell_size, self.thicknesses[0])
         return self.detail.coarsest(self.cell_size, self.struts)
 
     @property
@@ -255,19 +313,40 @@ class LatticeSpec:
         facets = self.facets_along_cell
         if facets <= self.resolution:
             return ()
+        what = (
+            f"struts of radius {self.template_radius:.3g} mm, which would not have their volume"
+            if self.surface is None
+            else f"walls of {self.thicknesses[0]:.3g} mm, which would have gaps"
+        )
         return (
-            f"A resolution of {self.resolution} is too coarse for struts of radius "
-            f"{self.template_radius:.3g} mm, which would not have their volume: {facets} facets "
-            "along a cell are made.",
+            f"A resolution of {self.resolution} is too coarse for {what}: {facets} facets along a "
+            "cell are made.",
         )
 
     def unit_cell(self) -> UnitCell:
-        """The cell itself, as it was when the specification was made."""
-        assert isinstance(self.cell, UnitCell)
+        """The cell of struts, as it was when the specification was made.
+
+        Raises:
+            VolfrepError: it is one of walls.
+        """
+        if not isinstance(self.cell, UnitCell):
+            raise VolfrepError(
+                f"This is done with struts and not with the walls of a {self.cell_name}: choose "
+                "another cell."
+            )
         return self.cell
+
+    @property
+    def cell_name(self) -> str:
+        """What the cell is called, of struts or of walls."""
+        assert not isinstance(self.cell, str)
+        return self.cell.name
 
     def as_dict(self) -> dict[str, Any]:
         """The specification as plain JSON values."""
         values = {name: as_plain(getattr(self, name)) for name in self.__dataclass_fields__}
-        values["cell"] = self.unit_cell().name
+        values["cell"] = self.cell_name
+        del values["wall"]
+        if self.surface is not None:
+            values["wall"] = {"formula": self.surface.formula, **self.wall.as_plain()}
         return values

@@ -39,7 +39,7 @@ def sizes(cells: CellGrid, active: Bools, mapping: CoordinateMap | None, frame: 
         cells: the grid.
         active: (nx, ny, nz) bool, the cells that hold a lattice; at least one.
         mapping: from lattice space to the part; None where they are the same.
-        frame: the struts of the active cells, in the part.
+        frame: the struts of the active cells, in the part; walls have none, of size 0.
     """
     edges = (cells.cell_size, cells.cell_size)
     if mapping is not None and not mapping.is_rigid:
@@ -87,4 +87,6 @@ def _spread(cells: Bools, axes: tuple[int, ...] | list[int]) -> Bools:
 
 
 def _range(values: NDArray[np.float64]) -> Range:
+    if not values.size:
+        return 0.0, 0.0
     return float(values.min()), float(values.max())

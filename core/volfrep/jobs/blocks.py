@@ -37,9 +37,12 @@ from ..trim.trimmed_surface import TrimmedSurface
 from ..util.errors import VolfrepError
 from ..util.numbers import whole
 from ..util.progress import Monitor, ProgressCallback, peak_memory_mb
+from ..walls.laying import closed_octants, octants_of_cells
 from .finer import until_sound
 from .octant_guard import refuse_solid_cells, refuse_too_large
 from .target_report import judged
+from .walls.making import keeps_places as keeps_wall_places
+from .walls.making import meshed_walls, no_graph, no_struts, placed_walls, solid_of, wall_meshing
 
 #: Cells along one axis of a block.
 MOST_CELLS = 1_000_000
@@ -47,7 +50,10 @@ MOST_CELLS = 1_000_000
 
 @dataclass(frozen=True, eq=False)
 class _Laid:
-    """The octants of a block, laid, and what they stand on."""
+    """The octants of a block, laid, and what they stand on.
+
+    `loose` counts the pieces that its outside cut off, which are not of it.
+    """
 
     cells: CellGrid
     placement: Placement
@@ -55,6 +61,7 @@ class _Laid:
     graph: CellGraph
     octant_spec: OctantSpec
     notes: tuple[str, ...]
+    loose: int = 0
 
 
 def block(
@@ -87,26 +94,30 @@ def block(
 
 def _meshed(laid: _Laid, spec: LatticeSpec, monitor: Monitor) -> Result:
     """A block as a whole, without its specks."""
-    cell, layout, placement = spec.unit_cell(), laid.layout, laid.placement
+    layout, placement = laid.layout, laid.placement
     with monitor.stage("lattice", 0.4, 0.8):
-        given = vertices_of(
-            layout, lambda: laid.graph, cell, spec.struts, laid.octant_spec, placement, monitor
-        )
+        if spec.surface is None:
+            given = vertices_of(
+                layout, lambda: laid.graph, spec.unit_cell(), spec.struts, laid.octant_spec,
+                placement, monitor,
+            )  # fmt: skip
+        else:
+            given = placed_walls(layout, spec, placement, monitor)
         surface = TrimmedSurface(TriangleMesh(given.vertices, facets(layout, monitor)))
-    removed = dict(NOTHING_REMOVED)
+    removed = _removed(laid)
     with monitor.stage("check", 0.8, 1.0):
         measured = measure(surface.mesh, monitor) if spec.is_graded else certify(layout)
         if measured.shells > 1 or measured.degenerate_triangles:
             # of no use to most blocks, and slow to import
             from ..trim.loose_pieces import clear, smallest_shell
 
-            cleared = clear(surface, smallest_shell(laid.octant_spec), monitor)
+            bodies = 0 if spec.surface is None else 1
+            cleared = clear(surface, smallest_shell(laid.octant_spec), monitor, bodies=bodies)
             surface, measured = cleared.surface, cleared.quality
-            removed["pieces_removed"] = cleared.pieces_removed
+            removed["pieces_removed"] += cleared.pieces_removed
             removed["specks_removed"] = cleared.specks_removed
-        moved = not keeps_places(spec.struts, placement)
-        surface, measured, notes = finished(surface, measured, monitor, moved)
-    frame = graded_wireframe(laid.graph, spec.struts, placement)
+        surface, measured, notes = finished(surface, measured, monitor, _is_moved(spec, placement))
+    frame = _frame(laid, spec)
     report = _report(laid, measured, frame, spec, monitor, removed)
     return Result(surface, frame, told(report, notes))
 
@@ -151,8 +162,8 @@ def write_block_stl(
             monitor.count("triangles laid", laid.layout.triangles)
             with monitor.stage("write", 0.5, 1.0):
                 write_octants_stl(laid.layout, path, monitor)
-            frame = graded_wireframe(laid.graph, spec.struts, placement)
-            return _report(laid, measured, frame, spec, monitor, NOTHING_REMOVED)
+            frame = _frame(laid, spec)
+            return _report(laid, measured, frame, spec, monitor, _removed(laid))
         refuse_too_large(spec, laid.layout.grid, laid.layout.octants, None, cells.shape)
         result = _meshed(laid, spec, monitor)
     start = time.perf_counter()
@@ -175,8 +186,8 @@ def measured_block(
     cells, placement = _block_placement(spec, count)
     monitor = Monitor(progress)
     laid = _lay(spec, cells, placement, monitor)
-    frame = graded_wireframe(laid.graph, spec.struts, placement)
-    return _report(laid, certify(laid.layout), frame, spec, monitor, NOTHING_REMOVED)
+    frame = _frame(laid, spec)
+    return _report(laid, certify(laid.layout), frame, spec, monitor, _removed(laid))
 
 
 def block_volume(spec: LatticeSpec, count: Sequence[int]) -> float:
@@ -194,9 +205,10 @@ def block_wireframe(spec: LatticeSpec, count: Sequence[int]) -> Wireframe:
     if spec.network is not None:
         return _beside(spec, count, None).wireframe
     cells, placement = _block_placement(spec, count)
-    refuse_block(cells.shape, BYTES_PER_STRUT * len(spec.unit_cell().struts))
+    cell = spec.unit_cell()
+    refuse_block(cells.shape, BYTES_PER_STRUT * len(cell.struts))
     active = np.ones(cells.shape, bool)
-    graph = cell_graph(spec.unit_cell(), active, spec.cell_size, cells.origin, cells.periodic)
+    graph = cell_graph(cell, active, spec.cell_size, cells.origin, cells.periodic)
     return graded_wireframe(graph, spec.struts, placement)
 
 
@@ -227,8 +239,10 @@ def _block_placement(spec: LatticeSpec, count: Sequence[int]) -> tuple[CellGrid,
 
 def _lay(spec: LatticeSpec, cells: CellGrid, placement: Placement, monitor: Monitor) -> _Laid:
     """The octants of a block."""
-    cell = spec.unit_cell()
     active = np.ones(cells.shape, bool)
+    if spec.surface is not None:
+        return _lay_walls(spec, cells, placement, monitor)
+    cell = spec.unit_cell()
     with monitor.stage("tile", 0.0, 0.4):
         grid = octant_grid(cell, active, spec.cell_size, cells.origin, cells.periodic)
         octants, used, notes = until_sound(
@@ -239,6 +253,42 @@ def _lay(spec: LatticeSpec, cells: CellGrid, placement: Placement, monitor: Moni
         layout = lay_out(grid, octants)
     graph = cell_graph(cell, active, spec.cell_size, cells.origin, cells.periodic)
     return _Laid(cells, placement, layout, graph, used, notes)
+
+
+def _lay_walls(spec: LatticeSpec, cells: CellGrid, placement: Placement, monitor: Monitor) -> _Laid:
+    """The octants of a block of walls, closed on its outside."""
+    with monitor.stage("tile", 0.0, 0.4):
+        active, size = np.ones(cells.shape, bool), spec.cell_size
+        grid = octants_of_cells(active, size, cells.origin, cells.periodic)
+        solid = solid_of(spec)
+        octants, used, notes = until_sound(
+            wall_meshing(spec), lambda wanted: meshed_walls(solid, wanted, monitor)
+        )
+        refuse_solid_cells(octants, used)
+        closed = closed_octants(octants, grid.keys, 0.5 * size)
+        layout = lay_out(grid, closed.octants)
+    pairs = zip(grid.keys, layout.places, strict=True)
+    loose = sum(len(closed.loose[key]) * len(place) for key, place in pairs)
+    return _Laid(cells, placement, layout, no_graph(), used, notes, loose)
+
+
+def _frame(laid: _Laid, spec: LatticeSpec) -> Wireframe:
+    """The struts of a block; of walls none."""
+    if spec.surface is not None:
+        return no_struts()
+    return graded_wireframe(laid.graph, spec.struts, laid.placement)
+
+
+def _removed(laid: _Laid) -> dict[str, Any]:
+    """What a block is without."""
+    return {**NOTHING_REMOVED, "pieces_removed": laid.loose}
+
+
+def _is_moved(spec: LatticeSpec, placement: Placement) -> bool:
+    """Whether vertices are elsewhere than they were meshed."""
+    if spec.surface is not None:
+        return not keeps_wall_places(spec, placement)
+    return not keeps_places(spec.struts, placement)
 
 
 def _report(

@@ -12,6 +12,7 @@ from functools import cached_property, partial
 
 import numpy as np
 
+from ..design.cells import UnitCell
 from ..design.memory_guard import refuse_expected
 from ..design.spec import LatticeSpec
 from ..grid.placement import Placement, graded_wireframe, placement_in
@@ -36,7 +37,7 @@ from ..trim.beam_model import (
     refuse_fillets,
 )
 from ..trim.clip_struts import Clipped
-from ..trim.culling import KeptOctants
+from ..trim.culling import KeptOctants, OctantRoles
 from ..trim.drains import Drained, trapped
 from ..trim.finish import finished, pieces_told, tidied
 from ..trim.held_struts import Held, axes_of, held
@@ -49,9 +50,9 @@ from ..util.cache import Kept, StageCache
 from ..util.content import content_of
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor, ProgressCallback
+from . import octant_guard as guard
 from .active_cells import ActiveCells, activated, roles_of
 from .finer import until_sound
-from .octant_guard import refuse_other_struts, refuse_solid_cells, refuse_too_large
 from .target_report import judged
 
 
@@ -98,15 +99,15 @@ class Infill:
         executor: Executor | None = None,
         streamed: bool = False,
     ) -> None:
-        refuse_other_struts(solid, spec, is_of_cells=type(self) is Infill)
+        guard.refuse_other_struts(solid, spec, is_of_cells=type(self) is Infill)
         self.solid, self.spec = solid, spec
         self.monitor = monitor or Monitor(progress)
         self._cache, self._executor = cache or StageCache(), executor
         self._streamed = streamed and spec.streams
-        self._cell, self._grid, self._struts = spec.unit_cell(), spec.grid, spec.struts
+        self._grid, self._struts = spec.grid, spec.struts
         self._skin, self._boundary = spec.skin, spec.ending
         if spec.network is None:
-            self._meshing = octant_spec(spec.cell_size, spec.struts, spec.detail)
+            self._meshing = self._wanted_meshing()
         self._solid = Kept(solid, content_of(solid.vertices, solid.triangles))
         self._watch = Kept(self.monitor, "no result depends on it")
         self._laid_octants: dict[bool, Laid] = {}
@@ -129,11 +130,7 @@ class Infill:
     def _domain(self) -> Kept[Domain]:
         with self.monitor.stage("shell", 0.0, 0.3):
             found = self._cache.run("shell", find_domain, self._solid, self._skin, self._watch)
-        if not len(found.value.mesh.triangles):
-            raise VolfrepError(
-                f"The part is nowhere thicker than two walls of {self.spec.shell:g} mm, so that "
-                "nothing is left to fill: reduce the shell thickness."
-            )
+        guard.refuse_no_domain(found.value.mesh, self.spec.shell)
         return found
 
     @property
@@ -164,18 +161,27 @@ class Infill:
         domain, rule, least = self._domain, self._boundary.activation, 0.0
         with self.monitor.stage("voxels", 0.3, 0.4):
             if self._grid.cell_map is not None:
-                size, struts = self._grid.size, self._struts
-                least = self._cache.run("width", least_width, self._cell, size, struts).value
+                least = self._least_width()
             found = self._cache.run(
                 "voxels", activated, self._solid, domain, self._grid, rule, least, self._watch
             )
-        if not found.value.active.any():
-            where_not = "has its centre" if rule == "centre" else "lies wholly"
-            raise VolfrepError(
-                f"No cell of {self._grid.size:g} mm {where_not} inside the domain: reduce the "
-                "cell size or choose the activation 'touching'."
-            )
+        guard.refuse_no_cells(found.value.active, self._grid.size, rule)
         return found
+
+    def _least_width(self) -> float:
+        size, struts = self._grid.size, self._struts
+        return self._cache.run("width", least_width, self._cell, size, struts).value
+
+    def _wanted_meshing(self) -> OctantSpec:
+        return octant_spec(self.spec.cell_size, self._struts, self.spec.detail)
+
+    @property
+    def _cell(self) -> UnitCell:
+        return self.spec.unit_cell()
+
+    @cached_property
+    def _keeps_places(self) -> bool:
+        return keeps_places(self._struts, self.placement)
 
     @cached_property
     def pruned(self) -> Pruned | None:
@@ -198,11 +204,7 @@ class Infill:
             active = self.cells.active
             graph = cell_graph(self._cell, active, size, cells.origin, cells.periodic)
             frame = graded_wireframe(graph, self._struts, self.placement)
-        if not len(frame.struts):
-            raise VolfrepError(
-                "Every strut has a free end, so that none is left: keep dangling struts, reduce "
-                "the cell size or choose the activation 'touching'."
-            )
+        guard.refuse_no_struts(frame)
         return frame
 
     @cached_property
@@ -300,7 +302,7 @@ class Infill:
         if is_cut not in self._laid_octants:
             refuse_expected(self.spec, 0.0 if self._streamed else self.domain.mesh.volume)
             _ = self.struts  # refused before anything is meshed
-            keeps = keeps_places(self._struts, self.placement)
+            keeps = self._keeps_places
             # Where nothing is cut there is no wall that an octant could reach.
             margin = np.inf if not is_cut else 0.0 if keeps else FIRST_MARGIN
             with self.monitor.stage("tile", 0.4, 0.5):
@@ -315,14 +317,9 @@ class Infill:
 
     def _octants(self, is_cut: bool, margin: float) -> tuple[KeptOctants, dict[OctantKey, Octant]]:
         """Which octants there are, and their meshes."""
-        cells, roles = self.cells, None
-        if is_cut:
-            roles = self._cache.run(
-                "octants", roles_of, self._solid, self._domain, self._cells, self._grid, margin,
-                self._watch,
-            ).value  # fmt: skip
+        cells, roles = self.cells, self._roles(margin) if is_cut else None
         grid = cells.padded.octants(self._cell, cells.active, self._boundary.is_endless)
-        joined = not keeps_places(self._struts, self.placement)
+        joined = not self._keeps_places
 
         def meshed(wanted: OctantSpec) -> tuple[KeptOctants, dict[OctantKey, Octant]]:
             kept = chosen_octants(grid, roles, self._cell, self.pruned, wanted, joined=joined)
@@ -332,9 +329,15 @@ class Infill:
 
         (kept, octants), self._meshing, notes = until_sound(self._meshing, meshed)
         self._notes += notes
-        refuse_solid_cells(octants, self._meshing)
-        refuse_too_large(self.spec, kept.grid, octants, kept.border, streamed=self._streamed)
+        guard.refuse_solid_cells(octants, self._meshing)
+        guard.refuse_too_large(self.spec, kept.grid, octants, kept.border, streamed=self._streamed)
         return kept, octants
+
+    def _roles(self, margin: float) -> OctantRoles:
+        return self._cache.run(
+            "octants", roles_of, self._solid, self._domain, self._cells, self._grid, margin,
+            self._watch,
+        ).value  # fmt: skip
 
     def _placed(self, layout: Layout) -> Deformed:
         """Where the vertices of numbered octants are in the part."""
@@ -362,7 +365,7 @@ class Infill:
         """A mesh with the figures of what it is and of how it was made."""
         domain, pruned, warnings = self.domain, self.pruned, self.warnings
         surface, quality = cleared.surface, cleared.quality
-        moved = not keeps_places(self._struts, self.placement)
+        moved = not self._keeps_places
         if output != "domain":
             surface, quality, notes = finished(surface, quality, self.monitor, moved)
             warnings += self._notes + notes

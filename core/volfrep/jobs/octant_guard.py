@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Refusals before octants are assembled: cells too large, too many, or without a surface."""
+"""Refusals before octants are assembled: cells too large, too many, none, or without a surface."""
 
 from __future__ import annotations
 
@@ -11,10 +11,12 @@ from numpy.typing import NDArray
 from ..design.memory_guard import cells_are_full, refuse_memory
 from ..design.networks import CellNetwork
 from ..design.spec import LatticeSpec
+from ..grid.strut_graph import Wireframe
 from ..mesh.triangle_mesh import TriangleMesh
 from ..octants.octant import Octant, OctantGrid, OctantKey
 from ..octants.octant_spec import OctantSpec
 from ..util.errors import VolfrepError
+from ..util.types import Bools
 
 
 def refuse_too_large(
@@ -52,8 +54,39 @@ def refuse_solid_cells(octants: dict[OctantKey, Octant], spec: OctantSpec) -> No
         raise cells_are_full(spec.cell_size, spec.strut_radius)
 
 
+def refuse_no_domain(domain: TriangleMesh, shell: float) -> None:
+    """Raise a `VolfrepError` where a skin of a thickness in mm leaves nothing to fill."""
+    if not len(domain.triangles):
+        raise VolfrepError(
+            f"The part is nowhere thicker than two walls of {shell:g} mm, so that nothing is left "
+            "to fill: reduce the shell thickness."
+        )
+
+
+def refuse_no_cells(active: Bools, cell_size: float, rule: str) -> None:
+    """Raise a `VolfrepError` where no cell is active."""
+    if not active.any():
+        where_not = "has its centre" if rule == "centre" else "lies wholly"
+        raise VolfrepError(
+            f"No cell of {cell_size:g} mm {where_not} inside the domain: reduce the cell size or "
+            "choose the activation 'touching'."
+        )
+
+
+def refuse_no_struts(frame: Wireframe) -> None:
+    """Raise a `VolfrepError` where every strut was taken away."""
+    if not len(frame.struts):
+        raise VolfrepError(
+            "Every strut has a free end, so that none is left: keep dangling struts, reduce the "
+            "cell size or choose the activation 'touching'."
+        )
+
+
 def refuse_other_struts(solid: TriangleMesh, spec: LatticeSpec, *, is_of_cells: bool) -> None:
-    """Raise a `VolfrepError` where a cell is larger than the part, or a job knows no networks."""
+    """Raise a `VolfrepError` where a cell is larger than the part, or a job knows struts only.
+
+    `is_of_cells` tells one that knows the struts of cells only.
+    """
     if spec.network is not None:
         if is_of_cells and isinstance(spec.network, CellNetwork):
             raise VolfrepError(
@@ -63,6 +96,8 @@ def refuse_other_struts(solid: TriangleMesh, spec: LatticeSpec, *, is_of_cells: 
         if is_of_cells:
             raise VolfrepError("This is done with cells and not with a network: leave it out.")
         return
+    if is_of_cells:
+        spec.unit_cell()
     cell_size, size = spec.cell_size, solid.bounds[1] - solid.bounds[0]
     if cell_size > size.max():
         raise VolfrepError(

@@ -130,8 +130,9 @@ def preview(solid: TriangleMesh, spec: LatticeSpec, depth: PartDepth) -> Preview
     Raises:
         VolfrepError: the specification does not fit the solid, or no radius meets its target.
     """
-    if spec.network is not None:
-        raise VolfrepError("A network is shown once it is computed; there is no preview of it.")
+    if spec.network is not None or spec.surface is not None:
+        what, it = ("Walls are", "them") if spec.network is None else ("A network is", "it")
+        raise VolfrepError(f"{what} shown once computed; there is no preview of {it}.")
     cell = spec.unit_cell()
     struts = spec.struts
     is_cut = spec.ending.meets_wall(spec.skin)

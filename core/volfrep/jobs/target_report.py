@@ -23,7 +23,12 @@ def judged(report: Report, spec: LatticeSpec) -> Report:
         reached = modulus(spec.unit_cell(), spec.strut_radius / size, target, spec.fillet / size)
     else:
         reached = report.mass_g if target.aim == "mass" else report.relative_density
-    figures = {**target.as_plain(), "reached": reached, "strut_radius_mm": spec.strut_radius}
+    found = {"strut_radius_mm": spec.strut_radius}
+    if spec.surface is not None:
+        found = {"wall_offset_mm": spec.wall.offset}
+        if spec.wall.is_sheet:
+            found = {"wall_thickness_mm": spec.wall.thickness}
+    figures = {**target.as_plain(), "reached": reached, **found}
     off = reached / target.value - 1.0
     notes: tuple[str, ...] = ()
     if abs(off) > PROMISED:

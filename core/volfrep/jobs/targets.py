@@ -38,10 +38,8 @@ from .infill import Infill
 from .networks.infill import infill_of
 from .rough_radius import radius_range
 from .stiffness_target import ratio_of_stiffness
+from .walls.targets import CLOSE, MESHES, aimed_walls, aimed_walls_block
 
-#: A mesh that misses its target by more, relative, is made again; so many are made at most.
-CLOSE = 3e-3
-MESHES = 3
 #: The first guess is this near, relative; a radius is sought up to so much above it.
 _ROUGHLY = 1.12
 #: A joint sphere's radius over the strut's is less.
@@ -83,6 +81,8 @@ def aimed(
         return infill
     if target.aim == "stiffness":
         return made_of(_stiff(spec, target), progress=progress)
+    if spec.surface is not None:
+        return aimed_walls(infill, target, made_of, meshed=meshed)
     monitor, domain = infill.monitor, infill.domain.mesh.volume
     frame = infill.struts
     with monitor.stage("target", 0.4, 0.4):
@@ -148,6 +148,8 @@ def aimed_block(
         return spec
     if target.aim == "stiffness":
         return _stiff(spec, target)
+    if spec.surface is not None:
+        return aimed_walls_block(spec, block_volume(spec, count), target)
     size = spec.cell_size
     block_wireframe(spec, count)  # the counts are checked
     repeats = not spec.is_graded

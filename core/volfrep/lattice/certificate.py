@@ -366,6 +366,7 @@ def _keeps_apart(octant: Octant, size: float, safe: float) -> bool:
     """Whether vertices are farther than `safe` from each other and from faces they are not on."""
     points = octant.vertices
     inner = points[octant.places == 1]
+    inner = inner[inner != 0.0]  # on a face that is closed, beyond which nothing follows
     if min(inner.min(initial=size), (size - inner).min(initial=size)) <= safe:
         return False
     # Along a line on which few of them share a place, only the next ones can be that near.

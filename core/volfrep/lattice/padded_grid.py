@@ -136,6 +136,26 @@ class PaddedGrid:
         """`usable` of the part's grid."""
         return None if self.usable is None else self.usable[self._inner(1)]
 
+    @property
+    def octants_usable(self) -> Bools | None:
+        """(nx, ny, nz) bool, the octants of the part's grid and half a cell about it that lie in
+        usable cells; None: all do.
+        """
+        if self.usable is None:
+            return None
+        whole = self.usable
+        for axis, width in enumerate(self.first):
+            pad = [(1, 1) if k == axis and not width else (0, 0) for k in range(3)]
+            whole = np.pad(whole, pad, mode="wrap")
+        twice = whole.repeat(2, axis=0).repeat(2, axis=1).repeat(2, axis=2)
+        cut = []
+        for axis, width in enumerate(self.first):
+            # Octants go in twos about corners: the first one lies before the first cell.
+            start = 2 * width - 1 if width else 1
+            count = 2 * self.cells.shape[axis] + (2 if width else 0)
+            cut.append(slice(start, start + count))
+        return twice[tuple(cut)]
+
     def _inner(self, per_cell: int) -> tuple[slice, ...]:
         return tuple(slice(per_cell * n, -per_cell * n or None) for n in self.first)
 

@@ -205,17 +205,34 @@ class _Batch:
         for k, (key, piece) in enumerate(zip(self.keys, self.raw, strict=True)):
             part = slice(begin[k], begin[k + 1])
             source = origin[part] - first[k]
-            entity = (piece.place[source].astype(np.int64) * np.array([9, 3, 1])).sum(axis=1)
             vertices = np.rint(refined.vertices[part] / self.step) * self.step
             triangles = refined.triangles[order[cuts[k] : cuts[k + 1]]] - begin[k]
-            result[key] = Octant(
-                vertices,
-                triangles.astype(np.int32),
-                entity.astype(np.int8),
-                _ranks(entity, piece.order[source]),
+            result[key] = ranked_octant(
+                vertices, triangles, piece.place[source], piece.order[source],
                 self.solid_corners[k],
-            )
+            )  # fmt: skip
         return result
+
+
+def ranked_octant(
+    vertices: Floats,
+    triangles: Ints,
+    place: NDArray[np.int8],
+    order: Ints,
+    solid_corners: NDArray[np.bool_],
+) -> Octant:
+    """An octant whose vertices are numbered on each face and edge by their order there.
+
+    Arguments as the attributes of `Octant` and `RawOctant`.
+    """
+    entity = (place.astype(np.int64) * np.array([9, 3, 1])).sum(axis=1)
+    return Octant(
+        vertices,
+        triangles.astype(np.int32),
+        entity.astype(np.int8),
+        _ranks(entity, order),
+        solid_corners,
+    )
 
 
 def _near(points: Floats, primitives: Primitives, reach: float) -> tuple[Ints, Ints]:

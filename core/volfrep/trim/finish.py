@@ -99,10 +99,10 @@ def finished(
         return surface, quality, ()
     x, y, z = met.place
     where = (
-        f"Struts have so little room about ({x:.4g}, {y:.4g}, {z:.4g}) that facets run through "
-        f"each other there: {100 * share:.2g} % of the volume is enclosed twice or inside out"
+        f"There is so little room about ({x:.4g}, {y:.4g}, {z:.4g}) that facets run through each "
+        f"other there: {100 * share:.2g} % of the volume is enclosed twice or inside out"
     )
-    advice = "reduce the radius or let the cells be larger there"
+    advice = "make it thinner or let the cells be larger there"
     if share > MOST_CROSSED:
         raise VolfrepError(f"{where}, {advice}.")
     return surface, quality, (f"{where}; {advice} if that matters.",)

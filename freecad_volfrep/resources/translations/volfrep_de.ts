@@ -65,6 +65,10 @@
       <translation>Baurichtung</translation>
     </message>
     <message>
+      <source>By how many mm a skeleton or complement is thicker than up to the surface; negative for a thinner one</source>
+      <translation>Um wie viele mm ein Gerüst oder sein Gegenstück dicker ist als bis zur Fläche; negativ für dünner</translation>
+    </message>
+    <message>
       <source>Cartesian</source>
       <translation>Kartesisch</translation>
     </message>
@@ -147,6 +151,10 @@
     <message>
       <source>Colour of the lattice inside the skin</source>
       <translation>Farbe des Gitters in der Haut</translation>
+    </message>
+    <message>
+      <source>Complement</source>
+      <translation>Gegenstück</translation>
     </message>
     <message>
       <source>Compute at every change; switch it off for large jobs and use Update Lattice Infill</source>
@@ -741,6 +749,10 @@
       <translation>Getrennte Teile aus Werkstoff</translation>
     </message>
     <message>
+      <source>Sheet</source>
+      <translation>Wand</translation>
+    </message>
+    <message>
       <source>Shell Thickness</source>
       <translation>Wandstärke</translation>
     </message>
@@ -763,6 +775,10 @@
     <message>
       <source>Size Grading</source>
       <translation>Größengradierung</translation>
+    </message>
+    <message>
+      <source>Skeleton</source>
+      <translation>Gerüst</translation>
     </message>
     <message>
       <source>Skin</source>
@@ -897,12 +913,20 @@
       <translation>Der zu füllende Volumenkörper: ein Volumenkörper, ein Body, ein Part, eine Verknüpfung darauf oder ein geschlossenes Netz</translation>
     </message>
     <message>
-      <source>The unit cell: one of the library, or the .json file of your own</source>
-      <translation>Die Einheitszelle: eine der Bibliothek, oder die .json-Datei einer eigenen</translation>
+      <source>The surface of the cell Formula: zero on it, of x, y and z, which run from 0 to 2 pi over a cell</source>
+      <translation>Die Fläche der Zelle Formula: null auf ihr, von x, y und z, die über eine Zelle von 0 bis 2 pi laufen</translation>
+    </message>
+    <message>
+      <source>The unit cell: one of the library, a surface that walls follow (Gyroid and others), or the .json file of your own</source>
+      <translation>Die Einheitszelle: eine der Bibliothek, eine Fläche, der Wände folgen (Gyroid und andere), oder die .json-Datei einer eigenen</translation>
     </message>
     <message>
       <source>Their volume</source>
       <translation>Ihr Volumen</translation>
+    </message>
+    <message>
+      <source>Thickness of a sheet, measured across it</source>
+      <translation>Dicke einer Wand, quer zu ihr gemessen</translation>
     </message>
     <message>
       <source>Thickness of the closed skin; 0 for none: the lattice is cut at the outer surface</source>
@@ -991,6 +1015,26 @@
     <message>
       <source>Voronoi</source>
       <translation>Voronoi</translation>
+    </message>
+    <message>
+      <source>Wall Formula</source>
+      <translation>Formel der Wände</translation>
+    </message>
+    <message>
+      <source>Wall Kind</source>
+      <translation>Art der Wände</translation>
+    </message>
+    <message>
+      <source>Wall Offset</source>
+      <translation>Versatz der Wände</translation>
+    </message>
+    <message>
+      <source>Wall Thickness</source>
+      <translation>Wanddicke</translation>
+    </message>
+    <message>
+      <source>Walls</source>
+      <translation>Wände</translation>
     </message>
     <message>
       <source>Warnings</source>
@@ -1083,6 +1127,10 @@
     <message>
       <source>r: radius of the struts</source>
       <translation>r: Radius der Streben</translation>
+    </message>
+    <message>
+      <source>sheet: a wall about the surface; skeleton: all where its formula is negative; complement: all where it is positive</source>
+      <translation>sheet: eine Wand um die Fläche; skeleton: alles, wo ihre Formel negativ ist; complement: alles, wo sie positiv ist</translation>
     </message>
     <message>
       <source>trim: the lattice is cut at the wall; whole: cells stay whole, and a skin joins what reaches it</source>

@@ -65,6 +65,10 @@
       <translation>Direzione di stampa</translation>
     </message>
     <message>
+      <source>By how many mm a skeleton or complement is thicker than up to the surface; negative for a thinner one</source>
+      <translation>Di quanti mm uno scheletro o il suo complemento supera la superficie; negativo per uno più sottile</translation>
+    </message>
+    <message>
       <source>Cartesian</source>
       <translation>Cartesiana</translation>
     </message>
@@ -147,6 +151,10 @@
     <message>
       <source>Colour of the lattice inside the skin</source>
       <translation>Colore del reticolo dentro il guscio</translation>
+    </message>
+    <message>
+      <source>Complement</source>
+      <translation>Complemento</translation>
     </message>
     <message>
       <source>Compute at every change; switch it off for large jobs and use Update Lattice Infill</source>
@@ -741,6 +749,10 @@
       <translation>Pezzi di materiale separati</translation>
     </message>
     <message>
+      <source>Sheet</source>
+      <translation>Parete</translation>
+    </message>
+    <message>
       <source>Shell Thickness</source>
       <translation>Spessore guscio</translation>
     </message>
@@ -763,6 +775,10 @@
     <message>
       <source>Size Grading</source>
       <translation>Gradazione celle</translation>
+    </message>
+    <message>
+      <source>Skeleton</source>
+      <translation>Scheletro</translation>
     </message>
     <message>
       <source>Skin</source>
@@ -897,12 +913,20 @@
       <translation>Il solido da riempire: un solido, un Body, una Part, un link a uno di questi o una mesh chiusa</translation>
     </message>
     <message>
-      <source>The unit cell: one of the library, or the .json file of your own</source>
-      <translation>La cella unitaria: una della libreria, o il file .json di una propria</translation>
+      <source>The surface of the cell Formula: zero on it, of x, y and z, which run from 0 to 2 pi over a cell</source>
+      <translation>La superficie della cella Formula: zero su di essa, di x, y e z, che vanno da 0 a 2 pi su una cella</translation>
+    </message>
+    <message>
+      <source>The unit cell: one of the library, a surface that walls follow (Gyroid and others), or the .json file of your own</source>
+      <translation>La cella unitaria: una della libreria, una superficie seguita da pareti (Gyroid e altre), o il file .json di una propria</translation>
     </message>
     <message>
       <source>Their volume</source>
       <translation>Il loro volume</translation>
+    </message>
+    <message>
+      <source>Thickness of a sheet, measured across it</source>
+      <translation>Spessore di una parete, misurato attraverso di essa</translation>
     </message>
     <message>
       <source>Thickness of the closed skin; 0 for none: the lattice is cut at the outer surface</source>
@@ -991,6 +1015,26 @@
     <message>
       <source>Voronoi</source>
       <translation>Voronoi</translation>
+    </message>
+    <message>
+      <source>Wall Formula</source>
+      <translation>Formula delle pareti</translation>
+    </message>
+    <message>
+      <source>Wall Kind</source>
+      <translation>Tipo di pareti</translation>
+    </message>
+    <message>
+      <source>Wall Offset</source>
+      <translation>Scostamento delle pareti</translation>
+    </message>
+    <message>
+      <source>Wall Thickness</source>
+      <translation>Spessore delle pareti</translation>
+    </message>
+    <message>
+      <source>Walls</source>
+      <translation>Pareti</translation>
     </message>
     <message>
       <source>Warnings</source>
@@ -1083,6 +1127,10 @@
     <message>
       <source>r: radius of the struts</source>
       <translation>r: raggio delle aste</translation>
+    </message>
+    <message>
+      <source>sheet: a wall about the surface; skeleton: all where its formula is negative; complement: all where it is positive</source>
+      <translation>sheet: una parete attorno alla superficie; skeleton: tutto dove la sua formula è negativa; complement: tutto dove è positiva</translation>
     </message>
     <message>
       <source>trim: the lattice is cut at the wall; whole: cells stay whole, and a skin joins what reaches it</source>

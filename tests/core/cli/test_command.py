@@ -132,7 +132,7 @@ def test_resolution_or_deviation(capsys: pytest.CaptureFixture[str]) -> None:
 @pytest.mark.parametrize(
     ("changed", "message"),
     [
-        (["--cell", "Gyroid"], "no unit cell named 'Gyroid'"),
+        (["--cell", "Gyrate"], "no unit cell named 'Gyrate'"),
         (["--cell-size", "nan"], "cell size must be a finite number"),
         (["--cell-size", "-1e1"], "cell size must be above 0 mm, not -10"),
         (["--strut-radius", "7"], "too thick for a cell"),

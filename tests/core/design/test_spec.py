@@ -23,7 +23,7 @@ def test_the_defaults_are_valid() -> None:
 @pytest.mark.parametrize(
     ("values", "message"),
     [
-        ({"cell": "Gyroid"}, "There is no unit cell named 'Gyroid'"),
+        ({"cell": "Gyrate"}, "There is no unit cell named 'Gyrate'"),
         ({"cell_size": 0}, "cell size must be above 0 mm, not 0"),
         ({"cell_size": -3}, "cell size must be above 0 mm, not -3"),
         ({"cell_size": math.nan}, "cell size must be a finite number in mm, not nan"),

@@ -16,6 +16,7 @@ from volfrep.design.profile import Profile
 from volfrep.design.scattered_field import PointField
 from volfrep.design.spec_parts import Boundary, Grid, Resolution, Skin, Struts
 from volfrep.design.target import Target
+from volfrep.design.walls import Wall
 
 POINTS = np.eye(3)
 FIELD = PointField(POINTS, np.array([1.0, 2.0, 3.0]))
@@ -115,6 +116,7 @@ OTHERS = [
             "keep_radius": False,
             "target": Target("mass", 5.0),
             "network": RandomNetwork(points=9),
+            "wall": Wall("sheet", 2.0),
         },
     ),
 ]

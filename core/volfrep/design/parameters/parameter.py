@@ -7,10 +7,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from ..walls.library import surface_name
+
 #: Groups of parameters in the order of every list, and what the command's help calls them.
 GROUPS = {
     "Solid": "the solid",
     "Lattice": "the lattice and its skin",
+    "Walls": "walls in place of struts",
     "Network": "a network in place of cells",
     "Boundary": "where the lattice ends",
     "Openings": "what is open in the skin",
@@ -171,5 +174,7 @@ def effective(
         given = parameter.default
         if parameter.name not in idle and values.get(parameter.name) is not None:
             given = values[parameter.name]
+        if parameter.kind == "cell" and isinstance(given, str):
+            given = surface_name(given) or given  # as the needs of others call it
         result[parameter.name] = given
     return result, idle

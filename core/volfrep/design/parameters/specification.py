@@ -16,6 +16,7 @@ from ..scattered_field import PointField, read_curve, read_point_field
 from ..spec import LatticeSpec
 from ..spec_parts import first_radius
 from ..target import AIMS, Target, read_stiffness, stiffness_text
+from ..walls import FORMULA, SURFACES, PeriodicSurface, Wall, find_surface, surface_name
 from .parameter import Need, effective
 from .table import BY_NAME, PARAMETERS, TWO_ENDED
 
@@ -52,8 +53,11 @@ def specification(values: Mapping[str, Any], say: Naming = in_file) -> LatticeSp
     radius = used["strut_radius"]
     if target is not None:
         radius = first_radius(used["cell_size"], used["fillet"])
+    cell = used["cell"]
+    if isinstance(cell, str):
+        cell = find_surface(cell, used["wall_formula"] or "") or cell
     return LatticeSpec(
-        cell=used["cell"],
+        cell=cell,
         cell_size=used["cell_size"],
         strut_radius=radius,
         shell=used["shell"],
@@ -77,6 +81,7 @@ def specification(values: Mapping[str, Any], say: Naming = in_file) -> LatticeSp
         keep_radius=used["keep_radius"],
         target=target,
         network=_network(used, say),
+        wall=Wall(used["wall_kind"], used["wall_thickness"], used["wall_offset"]),
     )
 
 
@@ -120,6 +125,15 @@ def values_of(spec: LatticeSpec) -> dict[str, Any]:
                 f"The cell '{cell.name}' has no file that could be named: save it as .json first."
             )
         cell = cell.source if own else cell.name
+    walls: dict[str, Any] = {}
+    if isinstance(cell, PeriodicSurface):
+        walls = {
+            "wall_kind": spec.wall.kind,
+            "wall_thickness": spec.wall.thickness,
+            "wall_offset": spec.wall.offset,
+            "wall_formula": cell.formula,
+        }
+        cell = cell.name if SURFACES.get(cell.name) == cell else FORMULA
     found: dict[str, Any] = {
         "cell": cell, "cell_size": spec.cell_size, "strut_radius": spec.strut_radius,
         "shell": spec.shell, "fillet": spec.fillet, "origin": spec.origin,
@@ -127,7 +141,7 @@ def values_of(spec: LatticeSpec) -> dict[str, Any]:
         "remove_dangling": spec.remove_dangling, "shortest_stub": spec.shortest_stub,
         "keep_pieces": spec.keep_pieces,
         "resolution": spec.resolution, "deviation": spec.deviation, "make": spec.output,
-        "density": spec.density, "keep_radius": spec.keep_radius,
+        "density": spec.density, "keep_radius": spec.keep_radius, **walls,
     }  # fmt: skip
     if spec.open_faces:
         planes = [face for face in spec.open_faces if isinstance(face, OpenPlane)]
@@ -172,9 +186,10 @@ def values_of(spec: LatticeSpec) -> dict[str, Any]:
     if spec.target is not None:
         aim = spec.target.aim
         found[aim] = stiffness_text(spec.target) if aim == "stiffness" else spec.target.value
-        del found["strut_radius"]
+        for name in _THICKNESS:
+            found.pop(name, None)
     _, idle = effective(PARAMETERS, found)
-    always = ("cell", "cell_size", "strut_radius", "shell")
+    always = ("cell", "cell_size", "shell", *(name for name in _THICKNESS if name not in idle))
     return {
         name: value
         for name, value in found.items()
@@ -189,13 +204,14 @@ def _target(values: Mapping[str, Any], used: Mapping[str, Any], say: Naming) -> 
     Raises:
         VolfrepError: several values say how thick struts are, or there are none to be chosen.
     """
-    given = [name for name in ("strut_radius", *AIMS) if values.get(name) is not None]
+    given = [name for name in (*_THICKNESS, *AIMS) if values.get(name) is not None]
     aims = [name for name in given if name in AIMS]
     if not aims:
         return None
     if len(given) > 1:
         both = f"{', '.join(say(name) for name in given[:-1])} and {say(given[-1])}"
-        raise VolfrepError(f"{both} each say how thick the struts are: give one of them.")
+        what = "walls" if "wall" in both else "struts"
+        raise VolfrepError(f"{both} each say how thick the {what} are: give one of them.")
     aim = aims[0]
     for other, word in (("radius_grading", "none"), ("make", None)):
         value = used[other]
@@ -212,7 +228,8 @@ def _target(values: Mapping[str, Any], used: Mapping[str, Any], say: Naming) -> 
 def _useless(name: str, need: Need, say: Naming) -> str:
     what = " or ".join(say(other) for other in need.names)
     if need.absent:
-        return f"{say(name)} has no effect with {what}: leave one of them out."
+        such = "such a " * bool(need.values)
+        return f"{say(name)} has no effect with {such}{what}: leave one of them out."
     if need.values:
         words = [str(value) for value in need.values]
         what += " " + " or ".join(filter(None, (", ".join(words[:-1]), words[-1])))
@@ -271,7 +288,10 @@ def _radius_grading(used: Mapping[str, Any], say: Naming) -> RadiusGrading | Non
         field = read_point_field(field, column)
     profile, kind = Profile(), used["radius_profile"]  # a curve needs none
     if not curve:
-        usual, ends = used["strut_radius"], (used["radius_start"], used["radius_end"])
+        cell = used["cell"]
+        of_walls = isinstance(cell, str) and surface_name(cell) is not None
+        usual = used["wall_thickness" if of_walls else "strut_radius"]
+        ends = (used["radius_start"], used["radius_end"])
         if kind in TWO_ENDED and ends == (0.0, 0.0):
             raise VolfrepError(
                 f"A radius grading needs {say('radius_start')} or {say('radius_end')}: without "
@@ -320,6 +340,9 @@ def _cell_map(used: Mapping[str, Any]) -> CellMap | None:
         used["cell_map"], used["map_centre"], used["map_axis"], used["map_around"] or None
     )
 
+
+#: What says how thick struts or walls are.
+_THICKNESS = ("strut_radius", "wall_thickness", "wall_offset")
 
 #: Parameters of random networks, and what `RandomNetwork` calls them.
 _NETWORK_VALUES = {

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from .network_rows import NETWORK
 from .parameter import Need, Parameter
+from .wall_rows import OF_STRUTS, SIZES, WALL
 
 #: The entry of the property `CellType` for a cell of the user's own, read from `CellFile`.
 CUSTOM_CELL = "Custom"
@@ -42,7 +43,8 @@ PARAMETERS = (
     ),
     Parameter(
         "cell", "cell", "Lattice",
-        "The unit cell: one of the library, or the .json file of your own",
+        "The unit cell: one of the library, a surface that walls follow (Gyroid and others), or "
+        "the .json file of your own",
         default="CVC", freecad_name="CellType",
     ),
     Parameter(
@@ -89,23 +91,26 @@ PARAMETERS = (
     Parameter(
         "strut_radius", "length", "Lattice",
         "r: radius of the struts",
-        default=1.0, in_panel=True, instead_of=("relative_density", "mass", "stiffness"),
+        default=1.0, needs=(OF_STRUTS,), in_panel=True,
+        instead_of=("relative_density", "mass", "stiffness"),
     ),
     Parameter(
         "relative_density", "number", "Lattice",
         "In place of the radius: volume of the lattice over that of what it fills, between 0 and 1",
-        in_freecad=False, instead_of=("strut_radius", "mass", "stiffness"),
+        in_freecad=False, instead_of=("strut_radius", "mass", "stiffness", *SIZES),
     ),
     Parameter(
         "mass", "mass", "Lattice",
         "In place of the radius: mass of the finished part, with its skin",
-        in_freecad=False, instead_of=("strut_radius", "relative_density", "stiffness"),
+        in_freecad=False,
+        instead_of=("strut_radius", "relative_density", "stiffness", *SIZES),
     ),
     Parameter(
         "stiffness", "stiffness", "Lattice",
         "In place of the radius: Young's modulus of the lattice along 100, 110, 111 or X,Y,Z of "
         "its cell, in MPa where a material is given, else in units of the solid's",
-        in_freecad=False, instead_of=("strut_radius", "relative_density", "mass"),
+        needs=(OF_STRUTS,), in_freecad=False,
+        instead_of=("strut_radius", "relative_density", "mass"),
     ),
     Parameter(
         "shell", "length", "Lattice",
@@ -115,7 +120,7 @@ PARAMETERS = (
     Parameter(
         "fillet", "length", "Lattice",
         "Radius of the round between struts where they meet; 0 for none",
-        default=0.0, freecad_name="JointFillet", in_panel=True,
+        default=0.0, needs=(OF_STRUTS,), freecad_name="JointFillet", in_panel=True,
     ),
     Parameter(
         "origin", "point", "Lattice",
@@ -124,6 +129,7 @@ PARAMETERS = (
         "solid",
         otherwise="the corner of the part's box", of_block=False,
     ),
+    *WALL,
     *NETWORK,
     Parameter(
         "activation", "choice", "Boundary",
@@ -140,12 +146,12 @@ PARAMETERS = (
     Parameter(
         "remove_dangling", "flag", "Boundary",
         "Take away struts with a free end, again and again until there are none",
-        default=False, of_block=False, in_panel=True,
+        default=False, needs=(OF_STRUTS,), of_block=False, in_panel=True,
     ),
     Parameter(
         "shortest_stub", "length", "Boundary",
         "Take away struts with a free end that are shorter than this; 0 for none",
-        default=0.0, of_block=False, in_panel=True,
+        default=0.0, needs=(OF_STRUTS,), of_block=False, in_panel=True,
     ),
     Parameter(
         "keep_pieces", "flag", "Boundary",
@@ -244,7 +250,7 @@ PARAMETERS = (
         "keep_radius", "flag", "Cell size",
         "Where cells are stretched or bent, struts stay straight and round; otherwise they are "
         "deformed with their cells, as published",
-        default=True, needs=(Need(("size_grading", "cell_map")),),
+        default=True, needs=(OF_STRUTS, Need(("size_grading", "cell_map")),),
     ),
     Parameter(
         "rotate", "rotation", "Orientation",

@@ -30,6 +30,7 @@ from ...util.progress import Monitor, ProgressCallback
 from ...util.types import Floats
 from ..active_cells import ActiveCells
 from ..infill import Infill
+from ..walls.infill import WallInfill
 from .alone import cells_about, meshed, network_frame, overlaps_told, uncut
 
 #: Struts of a random network are drawn together where they are shorter than so many radii.
@@ -46,8 +47,10 @@ def infill_of(
     executor: Executor | None = None,
     streamed: bool = False,
 ) -> Infill:
-    """The stages of a solid filled with cells or with a network; arguments as of `Infill`."""
-    kind = Infill if spec.network is None else NetworkInfill
+    """The stages of a solid filled with cells, walls or a network; arguments as of `Infill`."""
+    kind = WallInfill if spec.surface is not None else Infill
+    if spec.network is not None:
+        kind = NetworkInfill
     return kind(
         solid, spec, cache=cache, progress=progress, monitor=monitor, executor=executor,
         streamed=streamed,

@@ -66,9 +66,9 @@ def test_every_field_of_the_specification_can_be_asked_for() -> None:
     }  # fmt: skip
     made, plain = specification(values), LatticeSpec()
     same = {f.name for f in fields(plain) if getattr(made, f.name) == getattr(plain, f.name)}
-    assert same == {"resolution", "output", "target", "network"}, (
+    assert same == {"resolution", "output", "target", "network", "wall"}, (
         "resolution excludes deviation, drains need a part, a target a radius grading, a network "
-        "stands in place of cells"
+        "stands in place of cells, and walls of struts"
     )
     assert specification(values_of(made)).as_dict() == made.as_dict()
 

@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The thickness of a target: walls that come out with the density or the mass that is wanted.
+
+A point is solid from one level on; the levels of many points, sorted, are the volume at each.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from ...design.spec import LatticeSpec
+from ...design.target import Target
+from ...grid.coordinate_map import identity_map
+from ...lattice.strut_volume import FINE, VolumeByRadius, points_inside
+from ...spatial.even_points import even_points
+from ...util.errors import VolfrepError
+from ...util.types import Floats
+from ...walls.placing import part_levels
+from ..infill import Infill
+from .making import solid_of
+
+#: A mesh that misses its target by more, relative, is made again; so many are made at most.
+CLOSE = 3e-3
+MESHES = 3
+#: Points for the table, as a power of 2.
+POINTS = FINE - 3
+
+
+def aimed_walls(
+    infill: Infill, target: Target, made_of: Callable[..., Infill], *, meshed: bool
+) -> Infill:
+    """The infill of walls with the thickness of a target.
+
+    Args:
+        infill: of the specification with the target.
+        target: a relative density or a mass.
+        made_of: makes another infill of a specification, with its monitor.
+        meshed: whether the result is made and measured.
+
+    Raises:
+        VolfrepError: no thickness meets the target; the text says what can be had.
+    """
+    spec, monitor, placement = infill.spec, infill.monitor, infill.placement
+    domain = infill.domain.mesh
+    with monitor.stage("target", 0.4, 0.4):
+        points, weights = points_inside(domain, POINTS, monitor)
+        mapping = placement.mapping or identity_map(spec.cell_size)
+        inside = mapping.to_lattice(points - placement.nudged(np.zeros(3)))
+        start = infill.cells.padded.cells.origin
+        solid = solid_of(spec)
+        if mapping.is_rigid:
+            levels = solid.levels((inside - start) / spec.cell_size) * spec.cell_size
+        else:
+            levels = part_levels(inside, start, solid, spec.cell_size, mapping)
+        table = _table(levels, weights)
+    skin = abs(infill.solid.volume) - domain.volume if spec.with_skin else 0.0
+    wanted = target.value * domain.volume
+    scale = wanted
+    if target.aim == "mass":
+        scale = target.value * 1000.0 / spec.density
+        wanted = scale - skin
+    for made in range(1, MESHES + 1):
+        infill = made_of(_with_volume(spec, target, table, wanted, domain.volume), monitor=monitor)
+        if not meshed:
+            return infill
+        report = infill.result.report
+        if target.aim == "mass":
+            missing = scale - report.volume_mm3
+        else:
+            missing = (target.value - report.relative_density) * domain.volume
+        if abs(missing) <= CLOSE * scale or made == MESHES:
+            break
+        wanted += missing
+    return infill
+
+
+def aimed_walls_block(spec: LatticeSpec, volume: float, target: Target) -> LatticeSpec:
+    """The specification of a block of walls, with the thickness of its target.
+
+    Args:
+        spec: of equal cells; each holds the same share of solid.
+        volume: of the block's cells, mm3.
+        target: a relative density or a mass.
+
+    Raises:
+        VolfrepError: no thickness meets the target, or the cells are graded.
+    """
+    if spec.size_grading is not None or spec.cell_map is not None:
+        raise VolfrepError(
+            f"A target of {target.called} is for blocks of equal cells of walls: give the "
+            "thickness, or leave the cells equal."
+        )
+    points = even_points(3, POINTS)
+    levels = solid_of(spec).levels(points) * spec.cell_size
+    table = _table(levels, np.full(len(points), volume / len(points)))
+    wanted = target.value * volume
+    if target.aim == "mass":
+        wanted = target.value * 1000.0 / spec.density
+    return _with_volume(spec, target, table, wanted, volume)
+
+
+def _table(levels: Floats, weights: Floats) -> VolumeByRadius:
+    order = np.argsort(levels)
+    steps = np.cumsum(weights[order])
+    return VolumeByRadius(levels[order], steps - 0.5 * weights[order])
+
+
+def _with_volume(
+    spec: LatticeSpec, target: Target, table: VolumeByRadius, wanted: float, domain: float
+) -> LatticeSpec:
+    """The specification with walls of a volume in mm3."""
+    low = 0.0 if spec.wall.is_sheet else 0.02 * domain
+    if not low < wanted < 0.98 * domain:
+        share = wanted / domain
+        raise VolfrepError(
+            f"No {spec.wall.called} meets the target of {target.called}: the walls would fill "
+            f"{100 * share:.3g} % of their room; choose one for which they fill 2 to 98 %."
+        )
+    level = table.radius_of(wanted)
+    if spec.wall.is_sheet:
+        return replace(spec, wall=replace(spec.wall, thickness=2.0 * level))
+    return replace(spec, wall=replace(spec.wall, offset=level))

@@ -10,6 +10,7 @@ that went in.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -19,6 +20,9 @@ from numpy.typing import NDArray
 from ..lattice.assembly import facets, neighbour_missing
 from ..mesh.booleans import from_library, to_library
 from ..mesh.triangle_mesh import TriangleMesh, compact, empty_mesh
+from ..spatial.mutual_cut import cut_mutually
+from ..spatial.rays import inside_points
+from ..spatial.seams import NotCertain
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 from ..util.types import Bools, Ints
@@ -90,25 +94,72 @@ def cut(group: Group, monitor: Monitor | None = None) -> Piece:
         group: the octants and their wall.
         monitor: for cancel; None where there is nobody to ask.
     """
-    import manifold3d
-
     asked, monitor = monitor or Monitor(), Monitor()
     surfaces, caps = _surfaces(group, monitor)
-    every = np.concatenate([*surfaces, caps])
-    capped = group.placed.mesh(every, group.own | group.beside, monitor)[0]
-    monitor.count("triangles into the Boolean", len(every) + len(group.wall.triangles))
+    both = group.own | group.beside
+
+    def capped() -> TriangleMesh:
+        return group.placed.mesh(np.concatenate([*surfaces, caps]), both, monitor)[0]
+
+    try:
+        return _cut_along_seam(group, surfaces, capped, asked, monitor)
+    except NotCertain:
+        return _cut_by_library(group, surfaces, len(caps), capped(), asked, monitor)
+
+
+def _cut_along_seam(
+    group: Group,
+    surfaces: list[NDArray[np.int32]],
+    capped: Callable[[], TriangleMesh],
+    asked: Monitor,
+    monitor: Monitor,
+) -> Piece:
+    """What the seam of octants and wall divides.
+
+    Raises:
+        NotCertain: they touch.
+    """
+    lattice = group.placed.mesh(np.concatenate(surfaces), group.own | group.beside, monitor)[0]
+    own = np.arange(len(lattice.triangles)) < len(surfaces[0])
+    monitor.count("triangles into the Boolean", len(lattice.triangles) + len(group.wall.triangles))
+    parts = asked.call(
+        lambda: cut_mutually(
+            lattice, group.wall, (own, group.own_wall),
+            lambda points: inside_points(capped(), points, monitor),
+            in_front=group.cavity, monitor=monitor,
+        )  # fmt: skip
+    )
+    wall = parts.second[:, ::-1] if group.cavity else parts.second
+    triangles = np.concatenate([parts.first, wall]).astype(np.int32)
+    piece = compact(TriangleMesh(parts.vertices, triangles))
+    on_wall = np.arange(len(triangles)) >= len(parts.first)
+    return Piece(piece, on_wall, open_vertices(piece), monitor.work)
+
+
+def _cut_by_library(
+    group: Group,
+    surfaces: list[NDArray[np.int32]],
+    caps: int,
+    capped: TriangleMesh,
+    asked: Monitor,
+    monitor: Monitor,
+) -> Piece:
+    """What manifold3d's Boolean leaves, which decides where octants and wall touch, too."""
+    import manifold3d
+
+    monitor.count("triangles into the Boolean", len(capped.triangles) + len(group.wall.triangles))
     ids = manifold3d.Manifold.reserve_ids(5)
     order = np.argsort(~group.own_wall, kind="stable")
     wall_mesh = TriangleMesh(group.wall.vertices, group.wall.triangles[order])
     owned = int(group.own_wall.sum())
     wall = _solid(wall_mesh, [owned, len(order) - owned], ids, group.alone, asked)
-    sizes = [len(surfaces[0]), len(surfaces[1]), len(caps)]
+    sizes = [len(surfaces[0]), len(surfaces[1]), caps]
     cutter = _solid(capped, sizes, ids + 2, group.alone, asked)
     for solid, what in ((wall, "wall"), (cutter, "lattice")):
         if solid.status() != manifold3d.Error.NoError:
             defect = f"{what} {solid.status().name}"
             return Piece(empty_mesh(), np.zeros(0, bool), np.zeros(0, np.int64), {}, defect)
-    del capped, wall_mesh, every
+    del capped, wall_mesh
     cavity = group.cavity
     result = asked.call(lambda: (wall - cutter if cavity else wall ^ cutter).to_mesh64())
     mesh, origin = _read(result)

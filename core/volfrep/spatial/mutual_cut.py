@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from manifold3d import triangulate
@@ -20,7 +21,7 @@ from ..util.progress import Monitor
 from ..util.ragged import spread
 from ..util.types import Bools, Floats, Ints
 from .rays import inside_points
-from .seams import Crossings, NotCertain, Seam, seam_of
+from .seams import Crossings, NotCertain, seam_of
 
 #: Facets that are triangulated in one call: its time grows with the square of what it gets.
 FACETS_PER_CALL = 16
@@ -73,14 +74,15 @@ def cut_mutually(
     vertices = np.concatenate([first.vertices, second.vertices, points])
     shift = len(first.vertices)
     fresh = shift + len(second.vertices)
-    numbers = (np.arange(len(seam.first.edge)), np.arange(len(seam.first.edge), len(points)))
+    numbers = np.arange(len(points))
+    every, mine = np.ones(len(first.triangles), bool), len(seam.first.edge)
     one = _Side.of(
-        first.triangles.astype(np.int64), 0, seam.first, numbers[0] + fresh,
-        ~seam.first.falls, seam.facets[:, 0], seam.ends + fresh, np.ones(len(first.triangles), bool),
+        first.triangles.astype(np.int64), 0, seam.first, numbers[:mine] + fresh,
+        ~seam.first.falls, seam.facets[:, 0], seam.ends + fresh, every,
     )  # fmt: skip
     falls = seam.second.falls
     two = _Side.of(
-        second.triangles.astype(np.int64), shift, seam.second, numbers[1] + fresh,
+        second.triangles.astype(np.int64), shift, seam.second, numbers[mine:] + fresh,
         falls if in_front else ~falls, seam.facets[:, 1],
         (seam.ends if in_front else seam.ends[:, ::-1]) + fresh, wanted[1],
     )  # fmt: skip
@@ -110,7 +112,7 @@ class _Side:
             it runs as the edge does.
         crossings: (k,) points on edges, in their order along each; `first` (e + 1,) where each
             edge's begin; `leaves` (k,) bool, whether the edge goes there from what stays.
-        segments: (s, 2) the seam, what stays on its left, and `of` (s,) the facet it is in.
+        segments: (s, 2) the seam, what stays on its left, and `owner` (s,) the facet it is in.
     """
 
     triangles: Ints
@@ -123,7 +125,7 @@ class _Side:
     first: Ints
     leaves: Bools
     segments: Ints
-    of: Ints
+    owner: Ints
 
     @staticmethod
     def of(
@@ -149,7 +151,9 @@ class _Side:
             (start < end).ravel(), points[here][order], first, leaves[here][order], segments, of,
         )  # fmt: skip
 
-    def left(self, vertices: Floats, wanted: Bools, stays: Callable[[Ints], Bools]) -> tuple[Ints, Ints]:
+    def left(
+        self, vertices: Floats, wanted: Bools, stays: Callable[[Ints], Bools]
+    ) -> tuple[Ints, Ints]:
         """What is left of wanted facets, and the facets that it was."""
         kept = self._kept(len(vertices), stays, wanted)
         uncut = wanted.copy()
@@ -215,7 +219,7 @@ class _Side:
         side, row = side[stays[row]], row[stays[row]]
         ahead = self.forward[side]
         return (
-            np.concatenate([self.cut[side // 3], self.of]),
+            np.concatenate([self.cut[side // 3], self.owner]),
             np.concatenate([np.where(ahead, start[row], end[row]), self.segments[:, 0]]),
             np.concatenate([np.where(ahead, end[row], start[row]), self.segments[:, 1]]),
         )
@@ -225,7 +229,7 @@ def _filled(
     vertices: Floats, triangles: Ints, facet: Ints, start: Ints, end: Ints
 ) -> tuple[Ints, Ints]:
     """Triangles within outlines in facets, and the facet of each."""
-    loop, order, length = _loops(facet, start, end, len(vertices))
+    order, length = _loops(facet, start, end, len(vertices))
     owner = facet[order[np.cumsum(length) - length]]
     if (length < 3).any():
         raise NotCertain
@@ -235,7 +239,9 @@ def _filled(
     three, four = np.flatnonzero(alone & (length == 3)), np.flatnonzero(alone & (length == 4))
     result = [corner[begin[three][:, None] + np.arange(3)]]
     source = [owner[three]]
-    for part in _halves(vertices, triangles[owner[four]], corner[begin[four][:, None] + np.arange(4)]):
+    for part in _halves(
+        vertices, triangles[owner[four]], corner[begin[four][:, None] + np.arange(4)]
+    ):
         result.append(part)
         source.append(owner[four])
     rest = np.flatnonzero(~alone | (length > 4))
@@ -247,8 +253,8 @@ def _filled(
     return np.concatenate([*result, more]), np.concatenate([*source, theirs])
 
 
-def _loops(facet: Ints, start: Ints, end: Ints, count: int) -> tuple[Ints, Ints, Ints]:
-    """Pieces of outlines in the order in which they follow each other."""
+def _loops(facet: Ints, start: Ints, end: Ints, count: int) -> tuple[Ints, Ints]:
+    """Pieces of outlines in the order in which they follow each other, and each loop's length."""
     key = facet * np.int64(count) + start
     order = np.argsort(key)
     key = key[order]
@@ -275,7 +281,7 @@ def _loops(facet: Ints, start: Ints, end: Ints, count: int) -> tuple[Ints, Ints,
         at = following[at]
         more = step < length[going]
         at, going = at[more], going[more]
-    return label, result, length
+    return result, length
 
 
 def _halves(vertices: Floats, facet: Ints, four: Ints) -> tuple[Ints, Ints]:
@@ -326,7 +332,7 @@ def _triangulated(
     end = np.cumsum(length)
     cuts = np.searchsorted(number, np.arange(0, len(facets) + FACETS_PER_CALL, FACETS_PER_CALL))
     loops = np.split(flat, end[:-1])
-    for begin, stop in zip(cuts[:-1], cuts[1:], strict=True):
+    for begin, stop in pairwise(cuts):
         found = np.asarray(triangulate(loops[begin:stop])).reshape(-1, 3).astype(np.int64)
         found += end[begin] - length[begin]
         result.append(corner[found])

@@ -163,7 +163,7 @@ def _boxes(mesh: TriangleMesh) -> tuple[Floats, Floats]:
 
 
 def _neighbourly(points: Floats) -> Ints:
-    """An order in which (3, n) points near each other mostly follow each other (G. M. Morton, 1966)."""
+    """An order of (3, n) points, neighbours mostly one after the other (G. M. Morton, 1966)."""
     low = points.min(axis=1)
     scale = 1023.0 / max(float((points.max(axis=1) - low).max()), 1e-300)
     code = np.zeros(points.shape[1], np.int32)

@@ -19,13 +19,15 @@ from numpy.typing import NDArray
 
 from ..lattice.assembly import facets, neighbour_missing
 from ..mesh.booleans import from_library, to_library
+from ..mesh.float32_repair import without_inner_slivers
 from ..mesh.triangle_mesh import TriangleMesh, compact, empty_mesh
 from ..spatial.mutual_cut import cut_mutually
 from ..spatial.rays import inside_points
 from ..spatial.seams import NotCertain
+from ..spatial.self_intersection import crossing_near
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
-from ..util.types import Bools, Ints
+from ..util.types import Bools, Floats, Ints
 from .laid import Placed
 
 if TYPE_CHECKING:
@@ -46,6 +48,7 @@ class Group:
         cavity: True for the wall less the lattice, turned inside out, False for what is in both.
         alone: whether there is no other group; otherwise no source triangle is joined with
             another in one plane, so that groups leave the same vertices where they meet.
+        precision: slivers thinner than that are taken out, mm; 0: they stay.
     """
 
     placed: Placed
@@ -56,6 +59,7 @@ class Group:
     own_wall: Bools
     cavity: bool
     alone: bool
+    precision: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,9 +106,23 @@ def cut(group: Group, monitor: Monitor | None = None) -> Piece:
         return group.placed.mesh(np.concatenate([*surfaces, caps]), both, monitor)[0]
 
     try:
-        return _cut_along_seam(group, surfaces, capped, asked, monitor)
+        piece = _cut_along_seam(group, surfaces, capped, asked, monitor)
     except NotCertain:
-        return _cut_by_library(group, surfaces, len(caps), capped(), asked, monitor)
+        piece = _cut_by_library(group, surfaces, len(caps), capped(), asked, monitor)
+    return piece if piece.defect else _tidied(piece, group.precision, asked)
+
+
+def _tidied(piece: Piece, precision: float, monitor: Monitor) -> Piece:
+    """The piece without slivers where it meets no other one, if nothing crosses then."""
+    smooth, new, stayed = without_inner_slivers(piece.mesh, piece.rim, precision)
+    if not new.any() or monitor.call(lambda: crossing_near(smooth, new, precision)).any():
+        return piece
+    # What was rebuilt counts as of the wall where all its corners were on it.
+    at_wall = np.zeros(len(smooth.vertices), bool)
+    at_wall[smooth.triangles[: len(stayed)][piece.on_wall[stayed]]] = True
+    on_wall = at_wall[smooth.triangles].all(axis=1)
+    on_wall[: len(stayed)] = piece.on_wall[stayed]
+    return Piece(smooth, on_wall, piece.rim, piece.work)
 
 
 def _cut_along_seam(
@@ -122,12 +140,15 @@ def _cut_along_seam(
     lattice = group.placed.mesh(np.concatenate(surfaces), group.own | group.beside, monitor)[0]
     own = np.arange(len(lattice.triangles)) < len(surfaces[0])
     monitor.count("triangles into the Boolean", len(lattice.triangles) + len(group.wall.triangles))
+    wanted = own, group.own_wall
+
+    def within(points: Floats) -> Bools:
+        return inside_points(capped(), points, monitor)
+
     parts = asked.call(
         lambda: cut_mutually(
-            lattice, group.wall, (own, group.own_wall),
-            lambda points: inside_points(capped(), points, monitor),
-            in_front=group.cavity, monitor=monitor,
-        )  # fmt: skip
+            lattice, group.wall, wanted, within, in_front=group.cavity, monitor=monitor
+        )
     )
     wall = parts.second[:, ::-1] if group.cavity else parts.second
     triangles = np.concatenate([parts.first, wall]).astype(np.int32)

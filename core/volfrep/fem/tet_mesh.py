@@ -153,7 +153,8 @@ def outer_nodes(filled: TetrahedralMesh) -> Ints:
     _, index, uses = np.unique(
         np.sort(faces[:, :3], axis=1), axis=0, return_index=True, return_counts=True
     )
-    return np.unique(faces[index[uses == 1]])
+    result: Ints = np.unique(faces[index[uses == 1]])
+    return result
 
 
 def _cannot_fill(why: str) -> VolfrepError:

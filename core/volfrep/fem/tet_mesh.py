@@ -1,18 +1,20 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A closed mesh filled with second-order tetrahedra by Gmsh, its triangles kept as they are."""
+"""A closed mesh filled with second-order tetrahedra by Gmsh, without the needles of a cut."""
 
 from __future__ import annotations
 
 import shutil
 import tempfile
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
 from ..mesh.brep import FacetedBrep, faceted_brep
 from ..mesh.triangle_mesh import TriangleMesh, compact
+from ..mesh.well_shaped import angles_of, well_shaped
 from ..spatial.proximity import closest_points
+from ..spatial.self_intersection import crossing_triangles
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 from ..util.subprocesses import run_program
@@ -24,6 +26,13 @@ MAX_TRIANGLES = 200_000
 VOLUME_TOLERANCE = 1e-6
 #: Nodes are on a wall within this part of its box's diagonal: what single precision keeps.
 WALL_TOLERANCE = 1e-6
+#: Gmsh copes with facets that have no angle below this, degrees.
+NEEDLE = 2.0
+#: Needles and caps are mended where no move takes the surface farther than this part of the mesh's
+#: median edge; the second one where facets would cross otherwise.
+MENDING = (0.05, 0.0125)
+#: No edge is split into pieces shorter than this part of it.
+SHORTEST = 0.25
 #: Seconds, nodes, elements and bytes of the deck per triangle; measured on blocks and filled parts
 #: of 10,000 to 40,000 triangles (the needles along a curved wall take up to three times as long).
 SECONDS_PER_TRIANGLE = 2e-4
@@ -33,6 +42,8 @@ BYTES_PER_TRIANGLE = 250
 
 #: Gmsh orders the last two mid-edge nodes of a tetrahedron the other way round than solvers do.
 _SOLVER_ORDER = [0, 1, 2, 3, 4, 5, 6, 7, 9, 8]
+#: The corners of each face, and the middles of its edges.
+_FACES = [[0, 1, 2, 4, 5, 6], [0, 1, 3, 4, 8, 7], [1, 2, 3, 5, 9, 8], [0, 2, 3, 6, 9, 7]]
 #: Delaunay (1): Gmsh's parallel HXT (10) fails on the needles that a Boolean leaves.
 _GEO = """Merge "surface.msh";
 %s
@@ -52,10 +63,12 @@ class TetrahedralMesh:
         nodes: (n, 3) float64, mm.
         elements: (m, 10) int64, rows of `nodes`: four corners, then the middles of the edges
             1-2, 2-3, 3-1, 1-4, 2-4, 3-4 (the order of CalculiX and of FreeCAD).
+        moved: how far each move to mend the surface could take it, mm; 0 where nothing was.
     """
 
     nodes: Floats
     elements: Ints
+    moved: float = 0.0
 
     def volumes(self) -> Floats:
         """(m,) signed volume of each tetrahedron, mm3."""
@@ -67,8 +80,10 @@ class TetrahedralMesh:
 def tetrahedra(mesh: TriangleMesh, monitor: Monitor | None = None) -> TetrahedralMesh:
     """Fill a closed mesh with tetrahedra whose outer faces are its triangles.
 
+    Needles and caps, as a cut leaves them, are mended first, with little about them.
+
     Args:
-        mesh: closed, without needles: a block's, or one that was remeshed; mm.
+        mesh: closed, mm.
         monitor: asked for a cancel while Gmsh runs.
 
     Raises:
@@ -85,7 +100,7 @@ def tetrahedra(mesh: TriangleMesh, monitor: Monitor | None = None) -> Tetrahedra
             f"(the limit is {MAX_TRIANGLES:,}): choose a coarser deviation or fewer cells, or "
             "solve it with beams."
         )
-    surface = compact(mesh)
+    surface, moved = mended(compact(mesh), monitor or Monitor())
     brep = faceted_brep(surface)
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
@@ -96,7 +111,7 @@ def tetrahedra(mesh: TriangleMesh, monitor: Monitor | None = None) -> Tetrahedra
         filled = folder / "filled.msh"
         if not filled.is_file() or said.returncode:
             raise _cannot_fill(said.stdout)
-        result = _read(filled.read_bytes())
+        result = replace(_read(filled.read_bytes()), moved=moved)
     volumes = result.volumes()
     if not len(volumes) or volumes.min() <= 0:
         raise _cannot_fill("it made tetrahedra that are inside out")
@@ -105,11 +120,41 @@ def tetrahedra(mesh: TriangleMesh, monitor: Monitor | None = None) -> Tetrahedra
     return result
 
 
+def mended(mesh: TriangleMesh, monitor: Monitor) -> tuple[TriangleMesh, float]:
+    """A closed mesh without needles and caps, and how far a move could take its surface, mm.
+
+    The mesh as it is where it has no angle below `NEEDLE`, or where facets would cross then.
+    """
+    corners = mesh.vertices[mesh.triangles]
+    if angles_of(corners).min(initial=180.0) >= NEEDLE:
+        return mesh, 0.0
+    edge = float(np.median(np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)))
+    for share in MENDING:
+        better = monitor.call(lambda: well_shaped(mesh, share * edge, SHORTEST * edge))  # noqa: B023
+        every = np.ones(len(better.triangles), bool)
+        if not monitor.call(lambda: crossing_triangles(better, every, 0.0)).any():  # noqa: B023
+            return better, share * edge
+    return mesh, 0.0
+
+
 def nodes_on(filled: TetrahedralMesh, wall: TriangleMesh) -> Ints:
-    """Rows of the nodes that lie on a surface, within rounding."""
+    """Rows of the nodes that lie on a surface, within rounding and what mending moved."""
     low, high = wall.bounds
-    near = WALL_TOLERANCE * float(np.linalg.norm(high - low))
-    return np.flatnonzero(closest_points(wall, filled.nodes)[1] < near)
+    near = max(WALL_TOLERANCE * float(np.linalg.norm(high - low)), filled.moved)
+    # Nodes inside may be as near as that.
+    rows = outer_nodes(filled)
+    result: Ints = rows[closest_points(wall, filled.nodes[rows])[1] < near]
+    return result
+
+
+def outer_nodes(filled: TetrahedralMesh) -> Ints:
+    """Rows of the nodes of faces that belong to one tetrahedron only, ascending."""
+    faces = filled.elements[:, _FACES].reshape(-1, 6)
+    _, index, uses = np.unique(
+        np.sort(faces[:, :3], axis=1), axis=0, return_index=True, return_counts=True
+    )
+    result: Ints = np.unique(faces[index[uses == 1]])
+    return result
 
 
 def _cannot_fill(why: str) -> VolfrepError:

@@ -54,15 +54,48 @@ def without_slivers(
 ) -> tuple[TriangleMesh, Bools]:
     """As `remove_slivers`, with (m,) which triangles were not there, or elsewhere."""
     thin = _slivers(mesh.vertices, mesh.triangles[:among], tolerance)
+    result, new, _ = _rebuilt(mesh, thin, tolerance)
+    return mesh if result is mesh else compact(result), new
+
+
+def without_inner_slivers(
+    mesh: TriangleMesh, rim: Ints, tolerance: float
+) -> tuple[TriangleMesh, Bools, Ints]:
+    """As `without_slivers`, of an open mesh: nothing changes near its rim.
+
+    Args:
+        mesh: open at its rim only.
+        rim: vertices at open edges.
+        tolerance: mm.
+
+    Returns:
+        the mesh with all its vertices, some of them out of use, (m,) bool which of its triangles
+        were not there or elsewhere, and which ones its first triangles were; the others were not
+        there.
+    """
+    thin = _slivers(mesh.vertices, mesh.triangles, tolerance)
+    near = np.zeros(len(mesh.vertices), bool)
+    near[rim] = True
+    at_rim = near.copy()
+    near[mesh.triangles[_touching(near, mesh.triangles)]] = True
+    result = _rebuilt(mesh, thin[~_touching(near, mesh.triangles[thin])], tolerance)
+    if _touching(at_rim, result[0].triangles[result[1]]).any():
+        return mesh, np.zeros(len(mesh.triangles), bool), np.arange(len(mesh.triangles))
+    return result
+
+
+def _rebuilt(mesh: TriangleMesh, thin: Ints, tolerance: float) -> tuple[TriangleMesh, Bools, Ints]:
+    """As `without_inner_slivers`, of chosen triangles."""
     if not len(thin):
-        return mesh, np.zeros(len(mesh.triangles), bool)
+        return mesh, np.zeros(len(mesh.triangles), bool), np.arange(len(mesh.triangles))
     points, triangles, old = _without(mesh.vertices, mesh.triangles, thin, tolerance, PASSES)
     new = np.zeros(len(triangles), bool)
-    rebuilt = triangles[len(mesh.triangles) - len(old) :]
+    stayed = np.delete(np.arange(len(mesh.triangles)), old)
+    rebuilt = triangles[len(stayed) :]
     moved = (points != mesh.vertices).any(axis=1)
     is_old = np.isin(_names(rebuilt), _names(mesh.triangles[old])) & ~_touching(moved, rebuilt)
-    new[len(triangles) - len(rebuilt) :] = ~is_old
-    return compact(TriangleMesh(points, triangles)), new
+    new[len(stayed) :] = ~is_old
+    return TriangleMesh(points, triangles), new, stayed
 
 
 def _names(triangles: NDArray[np.int32]) -> NDArray[np.uint64]:

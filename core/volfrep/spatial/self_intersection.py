@@ -15,7 +15,7 @@ from ..util.types import Bools, Floats, Ints
 PAIRS_PER_STEP = 500_000
 #: The finest grid has no more bins along the largest triangle: their names have 21 bits an axis.
 MOST_BINS = 1 << 16
-#: Cells along the longest side of the grid by which triangles near others are picked.
+#: The most cells along the longest side of the grid by which triangles near others are picked.
 ABOUT_CELLS = 160
 
 
@@ -83,7 +83,7 @@ def _crossing_edges(
     corners = mesh.vertices[mesh.triangles]
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
-    for a, b in close_pairs(corners, among):
+    for a, b in _together(close_pairs(corners, among)):
         # Neighbours over an edge have no edge that could run through the other.
         shared = np.zeros(len(a), np.int8)
         for i in range(3):
@@ -138,6 +138,18 @@ def close_pairs(corners: Floats, among: Bools) -> Iterator[tuple[Ints, Ints]]:
                 keep = (lo[a] <= hi[b]) & (lo[b] <= hi[a])
                 a, b = a[keep], b[keep]
             yield a, b
+
+
+def _together(pairs: Iterator[tuple[Ints, Ints]]) -> Iterator[tuple[Ints, Ints]]:
+    """The same pairs in fewer and larger portions."""
+    waiting: list[tuple[Ints, Ints]] = []
+    for pair in pairs:
+        waiting.append(pair)
+        if sum(len(a) for a, _ in waiting) > PAIRS_PER_STEP // 4:
+            yield np.concatenate([a for a, _ in waiting]), np.concatenate([b for _, b in waiting])
+            waiting = []
+    if waiting:
+        yield np.concatenate([a for a, _ in waiting]), np.concatenate([b for _, b in waiting])
 
 
 def boxes_in_bins(low: Floats, high: Floats, origin: Floats, size: float) -> tuple[Ints, Ints]:
@@ -202,7 +214,8 @@ def _about(mesh: TriangleMesh, among: Bools) -> Bools:
     columns = [np.ascontiguousarray(mesh.vertices[:, k]) for k in range(3)]
     corners = np.ascontiguousarray(mesh.triangles.T)
     least = [column.min() for column in columns]
-    size = max(float(max(np.ptp(column) for column in columns)) / ABOUT_CELLS, 1e-300)
+    cells_along = min(ABOUT_CELLS, 8 + int(np.cbrt(len(mesh.triangles))))
+    size = max(float(max(np.ptp(column) for column in columns)) / cells_along, 1e-300)
     # Cells of every vertex first: there are half as many of them as of triangles.
     cells = [((c - low) / size).astype(np.int16) for c, low in zip(columns, least, strict=True)]
     low, high = [], []

@@ -49,6 +49,7 @@ def trim(
     cavity: bool,
     monitor: Monitor,
     executor: Executor | None = None,
+    precision: float = 0.0,
 ) -> Trimmed:
     """Cut the lattice at the domain's wall.
 
@@ -62,6 +63,7 @@ def trim(
             meet it, and the struts), False for domain & lattice.
         monitor: for progress and cancel.
         executor: cuts groups beside each other; None: one after the other in this process.
+        precision: slivers thinner than that go where groups do not meet, mm; 0: all stay.
 
     Raises:
         VolfrepError: the domain's mesh is not a solid that can be cut.
@@ -70,14 +72,16 @@ def trim(
     kept = laid.kept
     inner = InnerOctants(laid, kept.inside) if kept.inside.any() else None
     rim = np.zeros((0, 3)) if inner is None else inner.rim_points
-    found = _joined(grouped(laid, domain, monitor), rim, cavity, monitor, executor)
+    found = _joined(grouped(laid, domain, monitor, precision), rim, cavity, monitor, executor)
     trimmed = TrimmedSurface(found.mesh, inner)
     if not trimmed.is_joined:
         # The Boolean has taken out vertices at the caps, as it may do between tiny triangles: let
         # all the octants go through it, which takes longer.
         every = KeptOctants(kept.grid, kept.border | kept.inside, np.zeros_like(kept.inside))
         whole = replace(laid, kept=every)
-        return trim(domain, whole, cavity=cavity, monitor=monitor, executor=executor)
+        return trim(
+            domain, whole, cavity=cavity, monitor=monitor, executor=executor, precision=precision
+        )
     return Trimmed(trimmed, found.on_wall)
 
 

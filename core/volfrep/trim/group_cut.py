@@ -10,6 +10,7 @@ that went in.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -19,10 +20,15 @@ from numpy.typing import NDArray
 from ..lattice.assembly import facets, neighbour_missing
 from ..lattice.placed_octants import Placed
 from ..mesh.booleans import from_library, to_library
+from ..mesh.float32_repair import without_inner_slivers
 from ..mesh.triangle_mesh import TriangleMesh, compact, empty_mesh
+from ..spatial.mutual_cut import cut_mutually
+from ..spatial.rays import inside_points
+from ..spatial.seams import NotCertain
+from ..spatial.self_intersection import crossing_near
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
-from ..util.types import Bools, Ints
+from ..util.types import Bools, Floats, Ints
 
 if TYPE_CHECKING:
     import manifold3d
@@ -42,6 +48,7 @@ class Group:
         cavity: True for the wall less the lattice, turned inside out, False for what is in both.
         alone: whether there is no other group; otherwise no source triangle is joined with
             another in one plane, so that groups leave the same vertices where they meet.
+        precision: slivers thinner than that are taken out, mm; 0: they stay.
     """
 
     placed: Placed
@@ -52,6 +59,7 @@ class Group:
     own_wall: Bools
     cavity: bool
     alone: bool
+    precision: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,25 +98,89 @@ def cut(group: Group, monitor: Monitor | None = None) -> Piece:
         group: the octants and their wall.
         monitor: for cancel; None where there is nobody to ask.
     """
-    import manifold3d
-
     asked, monitor = monitor or Monitor(), Monitor()
     surfaces, caps = _surfaces(group, monitor)
-    every = np.concatenate([*surfaces, caps])
-    capped = group.placed.mesh(every, group.own | group.beside, monitor)[0]
-    monitor.count("triangles into the Boolean", len(every) + len(group.wall.triangles))
+    both = group.own | group.beside
+
+    def capped() -> TriangleMesh:
+        return group.placed.mesh(np.concatenate([*surfaces, caps]), both, monitor)[0]
+
+    try:
+        piece = _cut_along_seam(group, surfaces, capped, asked, monitor)
+    except NotCertain:
+        piece = _cut_by_library(group, surfaces, len(caps), capped(), asked, monitor)
+    return piece if piece.defect else _tidied(piece, group.precision, asked)
+
+
+def _tidied(piece: Piece, precision: float, monitor: Monitor) -> Piece:
+    """The piece without slivers where it meets no other one, if nothing crosses then."""
+    smooth, new, stayed = without_inner_slivers(piece.mesh, piece.rim, precision)
+    if not new.any() or monitor.call(lambda: crossing_near(smooth, new, precision)).any():
+        return piece
+    # What was rebuilt counts as of the wall where all its corners were on it.
+    at_wall = np.zeros(len(smooth.vertices), bool)
+    at_wall[smooth.triangles[: len(stayed)][piece.on_wall[stayed]]] = True
+    on_wall = at_wall[smooth.triangles].all(axis=1)
+    on_wall[: len(stayed)] = piece.on_wall[stayed]
+    return Piece(smooth, on_wall, piece.rim, piece.work)
+
+
+def _cut_along_seam(
+    group: Group,
+    surfaces: list[NDArray[np.int32]],
+    capped: Callable[[], TriangleMesh],
+    asked: Monitor,
+    monitor: Monitor,
+) -> Piece:
+    """What the seam of octants and wall divides.
+
+    Raises:
+        NotCertain: they touch.
+    """
+    lattice = group.placed.mesh(np.concatenate(surfaces), group.own | group.beside, monitor)[0]
+    own = np.arange(len(lattice.triangles)) < len(surfaces[0])
+    monitor.count("triangles into the Boolean", len(lattice.triangles) + len(group.wall.triangles))
+    wanted = own, group.own_wall
+
+    def within(points: Floats) -> Bools:
+        return inside_points(capped(), points, monitor)
+
+    parts = asked.call(
+        lambda: cut_mutually(
+            lattice, group.wall, wanted, within, in_front=group.cavity, monitor=monitor
+        )
+    )
+    wall = parts.second[:, ::-1] if group.cavity else parts.second
+    triangles = np.concatenate([parts.first, wall]).astype(np.int32)
+    piece = compact(TriangleMesh(parts.vertices, triangles))
+    on_wall = np.arange(len(triangles)) >= len(parts.first)
+    return Piece(piece, on_wall, open_vertices(piece), monitor.work)
+
+
+def _cut_by_library(
+    group: Group,
+    surfaces: list[NDArray[np.int32]],
+    caps: int,
+    capped: TriangleMesh,
+    asked: Monitor,
+    monitor: Monitor,
+) -> Piece:
+    """What manifold3d's Boolean leaves, which decides where octants and wall touch, too."""
+    import manifold3d
+
+    monitor.count("triangles into the Boolean", len(capped.triangles) + len(group.wall.triangles))
     ids = manifold3d.Manifold.reserve_ids(5)
     order = np.argsort(~group.own_wall, kind="stable")
     wall_mesh = TriangleMesh(group.wall.vertices, group.wall.triangles[order])
     owned = int(group.own_wall.sum())
     wall = _solid(wall_mesh, [owned, len(order) - owned], ids, group.alone, asked)
-    sizes = [len(surfaces[0]), len(surfaces[1]), len(caps)]
+    sizes = [len(surfaces[0]), len(surfaces[1]), caps]
     cutter = _solid(capped, sizes, ids + 2, group.alone, asked)
     for solid, what in ((wall, "wall"), (cutter, "lattice")):
         if solid.status() != manifold3d.Error.NoError:
             defect = f"{what} {solid.status().name}"
             return Piece(empty_mesh(), np.zeros(0, bool), np.zeros(0, np.int64), {}, defect)
-    del capped, wall_mesh, every
+    del capped, wall_mesh
     cavity = group.cavity
     result = asked.call(lambda: (wall - cutter if cavity else wall ^ cutter).to_mesh64())
     mesh, origin = _read(result)

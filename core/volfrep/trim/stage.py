@@ -97,7 +97,10 @@ def cut_lattice(
         VolfrepError: nothing is left, or nothing would hold it.
     """
     wall = domain.wall
-    trimmed = trim(wall, laid, cavity=with_skin, monitor=monitor, executor=executor)
+    trimmed = trim(
+        wall, laid, cavity=with_skin, monitor=monitor, executor=executor,
+        precision=shortest_edge(solid),
+    )  # fmt: skip
     if not _needs_no_look(laid, wall):
         trimmed = replace(trimmed, surface=TrimmedSurface(trimmed.surface.whole(monitor)))
     full = cells_are_full(octant_spec.cell_size, octant_spec.strut_radius)

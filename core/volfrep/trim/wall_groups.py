@@ -52,6 +52,7 @@ class Groups:
         triangle: (m,) the group of each triangle; -1 where no octant touches it.
         touch: (t, 2) octants and triangles whose boxes touch.
         count: of groups.
+        precision: slivers thinner than that go, mm.
     """
 
     laid: Laid
@@ -63,6 +64,7 @@ class Groups:
     triangle: Ints
     touch: Ints
     count: int
+    precision: float
 
     def merged(self, which: Ints) -> tuple[Groups, Ints]:
         """With some of the groups as one; and (count,) the new number of each."""
@@ -72,7 +74,7 @@ class Groups:
         triangle = np.where(self.triangle < 0, -1, number[self.triangle])
         groups = Groups(
             self.laid, self.wall, self.places, self.low, self.high, number[self.octant],
-            triangle, self.touch, len(left),
+            triangle, self.touch, len(left), self.precision,
         )  # fmt: skip
         return groups, number
 
@@ -107,7 +109,9 @@ class Groups:
             mine[tuple((self.places[self.octant == group] - low).T)] = True
             every = placed.layout.grid.kind >= 0
             follow = going[box] & ~every
-            yield Group(placed, mine, every & ~mine, follow, wall, own_wall, cavity, alone)
+            yield Group(
+                placed, mine, every & ~mine, follow, wall, own_wall, cavity, alone, self.precision
+            )
 
     def _octants(self, group: int) -> Ints:
         """The rows of a group's octants and of those that touch its part of the wall.
@@ -142,13 +146,14 @@ class Groups:
         return np.array([low - beyond, high + beyond])
 
 
-def grouped(laid: Laid, wall: TriangleMesh, monitor: Monitor) -> Groups:
+def grouped(laid: Laid, wall: TriangleMesh, monitor: Monitor, precision: float = 0.0) -> Groups:
     """Octants and wall in groups.
 
     Args:
         laid: all the octants.
         wall: closed mesh of what the lattice fills.
         monitor: for progress and cancel.
+        precision: slivers thinner than that go, mm.
     """
     layout = laid.layout
     if _triangles(layout, np.argwhere(laid.kept.border)).sum() <= GROUP_TRIANGLES:
@@ -157,6 +162,7 @@ def grouped(laid: Laid, wall: TriangleMesh, monitor: Monitor) -> Groups:
         return Groups(
             laid, wall, places, nowhere, nowhere, np.zeros(len(places), np.int64),
             np.zeros(len(wall.triangles), np.int64), np.zeros((0, 2), np.int64), 1,
+            precision,
         )  # fmt: skip
     places, low, high = laid.boxes(laid.kept.border, monitor)
     edge = _edge(low, high)
@@ -165,7 +171,7 @@ def grouped(laid: Laid, wall: TriangleMesh, monitor: Monitor) -> Groups:
     touch = _touching(low, high, fine, NEAR * edge)
     return Groups(
         laid, fine, places, low, high, octant, _owners(touch, octant, count, len(fine.triangles)),
-        touch, count,
+        touch, count, precision,
     )  # fmt: skip
 
 

@@ -9,14 +9,16 @@ import pytest
 
 import samples
 from volfrep import LatticeSpec
+from volfrep.fem import tet_mesh
 from volfrep.fem.calculix import solve
 from volfrep.fem.model import StaticStep
-from volfrep.fem.tet_mesh import MAX_TRIANGLES, nodes_on, tetrahedra
+from volfrep.fem.tet_mesh import MAX_TRIANGLES, mended, nodes_on, tetrahedra
 from volfrep.io.write.calculix import sides, write_tetrahedra
 from volfrep.jobs.blocks import block
 from volfrep.jobs.pipeline import fill
 from volfrep.mechanics.materials import Material
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
+from volfrep.mesh.well_shaped import is_bad
 from volfrep.util.errors import Cancelled, VolfrepError
 from volfrep.util.progress import Monitor
 
@@ -84,16 +86,29 @@ def test_what_gmsh_cannot_fill():
 
 @needs_gmsh
 def test_a_part_has_its_cavity_and_knows_its_outside():
-    """Also where the wall's Boolean left needles."""
+    """Also where the wall's Boolean left needles, which are mended."""
     solid = samples.box((30.0, 20.0, 20.0))
     mesh = fill(solid, LatticeSpec(cell="CVC", shell=2, resolution=8)).mesh
+    assert is_bad(mesh.vertices[mesh.triangles]).any()
     filled = tetrahedra(mesh)
-    assert filled.volumes().sum() == pytest.approx(mesh.volume, rel=1e-9)
+    assert 0.0 < filled.moved < 0.1
+    assert filled.volumes().sum() == pytest.approx(mesh.volume, rel=1e-4)
     outside = filled.nodes[nodes_on(filled, solid)]
     low, high = solid.bounds
     assert (np.minimum(outside - low, high - outside).min(axis=1) < 1e-4).all()
     # The twelve triangles of the box as they are: their corners and the middles of their edges.
     assert len(outside) == 8 + 18
+
+
+def test_what_would_cross_is_not_mended(monkeypatch):
+    solid = samples.box((15.0, 12.0, 12.0))
+    mesh = fill(solid, LatticeSpec(cell="CVC", shell=1, resolution=8)).mesh
+    better, moved = mended(mesh, Monitor())
+    assert moved > 0.0
+    assert is_bad(better.vertices[better.triangles]).sum() < 20
+    crossing = np.ones(1, bool)
+    monkeypatch.setattr(tet_mesh, "crossing_triangles", lambda *_: crossing)
+    assert mended(mesh, Monitor()) == (mesh, 0.0)
 
 
 @needs_gmsh

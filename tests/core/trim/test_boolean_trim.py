@@ -8,6 +8,7 @@ import manifold3d
 import numpy as np
 import pytest
 import trimesh
+from scipy.spatial import cKDTree
 
 import samples
 from contract import assert_same_quality
@@ -19,7 +20,8 @@ from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.octants.octant import ALL_ACTIVE, OctantGrid, OctantKey
 from volfrep.octants.octant_mesh import mesh_octants
 from volfrep.octants.octant_spec import OctantSpec
-from volfrep.trim import boolean_trim, wall_groups
+from volfrep.spatial.seams import NotCertain
+from volfrep.trim import boolean_trim, group_cut, wall_groups
 from volfrep.trim.boolean_trim import trim
 from volfrep.trim.culling import cull, octant_roles
 from volfrep.trim.group_cut import open_vertices
@@ -36,7 +38,7 @@ class Found:
     boolean_triangles: int
 
 
-def trimmed(domain, name="CVC", radius=1.0, cavity=True, grow=0, executor=None):
+def trimmed(domain, name="CVC", radius=1.0, cavity=True, grow=0, executor=None, precision=0.0):
     """The lattice cut at the domain; with `grow`, that many more octants go into the Boolean."""
     cell, monitor = LIBRARY[name], Monitor()
     cells = make_grid(domain.bounds, L, (1.3, 2.1, 0.7))
@@ -48,7 +50,9 @@ def trimmed(domain, name="CVC", radius=1.0, cavity=True, grow=0, executor=None):
     octants = mesh_octants(cell, OctantSpec(L, radius, 0.0, 15), [key], monitor)
     kept = cull(grid, roles)
     laid = in_place(kept, octants, NUDGE * L)
-    found = trim(domain, laid, cavity=cavity, monitor=monitor, executor=executor)
+    found = trim(
+        domain, laid, cavity=cavity, monitor=monitor, executor=executor, precision=precision
+    )
     return Found(found.surface, monitor.work["triangles into the Boolean"])
 
 
@@ -239,3 +243,36 @@ def test_groups_that_do_not_meet_are_cut_as_one(small_groups, monkeypatch):
     found = quality.measure(mesh_of(trimmed(tilted_box())))
     assert found.watertight
     assert len(counts) == 2
+
+
+@pytest.mark.parametrize("cavity", [True, False])
+def test_what_is_not_certain_the_library_decides(cavity, small_groups, monkeypatch):
+    """And its groups fit to those that were cut along their seams."""
+    domain = tilted_box()
+    expected = quality.measure(mesh_of(trimmed(domain, cavity=cavity)))
+    along_seam, asked = group_cut.cut_mutually, []
+
+    def every_other_time(*arguments, **more):
+        asked.append(len(asked))
+        if len(asked) % 2:
+            raise NotCertain
+        return along_seam(*arguments, **more)
+
+    monkeypatch.setattr(group_cut, "cut_mutually", every_other_time)
+    found = quality.measure(mesh_of(trimmed(domain, cavity=cavity)))
+    assert len(asked) > 2
+    assert found.watertight
+    assert found.genus == expected.genus
+    assert found.volume == pytest.approx(expected.volume, rel=1e-9)
+
+
+def test_slivers_go_in_the_groups_but_not_where_these_meet(small_groups):
+    domain, coarse = samples.sphere(22.0), 0.02
+    exact = trimmed(domain).surface.mesh
+    clean = trimmed(domain, precision=coarse).surface.mesh
+    assert len(clean.triangles) < len(exact.triangles)
+    rim = [exact.vertices[open_vertices(exact)], clean.vertices[open_vertices(clean)]]
+    assert sorted(map(tuple, rim[0])) == sorted(map(tuple, rim[1]))
+    distance = cKDTree(exact.vertices).query(clean.vertices)[0]
+    assert distance.max() < 8 * coarse
+    assert quality.inspect(clean).quality.overused_edges == 0

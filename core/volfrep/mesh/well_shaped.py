@@ -1,0 +1,231 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Facets that a solver's mesher can work with: no needles, no caps, the same surface.
+
+What a Boolean leaves along a cut is mended where it is bad and nowhere else, by three moves that
+are each safe by themselves: a short edge is collapsed and an edge is flipped where the surface
+stays within a tolerance, and a long edge is split, which changes no surface at all. Splitting
+the longest edge of a bad facet, where it is the longest of both its facets, is the refinement of
+M. C. Rivara, Int. J. Numer. Meth. Engng. 40, 1997.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..util.ragged import rows_of
+from ..util.types import Bools, Floats, Ints
+from . import remesh
+from .triangle_mesh import TriangleMesh, compact
+
+#: Facets with angles below or above these, degrees, are bad.
+LEAST_ANGLE = 10.0
+MOST_ANGLE = 150.0
+#: What is changed may have no angle below this, unless it was worse before.
+WANTED_ANGLE = 15.0
+#: Facets may not turn by more than this (cosine) when they change.
+TURN = 0.7
+#: Rounds of all three moves.
+ROUNDS = 24
+#: Rings of facets about bad ones that may change.
+RINGS = 3
+
+
+def angles_of(corners: Floats) -> Floats:
+    """(m, 3) angles of (m, 3, 3) facets, degrees; 0 where two corners are one."""
+    along = np.roll(corners, -1, axis=1) - corners
+    length = np.linalg.norm(along, axis=2)
+    back = np.roll(along, 1, axis=1)
+    product = np.maximum(length * np.roll(length, 1, axis=1), 1e-300)
+    cosine = -np.einsum("mij,mij->mi", along, back) / product
+    result: Floats = np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0)))
+    return np.where((length > 0) & (np.roll(length, 1, axis=1) > 0), result, 0.0)
+
+
+def is_bad(corners: Floats) -> Bools:
+    """(m,) whether (m, 3, 3) facets have angles beyond the limits."""
+    angle = angles_of(corners)
+    result: Bools = (angle.min(axis=1) < LEAST_ANGLE) | (angle.max(axis=1) > MOST_ANGLE)
+    return result
+
+
+def well_shaped(mesh: TriangleMesh, tolerance: float, shortest: float) -> TriangleMesh:
+    """The closed mesh without needles and caps, as far as that goes.
+
+    Args:
+        mesh: closed, every edge of two facets.
+        tolerance: how far a move may take the surface, mm.
+        shortest: no edge is split into pieces shorter than that, mm.
+    """
+    points, triangles = mesh.vertices, mesh.triangles.astype(np.int64)
+    for _ in range(ROUNDS):
+        bad = is_bad(points[triangles])
+        if not bad.any():
+            break
+        near = np.zeros(len(points), bool)
+        near[triangles[bad]] = True
+        for _ in range(RINGS):
+            part = near[triangles].any(axis=1)
+            near[triangles[part]] = True
+        used, local = np.unique(triangles[part], return_inverse=True)
+        moved, piece, kept = _mended(points[used], local.reshape(-1, 3), tolerance, shortest)
+        # Points that went are no longer in use, new ones follow all the others.
+        row = np.concatenate([used[kept], len(points) + np.arange(len(moved) - len(kept))])
+        points = np.concatenate([points, moved[len(kept) :]])
+        points[row[: len(kept)]] = moved[: len(kept)]
+        triangles = np.concatenate([triangles[~part], row[piece]])
+    return compact(TriangleMesh(points, triangles.astype(np.int32)))
+
+
+def _mended(
+    points: Floats, triangles: Ints, tolerance: float, shortest: float
+) -> tuple[Floats, Ints, Ints]:
+    """An open piece after one round: points, facets, and which points the first ones were."""
+    kept = np.arange(len(points))
+    points, triangles, renumber = _collapsed(points, triangles, tolerance)
+    kept = kept[np.flatnonzero(renumber >= 0)]
+    for _ in range(3):
+        triangles, flipped = _flipped(points, triangles, tolerance)
+        if not flipped:
+            break
+    points, triangles = _split(points, triangles, shortest)
+    for _ in range(3):
+        triangles, flipped = _flipped(points, triangles, tolerance)
+        if not flipped:
+            break
+    return points, triangles, kept
+
+
+def _fixed(triangles: Ints, count: int) -> Bools:
+    """The vertices at the border of an open piece."""
+    table = remesh.edges(triangles, count)
+    fixed = np.zeros(count, bool)
+    fixed[table.ends[table.triangles[:, 1] < 0]] = True
+    return fixed
+
+
+def _collapsed(points: Floats, triangles: Ints, tolerance: float) -> tuple[Floats, Ints, Ints]:
+    """Shortest edges of bad facets collapsed: points, facets, the new number of each point."""
+    count = len(points)
+    fixed = _fixed(triangles, count)
+    corners = points[triangles]
+    bad = is_bad(corners)
+    sides = np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=2)
+    at = sides.argmin(axis=1)
+    rows = np.flatnonzero(bad)
+    ends = np.stack([triangles[rows, at[rows]], triangles[rows, (at[rows] + 1) % 3]], axis=1)
+    wanted = np.unique(ends.min(axis=1) * np.int64(count) + ends.max(axis=1))
+    longest = float(sides[rows, at[rows]].max(initial=0.0)) * (1.0 + 1e-9)
+    normal = remesh.normals(corners)
+    normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+    begin, facet = remesh.grouped(triangles.ravel(), np.repeat(np.arange(len(triangles)), 3), count)
+
+    def away(vertex: Ints, place: Floats) -> Floats:
+        """How far from the planes about each vertex a place is."""
+        row, owner = rows_of(begin, vertex)
+        height = np.einsum("ij,ij->i", normal[facet[row]], (place - points[vertex])[owner])
+        result = np.zeros(len(vertex))
+        np.maximum.at(result, owner, np.abs(height))
+        return np.where(fixed[vertex] & (place != points[vertex]).any(axis=1), np.inf, result)
+
+    def merge(gone: Ints, kept: Ints) -> tuple[Floats, Floats]:
+        low, high = np.minimum(gone, kept), np.maximum(gone, kept)
+        asked = np.isin(low * np.int64(count) + high, wanted)
+        one, two = away(gone, points[kept]), away(kept, points[gone])
+        # Where both would do, the one that moves the surface less.
+        cost = np.minimum(one, two)
+        target = np.where((one <= two)[:, None], points[kept], points[gone])
+        length = np.linalg.norm(points[gone] - points[kept], axis=1)
+        return np.where(asked & (cost <= tolerance), length, np.inf), target
+
+    def improves(before: Floats, after: Floats) -> Bools:
+        return _improves(before, after, tolerance)
+
+    def always(gone: Ints, _: Ints) -> Bools:
+        result: Bools = ~fixed[gone]
+        return result
+
+    rules = remesh.Rules(fixed.astype(np.int64), always, _never, improves, merge)
+    return remesh.collapse(points, triangles, rules, max(longest, 1e-300), np.inf)
+
+
+def _improves(before: Floats, after: Floats, tolerance: float) -> Bools:
+    """Whether facets keep their side, and become no worse where they are bad."""
+    old, new = remesh.normals(before), remesh.normals(after)
+    one, two = np.linalg.norm(old, axis=1), np.linalg.norm(new, axis=1)
+    cosine = np.einsum("ij,ij->i", old, new)
+    # What is thinner than the tolerance has no side that would matter.
+    thin = np.maximum(one / _longest(before), two / _longest(after)) < tolerance
+    least, was = angles_of(after).min(axis=1), angles_of(before).min(axis=1)
+    good = (least > WANTED_ANGLE) | (least >= was)
+    result: Bools = thin | (good & (cosine > TURN * one * two))
+    return result
+
+
+def _longest(corners: Floats) -> Floats:
+    """The longest side of each facet, mm."""
+    length: Floats = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
+    return np.maximum(length, 1e-300)
+
+
+def _flipped(points: Floats, triangles: Ints, tolerance: float) -> tuple[Ints, int]:
+    """Facets with their edges flipped where that makes the least angle larger; how many were."""
+
+    def gain(ends: Ints, corners: Ints) -> Floats:
+        u, v = ends.T
+        a, b = corners.T
+        old = np.stack([[u, v, a], [v, u, b]]).transpose(2, 0, 1).reshape(-1, 3)
+        new = np.stack([[a, b, v], [b, a, u]]).transpose(2, 0, 1).reshape(-1, 3)
+        was = angles_of(points[old]).min(axis=1).reshape(-1, 2).min(axis=1)
+        then = angles_of(points[new]).min(axis=1).reshape(-1, 2).min(axis=1)
+        # The two edges are the diagonals of a tetrahedron: how far apart they are.
+        p, q = points[v] - points[u], points[b] - points[a]
+        across = np.cross(p, q)
+        apart = np.abs(np.einsum("ij,ij->i", across, points[a] - points[u]))
+        apart /= np.maximum(np.linalg.norm(across, axis=1), 1e-300)
+        allowed = (apart <= tolerance) & (was < WANTED_ANGLE)
+        return np.where(allowed, then - was - 0.1, -1.0)
+
+    return remesh.flip(points, triangles, gain, _never)
+
+
+def _split(points: Floats, triangles: Ints, shortest: float) -> tuple[Floats, Ints]:
+    """Longest edges of bad facets in two, where they are the longest of both their facets."""
+    count = np.int64(len(points))
+    corners = points[triangles]
+    sides = np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=2)
+    at = sides.argmax(axis=1)
+    every = np.arange(len(triangles))
+    a, b = triangles[every, at], triangles[every, (at + 1) % 3]
+    longest = np.minimum(a, b) * count + np.maximum(a, b)
+    table = remesh.edges(triangles, len(points))
+    inner = table.triangles[:, 1] >= 0
+    pair = table.triangles[inner]
+    low, high = table.ends[inner].min(axis=1), table.ends[inner].max(axis=1)
+    name = low * count + high
+    # From a bad facet to the one beyond its longest edge, as long as that has a longer one.
+    beyond = np.full(len(triangles), -1, np.int64)
+    for k in (0, 1):
+        mine = longest[pair[:, k]] == name
+        beyond[pair[mine, k]] = pair[mine, 1 - k]
+    # Where a short edge could not go, halves of the others would be as bad.
+    some = (sides.max(axis=1) > 2.0 * shortest) & (sides.min(axis=1) > 0.2 * shortest)
+    going = np.flatnonzero(is_bad(corners) & some)
+    wanted = [np.zeros(0, np.int64)]
+    for _ in range(20):
+        going = going[beyond[going] >= 0]
+        over = beyond[going]
+        ends_here = longest[over] == longest[going]
+        wanted.append(longest[going[ends_here]])
+        going = np.unique(over[~ends_here])
+        if not len(going):
+            break
+    names = np.unique(np.concatenate(wanted))
+
+    def asked(one: Ints, two: Ints) -> Bools:
+        return np.isin(np.minimum(one, two) * count + np.maximum(one, two), names)
+
+    return remesh.split(points, triangles, asked)
+
+
+def _never(one: Ints, two: Ints) -> Bools:
+    return np.zeros(len(one), bool)

@@ -1,0 +1,274 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Where two surfaces cross: the points and segments of their seam, every sign of it certain.
+
+A segment of the seam lies in one facet of each surface. It ends where an edge of one facet runs
+through the other, so that what is decided for an edge and a facet holds for all that share them,
+and both surfaces are cut along the very same points (P. Cignoni et al. and others call it the
+intersection graph). Signs of determinants are taken where rounding cannot turn them, after
+J. R. Shewchuk, Discrete & Computational Geometry 18, 1997; where one is too near to zero nothing
+is decided at all.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..mesh.triangle_mesh import TriangleMesh
+from ..util.ragged import spread
+from ..util.types import Bools, Floats, Ints
+from .self_intersection import boxes_in_bins
+
+#: Facets of the first surface that are looked at together, in their order.
+RUN = 32
+#: Runs and facets of the second surface that one vectorised step takes at a time.
+PAIRS_PER_STEP = 20_000
+#: Bins along the largest facet of the second surface.
+MOST_BINS = 64
+#: Determinants below this part of what their factors could give have no certain sign.
+UNSURE = 2e-15
+
+
+class NotCertain(Exception):
+    """The surfaces touch, or cross in a way that rounding could turn."""
+
+
+@dataclass(frozen=True, eq=False)
+class Crossings:
+    """Where edges of one surface run through facets of the other.
+
+    Attributes:
+        edge: (k, 2) the vertices of each edge, the lower number first.
+        facet: (k,) the facet of the other surface.
+        along: (k,) how far along the edge, 0 to 1.
+        falls: (k,) bool, whether the edge runs against the facet's normal, from its front to
+            its back.
+        points: (k, 3) where, mm.
+    """
+
+    edge: Ints
+    facet: Ints
+    along: Floats
+    falls: Bools
+    points: Floats
+
+
+@dataclass(frozen=True, eq=False)
+class Seam:
+    """What two surfaces have in common.
+
+    Attributes:
+        first: crossings of edges of the first surface.
+        second: of edges of the second one; points are numbered on, after the first ones.
+        facets: (s, 2) the facets of both that each segment lies in.
+        ends: (s, 2) the points it runs from and to: the second surface's back is on its left in
+            the first facet, and the first surface's front in the second facet.
+    """
+
+    first: Crossings
+    second: Crossings
+    facets: Ints
+    ends: Ints
+
+    @property
+    def points(self) -> Floats:
+        """(n, 3) all the points, mm."""
+        return np.concatenate([self.first.points, self.second.points])
+
+
+def seam_of(first: TriangleMesh, second: TriangleMesh) -> Seam:
+    """The seam of two surfaces.
+
+    Args:
+        first: a mesh whose neighbours in order mostly lie near each other; mm.
+        second: another one.
+
+    Raises:
+        NotCertain: they touch within rounding.
+    """
+    one, two = _near_pairs(first, second)
+    rises = _heights(first, second, one, two)
+    keep = _straddle(rises)
+    one, two, rises = one[keep], two[keep], rises[keep]
+    back = _heights(second, first, two, one)
+    keep = _straddle(back)
+    one, two, rises, back = one[keep], two[keep], rises[keep], back[keep]
+    ahead, theirs = _crossings(first, second, one, two, rises)
+    behind, ours = _crossings(second, first, two, one, back)
+    # Where an edge of the first facet leaves the back of the second one, the seam begins; where an
+    # edge of the second one goes from the front of the first one to its back, too.
+    shift = len(ahead.edge)
+    pair = np.concatenate([theirs[0], ours[0]])
+    point = np.concatenate([theirs[1], ours[1] + shift])
+    begins = np.concatenate([theirs[2], ~ours[2]])
+    start, end = np.full(len(one), -1, np.int64), np.full(len(one), -1, np.int64)
+    start[pair[begins]], end[pair[~begins]] = point[begins], point[~begins]
+    some = np.flatnonzero((start >= 0) | (end >= 0))
+    if len(pair) != 2 * len(some) or (start[some] < 0).any() or (end[some] < 0).any():
+        raise NotCertain
+    facets = np.stack([one[some], two[some]], axis=1)
+    return Seam(ahead, behind, facets, np.stack([start[some], end[some]], axis=1))
+
+
+def _near_pairs(first: TriangleMesh, second: TriangleMesh) -> tuple[Ints, Ints]:
+    """Facets of both surfaces whose boxes touch, where the first reach the second ones' planes."""
+    found = [(np.zeros(0, np.int64), np.zeros(0, np.int64))]
+    if len(first.triangles) and len(second.triangles):
+        low, high = _boxes(first)
+        least, most = _boxes(second)
+        others = second.vertices[second.triangles]
+        normal = np.cross(others[:, 1] - others[:, 0], others[:, 2] - others[:, 0])
+        normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+        offset = np.einsum("ij,ij->i", others[:, 0], normal)
+        # The last run is filled up with its last facet.
+        count = low.shape[1]
+        middle = 0.5 * (low + high)
+        half = high - middle
+        order = _neighbourly(middle)
+        runs = order[np.minimum(np.arange(-(-count // RUN) * RUN), count - 1)].reshape(-1, RUN)
+        run, facet = _touching(
+            np.stack([column[runs].min(axis=1) for column in low], axis=1),
+            np.stack([column[runs].max(axis=1) for column in high], axis=1),
+            least.T, most.T, others[:, 0], normal,
+        )  # fmt: skip
+        reach = np.sqrt((half * half).sum(axis=0)) * (1.0 + 1e-9)
+        reach = (reach + 1e-12 * max(np.abs(low).max(), np.abs(high).max()))[runs]
+        middle = np.stack([column[runs] for column in middle], axis=1)
+        for k in range(0, len(run), PAIRS_PER_STEP):
+            r, f = run[k : k + PAIRS_PER_STEP], facet[k : k + PAIRS_PER_STEP]
+            above = np.matmul(normal[f, None], middle[r])[:, 0] - offset[f, None]
+            row, place = np.divmod(np.flatnonzero(np.abs(above) <= reach[r]), RUN)
+            r, two = r[row], f[row]
+            one = runs[r, place]
+            keep = (r + 1 < len(runs)) | (place <= (count - 1) % RUN)
+            for axis in range(3):
+                keep &= low[axis, one] <= most[axis, two]
+                keep &= least[axis, two] <= high[axis, one]
+            found.append((one[keep], two[keep]))
+    one, two = (np.concatenate(column) for column in zip(*found, strict=True))
+    return one, two
+
+
+def _boxes(mesh: TriangleMesh) -> tuple[Floats, Floats]:
+    """(3, m) lowest and highest corners of the boxes about facets."""
+    low, high = np.empty((2, 3, len(mesh.triangles)))
+    columns = np.ascontiguousarray(mesh.triangles.T)
+    for axis in range(3):
+        along = np.ascontiguousarray(mesh.vertices[:, axis])
+        a, b, c = (along[column] for column in columns)
+        np.minimum(np.minimum(a, b), c, out=low[axis])
+        np.maximum(np.maximum(a, b), c, out=high[axis])
+    return low, high
+
+
+def _neighbourly(points: Floats) -> Ints:
+    """An order of (3, n) points, neighbours mostly one after the other (G. M. Morton, 1966)."""
+    low = points.min(axis=1)
+    scale = 1023.0 / max(float((points.max(axis=1) - low).max()), 1e-300)
+    code = np.zeros(points.shape[1], np.int32)
+    for axis in range(3):
+        bits = ((points[axis] - low[axis]) * scale).astype(np.int32)
+        for shift, mask in ((16, 0x30000FF), (8, 0x300F00F), (4, 0x30C30C3), (2, 0x9249249)):
+            bits = (bits | (bits << shift)) & mask
+        code |= bits << axis
+    return np.argsort(code, kind="stable")
+
+
+def _touching(
+    low: Floats, high: Floats, least: Floats, most: Floats, on: Floats, normal: Floats
+) -> tuple[Ints, Ints]:
+    """Boxes and facets that touch, by the facets' boxes and planes."""
+    origin = np.minimum(low.min(axis=0), least.min(axis=0))
+    size = max(2.0 * float(np.median(high - low)), float((most - least).max()) / MOST_BINS)
+    box, its_bin = boxes_in_bins(low, high, origin, size)
+    order = np.argsort(its_bin, kind="stable")
+    box, its_bin = box[order], its_bin[order]
+    facet, bins = boxes_in_bins(least, most, origin, size)
+    begin = np.searchsorted(its_bin, bins)
+    row, place = spread(np.searchsorted(its_bin, bins, "right") - begin)
+    a, b = box[begin[row] + place], facet[row]
+    meets = ((low[a] <= most[b]) & (least[b] <= high[a])).all(axis=1)
+    a, b = a[meets], b[meets]
+    pairs = np.unique(a * np.int64(len(least)) + b)
+    a, b = np.divmod(pairs, len(least))
+    above = np.einsum("ij,ij->i", 0.5 * (low[a] + high[a]) - on[b], normal[b])
+    reach = np.einsum("ij,ij->i", 0.5 * (high[a] - low[a]), np.abs(normal[b]))
+    meets = np.abs(above) <= reach * (1.0 + 1e-9) + 1e-12 * np.abs(high).max()
+    return a[meets], b[meets]
+
+
+def _heights(first: TriangleMesh, second: TriangleMesh, one: Ints, two: Ints) -> Floats:
+    """(k, 3) of the corners of facets above others' planes, times twice these' areas, mm3."""
+    a, b, c = (second.vertices[second.triangles[two, k]] for k in range(3))
+    e, f = b - a, c - a
+    normal = np.cross(e, f)
+    size = np.sqrt(np.einsum("ij,ij->i", e, e) * np.einsum("ij,ij->i", f, f))
+    result = np.empty((len(one), 3))
+    for k in range(3):
+        away = first.vertices[first.triangles[one, k]] - a
+        result[:, k] = np.einsum("ij,ij->i", away, normal)
+        limit = UNSURE * size * np.sqrt(np.einsum("ij,ij->i", away, away))
+        if (np.abs(result[:, k]) <= limit).any():
+            raise NotCertain
+    return result
+
+
+def _straddle(heights: Floats) -> Bools:
+    x, y, z = (heights[:, k] > 0 for k in range(3))
+    return np.asarray((x | y | z) & ~(x & y & z), np.bool_)
+
+
+def _crossings(
+    mesh: TriangleMesh, other: TriangleMesh, one: Ints, two: Ints, heights: Floats
+) -> tuple[Crossings, tuple[Ints, Ints, Bools]]:
+    """Where edges of facets `one` run through facets `two` of another mesh.
+
+    Returns:
+        the crossings, each once, and for every pair of facets that has one: which pair, which
+        crossing, and whether the facet's side, as it runs about it, goes from back to front.
+    """
+    pairs, ends, above = [], [], []
+    for k in range(3):
+        following = (k + 1) % 3
+        rows = np.flatnonzero((heights[:, k] > 0) != (heights[:, following] > 0))
+        pairs.append(rows)
+        ends.append(mesh.triangles[one[rows]][:, [k, following]].astype(np.int64))
+        above.append(heights[rows][:, [k, following]])
+    pair, end, height = np.concatenate(pairs), np.concatenate(ends), np.concatenate(above)
+    turned = end[:, 0] > end[:, 1]
+    rises = height[:, 0] < 0
+    end = np.where(turned[:, None], end[:, ::-1], end)
+    height = np.where(turned[:, None], height[:, ::-1], height)
+    size = np.int64(len(mesh.vertices))
+    _, edge = np.unique(end[:, 0] * size + end[:, 1], return_inverse=True)
+    key = edge.ravel() * np.int64(len(other.triangles)) + two[pair]
+    _, first, number = np.unique(key, return_index=True, return_inverse=True)
+    facet = two[pair[first]]
+    u, v = mesh.vertices[end[first, 0]], mesh.vertices[end[first, 1]]
+    through = _through(u, v, other.vertices[other.triangles[facet]])
+    row = np.cumsum(through) - 1
+    first, facet, u, v = first[through], facet[through], u[through], v[through]
+    low, high = height[first].T
+    along = low / (low - high)
+    found = Crossings(end[first], facet, along, low > 0, u + along[:, None] * (v - u))
+    number = number.ravel()
+    met = through[number]
+    return found, (pair[met], row[number[met]], rises[met])
+
+
+def _through(u: Floats, v: Floats, corners: Floats) -> Bools:
+    """Whether segments whose ends lie on both sides of (k, 3, 3) facets run through these."""
+    along = v - u
+    away = [corners[:, k] - u for k in range(3)]
+    long = np.sqrt(np.einsum("ij,ij->i", along, along))
+    far = [np.sqrt(np.einsum("ij,ij->i", a, a)) for a in away]
+    left = []
+    for k in range(3):
+        following = (k + 1) % 3
+        side = np.einsum("ij,ij->i", along, np.cross(away[k], away[following]))
+        if (np.abs(side) <= UNSURE * long * far[k] * far[following]).any():
+            raise NotCertain
+        left.append(side > 0)
+    result: Bools = (left[0] == left[1]) & (left[1] == left[2])
+    return result

@@ -1,0 +1,90 @@
+"""Needles and caps along a cut: mended, on the same surface."""
+
+import numpy as np
+import pytest
+
+import samples
+from volfrep import LatticeSpec
+from volfrep.jobs.blocks import block
+from volfrep.jobs.pipeline import fill
+from volfrep.mesh.quality import measure
+from volfrep.mesh.triangle_mesh import TriangleMesh
+from volfrep.mesh.well_shaped import angles_of, is_bad, well_shaped
+from volfrep.spatial.proximity import closest_points
+from volfrep.spatial.self_intersection import crossing_triangles
+
+TOLERANCE = 0.02
+
+
+@pytest.fixture(scope="module", params=["CVC", "Kelvin"])
+def trimmed(request):
+    solid = samples.box((24.0, 17.0, 13.0))
+    spec = LatticeSpec(request.param, cell_size=10, strut_radius=1, shell=1.3, deviation=0.05)
+    return fill(solid, spec).mesh
+
+
+def corners(mesh):
+    return mesh.vertices[mesh.triangles]
+
+
+def test_angles_are_those_of_triangles_that_are_known():
+    flat = np.zeros((3, 3, 3))
+    flat[0, 1], flat[0, 2] = (3, 0, 0), (0, 4, 0)
+    flat[1, 1], flat[1, 2] = (1, 0, 0), (0.5, 0.75**0.5, 0)
+    assert angles_of(flat)[0] == pytest.approx([90, 53.1301, 36.8699], abs=1e-4)
+    assert angles_of(flat)[1] == pytest.approx([60, 60, 60])
+    assert not angles_of(flat)[2].any()
+    assert is_bad(flat).tolist() == [False, False, True]
+
+
+def test_few_needles_of_a_trimmed_part_are_left(trimmed):
+    before, after = (
+        is_bad(corners(mesh)).sum() for mesh in (trimmed, well_shaped(trimmed, TOLERANCE, 0.1))
+    )
+    assert before > 100
+    assert after < 0.02 * before
+
+
+def test_its_surface_stays(trimmed):
+    better = well_shaped(trimmed, TOLERANCE, 0.1)
+    was, now = measure(trimmed), measure(better)
+    assert now.watertight
+    assert (now.genus, now.bodies, now.voids) == (was.genus, was.bodies, was.voids)
+    assert now.volume == pytest.approx(was.volume, rel=1e-4)
+    assert now.area == pytest.approx(was.area, rel=1e-3)
+    for one, two in ((better, trimmed), (trimmed, better)):
+        points = np.concatenate([one.vertices, corners(one).mean(axis=1)])
+        assert closest_points(two, points)[1].max() < 2 * TOLERANCE
+    assert not crossing_triangles(better, np.ones(len(better.triangles), bool), 1e-9).any()
+
+
+def test_it_does_not_grow_out_of_hand(trimmed):
+    assert len(well_shaped(trimmed, TOLERANCE, 0.1).triangles) < 2 * len(trimmed.triangles)
+
+
+def test_a_mesh_without_needles_is_left_alone():
+    mesh = block(LatticeSpec("CVC", cell_size=10, strut_radius=1), (1, 1, 1)).mesh
+    assert not is_bad(corners(mesh)).any()
+    same = well_shaped(mesh, TOLERANCE, 0.1)
+    assert np.array_equal(corners(same), corners(mesh))
+
+
+def test_a_sharp_edge_stays_sharp():
+    """A box whose faces are fans of needles: its corners and edges are those of the box."""
+    count = 40
+    ring = np.array([[-5 + 10 * k / count, -5.0] for k in range(count)])
+    turns = [ring @ np.array([[c, s], [-s, c]]) for c, s in ((1, 0), (0, 1), (-1, 0), (0, -1))]
+    border = np.concatenate(turns)
+    size = len(border)
+    points = np.concatenate([np.c_[border, np.full(size, -5.0)], np.c_[border, np.full(size, 5.0)]])
+    low, high = np.arange(size), np.arange(size) + size
+    after = np.roll(low, -1), np.roll(high, -1)
+    sides = np.concatenate([np.c_[low, after[0], high], np.c_[after[0], after[1], high]])
+    lids = [[size, size + k, size + k + 1] for k in range(1, size - 1)]
+    bottoms = [[0, k + 1, k] for k in range(1, size - 1)]
+    mesh = TriangleMesh(points, np.array([*sides.tolist(), *lids, *bottoms], np.int32))
+    assert measure(mesh).watertight
+    better = well_shaped(mesh, TOLERANCE, 0.1)
+    assert measure(better).watertight
+    assert better.volume == pytest.approx(1000.0, rel=1e-9)
+    assert is_bad(corners(better)).sum() < 0.05 * is_bad(corners(mesh)).sum()

@@ -13,7 +13,8 @@ import sys
 import tempfile
 import time
 import traceback
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -25,6 +26,8 @@ from .parser import Parser, Version, refuse_old, three_whole_numbers
 from .telling import Progress, print_rows, tell
 
 if TYPE_CHECKING:
+    from concurrent.futures import Executor
+
     from ..design.spec import LatticeSpec
     from ..mesh.triangle_mesh import TriangleMesh
     from ..reports.result import Result
@@ -97,6 +100,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     _add_unit(fill)
     _add_output(fill)
+    _add_workers(fill)
     add_parameters(fill)
 
     block = add("block", _block, "Make a free-standing block of whole cells with round struts.")
@@ -135,6 +139,35 @@ def _add_unit(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def _add_workers(parser: argparse.ArgumentParser) -> None:
+    add = parser.add_mutually_exclusive_group().add_argument
+    add(
+        "--workers",
+        type=int,
+        metavar="N",
+        help="processes that cut the lattice at the wall, side by side (default: one a core; 1 for "
+        "this process alone); the file is the same with any number",
+    )
+    add(
+        "--scheduler",
+        metavar="ADDRESS",
+        help="of Dask, such as tcp://HOST:8786, whose workers do that in their stead",
+    )
+
+
+@contextmanager
+def _workers(options: argparse.Namespace) -> Iterator[Executor | None]:
+    """Those that the options ask for."""
+    from ..util.workers import dask_workers, processes
+
+    if options.scheduler is None:
+        with processes(options.workers) as executor:
+            yield executor
+    else:
+        with dask_workers(options.scheduler) as executor:
+            yield executor
+
+
 def _add_output(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add(
@@ -160,7 +193,6 @@ def _fill(options: argparse.Namespace) -> None:
     from ..design.forecast import forecast_fill
     from ..jobs.rough_radius import roughly_aimed
     from ..jobs.targets import aimed
-    from ..util.workers import processes
 
     start = time.perf_counter()
     solid = read_part(options, spec.cell_size)
@@ -170,7 +202,7 @@ def _fill(options: argparse.Namespace) -> None:
         aim = roughly_aimed(solid, spec)
         expected = forecast_fill(solid, aim, streamed=_writes_stl(options))
         print(f"Expected: {expected if meshed else expected.of_axes}.", flush=True)
-    with processes() as executor, Progress(options.quiet) as progress:
+    with _workers(options) as executor, Progress(options.quiet) as progress:
         infill = aimed(
             solid, spec, progress=progress, meshed=meshed, executor=executor,
             streamed=_writes_stl(options),

@@ -5,10 +5,8 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterable, Iterator, Sequence
-from concurrent.futures import BrokenExecutor, Executor, Future
-from concurrent.futures import TimeoutError as FutureTimeoutError
+from concurrent.futures import Executor, Future, wait
 from dataclasses import dataclass, replace
-from itertools import islice
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,8 +15,8 @@ from ..mesh.edge_table import pieces_of
 from ..mesh.float32_repair import shortest_edge
 from ..mesh.triangle_mesh import TriangleMesh, compact, concatenate
 from ..util.progress import POLL_SECONDS, Monitor
-from ..util.threads import threads
 from ..util.types import Bools, Floats, Ints
+from ..util.workers import at_once
 from .culling import KeptOctants
 from .group_cut import Group, Piece, cut
 from .laid import Laid
@@ -117,43 +115,46 @@ def _cut(
 ) -> Iterator[Piece]:
     """What the Boolean leaves of groups, in their order."""
     waiting = iter(groups)
-    ahead: deque[tuple[Group, Future[Piece]]] = deque()
+    ahead: deque[tuple[Group, Future[Piece] | None]] = deque()
+    if count == 1:
+        executor = None  # to start a worker takes longer than the group
     for done in range(count):
-        if executor is None:
-            piece = cut(ahead.popleft()[0] if ahead else next(waiting), monitor)
-        else:
-            # Some groups ahead, so that no worker waits; not all, so that they take no memory.
-            for group in islice(waiting, 2 * threads() - len(ahead)):
-                ahead.append((group, _submitted(executor, group)))
-            group, future = ahead.popleft()
+        piece = None
+        # Some groups ahead, so that no worker waits; not all, so that they take no memory.
+        while executor is not None and len(ahead) < 2 * at_once(executor):
+            group = next(waiting, None)
+            if group is None:
+                break
             try:
-                piece = _finished(future, monitor)
-            except BrokenExecutor:  # a worker is gone, as for want of memory: go on without
-                executor, piece = None, cut(group, monitor)
+                ahead.append((group, executor.submit(cut, group)))
+            except RuntimeError:  # it takes nothing more, as when a process of it was killed
+                executor = None
+                ahead.append((group, None))
+        if ahead:
+            group, future = ahead.popleft()
+            piece = None if future is None else _finished(future, monitor)
+        else:
+            group = next(waiting)
+        if piece is None:
+            piece = cut(group, monitor)
         for name, amount in piece.work.items():
             monitor.count(name, amount)
         monitor.tick(0.1 + 0.8 * (done + 1) / count)
         yield piece
 
 
-def _submitted(executor: Executor, group: Group) -> Future[Piece]:
-    try:
-        return executor.submit(cut, group)
-    except BrokenExecutor as error:
-        broken: Future[Piece] = Future()
-        broken.set_exception(error)
-        return broken
+def _finished(future: Future[Piece], monitor: Monitor) -> Piece | None:
+    """What a worker made; None where it was lost, as for want of memory.
 
-
-def _finished(future: Future[Piece], monitor: Monitor) -> Piece:
-    """What a worker made; a cancel does not wait for it."""
-    while True:
-        try:
-            return future.result(timeout=POLL_SECONDS)
-        except FutureTimeoutError:
-            if future.done():
-                raise
-            monitor.tick()
+    What is wrong with a group itself shows again where it is cut next. A cancel does not wait.
+    """
+    while not future.done():
+        wait([future], POLL_SECONDS)
+        monitor.tick()
+    if future.cancelled() or future.exception() is not None:
+        monitor.count("groups whose worker was lost", 1)
+        return None
+    return future.result()
 
 
 @dataclass(frozen=True, eq=False)

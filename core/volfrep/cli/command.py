@@ -200,12 +200,12 @@ def _fill(options: argparse.Namespace) -> None:
     meshed = options.threemf != "beams" and not solver_options.needs_axes(options)
     if not options.quiet:
         aim = roughly_aimed(solid, spec)
-        expected = forecast_fill(solid, aim, streamed=_writes_stl(options))
+        expected = forecast_fill(solid, aim, streamed=_is_plain(options))
         print(f"Expected: {expected if meshed else expected.of_axes}.", flush=True)
     with _workers(options) as executor, Progress(options.quiet) as progress:
         infill = aimed(
             solid, spec, progress=progress, meshed=meshed, executor=executor,
-            streamed=_writes_stl(options),
+            streamed=_is_plain(options),
         )  # fmt: skip
         spec = infill.spec
         if solver_options.fill_axes(infill, options, start):
@@ -243,8 +243,9 @@ def _block(options: argparse.Namespace) -> None:
 
         printing_options.finish_beams(block_beams(spec, options.count), options, start)
         return
+    streamed = _is_plain(options) and Path(options.output).suffix.lower() == ".stl"
     if not options.quiet:
-        expected = forecast_block(spec, options.count, streamed=_writes_stl(options))
+        expected = forecast_block(spec, options.count, streamed=streamed)
         print(f"Expected: {expected}.", flush=True)
     beams = None
     if options.threemf == "both":
@@ -252,7 +253,7 @@ def _block(options: argparse.Namespace) -> None:
 
         beams = block_beams(spec, options.count)
     with Progress(options.quiet) as progress:
-        if _writes_stl(options):
+        if streamed:
             tell(write_block_stl(spec, options.count, options.output, progress=progress), options)
             return
         result = block(spec, tuple(options.count), progress=progress)
@@ -297,11 +298,13 @@ def _picture(
         picture(result.mesh, spec, options.picture, solid=solid)
 
 
-def _writes_stl(options: argparse.Namespace) -> bool:
-    """Whether nothing but an STL file of the mesh as it is was asked for."""
+def _is_plain(options: argparse.Namespace) -> bool:
+    """Whether nothing but a file was asked for, which holds a surface without a mesh of it all."""
+    from ..io.write import STREAMED
+
     more = (options.print_report, options.picture)
     plain = all(option is None for option in more)
-    return plain and Path(options.output).suffix.lower() == ".stl"
+    return plain and Path(options.output).suffix.lower() in STREAMED
 
 
 def _check_targets(options: argparse.Namespace, spec: LatticeSpec) -> None:
@@ -344,7 +347,7 @@ def _finish(
         write_surface(result.surface, options.output, figures=result.report.figures)
     else:
         figures = result.report.figures
-        write_3mf_beams(beams, options.output, result.mesh, figures=figures)
+        write_3mf_beams(beams, options.output, result.surface, figures=figures)
     report = dataclasses.replace(
         result.report,
         stages={**before, **result.report.stages, "write": time.perf_counter() - start},

@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ..lattice.assembly import Layout, box
+from ..lattice.assembly import Layout, box, lay_out, numbers
 from ..lattice.certificate import CertifiedPieces, certify_pieces
 from ..mesh.edge_table import pieces_of
 from ..mesh.quality import Inspection, Quality, inspect
@@ -70,11 +70,30 @@ class InnerOctants:
     @cached_property
     def rim_points(self) -> Floats:
         """(k, 3) where they are, mm."""
+        return self.laid.coordinates(self.rim.astype(np.int32), self._at_rim, Monitor())
+
+    @cached_property
+    def _at_rim(self) -> Bools:
+        """(nx, ny, nz) bool, octants that have all the vertices at the rim."""
         inner = np.pad(self.where, 1)
         for axis in range(3):
             inner &= np.roll(inner, 1, axis) & np.roll(inner, -1, axis)
-        at_rim = self.where & ~inner[1:-1, 1:-1, 1:-1]
-        return self.laid.coordinates(self.rim.astype(np.int32), at_rim, Monitor())
+        result: Bools = self.where & ~inner[1:-1, 1:-1, 1:-1]
+        return result
+
+    @property
+    def numbered_alone(self) -> tuple[Layout, Ints]:
+        """They alone with numbers of their own, and those of the vertices at the rim."""
+        layout, alone = self.layout, lay_out(self.layout.grid, self.layout.octants)
+        result = np.full(len(self.rim), -1, np.int64)
+        for key, place in zip(layout.grid.keys, layout.places, strict=True):
+            octant = layout.octants[key]
+            some = place[self._at_rim[tuple(place.T)]]
+            number = numbers(layout, octant, some).ravel()
+            row = np.minimum(np.searchsorted(self.rim, number), len(self.rim) - 1)
+            at_rim = self.rim[row] == number
+            result[row[at_rim]] = numbers(alone, octant, some).ravel()[at_rim]
+        return alone, result
 
     @property
     def bounds(self) -> Floats:
@@ -220,6 +239,17 @@ class TrimmedSurface:
             bounds=self.bounds,
         )
         return JoinedInspection(Inspection(quality, shell, volume), beyond)
+
+    @property
+    def rim_rows(self) -> Ints:
+        """(k,) the mesh's vertices at the octants' rim.
+
+        Raises:
+            RuntimeError: some are not there.
+        """
+        if (self._rim_rows < 0).any():
+            raise RuntimeError("the octants inside do not fit to what the wall has cut")
+        return self._rim_rows
 
     @property
     def _inner(self) -> InnerOctants:

@@ -221,8 +221,7 @@ class LatticeSpec:
     @property
     def streams(self) -> bool:
         """Whether a file of its result needs no mesh of what the wall does not cut: equal cells."""
-        whole = bool(self.open_faces) or self.drains is not None
-        return self.is_cut and not self.is_graded and not whole and self.network is None
+        return self.is_cut and not self.is_graded and self.network is None
 
     @property
     def template_radius(self) -> float:

@@ -4,24 +4,31 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Executor, Future, wait
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..mesh.booleans import to_library
 from ..mesh.edge_table import pieces_of
 from ..mesh.float32_repair import shortest_edge
 from ..mesh.triangle_mesh import TriangleMesh, compact, concatenate
+from ..spatial.rays import inside_points
+from ..util.errors import VolfrepError
 from ..util.progress import POLL_SECONDS, Monitor
 from ..util.types import Bools, Floats, Ints
 from ..util.workers import at_once
-from .culling import KeptOctants
-from .group_cut import Group, Piece, cut
+from .culling import KeptOctants, without_pinches
+from .group_cut import Group, Piece, cut, read_runs
 from .laid import Laid
-from .trimmed_surface import InnerOctants, TrimmedSurface, equal_rows
+from .trimmed_surface import InnerOctants, TrimmedSurface, concatenated_at, equal_rows
 from .wall_groups import Groups, grouped
+
+if TYPE_CHECKING:
+    import manifold3d
 
 #: Vertices of two groups are the same within this part of the shortest edge that files hold.
 SAME_VERTEX = 1e-4
@@ -155,6 +162,83 @@ def _finished(future: Future[Piece], monitor: Monitor) -> Piece | None:
         monitor.count("groups whose worker was lost", 1)
         return None
     return future.result()
+
+
+def cut_again(
+    surface: TrimmedSurface,
+    by: Sequence[TriangleMesh],
+    cut: Callable[[manifold3d.Manifold], manifold3d.Manifold],
+    monitor: Monitor,
+    *,
+    keeps: bool,
+    is_void: bool = False,
+) -> TrimmedSurface:
+    """A trimmed surface after a further Boolean, which octants beside its mesh stay out of.
+
+    Flat caps close the mesh where octants follow, and are taken off again.
+
+    Args:
+        surface: closed.
+        by: closed meshes that cut it, mm.
+        cut: gives what they leave of it.
+        monitor: for cancel.
+        keeps: whether the octants inside of these are what stays; otherwise those outside.
+        is_void: whether it is handed over, and taken away, as the void that it bounds.
+
+    Raises:
+        VolfrepError: the surface is no solid that can be cut.
+    """
+    import manifold3d
+
+    if surface.octants is not None:
+        surface = surface.with_octants(_met(surface.octants, by, keeps, monitor), monitor)
+    mesh, inner = surface.mesh, surface.octants
+    if inner is not None:
+        mesh = concatenated_at(mesh, surface.rim_rows, inner.caps(monitor))
+    mesh = mesh.reversed() if is_void else mesh
+    runs = np.array([0, len(surface.mesh.triangles), len(mesh.triangles)], np.uint64)
+    ids = manifold3d.Manifold.reserve_ids(2)
+    source = to_library(
+        mesh,
+        run_index=runs[: 2 + (inner is not None)] * np.uint64(3),
+        run_original_id=np.arange(ids, ids + 1 + (inner is not None), dtype=np.uint32),
+    )
+    solid = monitor.call(lambda: manifold3d.Manifold(source))
+    if solid.status() != manifold3d.Error.NoError:
+        raise VolfrepError(
+            f"The part cannot be cut once more ({solid.status().name}): change the lattice's "
+            "origin or radius by a little."
+        )
+    result = monitor.call(lambda: cut(solid).to_mesh64())
+    left, origin = read_runs(result)
+    kept = TriangleMesh(left.vertices, left.triangles[origin != ids + 1])
+    found = TrimmedSurface(compact(kept), inner)
+    if found.is_joined:
+        return found
+    # The Boolean has taken out vertices at the caps.
+    whole = TrimmedSurface(surface.whole(monitor))
+    return cut_again(whole, by, cut, monitor, keeps=keeps, is_void=is_void)
+
+
+def _met(inner: InnerOctants, by: Sequence[TriangleMesh], keeps: bool, monitor: Monitor) -> Bools:
+    """Octants that solids cut, or that do not stay, and those about them that caps need."""
+    from scipy import ndimage  # slow to import
+
+    near = np.zeros_like(inner.where)
+    for mesh in by:
+        near |= inner.reached(mesh.vertices[mesh.triangles])
+    # What no surface reaches into is on one side as a whole.
+    label, count = ndimage.label(inner.where & ~near)
+    first = np.unique(label, return_index=True)[1][1 if (label == 0).any() else 0 :]
+    middle = inner.middle(np.stack(np.unravel_index(first, label.shape), axis=1))
+    inside = np.zeros(count, bool)
+    for mesh in by:
+        inside |= inside_points(mesh, middle, monitor)
+    near |= np.append(False, inside != keeps)[label]
+    present = inner.laid.kept.grid.kind >= 0
+    border = without_pinches(present & ~(inner.where & ~near), present, inner.laid.periodic)
+    result: Bools = inner.where & border
+    return result
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,7 +18,7 @@ from ..octants.octant import OctantKey, used_kinds
 from ..octants.octant_mesh import Octant
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
-from ..util.types import Bools, Floats, Ints
+from ..util.types import Bools, Floats, Ints, Periodic
 from .culling import CROSSING_MARGIN, KeptOctants
 
 #: Octants on moved struts mostly reach no farther out of their places than this, in units of
@@ -146,6 +146,11 @@ class Laid(Placed):
         wall stays clear of those that it does not cross.
         """
         return self.points is None and agree_on_faces(self.layout)
+
+    @property
+    def periodic(self) -> Periodic:
+        """Along which axes the octants close upon themselves."""
+        return self.layout.grid.periodic
 
     @property
     def clearance(self) -> float:

@@ -16,7 +16,7 @@ from ..design.spec_parts import Skin
 from ..grid.strut_graph import Wireframe
 from ..lattice.certificate import keeps_corners
 from ..lattice.strut_masks import without_struts
-from ..mesh.booleans import difference, intersection
+from ..mesh.booleans import as_manifold
 from ..mesh.float32_repair import edge_within, shortest_edge
 from ..mesh.quality import combined, inspect, measure
 from ..mesh.triangle_mesh import TriangleMesh, concatenate
@@ -26,7 +26,7 @@ from ..shell.domain import Domain
 from ..spatial.proximity import closest_points
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
-from .boolean_trim import Trimmed, trim
+from .boolean_trim import Trimmed, cut_again, trim
 from .culling import KeptOctants, OctantRoles, cull, keep_all
 from .drains import Drained, drain
 from .finish import tidied
@@ -204,11 +204,11 @@ def drained_part(
     Raises:
         VolfrepError: a hole cannot be where it is wanted.
     """
-    part = cleared.surface.whole(monitor)
+    part = cleared.surface
     drained = drain(part, solid, domain.mesh, frame, skin.thickness, drains, monitor)
-    clean = tidied(TrimmedSurface(drained.mesh), shortest_edge(solid), monitor)
-    cleared = replace(cleared, surface=clean, quality=measure(clean.mesh, monitor))
-    return cleared, replace(drained, mesh=clean.mesh)
+    clean = tidied(drained.surface, shortest_edge(solid), monitor)
+    quality = clean.inspected(monitor).found.quality
+    return replace(cleared, surface=clean, quality=quality), replace(drained, surface=clean)
 
 
 def _opened(
@@ -222,15 +222,13 @@ def _opened(
     monitor: Monitor,
 ) -> Cleared:
     """The part, or its lattice, cut at its open faces, beyond which the cavity reaches."""
-    mesh = cleared.surface.whole(monitor)
-    precision = shortest_edge(solid)
-    if with_skin:
-        void = mesh.reversed()
-        mesh = monitor.call(lambda: difference(solid, void))
-    else:
-        lattice = mesh
-        mesh = monitor.call(lambda: intersection(lattice, solid))
-    surface = tidied(TrimmedSurface(mesh), precision, monitor)
+    precision, outside = shortest_edge(solid), as_manifold(solid)
+    surface = cut_again(
+        cleared.surface, (solid,),
+        (lambda void: outside - void) if with_skin else (lambda lattice: lattice ^ outside),
+        monitor, keeps=True, is_void=with_skin,
+    )  # fmt: skip
+    surface = tidied(surface, precision, monitor)
     if keep_pieces:
         rest = clear(surface, smallest, monitor)
     elif with_skin:

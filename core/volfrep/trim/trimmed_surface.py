@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ..lattice.assembly import Layout, box, lay_out, numbers
+from ..lattice.assembly import Layout, box, facets, lay_out, neighbour_missing, numbers
 from ..lattice.certificate import CertifiedPieces, certify_pieces
 from ..mesh.edge_table import pieces_of
 from ..mesh.quality import Inspection, Quality, inspect
@@ -38,6 +38,19 @@ class JoinedInspection:
 
     found: Inspection
     beyond: Bools
+
+
+@dataclass(frozen=True, eq=False)
+class Caps:
+    """Flat faces where octants follow on a solid.
+
+    Attributes:
+        mesh: the faces, mm.
+        at_rim: (n,) which of the vertices at the octants' rim each of its vertices is; -1 for none.
+    """
+
+    mesh: TriangleMesh
+    at_rim: Ints
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,6 +113,26 @@ class InnerOctants:
         """(2, 3) of their vertices, mm."""
         result: Floats = box(self.layout) + self.laid.shift
         return result
+
+    def middle(self, places: Ints) -> Floats:
+        """(k, 3) the middles of octants at some places, mm."""
+        grid = self.laid.layout.grid
+        result: Floats = grid.origin + self.laid.shift + 0.5 * grid.cell_size * (places - 0.5)
+        return result
+
+    def caps(self, monitor: Monitor) -> Caps:
+        """What closes the solid that follows on them, seen from there."""
+        layout, others = self.laid.layout, (self.laid.layout.grid.kind >= 0) & ~self.where
+        every, at = [], np.zeros_like(others)
+        for axis in range(3):
+            for high in (False, True):
+                missing = neighbour_missing(layout.grid, others, axis, high)
+                missing &= ~neighbour_missing(layout.grid, others | self.where, axis, high)
+                every.append(facets(layout, monitor, missing, (axis, high)))
+                at |= missing
+        mesh, number = self.laid.mesh(np.concatenate(every), at, monitor)
+        row = np.minimum(np.searchsorted(self.rim, number), len(self.rim) - 1)
+        return Caps(mesh, np.where(self.rim[row] == number, row, -1))
 
     def reached(self, corners: Floats) -> Bools:
         """(nx, ny, nz) bool, those of them that (k, 3, 3) triangles reach into."""
@@ -287,6 +320,17 @@ class TrimmedSurface:
         result = np.empty(len(wanted), np.int64)
         result[place] = owner[order]
         return result
+
+
+def concatenated_at(mesh: TriangleMesh, rows: Ints, caps: Caps) -> TriangleMesh:
+    """A mesh closed by caps; `rows` are its vertices at the rim."""
+    fresh = caps.at_rim < 0
+    number = rows[caps.at_rim]
+    number[fresh] = len(mesh.vertices) + np.arange(int(fresh.sum()))
+    return TriangleMesh(
+        np.concatenate([mesh.vertices, caps.mesh.vertices[fresh]]),
+        np.concatenate([mesh.triangles, number.astype(np.int32)[caps.mesh.triangles]]),
+    )
 
 
 def _repeats(triangles: NDArray[np.int32]) -> bool:

@@ -65,7 +65,7 @@ def test_what_single_precision_cannot_hold_is_refused(tmp_path: Path, suffix: st
 @pytest.mark.parametrize("suffix", MESH_WRITERS)
 def test_every_writer_tells_its_progress(tmp_path: Path, suffix: str, monkeypatch) -> None:
     monkeypatch.setattr("volfrep.io.write.stl.BLOCK_FACETS", 100)
-    for module in ("mesh.precision", "io.write.ply", "io.write.obj", "io.write.threemf"):
+    for module in ("mesh.precision", "io.write.numbered", "io.write.obj", "io.write.threemf"):
         monkeypatch.setattr(f"volfrep.{module}.BLOCK_ROWS", 100)
     monkeypatch.setattr("volfrep.io.write.step.VALUES", 1000)
     told: list[float] = []

@@ -284,7 +284,8 @@ def join(pieces: Sequence[Piece], rim: Floats, tolerance: float) -> Joined:
     np.minimum.at(chosen, cluster, np.arange(len(seam)))
     number = np.arange(len(whole.vertices), dtype=np.int32)
     number[seam] = seam[chosen[cluster]]
-    triangles = number[whole.triangles]
+    triangles = whole.triangles
+    np.take(number, triangles, out=triangles, mode="clip")
     at_rim = np.zeros(len(whole.vertices), bool)
     row = equal_rows(rim, points[chosen])
     at_rim[seam[chosen[row[row >= 0]]]] = True
@@ -306,8 +307,7 @@ def _open(
     """The triangles with an edge that does not run once each way and is not at the rim."""
     at_seam = np.zeros(len(number), bool)
     at_seam[number[seam]] = True
-    corners = at_seam[triangles]
-    some = np.flatnonzero(corners.sum(axis=1) >= 2)
+    some = np.flatnonzero(at_seam[triangles].sum(axis=1, dtype=np.int8) >= 2)
     start = triangles[some].astype(np.int64)
     end = np.roll(start, -1, axis=1)
     here = at_seam[start] & at_seam[end]

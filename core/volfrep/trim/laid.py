@@ -10,6 +10,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from ..grid.placement import Motion
 from ..lattice.assembly import Layout, coordinates_of, facets, lay_out, numbers, placed_octants
 from ..lattice.certificate import agree_on_faces
 from ..lattice.deform import Deformed
@@ -38,13 +39,13 @@ class Placed:
     Attributes:
         layout: the octants, numbered, with corners for caps.
         points: (n, 3) where their vertices are, mm; None where they keep their places in lattice
-            space but for the shift.
-        shift: (3,) by which all are moved, mm.
+            space but for the motion.
+        motion: of all that keep their places.
     """
 
     layout: Layout
     points: Floats | None
-    shift: Floats
+    motion: Motion
 
     def coordinates(self, wanted: NDArray[np.int32], where: Bools, monitor: Monitor) -> Floats:
         """(k, 3) where some vertices are, mm.
@@ -56,8 +57,7 @@ class Placed:
         """
         if self.points is not None:
             return self.points[wanted]
-        result: Floats = coordinates_of(self.layout, wanted, where, monitor) + self.shift
-        return result
+        return self.motion(coordinates_of(self.layout, wanted, where, monitor))
 
     def mesh(
         self, triangles: NDArray[np.int32], where: Bools, monitor: Monitor
@@ -87,7 +87,7 @@ class Placed:
         some = [place[where[tuple(place.T)]] for place in self.layout.places]
         low, high = [np.zeros((0, 3))], [np.zeros((0, 3))]
         for number, points in placed_octants(self.layout, where, monitor):
-            own = points + self.shift if self.points is None else self.points[number]
+            own = self.motion(points) if self.points is None else self.points[number]
             low.append(own.min(axis=1))
             high.append(own.max(axis=1))
         pairs = zip(self.layout.grid.keys, some, strict=True)
@@ -112,12 +112,12 @@ class Placed:
         octants = {key: self.layout.octants[key] for key in some.keys}
         layout = replace(lay_out(some, octants), first=self.layout.first + low // 2)
         if self.points is None:
-            return Placed(layout, None, self.shift), tuple(box)
+            return Placed(layout, None, self.motion), tuple(box)
         points = np.empty((layout.count, 3))
         for key, place in zip(some.keys, layout.places, strict=True):
             theirs = numbers(self.layout, octants[key], place + low)
             points[numbers(layout, octants[key], place)] = self.points[theirs]
-        return Placed(layout, points, self.shift), tuple(box)
+        return Placed(layout, points, self.motion), tuple(box)
 
 
 @dataclass(frozen=True, eq=False)
@@ -158,9 +158,9 @@ class Laid(Placed):
         return 0.25 * CROSSING_MARGIN * self.layout.grid.cell_size
 
 
-def in_place(kept: KeptOctants, octants: dict[OctantKey, Octant], shift: Floats) -> Laid:
-    """Octants that keep their places but for a shift, (3,) mm."""
-    return Laid(kept.lay_out(octants), None, shift, kept, octants)
+def in_place(kept: KeptOctants, octants: dict[OctantKey, Octant], motion: Motion) -> Laid:
+    """Octants that keep their places but for a motion."""
+    return Laid(kept.lay_out(octants), None, motion, kept, octants)
 
 
 def lay(
@@ -185,7 +185,7 @@ def lay(
         layout = kept.lay_out(octants)
         placed = place(layout)
         if placed.excess <= margin + 1e-9:
-            return Laid(layout, placed.vertices, np.zeros(3), kept, octants)
+            return Laid(layout, placed.vertices, Motion(np.zeros(3)), kept, octants)
         if widening < MOST_WIDENINGS:
             margin = max(SPARE_MARGIN * placed.excess, 2.0 * margin if widening else 0.0)
             kept, octants = within(margin)

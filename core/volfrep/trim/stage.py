@@ -96,13 +96,16 @@ def cut_lattice(
     Raises:
         VolfrepError: nothing is left, or nothing would hold it.
     """
-    wall = domain.wall
-    trimmed = trim(wall, laid, cavity=with_skin, monitor=monitor, executor=executor)
-    if not _needs_no_look(laid, wall):
-        trimmed = replace(trimmed, surface=TrimmedSurface(trimmed.surface.whole(monitor)))
+
+    def cut() -> Trimmed:
+        found = trim(domain.wall, laid, cavity=with_skin, monitor=monitor, executor=executor)
+        if _needs_no_look(laid, domain.wall):
+            return found
+        return replace(found, surface=TrimmedSurface(found.surface.whole(monitor)))
+
     full = cells_are_full(octant_spec.cell_size, octant_spec.strut_radius)
     return cleared_cut(
-        trimmed, solid, domain, smallest_shell(octant_spec), full, monitor,
+        cut(), solid, domain, smallest_shell(octant_spec), full, monitor,
         has_skin=has_skin, with_skin=with_skin, keep_pieces=keep_pieces,
     )  # fmt: skip
 
@@ -144,6 +147,7 @@ def cleared_cut(
         removed, lost = held.pieces_removed, held.volume_removed
         if removed and not surface.triangles:
             raise _nothing_holds()
+    del trimmed  # nobody else has it: the mesh before slivers go, in the way of that after
     surface = tidied(surface, precision, monitor)
     bodies = 0
     if not (has_skin or keep_pieces):

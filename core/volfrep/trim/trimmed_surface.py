@@ -13,7 +13,16 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ..lattice.assembly import Layout, box, facets, lay_out, neighbour_missing, numbers
+from ..lattice.assembly import (
+    Layout,
+    box,
+    facets,
+    in_steps,
+    lay_out,
+    neighbour_missing,
+    numbers,
+    placed,
+)
 from ..lattice.certificate import CertifiedPieces, certify_pieces
 from ..mesh.edge_table import pieces_of
 from ..mesh.quality import Inspection, Quality, inspect
@@ -111,14 +120,29 @@ class InnerOctants:
     @property
     def bounds(self) -> Floats:
         """(2, 3) of their vertices, mm."""
-        result: Floats = box(self.layout) + self.laid.shift
-        return result
+        motion = self.laid.motion
+        if motion.frame is None:
+            return motion(box(self.layout))
+        farthest = []
+        for key, place in zip(self.layout.grid.keys, self.layout.places, strict=True):
+            octant = self.layout.octants[key]
+            if not len(octant.vertices) or not len(place):
+                continue
+            steps = in_steps(self.layout.grid, octant)
+            corner, sign = self.layout.frames(place)
+            for frame in np.unique(sign, axis=0):
+                # What is farthest has the farthest place and the farthest vertex of an octant.
+                own, points = corner[(sign == frame).all(axis=1)], frame * steps
+                where, what = motion.turned(1.0 * own), motion.turned(points)
+                for end in (np.argmin, np.argmax):
+                    at, of = end(where, axis=0), end(what, axis=0)
+                    farthest.append(motion(placed(self.layout.grid, own[at], points[of])))
+        return box_of(np.concatenate(farthest))
 
     def middle(self, places: Ints) -> Floats:
         """(k, 3) the middles of octants at some places, mm."""
         grid = self.laid.layout.grid
-        result: Floats = grid.origin + self.laid.shift + 0.5 * grid.cell_size * (places - 0.5)
-        return result
+        return self.laid.motion(grid.origin + 0.5 * grid.cell_size * (places - 0.5))
 
     def caps(self, monitor: Monitor) -> Caps:
         """What closes the solid that follows on them, seen from there."""
@@ -138,7 +162,7 @@ class InnerOctants:
         """(nx, ny, nz) bool, those of them that (k, 3, 3) triangles reach into."""
         grid = self.laid.layout.grid
         # Octant 0 lies on the low side of the grid's corner.
-        places = (corners - (grid.origin + self.laid.shift)) / (0.5 * grid.cell_size) + 1.0
+        places = (self.laid.motion.back(corners) - grid.origin) / (0.5 * grid.cell_size) + 1.0
         limit = np.array(self.where.shape)
         low = np.clip(np.floor(places.min(axis=1) + REACH).astype(np.int64), 0, limit)
         high = np.clip(np.ceil(places.max(axis=1) - REACH).astype(np.int64), 0, limit)
@@ -240,7 +264,7 @@ class TrimmedSurface:
             raise RuntimeError("the octants inside do not fit to what the wall has cut")
         pieces, cut, count = inner.pieces, found.quality, len(found.volume)
         # Two parts enclose their volume about one point only together.
-        own = pieces.volume_about(cut.bounds.mean(axis=0) - inner.laid.shift)
+        own = pieces.volume_about(inner.laid.motion.back(cut.bounds.mean(axis=0)))
         shells, label = pieces_of(
             found.shell[self._rim_triangles].astype(np.int64),
             count + pieces.piece_at_rim,
@@ -301,9 +325,9 @@ class TrimmedSurface:
         row = np.full(len(self.mesh.vertices), -1, np.int64)
         row[self._rim_rows] = np.arange(len(self._inner.rim))
         # Twice among candidates: only triangles with two corners at the rim have an edge there.
-        corners = row[self.mesh.triangles]
-        some = np.flatnonzero((corners >= 0).sum(axis=1) >= 2)
-        start, end = corners[some].ravel(), np.roll(corners[some], -1, axis=1).ravel()
+        some = np.flatnonzero((row >= 0)[self.mesh.triangles].sum(axis=1, dtype=np.int8) >= 2)
+        corners = row[self.mesh.triangles[some]]
+        start, end = corners.ravel(), np.roll(corners, -1, axis=1).ravel()
         here = (start >= 0) & (end >= 0)
         start, end, owner = start[here], end[here], np.repeat(some, 3)[here]
         size = np.int64(len(self._inner.rim))

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import tracemalloc
+from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 
@@ -12,16 +13,26 @@ import pytest
 import trimesh
 
 import samples
+from contract import assert_same_quality
 from volfrep import LatticeSpec
+from volfrep.design.grading import Orientation
 from volfrep.io.write import STREAMED, write_mesh, write_surface
 from volfrep.io.write.numbered import numbered
 from volfrep.io.write.threemf import write_3mf_beams
 from volfrep.jobs.infill import Infill
 from volfrep.mesh.quality import measure
 from volfrep.mesh.triangle_mesh import TriangleMesh
+from volfrep.trim import stage
 from volfrep.trim.trimmed_surface import TrimmedSurface
+from volfrep.util.progress import Monitor
 
 SPEC = LatticeSpec("CVC", 5.0, 0.5, shell=1.0, resolution=8)
+TURNED = replace(SPEC, orientation=Orientation((1.0, 2.0, 3.0), 40.0))
+
+
+@lru_cache
+def turned() -> Infill:
+    return Infill(samples.box((40.0, 40.0, 40.0)), TURNED)
 
 
 @lru_cache
@@ -77,6 +88,34 @@ def test_triangle_for_triangle(suffix: str, tmp_path: Path) -> None:
     write_mesh(part().part.mesh, tmp_path / f"meshed{suffix}")
     one, two = (read(tmp_path / f"{name}{suffix}") for name in ("streamed", "meshed"))
     np.testing.assert_array_equal(rows(one), rows(two))
+
+
+@pytest.mark.parametrize("suffix", STREAMED)
+def test_a_lattice_that_is_turned(suffix: str, tmp_path: Path) -> None:
+    found = turned().part
+    assert found.surface.octants is not None
+    # What is proved of its octants is what its triangles show.
+    whole = measure(found.mesh)
+    assert_same_quality(found.surface.inspected(Monitor()).found.quality, whole)
+    np.testing.assert_array_equal(found.surface.bounds, whole.bounds)
+    write_surface(found.surface, tmp_path / f"part{suffix}")
+    seen = measure(read(tmp_path / f"part{suffix}"))
+    assert seen.watertight
+    assert (seen.triangles, seen.vertices, seen.genus) == (
+        whole.triangles, whole.vertices, whole.genus,
+    )  # fmt: skip
+    assert seen.volume == pytest.approx(whole.volume, rel=1e-6)
+
+
+def test_a_lattice_that_is_turned_is_what_its_mesh_would_have_been(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(stage, "_needs_no_look", lambda *_: False)
+    meshed = Infill(samples.box((40.0, 40.0, 40.0)), TURNED).part
+    assert meshed.surface.octants is None
+    one, two = turned().part.report, meshed.report
+    assert one.volume_mm3 == pytest.approx(two.volume_mm3, rel=1e-9)
+    assert (one.triangles, one.genus, one.bodies) == (two.triangles, two.genus, two.bodies)
 
 
 def test_beams_and_triangles_in_one_file(tmp_path: Path, unmeshed: TrimmedSurface) -> None:

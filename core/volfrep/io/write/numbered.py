@@ -15,6 +15,7 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from ...grid.placement import Motion
 from ...lattice.assembly import Layout, coordinate_blocks, facet_blocks
 from ...mesh.precision import BLOCK_ROWS, decimal_step, refuse_lost_corners, rounded
 from ...mesh.precision import single_precision as in_single
@@ -32,13 +33,13 @@ class Numbered:
     Attributes:
         mesh: a part of it, its vertices after those of the octants, its triangles of all.
         octants: laid, with a number for each vertex; None for none.
-        shift: (3,) by which octants are moved, mm.
+        motion: of the octants.
         bounds: (2, 3) of the whole, mm.
     """
 
     mesh: TriangleMesh
     octants: Layout | None
-    shift: Floats
+    motion: Motion
     bounds: Floats
 
     @property
@@ -56,7 +57,7 @@ class Numbered:
         """(k, 3) vertices in their order, mm."""
         if self.octants is not None:
             for block in coordinate_blocks(self.octants):
-                yield block + self.shift
+                yield self.motion(block)
         yield from _blocks(self.mesh.vertices)
 
     def decimals(self) -> Iterator[Floats]:
@@ -93,7 +94,7 @@ def numbered(
             own = rounded(mesh.vertices, decimal_step(given.bounds)).astype(np.float32)
         refuse_lost_corners(own, mesh.triangles, path)
     if inner is None:
-        return Numbered(mesh, None, np.zeros(3), mesh.bounds)
+        return Numbered(mesh, None, Motion(np.zeros(3)), mesh.bounds)
     layout, theirs = inner.numbered_alone
     row = given.rim_rows
     number = np.full(len(mesh.vertices), -1, np.int64)
@@ -101,7 +102,7 @@ def numbered(
     fresh = number < 0
     number[fresh] = layout.count + np.arange(int(fresh.sum()))
     rest = TriangleMesh(mesh.vertices[fresh], number.astype(np.int32)[mesh.triangles])
-    return Numbered(rest, layout, inner.laid.shift, given.bounds)
+    return Numbered(rest, layout, inner.laid.motion, given.bounds)
 
 
 def _blocks(rows: NDArray[Number]) -> Iterator[NDArray[Number]]:

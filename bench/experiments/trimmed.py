@@ -46,7 +46,8 @@ def measure(context: Context) -> dict[str, Any]:
             rows.append(_level_sets(context, size))
     at = QUICK_SIZE if context.quick else WORKERS_SIZE
     crew = [
-        _ours(context, at, "--workers", str(count), what=f"{count} workers") for count in (1, 2)
+        _ours(context, at, "--workers", str(count), what=f"{count} worker" + "s" * (count > 1))
+        for count in (1, 2)
     ]
     at = QUICK_SIZE if context.quick else FIELD_SIZE
     radii = ("--radius-start", f"{0.11 * at:g}", "--radius-end", f"{0.09 * at:g}")

@@ -108,7 +108,7 @@ test-freecad-1: ## the workbench's tests in FreeCAD 1.0 and 1.1, each in a Debia
 test-newest: ## the engine's tests on the newest numpy, scipy and scikit-image
 	@tools/newest.sh
 
-bench: setup ## the paper's evaluation beside it and other tools, into docs/benchmarks.md (25 min)
+bench: setup ## the paper's evaluation beside it and other tools, into docs/benchmarks.md (30 min)
 	@tools/bench_tools.sh
 	@$(PYTHON) -m bench $(BENCH_ARGS)
 

@@ -4,6 +4,7 @@
 python -m bench.in_process changes PART CELL OUT.stl
 python -m bench.in_process unvoxelised PART CELL OUT.stl
 python -m bench.in_process profile CELL OUT.stl [PART]
+python -m bench.in_process struts PART CELL L OUT.bin
 """
 
 from __future__ import annotations
@@ -47,6 +48,20 @@ def changes(part: str, cell: str, out: str) -> dict[str, Any]:
         stages = {**result.report.stages, "write": end - written}
         runs.append({"radius": radius, "seconds": end - start, "stages": stages})
     return {"runs": runs}
+
+
+def struts(part: str, cell: str, size: str, out: str) -> dict[str, Any]:
+    """The struts of the active cells for another program: see `openvdb_part.cc`."""
+    from volfrep import LatticeSpec, read_solid
+    from volfrep.jobs.infill import Infill
+
+    length = float(size)
+    spec = LatticeSpec(cell=cell, cell_size=length, strut_radius=0.1 * length, shell=SHELL)
+    frame = Infill(read_solid(part), spec).struts
+    ends = frame.nodes[frame.struts].reshape(-1, 6)
+    radii = [frame.radii.max(axis=1), frame.joint_radii[frame.struts].max(axis=1)]
+    np.column_stack([ends, *radii]).astype("<f8").tofile(out)
+    return {"struts": len(ends)}
 
 
 def unvoxelised(part: str, cell: str, out: str) -> dict[str, Any]:
@@ -131,7 +146,8 @@ def _name(where: tuple[str, int, str]) -> str:
 def main() -> None:
     """Do the job that the arguments say."""
     job, *given = sys.argv[1:]
-    found = {"changes": changes, "unvoxelised": unvoxelised, "profile": profile}[job](*given)
+    jobs = {"changes": changes, "struts": struts, "unvoxelised": unvoxelised, "profile": profile}
+    found = jobs[job](*given)
     plain = json.dumps(found, default=lambda value: np.asarray(value).tolist())
     print(plain)
 

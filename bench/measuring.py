@@ -39,6 +39,8 @@ from .tables import Row
 ROOT = Path(__file__).resolve().parent.parent
 #: The environment of the other tools; `make bench` makes it.
 BENCH_PYTHON = ROOT / ".cache" / "bench" / "bin" / "python"
+#: A program that tools/bench_tools.sh compiles where OpenVDB is.
+OPENVDB = ROOT / ".cache" / "bench-openvdb" / "openvdb_part"
 
 #: A process that takes longer is ended, and its row says so.
 LIMIT = 600.0
@@ -206,7 +208,7 @@ def our_block(
     row: Row = {"tool": "this engine", "cell": cell, "cells": count**3}
     if done.failure:
         return {**row, "note": done.failure, "failed": True}
-    row |= _figures(done, out) | _reported(report)
+    row |= figures(done, out) | _reported(report)
     row |= {"fastest": all_seconds[0], "slowest": all_seconds[-1]} if times > 1 else {}
     if look:
         row |= look_at_block(context, out, cell, count)
@@ -222,7 +224,7 @@ def our_part(context: Context, part: Path, cell: str, *options: str, look: bool 
     done = run([*command, "--quiet", "--report", str(report)])
     if done.failure:
         return {**row, "note": done.failure, "failed": True}
-    row |= _figures(done, out) | _reported(report)
+    row |= figures(done, out) | _reported(report)
     if look:
         row |= look_at(context, out)
     out.unlink()
@@ -234,16 +236,22 @@ def peer_job(context: Context, tool: str, command: Sequence[str], out: Path, **g
     row: Row = {"tool": tool, **given}
     if not BENCH_PYTHON.exists():
         return {**row, "note": "left out: `make bench` has not made .cache/bench"}
-    if time.monotonic() > context.peers_until:
+    if time_is_spent(context):
         return {**row, "note": "left out: the time for other tools was spent"}
     done = run(command, limit=context.seconds_for_peers, env={"PYTHONPATH": str(ROOT / "core")})
     if done.failure:
         out.unlink(missing_ok=True)
         return {**row, "note": done.failure}
-    return {**row, **_figures(done, out), **answer(done)}
+    return {**row, **figures(done, out), **answer(done)}
 
 
-def _figures(done: Run, out: Path) -> Row:
+def time_is_spent(context: Context) -> bool:
+    """Whether other tools are to be left out from now on."""
+    return time.monotonic() > context.peers_until
+
+
+def figures(done: Run, out: Path) -> Row:
+    """What a run took, and the size of the STL file that it wrote."""
     return {
         "seconds": done.seconds,
         "cpu": done.cpu,
@@ -253,10 +261,10 @@ def _figures(done: Run, out: Path) -> Row:
 
 
 def _reported(report: Path) -> Row:
-    figures = json.loads(report.read_text(encoding="utf-8"))
+    told = json.loads(report.read_text(encoding="utf-8"))
     report.unlink()
     names = ("cells_active", "cells_total", "grid", "stages", "watertight", "bodies", "genus")
-    return {"peak_mb": figures["peak_memory_mb"], **{name: figures[name] for name in names}}
+    return {"peak_mb": told["peak_memory_mb"], **{name: told[name] for name in names}}
 
 
 def triangles_in(path: Path) -> int:

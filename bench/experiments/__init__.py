@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from types import ModuleType
 
-from . import accuracy, blocks, bracket, cells, profiles, rod, scale, sizes, startup, wing
+from . import accuracy, blocks, bracket, cells, profiles, rod, scale, sizes, startup, trimmed, wing
 
 #: In the order of the document.
 EXPERIMENTS: dict[str, ModuleType] = {
@@ -20,6 +20,7 @@ EXPERIMENTS: dict[str, ModuleType] = {
     "cells": cells,
     "bracket": bracket,
     "sizes": sizes,
+    "trimmed": trimmed,
     "rod": rod,
     "wing": wing,
     "scale": scale,

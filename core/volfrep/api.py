@@ -16,6 +16,7 @@ from __future__ import annotations
 import dataclasses
 import os
 from collections.abc import Sequence
+from concurrent.futures import Executor
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Protocol
@@ -166,6 +167,7 @@ def fill(
     material: str | None = None,
     progress: ProgressCallback | None = None,
     cache: StageCache | None = None,
+    executor: Executor | None = None,
     **parameters: Any,
 ) -> Part:
     """Fill a solid with a lattice.
@@ -180,6 +182,7 @@ def fill(
             none is given, its modulus makes a `stiffness` one in MPa.
         progress: called with the fraction done and the stage; returning False cancels.
         cache: keeps the stages between calls.
+        executor: cuts the lattice at the wall on its workers; the mesh is the same with any.
         parameters: of a `LatticeSpec`, in place of one or on top of it; in place of `strut_radius`
             also `relative_density`, `mass` (g, of the finished part) or `stiffness` (such as
             "500:111": a modulus, and 100, 110, 111 or X,Y,Z).
@@ -200,7 +203,7 @@ def fill(
     wanted = specified(spec, parameters, material)
     solid = as_solid(part, unit)
     cache = cache or StageCache()
-    result, found = filled(solid, wanted, progress=progress, cache=cache)
+    result, found = filled(solid, wanted, progress=progress, cache=cache, executor=executor)
     return Part(result, found, solid, cache)
 
 

@@ -13,7 +13,8 @@ import sys
 import tempfile
 import time
 import traceback
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -27,6 +28,8 @@ from .run_options import add_run_options, refuse_extensions
 from .telling import Progress, print_rows, tell
 
 if TYPE_CHECKING:
+    from concurrent.futures import Executor
+
     from ..design.spec import LatticeSpec
     from ..mesh.triangle_mesh import TriangleMesh
     from ..reports.result import Result
@@ -126,6 +129,19 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
+@contextmanager
+def _workers(options: argparse.Namespace) -> Iterator[Executor | None]:
+    """Those that the options ask for."""
+    from ..util.workers import dask_workers, processes
+
+    if options.scheduler is None:
+        with processes(options.workers) as executor:
+            yield executor
+    else:
+        with dask_workers(options.scheduler) as executor:
+            yield executor
+
+
 def _fill(options: argparse.Namespace) -> None:
     spec = material.specified(options)
     _check_targets(options, spec)
@@ -134,7 +150,6 @@ def _fill(options: argparse.Namespace) -> None:
     from ..design.forecast import forecast_fill
     from ..jobs.rough_radius import roughly_aimed
     from ..jobs.targets import aimed
-    from ..util.workers import processes
 
     start = time.perf_counter()
     solid = read_part(options, spec.cell_size)
@@ -142,12 +157,12 @@ def _fill(options: argparse.Namespace) -> None:
     meshed = solver_options.is_meshed(options)
     if not options.quiet:
         aim = roughly_aimed(solid, spec)
-        expected = forecast_fill(solid, aim, streamed=_writes_stl(options))
+        expected = forecast_fill(solid, aim, streamed=_is_plain(options))
         print(f"Expected: {expected if meshed else expected.of_axes}.", flush=True)
-    with processes() as executor, Progress(options.quiet) as progress:
+    with _workers(options) as executor, Progress(options.quiet) as progress:
         infill = aimed(
             solid, spec, progress=progress, meshed=meshed, executor=executor,
-            streamed=_writes_stl(options),
+            streamed=_is_plain(options),
         )  # fmt: skip
         spec = infill.spec
         if solver_options.fill_axes(infill, options, start):
@@ -185,8 +200,9 @@ def _block(options: argparse.Namespace) -> None:
 
         printing_options.finish_beams(block_beams(spec, options.count), options, start)
         return
+    streamed = _is_plain(options) and Path(options.output).suffix.lower() == ".stl"
     if not options.quiet:
-        expected = forecast_block(spec, options.count, streamed=_writes_stl(options))
+        expected = forecast_block(spec, options.count, streamed=streamed)
         print(f"Expected: {expected}.", flush=True)
     beams = None
     if options.threemf == "both":
@@ -194,7 +210,7 @@ def _block(options: argparse.Namespace) -> None:
 
         beams = block_beams(spec, options.count)
     with Progress(options.quiet) as progress:
-        if _writes_stl(options):
+        if streamed:
             tell(write_block_stl(spec, options.count, options.output, progress=progress), options)
             return
         result = block(spec, tuple(options.count), progress=progress)
@@ -237,11 +253,13 @@ def _picture(
         picture(result.mesh, spec, options.picture, solid=solid)
 
 
-def _writes_stl(options: argparse.Namespace) -> bool:
-    """Whether nothing but an STL file of the mesh as it is was asked for."""
+def _is_plain(options: argparse.Namespace) -> bool:
+    """Whether nothing but a file was asked for, which holds a surface without a mesh of it all."""
+    from ..io.write import STREAMED
+
     more = (options.print_report, options.picture)
     plain = all(option is None for option in more)
-    return plain and Path(options.output).suffix.lower() == ".stl"
+    return plain and Path(options.output).suffix.lower() in STREAMED
 
 
 def _check_targets(options: argparse.Namespace, spec: LatticeSpec) -> None:
@@ -285,7 +303,7 @@ def _finish(
         write_surface(result.surface, options.output, figures=result.report.figures)
     else:
         figures = result.report.figures
-        write_3mf_beams(beams, options.output, result.mesh, figures=figures)
+        write_3mf_beams(beams, options.output, result.surface, figures=figures)
     report = dataclasses.replace(
         result.report,
         stages={**before, **result.report.stages, "write": time.perf_counter() - start},

@@ -43,7 +43,8 @@ class RunOption:
         writes: the same, of a file that is written.
         extensions: of the output, without which it has no effect; empty for any.
         place: where its value is kept, if not by its name.
-        either: of options with the same word here just one is given.
+        either: of options with the same word here at most one is given, or just one if they are
+            required.
         short: another name, of one letter.
     """
 
@@ -243,11 +244,11 @@ RUN_OPTIONS = (
     ),
     RunOption(
         "strut-radius", ("properties",), "radius r of the struts", "MM", read=float,
-        either="size",
+        either="size", required=True,
     ),
     RunOption(
         "relative-density", ("properties",), "from 0 to 1, in place of the radius", "D",
-        read=float, either="size",
+        read=float, either="size", required=True,
     ),
     RunOption(
         "fillet", ("properties",), "round at the joints (default 0)", "MM", read=float, default=0.0,
@@ -265,6 +266,17 @@ RUN_OPTIONS = (
     RunOption(
         "workers", ("sweep",),
         "runs side by side (default: as many as cores and memory allow)", "N", read=int,
+    ),
+    RunOption(
+        "workers", ("fill",),
+        "processes that cut the lattice at the wall, side by side (default: one a core; 1 for "
+        "this process alone); the file is the same with any number",
+        "N", read=int, either="who works",
+    ),
+    RunOption(
+        "scheduler", ("fill",),
+        "of Dask, such as tcp://HOST:8786, whose workers do that in their stead", "ADDRESS",
+        either="who works",
     ),
     RunOption(
         "scheduler", ("sweep",), "of Dask, such as tcp://HOST:8786, for the runs", "ADDRESS",
@@ -302,12 +314,12 @@ def add_run_options(parser: argparse.ArgumentParser, command: str) -> None:
         into = groups[row.group]
         if row.either:
             if row.either not in groups:
-                groups[row.either] = into.add_mutually_exclusive_group(required=True)
+                groups[row.either] = into.add_mutually_exclusive_group(required=row.required)
             into = groups[row.either]
         names = ([f"-{row.short}"] if row.short else []) + [row.option]
         said: dict[str, Any] = {"help": row.help.replace("%", "%%"), "dest": row.stored}
         if row.shape:
-            said |= {"default": row.default, "required": row.required}
+            said |= {"default": row.default, "required": row.required and not row.either}
             said |= {"choices": row.choices} if row.choices else {"metavar": row.shape}
             said |= {"type": row.read} if row.read is not None else {}
         else:

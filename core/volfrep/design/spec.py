@@ -276,8 +276,8 @@ class LatticeSpec:
     @property
     def streams(self) -> bool:
         """Whether a file of its result needs no mesh of what the wall does not cut: equal cells."""
-        whole = bool(self.open_faces) or self.drains is not None
-        return self.is_cut and not self.is_graded and not whole and self.network is None
+        varied = (self.size_grading, self.radius_grading, self.cell_map)
+        return self.is_cut and self.network is None and all(part is None for part in varied)
 
     @property
     def template_radius(self) -> float:

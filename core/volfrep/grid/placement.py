@@ -7,7 +7,7 @@ And what follows from it: the nodes' places in the part, and their radii.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -30,6 +30,46 @@ NUDGE = np.array([2.1e-4, 1.3e-4, 1.7e-4])
 
 
 @dataclass(frozen=True, eq=False)
+class Motion:
+    """A rigid motion of lattice space; equal points go to equal places, whoever moves them.
+
+    It takes one number at a time: sums of a library may come in another order for other shapes.
+
+    Attributes:
+        shift: (3,) that is added at last, mm.
+        frame: (3, 3) the directions that x, y, z turn into, as columns; None: they are not turned.
+        centre: (3,) where the origin is turned to, mm.
+    """
+
+    shift: Floats
+    frame: Floats | None = None
+    centre: Floats = field(default_factory=lambda: np.zeros(3))
+
+    def __call__(self, points: Floats) -> Floats:
+        """Where (..., 3) points go, mm."""
+        if self.frame is None:
+            return points + self.shift
+        return (self.turned(points) + self.centre) + self.shift
+
+    def turned(self, directions: Floats) -> Floats:
+        """What becomes of (..., 3) directions."""
+        if self.frame is None:
+            return directions
+        return self._sums(directions, self.frame)
+
+    def back(self, points: Floats) -> Floats:
+        """Where (..., 3) points came from, mm."""
+        if self.frame is None:
+            return points - self.shift
+        return self._sums((points - self.shift) - self.centre, self.frame.T)
+
+    @staticmethod
+    def _sums(vectors: Floats, rows: Floats) -> Floats:
+        x, y, z = (vectors[..., k] for k in range(3))
+        return np.stack([x * a + y * b + z * c for a, b, c in rows], axis=-1)
+
+
+@dataclass(frozen=True, eq=False)
 class Placement:
     """Where a lattice lies in its part: what takes a point of lattice space to one of the part.
 
@@ -46,6 +86,16 @@ class Placement:
     bounds: Floats
     depth: Callable[[Floats], Floats]
     is_cut: bool = False
+
+    @property
+    def motion(self) -> Motion | None:
+        """What takes lattice space to the part, if that is a rigid motion."""
+        shift = self.nudged(np.zeros(3))
+        if self.mapping is None:
+            return Motion(shift)
+        if not self.mapping.is_rigid:
+            return None
+        return Motion(shift, self.mapping.base.frame, self.mapping.base.centre)
 
     def nudged(self, points: Floats) -> Floats:
         """(n, 3) places of vertices or nodes in the part, moved as the whole lattice is, mm."""

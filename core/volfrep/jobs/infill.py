@@ -303,14 +303,15 @@ class Infill:
             refuse_expected(self.spec, 0.0 if self._streamed else self.domain.mesh.volume)
             _ = self.struts  # refused before anything is meshed
             keeps = self._keeps_places
+            motion = self.placement.motion if keeps else None
             # Where nothing is cut there is no wall that an octant could reach.
             margin = np.inf if not is_cut else 0.0 if keeps else FIRST_MARGIN
             with self.monitor.stage("tile", 0.4, 0.5):
                 first = self._octants(is_cut, margin)
             with self.monitor.stage("lattice", 0.5, 0.6):
                 self._laid_octants[is_cut] = (
-                    in_place(*first, self.placement.nudged(np.zeros(3)))
-                    if keeps and self.placement.mapping is None
+                    in_place(*first, motion)
+                    if motion is not None
                     else lay(first, margin, partial(self._octants, is_cut), self._placed)
                 )
         return self._laid_octants[is_cut]
@@ -367,7 +368,8 @@ class Infill:
         surface, quality = cleared.surface, cleared.quality
         moved = not self._keeps_places
         if output != "domain":
-            surface, quality, notes = finished(surface, quality, self.monitor, moved)
+            with self.monitor.stage("check", 1.0, 1.0):
+                surface, quality, notes = finished(surface, quality, self.monitor, moved)
             warnings += self._notes + notes
         if output == "lattice":
             warnings += pieces_told(

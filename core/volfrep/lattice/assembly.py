@@ -186,32 +186,77 @@ def facets(
         cap: None for the lattice's surface; or (axis, high) for the flat caps on that face, in
             the octants' own frames.
     """
-    groups = []
-    for key, place in zip(layout.grid.keys, layout.places, strict=True):
-        octant = layout.octants[key]
-        pattern = octant.triangles if cap is None else caps.cap(octant, *cap)
-        if where is not None:
-            place = place[where[tuple(place.T)]]
-        if not len(pattern) or not len(place):
-            continue
-        turned = ((place % 2) == 0).sum(axis=1) % 2 == 1
-        groups.append((octant, place[~turned], pattern))
-        groups.append((octant, place[turned], pattern[:, ::-1]))
-    total = sum(len(place) * len(pattern) for _, place, pattern in groups)
+    patterns = {key: _pattern(layout.octants[key], cap) for key in layout.grid.keys}
+    pairs = list(zip(layout.grid.keys, layout.places, strict=True))
+    if where is not None:
+        pairs = [(key, place[where[tuple(place.T)]]) for key, place in pairs]
+    total = sum(len(place) * len(patterns[key]) for key, place in pairs)
     if cap is None:
         monitor.count("triangles laid", total)
     triangles = np.empty((total, 3), np.int32)
     filled = 0
-    for octant, place, pattern in groups:
-        size = max(1, CHUNK_VERTICES // len(pattern))
-        for begin in range(0, len(place), size):
-            part = place[begin : begin + size]
-            amount = len(part) * len(pattern)
-            out = triangles[filled : filled + amount].reshape(len(part), len(pattern), 3)
-            np.take(numbers(layout, octant, part), pattern, axis=1, out=out, mode="clip")
-            filled += amount
+    for key, place in pairs:
+        for block in _facets_at(layout, key, place, patterns[key]):
+            triangles[filled : filled + len(block)] = block
+            filled += len(block)
             monitor.tick()
     return triangles
+
+
+def _pattern(octant: Octant, cap: tuple[int, bool] | None) -> NDArray[np.int32]:
+    return octant.triangles if cap is None else caps.cap(octant, *cap)
+
+
+def _facets_at(
+    layout: Layout, key: OctantKey, place: NDArray[np.int64], pattern: NDArray[np.int32]
+) -> Iterator[NDArray[np.int32]]:
+    """Triangles of an octant at some places, some at a time."""
+    if not len(pattern) or not len(place):
+        return
+    turned = ((place % 2) == 0).sum(axis=1) % 2 == 1
+    size = max(1, CHUNK_VERTICES // len(pattern))
+    for chosen, order in ((place[~turned], pattern), (place[turned], pattern[:, ::-1])):
+        for begin in range(0, len(chosen), size):
+            own = numbers(layout, layout.octants[key], chosen[begin : begin + size])
+            yield np.take(own, order, axis=1, mode="clip").reshape(-1, 3)
+
+
+def facet_blocks(layout: Layout) -> Iterator[NDArray[np.int32]]:
+    """The triangles of `facets`, some at a time."""
+    for key, place in zip(layout.grid.keys, layout.places, strict=True):
+        yield from _facets_at(layout, key, place, layout.octants[key].triangles)
+
+
+def coordinate_blocks(layout: Layout) -> Iterator[Floats]:
+    """The numbered vertices' coordinates in their order, a layer of octants at a time, mm.
+
+    Args:
+        layout: the numbered octants, each with a number of its own; the grid does not close upon
+            itself along its first axis.
+    """
+    layers, base = layout.grid.kind.shape[0], layout.base[:, 0, 0].astype(np.int64)
+    # Octants of a layer have vertices on three planes of the complex; the last is the next one's
+    # first.
+    begin = np.append(base, layout.count)
+    carried = np.zeros((0, 3))
+    for layer in range(layers):
+        first, after = begin[2 * layer], begin[2 * layer + 3]
+        points = np.empty((after - first, 3))
+        points[: len(carried)] = carried
+        for key, place in zip(layout.grid.keys, layout.places, strict=True):
+            octant = layout.octants[key]
+            # They are in the order of the layers.
+            low, high = np.searchsorted(place[:, 0], [layer, layer + 1])
+            if low == high or not len(octant.vertices):
+                continue
+            part = place[low:high]
+            corner, sign = layout.frames(part)
+            steps = sign[:, None, :] * in_steps(layout.grid, octant)
+            own = placed(layout.grid, corner[:, None, :], steps)
+            points[numbers(layout, octant, part) - first] = own
+        carried = points[begin[2 * layer + 2] - first :]
+        yield points[: begin[2 * layer + 2] - first]
+    yield carried
 
 
 def lay(layout: Layout, monitor: Monitor) -> TriangleMesh:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ..grid.placement import Motion
 from ..mesh.triangle_mesh import TriangleMesh
 from ..octants.octant import used_kinds
 from ..util.progress import Monitor
@@ -22,13 +23,13 @@ class Placed:
     Attributes:
         layout: the octants, numbered, with corners for caps.
         points: (n, 3) where their vertices are, mm; None where they keep their places in lattice
-            space but for the shift.
-        shift: (3,) by which all are moved, mm.
+            space but for the motion.
+        motion: of all that keep their places.
     """
 
     layout: Layout
     points: Floats | None
-    shift: Floats
+    motion: Motion
 
     def coordinates(self, wanted: NDArray[np.int32], where: Bools, monitor: Monitor) -> Floats:
         """(k, 3) where some vertices are, mm.
@@ -40,8 +41,7 @@ class Placed:
         """
         if self.points is not None:
             return self.points[wanted]
-        result: Floats = coordinates_of(self.layout, wanted, where, monitor) + self.shift
-        return result
+        return self.motion(coordinates_of(self.layout, wanted, where, monitor))
 
     def mesh(
         self, triangles: NDArray[np.int32], where: Bools, monitor: Monitor
@@ -71,7 +71,7 @@ class Placed:
         some = [place[where[tuple(place.T)]] for place in self.layout.places]
         low, high = [np.zeros((0, 3))], [np.zeros((0, 3))]
         for number, points in placed_octants(self.layout, where, monitor):
-            own = points + self.shift if self.points is None else self.points[number]
+            own = self.motion(points) if self.points is None else self.points[number]
             low.append(own.min(axis=1))
             high.append(own.max(axis=1))
         pairs = zip(self.layout.grid.keys, some, strict=True)
@@ -96,9 +96,9 @@ class Placed:
         octants = {key: self.layout.octants[key] for key in some.keys}
         layout = replace(lay_out(some, octants), first=self.layout.first + low // 2)
         if self.points is None:
-            return Placed(layout, None, self.shift), tuple(box)
+            return Placed(layout, None, self.motion), tuple(box)
         points = np.empty((layout.count, 3))
         for key, place in zip(some.keys, layout.places, strict=True):
             theirs = numbers(self.layout, octants[key], place + low)
             points[numbers(layout, octants[key], place)] = self.points[theirs]
-        return Placed(layout, points, self.shift), tuple(box)
+        return Placed(layout, points, self.motion), tuple(box)

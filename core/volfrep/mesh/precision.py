@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 from numpy.typing import NDArray
@@ -55,23 +55,6 @@ def refuse_lost_corners(
             )
 
 
-def as_text(mesh: TriangleMesh, path: str | os.PathLike[str]) -> NDArray[np.float64]:
-    """The vertices (n, 3) rounded to the step of single precision, so that their text is short.
-
-    Raises:
-        VolfrepError: as `single_precision` and `refuse_lost_corners`.
-    """
-    single_precision(mesh, path)
-    points = as_decimals(mesh.vertices)
-    refuse_lost_corners(points.astype(np.float32), mesh.triangles, path)
-    return points
-
-
-def as_decimals(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Coordinates rounded to a decimal place, finer than single precision where it is coarsest."""
-    return rounded(points, decimal_step(points))
-
-
 def decimal_step(points: NDArray[np.float64]) -> float:
     """What the decimals of a text have to resolve, mm."""
     farthest = max(float(points.max(initial=1.0)), -float(points.min(initial=-1.0)))
@@ -84,8 +67,9 @@ def rounded(numbers: NDArray[np.float64], step: float) -> NDArray[np.float64]:
     return np.round(numbers, decimals) + 0.0  # -0 becomes 0
 
 
-def lines(template: str, values: NDArray[np.generic]) -> Iterator[bytes]:
-    """The template once for every row of (n, k) values, in blocks of one formatting call each."""
-    for start in range(0, len(values), BLOCK_ROWS):
-        block = values[start : start + BLOCK_ROWS]
-        yield ((template * len(block)) % tuple(block.ravel().tolist())).encode("ascii")
+def lines(template: str, blocks: Iterable[NDArray[np.generic]]) -> Iterator[bytes]:
+    """The template once for every row of (n, k) values, in formatting calls of bounded size."""
+    for values in blocks:
+        for start in range(0, len(values), BLOCK_ROWS):
+            block = values[start : start + BLOCK_ROWS]
+            yield ((template * len(block)) % tuple(block.ravel().tolist())).encode("ascii")

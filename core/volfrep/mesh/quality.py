@@ -237,6 +237,10 @@ def shape_statistics(mesh: TriangleMesh) -> ShapeStatistics:
     )
 
 
+#: More uses of an edge one way count as so many.
+MOST_COUNTED = (1 << 15) - 1
+
+
 @dataclass(frozen=True, eq=False)
 class _EdgeUses:
     open: int
@@ -282,8 +286,11 @@ def _edge_uses(forward: Any, backward: Any) -> _EdgeUses:
     ):
         return _EdgeUses(0, 0, 0, forward)
     # Both counts of an edge in one number: the forward one below, the backward one above.
-    both = forward.astype(np.int64) + backward.astype(np.int64) * (1 << 32)
-    ahead, back = both.data & 0xFFFFFFFF, both.data >> 32
+    for way in (forward, backward):
+        np.minimum(way.data, MOST_COUNTED, out=way.data)
+    backward.data *= MOST_COUNTED + 1
+    both = forward + backward
+    ahead, back = both.data & MOST_COUNTED, both.data // (MOST_COUNTED + 1)
     uses = ahead + back
     return _EdgeUses(
         open=int(np.count_nonzero(uses == 1)),

@@ -16,12 +16,16 @@ import numpy as np
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.linalg import frame_about, times
 from ..util.ragged import spread
-from ..util.types import Floats, Ints
+from ..util.types import Bools, Floats, Ints
 
 #: Lines on each side of the square grid of lines.
 LINES = 64
 #: Pairs of a triangle and a line tested at once.
 PAIRS_PER_STEP = 2_000_000
+#: Triangles looked at at once.
+TRIANGLES_PER_STEP = 500_000
+#: Bins that tell whether there is a line near a triangle are so many times finer.
+FINER = 8
 
 
 def _general_frame() -> Floats:
@@ -66,7 +70,7 @@ def windings(mesh: TriangleMesh, box: Floats | None = None) -> Windings:
         box: (2, 3) a box over which the lines stand, its own for None. In the same box they are
             the same lines: what two meshes enclose can be compared without a sampling error.
     """
-    corners = times(np.stack(mesh.corners(), axis=1), FRAME)
+    vertices = times(mesh.vertices, FRAME)
     ends = mesh.bounds if box is None else box
     shadow = times(np.stack(np.meshgrid(*ends.T), axis=-1).reshape(-1, 3), FRAME)[:, :2]
     low, high = shadow.min(axis=0), shadow.max(axis=0)
@@ -74,7 +78,11 @@ def windings(mesh: TriangleMesh, box: Floats | None = None) -> Windings:
     jitter = np.random.default_rng(1).uniform(0.0, 1.0, (LINES, LINES, 2))
     grid = np.stack(np.meshgrid(np.arange(LINES), np.arange(LINES), indexing="ij"), axis=2)
     points = (low + (grid + jitter) * step).reshape(-1, 2)
-    line, _, height, sign = crossings(corners, points)
+    met = []
+    for begin in range(0, len(mesh.triangles), TRIANGLES_PER_STEP):
+        corners = vertices[mesh.triangles[begin : begin + TRIANGLES_PER_STEP]]
+        met.append(crossings(corners, points))
+    line, height, sign = (np.concatenate([found[k] for found in met]) for k in (0, 2, 3))
     # A line through an edge, as far as rounding tells, may have met one of its triangles only.
     whole = np.bincount(line, weights=sign, minlength=len(points)) == 0
     keep = whole[line]
@@ -84,9 +92,9 @@ def windings(mesh: TriangleMesh, box: Floats | None = None) -> Windings:
     number = -np.cumsum(sign[order])[:-1]
     length = np.where(np.diff(line) == 0, np.diff(height), 0.0)
     area = float(step.prod()) * len(points) / max(np.count_nonzero(whole), 1)
-    met = length > 0.0
-    values, index = np.unique(number[met], return_inverse=True)
-    totals = np.bincount(index.ravel(), weights=length[met], minlength=len(values)) * area
+    long = length > 0.0
+    values, index = np.unique(number[long], return_inverse=True)
+    totals = np.bincount(index.ravel(), weights=length[long], minlength=len(values)) * area
     volume = {int(v): float(t) for v, t in zip(values, totals, strict=True) if v != 0}
     wrong = np.where((number != 0) & (number != 1), length, 0.0)
     place = None
@@ -96,7 +104,7 @@ def windings(mesh: TriangleMesh, box: Floats | None = None) -> Windings:
         place = times(np.array(local), FRAME.T)
     odd = float(wrong.sum()) * area
     bounds = [*volume, 0]
-    lines = len(np.unique(line[:-1][met]))
+    lines = len(np.unique(line[:-1][long]))
     return Windings(volume, odd, place, min(bounds), max(bounds), lines)
 
 
@@ -144,9 +152,11 @@ def crossings(corners: Floats, points: Floats) -> tuple[Ints, Ints, Floats, Ints
     name = cell[:, 0] * bins + cell[:, 1]
     order = np.argsort(name, kind="stable")
     begins = np.searchsorted(name[order], np.arange(bins * bins + 1))
-    first = np.clip((flat.min(axis=1) - low) / size, 0, bins - 1).astype(np.int64)
-    last = np.clip((flat.max(axis=1) - low) / size, 0, bins - 1).astype(np.int64)
-    outside = ((flat.max(axis=1) < low) | (flat.min(axis=1) > high)).any(axis=1)
+    least, most = flat.min(axis=1), flat.max(axis=1)
+    first = np.clip((least - low) / size, 0, bins - 1).astype(np.int64)
+    last = np.clip((most - low) / size, 0, bins - 1).astype(np.int64)
+    outside = ((most < low) | (least > high)).any(axis=1)
+    outside |= ~_holds_any(points, low, size / FINER, bins * FINER, least, most)
     span = last - first + 1
     count = np.where(outside, 0, span.prod(axis=1))
     found: list[tuple[Ints, Ints, Floats, Ints]] = [(none, none, np.zeros(0), none)]
@@ -168,6 +178,20 @@ def crossings(corners: Floats, points: Floats) -> tuple[Ints, Ints, Floats, Ints
         np.concatenate([f[2] for f in found]),
         np.concatenate([f[3] for f in found]),
     )
+
+
+def _holds_any(
+    points: Floats, low: Floats, size: Floats, bins: int, least: Floats, most: Floats
+) -> Bools:
+    """Which boxes, from `least` to `most`, share a bin with a point."""
+    cell = np.minimum((points - low) / size, bins - 1).astype(np.int64)
+    count = np.zeros((bins + 1, bins + 1), np.int32)
+    np.add.at(count, (cell[:, 0] + 1, cell[:, 1] + 1), 1)
+    below = count.cumsum(axis=0, dtype=np.int32).cumsum(axis=1, dtype=np.int32)
+    x, y = np.clip((least - low) / size, 0, bins - 1).astype(np.int64).T
+    right, top = np.clip((most - low) / size, 0, bins - 1).astype(np.int64).T + 1
+    found: Bools = below[right, top] - below[x, top] - below[right, y] + below[x, y] > 0
+    return found
 
 
 def _cross(

@@ -17,6 +17,7 @@ from ..spatial.rays import inside_points
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 from .drains import drain
+from .trimmed_surface import TrimmedSurface
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,8 +64,9 @@ def part_beams(
     wall = joined_wall(solid, cavity, skin)
     if drains is None:
         return BeamModel(lattice, solid, wall)
-    drained = drain(wall, solid, cavity, lattice, skin.thickness, drains, monitor)
-    return BeamModel(lattice, solid, drained.mesh, drained.warnings)
+    closed = TrimmedSurface(wall)
+    drained = drain(closed, solid, cavity, lattice, skin.thickness, drains, monitor)
+    return BeamModel(lattice, solid, drained.surface.mesh, drained.warnings)
 
 
 def joined_wall(solid: TriangleMesh, cavity: TriangleMesh, skin: Skin) -> TriangleMesh:

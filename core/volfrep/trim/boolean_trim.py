@@ -4,26 +4,31 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterable, Iterator, Sequence
-from concurrent.futures import BrokenExecutor, Executor, Future
-from concurrent.futures import TimeoutError as FutureTimeoutError
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import Executor, Future, wait
 from dataclasses import dataclass, replace
-from itertools import islice
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..mesh.booleans import to_library
 from ..mesh.edge_table import pieces_of
 from ..mesh.float32_repair import shortest_edge
 from ..mesh.triangle_mesh import TriangleMesh, compact, concatenate
+from ..spatial.rays import inside_points
+from ..util.errors import VolfrepError
 from ..util.progress import POLL_SECONDS, Monitor
-from ..util.threads import threads
 from ..util.types import Bools, Floats, Ints
-from .culling import KeptOctants
-from .group_cut import Group, Piece, cut
+from ..util.workers import at_once
+from .culling import KeptOctants, without_pinches
+from .group_cut import Group, Piece, cut, read_runs
 from .laid import Laid
-from .trimmed_surface import InnerOctants, TrimmedSurface, equal_rows
+from .trimmed_surface import InnerOctants, TrimmedSurface, concatenated_at, equal_rows
 from .wall_groups import Groups, grouped
+
+if TYPE_CHECKING:
+    import manifold3d
 
 #: Vertices of two groups are the same within this part of the shortest edge that files hold.
 SAME_VERTEX = 1e-4
@@ -121,43 +126,123 @@ def _cut(
 ) -> Iterator[Piece]:
     """What the Boolean leaves of groups, in their order."""
     waiting = iter(groups)
-    ahead: deque[tuple[Group, Future[Piece]]] = deque()
+    ahead: deque[tuple[Group, Future[Piece] | None]] = deque()
+    if count == 1:
+        executor = None  # to start a worker takes longer than the group
     for done in range(count):
-        if executor is None:
-            piece = cut(ahead.popleft()[0] if ahead else next(waiting), monitor)
-        else:
-            # Some groups ahead, so that no worker waits; not all, so that they take no memory.
-            for group in islice(waiting, 2 * threads() - len(ahead)):
-                ahead.append((group, _submitted(executor, group)))
-            group, future = ahead.popleft()
+        piece = None
+        # Some groups ahead, so that no worker waits; not all, so that they take no memory.
+        while executor is not None and len(ahead) < 2 * at_once(executor):
+            group = next(waiting, None)
+            if group is None:
+                break
             try:
-                piece = _finished(future, monitor)
-            except BrokenExecutor:  # a worker is gone, as for want of memory: go on without
-                executor, piece = None, cut(group, monitor)
+                ahead.append((group, executor.submit(cut, group)))
+            except RuntimeError:  # it takes nothing more, as when a process of it was killed
+                executor = None
+                ahead.append((group, None))
+        if ahead:
+            group, future = ahead.popleft()
+            piece = None if future is None else _finished(future, monitor)
+        else:
+            group = next(waiting)
+        if piece is None:
+            piece = cut(group, monitor)
         for name, amount in piece.work.items():
             monitor.count(name, amount)
         monitor.tick(0.1 + 0.8 * (done + 1) / count)
         yield piece
 
 
-def _submitted(executor: Executor, group: Group) -> Future[Piece]:
-    try:
-        return executor.submit(cut, group)
-    except BrokenExecutor as error:
-        broken: Future[Piece] = Future()
-        broken.set_exception(error)
-        return broken
+def _finished(future: Future[Piece], monitor: Monitor) -> Piece | None:
+    """What a worker made; None where it was lost, as for want of memory.
+
+    What is wrong with a group itself shows again where it is cut next. A cancel does not wait.
+    """
+    while not future.done():
+        wait([future], POLL_SECONDS)
+        monitor.tick()
+    if future.cancelled() or future.exception() is not None:
+        monitor.count("groups whose worker was lost", 1)
+        return None
+    return future.result()
 
 
-def _finished(future: Future[Piece], monitor: Monitor) -> Piece:
-    """What a worker made; a cancel does not wait for it."""
-    while True:
-        try:
-            return future.result(timeout=POLL_SECONDS)
-        except FutureTimeoutError:
-            if future.done():
-                raise
-            monitor.tick()
+def cut_again(
+    surface: TrimmedSurface,
+    by: Sequence[TriangleMesh],
+    cut: Callable[[manifold3d.Manifold], manifold3d.Manifold],
+    monitor: Monitor,
+    *,
+    keeps: bool,
+    is_void: bool = False,
+) -> TrimmedSurface:
+    """A trimmed surface after a further Boolean, which octants beside its mesh stay out of.
+
+    Flat caps close the mesh where octants follow, and are taken off again.
+
+    Args:
+        surface: closed.
+        by: closed meshes that cut it, mm.
+        cut: gives what they leave of it.
+        monitor: for cancel.
+        keeps: whether the octants inside of these are what stays; otherwise those outside.
+        is_void: whether it is handed over, and taken away, as the void that it bounds.
+
+    Raises:
+        VolfrepError: the surface is no solid that can be cut.
+    """
+    import manifold3d
+
+    if surface.octants is not None:
+        surface = surface.with_octants(_met(surface.octants, by, keeps, monitor), monitor)
+    mesh, inner = surface.mesh, surface.octants
+    if inner is not None:
+        mesh = concatenated_at(mesh, surface.rim_rows, inner.caps(monitor))
+    mesh = mesh.reversed() if is_void else mesh
+    runs = np.array([0, len(surface.mesh.triangles), len(mesh.triangles)], np.uint64)
+    ids = manifold3d.Manifold.reserve_ids(2)
+    source = to_library(
+        mesh,
+        run_index=runs[: 2 + (inner is not None)] * np.uint64(3),
+        run_original_id=np.arange(ids, ids + 1 + (inner is not None), dtype=np.uint32),
+    )
+    solid = monitor.call(lambda: manifold3d.Manifold(source))
+    if solid.status() != manifold3d.Error.NoError:
+        raise VolfrepError(
+            f"The part cannot be cut once more ({solid.status().name}): change the lattice's "
+            "origin or radius by a little."
+        )
+    result = monitor.call(lambda: cut(solid).to_mesh64())
+    left, origin = read_runs(result)
+    kept = TriangleMesh(left.vertices, left.triangles[origin != ids + 1])
+    found = TrimmedSurface(compact(kept), inner)
+    if found.is_joined:
+        return found
+    # The Boolean has taken out vertices at the caps.
+    whole = TrimmedSurface(surface.whole(monitor))
+    return cut_again(whole, by, cut, monitor, keeps=keeps, is_void=is_void)
+
+
+def _met(inner: InnerOctants, by: Sequence[TriangleMesh], keeps: bool, monitor: Monitor) -> Bools:
+    """Octants that solids cut, or that do not stay, and those about them that caps need."""
+    from scipy import ndimage  # slow to import
+
+    near = np.zeros_like(inner.where)
+    for mesh in by:
+        near |= inner.reached(mesh.vertices[mesh.triangles])
+    # What no surface reaches into is on one side as a whole.
+    label, count = ndimage.label(inner.where & ~near)
+    first = np.unique(label, return_index=True)[1][1 if (label == 0).any() else 0 :]
+    middle = inner.middle(np.stack(np.unravel_index(first, label.shape), axis=1))
+    inside = np.zeros(count, bool)
+    for mesh in by:
+        inside |= inside_points(mesh, middle, monitor)
+    near |= np.append(False, inside != keeps)[label]
+    present = inner.laid.kept.grid.kind >= 0
+    border = without_pinches(present & ~(inner.where & ~near), present, inner.laid.periodic)
+    result: Bools = inner.where & border
+    return result
 
 
 @dataclass(frozen=True, eq=False)
@@ -203,7 +288,8 @@ def join(pieces: Sequence[Piece], rim: Floats, tolerance: float) -> Joined:
     np.minimum.at(chosen, cluster, np.arange(len(seam)))
     number = np.arange(len(whole.vertices), dtype=np.int32)
     number[seam] = seam[chosen[cluster]]
-    triangles = number[whole.triangles]
+    triangles = whole.triangles
+    np.take(number, triangles, out=triangles, mode="clip")
     at_rim = np.zeros(len(whole.vertices), bool)
     row = equal_rows(rim, points[chosen])
     at_rim[seam[chosen[row[row >= 0]]]] = True
@@ -225,8 +311,7 @@ def _open(
     """The triangles with an edge that does not run once each way and is not at the rim."""
     at_seam = np.zeros(len(number), bool)
     at_seam[number[seam]] = True
-    corners = at_seam[triangles]
-    some = np.flatnonzero(corners.sum(axis=1) >= 2)
+    some = np.flatnonzero(at_seam[triangles].sum(axis=1, dtype=np.int8) >= 2)
     start = triangles[some].astype(np.int64)
     end = np.roll(start, -1, axis=1)
     here = at_seam[start] & at_seam[end]

@@ -5,13 +5,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..design.openings import DrainHoles
 from ..grid.strut_graph import Wireframe
-from ..mesh.booleans import difference
-from ..mesh.quality import inspect
+from ..mesh.booleans import as_manifold
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..spatial.proximity import closest_points
 from ..spatial.rays import segment_crossings
@@ -19,6 +19,11 @@ from ..util.errors import VolfrepError
 from ..util.linalg import along
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
+from .boolean_trim import cut_again
+from .trimmed_surface import TrimmedSurface
+
+if TYPE_CHECKING:
+    import manifold3d
 
 #: Sides of a hole, and rays along them that feel where the skin is.
 SIDES = 48
@@ -48,20 +53,20 @@ class Drained:
     """A part with holes.
 
     Attributes:
-        mesh: the part.
+        surface: of the part.
         places: of the holes on its surface, mm.
         volume: of the material that they took, mm3.
         warnings: sentences for the user.
     """
 
-    mesh: TriangleMesh
+    surface: TrimmedSurface
     places: tuple[tuple[float, float, float], ...]
     volume: float
     warnings: tuple[str, ...]
 
 
 def drain(
-    part: TriangleMesh,
+    part: TrimmedSurface,
     solid: TriangleMesh,
     domain: TriangleMesh,
     lattice: Wireframe,
@@ -75,7 +80,7 @@ def drain(
     lowest places of its wall where there is room.
 
     Args:
-        part: closed mesh of skin and lattice, mm.
+        part: skin and lattice, mm.
         solid: its outside.
         domain: closed mesh of what the lattice fills.
         lattice: its struts.
@@ -88,15 +93,13 @@ def drain(
     """
     site = _Site(solid, domain, thickness, 0.5 * wanted.diameter)
     holes = _given(site, wanted)
-    before = part.volume
-    mesh = part
-    if len(holes.start):
-        mesh = monitor.call(lambda: difference(part, *site.cylinders(holes)))
+    drilled = _drilled(part, site.cylinders(holes), monitor)
+    found = drilled.inspected(monitor).found
     warnings: list[str] = []
     if wanted.count:
-        found = inspect(mesh, monitor)
-        chosen = []
-        for shell in np.flatnonzero(found.volume < 0.0):
+        chosen, mesh = [], drilled.mesh
+        walls = np.unique(found.shell)  # a void that has none at the wall cannot be reached
+        for shell in walls[found.volume[walls] < 0.0]:
             wall = compact(TriangleMesh(mesh.vertices, mesh.triangles[found.shell == shell]))
             own = _lowest(site, wall, lattice, wanted, holes)
             chosen.append(own)
@@ -109,13 +112,27 @@ def drain(
                     "places."
                 )
             monitor.tick()
-        drilled = mesh
         added = [cylinder for own in chosen for cylinder in site.cylinders(own)]
-        if added:
-            mesh = monitor.call(lambda: difference(drilled, *added))
-    warnings += trapped(inspect(mesh, monitor).quality.voids)
+        drilled = _drilled(drilled, added, monitor)
+        found = drilled.inspected(monitor).found
+    warnings += trapped(found.quality.voids)
     places = tuple((float(x), float(y), float(z)) for x, y, z in holes.start)
-    return Drained(mesh, places, before - mesh.volume, tuple(warnings))
+    before = part.inspected(monitor).found.quality.volume
+    return Drained(drilled, places, before - found.quality.volume, tuple(warnings))
+
+
+def _drilled(
+    part: TrimmedSurface, cylinders: list[TriangleMesh], monitor: Monitor
+) -> TrimmedSurface:
+    if not cylinders:
+        return part
+
+    def less(whole: manifold3d.Manifold) -> manifold3d.Manifold:
+        for cylinder in cylinders:
+            whole = whole - as_manifold(cylinder)
+        return whole
+
+    return cut_again(part, cylinders, less, monitor, keeps=False)
 
 
 def trapped(voids: int) -> tuple[str, ...]:

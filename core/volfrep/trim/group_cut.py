@@ -183,7 +183,7 @@ def _cut_by_library(
     del capped, wall_mesh
     cavity = group.cavity
     result = asked.call(lambda: (wall - cutter if cavity else wall ^ cutter).to_mesh64())
-    mesh, origin = _read(result)
+    mesh, origin = read_runs(result)
     on_wall = origin == ids
     kept = on_wall | (origin == ids + 2)
     triangles = mesh.triangles[kept]
@@ -219,7 +219,7 @@ def cut_mesh(
     one, two = solids
     monitor.count("triangles into the Boolean", len(wall.triangles) + len(lattice.triangles))
     result = monitor.call(lambda: (one - two if cavity else one ^ two).to_mesh64())
-    mesh, origin = _read(result)
+    mesh, origin = read_runs(result)
     return mesh.reversed() if cavity else mesh, origin == ids
 
 
@@ -264,7 +264,7 @@ def _solid(
     return monitor.call(lambda: library.Manifold(source))
 
 
-def _read(result: manifold3d.Mesh64) -> tuple[TriangleMesh, NDArray[np.int64]]:
+def read_runs(result: manifold3d.Mesh64) -> tuple[TriangleMesh, NDArray[np.int64]]:
     """The Boolean's result, and the run that each triangle came from."""
     index = np.asarray(result.run_index).astype(np.int64) // 3
     origin = np.repeat(np.asarray(result.run_original_id).astype(np.int64), np.diff(index))

@@ -9,13 +9,14 @@ from functools import cached_property
 
 import numpy as np
 
+from ..grid.placement import Motion
 from ..lattice.assembly import Layout, lay_out
 from ..lattice.certificate import agree_on_faces
 from ..lattice.deform import Deformed
 from ..lattice.placed_octants import Placed
 from ..octants.octant import Octant, OctantKey
 from ..util.errors import VolfrepError
-from ..util.types import Bools, Floats
+from ..util.types import Bools, Periodic
 from .culling import CROSSING_MARGIN, KeptOctants
 
 #: Octants on moved struts mostly reach no farther out of their places than this, in units of
@@ -56,14 +57,19 @@ class Laid(Placed):
         return self.points is None and agree_on_faces(self.layout)
 
     @property
+    def periodic(self) -> Periodic:
+        """Along which axes the octants close upon themselves."""
+        return self.layout.grid.periodic
+
+    @property
     def clearance(self) -> float:
         """How near the wall may come to octants that it does not cross, mm."""
         return 0.25 * CROSSING_MARGIN * self.layout.grid.cell_size
 
 
-def in_place(kept: KeptOctants, octants: dict[OctantKey, Octant], shift: Floats) -> Laid:
-    """Octants that keep their places but for a shift, (3,) mm."""
-    return Laid(kept.lay_out(octants), None, shift, kept, octants)
+def in_place(kept: KeptOctants, octants: dict[OctantKey, Octant], motion: Motion) -> Laid:
+    """Octants that keep their places but for a motion."""
+    return Laid(kept.lay_out(octants), None, motion, kept, octants)
 
 
 def lay(
@@ -88,7 +94,7 @@ def lay(
         layout = kept.lay_out(octants)
         placed = place(layout)
         if placed.excess <= margin + 1e-9:
-            return Laid(layout, placed.vertices, np.zeros(3), kept, octants)
+            return Laid(layout, placed.vertices, Motion(np.zeros(3)), kept, octants)
         if widening < MOST_WIDENINGS:
             margin = max(SPARE_MARGIN * placed.excess, 2.0 * margin if widening else 0.0)
             kept, octants = within(margin)

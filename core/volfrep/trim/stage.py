@@ -16,7 +16,7 @@ from ..design.spec_parts import Skin
 from ..grid.strut_graph import Wireframe
 from ..lattice.certificate import keeps_corners
 from ..lattice.strut_masks import without_struts
-from ..mesh.booleans import difference, intersection
+from ..mesh.booleans import as_manifold
 from ..mesh.float32_repair import edge_within, shortest_edge
 from ..mesh.quality import combined, inspect, measure
 from ..mesh.triangle_mesh import TriangleMesh, concatenate
@@ -26,7 +26,7 @@ from ..shell.domain import Domain
 from ..spatial.proximity import closest_points
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
-from .boolean_trim import Trimmed, trim
+from .boolean_trim import Trimmed, cut_again, trim
 from .culling import KeptOctants, OctantRoles, cull, keep_all
 from .drains import Drained, drain
 from .finish import tidied
@@ -96,16 +96,19 @@ def cut_lattice(
     Raises:
         VolfrepError: nothing is left, or nothing would hold it.
     """
-    wall = domain.wall
-    trimmed = trim(
-        wall, laid, cavity=with_skin, monitor=monitor, executor=executor,
-        precision=shortest_edge(solid),
-    )  # fmt: skip
-    if not _needs_no_look(laid, wall):
-        trimmed = replace(trimmed, surface=TrimmedSurface(trimmed.surface.whole(monitor)))
+
+    def cut() -> Trimmed:
+        found = trim(
+            domain.wall, laid, cavity=with_skin, monitor=monitor, executor=executor,
+            precision=shortest_edge(solid),
+        )  # fmt: skip
+        if _needs_no_look(laid, domain.wall):
+            return found
+        return replace(found, surface=TrimmedSurface(found.surface.whole(monitor)))
+
     full = cells_are_full(octant_spec.cell_size, octant_spec.strut_radius)
     return cleared_cut(
-        trimmed, solid, domain, smallest_shell(octant_spec), full, monitor,
+        cut(), solid, domain, smallest_shell(octant_spec), full, monitor,
         has_skin=has_skin, with_skin=with_skin, keep_pieces=keep_pieces,
     )  # fmt: skip
 
@@ -147,6 +150,7 @@ def cleared_cut(
         removed, lost = held.pieces_removed, held.volume_removed
         if removed and not surface.triangles:
             raise _nothing_holds()
+    del trimmed  # nobody else has it: the mesh before slivers go, in the way of that after
     surface = tidied(surface, precision, monitor)
     bodies = 0
     if not (has_skin or keep_pieces):
@@ -207,11 +211,11 @@ def drained_part(
     Raises:
         VolfrepError: a hole cannot be where it is wanted.
     """
-    part = cleared.surface.whole(monitor)
+    part = cleared.surface
     drained = drain(part, solid, domain.mesh, frame, skin.thickness, drains, monitor)
-    clean = tidied(TrimmedSurface(drained.mesh), shortest_edge(solid), monitor)
-    cleared = replace(cleared, surface=clean, quality=measure(clean.mesh, monitor))
-    return cleared, replace(drained, mesh=clean.mesh)
+    clean = tidied(drained.surface, shortest_edge(solid), monitor)
+    quality = clean.inspected(monitor).found.quality
+    return replace(cleared, surface=clean, quality=quality), replace(drained, surface=clean)
 
 
 def _opened(
@@ -225,15 +229,13 @@ def _opened(
     monitor: Monitor,
 ) -> Cleared:
     """The part, or its lattice, cut at its open faces, beyond which the cavity reaches."""
-    mesh = cleared.surface.whole(monitor)
-    precision = shortest_edge(solid)
-    if with_skin:
-        void = mesh.reversed()
-        mesh = monitor.call(lambda: difference(solid, void))
-    else:
-        lattice = mesh
-        mesh = monitor.call(lambda: intersection(lattice, solid))
-    surface = tidied(TrimmedSurface(mesh), precision, monitor)
+    precision, outside = shortest_edge(solid), as_manifold(solid)
+    surface = cut_again(
+        cleared.surface, (solid,),
+        (lambda void: outside - void) if with_skin else (lambda lattice: lattice ^ outside),
+        monitor, keeps=True, is_void=with_skin,
+    )  # fmt: skip
+    surface = tidied(surface, precision, monitor)
     if keep_pieces:
         rest = clear(surface, smallest, monitor)
     elif with_skin:

@@ -13,7 +13,16 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ..lattice.assembly import Layout, box
+from ..lattice.assembly import (
+    Layout,
+    box,
+    facets,
+    in_steps,
+    lay_out,
+    neighbour_missing,
+    numbers,
+    placed,
+)
 from ..lattice.certificate import CertifiedPieces, certify_pieces
 from ..mesh.edge_table import pieces_of
 from ..mesh.quality import Inspection, Quality, inspect
@@ -38,6 +47,19 @@ class JoinedInspection:
 
     found: Inspection
     beyond: Bools
+
+
+@dataclass(frozen=True, eq=False)
+class Caps:
+    """Flat faces where octants follow on a solid.
+
+    Attributes:
+        mesh: the faces, mm.
+        at_rim: (n,) which of the vertices at the octants' rim each of its vertices is; -1 for none.
+    """
+
+    mesh: TriangleMesh
+    at_rim: Ints
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,23 +92,77 @@ class InnerOctants:
     @cached_property
     def rim_points(self) -> Floats:
         """(k, 3) where they are, mm."""
+        return self.laid.coordinates(self.rim.astype(np.int32), self._at_rim, Monitor())
+
+    @cached_property
+    def _at_rim(self) -> Bools:
+        """(nx, ny, nz) bool, octants that have all the vertices at the rim."""
         inner = np.pad(self.where, 1)
         for axis in range(3):
             inner &= np.roll(inner, 1, axis) & np.roll(inner, -1, axis)
-        at_rim = self.where & ~inner[1:-1, 1:-1, 1:-1]
-        return self.laid.coordinates(self.rim.astype(np.int32), at_rim, Monitor())
+        result: Bools = self.where & ~inner[1:-1, 1:-1, 1:-1]
+        return result
+
+    @property
+    def numbered_alone(self) -> tuple[Layout, Ints]:
+        """They alone with numbers of their own, and those of the vertices at the rim."""
+        layout, alone = self.layout, lay_out(self.layout.grid, self.layout.octants)
+        result = np.full(len(self.rim), -1, np.int64)
+        for key, place in zip(layout.grid.keys, layout.places, strict=True):
+            octant = layout.octants[key]
+            some = place[self._at_rim[tuple(place.T)]]
+            number = numbers(layout, octant, some).ravel()
+            row = np.minimum(np.searchsorted(self.rim, number), len(self.rim) - 1)
+            at_rim = self.rim[row] == number
+            result[row[at_rim]] = numbers(alone, octant, some).ravel()[at_rim]
+        return alone, result
 
     @property
     def bounds(self) -> Floats:
         """(2, 3) of their vertices, mm."""
-        result: Floats = box(self.layout) + self.laid.shift
-        return result
+        motion = self.laid.motion
+        if motion.frame is None:
+            return motion(box(self.layout))
+        farthest = []
+        for key, place in zip(self.layout.grid.keys, self.layout.places, strict=True):
+            octant = self.layout.octants[key]
+            if not len(octant.vertices) or not len(place):
+                continue
+            steps = in_steps(self.layout.grid, octant)
+            corner, sign = self.layout.frames(place)
+            for frame in np.unique(sign, axis=0):
+                # What is farthest has the farthest place and the farthest vertex of an octant.
+                own, points = corner[(sign == frame).all(axis=1)], frame * steps
+                where, what = motion.turned(1.0 * own), motion.turned(points)
+                for end in (np.argmin, np.argmax):
+                    at, of = end(where, axis=0), end(what, axis=0)
+                    farthest.append(motion(placed(self.layout.grid, own[at], points[of])))
+        return box_of(np.concatenate(farthest))
+
+    def middle(self, places: Ints) -> Floats:
+        """(k, 3) the middles of octants at some places, mm."""
+        grid = self.laid.layout.grid
+        return self.laid.motion(grid.origin + 0.5 * grid.cell_size * (places - 0.5))
+
+    def caps(self, monitor: Monitor) -> Caps:
+        """What closes the solid that follows on them, seen from there."""
+        layout, others = self.laid.layout, (self.laid.layout.grid.kind >= 0) & ~self.where
+        every, at = [], np.zeros_like(others)
+        for axis in range(3):
+            for high in (False, True):
+                missing = neighbour_missing(layout.grid, others, axis, high)
+                missing &= ~neighbour_missing(layout.grid, others | self.where, axis, high)
+                every.append(facets(layout, monitor, missing, (axis, high)))
+                at |= missing
+        mesh, number = self.laid.mesh(np.concatenate(every), at, monitor)
+        row = np.minimum(np.searchsorted(self.rim, number), len(self.rim) - 1)
+        return Caps(mesh, np.where(self.rim[row] == number, row, -1))
 
     def reached(self, corners: Floats) -> Bools:
         """(nx, ny, nz) bool, those of them that (k, 3, 3) triangles reach into."""
         grid = self.laid.layout.grid
         # Octant 0 lies on the low side of the grid's corner.
-        places = (corners - (grid.origin + self.laid.shift)) / (0.5 * grid.cell_size) + 1.0
+        places = (self.laid.motion.back(corners) - grid.origin) / (0.5 * grid.cell_size) + 1.0
         limit = np.array(self.where.shape)
         low = np.clip(np.floor(places.min(axis=1) + REACH).astype(np.int64), 0, limit)
         high = np.clip(np.ceil(places.max(axis=1) - REACH).astype(np.int64), 0, limit)
@@ -188,7 +264,7 @@ class TrimmedSurface:
             raise RuntimeError("the octants inside do not fit to what the wall has cut")
         pieces, cut, count = inner.pieces, found.quality, len(found.volume)
         # Two parts enclose their volume about one point only together.
-        own = pieces.volume_about(cut.bounds.mean(axis=0) - inner.laid.shift)
+        own = pieces.volume_about(inner.laid.motion.back(cut.bounds.mean(axis=0)))
         shells, label = pieces_of(
             found.shell[self._rim_triangles].astype(np.int64),
             count + pieces.piece_at_rim,
@@ -222,6 +298,17 @@ class TrimmedSurface:
         return JoinedInspection(Inspection(quality, shell, volume), beyond)
 
     @property
+    def rim_rows(self) -> Ints:
+        """(k,) the mesh's vertices at the octants' rim.
+
+        Raises:
+            RuntimeError: some are not there.
+        """
+        if (self._rim_rows < 0).any():
+            raise RuntimeError("the octants inside do not fit to what the wall has cut")
+        return self._rim_rows
+
+    @property
     def _inner(self) -> InnerOctants:
         if self.octants is None:
             raise RuntimeError("no octants are beside the mesh")
@@ -238,9 +325,9 @@ class TrimmedSurface:
         row = np.full(len(self.mesh.vertices), -1, np.int64)
         row[self._rim_rows] = np.arange(len(self._inner.rim))
         # Twice among candidates: only triangles with two corners at the rim have an edge there.
-        corners = row[self.mesh.triangles]
-        some = np.flatnonzero((corners >= 0).sum(axis=1) >= 2)
-        start, end = corners[some].ravel(), np.roll(corners[some], -1, axis=1).ravel()
+        some = np.flatnonzero((row >= 0)[self.mesh.triangles].sum(axis=1, dtype=np.int8) >= 2)
+        corners = row[self.mesh.triangles[some]]
+        start, end = corners.ravel(), np.roll(corners, -1, axis=1).ravel()
         here = (start >= 0) & (end >= 0)
         start, end, owner = start[here], end[here], np.repeat(some, 3)[here]
         size = np.int64(len(self._inner.rim))
@@ -257,6 +344,17 @@ class TrimmedSurface:
         result = np.empty(len(wanted), np.int64)
         result[place] = owner[order]
         return result
+
+
+def concatenated_at(mesh: TriangleMesh, rows: Ints, caps: Caps) -> TriangleMesh:
+    """A mesh closed by caps; `rows` are its vertices at the rim."""
+    fresh = caps.at_rim < 0
+    number = rows[caps.at_rim]
+    number[fresh] = len(mesh.vertices) + np.arange(int(fresh.sum()))
+    return TriangleMesh(
+        np.concatenate([mesh.vertices, caps.mesh.vertices[fresh]]),
+        np.concatenate([mesh.triangles, number.astype(np.int32)[caps.mesh.triangles]]),
+    )
 
 
 def _repeats(triangles: NDArray[np.int32]) -> bool:

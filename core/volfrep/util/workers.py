@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Workers for calls that hold Python's lock: processes, as many as there may be threads."""
+"""Who works beside this process: processes of this machine, or the workers of a Dask cluster.
+
+Calls that hold Python's lock, such as those of the Boolean library, run side by side only there.
+"""
 
 from __future__ import annotations
 
@@ -8,22 +11,37 @@ import signal
 from collections.abc import Iterator
 from concurrent.futures import Executor, ProcessPoolExecutor
 from contextlib import contextmanager
+from typing import Any
 
+from .errors import VolfrepError
 from .threads import threads
+from .version import VERSION
+
+#: A scheduler that does not answer within so long is not there, s.
+PATIENCE = 20
 
 
 @contextmanager
-def processes() -> Iterator[Executor | None]:
-    """An executor of as many processes as `threads` says; None where that is one.
+def processes(count: int | None = None) -> Iterator[Executor | None]:
+    """An executor of so many processes; None where that is one.
 
     They start when they are first given something, as new interpreters: a script that uses them
     needs its `if __name__ == "__main__":`.
+
+    Args:
+        count: of the processes; None for as many as `threads` says.
+
+    Raises:
+        VolfrepError: fewer than one is wanted.
     """
-    if threads() == 1:
+    count = threads() if count is None else count
+    if count < 1:
+        raise VolfrepError(f"At least 1 worker is needed, not {count}.")
+    if count == 1:
         yield None
         return
     context = multiprocessing.get_context("spawn")
-    pool = ProcessPoolExecutor(threads(), context, _ignore_interrupts)
+    pool = ProcessPoolExecutor(count, context, _ignore_interrupts)
     try:
         yield pool
     finally:
@@ -33,3 +51,65 @@ def processes() -> Iterator[Executor | None]:
 def _ignore_interrupts() -> None:
     """Leave Ctrl-C, which a terminal sends to all its processes, to the one that is asked."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+@contextmanager
+def dask_workers(address: str) -> Iterator[Executor]:
+    """The executor of a Dask scheduler; needs the package distributed.
+
+    Dask gives what a lost worker was doing to another one.
+
+    Args:
+        address: of the scheduler, such as tcp://HOST:8786.
+
+    Raises:
+        VolfrepError: the package is missing, nobody answers, there is no worker, or one has
+            another version of this package.
+    """
+    try:
+        from distributed import Client
+    except ImportError as error:
+        raise VolfrepError(
+            "A scheduler needs the package distributed, which is not installed: run "
+            "'pip install volfrep[dask]'."
+        ) from error
+    try:
+        client = Client(address, timeout=PATIENCE)
+    except (OSError, ValueError, TimeoutError) as error:
+        raise VolfrepError(
+            f"No Dask scheduler answers at '{address}': start 'dask scheduler', or correct the "
+            "address."
+        ) from error
+    with client:
+        try:
+            client.wait_for_workers(1, timeout=PATIENCE)
+        except TimeoutError as error:
+            raise VolfrepError(
+                f"The Dask scheduler at '{address}' has no worker: start 'dask worker {address}'."
+            ) from error
+        _refuse_other_versions(client)
+        executor = client.get_executor(pure=False)
+        # As the standard library's executors know it of themselves: see `at_once`.
+        executor._max_workers = sum(client.nthreads().values())
+        yield executor
+
+
+def _refuse_other_versions(client: Any) -> None:
+    """Raise a `VolfrepError` where a worker would compute something else than this process."""
+    for worker, found in client.run(version, on_error="return").items():
+        if found != VERSION:
+            has = found if isinstance(found, str) else f"none that it can import ({found})"
+            raise VolfrepError(
+                f"The Dask worker at '{worker}' has another VOLFREP than this one, {VERSION}: "
+                f"{has}. Install the same on every worker."
+            )
+
+
+def version() -> str:
+    """The version of this package, as a worker has it."""
+    return VERSION
+
+
+def at_once(executor: Executor) -> int:
+    """How many calls an executor runs side by side, where it tells; else as `threads` says."""
+    return int(getattr(executor, "_max_workers", 0)) or threads()

@@ -12,7 +12,7 @@ import samples
 from volfrep import LatticeSpec
 from volfrep.io.write import MESH_WRITERS, write_mesh
 from volfrep.jobs.blocks import block
-from volfrep.mesh.precision import as_text, lines, rounded
+from volfrep.mesh.precision import decimal_step, lines, rounded
 from volfrep.mesh.quality import measure
 from volfrep.mesh.triangle_mesh import TriangleMesh, empty_mesh
 from volfrep.util.errors import Cancelled, VolfrepError
@@ -65,7 +65,7 @@ def test_what_single_precision_cannot_hold_is_refused(tmp_path: Path, suffix: st
 @pytest.mark.parametrize("suffix", MESH_WRITERS)
 def test_every_writer_tells_its_progress(tmp_path: Path, suffix: str, monkeypatch) -> None:
     monkeypatch.setattr("volfrep.io.write.stl.BLOCK_FACETS", 100)
-    for module in ("mesh.precision", "io.write.ply", "io.write.obj", "io.write.threemf"):
+    for module in ("mesh.precision", "io.write.numbered", "io.write.obj", "io.write.threemf"):
         monkeypatch.setattr(f"volfrep.{module}.BLOCK_ROWS", 100)
     monkeypatch.setattr("volfrep.io.write.step.VALUES", 1000)
     told: list[float] = []
@@ -86,16 +86,16 @@ def test_ply_is_a_third_of_the_size_of_stl(tmp_path: Path, lattice: TriangleMesh
 
 def test_numbers_are_written_to_the_step_of_single_precision() -> None:
     ball = samples.sphere(10.0, 2)
-    text = as_text(TriangleMesh(ball.vertices + 290.0, ball.triangles), "x")
+    text = rounded(ball.vertices + 290.0, decimal_step(ball.vertices + 290.0))
     assert np.abs(text - ball.vertices - 290.0).max() < np.spacing(np.float32(300.0)) / 2
-    assert b"".join(lines("%.9g ", text[:3, :1])).count(b".") == 3
+    assert b"".join(lines("%.9g ", [text[:3, :1]])).count(b".") == 3
 
 
 def test_lines_are_filled_row_by_row() -> None:
-    assert b"".join(lines("<%d %d>", np.array([[1, 2], [3, 4]]))) == b"<1 2><3 4>"
-    assert b"".join(lines("<%d>", np.zeros((0, 1), int))) == b""
+    assert b"".join(lines("<%d %d>", [np.array([[1, 2]]), np.array([[3, 4]])])) == b"<1 2><3 4>"
+    assert b"".join(lines("<%d>", [np.zeros((0, 1), int)])) == b""
     short = rounded(np.array([[-1e-9, 0.25, 1.00001]]), 1e-4)
-    assert b"".join(lines("%.9g %.9g %.9g", short)) == b"0 0.25 1"
+    assert b"".join(lines("%.9g %.9g %.9g", [short])) == b"0 0.25 1"
 
 
 def test_a_file_that_windows_holds_open_is_told_as_that(tmp_path, monkeypatch):

@@ -9,18 +9,18 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 import samples
 import volfrep
+from clusters import cluster as cluster
 from swept import timeless
 from volfrep import Study, VolfrepError
 from volfrep.io.solid import check_solid
 from volfrep.studies import page
-from volfrep.studies.running import executors
+from volfrep.util import workers
 
 BOX = check_solid(samples.box((24.0, 16.0, 16.0)), "box")
 STUDY = Study(
@@ -29,54 +29,11 @@ STUDY = Study(
     fixed={"cell_size": 8.0, "shell": 1.0},
     do=("forecast", "properties", "fill", "measure"),
 )
-WORKERS = 3
 
 
 @pytest.fixture(autouse=True)
 def _unplotted(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(page, "plots_of", lambda *_: [])
-
-
-def program(*arguments: object) -> subprocess.Popen:
-    """One of Dask's programs, in a group of its own."""
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
-    command = [sys.executable, "-m", "dask", *map(str, arguments)]
-    return subprocess.Popen(
-        command, env=environment, start_new_session=True,
-        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-    )  # fmt: skip
-
-
-@pytest.fixture
-def cluster(tmp_path: Path) -> Iterator[tuple[str, list[subprocess.Popen]]]:
-    """`dask scheduler` and three `dask worker`; its address, and the workers."""
-    pytest.importorskip("distributed", reason="needs the optional package distributed")
-    known = tmp_path / "scheduler.json"
-    started = [
-        program("scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard",
-                "--scheduler-file", known)
-    ]  # fmt: skip
-    try:
-        while not known.is_file():
-            assert started[0].poll() is None, "dask scheduler has ended"
-            time.sleep(0.1)
-        started += [
-            program("worker", "--scheduler-file", known, "--nthreads", "1", "--no-dashboard",
-                    "--no-nanny", "--local-directory", tmp_path / "scratch")
-            for _ in range(WORKERS)
-        ]  # fmt: skip
-        import json
-
-        from distributed import Client
-
-        address = json.loads(known.read_text())["address"]
-        with Client(address) as client:
-            client.wait_for_workers(WORKERS)
-        yield address, started[1:]
-    finally:
-        for process in started:
-            process.kill()
-            process.wait()
 
 
 @pytest.mark.slow
@@ -120,7 +77,7 @@ def test_a_scheduler_that_is_not_there_is_told(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     pytest.importorskip("distributed", reason="needs the optional package distributed")
-    monkeypatch.setattr(executors, "PATIENCE", 0.3)
+    monkeypatch.setattr(workers, "PATIENCE", 0.3)
     with pytest.raises(VolfrepError, match="No Dask scheduler answers at 'tcp://127"):
         volfrep.sweep(STUDY, tmp_path, scheduler="tcp://127.0.0.1:9")
 

@@ -14,7 +14,7 @@ import samples
 from contract import assert_same_quality
 from volfrep.design.cells import LIBRARY, PAPERS
 from volfrep.grid.activation import make_grid
-from volfrep.grid.placement import NUDGE
+from volfrep.grid.placement import NUDGE, Motion
 from volfrep.mesh import quality
 from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.octants.octant import ALL_ACTIVE, OctantGrid, OctantKey
@@ -49,7 +49,7 @@ def trimmed(domain, name="CVC", radius=1.0, cavity=True, grow=0, executor=None, 
     grid = OctantGrid([key], np.zeros(roles.border.shape, np.int16), cells.origin, L, True)
     octants = mesh_octants(cell, OctantSpec(L, radius, 0.0, 15), [key], monitor)
     kept = cull(grid, roles)
-    laid = in_place(kept, octants, NUDGE * L)
+    laid = in_place(kept, octants, Motion(NUDGE * L))
     found = trim(
         domain, laid, cavity=cavity, monitor=monitor, executor=executor, precision=precision
     )

@@ -29,6 +29,8 @@ MESH_WRITERS: dict[str, tuple[str, str]] = {
     ".step": ("step_faceted", "write_step_faceted"),
     ".stp": ("step_faceted", "write_step_faceted"),
 }
+#: Those that hold a surface without the mesh of all of it.
+STREAMED = (".stl", ".ply", ".obj", ".3mf")
 
 
 def mesh_writer(path: str | os.PathLike[str]) -> MeshWriter:
@@ -92,7 +94,10 @@ def write_surface(
     *,
     figures: Mapping[str, str] | None = None,
 ) -> None:
-    """Write a surface in the format that the path's extension names; an STL without its mesh.
+    """Write a surface in the format that the path's extension names.
+
+    What lies beside its mesh goes into an STL, PLY, OBJ or 3MF as it is laid; for the others the
+    mesh of the whole is made.
 
     Args:
         surface: in mm.
@@ -104,10 +109,23 @@ def write_surface(
         VolfrepError: as `write_mesh`.
         Cancelled: when the monitor says so; no file is left behind.
     """
-    if Path(path).suffix.lower() == ".stl":
+    suffix = Path(path).suffix.lower()
+    if suffix == ".stl":
         from .stl_octants import write_surface_stl
 
         write_surface_stl(surface, path, monitor)
+    elif suffix == ".ply":
+        from .ply import write_ply
+
+        write_ply(surface, path, monitor)
+    elif suffix == ".obj":
+        from .obj import write_obj
+
+        write_obj(surface, path, monitor)
+    elif suffix == ".3mf":
+        from .threemf import write_3mf
+
+        write_3mf(surface, path, monitor, figures or {})
     else:
         mesh_writer(path)  # refused before the mesh is made
         from ...util.progress import Monitor

@@ -4,15 +4,17 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...mesh.precision import BLOCK_ROWS, refuse_lost_corners, single_precision
+from ...mesh.precision import BLOCK_ROWS
 from ...mesh.triangle_mesh import TriangleMesh
+from ...trim.trimmed_surface import TrimmedSurface
 from ...util.files import replacing
 from ...util.progress import Monitor
+from .numbered import numbered
 
 #: One triangle as it lies in the file.
 FACE = np.dtype([("corners", "u1"), ("index", "<i4", 3)])
@@ -31,28 +33,44 @@ end_header
 
 
 def write_ply(
-    mesh: TriangleMesh, path: str | os.PathLike[str], monitor: Monitor | None = None
+    surface: TriangleMesh | TrimmedSurface,
+    path: str | os.PathLike[str],
+    monitor: Monitor | None = None,
 ) -> None:
     """Write a binary PLY, beside the target and then renamed.
 
-    Arguments and errors as of `stl.write_stl`.
+    Arguments and errors as of `stl.write_stl`; of a surface, octants beside its mesh are written
+    as they are laid.
     """
-    vertices = single_precision(mesh, path)
-    refuse_lost_corners(vertices, mesh.triangles, path)
-    with replacing(path) as file:
-        for count, chunk in enumerate(ply_chunks(vertices, mesh.triangles)):
+    given = numbered(surface, path, as_text=False)
+    points = (block.astype("<f4") for block in given.points())
+    chunks = _chunks(given.vertices, given.triangles, points, given.corners())
+    with replacing(path, 12 * given.vertices + FACE.itemsize * given.triangles) as file:
+        written = 0
+        for chunk in chunks:
             file.write(chunk)
+            written += len(chunk)
             if monitor is not None:
-                monitor.tick(count * BLOCK_ROWS / len(mesh.triangles))
+                monitor.tick(written / (12 * given.vertices + FACE.itemsize * given.triangles))
 
 
 def ply_chunks(vertices: NDArray[np.float32], triangles: NDArray[np.int32]) -> Iterator[bytes]:
     """The bytes of the file, piece by piece."""
-    yield _HEADER.format(vertices=len(vertices), triangles=len(triangles)).encode("ascii")
-    yield vertices.astype("<f4").tobytes()
-    for start in range(0, len(triangles), BLOCK_ROWS):
-        block = triangles[start : start + BLOCK_ROWS]
-        faces = np.empty(len(block), FACE)
+    blocks = (triangles[k : k + BLOCK_ROWS] for k in range(0, len(triangles), BLOCK_ROWS))
+    yield from _chunks(len(vertices), len(triangles), [vertices.astype("<f4")], blocks)
+
+
+def _chunks(
+    vertices: int,
+    triangles: int,
+    points: Iterable[NDArray[np.float32]],
+    corners: Iterable[NDArray[np.int32]],
+) -> Iterator[bytes]:
+    yield _HEADER.format(vertices=vertices, triangles=triangles).encode("ascii")
+    for block in points:
+        yield block.tobytes()
+    for rows in corners:
+        faces = np.empty(len(rows), FACE)
         faces["corners"] = 3
-        faces["index"] = block
+        faces["index"] = rows
         yield faces.tobytes()

@@ -16,6 +16,7 @@ from itertools import chain
 import numpy as np
 from numpy.typing import NDArray
 
+from ...grid.placement import Motion
 from ...lattice.assembly import Layout, in_steps, placed
 from ...octants.octant import OctantGrid
 from ...trim.trimmed_surface import TrimmedSurface
@@ -42,7 +43,7 @@ def write_octants_stl(
             written.
         Cancelled: when the monitor says so; no file is left behind.
     """
-    write_facets(path, layout.triangles, _blocks(layout, np.zeros(3)), monitor)
+    write_facets(path, layout.triangles, _blocks(layout, Motion(np.zeros(3))), monitor)
 
 
 def write_surface_stl(
@@ -61,11 +62,11 @@ def write_surface_stl(
     """
     blocks = mesh_blocks(surface.mesh, path)
     if surface.octants is not None:
-        blocks = chain(blocks, _blocks(surface.octants.layout, surface.octants.laid.shift))
+        blocks = chain(blocks, _blocks(surface.octants.layout, surface.octants.laid.motion))
     write_facets(path, surface.triangles, blocks, monitor)
 
 
-def _blocks(layout: Layout, shift: Floats) -> Iterator[Callable[[], Facets]]:
+def _blocks(layout: Layout, motion: Motion) -> Iterator[Callable[[], Facets]]:
     grid = layout.grid
     for key, place in zip(grid.keys, layout.places, strict=True):
         octant = layout.octants[key]
@@ -78,8 +79,8 @@ def _blocks(layout: Layout, shift: Floats) -> Iterator[Callable[[], Facets]]:
         for frame in np.unique(sign, axis=0):
             own = corner[(sign == frame).all(axis=1)]
             order = octant.triangles if frame.prod() > 0 else octant.triangles[:, ::-1]
-            directions = (frame * normals).astype(np.float32)
-            pattern = _Pattern(frame * steps, shift, order.ravel(), directions)
+            directions = motion.turned(frame * normals).astype(np.float32)
+            pattern = _Pattern(frame * steps, motion, order.ravel(), directions)
             size = max(1, BLOCK_FACETS // len(order))
             for begin in range(0, len(own), size):
                 yield partial(_facets, grid, own[begin : begin + size], pattern)
@@ -91,13 +92,13 @@ class _Pattern:
 
     Attributes:
         steps: (n, 3) its vertices from the grid corner that it lies about, in whole steps.
-        shift: (3,) by which all copies are moved, mm.
+        motion: of all copies.
         corners: (3 m,) the vertices of its facets.
         normals: (m, 3) float32.
     """
 
     steps: Floats
-    shift: Floats
+    motion: Motion
     corners: NDArray[np.int32]
     normals: NDArray[np.float32]
 
@@ -105,7 +106,7 @@ class _Pattern:
 def _facets(grid: OctantGrid, corner: NDArray[np.int64], pattern: _Pattern) -> Facets:
     copies, facets = len(corner), len(pattern.normals)
     places = placed(grid, corner[:, None, :], pattern.steps)
-    vertices = (places + pattern.shift).astype(np.float32)
+    vertices = pattern.motion(places).astype(np.float32)
     numbers = np.empty((copies, facets, 12), np.float32)
     numbers[:, :, :3] = pattern.normals
     taken = np.take(vertices, pattern.corners, axis=1, mode="clip")

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import os
 import zipfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from html import escape
 from itertools import chain
 from pathlib import Path
@@ -21,16 +21,20 @@ from numpy.typing import NDArray
 
 from ... import __version__
 from ...grid.strut_graph import Wireframe
-from ...mesh.precision import BLOCK_ROWS, as_text, lines, rounded
+from ...mesh.precision import BLOCK_ROWS, lines, rounded
 from ...mesh.triangle_mesh import TriangleMesh
+from ...trim.trimmed_surface import TrimmedSurface
 from ...util.errors import VolfrepError
 from ...util.files import replacing
 from ...util.progress import Monitor
 from ...util.types import Floats
+from .numbered import Numbered, numbered
 
 if TYPE_CHECKING:
     from ...trim.beam_model import BeamModel
 
+#: What is written as triangles.
+Surface = TriangleMesh | TrimmedSurface
 
 #: Beams are written to this part of the thinnest radius.
 BEAM_STEP = 1e-4
@@ -72,15 +76,15 @@ _RELATIONSHIPS = (
 
 
 def write_3mf(
-    mesh: TriangleMesh,
+    surface: Surface,
     path: str | os.PathLike[str],
     monitor: Monitor | None = None,
     figures: Mapping[str, str] = NOTHING,
 ) -> None:
-    """Write a mesh as a compressed 3MF file, beside the target and then renamed.
+    """Write triangles as a compressed 3MF file, beside the target and then renamed.
 
     Args:
-        mesh: in mm.
+        surface: in mm; octants beside its mesh are written as they are laid.
         path: of the file; an old file stays if anything goes wrong.
         monitor: told the progress, asked for a cancel.
         figures: of the run, kept as metadata: `Description`, which readers show, and others, which
@@ -91,13 +95,14 @@ def write_3mf(
             that lose a corner in float32; or the path cannot be written.
         Cancelled: when the monitor says so; no file is left behind.
     """
-    _write(path, [_mesh_object(1, "part", mesh, path)], 1, _rows(mesh), monitor, figures)
+    given = numbered(surface, path, as_text=True)
+    _write(path, [_mesh_object(1, "part", given)], 1, _rows(given), monitor, figures)
 
 
 def write_3mf_beams(
     model: BeamModel,
     path: str | os.PathLike[str],
-    fallback: TriangleMesh | None = None,
+    fallback: Surface | None = None,
     monitor: Monitor | None = None,
     figures: Mapping[str, str] = NOTHING,
 ) -> None:
@@ -125,26 +130,31 @@ def write_3mf_beams(
         raise VolfrepError(f"There is nothing to write to '{path}': the lattice has no struts.")
     objects: list[Iterator[bytes]] = []
     clip = skin = None
+    rows = len(model.lattice.nodes) + len(model.lattice.struts)
     if model.clip is not None:
         clip = 1
         prefix = "" if fallback is None else HIDING_PREFIX
-        objects.append(_mesh_object(clip, "clip", model.clip, path, prefix))
+        given = numbered(model.clip, path, as_text=True)
+        objects.append(_mesh_object(clip, "clip", given, prefix))
+        rows += _rows(given)
     if model.skin is not None and fallback is None:
         skin = len(objects) + 1
-        objects.append(_mesh_object(skin, "skin", model.skin, path))
+        given = numbered(model.skin, path, as_text=True)
+        objects.append(_mesh_object(skin, "skin", given))
+        rows += _rows(given)
     lattice = len(objects) + 1
-    objects.append(_beam_object(lattice, model.lattice, clip, fallback, path))
+    more = None if fallback is None else numbered(fallback, path, as_text=True)
+    rows += 0 if more is None else _rows(more)
+    objects.append(_beam_object(lattice, model.lattice, clip, more))
     if skin is not None:
         parts = "".join(f'<component objectid="{part}"/>' for part in (skin, lattice))
         text = f"<components>{parts}</components>".encode()
         objects.append(_object(len(objects) + 1, "part", iter([text])))
-    rows = len(model.lattice.nodes) + len(model.lattice.struts)
-    rows += sum(_rows(mesh) for mesh in (model.clip, fallback or model.skin) if mesh is not None)
     _write(path, objects, len(objects), rows, monitor, figures, _EXTENSIONS)
 
 
-def _rows(mesh: TriangleMesh) -> int:
-    return len(mesh.vertices) + len(mesh.triangles)
+def _rows(given: Numbered) -> int:
+    return given.vertices + given.triangles
 
 
 def _write(
@@ -197,31 +207,29 @@ def _object(number: int, name: str, inside: Iterator[bytes], prefix: str = "") -
     yield f"</{prefix}object>".encode()
 
 
-def _mesh_object(
-    number: int, name: str, mesh: TriangleMesh, path: str | os.PathLike[str], prefix: str = ""
-) -> Iterator[bytes]:
-    inside = _mesh(as_text(mesh, path), mesh.triangles, iter(()), prefix)
+def _mesh_object(number: int, name: str, given: Numbered, prefix: str = "") -> Iterator[bytes]:
+    inside = _mesh(given.decimals(), given.corners(), iter(()), prefix)
     return _object(number, name, inside, prefix)
 
 
 def _beam_object(
-    number: int,
-    lattice: Wireframe,
-    clip: int | None,
-    mesh: TriangleMesh | None,
-    path: str | os.PathLike[str],
+    number: int, lattice: Wireframe, clip: int | None, more: Numbered | None
 ) -> Iterator[bytes]:
     """The object of the beams; the vertices of its own triangles follow the nodes."""
-    points = rounded(lattice.nodes, BEAM_STEP * float(lattice.radii.min()))
-    triangles = np.zeros((0, 3), np.int32)
-    if mesh is not None:
-        triangles = mesh.triangles + np.int32(len(points))
-        points = np.concatenate([points, as_text(mesh, path)])
+    nodes = rounded(lattice.nodes, BEAM_STEP * float(lattice.radii.min()))
+    points: Iterable[Floats] = [nodes]
+    triangles: Iterable[NDArray[np.int32]] = ()
+    if more is not None:
+        points = chain(points, more.decimals())
+        triangles = (block + np.int32(len(nodes)) for block in more.corners())
     return _object(number, "lattice", _mesh(points, triangles, _beam_lattice(lattice, clip)))
 
 
 def _mesh(
-    points: Floats, triangles: NDArray[np.int32], more: Iterator[bytes], prefix: str = ""
+    points: Iterable[Floats],
+    triangles: Iterable[NDArray[np.int32]],
+    more: Iterator[bytes],
+    prefix: str = "",
 ) -> Iterator[bytes]:
     vertex = f'<{prefix}vertex x="%.9g" y="%.9g" z="%.9g"/>'
     triangle = f'<{prefix}triangle v1="%d" v2="%d" v3="%d"/>'
@@ -253,18 +261,19 @@ def _beam_lattice(lattice: Wireframe, clip: int | None) -> Iterator[bytes]:
     usual = ~cone & (radii[:, 0] == radius)
     plain = ~cone & ~usual
     struts = lattice.struts
-    yield from lines('<b:beam v1="%d" v2="%d"/>', struts[usual])
+    yield from lines('<b:beam v1="%d" v2="%d"/>', [struts[usual]])
     yield from lines(
-        '<b:beam v1="%d" v2="%d" r1="%.9g"/>', np.hstack([struts[plain], radii[plain, :1]])
+        '<b:beam v1="%d" v2="%d" r1="%.9g"/>', [np.hstack([struts[plain], radii[plain, :1]])]
     )
     yield from lines(
-        '<b:beam v1="%d" v2="%d" r1="%.9g" r2="%.9g"/>', np.hstack([struts[cone], radii[cone]])
+        '<b:beam v1="%d" v2="%d" r1="%.9g" r2="%.9g"/>', [np.hstack([struts[cone], radii[cone]])]
     )
     yield b"</b:beams>"
     special = np.unique(struts[balls[struts] != ball])
     if len(special):
         yield b"<b2:balls>"
-        yield from lines('<b2:ball vindex="%d" r="%.9g"/>', np.stack([special, balls[special]], 1))
+        rows = np.stack([special, balls[special]], axis=1)
+        yield from lines('<b2:ball vindex="%d" r="%.9g"/>', [rows])
         yield b"</b2:balls>"
     yield b"</b:beamlattice>"
 

@@ -8,7 +8,6 @@ import time
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor, Future, ThreadPoolExecutor, wait
-from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -23,8 +22,6 @@ from .runs import Batch, run_in_turn
 TELL = 0.5
 #: The share of the free memory that the runs may take together.
 SHARE = 0.8
-#: A scheduler that does not answer within so long is not there, s.
-PATIENCE = 20
 
 
 #: Says how far runs are, of how many are done, how many there are, and the seconds left.
@@ -118,37 +115,6 @@ def fitting_workers(memory_gb: float, wanted: int | None) -> int:
         return wanted
     fit = int(SHARE * free_memory() / (1e9 * max(memory_gb, 1e-3)))
     return max(1, min(threads(), fit))
-
-
-@contextmanager
-def dask_executor(address: str) -> Iterator[tuple[Executor, int]]:
-    """The executor of a Dask scheduler, and how many runs it does side by side.
-
-    Raises:
-        VolfrepError: the package is missing, nobody answers, or there is no worker.
-    """
-    try:
-        from distributed import Client
-    except ImportError as error:
-        raise VolfrepError(
-            "A scheduler needs the package distributed, which is not installed: run "
-            "'pip install volfrep[dask]'."
-        ) from error
-    try:
-        client = Client(address, timeout=PATIENCE)
-    except (OSError, ValueError, TimeoutError) as error:
-        raise VolfrepError(
-            f"No Dask scheduler answers at '{address}': start 'dask scheduler', or correct the "
-            "address."
-        ) from error
-    with client:
-        try:
-            client.wait_for_workers(1, timeout=PATIENCE)
-        except TimeoutError as error:
-            raise VolfrepError(
-                f"The Dask scheduler at '{address}' has no worker: start 'dask worker {address}'."
-            ) from error
-        yield client.get_executor(pure=False), sum(client.nthreads().values())
 
 
 def run_here(batches: Sequence[Batch], tally: Tally) -> None:

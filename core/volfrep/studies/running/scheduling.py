@@ -18,6 +18,7 @@ from ...util.errors import VolfrepError
 from ...util.progress import ProgressCallback
 from ...util.threads import threads
 from ...util.version import VERSION
+from ...util.workers import at_once, dask_workers
 from ..actions import ACTIONS, Asked
 from ..designs import Design
 from ..expectation import planned
@@ -25,7 +26,6 @@ from ..records import Record, kept_part, read_record
 from .executors import (
     Tally,
     Words,
-    dask_executor,
     fitting_workers,
     run_beside,
     run_by,
@@ -116,9 +116,9 @@ class Job:
         with ExitStack() as open_until_done:
             executor = how.executor
             if how.scheduler is not None:
-                executor, workers = open_until_done.enter_context(dask_executor(how.scheduler))
-            elif executor is not None:
-                workers = getattr(executor, "_max_workers", threads())
+                executor = open_until_done.enter_context(dask_workers(how.scheduler))
+            if executor is not None:
+                workers = at_once(executor)
             elif how.workers is None and sum(weights.values()) < WORTH_A_PROCESS:
                 workers = 1
             else:

@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Who cuts the lattice at the wall: processes or a Dask cluster, with the same file from all."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import command
+import samples
+import volfrep
+from clusters import WORKERS, worker
+from clusters import cluster as cluster
+from volfrep import LatticeSpec, VolfrepError
+from volfrep.io.solid import check_solid
+from volfrep.io.write.stl import write_stl
+from volfrep.jobs.pipeline import fill as fill_solid
+from volfrep.trim import wall_groups
+from volfrep.util import workers
+
+LATTICE = ["--cell", "CVC", "--cell-size", "8", "--strut-radius", "0.8"]
+fill = partial(command.fill, LATTICE)
+SPEC = LatticeSpec("CVC", cell_size=8.0, strut_radius=0.8, shell=2.0)
+
+
+@pytest.fixture(autouse=True)
+def _small_groups(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(wall_groups, "GROUP_TRIANGLES", 12_000)
+
+
+@pytest.fixture
+def part(tmp_path: Path) -> Path:
+    path = tmp_path / "part.stl"
+    write_stl(samples.box((48.0, 36.0, 28.0)), path)
+    return path
+
+
+def test_the_file_is_the_same_with_any_number_of_workers(tmp_path: Path, part: Path) -> None:
+    for count in (1, 2, 3):
+        assert fill(part, tmp_path / f"{count}.stl", "--workers", count, "--quiet") == 0
+    one, two, three = ((tmp_path / f"{count}.stl").read_bytes() for count in (1, 2, 3))
+    assert one == two == three
+
+
+def test_as_many_workers_as_are_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    with workers.processes(1) as executor:
+        assert executor is None, "this process alone"
+    with workers.processes(5) as executor:
+        assert executor is not None
+        assert workers.at_once(executor) == 5
+    with pytest.raises(VolfrepError, match="At least 1 worker"), workers.processes(0):
+        pass
+
+
+def test_what_does_not_go_together_is_refused(
+    tmp_path: Path, part: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    both = ("--workers", 2, "--scheduler", "tcp://127.0.0.1:9")
+    assert fill(part, tmp_path / "out.stl", *both) == 2
+    assert "not allowed with" in capsys.readouterr().err
+    assert fill(part, tmp_path / "out.stl", "--workers", 0, "--quiet") == 2
+    assert "At least 1 worker is needed, not 0" in capsys.readouterr().err
+
+
+def test_a_worker_with_another_version_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    class Cluster:
+        def __init__(self, found: object) -> None:
+            self.found = found
+
+        def run(self, function: object, on_error: str) -> dict[str, object]:
+            return {"tcp://one": workers.VERSION, "tcp://two": self.found}
+
+    workers._refuse_other_versions(Cluster(workers.VERSION))
+    with pytest.raises(VolfrepError, match=r"'tcp://two' has another VOLFREP .*: 0\.0\.1"):
+        workers._refuse_other_versions(Cluster("0.0.1"))
+    with pytest.raises(VolfrepError, match="none that it can import"):
+        workers._refuse_other_versions(Cluster(ModuleNotFoundError("volfrep")))
+
+
+def test_a_scheduler_that_is_not_there_is_told(
+    tmp_path: Path, part: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pytest.importorskip("distributed", reason="needs the optional package distributed")
+    monkeypatch.setattr(workers, "PATIENCE", 0.3)
+    assert fill(part, tmp_path / "out.stl", "--scheduler", "tcp://127.0.0.1:9", "--quiet") == 2
+    assert "No Dask scheduler answers at 'tcp://127" in capsys.readouterr().err
+    assert not (tmp_path / "out.stl").exists()
+
+
+@pytest.mark.slow
+def test_a_cluster_makes_the_file_that_this_process_makes(
+    tmp_path: Path, part: Path, cluster: tuple[str, list[subprocess.Popen]]
+) -> None:
+    address, _ = cluster
+    assert fill(part, tmp_path / "here.stl", "--workers", 1, "--quiet") == 0
+    assert fill(part, tmp_path / "there.stl", "--scheduler", address, "--quiet") == 0
+    assert (tmp_path / "there.stl").read_bytes() == (tmp_path / "here.stl").read_bytes()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("killed", [1, WORKERS], ids=["one", "all, and another comes"])
+def test_workers_that_are_killed_cost_time_and_nothing_else(
+    killed: int, tmp_path: Path, cluster: tuple[str, list[subprocess.Popen]]
+) -> None:
+    address, programs = cluster
+    solid = check_solid(samples.box((48.0, 36.0, 28.0)), "box")
+    later = []
+
+    def kill_when_some_are_cut(fraction: float, stage: str) -> None:
+        if stage == "trim" and fraction > 0.68 and not later:
+            for program in programs[:killed]:
+                os.kill(program.pid, signal.SIGKILL)
+                program.wait()
+            later.append(worker(address, tmp_path) if killed == WORKERS else None)
+
+    try:
+        with workers.dask_workers(address) as executor:
+            made = volfrep.fill(solid, SPEC, progress=kill_when_some_are_cut, executor=executor)
+    finally:
+        for program in filter(None, later):
+            program.kill()
+            program.wait()
+    assert [program.poll() for program in programs[:killed]] == [-signal.SIGKILL] * killed
+    alone = fill_solid(solid, SPEC)
+    np.testing.assert_array_equal(made.result.mesh.vertices, alone.mesh.vertices)
+    np.testing.assert_array_equal(made.result.mesh.triangles, alone.mesh.triangles)

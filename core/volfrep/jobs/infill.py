@@ -302,10 +302,9 @@ class Infill:
         if is_cut not in self._laid_octants:
             refuse_expected(self.spec, 0.0 if self._streamed else self.domain.mesh.volume)
             _ = self.struts  # refused before anything is meshed
-            keeps = self._keeps_places
-            motion = self.placement.motion if keeps else None
+            motion = self.placement.motion if self._keeps_places else None
             # Where nothing is cut there is no wall that an octant could reach.
-            margin = np.inf if not is_cut else 0.0 if keeps else FIRST_MARGIN
+            margin = np.inf if not is_cut else 0.0 if self._keeps_places else FIRST_MARGIN
             with self.monitor.stage("tile", 0.4, 0.5):
                 first = self._octants(is_cut, margin)
             with self.monitor.stage("lattice", 0.5, 0.6):
@@ -335,10 +334,8 @@ class Infill:
         return kept, octants
 
     def _roles(self, margin: float) -> OctantRoles:
-        return self._cache.run(
-            "octants", roles_of, self._solid, self._domain, self._cells, self._grid, margin,
-            self._watch,
-        ).value  # fmt: skip
+        on = self._solid, self._domain, self._cells, self._grid
+        return self._cache.run("octants", roles_of, *on, margin, self._watch).value
 
     def _placed(self, layout: Layout) -> Deformed:
         """Where the vertices of numbered octants are in the part."""
@@ -365,8 +362,7 @@ class Infill:
     def _reported(self, output: str, cleared: Cleared, drained: Drained | None = None) -> Result:
         """A mesh with the figures of what it is and of how it was made."""
         domain, pruned, warnings = self.domain, self.pruned, self.warnings
-        surface, quality = cleared.surface, cleared.quality
-        moved = not self._keeps_places
+        surface, quality, moved = cleared.surface, cleared.quality, not self._keeps_places
         if output != "domain":
             with self.monitor.stage("check", 1.0, 1.0):
                 surface, quality, notes = finished(surface, quality, self.monitor, moved)

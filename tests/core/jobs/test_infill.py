@@ -32,8 +32,8 @@ def solid():
         ("axes", {"shell", "voxels"}),
         ("beams", {"shell", "voxels"}),
         ("cavity_result", {"shell", "voxels"}),
-        ("lattice", {"shell", "voxels", "tile", "lattice", "trim"}),
-        ("part", {"shell", "voxels", "tile", "lattice", "trim"}),
+        ("lattice", {"shell", "voxels", "tile", "lattice", "trim", "check"}),
+        ("part", {"shell", "voxels", "tile", "lattice", "trim", "check"}),
     ],
 )
 def test_a_stage_runs_those_that_it_needs_and_no_others(solid, stage, run):

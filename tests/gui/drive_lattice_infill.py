@@ -584,6 +584,26 @@ def save_and_reopen(doc, obj):
     picture("9_reopened")
 
 
+def choose_walls(doc, obj):
+    """A Gyroid of the panel's list asks for a thickness in place of a radius, and is made."""
+    open_to_edit(obj)
+    picker = panel_part("CellType")
+    gyroid = picker.findItems("Gyroid", QtCore.Qt.MatchExactly)[0]
+    picker.scrollToItem(gyroid)
+    settle()
+    click_item(picker, gyroid)
+    check("Gyroid is chosen", obj.CellType == "Gyroid", obj.CellType)
+    check("it asks for a thickness", panel_part("WallThickness").isVisible())
+    check("and for no radius", not panel_part("StrutRadius").isVisible())
+    picture("panel_6_walls")
+    type_value("WallThickness", "1.6 mm")
+    answer_panel("OK")
+    check("OK closes the panel", wait_until(lambda: panel() is None))
+    check("the walls are made", wait_until(lambda: obj.Status == "Up to date"), obj.Status)
+    check("without struts", obj.Struts == 0 and obj.Bodies == 1, (obj.Struts, obj.Bodies))
+    picture("walls_made")
+
+
 run_checks(
     "result",
     {
@@ -592,6 +612,7 @@ run_checks(
         edit_in_the_panel: filled,
         give_it_an_own_cell: filled,
         drive_the_radius: filled,
+        choose_walls: filled,
         run_a_job: None,
         cancel_an_edit: filled,
         cancel_a_creation: boxed,

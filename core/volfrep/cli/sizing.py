@@ -8,13 +8,18 @@ from __future__ import annotations
 
 import argparse
 import json
+import signal
 import sys
+import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from types import FrameType
 from typing import TYPE_CHECKING, Any
 
-from ..util.errors import VolfrepError
+from ..util.errors import Cancelled, VolfrepError
+from ..util.progress import ProgressCallback
 from .files import check_files, read_part
 from .parameter_options import add_parameters, specification
 from .telling import Progress, print_rows, print_warnings, tell
@@ -106,10 +111,11 @@ def _size(options: argparse.Namespace) -> None:
     cache = StageCache()
     start = time.perf_counter()
     with Progress(options.quiet) as progress:
-        made = size(
-            solid, spec, loads, goal, most_steps=options.steps, prove_it=not options.no_proof,
-            progress=progress, cache=cache, watch=_teller(options.quiet),
-        )  # fmt: skip
+        with _stopping(progress) as asked:
+            made = size(
+                solid, spec, loads, goal, most_steps=options.steps, prove_it=not options.no_proof,
+                progress=asked, cache=cache, watch=_teller(options.quiet),
+            )  # fmt: skip
         seconds = time.perf_counter() - start
         result = Infill(solid, made.spec, progress=progress, cache=cache).result
     write_mesh(result.mesh, out)
@@ -127,6 +133,37 @@ def _size(options: argparse.Namespace) -> None:
     tell(result.report, options)
     if not options.quiet:
         print_rows(*sizing_rows(made.report), ("sizing time", f"{seconds:.1f} s"))
+
+
+@contextmanager
+def _stopping(progress: ProgressCallback) -> Iterator[ProgressCallback]:
+    """A progress that says stop after Ctrl-C, so that the best design so far is kept.
+
+    Raises:
+        KeyboardInterrupt: there was no design yet, or Ctrl-C came again.
+    """
+    stopped = False
+
+    def stop(number: int, frame: FrameType | None) -> None:
+        nonlocal stopped
+        if stopped:
+            raise KeyboardInterrupt
+        del number, frame
+        stopped = True
+
+    def told(fraction: float, stage: str) -> bool | None:
+        return False if stopped else progress(fraction, stage)
+
+    if threading.current_thread() is not threading.main_thread():
+        yield told
+        return
+    before = signal.signal(signal.SIGINT, stop)
+    try:
+        yield told
+    except Cancelled as error:
+        raise KeyboardInterrupt from error
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def _goal(options: argparse.Namespace, material: SolidMaterial) -> Goal:

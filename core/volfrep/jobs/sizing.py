@@ -23,7 +23,7 @@ from ..mesh.triangle_mesh import TriangleMesh
 from ..reports.sizing_report import PEAKS, sizing_report
 from ..sizing.analysis import Analysis, Limits, Problem, analysed
 from ..sizing.design_proof import proved, stricter_limits
-from ..sizing.model import SizingModel, elastic, sizing_model
+from ..sizing.model import SizingModel, elastic, feet_of, sizing_model
 from ..sizing.node_radii import smoothing
 from ..sizing.optimise import Sized, Step, Watch, lightest, scaled_to_limits, stiffest, uniform
 from ..sizing.skin import skin_model
@@ -33,9 +33,10 @@ from ..util.files import replacing
 from ..util.progress import Monitor, ProgressCallback
 from ..util.types import Floats
 from .infill import Infill
+from .targets import aimed
 
 #: Edges of the skin's triangles over the cell size, and over its thickness at least.
-SKIN_EDGE, SKIN_EDGE_LEAST = 0.6, 1.5
+SKIN_EDGE, SKIN_EDGE_LEAST = 0.5, 1.5
 #: Radii are stored in steps of this, mm, as files keep them.
 RADIUS_STEP = 1e-6
 
@@ -104,7 +105,8 @@ def size(
 
     Args:
         solid: checked closed mesh, mm.
-        spec: what it is filled with; its radius is what the design begins with.
+        spec: what it is filled with; its radius is what the design begins with, or that of its
+            target.
         loads: the material, and what the part carries.
         goal: least mass within limits, or most stiffness at a volume.
         most_steps: of the search.
@@ -128,6 +130,8 @@ def size(
         raise VolfrepError(f"The smoothing must be from 0 to 0.9, not {goal.smooth:g}.")
     start = time.perf_counter()
     cache = cache or StageCache()
+    notes: list[str] = []
+    spec = _without_target(solid, spec, goal, cache, progress, notes)
     infill = Infill(solid, spec, monitor=monitor, cache=cache)
     model = _model(infill, loads, goal, cache)
     problem = model.problem
@@ -135,7 +139,6 @@ def size(
     first = np.clip(_given_radii(model.wireframe), problem.low, problem.high)
     seconds = {"model": time.perf_counter() - start}
     start = time.perf_counter()
-    notes: list[str] = []
 
     def told(number: int, step: Step) -> bool:
         try:
@@ -185,6 +188,9 @@ def size(
         except Cancelled:
             proof = None
             notes.append("CalculiX was cancelled: no other solver has proved this design.")
+        except VolfrepError as error:  # minutes of work are not lost to another program
+            proof = None
+            notes.append(f"{error} No other solver has proved this design.")
     radii = final.radii
     sized = replace(sized, analysis=final)
     same = shape.scaled_to(
@@ -197,8 +203,7 @@ def size(
     if infill.placement.is_cut:
         points = points - NUDGE * spec.cell_size
     graded = replace(
-        spec, strut_radius=float(np.median(radii)), radius_grading=radius_field(points, radii),
-        target=None,
+        spec, strut_radius=float(np.median(radii)), radius_grading=radius_field(points, radii)
     )  # fmt: skip
     report = sizing_report(
         loads, model, sized, before, even, proof, seconds=seconds, notes=tuple(notes)
@@ -228,6 +233,7 @@ def solved(
         Cancelled: the callback said so.
     """
     cache = cache or StageCache()
+    spec = _without_target(solid, spec, Goal(), cache, progress, [])
     infill = Infill(solid, spec, monitor=Monitor(progress), cache=cache)
     frame = infill.struts
     radii = np.zeros(len(frame.nodes))
@@ -263,15 +269,34 @@ def write_radii(part: SizedPart, path: str | os.PathLike[str]) -> None:
         file.writelines(b"%.9g,%.9g,%.9g,%.6f\n" % tuple(row) for row in table.tolist())
 
 
+def _without_target(
+    solid: TriangleMesh,
+    spec: LatticeSpec,
+    goal: Goal,
+    cache: StageCache,
+    progress: ProgressCallback | None,
+    notes: list[str],
+) -> LatticeSpec:
+    """The specification with the radius of its target, and what that means in a sentence."""
+    target = spec.target
+    if target is None or spec.output == "domain":
+        return replace(spec, target=None)
+    found = aimed(solid, spec, progress=progress, cache=cache, meshed=False).spec
+    kept = "the limits now say how thick struts are"
+    if not goal.limits.any:
+        kept = "struts have their mass, distributed anew" if goal.volume is None else "it began so"
+    notes.append(
+        f"The target, a {target.called} of {target.value:.5g}, asks for struts of "
+        f"{found.strut_radius:.4g} mm: {kept}."
+    )
+    return replace(found, target=None)
+
+
 def _model(infill: Infill, loads: LoadCases, goal: Goal, cache: StageCache) -> SizingModel:
     """The part as it is solved."""
     spec, material = infill.spec, loads.material
     if spec.output == "domain":
         raise VolfrepError("The output 'domain' holds no lattice to size: choose part or lattice.")
-    if spec.target is not None:
-        raise VolfrepError(
-            "Sizing chooses the radii itself: leave the target out, and give limits or a mass."
-        )
     if spec.fillet:
         raise VolfrepError("Struts with fillets cannot be sized: set the fillet to 0.")
     wireframe, clipped = infill.struts, infill.axes
@@ -299,7 +324,7 @@ def _model(infill: Infill, loads: LoadCases, goal: Goal, cache: StageCache) -> S
         with infill.monitor.stage("skin", 0.3, 0.4):
             skin = skin_model(
                 infill.solid, spec.shell, edge, elastic(material), infill.domain.openings,
-                infill.monitor,
+                feet_of(wireframe, clipped, infill.domain.mesh), infill.monitor,
             )  # fmt: skip
     model = sizing_model(
         wireframe, clipped, spec.unit_cell(), spec.cell_size, material, loads.cases,

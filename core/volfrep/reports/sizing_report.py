@@ -140,7 +140,7 @@ def sizing_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
     proof = report["calculix"]
     if proof is not None:
         off = max(proof["displacements_off"])
-        given = ", given how the skin moves" if proof["given_the_skin"] else ""
+        given = ", skin included" if proof["with_the_skin"] else ""
         rows.append(
             (
                 "CalculiX",

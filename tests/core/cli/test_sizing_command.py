@@ -2,6 +2,8 @@
 """`volfrep size`: from a part and its load cases to a part whose struts follow them."""
 
 import json
+import signal
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -9,9 +11,11 @@ import pytest
 import trimesh
 
 from command import run
+from volfrep.cli import sizing
 from volfrep.io.solid import read_triangles
 from volfrep.io.write.stl import write_stl
 from volfrep.mesh.triangle_mesh import TriangleMesh
+from volfrep.sizing.optimise import Step
 
 LATTICE = ["--cell", "CVC", "--cell-size", "10", "--strut-radius", "0.8"]
 WHOLE = ["--shell", "0", "--boundary", "whole", "--activation", "inside"]
@@ -130,11 +134,42 @@ def test_a_part_that_is_not_held_is_refused(part: Path, capsys: pytest.CaptureFi
     assert "move freely" in refusal(part, capsys, *WHOLE, "--no-proof")
 
 
-def test_a_target_for_the_radius_is_refused(part: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    loads, out = part.with_name("loads.toml"), part.with_name("out.stl")
-    lattice = ["--cell", "CVC", "--cell-size", 10, "--relative-density", 0.1]
-    assert run("size", part, "--loads", loads, "-o", out, *lattice, "--quiet") == 2
-    assert "leave the target out" in capsys.readouterr().err
+def test_a_target_says_what_mass_struts_have_before_they_are_sized(
+    part: Path, tmp_path: Path
+) -> None:
+    loads, out, report = (
+        part.with_name("loads.toml"),
+        part.with_name("out.stl"),
+        tmp_path / "r.json",
+    )
+    lattice = ["--cell", "CVC", "--cell-size", 10, "--relative-density", 0.05, *WHOLE, "--no-proof"]
+    more = ["--quiet", "--steps", 3, "--report", report]
+    assert run("size", part, "--loads", loads, "-o", out, *lattice, *more) == 0
+    found = json.loads(report.read_text())
+    assert found["part"]["relative_density"] == pytest.approx(0.05, rel=0.02)
+    assert "struts have their mass" in found["sizing"]["notes"][0]
+
+
+def test_ctrl_c_keeps_the_best_design_so_far(
+    part: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    told = []
+
+    def interrupting(quiet: bool) -> Callable[[int, Step], bool]:
+        def watch(number: int, step: Step) -> bool:
+            told.append(step)
+            if number == 2:
+                signal.raise_signal(signal.SIGINT)
+            return True
+
+        return watch
+
+    monkeypatch.setattr(sizing, "_teller", interrupting)
+    report = tmp_path / "r.json"
+    assert size(part, *WHOLE, "--no-proof", "--report", report) == 0
+    assert len(told) == 3 or len(told) == 4
+    assert json.loads(report.read_text())["sizing"]["stopped"] == "cancelled"
+    assert part.with_name("out.stl").exists()
 
 
 def test_limits_that_cannot_be_held_are_told(

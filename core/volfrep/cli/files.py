@@ -27,6 +27,7 @@ OUTPUTS = {
     "output": "output",
     "report": "report",
     "picture": "picture",
+    "plot": "plot",
     "write_spec": "written specification",
     "json": "figures",
     "radii": "radii",

@@ -46,6 +46,7 @@ def add_command(add: Callable[[str, Callable[[argparse.Namespace], None], str], 
     )  # fmt: skip
     option("--radii", metavar="FILE.csv", help="the radii at the nodes, as --radius-field reads it")
     option("--report", metavar="FILE.json", help="write the figures, before and after")
+    option("--plot", metavar="FILE.svg", help="draw mass and limits, step by step")
     option("--quiet", action="store_true", help="print nothing but errors")
     goal = parser.add_argument_group(
         "what is wanted: limits for the least mass, or the most stiffness at a mass"
@@ -89,6 +90,10 @@ def _size(options: argparse.Namespace) -> None:
         check_picture(options.picture)
     elif options.colour or options.case or options.deformed is not None:
         raise VolfrepError("--colour, --case and --deformed say what --picture shows: give it.")
+    if options.plot is not None:
+        from ..reports.sizing_plot import check_plot
+
+        check_plot(options.plot)
     if options.write_spec is not None and options.radii is None:
         raise VolfrepError("A specification names the file of its radii: give --radii, too.")
     if options.steps < 1:
@@ -127,6 +132,10 @@ def _size(options: argparse.Namespace) -> None:
         with replacing(options.report) as file:
             file.write(json.dumps(figures, indent=2).encode() + b"\n")
         options.report = None
+    if options.plot is not None:
+        from ..reports.sizing_plot import write_sizing_plot
+
+        write_sizing_plot(made.report, options.plot)
     if options.picture is not None:
         _picture(options, made)
     print_warnings(made.report["notes"])

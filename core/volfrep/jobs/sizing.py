@@ -37,6 +37,8 @@ from .targets import aimed
 
 #: Edges of the skin's triangles over the cell size, and over its thickness at least.
 SKIN_EDGE, SKIN_EDGE_LEAST = 0.5, 1.5
+#: So many times a design is made thicker because of what CalculiX finds.
+CORRECTIONS = 2
 #: Radii are stored in steps of this, mm, as files keep them.
 RADIUS_STEP = 1e-6
 
@@ -179,12 +181,19 @@ def size(
         try:
             with monitor.stage("proof", 0.95, 1.0):
                 proof = solve_again(final)
-                stricter = stricter_limits(goal.limits, final, proof)
-                if proof is not None and stricter != goal.limits and sized.holds:
+                for _ in range(CORRECTIONS):
+                    stricter = stricter_limits(goal.limits, final, proof)
+                    if proof is None or stricter == goal.limits or not sized.holds:
+                        break
                     # Where CalculiX finds more than is allowed, the limits are that much stricter.
                     found, _ = scaled_to_limits(problem, stricter, final.radii)
                     final = _stored(problem, found.radii, goal.limits)
                     proof = solve_again(final)
+                if stricter_limits(goal.limits, final, proof) != goal.limits and sized.holds:
+                    notes.append(
+                        "CalculiX finds more of a limit used than is allowed, even in a thicker "
+                        "design: see how far the two are apart."
+                    )
         except Cancelled:
             proof = None
             notes.append("CalculiX was cancelled: no other solver has proved this design.")

@@ -75,8 +75,9 @@ def proved(
 
     Returns:
         The figures as plain JSON values: how far displacements are off in each case, and over the
-        design's own the largest displacements, stress and lowest frequency. None where CalculiX is
-        not installed, or there are more than `MOST_PROVED` struts.
+        design's own the largest displacements, stress and lowest frequency; of how many struts'
+        ends the stress is known there, and whether of the most stressed one (else its own stands
+        for it). None where CalculiX is not installed, or there are more than `MOST_PROVED` struts.
 
     Raises:
         VolfrepError: CalculiX does not solve it.
@@ -144,6 +145,7 @@ def proved(
     felt = end_stresses(found, deck, beams, of_struts)
     known = np.isfinite(felt)
     worst = float(np.where(known, felt, summed).max() / summed.max())
+    compared = bool(known.ravel()[int(summed.argmax())])
     result: dict[str, Any] = {
         "displacements_off": [float(value) for value in off],
         "largest_displacement": (
@@ -151,6 +153,7 @@ def proved(
         ).tolist(),
         "largest_stress": worst,
         "struts_compared": float(known.mean()),
+        "worst_strut_compared": compared,
         "with_the_skin": model.skin is not None,
     }
     if modes:

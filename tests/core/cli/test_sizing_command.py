@@ -5,6 +5,7 @@ import json
 import signal
 from collections.abc import Callable
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -17,6 +18,7 @@ from volfrep.io.write.stl import write_stl
 from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.sizing.optimise import Step
 
+SVG = "{http://www.w3.org/2000/svg}"
 LATTICE = ["--cell", "CVC", "--cell-size", "10", "--strut-radius", "0.8"]
 WHOLE = ["--shell", "0", "--boundary", "whole", "--activation", "inside"]
 LOADS = """
@@ -148,6 +150,25 @@ def test_a_target_says_what_mass_struts_have_before_they_are_sized(
     found = json.loads(report.read_text())
     assert found["part"]["relative_density"] == pytest.approx(0.05, rel=0.02)
     assert "struts have their mass" in found["sizing"]["notes"][0]
+
+
+def test_the_steps_are_drawn(part: Path, tmp_path: Path) -> None:
+    plot, report = tmp_path / "steps.svg", tmp_path / "r.json"
+    more = ("--plot", plot, "--report", report, "--no-proof", "--steps", 5)
+    assert size(part, *WHOLE, "--safety", 2, "--max-displacement", 0.1, *more) == 0
+    root = ElementTree.parse(plot).getroot()
+    lines = [node.get("points", "").split() for node in root.iter(f"{SVG}polyline")]
+    steps = json.loads(report.read_text())["sizing"]["steps"]
+    assert [len(line) for line in lines] == [len(steps)] * 3
+    told = [node.text for node in root.iter(f"{SVG}text")]
+    assert {"mass of the struts, g", "use of stress, %", "use of displacement, %"} <= set(told)
+    heights = np.array([float(point.split(",")[1]) for point in lines[0]])
+    mass = np.array([step["strut_volume_mm3"] for step in steps])
+    assert heights == pytest.approx(350 - 310 * mass / mass.max(), abs=0.06)
+
+
+def test_a_plot_is_an_svg(part: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert "is an .svg file" in refusal(part, capsys, "--plot", part.with_name("steps.png"))
 
 
 def test_ctrl_c_keeps_the_best_design_so_far(

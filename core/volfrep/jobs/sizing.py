@@ -333,7 +333,8 @@ def _model(infill: Infill, loads: LoadCases, goal: Goal, cache: StageCache) -> S
         with infill.monitor.stage("skin", 0.3, 0.4):
             skin = skin_model(
                 infill.solid, spec.shell, edge, elastic(material), infill.domain.openings,
-                feet_of(wireframe, clipped, infill.domain.mesh), infill.monitor,
+                feet_of(wireframe, clipped, infill.domain.mesh, _given_radii(wireframe)),
+                infill.monitor,
             )  # fmt: skip
     model = sizing_model(
         wireframe, clipped, spec.unit_cell(), spec.cell_size, material, loads.cases,

@@ -65,7 +65,7 @@ def elastic(material: SolidMaterial) -> Elastic:
     return Elastic(material.young, material.poisson, material.density * 1e-9)
 
 
-def feet_of(wireframe: Wireframe, clipped: Clipped, domain: TriangleMesh) -> Feet:
+def feet_of(wireframe: Wireframe, clipped: Clipped, domain: TriangleMesh, radii: Floats) -> Feet:
     """Where struts meet the skin, those that would meet beyond it and overlap there as one.
 
     The skin is as good as rigid where a strut's section meets it. What belongs together is as a
@@ -75,6 +75,7 @@ def feet_of(wireframe: Wireframe, clipped: Clipped, domain: TriangleMesh) -> Fee
         wireframe: of the active cells, whole, mm.
         clipped: the same struts, cut at the domain's wall.
         domain: its wall.
+        radii: (n,) at the nodes of the whole wireframe, mm.
     """
     frame = clipped.wireframe
     struts = frame.struts.astype(np.int64)
@@ -91,7 +92,8 @@ def feet_of(wireframe: Wireframe, clipped: Clipped, domain: TriangleMesh) -> Fee
     normal = remesh.normals(domain.vertices[domain.triangles[triangle]])
     normal /= np.linalg.norm(normal, axis=1)[:, None]
     steep = np.maximum(np.abs(np.einsum("ij,ij->i", normal, along)), _STEEPEST)
-    reach = frame.radii[strut, end] / np.sqrt(steep)
+    reach = (1.0 - share) * radii[whole[:, 0]] + share * radii[whole[:, 1]]
+    reach = reach / np.sqrt(steep)
     pairs = cKDTree(places).query_pairs(2.0 * float(reach.max()), output_type="ndarray")
     one, two = pairs.T
     gap = np.linalg.norm(places[one] - places[two], axis=1)

@@ -40,7 +40,7 @@ SQUARE_SHEAR = 0.5 * (SQUARE_SECTION.torsion + SQUARE_SECTION.shear)
 
 
 #: How much stiffer the skin is where struts stand on it.
-PAD_STIFFNESS = 30.0
+PAD_STIFFNESS = 10.0
 
 
 @dataclass(frozen=True, eq=False)

@@ -103,10 +103,9 @@ class Outcome:
             said = (
                 translate(
                     "VolfrepSizePanel",
-                    "CalculiX's displacements of the same beams, given how the skin moves, differ "
-                    "by {off:.2g} %.",
+                    "CalculiX's displacements of the same beams and skin differ by {off:.2g} %.",
                 )
-                if proof["given_the_skin"]
+                if proof["with_the_skin"]
                 else translate(
                     "VolfrepSizePanel",
                     "CalculiX's displacements of the same beams differ by {off:.2g} %.",

@@ -148,6 +148,16 @@ def test_a_script_sizes_in_one_call(infill):
         size_lattice(infill, safty=2)
 
 
+def test_a_target_gives_the_mass_that_is_distributed(infill):
+    loaded(infill)
+    infill.RadiusDrivenBy, infill.TargetDensity = "Relative density", 0.05
+    outcome = size_lattice(infill, goal="stiffness", smallest=0.3, largest=1.6, prove=False)
+    assert "asks for struts of" in outcome.part.report["notes"][0]
+    assert infill.RadiusDrivenBy == "Radius"
+    assert infill.Proxy.update(infill), infill.Status
+    assert infill.RelativeDensity == pytest.approx(0.05, rel=0.05)  # of coarse facets
+
+
 def test_an_infill_stays_as_it_is_until_radii_are_stored(infill):
     before = infill.Fingerprint, infill.RadiusGrading
     analysis = loaded(infill)

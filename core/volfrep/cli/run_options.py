@@ -225,6 +225,9 @@ RUN_OPTIONS = (
         "no-proof", ("size",), "do not let CalculiX solve the final design", group=GOAL_GROUP,
     ),
     RunOption(
+        "plot", ("size",), "draw mass and limits, step by step", "FILE.svg", writes="plot",
+    ),
+    RunOption(
         "picture", ("size",), "the struts in colour (needs pyvista)",
         "FILE.png", SIZED_PICTURE_GROUP, writes="picture",
     ),

@@ -8,13 +8,18 @@ from __future__ import annotations
 
 import argparse
 import json
+import signal
 import sys
+import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from types import FrameType
 from typing import TYPE_CHECKING, Any
 
-from ..util.errors import VolfrepError
+from ..util.errors import Cancelled, VolfrepError
+from ..util.progress import ProgressCallback
 from .files import check_files, read_part
 from .parameter_options import add_parameters, specification
 from .run_options import add_run_options
@@ -49,6 +54,10 @@ def _size(options: argparse.Namespace) -> None:
         check_picture(options.picture)
     elif options.colour or options.case or options.deformed is not None:
         raise VolfrepError("--colour, --case and --deformed say what --picture shows: give it.")
+    if options.plot is not None:
+        from ..reports.sizing_plot import check_plot
+
+        check_plot(options.plot)
     if options.write_spec is not None and options.radii is None:
         raise VolfrepError("A specification names the file of its radii: give --radii, too.")
     if options.steps < 1:
@@ -72,10 +81,11 @@ def _size(options: argparse.Namespace) -> None:
     cache = StageCache()
     start = time.perf_counter()
     with Progress(options.quiet) as progress:
-        made = size(
-            solid, spec, loads, goal, most_steps=options.steps, prove_it=not options.no_proof,
-            progress=progress, cache=cache, watch=_teller(options.quiet),
-        )  # fmt: skip
+        with _stopping(progress) as told:
+            made = size(
+                solid, spec, loads, goal, most_steps=options.steps, prove_it=not options.no_proof,
+                progress=told, cache=cache, watch=_teller(options.quiet),
+            )  # fmt: skip
         seconds = time.perf_counter() - start
         result = Infill(solid, made.spec, progress=progress, cache=cache).result
     write_mesh(result.mesh, out)
@@ -87,12 +97,47 @@ def _size(options: argparse.Namespace) -> None:
         with replacing(options.report) as file:
             file.write(json.dumps(figures, indent=2).encode() + b"\n")
         options.report = None
+    if options.plot is not None:
+        from ..reports.sizing_plot import write_sizing_plot
+
+        write_sizing_plot(made.report, options.plot)
     if options.picture is not None:
         _picture(options, made)
     print_warnings(made.report["notes"])
     tell(result.report, options)
     if not options.quiet:
         print_rows(*sizing_rows(made.report), ("sizing time", f"{seconds:.1f} s"))
+
+
+@contextmanager
+def _stopping(progress: ProgressCallback) -> Iterator[ProgressCallback]:
+    """A progress that says stop after Ctrl-C, so that the best design so far is kept.
+
+    Raises:
+        KeyboardInterrupt: there was no design yet, or Ctrl-C came again.
+    """
+    stopped = False
+
+    def stop(number: int, frame: FrameType | None) -> None:
+        nonlocal stopped
+        if stopped:
+            raise KeyboardInterrupt
+        del number, frame
+        stopped = True
+
+    def told(fraction: float, stage: str) -> bool | None:
+        return False if stopped else progress(fraction, stage)
+
+    if threading.current_thread() is not threading.main_thread():
+        yield told
+        return
+    before = signal.signal(signal.SIGINT, stop)
+    try:
+        yield told
+    except Cancelled as error:
+        raise KeyboardInterrupt from error
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def _teller(quiet: bool) -> Callable[[int, Step], bool] | None:

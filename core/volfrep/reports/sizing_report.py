@@ -138,9 +138,13 @@ def sizing_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
         most = max(report["skin_stress_mpa"])
         rows.append(("skin stress", f"{most:.4g} MPa on all but {PEAKS:.1%} of its area"))
     proof = report["calculix"]
-    if proof is not None:
+    if proof is None:
+        rows.append(("CalculiX", "has not solved this design"))
+    else:
         off = max(proof["displacements_off"])
-        given = ", given how the skin moves" if proof["given_the_skin"] else ""
+        given = ", skin included" if proof["with_the_skin"] else ""
+        if not proof["worst_strut_compared"]:
+            given += "; the most stressed strut is too short to be compared"
         rows.append(
             (
                 "CalculiX",

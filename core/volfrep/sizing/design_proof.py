@@ -11,20 +11,27 @@ import numpy as np
 
 from ..design.cells import UnitCell
 from ..fem.beam_mesh import JOINT_STIFFNESS, BeamModel, beam_model
+from ..fem.wedge_mesh import wedge_mesh
 from ..grid.strut_graph import Wireframe
 from ..mechanics.catalogue import joint_law
 from ..mechanics.frame import Ends
 from ..mechanics.materials import SolidMaterial
 from ..util.progress import Monitor
-from ..util.types import Bools, Ints
+from ..util.types import Bools, Floats, Ints
 from .analysis import Analysis, Limits
 from .model import SizingModel
-from .proof import end_stresses, prove
+from .proof import SolidSkin, end_stresses, prove
+from .skin import SkinModel
 from .structure import Case
 from .strut_results import stresses
+from .tapered_beams import cross_matrix
 
 #: Beams of more struts are not solved by CalculiX unless it is asked for.
 MOST_PROVED = 6_000
+#: Radius of a rigid arm over its length.
+_THIN = 0.1
+#: Both sides of what is solid are held together by so many times their thickness' stiffness.
+HELD_TOGETHER = 100.0
 #: A limit that CalculiX finds used more than this makes the design a little thicker.
 PROVED = 1.003
 
@@ -36,8 +43,6 @@ def stricter_limits(limits: Limits, final: Analysis, proof: dict[str, Any] | Non
     wanted = limits
     if limits.stress is not None and final.uses["stress"] * proof["largest_stress"] > PROVED:
         wanted = replace(wanted, stress=limits.stress / proof["largest_stress"])
-    if proof["given_the_skin"]:
-        return wanted  # the rest is the skin's
     moved = max(proof["largest_displacement"])
     if limits.displacement is not None and final.uses["displacement"] * moved > PROVED:
         wanted = replace(wanted, displacement=limits.displacement / moved)
@@ -57,7 +62,7 @@ def proved(
     notes: list[str],
     monitor: Monitor,
 ) -> dict[str, Any] | None:
-    """How far CalculiX agrees on the final design; with a skin, given how the skin moves.
+    """How far CalculiX agrees on the final design, with its skin.
 
     Args:
         model: what was solved.
@@ -70,8 +75,9 @@ def proved(
 
     Returns:
         The figures as plain JSON values: how far displacements are off in each case, and over the
-        design's own the largest displacements, stress and, without a skin, lowest frequency. None
-        where CalculiX is not installed, or there are more than `MOST_PROVED` struts.
+        design's own the largest displacements, stress and lowest frequency; of how many struts'
+        ends the stress is known there, and whether of the most stressed one (else its own stands
+        for it). None where CalculiX is not installed, or there are more than `MOST_PROVED` struts.
 
     Raises:
         VolfrepError: CalculiX does not solve it.
@@ -93,44 +99,53 @@ def proved(
     for end in (0, 1):
         np.maximum.at(joints, beams.struts[:, end], of_struts[:, end])
     frame = Wireframe(nodes, beams.struts.astype(np.int32), of_struts, joints)
-    there = np.zeros(count, bool)
-    there[beams.struts.ravel()] = True
     law = joint_law(cell, cell_size, "square")
     deck = beam_model(
         frame, None if beams.joined.all() else _free_ends(beams.joined, beams.struts, count),
-        joint_law=law, elements_per_strut=8, radius_tolerance=0.003,
+        joint_law=law, elements_per_strut=8 if model.skin is None else 4, radius_tolerance=0.003,
     )  # fmt: skip
-    arms = np.empty(0, np.int64)
+    solid, more = None, None
+    place, there = np.arange(len(problem.structure.nodes)), problem.watched.copy()
     if model.skin is not None:
         arms = np.flatnonzero(model.on_wall)
         deck = with_arms(deck, arms, float(of_struts.mean()))
-    tips = len(deck.nodes) - 3 * len(arms)
+        solid, more = solid_skin(model.skin, deck, arms, material)
+        # What is held and loaded is the outside; nodes of struts on a wall follow it.
+        place[count:] = len(deck.nodes) + solid.mesh.outer
+        there[count:] &= solid.mesh.outer >= 0
+    total = len(deck.nodes) + (0 if solid is None else len(solid.mesh.nodes))
+    total += 0 if more is None else len(more)
+    empty = ~_used(beams.struts, count)
     cases = []
-    for k, case in enumerate(problem.cases):
-        held, loads, moved = (np.zeros((len(deck.nodes), 6), kind) for kind in (bool, float, float))
-        held[:count], loads[:count] = case.held[:count], case.loads[:count]
-        held[:count][~there] = True
+    for case in problem.cases:
+        held, loads, moved = (np.zeros((total, 6), kind) for kind in (bool, float, float))
+        held[place[there]], loads[place[there]] = case.held[there], case.loads[there]
+        held[:count][empty] = True
         if case.moved is not None:
-            moved[:count] = case.moved[:count]
-        if len(arms):
-            skin = final.displacements[arms, :, k]
-            reach = (deck.nodes[tips:] - np.repeat(deck.nodes[arms], 3, axis=0)).reshape(-1, 3, 3)
-            turned = np.cross(skin[:, None, 3:], reach)
-            held[tips:, :3] = True
-            moved[tips:, :3] = (skin[:, None, :3] + turned).reshape(-1, 3)
+            moved[place[there]] = case.moved[there]
+        if solid is not None:
+            _on_solid(solid, len(deck.nodes), held, loads, moved)
         x, y, z = case.acceleration
         cases.append(Case(held, loads, moved if moved.any() else None, (x, y, z)))
-    modes = 3 if "frequency" in final.uses and model.skin is None else 0
-    found = prove(deck, material.for_solver(), cases, modes=modes, monitor=monitor)
-    there[arms] = False
-    mine = final.displacements[:count, :3][there]
-    theirs = found.displacements[:count][there]
+    modes = 3 if "frequency" in final.uses else 0
+    found = prove(
+        deck, material.for_solver(), cases, skin=solid, more_nodes=more, modes=modes,
+        monitor=monitor,
+    )  # fmt: skip
+    mine = final.displacements[:, :3][there]
+    theirs = found.displacements[place]
+    if solid is not None:  # shells move as the middle of the skin does
+        theirs[count:] = 0.5 * (
+            theirs[count:] + found.displacements[len(deck.nodes) + solid.mesh.inner]
+        )
+    theirs = theirs[there]
     off = np.linalg.norm(theirs - mine, axis=(0, 1)) / np.linalg.norm(theirs, axis=(0, 1))
     own = stresses(beams, of_struts, final.forces)
     summed = np.abs(own.axial) + own.bending
     felt = end_stresses(found, deck, beams, of_struts)
     known = np.isfinite(felt)
     worst = float(np.where(known, felt, summed).max() / summed.max())
+    compared = bool(known.ravel()[int(summed.argmax())])
     result: dict[str, Any] = {
         "displacements_off": [float(value) for value in off],
         "largest_displacement": (
@@ -138,7 +153,8 @@ def proved(
         ).tolist(),
         "largest_stress": worst,
         "struts_compared": float(known.mean()),
-        "given_the_skin": model.skin is not None,
+        "worst_strut_compared": compared,
+        "with_the_skin": model.skin is not None,
     }
     if modes:
         result["frequencies_hz"] = found.frequencies.tolist()
@@ -149,24 +165,114 @@ def proved(
 def with_arms(model: BeamModel, nodes: Ints, length: float) -> BeamModel:
     """Beams with three rigid arms at some nodes, along x, y and z; their tips are the last nodes.
 
-    Whoever moves the tips moves and turns the node: CalculiX takes a given turn right about the
-    axes of a beam's section only.
+    Whoever moves the tips moves and turns the node: in CalculiX the turn of a beam's node can be
+    given about the axes of the beam's section only.
     """
     count, own = len(model.nodes), len(nodes)
     tips = np.repeat(model.nodes[nodes], 3, axis=0) + length * np.tile(np.eye(3), (own, 1))
     elements = np.stack([np.repeat(nodes, 3), count + np.arange(3 * own)], axis=1)
     strut = model.strut.max() + 1 + np.arange(3 * own)
-    rigid = Ends(1.0, JOINT_STIFFNESS, JOINT_STIFFNESS)
+    # Thin, so that they weigh next to nothing, and of something that much stiffer.
+    rigid = Ends(1.0, JOINT_STIFFNESS / _THIN**4, JOINT_STIFFNESS / _THIN**4)
     return replace(
         model,
         nodes=np.concatenate([model.nodes, tips]),
         elements=np.concatenate([model.elements, elements]),
         strut=np.concatenate([model.strut, strut]),
         section=np.concatenate([model.section, np.full(3 * own, len(model.radii))]),
-        radii=np.append(model.radii, length),
+        radii=np.append(model.radii, _THIN * length),
         is_joint=np.concatenate([model.is_joint, np.ones(3 * own, bool)]),
         ends=(*model.ends, rigid),
     )
+
+
+def solid_skin(
+    skin: SkinModel, model: BeamModel, arms: Ints, material: SolidMaterial
+) -> tuple[SolidSkin, Floats]:
+    """A skin of wedges, on whose pads struts stand; and nodes for what hangs on its other side.
+
+    Args:
+        skin: the shells.
+        model: the beams, with `arms` at their nodes on the skin.
+        arms: those nodes.
+        material: of the skin.
+    """
+    inner = 2.0 * skin.middle - skin.outside.vertices
+    mesh = wedge_mesh(skin.outside.vertices, inner, skin.shells.triangles, skin.pads)
+    first = len(model.nodes)
+    tips = first - 3 * len(arms) + np.arange(3 * len(arms))
+    vertex = np.repeat(skin.pad_of(model.nodes[arms]), 3)
+    # A tip moves as the pad's inner border does on the whole: each of its nodes has an equal part
+    # of a force, and of a moment what a turn about their middle would give.
+    order = np.argsort(mesh.ring[:, 0], kind="stable")
+    pad, border = mesh.ring[order].T
+    low, high = np.searchsorted(pad, vertex), np.searchsorted(pad, vertex, "right")
+    most = int((high - low).max(initial=1))
+    column = low[:, None] + np.arange(most)
+    is_there = column < high[:, None]
+    leaders = border[np.minimum(column, len(border) - 1)]
+    number = np.maximum(is_there.sum(axis=1), 1)[:, None]
+    places = mesh.nodes[leaders]
+    middle = (places * is_there[:, :, None]).sum(axis=1) / number
+    arm = np.where(is_there[:, :, None], places - middle[:, None], 0.0)
+    inertia = (arm**2).sum(axis=(1, 2))[:, None, None] * np.eye(3)
+    inertia -= np.einsum("qwi,qwj->qij", arm, arm)
+    lever = cross_matrix(model.nodes[tips] - middle) @ np.linalg.inv(inertia)
+    turned = lever[:, None] @ cross_matrix(arm.reshape(-1, 3)).reshape(*arm.shape, 3)
+    weights = np.where(is_there, 1.0 / number, 0.0)[:, :, None, None] * np.eye(3) - turned
+
+    joined = skin.joined
+    own, beyond = mesh.inner[joined.vertices], mesh.inner[joined.beyond]
+    good = (own >= 0) & (beyond >= 0).all(axis=1)
+    own, beyond, shares = own[good], beyond[good], joined.shares[good]
+    more = np.einsum("jc,jci->ji", shares, mesh.nodes[beyond])
+    behind = first + len(mesh.nodes) + np.arange(len(more))
+    wide = np.zeros((len(more), most, 3, 3))
+    far = np.zeros((len(more), most), np.int64)
+    width = min(most, 3)
+    wide[:, :width] = shares[:, :width, None, None] * np.eye(3)
+    far[:, :width] = beyond[:, :width]
+    solid = SolidSkin(
+        mesh,
+        np.concatenate([tips, behind]),
+        np.concatenate([leaders, far]) + first,
+        np.concatenate([weights, wide]),
+        np.stack([own + first, behind], axis=1),
+        HELD_TOGETHER * material.young * float(skin.shells.thickness.mean()),
+    )
+    return solid, more
+
+
+def _on_solid(skin: SolidSkin, first: int, held: Bools, loads: Floats, moved: Floats) -> None:
+    """Brings what is held and loaded on the outside to solid elements, in place."""
+    mesh = skin.mesh
+    used = np.flatnonzero((mesh.outer >= 0) & (mesh.inner >= 0))
+    above, below = first + mesh.outer[used], first + mesh.inner[used]
+    felt = np.zeros((len(mesh.outer), 3))
+    felt[used] = loads[above, :3]
+    loads[first : first + len(mesh.nodes), :3] = mesh.spread(felt)
+    # A moment becomes a pair of forces across the skin.
+    arm = mesh.nodes[mesh.outer[used]] - mesh.nodes[mesh.inner[used]]
+    pair = np.cross(loads[above, 3:], arm) / (arm**2).sum(axis=1)[:, None]
+    loads[above, :3] += pair
+    loads[below, :3] -= pair
+    # Between two vertices that are held the skin is, too.
+    row = np.full(mesh.edges.max() + 1, -1, np.int64)
+    row[used] = above
+    ends = row[mesh.edges]
+    both = (ends >= 0).all(axis=1)
+    middle, ends = first + mesh.middles[both], ends[both]
+    held[middle] = held[ends].all(axis=1)
+    moved[middle] = moved[ends].mean(axis=1) * held[middle]
+    held[first:, 3:] = False
+    loads[first:, 3:] = 0.0
+
+
+def _used(struts: Ints, count: int) -> Bools:
+    """(n,) nodes that have a strut."""
+    result = np.zeros(count, bool)
+    result[struts.ravel()] = True
+    return result
 
 
 def _free_ends(joined: Bools, struts: Ints, count: int) -> Bools:

@@ -10,6 +10,7 @@ from typing import Any, cast
 import numpy as np
 from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
 
 from ..design.cells import UnitCell
 from ..grid.strut_graph import Wireframe
@@ -19,6 +20,7 @@ from ..loads.regions import AnyOf, Region, simple_regions
 from ..mechanics.catalogue import joint_law
 from ..mechanics.frame import SQUARE_SECTION
 from ..mechanics.materials import SolidMaterial
+from ..mesh import remesh
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.proximity import closest_points
 from ..trim.clip_struts import Clipped
@@ -26,9 +28,12 @@ from ..util.errors import VolfrepError
 from ..util.types import Bools, Floats, Ints
 from .analysis import Problem
 from .node_radii import NodeRadii, joint_overlap, largest_radii
-from .skin import SkinModel, ties_to
+from .skin import NO_FEET, Feet, SkinModel, ties_to
 from .structure import NO_TIES, Case, Structure
 from .tapered_beams import Elastic, beams_of, end_table
+
+#: Struts that graze the skin are not longer in it than at this cosine to its normal.
+_STEEPEST = 0.3
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,6 +63,48 @@ class SizingModel:
 def elastic(material: SolidMaterial) -> Elastic:
     """A material for beams and shells: t/mm3 in place of g/cm3."""
     return Elastic(material.young, material.poisson, material.density * 1e-9)
+
+
+def feet_of(wireframe: Wireframe, clipped: Clipped, domain: TriangleMesh, radii: Floats) -> Feet:
+    """Where struts meet the skin, those that would meet beyond it and overlap there as one.
+
+    The skin is as good as rigid where a strut's section meets it. What belongs together is as a
+    disc with the same second moment of area, which bends with the skin about it alike.
+
+    Args:
+        wireframe: of the active cells, whole, mm.
+        clipped: the same struts, cut at the domain's wall.
+        domain: its wall.
+        radii: (n,) at the nodes of the whole wireframe, mm.
+    """
+    frame = clipped.wireframe
+    struts = frame.struts.astype(np.int64)
+    strut, end = np.nonzero(clipped.on_wall[struts])
+    if not len(strut):
+        return NO_FEET
+    node, share = struts[strut, end], np.where(end == 0, clipped.low[strut], clipped.high[strut])
+    whole = wireframe.struts.astype(np.int64)[clipped.owner[strut]]
+    meets = np.where(share < 0.5, whole[:, 0], whole[:, 1])
+    along = frame.nodes[struts[strut, 1]] - frame.nodes[struts[strut, 0]]
+    along /= np.linalg.norm(along, axis=1)[:, None]
+    places = frame.nodes[node]
+    triangle = closest_points(domain, places)[2]
+    normal = remesh.normals(domain.vertices[domain.triangles[triangle]])
+    normal /= np.linalg.norm(normal, axis=1)[:, None]
+    steep = np.maximum(np.abs(np.einsum("ij,ij->i", normal, along)), _STEEPEST)
+    reach = (1.0 - share) * radii[whole[:, 0]] + share * radii[whole[:, 1]]
+    reach = reach / np.sqrt(steep)
+    pairs = cKDTree(places).query_pairs(2.0 * float(reach.max()), output_type="ndarray")
+    one, two = pairs.T
+    gap = np.linalg.norm(places[one] - places[two], axis=1)
+    alike = (meets[one] == meets[two]) & (gap < reach[one] + reach[two])
+    near = csr_matrix((np.ones(alike.sum()), (one[alike], two[alike])), (len(node),) * 2)
+    count, group = connected_components(near, directed=False)
+    number = np.bincount(group, minlength=count)
+    total = np.stack([np.bincount(group, row, count) for row in places.T], axis=1)
+    middle: Floats = total / number[:, None]
+    square = ((places - middle[group]) ** 2).sum(axis=1) + 0.5 * reach**2
+    return Feet(middle, np.sqrt(2.0 * np.bincount(group, square, count) / number))
 
 
 def sizing_model(

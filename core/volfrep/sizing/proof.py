@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The same beams solved by CalculiX: how far the two agree.
+"""The same beams and skin solved by CalculiX: how far the two agree.
 
-The deck has the same struts, joints, supports and loads; a cone is steps there, and beams are
-expanded into solid elements. Its files go to a temporary folder.
+The deck has the same struts, joints, supports and loads; a cone is steps there, beams are expanded
+into solid elements, and a skin is of second-order wedges. Its files go to a temporary folder.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from pathlib import Path
 import numpy as np
 
 from ..fem.beam_mesh import BeamModel
+from ..fem.wedge_mesh import WedgeMesh
 from ..io.write.calculix import SQUARE, width_of_ends
 from ..io.write.step import rows
 from ..mechanics.frame import SQUARE_SECTION
@@ -26,7 +27,7 @@ from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 from ..util.subprocesses import run_program
 from ..util.threads import threads
-from ..util.types import Bools, Floats
+from ..util.types import Bools, Floats, Ints
 from .structure import Case
 from .tapered_beams import Beams
 
@@ -36,6 +37,31 @@ _ROW = 12
 DIRECTION = 1e-6
 #: Shear modulus of a single square element over what makes it twist and slide as the square does.
 SQUARE_SHEAR = 0.5 * (SQUARE_SECTION.torsion + SQUARE_SECTION.shear)
+
+
+#: How much stiffer the skin is where struts stand on it.
+PAD_STIFFNESS = 10.0
+
+
+@dataclass(frozen=True, eq=False)
+class SolidSkin:
+    """Wedges, whose nodes follow those of the beams in a deck, and what hangs on them.
+
+    Attributes:
+        mesh: the wedges.
+        followers: (q,) nodes of the deck that follow others.
+        leaders: (q, w) nodes of the deck; what there are fewer is filled with weights of 0.
+        weights: (q, w, 3, 3) of each leader's displacement.
+        springs: (p, 2) nodes of the deck that are held together.
+        stiffness: N/mm of every spring in every direction.
+    """
+
+    mesh: WedgeMesh
+    followers: Ints
+    leaders: Ints
+    weights: Floats
+    springs: Ints
+    stiffness: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,15 +85,19 @@ def prove(
     material: Material,
     cases: Sequence[Case],
     *,
+    skin: SolidSkin | None = None,
+    more_nodes: Floats | None = None,
     modes: int = 0,
     monitor: Monitor | None = None,
 ) -> Proof:
     """Solve beams by CalculiX.
 
     Args:
-        model: the beams; the cases' nodes are its first ones.
+        model: the beams.
         material: of the struts.
-        cases: what they carry.
+        cases: what they carry; their nodes are the beams' and those of the skin.
+        skin: about them; None for none.
+        more_nodes: (h, 3) nodes behind those of the skin, which only follow others, mm.
         modes: how many frequencies, with the first case's supports.
         monitor: asked for a cancel while CalculiX runs.
 
@@ -84,8 +114,13 @@ def prove(
     for k, case in enumerate(cases):
         same = next((g for g in alike if np.array_equal(cases[g[0]].held, case.held)), None)
         alike.append([k]) if same is None else same.append(k)
-    moved = np.zeros((len(model.nodes), 3, len(cases)))
-    sections = np.zeros((len(model.nodes), 3, len(cases)))
+    nodes = model.nodes
+    if skin is not None:
+        nodes = np.concatenate([nodes, skin.mesh.nodes])
+    if more_nodes is not None:
+        nodes = np.concatenate([nodes, more_nodes])
+    moved = np.zeros((len(nodes), 3, len(cases)))
+    sections = np.zeros((len(nodes), 3, len(cases)))
     frequencies = np.zeros(0)
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
@@ -94,7 +129,9 @@ def prove(
             if modes and 0 in group:
                 steps.append(f"*STEP\n*FREQUENCY\n{modes}\n*END STEP\n")
             with (folder / "job.inp").open("wb") as deck:
-                deck.writelines(_deck(model, material))
+                deck.writelines(_deck(nodes, model, material))
+                if skin is not None:
+                    deck.writelines(_skin(skin, model, material))
                 deck.write(_held(cases[group[0]].held).encode())
                 deck.writelines(step.encode() for step in steps)
             environment = {**os.environ, "OMP_NUM_THREADS": str(threads())}
@@ -148,7 +185,7 @@ def end_stresses(proof: Proof, model: BeamModel, beams: Beams, radii: Floats) ->
     return result
 
 
-def _deck(model: BeamModel, material: Material) -> Iterator[bytes]:
+def _deck(nodes: Floats, model: BeamModel, material: Material) -> Iterator[bytes]:
     """Nodes, elements and sections.
 
     CalculiX makes rigid knots where sections or directions change, which hinder a material's
@@ -158,7 +195,7 @@ def _deck(model: BeamModel, material: Material) -> Iterator[bytes]:
     both go into that modulus, too.
     """
     yield b"*NODE,NSET=NALL\n"
-    yield from rows("%d,%.12g,%.12g,%.12g\n", np.arange(1, len(model.nodes) + 1), model.nodes)
+    yield from rows("%d,%.12g,%.12g,%.12g\n", np.arange(1, len(nodes) + 1), nodes)
     ends = model.nodes[model.elements]
     along = ends[:, 1] - ends[:, 0]
     along /= np.linalg.norm(along, axis=1)[:, None]
@@ -191,6 +228,43 @@ def _deck(model: BeamModel, material: Material) -> Iterator[bytes]:
             f"*BEAM SECTION,ELSET=E{k},MATERIAL=M{k},SECTION=RECT,ORIENTATION=O{k}\n"
             f"{side * wide:.10g},{side * wide:.10g}\n{y}\n"
         ).encode()
+
+
+def _skin(skin: SolidSkin, model: BeamModel, material: Material) -> Iterator[bytes]:
+    """Wedges and what follows them, behind the beams."""
+    mesh, first, number = skin.mesh, len(model.nodes), len(model.elements) + 1
+    for name, chosen, factor in (("SKIN", ~mesh.is_pad, 1.0), ("PADS", mesh.is_pad, PAD_STIFFNESS)):
+        if not chosen.any():
+            continue
+        yield f"*ELEMENT,TYPE=C3D15,ELSET={name}\n".encode()
+        table = mesh.elements[chosen] + first + 1
+        line = "%d" + ",%d" * 11 + "\n" + "%d" + ",%d" * 3 + "\n"
+        yield from rows(line, number + np.arange(len(table)), table)
+        number += len(table)
+        yield (
+            f"*MATERIAL,NAME={name}\n*ELASTIC\n{material.young * factor:.10g},"
+            f"{material.poisson:.10g}\n*DENSITY\n{material.density * 1e-9:.10g}\n"
+            f"*SOLID SECTION,ELSET={name},MATERIAL={name}\n*ELSET,ELSET=EALL\n{name}\n"
+        ).encode()
+    for follower, leaders, weights in zip(
+        (skin.followers + 1).tolist(), skin.leaders + 1, skin.weights, strict=True
+    ):
+        for axis in range(3):
+            row, column = np.nonzero(weights[:, axis])
+            terms = [f"{follower},{axis + 1},-1."]
+            terms += [
+                f"{node},{way + 1},{value:.12g}"
+                for node, way, value in zip(
+                    leaders[row].tolist(), column.tolist(), weights[row, axis, column], strict=True
+                )
+            ]
+            lines = [",".join(terms[k : k + 4]) for k in range(0, len(terms), 4)]
+            yield f"*EQUATION\n{len(terms)}\n".encode() + "\n".join(lines).encode() + b"\n"
+    for axis in (1, 2, 3) if len(skin.springs) else ():
+        yield f"*ELEMENT,TYPE=SPRING2,ELSET=S{axis}\n".encode()
+        yield from rows("%d,%d,%d\n", number + np.arange(len(skin.springs)), skin.springs + 1)
+        number += len(skin.springs)
+        yield f"*SPRING,ELSET=S{axis}\n{axis},{axis}\n{skin.stiffness:.10g}\n".encode()
 
 
 def _held(held: Bools) -> str:

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..fem.wedge_mesh import pad_shares
 from ..util.types import Floats, Ints
 from .structure import Blocks
 from .tapered_beams import Elastic
@@ -20,6 +21,28 @@ from .tapered_beams import Elastic
 _BETA = np.array([[1.0, 2.0, 1.0], [0.0, 1.0, -1.0], [-1.0, -1.0, -2.0]])
 #: Middles of the edges in area coordinates: exact for what is quadratic.
 _PLACES = np.array([[0.5, 0.0], [0.5, 0.5], [0.0, 0.5]])
+#: Freedoms of three corners in their plane, and across it.
+_IN_PLANE = np.array([0, 1, 5, 6, 7, 11, 12, 13, 17])
+_ACROSS = np.array([2, 3, 4, 8, 9, 10, 14, 15, 16])
+#: No panel has less than this part of its triangle.
+_LEAST_PANEL = 1e-4
+
+
+@dataclass(frozen=True, eq=False)
+class Panels:
+    """What of the triangles bends: they are stiff where walls meet and where struts end.
+
+    Attributes:
+        of: (b,) the triangle that each is a piece of.
+        nodes: (b, 3) rows of the structure's nodes that its corners hang on.
+        corners: (b, 3, 2) in the triangle's plane, mm.
+        arms: (b, 3, 2) from the nodes to the corners, in that plane, mm.
+    """
+
+    of: Ints
+    nodes: Ints
+    corners: Floats
+    arms: Floats
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,6 +55,7 @@ class Shells:
         corners: (t, 3, 2) in the plane, mm.
         thickness: (t,) mm.
         material: of all.
+        panels: what of them bends.
     """
 
     triangles: Ints
@@ -39,24 +63,19 @@ class Shells:
     corners: Floats
     thickness: Floats
     material: Elastic
+    panels: Panels
 
     @property
     def area(self) -> Floats:
         """(t,) mm2."""
-        one, two = self.corners[:, 1], self.corners[:, 2]
-        return np.asarray(0.5 * (one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]))
+        return _area(self.corners)
 
     def blocks(self) -> Blocks:
         """Stiffness and mass as blocks between the nodes."""
-        whole = np.zeros((len(self.triangles), 18, 18))
-        plane = np.array([0, 1, 5, 6, 7, 11, 12, 13, 17])
-        across = np.array([2, 3, 4, 8, 9, 10, 14, 15, 16])
-        whole[:, plane[:, None], plane] = self._membrane()
-        whole[:, across[:, None], across] = self._bending()
-        turn = np.zeros_like(whole)
-        for corner in range(0, 18, 3):
-            turn[:, corner : corner + 3, corner : corner + 3] = self.axes
-        stiffness = turn.swapaxes(1, 2) @ whole @ turn
+        flat = np.zeros((len(self.triangles), 18, 18))
+        flat[:, _IN_PLANE[:, None], _IN_PLANE] = self._membrane()
+        bent = np.zeros((len(self.panels.of), 18, 18))
+        bent[:, _ACROSS[:, None], _ACROSS] = self._bending()
         weight = self.material.density * self.area * self.thickness / 12.0
         inertia = weight * self.thickness**2 / 12.0
         each = np.zeros((len(weight), 6))
@@ -64,17 +83,19 @@ class Shells:
         shared = (1.0 + np.eye(3))[None, :, :, None, None] * (each[:, :, None] * np.eye(6))[
             :, None, None
         ]
-        rows = np.repeat(self.triangles, 3, axis=1).ravel()
-        columns = np.tile(self.triangles, (1, 3)).ravel()
-        split = stiffness.reshape(-1, 3, 6, 3, 6).swapaxes(2, 3).reshape(-1, 6, 6)
-        return Blocks(rows, columns, split, shared.reshape(-1, 6, 6))
+        nodes = np.concatenate([self.triangles, self.panels.nodes])
+        rows, columns = np.repeat(nodes, 3, axis=1).ravel(), np.tile(nodes, (1, 3)).ravel()
+        stiffness = np.concatenate(
+            [_split(flat, self.axes), _split(bent, self.axes[self.panels.of])]
+        )
+        mass = np.zeros_like(stiffness)
+        mass[: 9 * len(weight)] = shared.reshape(-1, 6, 6)
+        return Blocks(rows, columns, stiffness, mass)
 
     def stresses(self, displacements: Floats) -> Floats:
         """(t, k) the larger von Mises stress of both sides in the middle, MPa, of (n, 6, k)."""
-        moved = displacements[self.triangles].copy()  # (t, 3, 6, k)
-        moved = np.einsum("tij,tcgjk->tcgik", self.axes, moved.reshape(*moved.shape[:2], 2, 3, -1))
-        moved = moved.reshape(len(self.triangles), 18, -1)
         plane = self._plane_stress()
+        moved = _in_axes(displacements[self.triangles], self.axes)
         (x, y) = (self.corners[..., 0], self.corners[..., 1])
         strain = np.zeros((len(x), 3, 18))
         for corner in range(3):
@@ -83,13 +104,13 @@ class Shells:
             strain[:, 1, 6 * corner + 1] = strain[:, 2, 6 * corner] = x[:, two] - x[:, one]
         strain /= (2.0 * self.area)[:, None, None]
         even = plane @ (strain @ moved)
-        across = np.array([2, 3, 4, 8, 9, 10, 14, 15, 16])
-        curved = self._curvature(np.full(2, 1.0 / 3.0)) @ moved[:, across]
-        bent = 0.5 * self.thickness[:, None, None] * (plane @ curved)
-        worst = np.zeros((len(x), moved.shape[2]))
-        for side in (even + bent, even - bent):
-            xx, yy, xy = side[:, 0], side[:, 1], side[:, 2]
-            worst = np.maximum(worst, np.sqrt(xx**2 - xx * yy + yy**2 + 3.0 * xy**2))
+        of = self.panels.of
+        turned = _in_axes(displacements[self.panels.nodes], self.axes[of])[:, _ACROSS]
+        curved = self._curvature(np.full(2, 1.0 / 3.0)) @ self._led() @ turned
+        bent = 0.5 * self.thickness[of, None, None] * (plane @ curved)
+        worst = _mises(even)
+        for sign in (1.0, -1.0):
+            np.maximum.at(worst, of, _mises(even[of] + sign * bent))
         return worst
 
     def _plane_stress(self) -> Floats:
@@ -155,19 +176,29 @@ class Shells:
         result: Floats = basic + factor * (rigid.swapaxes(1, 2) @ higher @ rigid)
         return result
 
+    def _led(self) -> Floats:
+        """(b, 9, 9) what nodes' displacements across and turns are at the panels' corners."""
+        result = np.zeros((len(self.panels.of), 9, 9))
+        result[:] = np.eye(9)
+        for corner in range(3):
+            result[:, 3 * corner, 3 * corner + 1] = self.panels.arms[:, corner, 1]
+            result[:, 3 * corner, 3 * corner + 2] = -self.panels.arms[:, corner, 0]
+        return result
+
     def _bending(self) -> Floats:
-        """(t, 9, 9) across the plane: displacement and two turns."""
-        plane = self._plane_stress()
-        rigidity = (self.thickness**3 / 12.0 * self.area / 3.0)[:, None, None]
-        result = np.zeros((len(self.thickness), 9, 9))
+        """(b, 9, 9) across the plane: displacement and two turns of the panels' nodes."""
+        plane, led = self._plane_stress(), self._led()
+        thickness, area = self.thickness[self.panels.of], _area(self.panels.corners)
+        rigidity = (thickness**3 / 12.0 * area / 3.0)[:, None, None]
+        result = np.zeros((len(thickness), 9, 9))
         for place in _PLACES:
-            curved = self._curvature(place)
+            curved = self._curvature(place) @ led
             result += rigidity * (curved.swapaxes(1, 2) @ plane @ curved)
         return result
 
     def _curvature(self, place: Floats) -> Floats:
-        """(t, 3, 9) curvatures at a place (xi, eta) of displacements and turns."""
-        x, y = self.corners[..., 0], self.corners[..., 1]
+        """(b, 3, 9) curvatures at a place (xi, eta) of displacements and turns of corners."""
+        x, y = self.panels.corners[..., 0], self.panels.corners[..., 1]
         xi, eta = place
         p, q, t, r = {}, {}, {}, {}
         for k, (i, j) in ((4, (1, 2)), (5, (2, 0)), (6, (0, 1))):
@@ -232,13 +263,31 @@ class Shells:
                 ],
                 axis=1,
             )
-            / (2.0 * self.area)[:, None, None]
+            / (2.0 * _area(self.panels.corners))[:, None, None]
         )
         return result
 
 
-def shells_of(nodes: Floats, triangles: Ints, thickness: Floats, material: Elastic) -> Shells:
-    """Triangles between nodes (n, 3), mm."""
+def shells_of(
+    nodes: Floats,
+    triangles: Ints,
+    thickness: Floats,
+    material: Elastic,
+    *,
+    clear: Floats | None = None,
+    pads: Floats | None = None,
+) -> Shells:
+    """Triangles between nodes (n, 3), mm.
+
+    Args:
+        nodes: (n, 3) mm.
+        triangles: (t, 3) rows of them.
+        thickness: of all or (t,) of each, mm.
+        material: of all.
+        clear: (t, 3, 3) where each triangle's corners begin to bend, mm, in its plane; None for at
+            the nodes.
+        pads: (n,) about each node so far nothing bends either, mm; None for nowhere.
+    """
     triangles = triangles.astype(np.int64)
     a, b, c = nodes[triangles].swapaxes(0, 1)
     along = (b - a) / np.linalg.norm(b - a, axis=1)[:, None]
@@ -246,4 +295,57 @@ def shells_of(nodes: Floats, triangles: Ints, thickness: Floats, material: Elast
     normal /= np.linalg.norm(normal, axis=1)[:, None]
     axes = np.stack([along, np.cross(normal, along), normal], axis=1)
     corners = np.einsum("tij,tcj->tci", axes[:, :2], np.stack([a, b, c], axis=1) - a[:, None])
-    return Shells(triangles, axes, corners, np.broadcast_to(thickness, len(a)), material)
+    begin = corners
+    if clear is not None:
+        begin = np.einsum("tij,tcj->tci", axes[:, :2], clear - a[:, None])
+    pad = np.zeros(triangles.shape) if pads is None else pads[triangles]
+    panels = _panels(triangles, corners, begin, pad)
+    thickness = np.broadcast_to(thickness, len(a))
+    return Shells(triangles, axes, corners, thickness, material, panels)
+
+
+def _panels(triangles: Ints, corners: Floats, begin: Floats, pads: Floats) -> Panels:
+    """Triangles less their pads: six corners on their edges, and the four triangles of these."""
+    points, owners = [], []
+    for one, two in ((0, 1), (1, 2), (2, 0)):
+        span = begin[:, two] - begin[:, one]
+        length = np.linalg.norm(span, axis=1)
+        shares = pad_shares(length, pads[:, one], pads[:, two])
+        for corner, sign, share in ((one, 1.0, shares[0]), (two, -1.0, shares[1])):
+            points.append(begin[:, corner] + sign * share[:, None] * span)
+            owners.append(corner)
+    pieces = np.array([[0, 1, 2], [2, 3, 4], [4, 5, 0], [0, 2, 4]])
+    every = np.stack(points, axis=1)[:, pieces].reshape(-1, 3, 2)
+    own = np.tile(np.array(owners)[pieces], (len(triangles), 1))
+    of = np.repeat(np.arange(len(triangles)), len(pieces))
+    good = _area(every) > _LEAST_PANEL * _area(corners)[of]
+    every, own, of = every[good], own[good], of[good]
+    arms = every - corners[of[:, None], own]
+    return Panels(of, triangles[of[:, None], own], every, arms)
+
+
+def _area(corners: Floats) -> Floats:
+    """(t,) mm2, of (t, 3, 2) corners that run anticlockwise."""
+    one, two = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    return np.asarray(0.5 * (one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]))
+
+
+def _split(stiffness: Floats, axes: Floats) -> Floats:
+    """(9 t, 6, 6) blocks in global axes, of (t, 18, 18) in the triangles' own."""
+    turn = np.zeros_like(stiffness)
+    for corner in range(0, 18, 3):
+        turn[:, corner : corner + 3, corner : corner + 3] = axes
+    whole = turn.swapaxes(1, 2) @ stiffness @ turn
+    return np.asarray(whole.reshape(-1, 3, 6, 3, 6).swapaxes(2, 3).reshape(-1, 6, 6))
+
+
+def _in_axes(moved: Floats, axes: Floats) -> Floats:
+    """(t, 18, k) displacements and turns (t, 3, 6, k) of corners, in the triangles' axes."""
+    pairs = moved.reshape(*moved.shape[:2], 2, 3, -1)
+    return np.asarray(np.einsum("tij,tcgjk->tcgik", axes, pairs).reshape(len(moved), 18, -1))
+
+
+def _mises(stress: Floats) -> Floats:
+    """(t, k) von Mises, of (t, 3, k) in a plane."""
+    xx, yy, xy = stress[:, 0], stress[:, 1], stress[:, 2]
+    return np.asarray(np.sqrt(xx**2 - xx * yy + yy**2 + 3.0 * xy**2))

@@ -11,8 +11,10 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.sparse import csr_matrix
+from scipy.spatial import cKDTree
 
 from ..design.openings import lie_on
+from ..fem.wedge_mesh import barycentric
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.proximity import closest_points
 from ..spatial.rays import segment_crossings
@@ -29,6 +31,42 @@ _FARTHEST = 2.0
 _FLAT = 0.03
 #: Where a line inwards meets the other side nearer than so many thicknesses, the part is solid.
 _SOLID = 2.02
+#: What walls have in common takes no more than this part of a triangle's inscribed circle.
+_RIGID_CORNER = 0.8
+
+
+@dataclass(frozen=True, eq=False)
+class Feet:
+    """Where struts meet the skin.
+
+    Attributes:
+        places: (k, 3) on the skin, mm.
+        radii: (k,) so far about each the skin is stiff, mm.
+    """
+
+    places: Floats
+    radii: Floats
+
+
+NO_FEET = Feet(np.empty((0, 3)), np.empty(0))
+
+
+@dataclass(frozen=True, eq=False)
+class Joined:
+    """Vertices of the skin that hang together with the skin on the other side.
+
+    Attributes:
+        vertices: (j,) of them.
+        beyond: (j, 3) the vertices of the triangle there.
+        shares: (j, 3) of these in the nearest place.
+    """
+
+    vertices: Ints
+    beyond: Ints
+    shares: Floats
+
+
+NOT_JOINED = Joined(np.empty(0, np.int64), np.empty((0, 3), np.int64), np.empty((0, 3)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,6 +79,8 @@ class SkinModel:
         shells: triangles between them, those of open faces left out.
         used: (t,) bool, which triangles of `outside` have a shell.
         blocks: stiffness and mass, of shells and of what is solid between them.
+        pads: (n,) mm, so far about a vertex that struts meet the skin is stiff; 0 elsewhere.
+        joined: what hangs together where the part is solid.
     """
 
     outside: TriangleMesh
@@ -48,6 +88,15 @@ class SkinModel:
     shells: Shells
     used: Bools
     blocks: Blocks
+    pads: Floats
+    joined: Joined
+
+    def pad_of(self, nodes: Floats) -> Ints:
+        """(k,) the vertex whose pad struts' ends at (k, 3) stand on."""
+        padded = np.flatnonzero(self.pads > 0.0)
+        if not len(padded):
+            return np.zeros(len(nodes), np.int64)
+        return np.asarray(padded[cKDTree(self.middle[padded]).query(nodes)[1]])
 
 
 def skin_model(
@@ -56,6 +105,7 @@ def skin_model(
     edge: float,
     material: Elastic,
     openings: TriangleMesh | None = None,
+    feet: Feet = NO_FEET,
     monitor: Monitor | None = None,
 ) -> SkinModel:
     """The skin of a part as shells.
@@ -66,9 +116,10 @@ def skin_model(
         edge: how long the triangles' edges are to be, mm.
         material: of the skin.
         openings: the faces that have none.
+        feet: where struts meet it.
         monitor: asked for a cancel.
     """
-    outside = even_surface(solid, edge, monitor)
+    outside = even_surface(solid, edge, monitor, feet.places)
     triangles = outside.triangles.astype(np.int64)
     corners = outside.vertices[triangles]
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -82,24 +133,31 @@ def skin_model(
     local = np.minimum(thickness, 0.5 * room)
     middle = _inwards(outside.vertices, triangles[used], normal[used], doubled[used], 0.5 * local)
     kept = triangles[used]
-    shells = shells_of(middle, kept, local[kept].mean(axis=1), material)
-    blocks = shells.blocks()
+    clear = _clear(outside.vertices, middle, kept, normal[used], local)
+    pads = np.zeros(len(middle))
+    if len(feet.radii):
+        own = cKDTree(outside.vertices[np.unique(kept)])
+        near = np.unique(kept)[own.query(closest_points(outside, feet.places)[0])[1]]
+        np.maximum.at(pads, near, feet.radii)
+    thick = local[kept].mean(axis=1)
+    shells = shells_of(middle, kept, thick, material, clear=clear, pads=pads)
+    blocks, joined = shells.blocks(), NOT_JOINED
     solid_nodes = np.flatnonzero(room < _SOLID * thickness)
     if len(solid_nodes) and len(kept):
         shares = np.repeat(shells.area / 3.0, 3)
         area = np.bincount(kept.ravel(), shares, len(middle)).astype(np.float64)
-        between = _held_together(middle, kept, solid_nodes, room, area, material)
+        between, joined = _held_together(middle, kept, solid_nodes, room, area, material)
         blocks = Blocks(
             np.concatenate([blocks.rows, between.rows]),
             np.concatenate([blocks.columns, between.columns]),
             np.concatenate([blocks.stiffness, between.stiffness]),
             np.concatenate([blocks.mass, between.mass]),
         )
-    return SkinModel(outside, middle, shells, used, blocks)
+    return SkinModel(outside, middle, shells, used, blocks, pads, joined)
 
 
 def ties_to(skin: SkinModel, nodes: Floats, rows: Ints, offset: int) -> Ties:
-    """Struts' ends that move as the skin does where they meet it.
+    """Struts' ends that move as the pad does on which they stand.
 
     Args:
         skin: the shells.
@@ -110,25 +168,18 @@ def ties_to(skin: SkinModel, nodes: Floats, rows: Ints, offset: int) -> Ties:
     triangles = skin.shells.triangles
     surface = TriangleMesh(skin.middle, triangles.astype(np.int32))
     foot, _, triangle = closest_points(surface, nodes)
-    shares = _barycentric(skin.middle[triangles[triangle]], foot)
+    leaders, shares = triangles[triangle], barycentric(skin.middle[triangles[triangle]], foot)
+    vertex = skin.pad_of(nodes)
+    stands = np.linalg.norm(foot - skin.middle[vertex], axis=1) < skin.pads[vertex]
+    leaders[stands], shares[stands] = vertex[stands, None], (1.0, 0.0, 0.0)
+    foot[stands] = skin.middle[vertex[stands]]
     arm = cross_matrix(nodes - foot)
     blocks = np.zeros((len(nodes), 3, 6, 6))
     for corner in range(3):
         share = shares[:, corner, None, None]
         blocks[:, corner, :3, :3] = blocks[:, corner, 3:, 3:] = share * np.eye(3)
         blocks[:, corner, :3, 3:] = -share * arm
-    return Ties(rows, triangles[triangle] + offset, blocks)
-
-
-def _barycentric(corners: Floats, points: Floats) -> Floats:
-    """(k, 3) shares of the corners (k, 3, 3) in points of their planes."""
-    a, b, c = corners.swapaxes(0, 1)
-    one, two, to = b - a, c - a, points - a
-    d11, d12, d22 = ((x * y).sum(axis=1) for x, y in ((one, one), (one, two), (two, two)))
-    p1, p2 = (to * one).sum(axis=1), (to * two).sum(axis=1)
-    rest = np.maximum(d11 * d22 - d12**2, 1e-300)
-    second, third = (d22 * p1 - d12 * p2) / rest, (d11 * p2 - d12 * p1) / rest
-    return np.stack([1.0 - second - third, second, third], axis=1)
+    return Ties(rows, leaders + offset, blocks)
 
 
 def _room(
@@ -178,6 +229,34 @@ def _inwards(
     return np.asarray(vertices + move * limit[:, None])
 
 
+def _clear(
+    outside: Floats, middle: Floats, triangles: Ints, normal: Floats, depth: Floats
+) -> Floats:
+    """(t, 3, 3) where the corners of triangles begin to bend, mm.
+
+    Where walls meet at an angle, what they have in common is as good as rigid: they bend from
+    where each leaves the other.
+    """
+    half = 0.5 * depth[triangles][:, :, None] * normal[:, None, :]
+    corner = middle[triangles]
+    way = np.asarray(corner - outside[triangles] + half, np.float64)
+    # In the triangle's plane; at an edge that turns inwards the wall leaves it the other way.
+    plane = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+    plane /= np.maximum(np.linalg.norm(plane, axis=1), 1e-300)[:, None]
+    way -= np.einsum("tci,ti->tc", way, plane)[:, :, None] * plane[:, None, :]
+    inwards = corner.mean(axis=1)[:, None] - corner
+    way *= np.where(np.einsum("tci,tci->tc", way, inwards) < 0.0, -1.0, 1.0)[:, :, None]
+    # No farther than the inscribed circle, so that no triangle is turned over.
+    around = np.linalg.norm(corner - np.roll(corner, 1, axis=1), axis=2).sum(axis=1)
+    circle = np.linalg.norm(
+        np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]), axis=1
+    )
+    circle /= np.maximum(around, 1e-300)
+    size = np.maximum(np.linalg.norm(way, axis=2), 1e-300)
+    way *= np.minimum(1.0, _RIGID_CORNER * circle[:, None] / size)[:, :, None]
+    return np.asarray(corner + way)
+
+
 def _held_together(
     middle: Floats,
     triangles: Ints,
@@ -185,7 +264,7 @@ def _held_together(
     room: Floats,
     area: Floats,
     material: Elastic,
-) -> Blocks:
+) -> tuple[Blocks, Joined]:
     """The material between two shells as springs from each node to the shell beyond.
 
     Half of it at each side: E A / d against being pulled apart and G A / d against sliding, with
@@ -206,7 +285,7 @@ def _held_together(
     own = (beyond == nodes[:, None]).any(axis=1)
     good = faces & ~own & (away < gap) & (area[nodes] > 0)
     nodes, foot, beyond, gap = nodes[good], foot[good], beyond[good], gap[good]
-    shares = _barycentric(middle[beyond], foot)
+    shares = barycentric(middle[beyond], foot)
     half = 0.5 * (middle[nodes] + foot)
     follow = np.zeros((len(nodes), 4, 3, 6))
     follow[:, 0, :, :3] = np.eye(3)
@@ -221,9 +300,10 @@ def _held_together(
     spring = stiff * (material.young * along + material.shear * (np.eye(3) - along))
     rows = np.concatenate([nodes[:, None], beyond], axis=1)
     blocks = np.einsum("nami,nmp,nbpj->nabij", follow, spring, follow, optimize=True)
-    return Blocks(
+    between = Blocks(
         np.repeat(rows, 4, axis=1).ravel(),
         np.tile(rows, (1, 4)).ravel(),
         blocks.reshape(-1, 6, 6),
         np.zeros((blocks.shape[0] * 16, 6, 6)),
     )
+    return between, Joined(nodes, beyond, shares)

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from ..mesh import remesh
 from ..mesh.triangle_mesh import TriangleMesh
@@ -20,12 +21,17 @@ _TURN = np.cos(np.radians(28.0))
 _PASSES = 10
 #: Edges longer and shorter than so many times the wanted length are split and taken out.
 _LONG, _SHORT = 1.4, 0.75
+#: Vertices are put at given places, no two of them nearer than a part of the wanted length, in this
+#: pass, when the triangles are even already.
+_PINNED_AT, _APART = 4, 0.3
+#: What is nearer than this part of the wanted length to a vertex, or to an edge, is there.
+_AT_VERTEX, _AT_EDGE = 0.2, 0.25
 
 
 class _Creases:
     """Sharp edges of a mesh, and how far each vertex is held by them (`rank`)."""
 
-    def __init__(self, vertices: Floats, triangles: Ints) -> None:
+    def __init__(self, vertices: Floats, triangles: Ints, pinned: Floats) -> None:
         self.count = len(vertices)
         table = remesh.edges(triangles, self.count)
         normal = remesh.normals(vertices[triangles])
@@ -44,6 +50,8 @@ class _Creases:
         np.add.at(way, ends[:, 1], -step)
         bent = np.linalg.norm(way, axis=1) > 0.7
         self.rank = np.where(number == 0, 0, np.where((number == 2) & ~bent, 1, 2))
+        if len(pinned):
+            self.rank[cKDTree(pinned).query(vertices)[0] == 0.0] = 2
 
     def _key(self, one: Ints, two: Ints) -> Ints:
         return np.asarray(np.minimum(one, two) * np.int64(self.count) + np.maximum(one, two))
@@ -62,16 +70,28 @@ class _Creases:
         return np.asarray(free | ((self.rank[gone] == 1) & self.are_sharp(gone, kept)))
 
 
-def even_surface(mesh: TriangleMesh, edge: float, monitor: Monitor | None = None) -> TriangleMesh:
+def even_surface(
+    mesh: TriangleMesh,
+    edge: float,
+    monitor: Monitor | None = None,
+    places: Floats | None = None,
+) -> TriangleMesh:
     """The surface in triangles whose edges are about so long, where its details allow it.
 
     Args:
         mesh: closed, mm.
         edge: mm.
         monitor: asked for a cancel.
+        places: (k, 3) near which there are to be vertices, mm; those at sharp edges are moved
+            there.
     """
     monitor = monitor or Monitor()
     vertices, triangles = mesh.vertices.copy(), mesh.triangles.astype(np.int64)
+    pinned = wanted = np.empty((0, 3))
+    if places is not None and len(places):
+        wanted = closest_points(mesh, places)[0]
+        near = cKDTree(wanted).query_pairs(_APART * edge, output_type="ndarray")
+        wanted = np.delete(wanted, near.max(axis=1), axis=0)
     for number in range(_PASSES):
         monitor.tick()
 
@@ -80,8 +100,10 @@ def even_surface(mesh: TriangleMesh, edge: float, monitor: Monitor | None = None
             return np.asarray(length > _LONG * edge)
 
         vertices, triangles = remesh.split(vertices, triangles, is_long)
+        if number == _PINNED_AT and len(wanted):
+            vertices, triangles, pinned = _with_vertices(vertices, triangles, wanted, edge)
         for _ in range(3):
-            creases = _Creases(vertices, triangles)
+            creases = _Creases(vertices, triangles, pinned)
             rules = remesh.Rules(creases.rank, creases.may_slide, _nothing, _stays_good)
             before = len(vertices)
             vertices, triangles, _ = remesh.collapse(
@@ -89,11 +111,62 @@ def even_surface(mesh: TriangleMesh, edge: float, monitor: Monitor | None = None
             )
             if len(vertices) == before:
                 break
-        creases = _Creases(vertices, triangles)
+        creases = _Creases(vertices, triangles, pinned)
         triangles, _ = remesh.flip(vertices, triangles, _rounder(vertices, creases), _nothing)
         if number < _PASSES - 1:
             vertices = _relaxed(vertices, triangles, creases, mesh)
     return TriangleMesh(vertices, triangles.astype(np.int32))
+
+
+def _with_vertices(
+    vertices: Floats, triangles: Ints, places: Floats, edge: float
+) -> tuple[Floats, Ints, Floats]:
+    """The mesh with vertices at or near places (k, 3) on it; and where they are.
+
+    A place near a vertex takes that one, one near an edge divides it, any other one its triangle.
+    """
+    waiting, found = places, []
+    while len(waiting):
+        away, nearest = cKDTree(vertices).query(waiting)
+        taken = away < _AT_VERTEX * edge
+        found.append(vertices[nearest[taken]])
+        waiting = waiting[~taken]
+        if not len(waiting):
+            break
+        mesh = TriangleMesh(vertices, triangles.astype(np.int32))
+        at, _, triangle = closest_points(mesh, waiting)
+        corners = vertices[triangles[triangle]]
+        span = np.roll(corners, -1, axis=1) - corners
+        square = np.maximum((span**2).sum(axis=2), 1e-300)
+        share = np.einsum("kci,kci->kc", at[:, None] - corners, span) / square
+        share = np.clip(share, 0.0, 1.0)
+        foot = corners + share[:, :, None] * span
+        off = np.linalg.norm(at[:, None] - foot, axis=2)
+        side, every = np.argmin(off, axis=1), np.arange(len(at))
+        table = remesh.edges(triangles, len(vertices))
+        keys = np.sort(table.ends, axis=1) @ np.array([len(vertices), 1])
+        order = np.argsort(keys)
+        ends = np.stack([triangles[triangle, side], triangles[triangle, (side + 1) % 3]], axis=1)
+        number = order[np.searchsorted(keys[order], np.sort(ends, axis=1) @ [len(vertices), 1])]
+        on_edge = (off[every, side] < _AT_EDGE * edge) & (table.triangles[number, 1] >= 0)
+        touched = np.where(on_edge[:, None], table.triangles[number], triangle[:, None])
+        # One at a time in a triangle: the first that asks for it.
+        owner = np.full(len(triangles), len(at), np.int64)
+        np.minimum.at(owner, touched.ravel(), np.repeat(every, 2))
+        now = (owner[touched] == every[:, None]).all(axis=1)
+        cut, inside = np.flatnonzero(now & on_edge), np.flatnonzero(now & ~on_edge)
+        (u, v), (a, b) = table.ends[number[cut]].T, table.opposite[number[cut]].T
+        new = len(vertices) + np.arange(len(cut))
+        p, q, r = triangles[triangle[inside]].T
+        other = len(vertices) + len(cut) + np.arange(len(inside))
+        vertices = np.concatenate([vertices, foot[cut, side[cut]], at[inside]])
+        triangles = triangles.copy()
+        triangles[touched[cut, 0]] = np.stack([u, new, a], axis=1)
+        triangles[touched[cut, 1]] = np.stack([v, new, b], axis=1)
+        triangles[triangle[inside], 2] = other
+        more = [(new, v, a), (new, u, b), (q, r, other), (r, p, other)]
+        triangles = np.concatenate([triangles, *(np.stack(row, axis=1) for row in more)])
+    return vertices, triangles, np.unique(np.concatenate([places[:0], *found]), axis=0)
 
 
 def _nothing(one: Ints, two: Ints) -> Bools:

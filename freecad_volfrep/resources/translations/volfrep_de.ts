@@ -2402,12 +2402,12 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
       <translation>Sicherheit (Knicken)</translation>
     </message>
     <message>
-      <source>CalculiX's displacements of the same beams differ by {off:.2g} %.</source>
-      <translation>Die Verschiebungen von CalculiX für dieselben Balken weichen um {off:.2g} % ab.</translation>
+      <source>CalculiX's displacements of the same beams and skin differ by {off:.2g} %.</source>
+      <translation>Die Verschiebungen von CalculiX für dieselben Balken und dieselbe Wand weichen um {off:.2g} % ab.</translation>
     </message>
     <message>
-      <source>CalculiX's displacements of the same beams, given how the skin moves, differ by {off:.2g} %.</source>
-      <translation>Die Verschiebungen von CalculiX für dieselben Balken weichen, bei gegebener Bewegung der Haut, um {off:.2g} % ab.</translation>
+      <source>CalculiX's displacements of the same beams differ by {off:.2g} %.</source>
+      <translation>Die Verschiebungen von CalculiX für dieselben Balken weichen um {off:.2g} % ab.</translation>
     </message>
     <message>
       <source>Cancelled before the first step.</source>

@@ -2402,12 +2402,12 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
       <translation>Sicurezza (instabilità)</translation>
     </message>
     <message>
-      <source>CalculiX's displacements of the same beams differ by {off:.2g} %.</source>
-      <translation>Gli spostamenti di CalculiX per le stesse travi differiscono del {off:.2g} %.</translation>
+      <source>CalculiX's displacements of the same beams and skin differ by {off:.2g} %.</source>
+      <translation>Gli spostamenti di CalculiX per le stesse travi e la stessa parete differiscono del {off:.2g} %.</translation>
     </message>
     <message>
-      <source>CalculiX's displacements of the same beams, given how the skin moves, differ by {off:.2g} %.</source>
-      <translation>Gli spostamenti di CalculiX per le stesse travi, dato il movimento della pelle, differiscono del {off:.2g} %.</translation>
+      <source>CalculiX's displacements of the same beams differ by {off:.2g} %.</source>
+      <translation>Gli spostamenti di CalculiX per le stesse travi differiscono del {off:.2g} %.</translation>
     </message>
     <message>
       <source>Cancelled before the first step.</source>

@@ -2,17 +2,23 @@
 """`volfrep size`: from a part and its load cases to a part whose struts follow them."""
 
 import json
+import signal
+from collections.abc import Callable
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
 import trimesh
 
 from command import run
+from volfrep.cli import sizing
 from volfrep.io.solid import read_triangles
 from volfrep.io.write.stl import write_stl
 from volfrep.mesh.triangle_mesh import TriangleMesh
+from volfrep.sizing.optimise import Step
 
+SVG = "{http://www.w3.org/2000/svg}"
 LATTICE = ["--cell", "CVC", "--cell-size", "10", "--strut-radius", "0.8"]
 WHOLE = ["--shell", "0", "--boundary", "whole", "--activation", "inside"]
 LOADS = """
@@ -130,11 +136,61 @@ def test_a_part_that_is_not_held_is_refused(part: Path, capsys: pytest.CaptureFi
     assert "move freely" in refusal(part, capsys, *WHOLE, "--no-proof")
 
 
-def test_a_target_for_the_radius_is_refused(part: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    loads, out = part.with_name("loads.toml"), part.with_name("out.stl")
-    lattice = ["--cell", "CVC", "--cell-size", 10, "--relative-density", 0.1]
-    assert run("size", part, "--loads", loads, "-o", out, *lattice, "--quiet") == 2
-    assert "leave the target out" in capsys.readouterr().err
+def test_a_target_says_what_mass_struts_have_before_they_are_sized(
+    part: Path, tmp_path: Path
+) -> None:
+    loads, out, report = (
+        part.with_name("loads.toml"),
+        part.with_name("out.stl"),
+        tmp_path / "r.json",
+    )
+    lattice = ["--cell", "CVC", "--cell-size", 10, "--relative-density", 0.05, *WHOLE, "--no-proof"]
+    more = ["--quiet", "--steps", 3, "--report", report]
+    assert run("size", part, "--loads", loads, "-o", out, *lattice, *more) == 0
+    found = json.loads(report.read_text())
+    assert found["part"]["relative_density"] == pytest.approx(0.05, rel=0.02)
+    assert "struts have their mass" in found["sizing"]["notes"][0]
+
+
+def test_the_steps_are_drawn(part: Path, tmp_path: Path) -> None:
+    plot, report = tmp_path / "steps.svg", tmp_path / "r.json"
+    more = ("--plot", plot, "--report", report, "--no-proof", "--steps", 5)
+    assert size(part, *WHOLE, "--safety", 2, "--max-displacement", 0.1, *more) == 0
+    root = ElementTree.parse(plot).getroot()
+    lines = [node.get("points", "").split() for node in root.iter(f"{SVG}polyline")]
+    steps = json.loads(report.read_text())["sizing"]["steps"]
+    assert [len(line) for line in lines] == [len(steps)] * 3
+    told = [node.text for node in root.iter(f"{SVG}text")]
+    assert {"mass of the struts, g", "use of stress, %", "use of displacement, %"} <= set(told)
+    heights = np.array([float(point.split(",")[1]) for point in lines[0]])
+    mass = np.array([step["strut_volume_mm3"] for step in steps])
+    assert heights == pytest.approx(350 - 310 * mass / mass.max(), abs=0.06)
+
+
+def test_a_plot_is_an_svg(part: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert "is an .svg file" in refusal(part, capsys, "--plot", part.with_name("steps.png"))
+
+
+def test_ctrl_c_keeps_the_best_design_so_far(
+    part: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    told = []
+
+    def interrupting(quiet: bool) -> Callable[[int, Step], bool]:
+        def watch(number: int, step: Step) -> bool:
+            told.append(step)
+            if number == 2:
+                signal.raise_signal(signal.SIGINT)
+            return True
+
+        return watch
+
+    monkeypatch.setattr(sizing, "_teller", interrupting)
+    report = tmp_path / "r.json"
+    assert size(part, *WHOLE, "--no-proof", "--report", report) == 0
+    assert len(told) == 3 or len(told) == 4
+    assert json.loads(report.read_text())["sizing"]["stopped"] == "cancelled"
+    assert part.with_name("out.stl").exists()
 
 
 def test_limits_that_cannot_be_held_are_told(

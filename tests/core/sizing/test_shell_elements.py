@@ -7,7 +7,7 @@ import trimesh
 
 from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.sizing.shell_elements import shells_of
-from volfrep.sizing.skin import skin_model, ties_to
+from volfrep.sizing.skin import Feet, skin_model, ties_to
 from volfrep.sizing.skin_mesh import even_surface
 from volfrep.sizing.structure import Case, Structure
 from volfrep.sizing.tapered_beams import Elastic, beams_of
@@ -116,6 +116,59 @@ def test_where_the_part_is_thin_both_sides_make_one_solid_plate():
     moved, _ = structure.displacements(np.empty((0, 2)), [Case(held, loads)])
     beam = length**3 / 3 / 210_000 / (width * thick**3 / 12)
     assert moved[tip, 2, 0].mean() == pytest.approx(beam, rel=0.15)
+
+
+def test_a_pad_is_a_rigid_disc_in_a_plate():
+    """A clamped round plate, a force on a rigid disc in its middle (W. C. Young, Roark's Formulas).
+
+    w = P a2 / (16 pi D) (1 - q - 4 q ln(b / a)2 / (1 - q)), q = (b / a)2.
+    """
+    rings, spokes, rim, disc = 12, 24, 10.0, 2.0
+    radii = np.append(0.0, np.linspace(2.5, rim, rings))
+    angles = np.arange(spokes) * 2.0 * np.pi / spokes
+    around = np.stack([np.cos(angles), np.sin(angles), 0.0 * angles], axis=1)
+    nodes = np.concatenate([np.zeros((1, 3)), *(radius * around for radius in radii[1:])])
+    k = np.arange(spokes)
+    after = (k + 1) % spokes
+    triangles = [np.stack([0 * k, 1 + k, 1 + after], axis=1)]
+    for ring in range(rings - 1):
+        low, high = 1 + spokes * ring, 1 + spokes * (ring + 1)
+        triangles.append(np.stack([low + k, high + k, high + after], axis=1))
+        triangles.append(np.stack([low + k, high + after, low + after], axis=1))
+    pads = np.zeros(len(nodes))
+    pads[0] = disc
+    shells = shells_of(nodes, np.concatenate(triangles), np.array(0.5), STEEL, pads=pads)
+    structure = Structure(nodes, NO_STRUTS, fixed_blocks=shells.blocks())
+    held = np.repeat(np.linalg.norm(nodes, axis=1)[:, None] > rim - 1e-6, 6, axis=1)
+    loads = np.zeros((len(nodes), 6))
+    loads[0, 2] = 3.0
+    moved, _ = structure.displacements(np.empty((0, 2)), [Case(held, loads)])
+    rigidity, share = 210_000 * 0.5**3 / 12 / (1 - 0.3**2), (disc / rim) ** 2
+    lessened = 1 - share - share * np.log(share) ** 2 / (1 - share)
+    assert moved[0, 2, 0] == pytest.approx(3 * rim**2 / 16 / np.pi / rigidity * lessened, rel=0.03)
+
+
+def test_walls_that_meet_bend_from_where_they_leave_each_other():
+    """Walls of 2 mm about a box of 40 mm: shells of 38 mm, of which 36 mm bend."""
+    skin = skin_model(box(40, 40, 40), 2.0, 5.0, STEEL)
+    flat = np.abs(skin.shells.axes[skin.shells.panels.of, 2] @ [1.0, 0, 0]) > 0.99
+    area = skin.shells.area[np.abs(skin.shells.axes[:, 2] @ [1.0, 0, 0]) > 0.99].sum()
+    panels = skin.shells.panels.corners[flat]
+    one, two = panels[:, 1] - panels[:, 0], panels[:, 2] - panels[:, 0]
+    bending = 0.5 * (one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0])
+    assert area == pytest.approx(2 * 38 * 38)
+    assert bending.sum() == pytest.approx(2 * 36 * 36, rel=0.02)
+
+
+def test_struts_find_a_vertex_where_they_meet_the_skin():
+    places = np.array([[20.0, 1.7, 2.2], [-20.0, 6.1, -3.3], [3.0, 15.0, 9.8], [3.0, 14.8, -1.0]])
+    feet = Feet(places, np.array([1.0, 1.2, 0.8, 0.9]))
+    skin = skin_model(box(40, 30, 20), 2.0, 5.0, STEEL, feet=feet)
+    vertices = skin.outside.vertices
+    assert skin.outside.volume == pytest.approx(40 * 30 * 20)
+    away = np.linalg.norm(vertices[:, None] - places, axis=2).min(axis=0)
+    assert away.max() < 0.25 * 5.0
+    assert np.sort(skin.pads[skin.pads > 0]) == pytest.approx([0.8, 0.9, 1.0, 1.2])
 
 
 def test_a_strut_that_ends_in_the_skin_moves_with_it():

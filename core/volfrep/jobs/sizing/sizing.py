@@ -5,113 +5,44 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 
-from ..design.grading import RadiusGrading
-from ..design.parameters.specification import values_of
-from ..design.profile import Profile
-from ..design.scattered_field import PointField
-from ..design.spec import LatticeSpec
-from ..design.spec_parts import largest_radius
-from ..grid.placement import NUDGE
-from ..grid.strut_graph import Wireframe
-from ..loads.load_cases import LoadCases
-from ..mechanics.materials import SolidMaterial
-from ..mesh.triangle_mesh import TriangleMesh
-from ..reports.sizing_report import PEAKS, sizing_report
-from ..sizing.analysis import Analysis, Limits, Problem, analysed
-from ..sizing.design_proof import proved, stricter_limits
-from ..sizing.model import SizingModel, elastic, sizing_model
-from ..sizing.node_radii import smoothing
-from ..sizing.optimise import Sized, Step, Watch, lightest, scaled_to_limits, stiffest, uniform
-from ..sizing.skin import skin_model
-from ..util.cache import StageCache
-from ..util.errors import Cancelled, VolfrepError
-from ..util.files import replacing
-from ..util.progress import Monitor, ProgressCallback
-from ..util.types import Floats
-from .infill import Infill
+from ...design.grading import RadiusGrading
+from ...design.parameters.specification import values_of
+from ...design.profile import Profile
+from ...design.scattered_field import PointField
+from ...design.spec import LatticeSpec
+from ...design.spec_parts import largest_radius
+from ...grid.placement import NUDGE
+from ...grid.strut_graph import Wireframe
+from ...loads.load_cases import LoadCases
+from ...mesh.triangle_mesh import TriangleMesh
+from ...reports.sizing_report import PEAKS, sizing_report
+from ...sizing.analysis import Analysis, Limits, Problem, analysed
+from ...sizing.design_proof import proved, stricter_limits
+from ...sizing.model import SizingModel, elastic, feet_of, sizing_model
+from ...sizing.node_radii import smoothing
+from ...sizing.optimise import Sized, Step, Watch, lightest, scaled_to_limits, stiffest, uniform
+from ...sizing.skin import skin_model
+from ...util.cache import StageCache
+from ...util.errors import Cancelled, VolfrepError
+from ...util.files import replacing
+from ...util.progress import Monitor, ProgressCallback
+from ...util.types import Floats
+from ..infill import Infill
+from ..targets import aimed
+from .goal import Goal
 
 #: Edges of the skin's triangles over the cell size, and over its thickness at least.
-SKIN_EDGE, SKIN_EDGE_LEAST = 0.6, 1.5
+SKIN_EDGE, SKIN_EDGE_LEAST = 0.5, 1.5
+#: So many times a design is made thicker because of what CalculiX finds.
+CORRECTIONS = 2
 #: Radii are stored in steps of this, mm, as files keep them.
 RADIUS_STEP = 1e-6
-#: What a user may want: limits, or a mass of struts, and between which radii, how even.
-GOALS = (
-    "max_stress", "safety", "max_displacement", "buckling", "min_frequency", "strut_mass",
-    "thinnest", "thickest", "smooth",
-)  # fmt: skip
-
-
-@dataclass(frozen=True)
-class Goal:
-    """What is wanted of a design.
-
-    Attributes:
-        limits: none is gone beyond; without any, stiffness is what is wanted.
-        volume: mm3 of struts for the most stiffness; None for that of the specification's radius.
-        radius_min: mm, the thinnest strut that may be; None for half the specification's radius.
-        radius_max: mm, the thickest; None for what the cell bears.
-        smooth: share that a node's neighbours have in its radius, from 0 to 0.9.
-        weights: of the load cases, for stiffness; None for all alike.
-    """
-
-    limits: Limits = field(default_factory=Limits)
-    volume: float | None = None
-    radius_min: float | None = None
-    radius_max: float | None = None
-    smooth: float = 0.0
-    weights: tuple[float, ...] | None = None
-
-
-def goal_of(
-    material: SolidMaterial,
-    asked: Mapping[str, float | None],
-    named: Callable[[str], str] = str,
-) -> Goal:
-    """The goal that a user has written down.
-
-    Args:
-        material: of the part.
-        asked: of `GOALS`, what was given; the stress as it is or by a safety against yielding, the
-            mass of the struts in g.
-        named: what the user calls one of them, for messages.
-
-    Raises:
-        VolfrepError: there is no goal of a name, two say the same, or a number makes no sense.
-    """
-    given = {name: float(value) for name, value in asked.items() if value is not None}
-    for name in given:
-        if name not in GOALS:
-            raise VolfrepError(f"There is no goal '{named(name)}': choose from {', '.join(GOALS)}.")
-    for name in ("safety", "strut_mass"):
-        if not given.get(name, 1.0) > 0.0:
-            raise VolfrepError(f"{named(name)} must be above 0, not {given[name]:g}.")
-    stress = given.get("max_stress")
-    if "safety" in given:
-        if stress is not None:
-            raise VolfrepError(
-                f"{named('max_stress')} and {named('safety')} say the same: give one of them."
-            )
-        if material.yield_stress is None:
-            raise VolfrepError(
-                f"The material '{material.name}' has no yield stress for {named('safety')}: give "
-                f"{named('max_stress')}, or yield_stress in the load file."
-            )
-        stress = material.yield_stress / given["safety"]
-    volume = None
-    if "strut_mass" in given:
-        volume = given["strut_mass"] * 1000.0 / material.density
-    limits = Limits(
-        stress, given.get("max_displacement"), given.get("buckling"), given.get("min_frequency")
-    )
-    return Goal(
-        limits, volume, given.get("thinnest"), given.get("thickest"), given.get("smooth", 0.0)
-    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -157,7 +88,8 @@ def size(
 
     Args:
         solid: checked closed mesh, mm.
-        spec: what it is filled with; its radius is what the design begins with.
+        spec: what it is filled with; its radius is what the design begins with, or that of its
+            target.
         loads: the material, and what the part carries.
         goal: least mass within limits, or most stiffness at a volume.
         most_steps: of the search.
@@ -181,6 +113,8 @@ def size(
         raise VolfrepError(f"The smoothing must be from 0 to 0.9, not {goal.smooth:g}.")
     start = time.perf_counter()
     cache = cache or StageCache()
+    notes: list[str] = []
+    spec = _without_target(solid, spec, goal, cache, progress, notes)
     infill = Infill(solid, spec, monitor=monitor, cache=cache)
     model = _model(infill, loads, goal, cache)
     problem = model.problem
@@ -188,7 +122,6 @@ def size(
     first = np.clip(_given_radii(model.wireframe), problem.low, problem.high)
     seconds = {"model": time.perf_counter() - start}
     start = time.perf_counter()
-    notes: list[str] = []
 
     def told(number: int, step: Step) -> bool:
         try:
@@ -229,15 +162,25 @@ def size(
         try:
             with monitor.stage("proof", 0.95, 1.0):
                 proof = solve_again(final)
-                stricter = stricter_limits(goal.limits, final, proof)
-                if proof is not None and stricter != goal.limits and sized.holds:
+                for _ in range(CORRECTIONS):
+                    stricter = stricter_limits(goal.limits, final, proof)
+                    if proof is None or stricter == goal.limits or not sized.holds:
+                        break
                     # Where CalculiX finds more than is allowed, the limits are that much stricter.
                     found, _ = scaled_to_limits(problem, stricter, final.radii)
                     final = _stored(problem, found.radii, goal.limits)
                     proof = solve_again(final)
+                if stricter_limits(goal.limits, final, proof) != goal.limits and sized.holds:
+                    notes.append(
+                        "CalculiX finds more of a limit used than is allowed, even in a thicker "
+                        "design: see how far the two are apart."
+                    )
         except Cancelled:
             proof = None
             notes.append("CalculiX was cancelled: no other solver has proved this design.")
+        except VolfrepError as error:  # minutes of work are not lost to another program
+            proof = None
+            notes.append(f"{error} No other solver has proved this design.")
     radii = final.radii
     sized = replace(sized, analysis=final)
     same = shape.scaled_to(
@@ -250,8 +193,7 @@ def size(
     if infill.placement.is_cut:
         points = points - NUDGE * spec.cell_size
     graded = replace(
-        spec, strut_radius=float(np.median(radii)), radius_grading=radius_field(points, radii),
-        target=None,
+        spec, strut_radius=float(np.median(radii)), radius_grading=radius_field(points, radii)
     )  # fmt: skip
     report = sizing_report(
         loads, model, sized, before, even, proof, seconds=seconds, notes=tuple(notes)
@@ -281,6 +223,7 @@ def solved(
         Cancelled: the callback said so.
     """
     cache = cache or StageCache()
+    spec = _without_target(solid, spec, Goal(), cache, progress, [])
     infill = Infill(solid, spec, monitor=Monitor(progress), cache=cache)
     frame = infill.struts
     radii = np.zeros(len(frame.nodes))
@@ -323,15 +266,34 @@ def values_with_radii(part: SizedPart, path: str | os.PathLike[str]) -> dict[str
     return values_of(replace(part.spec, radius_grading=grading))
 
 
+def _without_target(
+    solid: TriangleMesh,
+    spec: LatticeSpec,
+    goal: Goal,
+    cache: StageCache,
+    progress: ProgressCallback | None,
+    notes: list[str],
+) -> LatticeSpec:
+    """The specification with the radius of its target, and what that means in a sentence."""
+    target = spec.target
+    if target is None or spec.output == "domain":
+        return replace(spec, target=None)
+    found = aimed(solid, spec, progress=progress, cache=cache, meshed=False).spec
+    kept = "the limits now say how thick struts are"
+    if not goal.limits.any:
+        kept = "struts have their mass, distributed anew" if goal.volume is None else "it began so"
+    notes.append(
+        f"The target, a {target.called} of {target.value:.5g}, asks for struts of "
+        f"{found.strut_radius:.4g} mm: {kept}."
+    )
+    return replace(found, target=None)
+
+
 def _model(infill: Infill, loads: LoadCases, goal: Goal, cache: StageCache) -> SizingModel:
     """The part as it is solved."""
     spec, material = infill.spec, loads.material
     if spec.output == "domain":
         raise VolfrepError("The output 'domain' holds no lattice to size: choose part or lattice.")
-    if spec.target is not None:
-        raise VolfrepError(
-            "Sizing chooses the radii itself: leave the target out, and give limits or a mass."
-        )
     if spec.fillet:
         raise VolfrepError("Struts with fillets cannot be sized: set the fillet to 0.")
     wireframe, clipped = infill.struts, infill.axes
@@ -359,6 +321,7 @@ def _model(infill: Infill, loads: LoadCases, goal: Goal, cache: StageCache) -> S
         with infill.monitor.stage("skin", 0.3, 0.4):
             skin = skin_model(
                 infill.solid, spec.shell, edge, elastic(material), infill.domain.openings,
+                feet_of(wireframe, clipped, infill.domain.mesh, _given_radii(wireframe)),
                 infill.monitor,
             )  # fmt: skip
     model = sizing_model(

@@ -1,0 +1,235 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A skin between two surfaces as second-order wedges, finer where struts end in it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..util.types import Bools, Floats, Ints
+
+#: Pads take no more than this part of an edge, both ends together.
+_MOST_OF_EDGE = 0.8
+#: So many times are vertices whose wedges are turned over evened out, and then drawn back by half.
+_EVENED_OUT, _DRAWN_BACK = 20, 8
+#: The volume at a wedge's corner over what upright walls would give, at least.
+_UPRIGHT = 0.05
+
+
+@dataclass(frozen=True, eq=False)
+class WedgeMesh:
+    """Second-order wedges with straight edges, one through the thickness.
+
+    Attributes:
+        nodes: (k, 3) mm.
+        elements: (e, 15) int64: corners of the inner triangle and of the outer one, the middles of
+            the inner edges and of the outer ones, and those across (the order of CalculiX).
+        is_pad: (e,) bool, next to a vertex with a pad.
+        triangles: (t, 3) of the surface, rows of its vertices.
+        of: (e,) the triangle that each wedge is a piece of.
+        outer: (n,) the node at each vertex of the outer surface; -1 where none is used.
+        inner: (n,) the same of the inner one.
+        edges: (m, 2) vertices of the surface (those of the cut, too) between which there is a
+            node on the outer surface.
+        middles: (m,) that node.
+        ring: (r, 2) a vertex with a pad, and a node on the pad's inner border.
+    """
+
+    nodes: Floats
+    elements: Ints
+    is_pad: Bools
+    triangles: Ints
+    of: Ints
+    outer: Ints
+    inner: Ints
+    edges: Ints
+    middles: Ints
+    ring: Ints
+
+    def spread(self, loads: Floats) -> Floats:
+        """(k, 3) N on nodes, of (n, 3) on vertices of the surface: over its triangles.
+
+        What a vertex has goes to its triangles by area, as far as all their corners have some; on
+        these it is a traction, linear, with the same force and moment.
+        """
+        rows = self.triangles
+        corner = self.nodes[self.outer[rows]]
+        area = 0.5 * np.linalg.norm(
+            np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]), axis=1
+        )
+        loaded = (loads != 0.0).any(axis=1)
+        taking = np.where(loaded[rows].all(axis=1), area, 0.0)
+        whole = np.bincount(rows.ravel(), np.repeat(taking, 3), len(loads))
+        result = np.zeros_like(self.nodes)
+        alone = loaded & (whole == 0.0)
+        result[self.outer[alone]] = loads[alone]
+        share = taking[:, None] / np.maximum(whole[rows], 1e-300)
+        felt = share[:, :, None] * loads[rows]  # (t, 3, 3): what each corner gives
+        mean = felt.mean(axis=1, keepdims=True)
+        traction = (3.0 * mean + 12.0 * (felt - mean)) / area[:, None, None]
+
+        piece = np.flatnonzero(taking[self.of] > 0.0)
+        middles = self.elements[piece, 9:12]
+        one, two, three = self.nodes[self.elements[piece, 3:6]].swapaxes(0, 1)
+        weight = np.linalg.norm(np.cross(two - one, three - one), axis=1) / 6.0
+        parts = barycentric(
+            np.repeat(corner[self.of[piece]], 3, axis=0), self.nodes[middles].reshape(-1, 3)
+        ).reshape(-1, 3, 3)
+        forces = weight[:, None, None] * (parts @ traction[self.of[piece]])
+        np.add.at(result, middles, forces)
+        return result
+
+
+def barycentric(corners: Floats, points: Floats) -> Floats:
+    """(k, 3) shares of the corners (k, 3, 3) in points of their planes."""
+    a, b, c = corners.swapaxes(0, 1)
+    one, two, to = b - a, c - a, points - a
+    d11, d12, d22 = ((x * y).sum(axis=1) for x, y in ((one, one), (one, two), (two, two)))
+    p1, p2 = (to * one).sum(axis=1), (to * two).sum(axis=1)
+    rest = np.maximum(d11 * d22 - d12**2, 1e-300)
+    second, third = (d22 * p1 - d12 * p2) / rest, (d11 * p2 - d12 * p1) / rest
+    return np.stack([1.0 - second - third, second, third], axis=1)
+
+
+def pad_shares(length: Floats, first: Floats, second: Floats) -> tuple[Floats, Floats]:
+    """(k,) parts of edges that the pads at their ends take: all they ask for, where there is room.
+
+    Args:
+        length: (k,) of the edges, mm.
+        first: (k,) radius of the pad at the first end, mm; 0 for none.
+        second: (k,) the same at the second.
+    """
+    allowed = 1.0 / np.maximum(length, (first + second) / _MOST_OF_EDGE)
+    return first * allowed, second * allowed
+
+
+def wedge_mesh(outer: Floats, inner: Floats, triangles: Ints, pads: Floats) -> WedgeMesh:
+    """Wedges between two surfaces of the same triangles.
+
+    Args:
+        outer: (n, 3) mm.
+        inner: (n, 3) the same vertices on the other side, mm.
+        triangles: (t, 3) rows of both, seen from outside anticlockwise; needles that are folded
+            over have no wedge.
+        pads: (n,) mm; about a vertex the triangles are cut at this distance from it along their
+            edges, where it is above 0.
+    """
+    triangles = triangles.astype(np.int64)
+    own = len(outer)
+    inner = _upright(outer, inner, triangles)
+    triangles = triangles[_stands(outer[triangles], inner[triangles])]
+    vertices, pieces, is_pad, of, ring = _cut(own, triangles, pads, outer)
+    (near, far), share = vertices
+    above = (1.0 - share)[:, None] * outer[near] + share[:, None] * outer[far]
+    below = (1.0 - share)[:, None] * inner[near] + share[:, None] * inner[far]
+
+    used, flat = np.unique(pieces, return_inverse=True)
+    corners = flat.reshape(pieces.shape)
+    count = len(used)
+    sides = np.sort(
+        np.stack([corners, np.roll(corners, -1, axis=1)], axis=2).reshape(-1, 2), axis=1
+    )
+    sides, side = np.unique(sides, axis=0, return_inverse=True)
+    side = side.reshape(-1, 3)
+    above, below = above[used], below[used]
+    middle = 0.5 * (above + below)
+    nodes = np.concatenate(
+        [below, above, middle, below[sides].mean(axis=1), above[sides].mean(axis=1)]
+    )
+    elements = np.concatenate(
+        [corners, corners + count, side + 3 * count, side + 3 * count + len(sides),
+         corners + 2 * count], axis=1,
+    )  # fmt: skip
+    place = np.full(len(near), -1, np.int64)
+    place[used] = np.arange(count)
+    ring = ring[place[ring[:, 1]] >= 0]
+    return WedgeMesh(
+        nodes,
+        elements,
+        is_pad,
+        triangles,
+        of,
+        np.where(place[:own] >= 0, place[:own] + count, -1),
+        place[:own],
+        used[sides],
+        3 * count + len(sides) + np.arange(len(sides)),
+        np.stack([ring[:, 0], place[ring[:, 1]]], axis=1),
+    )
+
+
+def _cut(
+    own: int, triangles: Ints, pads: Floats, places: Floats
+) -> tuple[tuple[tuple[Ints, Ints], Floats], Ints, Bools, Ints, Ints]:
+    """Triangles cut at their pads.
+
+    Returns:
+        the vertices, each between two of the surface's with a share of the second; (e, 3) pieces;
+        (e,) which are of a pad; (e,) of which triangle; (r, 2) pads' vertices with those on their
+        borders.
+    """
+    start, end = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
+    # A cut lies on an edge, beside one of its ends: named by both, that end first.
+    named = np.concatenate([np.stack([start, end], axis=1), np.stack([end, start], axis=1)])
+    cut = pads[named[:, 0]] > 0.0
+    keys, place = np.unique(named[cut, 0] * np.int64(own) + named[cut, 1], return_inverse=True)
+    near, far = np.divmod(keys, own)
+    length = np.linalg.norm(places[near] - places[far], axis=1)
+    share = pad_shares(length, pads[near], pads[far])[0]
+    points = named[:, 0].copy()
+    points[cut] = own + place.ravel()
+    at_start, at_end = points[: len(start)].reshape(-1, 3), points[len(start) :].reshape(-1, 3)
+    # About each triangle: behind corner 0, before 1, behind 1, before 2, behind 2, before 0.
+    six = np.stack([at_start, at_end], axis=2).reshape(-1, 6)
+    panels = six[:, [[0, 1, 2], [2, 3, 4], [4, 5, 0], [0, 2, 4]]].reshape(-1, 3)
+    tips = np.stack([triangles, at_start, np.roll(at_end, 1, axis=1)], axis=2).reshape(-1, 3)
+    pieces = np.concatenate([panels, tips])
+    is_pad = np.arange(len(pieces)) >= len(panels)
+    good = (pieces != np.roll(pieces, 1, axis=1)).all(axis=1)
+    every = np.arange(own)
+    vertices = (np.append(every, near), np.append(every, far)), np.append(np.zeros(own), share)
+    ring = np.stack([near, own + np.arange(len(near))], axis=1)
+    every = np.arange(len(triangles))
+    of = np.append(np.repeat(every, 4), np.repeat(every, 3))
+    return vertices, pieces[good], is_pad[good], of[good], ring
+
+
+def _upright(outer: Floats, inner: Floats, triangles: Ints) -> Floats:
+    """The inner vertices, moved where a wedge would be turned over.
+
+    First each goes as deep, and the way, as those about it do on the whole; then towards the
+    outside. Where the outside itself is folded nothing helps, and nothing is done.
+    """
+    depth = inner - outer
+    way = np.cross(*(outer[triangles[:, k]] - outer[triangles[:, 0]] for k in (1, 2)))
+    mean = np.zeros_like(outer)
+    for corner in range(3):
+        np.add.at(mean, triangles[:, corner], way)
+    folded = np.einsum("ij,ij->i", mean[triangles].sum(axis=1), way) <= 0.0
+    for number in range(_EVENED_OUT + _DRAWN_BACK):
+        bad = ~folded & ~_stands(outer[triangles], (outer + depth)[triangles])
+        if not bad.any():
+            break
+        if number < _EVENED_OUT:
+            total, count = np.zeros_like(depth), np.zeros(len(depth))
+            mean = depth[triangles[bad]].mean(axis=1)
+            for corner in range(3):
+                np.add.at(total, triangles[bad, corner], mean)
+                np.add.at(count, triangles[bad, corner], 1.0)
+            depth = np.where(count[:, None] > 0.0, total / np.maximum(count, 1.0)[:, None], depth)
+        else:
+            depth[np.unique(triangles[bad])] *= 0.5
+    return outer + depth
+
+
+def _stands(high: Floats, low: Floats) -> Bools:
+    """(t,) whether wedges between triangles (t, 3, 3) are turned over nowhere."""
+    ways = [np.cross(side[:, 1] - side[:, 0], side[:, 2] - side[:, 0]) for side in (low, high)]
+    size = np.linalg.norm(ways[1], axis=1)
+    result = np.ones(len(high), bool)
+    for way in ways:
+        for corner in range(3):
+            rise = high[:, corner] - low[:, corner]
+            upright = size * np.linalg.norm(rise, axis=1)
+            result &= np.einsum("ij,ij->i", rise, way) > _UPRIGHT * upright
+    return result

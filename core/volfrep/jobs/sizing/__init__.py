@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Radii that follow what a part carries: what is wanted, and the job that finds them."""
+
+from .goal import GOALS, Goal, goal_of
+from .sizing import (
+    SizedPart,
+    radius_field,
+    size,
+    solved,
+    values_with_radii,
+    write_radii,
+)
+
+__all__ = [
+    "GOALS",
+    "Goal",
+    "SizedPart",
+    "goal_of",
+    "radius_field",
+    "size",
+    "solved",
+    "values_with_radii",
+    "write_radii",
+]

@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What sizing is for: limits for the least mass, or the most stiffness at a mass."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+from ...mechanics.materials import SolidMaterial
+from ...sizing.analysis import Limits
+from ...util.errors import VolfrepError
+
+#: What a user may want: limits, or a mass of struts, and between which radii, how even.
+GOALS = (
+    "max_stress", "safety", "max_displacement", "buckling", "min_frequency", "strut_mass",
+    "thinnest", "thickest", "smooth",
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Goal:
+    """What is wanted of a design.
+
+    Attributes:
+        limits: none is gone beyond; without any, stiffness is what is wanted.
+        volume: mm3 of struts for the most stiffness; None for that of the specification's radius.
+        radius_min: mm, the thinnest strut that may be; None for half the specification's radius.
+        radius_max: mm, the thickest; None for what the cell bears.
+        smooth: share that a node's neighbours have in its radius, from 0 to 0.9.
+        weights: of the load cases, for stiffness; None for all alike.
+    """
+
+    limits: Limits = field(default_factory=Limits)
+    volume: float | None = None
+    radius_min: float | None = None
+    radius_max: float | None = None
+    smooth: float = 0.0
+    weights: tuple[float, ...] | None = None
+
+
+def goal_of(
+    material: SolidMaterial,
+    asked: Mapping[str, float | None],
+    named: Callable[[str], str] = str,
+) -> Goal:
+    """The goal that a user has written down.
+
+    Args:
+        material: of the part.
+        asked: of `GOALS`, what was given; the stress as it is or by a safety against yielding, the
+            mass of the struts in g.
+        named: what the user calls one of them, for messages.
+
+    Raises:
+        VolfrepError: there is no goal of a name, two say the same, or a number makes no sense.
+    """
+    given = {name: float(value) for name, value in asked.items() if value is not None}
+    for name in given:
+        if name not in GOALS:
+            raise VolfrepError(f"There is no goal '{named(name)}': choose from {', '.join(GOALS)}.")
+    for name in ("safety", "strut_mass"):
+        if not given.get(name, 1.0) > 0.0:
+            raise VolfrepError(f"{named(name)} must be above 0, not {given[name]:g}.")
+    stress = given.get("max_stress")
+    if "safety" in given:
+        if stress is not None:
+            raise VolfrepError(
+                f"{named('max_stress')} and {named('safety')} say the same: give one of them."
+            )
+        if material.yield_stress is None:
+            raise VolfrepError(
+                f"The material '{material.name}' has no yield stress for {named('safety')}: give "
+                f"{named('max_stress')}, or yield_stress in the load file."
+            )
+        stress = material.yield_stress / given["safety"]
+    volume = None
+    if "strut_mass" in given:
+        volume = given["strut_mass"] * 1000.0 / material.density
+    limits = Limits(
+        stress, given.get("max_displacement"), given.get("buckling"), given.get("min_frequency")
+    )
+    return Goal(
+        limits, volume, given.get("thinnest"), given.get("thickest"), given.get("smooth", 0.0)
+    )

@@ -241,14 +241,15 @@ def run_study(obj: App.DocumentObject) -> bool:
         VolfrepError: the study makes no sense; the last table stays.
     """
     require_engine()
+    from volfrep.apart.engine_process import Call
     from volfrep.studies.sweep import sweep
 
     study, folder = study_of(obj), _folder(obj)
     try:
-        # In this process: FreeCAD's Python cannot be told to be another one's.
+        # One after the other: FreeCAD's Python cannot be told to be another one's.
         made = run_job(
             job_title("Studying {label}", obj.Infill),
-            lambda progress: sweep(study, folder, workers=1, progress=progress),
+            Call(sweep, (study, folder), {"workers": 1}),
         )
     except Cancelled:
         obj.Status = CANCELLED

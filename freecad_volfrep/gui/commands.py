@@ -26,6 +26,7 @@ from .selection import (
     selected_or_all_infills,
     selected_solids,
 )
+from .updating import begin_update, show_mesh
 
 #: Names of FEM models, marked for translation.
 MODEL_NAMES = marked("VolfrepCommands", "beams", "tetrahedra")
@@ -42,21 +43,28 @@ def fillable_selection() -> list[App.DocumentObject] | None:
 
 
 def fill_solids(bases: list[App.DocumentObject]) -> None:
-    """Fill one solid by way of its task panel, several at once; a cancelled job leaves nothing."""
+    """Fill one solid by way of its task panel, several with sizes that suit each."""
     doc = App.ActiveDocument
-    doc.openTransaction(translate("VOLFREP_LatticeInfill", "Lattice Infill"))
-    try:
-        if len(bases) == 1:
+    step = translate("VOLFREP_LatticeInfill", "Lattice Infill")
+    if len(bases) == 1:
+        doc.openTransaction(step)
+        try:
             open_panel(doc, bases[0])
-            return  # the panel's OK or Cancel ends the transaction
-        kept = fill_selected(doc, bases)
-    except BaseException:
-        doc.abortTransaction()
-        raise
-    if not kept:
-        doc.abortTransaction()
+        except BaseException:
+            doc.abortTransaction()
+            raise
+        return  # the panel's OK or Cancel ends the transaction
+    question = translate(
+        "VolfrepCommands",
+        "Fill {count} solids, each with cells that suit its size? A single one opens the panel.",
+    ).format(count=len(bases))
+    if not ask(question):
         return
-    doc.commitTransaction()
+    with undo_step(doc, step), errors_shown():
+        for base in bases:
+            obj = make_suitable_infill(doc, base)
+            # Before the next one is there: this recomputes the document.
+            begin_update(obj, ended=lambda is_there, obj=obj: show_mesh(obj) if is_there else None)
 
 
 def open_panel(doc: App.Document, base: App.DocumentObject) -> None:
@@ -79,39 +87,14 @@ def make_suitable_infill(doc: App.Document, base: App.DocumentObject) -> App.Doc
     return make_lattice_infill(doc, base, **preferred_values(tuple(high - low)))
 
 
-def fill_selected(doc: App.Document, bases: list[App.DocumentObject]) -> bool:
-    """Fill every base with sizes that suit it and show the results; False if cancelled.
-
-    An infill that cannot be computed stays, marked, so that its sizes can be corrected.
-    """
-    failures = []
-    with errors_shown():
-        for base in bases:
-            obj = make_suitable_infill(doc, base)
-            obj.Proxy.update(obj)  # a large job too: whoever clicks wants it
-            if obj.Proxy.was_cancelled:
-                return False
-            if obj.isValid():
-                base.Visibility = False
-                Gui.Selection.clearSelection()
-                Gui.Selection.addSelection(obj)
-            else:
-                failures.append(f"{obj.Label}: {obj.getStatusString()}")
-        if failures:
-            tell_error("\n".join(failures))
-        return True
-    return False
-
-
 def edit_infill(obj: App.DocumentObject) -> None:
     """Open the task panel of an infill."""
     Gui.getDocument(obj.Document.Name).setEdit(obj.Name)
 
 
 def update_infill(obj: App.DocumentObject) -> None:
-    """Compute now, AutoUpdate or not."""
-    with undo_step(obj.Document, translate("VOLFREP_Update", "Update Lattice Infill")):
-        obj.Proxy.update(obj)
+    """Compute now, AutoUpdate or not; the mesh comes while the user goes on."""
+    begin_update(obj)
 
 
 def open_faces(selected: tuple[App.DocumentObject, Any]) -> None:
@@ -165,8 +148,12 @@ def show_section(obj: App.DocumentObject) -> None:
 
 def export(obj: App.DocumentObject) -> None:
     """Ask for the file's name and write it."""
-    from freecad_volfrep.features.export import export_mesh, formats_of
-    from freecad_volfrep.features.solver_files import CONTENTS, estimate_file
+    from freecad_volfrep.features.export import (
+        chosen_format,
+        estimate_export,
+        export_mesh,
+        formats_of,
+    )
 
     folder = Path(obj.Document.FileName).parent if obj.Document.FileName else Path.home()
     formats = {form.filter: form for form in formats_of(obj)}
@@ -178,15 +165,12 @@ def export(obj: App.DocumentObject) -> None:
     )
     if not path:
         return
-    form = formats[chosen]
-    if Path(path).suffix.lower() != form.suffix and form.content != "mesh":
-        path = str(Path(path).with_suffix(form.suffix))
-    elif not Path(path).suffix:
-        path += form.suffix
+    path, form = chosen_format(path, formats[chosen], list(formats.values()))
     with errors_shown(box=True):
-        if form.content in CONTENTS and not ask(
+        estimate = estimate_export(obj, form)
+        if estimate and not ask(
             translate("VolfrepCommands", "{file}: {estimate}. Write it?").format(
-                file=Path(path).name, estimate=estimate_file(obj, form.content)
+                file=Path(path).name, estimate=estimate
             )
         ):
             return

@@ -15,7 +15,7 @@ from ..util.errors import Cancelled, VolfrepError
 from .engine_process import Call, EngineProcess, Program
 
 #: A call that is asked to end has so long for it, s; then its process is ended.
-GRACE = 0.1
+GRACE = 0.05
 #: One that is gone has so long, s, until the system knows how it has ended.
 LAST_WORDS = 5.0
 

@@ -21,12 +21,39 @@ QT_TRANSLATE_NOOP = App.Qt.QT_TRANSLATE_NOOP
 #: Compiled: volfrep_de.qm and the like.
 TRANSLATIONS = Path(__file__).resolve().parent / "resources" / "translations"
 
-__all__ = ["QT_TRANSLATE_NOOP", "TRANSLATIONS", "marked", "spaced", "translate"]
+#: What stands in numbers: before tenths, and between thousands.
+POINT, GROUP = QT_TRANSLATE_NOOP("VolfrepNumbers", "."), QT_TRANSLATE_NOOP("VolfrepNumbers", ",")
+
+__all__ = [
+    "QT_TRANSLATE_NOOP",
+    "TRANSLATIONS",
+    "figure",
+    "grouped",
+    "marked",
+    "spaced",
+    "translate",
+]
 
 
 def marked(context: str, *texts: str) -> tuple[str, ...]:
     """Mark many texts that others write, to be translated where they are shown."""
     return texts
+
+
+def grouped(number: int) -> str:
+    """A whole number as the user's language groups its digits."""
+    return _spoken(f"{number:,}")
+
+
+def figure(number: float, digits: int = 2) -> str:
+    """A number of so many digits, written out, in the user's notation."""
+    return _spoken(f"{float(f'{number:.{digits}g}'):,.15g}")
+
+
+def _spoken(text: str) -> str:
+    """An English number with the user's points and commas: FreeCAD's windows have those of Qt."""
+    point, group = (translate("VolfrepNumbers", mark) for mark in (POINT, GROUP))
+    return text.replace(",", "\0").replace(".", point).replace("\0", group)
 
 
 def spaced(name: str) -> str:

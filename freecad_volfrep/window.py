@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import FreeCAD as App
@@ -17,13 +16,13 @@ def register() -> None:
     What shows them is imported when it is used first.
     """
     if App.GuiUp:
-        register_screen(Screen(_run_on_thread, _progress_bar, _attach_view, _revive_view))
+        register_screen(Screen(_wait_for, _progress_bar, _attach_view, _revive_view))
 
 
-def _run_on_thread(title: str, work: Callable[..., Any], keeps_best: bool) -> Any:
-    from .gui.progress import run_on_thread
+def _wait_for(title: str, call: Any) -> Any:
+    from .gui.progress import wait_for
 
-    return run_on_thread(title, work, keeps_best)
+    return wait_for(title, call)
 
 
 def _progress_bar(title: str) -> Any:

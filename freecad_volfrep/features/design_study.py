@@ -248,6 +248,8 @@ def run_study(obj: App.DocumentObject) -> bool:
         VolfrepError: the study makes no sense; the last table stays.
     """
     require_engine()
+    from volfrep.apart.engine_process import Call
+    from volfrep.studies.running.executors import told_in
     from volfrep.studies.sweep import sweep
 
     study, folder = study_of(obj), _folder(obj)
@@ -257,11 +259,16 @@ def run_study(obj: App.DocumentObject) -> bool:
     try:
         made = run_job(
             job_title("Studying {label}", obj.Infill),
-            lambda progress: sweep(
-                study, folder, workers=1 if python is None else None, interpreter=python,
-                progress=progress, words=_how_far,
+            Call(
+                sweep,
+                (study, folder),
+                {
+                    "workers": 1 if python is None else None,
+                    "interpreter": python,
+                    "words": partial(told_in, _words()),
+                },
             ),
-        )  # fmt: skip
+        )
     except Cancelled:
         obj.Status = CANCELLED
         App.Console.PrintMessage(f"VOLFREP, {obj.Label}: {CANCELLED}\n")
@@ -333,11 +340,9 @@ def _python(executable: str, folders: tuple[str, ...]) -> Interpreter | None:
     return python if runs_engine(python) else None
 
 
-def _how_far(done: int, runs: int, seconds: float) -> str:
-    """How far a study is, for the window."""
-    left = f"{seconds:.0f} s" if seconds < 90.0 else f"{seconds / 60.0:.0f} min"
-    told = translate("VolfrepProgress", "{done} of {runs} runs, about {time} left")
-    return str(told).format(done=done, runs=runs, time=left)
+def _words() -> str:
+    """How far a study is, for the window, as `told_in` takes it."""
+    return str(translate("VolfrepProgress", "{done} of {runs} runs, about {time} left"))
 
 
 def _cell(word: str) -> str:

@@ -17,7 +17,7 @@ from volfrep.util.errors import VolfrepError
 from .input_files import refuse_inputs
 from .lattice_infill import LatticeInfill
 from .progress import job_title, run_job
-from .solver_files import CONTENTS, write_solver_file
+from .solver_files import CONTENTS, STEP_SUFFIXES, estimate_file, write_solver_file
 
 
 @dataclass(frozen=True)
@@ -66,6 +66,34 @@ def formats_of(obj: App.DocumentObject) -> list[Format]:
     return [form for form in FORMATS if infill or form.content == "mesh"]
 
 
+def chosen_format(path: str, chosen: Format, formats: list[Format]) -> tuple[str, Format]:
+    """What to write and where, of what a file dialog gives: its name and its kind of file.
+
+    An extension that was typed says more than the kind that the dialog stood at; but the one that
+    it proposes, STL's, is there in any case.
+    """
+    suffix = Path(path).suffix.lower()
+    typed = [form for form in formats if form.suffix == suffix]
+    if typed and suffix not in (chosen.suffix, FORMATS[0].suffix):
+        return path, typed[0]
+    if not suffix or typed:
+        return str(Path(path).with_suffix(chosen.suffix)), chosen
+    return path, chosen  # an extension that there is not: whoever writes says so
+
+
+def estimate_export(obj: App.DocumentObject, form: Format) -> str:
+    """What a file will take, as a sentence without its full stop; nothing for plain meshes.
+
+    Raises:
+        VolfrepError: there is no such content, or it would be absurdly much.
+    """
+    from volfrep.reports.estimate import estimate_faceted
+
+    if form.content in CONTENTS:
+        return estimate_file(obj, form.content)
+    return str(estimate_faceted(obj.Mesh.CountFacets)) if form.suffix in STEP_SUFFIXES else ""
+
+
 def export_mesh(
     obj: App.DocumentObject, path: str | os.PathLike[str], content: str = "mesh"
 ) -> None:
@@ -100,6 +128,7 @@ def export_mesh(
     if Path(path).suffix.lower() != ".3mf" or content not in ("beams", "both"):
         raise VolfrepError(f"'{path}' cannot hold {content}: only a 3MF file holds beams or both.")
     from freecad_volfrep.bridge.beams import place_in_document, placed_beams
+    from volfrep.apart.engine_process import Call
     from volfrep.jobs.beam_part import beam_model
 
     if not isinstance(getattr(obj, "Proxy", None), LatticeInfill):
@@ -107,7 +136,7 @@ def export_mesh(
     solid, spec, cache = obj.Proxy.inputs(obj)
     model = run_job(
         job_title("Beams of {label}", obj),
-        lambda progress: beam_model(solid, spec, progress=progress, cache=cache),
+        Call(beam_model, (solid, spec), {"cache": cache}),
     )
     for sentence in model.warnings + ((*model.loose, BEAMS_ONLY) if content == "beams" else ()):
         App.Console.PrintWarning(f"VOLFREP, {obj.Label}: {sentence}\n")

@@ -6,7 +6,6 @@ from __future__ import annotations
 import hashlib
 import json
 import traceback
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import FreeCAD as App
@@ -15,28 +14,30 @@ from freecad_volfrep.engine import require_engine
 from freecad_volfrep.preferences import largest_automatic
 
 from .applicable import CONTROLS, show_applicable
+from .infill_results import Asked, install, tell_driven, with_radius
 from .progress import job_title, run_job
 from .properties import (
-    PROPERTIES,
     ensure_properties,
     is_spoiled,
     refuse_spoiled,
     wrong_types,
 )
-from .quantities import number_of, set_value
+from .quantities import set_value
 from .screen import attach_view, revive_view
 from .values import specification_of
 
 if TYPE_CHECKING:
     from volfrep import LatticeSpec
+    from volfrep.jobs.pipeline import FilledMesh
     from volfrep.mesh.triangle_mesh import TriangleMesh
-    from volfrep.reports.result import Result
     from volfrep.util.cache import StageCache
 
 UP_TO_DATE = "Up to date"
 OUT_OF_DATE = "Out of date: AutoUpdate is off, use Update Lattice Infill"
 LARGE = "Out of date: a large job, use Update Lattice Infill"
 FAILED = "Failed: see the report view"
+BEING_MADE = "Out of date: the mesh of these values is not there yet"
+CHANGED = "Out of date: values have changed since this mesh was asked for; recompute"
 CANCELLED = (
     "Cancelled: the mesh is that of the last finished update; use Update Lattice Infill to try "
     "again."
@@ -58,6 +59,9 @@ class LatticeInfill:
     _forced = False
     _reader: Any = None
     _cache: Any = None
+    _is_to_begin = False
+    _arrived: Any = None
+    being_made: Asked | None = None
     was_cancelled = False
 
     def __init__(self, obj: App.DocumentObject) -> None:
@@ -104,12 +108,49 @@ class LatticeInfill:
         raise VolfrepError(message)
 
     def update(self, obj: App.DocumentObject) -> bool:
-        """Compute now, AutoUpdate or not; returns whether the mesh fits the properties then."""
+        """Compute now, AutoUpdate or not; returns whether the mesh fits the properties then.
+
+        What is being made beside is not wanted any more.
+        """
+        self.being_made = None
         self._forced, self.was_cancelled = True, False
         obj.touch()
         obj.Document.recompute()
         self._forced = False  # where a failing base kept the object from being executed
         return bool(obj.isValid()) and not self.was_cancelled
+
+    def begin(self, obj: App.DocumentObject) -> Asked | None:
+        """Ask for the mesh of the present values, AutoUpdate or not, without waiting for it.
+
+        Whoever asks has it made and lets it `arrive`; until then a recompute leaves the infill as
+        it is. Returns None where there is nothing to make: the mesh fits the values, or they make
+        no sense, and the object is invalid.
+        """
+        self.being_made, self.was_cancelled = None, False
+        self._forced = self._is_to_begin = True
+        obj.touch()
+        obj.Document.recompute()
+        self._forced = self._is_to_begin = False
+        return self.being_made
+
+    def arrive(
+        self, obj: App.DocumentObject, filled: FilledMesh | None, error: BaseException | None
+    ) -> bool:
+        """Install what `begin` has asked for, or say why there is none.
+
+        Where values have changed meanwhile the object stays touched. Returns whether the mesh is
+        there.
+        """
+        asked, self.being_made = self.being_made, None
+        assert asked is not None
+        self.was_cancelled, self._arrived = False, (asked, filled, error)
+        obj.touch()
+        obj.Document.recompute()
+        self._arrived = None
+        if error is None and self.differs(obj, asked):
+            obj.Status = CHANGED
+            obj.touch()
+        return bool(obj.isValid()) and error is None
 
     def onChanged(self, obj: App.DocumentObject, name: str) -> None:  # noqa: N802
         """Show the properties that apply now, and no others."""
@@ -131,7 +172,7 @@ class LatticeInfill:
         spec, solid = self.read(obj)
         if obj.Fingerprint != fingerprint_of(spec, solid):
             raise VolfrepError(f"'{obj.Label}' is out of date: update it first.")
-        spec = _with_radius(spec, json.loads(obj.Report).get("target"))
+        spec = with_radius(spec, json.loads(obj.Report).get("target"))
         return check_solid(solid, obj.Base.Label), spec, self._cache
 
     def wanted(self, obj: App.DocumentObject) -> tuple[TriangleMesh, LatticeSpec, StageCache]:
@@ -177,51 +218,66 @@ class LatticeInfill:
         self._reader: Any = None
         self._cache: Any = None
         self.made: Any = None
+        self._is_to_begin, self._arrived, self.being_made = False, None, None
         self.was_cancelled = False
 
     def _run(self, obj: App.DocumentObject, forced: bool) -> None:
-        require_engine()
-        from freecad_volfrep.bridge.meshes import to_freecad
-        from volfrep.design.forecast import forecast_fill
-        from volfrep.io.solid import check_solid
-        from volfrep.jobs.pipeline import fill
-        from volfrep.jobs.rough_radius import roughly_aimed
+        if self._arrived is not None:
+            asked, filled, error = self._arrived
+            if error is not None:
+                raise error
+        elif self.being_made is not None:
+            obj.Status = BEING_MADE
+            return
+        else:
+            asked = self._asked(obj, forced)
+            if asked is None:
+                return
+            if self._is_to_begin:
+                self.being_made, obj.Status = asked, BEING_MADE
+                return
+            filled = run_job(asked.title, asked.call)
+        install(obj, asked, filled)
+        obj.Status = UP_TO_DATE
 
-        from .skin import made_of
+    def _asked(self, obj: App.DocumentObject, forced: bool) -> Asked | None:
+        """What is to be made now; None for nothing, and `Status` says why."""
+        require_engine()
+        from volfrep.apart.engine_process import Call
+        from volfrep.design.forecast import forecast_fill
+        from volfrep.jobs.pipeline import filled_mesh
+        from volfrep.jobs.rough_radius import roughly_aimed
 
         spec, solid = self.read(obj)
         fingerprint = fingerprint_of(spec, solid)
+        tell_driven(obj, "Density", spec.density)
         if obj.Fingerprint == fingerprint and obj.Mesh.CountFacets == obj.Triangles:
             set_value(obj, "Mass", obj.Volume.Value * spec.density / 1000.0)
-            _tell_driven(obj, "Density", spec.density)
             obj.Status = UP_TO_DATE
-            return
-        _tell_driven(obj, "Density", spec.density)
+            return None
         forecast = forecast_fill(solid, roughly_aimed(solid, spec))
         obj.Expected = str(forecast)
         if not obj.AutoUpdate and not forced:
             obj.Status = OUT_OF_DATE
-            return
+            return None
         if forecast.triangles > largest_automatic() and not forced:
             obj.Status = LARGE
             App.Console.PrintMessage(f"VOLFREP, {obj.Label}: {LARGE}; {forecast}\n")
-            return
-        solid = check_solid(solid, obj.Base.Label)
-        result = run_job(
-            job_title("Filling {label}", obj.Base),
-            lambda progress: fill(solid, spec, progress=progress, cache=self._cache),
+            return None
+        call = Call(filled_mesh, (solid, obj.Base.Label, spec), {"cache": self._cache})
+        return Asked(spec, fingerprint, job_title("Filling {label}", obj.Base), call)
+
+    def differs(self, obj: App.DocumentObject, asked: Asked) -> bool:
+        """Whether the present values are others than those of a mesh that was asked for."""
+        from volfrep.util.errors import VolfrepError
+
+        try:
+            spec, solid = self.read(obj)
+        except VolfrepError:
+            return True
+        return (
+            spec.density != asked.spec.density or fingerprint_of(spec, solid) != asked.fingerprint
         )
-        made = _with_radius(spec, result.report.target)
-        mesh = to_freecad(result.mesh)
-        self.made = made_of(result.mesh, solid, made)
-        placement = obj.Placement
-        obj.Mesh = mesh
-        obj.Placement = placement  # assigning a mesh also assigns the mesh's placement
-        _write_results(obj, result)
-        if spec.target is not None:
-            _tell_driven(obj, *_thickness(made))
-        obj.Fingerprint = fingerprint
-        obj.Status = UP_TO_DATE
 
     def read(self, obj: App.DocumentObject) -> tuple[LatticeSpec, TriangleMesh]:
         """The specification and the solid of the present properties, not checked.
@@ -291,69 +347,3 @@ def fingerprint_of(spec: LatticeSpec, solid: TriangleMesh) -> str:
     digest.update((np.round(solid.vertices, 6) + 0.0).tobytes())
     digest.update(np.ascontiguousarray(solid.triangles, np.int32).tobytes())
     return digest.hexdigest()
-
-
-def _with_radius(spec: LatticeSpec, found: dict[str, Any] | None) -> LatticeSpec:
-    """The specification with the radius that a report says was found, in place of its target."""
-    if spec.target is None or found is None:
-        return spec
-    if spec.surface is None:
-        return replace(spec, strut_radius=found["strut_radius_mm"], target=None)
-    name = "thickness" if spec.wall.is_sheet else "offset"
-    return replace(spec, wall=replace(spec.wall, **{name: found[f"wall_{name}_mm"]}), target=None)
-
-
-def _thickness(spec: LatticeSpec) -> tuple[str, float]:
-    """The property that says how thick struts or walls are, and what it is."""
-    if spec.surface is None:
-        return "StrutRadius", spec.strut_radius
-    if spec.wall.is_sheet:
-        return "WallThickness", spec.wall.thickness
-    return "WallOffset", spec.wall.offset
-
-
-def _tell_driven(obj: App.DocumentObject, name: str, value: float) -> None:
-    """Show in a property what drives it has come to; what an expression drives stays."""
-    expressions = {path.lstrip(".") for path, _ in obj.ExpressionEngine}
-    plain = name in ("Density", "WallOffset")
-    before = number_of(obj, name) if plain else getattr(obj, name).Value
-    if name not in expressions and before != value:
-        set_value(obj, name, value)
-
-
-def _write_results(obj: App.DocumentObject, result: Result) -> None:
-    report = result.report
-    values = {
-        "CellsTotal": report.cells_total,
-        "CellsActive": report.cells_active,
-        "Nodes": report.nodes,
-        "Struts": report.struts,
-        "CellEdges": report.cell_edges_mm,
-        "StrutLengths": report.strut_lengths_mm,
-        "StrutRadii": report.strut_radii_mm,
-        "Triangles": report.triangles,
-        "Bodies": report.bodies,
-        "Voids": report.voids,
-        "DrainHoles": [App.Vector(*hole) for hole in report.drain_holes],
-        "Genus": report.genus,
-        "Volume": report.volume_mm3,
-        "RelativeDensity": report.relative_density,
-        "Mass": report.mass_g,
-        "DanglingRemoved": report.struts_dangling_removed,
-        "StubsRemoved": report.stubs_removed,
-        "PiecesRemoved": report.pieces_removed,
-        "Watertight": report.watertight,
-        "Seconds": sum(report.stages.values()),
-        "Report": report.to_json(),
-        "Warnings": list(report.warnings),
-    }
-    results = {prop.name for prop in PROPERTIES if prop.group == "Result"} - {"Status", "Expected"}
-    assert values.keys() == results, "the table of properties and the report have drifted apart"
-    for name, value in values.items():
-        set_value(obj, name, value)
-    for sentence in report.warnings:
-        App.Console.PrintWarning(f"VOLFREP, {obj.Label}: {sentence}\n")
-    App.Console.PrintMessage(
-        f"VOLFREP, {obj.Label}: {report.cells_active} of {report.cells_total} cells, "
-        f"{report.triangles} triangles, {report.mass_g:.4g} g in {obj.Seconds:.1f} s\n"
-    )

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import FreeCAD as App
 
-from freecad_volfrep.translation import translate
+from freecad_volfrep.translation import figure, grouped, translate
 
 from .materials import advice, material_of
 
@@ -53,24 +53,24 @@ class Shown:
         p, f = self.preview, self.forecast
         figures = translate(
             "VolfrepFigures",
-            "{cells:,} active cells, {struts:,} struts\n"
-            "relative density {density:.3g} %, mass {mass:.4g} g\n"
-            "about {triangles:.2g} million triangles, {size:.2g} MB as STL, "
-            "{seconds:.2g} s to compute",
+            "{cells} active cells, {struts} struts\n"
+            "relative density {density} %, mass {mass} g\n"
+            "about {triangles} million triangles, {size} MB as STL, "
+            "{seconds} s to compute",
         ).format(
-            cells=p.cells,
-            struts=p.struts,
-            density=100 * p.relative_density,
-            mass=p.mass,
-            triangles=f.triangles / 1e6,
-            size=f.stl_mb,
-            seconds=max(1.0, f.seconds),
+            cells=grouped(p.cells),
+            struts=grouped(p.struts),
+            density=figure(100 * p.relative_density, 3),
+            mass=figure(p.mass, 4),
+            triangles=figure(f.triangles / 1e6),
+            size=figure(f.stl_mb),
+            seconds=figure(max(1.0, f.seconds)),
         )
         found = ()
         if p.spec.target is not None:
             found = (
-                translate("VolfrepFigures", "strut radius {radius:.4g} mm").format(
-                    radius=p.spec.strut_radius
+                translate("VolfrepFigures", "strut radius {radius} mm").format(
+                    radius=figure(p.spec.strut_radius, 4)
                 ),
             )
         return "\n".join((*found, figures, *self.advice))

@@ -17,9 +17,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from volfrep.mesh.triangle_mesh import TriangleMesh
     from volfrep.reports.mesh_report import MeshReport
-    from volfrep.util.progress import ProgressCallback
 
 
 def check_mesh(obj: App.DocumentObject) -> list[Table]:
@@ -31,48 +29,19 @@ def check_mesh(obj: App.DocumentObject) -> list[Table]:
     """
     require_engine()
     from freecad_volfrep.bridge.solids import mesh_in_document
+    from volfrep.apart.engine_process import Call
+    from volfrep.reports.mesh_report import checked_mesh
 
     if not obj.isDerivedFrom("Mesh::Feature") or not obj.Mesh.CountFacets:
         raise VolfrepError(f"'{obj.Label}' has no mesh to check: update it first.")
     mesh = mesh_in_document(obj)
-    report, crossing = run_job(
-        job_title("Checking {label}", obj), lambda progress: _look_at(mesh, progress)
-    )
+    report, crossing = run_job(job_title("Checking {label}", obj), Call(checked_mesh, (mesh,)))
     return [
         Table(f"{obj.Label}: {_verdict(report, crossing)}", tuple(report.rows())),
         Table("Triangles and the file's single precision", tuple(_precision(report))),
         Table("Surfaces that run through each other", tuple(_crossings(report, crossing))),
         Table("FreeCAD's own checks", tuple(_freecads_own(obj))),
     ]
-
-
-def _look_at(
-    mesh: TriangleMesh, progress: ProgressCallback | None
-) -> tuple[MeshReport, NDArray[np.float64]]:
-    """The report of a mesh, and (k, 3) places where two of its triangles run through each other.
-
-    A place is the middle of what the boxes of the two have in common, mm.
-
-    FreeCAD's own search for these opens a box when Escape is pressed, works in single precision
-    with a tolerance, so that it names needles which lie a thousandth of a millimetre apart, and
-    gives a list of None where its second look does not find all of what its first one did.
-    """
-    import numpy as np
-
-    from volfrep.io.write.stl import as_read
-    from volfrep.reports.mesh_report import mesh_report
-    from volfrep.spatial.piercing import piercing_pairs
-    from volfrep.util.progress import Monitor
-
-    monitor = Monitor(progress)
-    with monitor.stage("check", 0.0, 0.5):
-        report = mesh_report(mesh, monitor, look_for_overlaps=True)
-    with monitor.stage("crossings", 0.5, 1.0):
-        read = as_read(mesh)
-        pairs = piercing_pairs(read, monitor)
-    corners = read.vertices[read.triangles[np.unique(np.sort(pairs, axis=1), axis=0)]]
-    low, high = corners.min(axis=2).max(axis=1), corners.max(axis=2).min(axis=1)
-    return report, 0.5 * (low + high)
 
 
 def _verdict(report: MeshReport, crossing: NDArray[np.float64]) -> str:

@@ -107,7 +107,8 @@ class PrintCheck:
         from freecad_volfrep.bridge.beams import place_in_document, placed_lattice
         from freecad_volfrep.bridge.meshes import to_freecad
         from freecad_volfrep.bridge.solids import mesh_in_document, placed
-        from volfrep.jobs.networks.infill import infill_of
+        from volfrep.apart.engine_process import Call
+        from volfrep.jobs.beam_part import struts_and_cavity
         from volfrep.mesh.triangle_mesh import TriangleMesh, compact
         from volfrep.reports.printability import overhanging_facets, print_report, unit_direction
         from volfrep.reports.processes import find_process
@@ -116,12 +117,8 @@ class PrintCheck:
         if spec.output == "domain":
             raise VolfrepError(f"'{infill.Label}' holds no lattice: set its Output to part.")
 
-        def struts_and_cavity(progress: Any) -> tuple[Any, TriangleMesh]:
-            filled = infill_of(solid, spec, progress=progress, cache=cache)
-            return filled.struts, filled.cavity
-
         title = job_title("Print check of {label}", infill)
-        struts, cavity = run_job(title, struts_and_cavity)
+        struts, cavity = run_job(title, Call(struts_and_cavity, (solid, spec), {"cache": cache}))
         place = place_in_document(infill)
         mesh = mesh_in_document(infill)
         process = find_process(obj.Process)

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""How a job of the engine is run: with its progress in the window, or at once without a screen."""
+"""How a job of the engine is run: beside the window, or at once without a screen."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TypeVar
+from typing import TYPE_CHECKING, Any
 
 import FreeCAD as App
 
@@ -14,7 +14,8 @@ from volfrep.util.progress import ProgressCallback
 
 from .screen import screen
 
-T = TypeVar("T")
+if TYPE_CHECKING:
+    from volfrep.apart.engine_process import Call
 
 
 def job_title(text: str, obj: App.DocumentObject) -> str:
@@ -25,17 +26,17 @@ def job_title(text: str, obj: App.DocumentObject) -> str:
     return str(translate("VolfrepJobs", text)).format(label=obj.Label)
 
 
-def run_job(
-    title: str, work: Callable[[ProgressCallback | None], T], *, keeps_best: bool = False
-) -> T:
-    """What `work` returns or raises, called with a callback for its progress.
+def run_job(title: str, call: Call) -> Any:
+    """What a call of the engine returns or raises.
 
-    In the window it runs on a thread of its own, so that the window lives meanwhile: it must
-    touch nothing of FreeCAD. Without a screen it is simply called, with None. What it returns after
-    a cancel is dropped, unless it is known to keep the best that it has (`keeps_best`).
+    With a window it is made in a process of its own, and the window lives meanwhile. Without a
+    screen it is simply made, here.
+
+    Raises:
+        Cancelled: in the window, by the user.
     """
     window = screen()
-    return work(None) if window is None else window.run_on_thread(title, work, keeps_best)
+    return call.here() if window is None else window.wait_for(title, call)
 
 
 @contextmanager

@@ -10,11 +10,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import FreeCAD as App
 
 from volfrep.util.progress import ProgressCallback
+
+if TYPE_CHECKING:
+    from volfrep.apart.engine_process import Call
 
 
 @dataclass(frozen=True)
@@ -22,14 +25,14 @@ class Screen:
     """How a window shows things.
 
     Attributes:
-        run_on_thread: runs a job under a title on a thread of its own, and returns what it does,
-            also after a cancel if it is told so.
+        wait_for: makes a call of the engine under a title, in a process of its own, and returns
+            what it does; nothing but turning the view can be done meanwhile.
         progress_bar: gives the callback of a job under a title that stays on its thread.
         attach_view: gives an object of ours its view provider.
         revive_view: does so where FreeCAD has lost it.
     """
 
-    run_on_thread: Callable[[str, Callable[[ProgressCallback], Any], bool], Any]
+    wait_for: Callable[[str, Call], Any]
     progress_bar: Callable[[str], AbstractContextManager[ProgressCallback]]
     attach_view: Callable[[Any], None]
     revive_view: Callable[[Any], None]

@@ -270,6 +270,7 @@ def size_struts(
         Cancelled: in the window, by the user, before there was a design; afterwards a cancel keeps
             the best.
     """
+    from volfrep.apart.engine_process import Call
     from volfrep.jobs.sizing import size
     from volfrep.sizing.strut_state import strut_states
 
@@ -287,17 +288,13 @@ def size_struts(
 
     part = run_job(
         job_title("Sizing {label}", obj),
-        lambda progress: size(
-            solid,
-            spec,
-            loads,
-            goal,
-            prove_it=wish.prove,
-            progress=progress,
-            cache=cache,
-            watch=watch,
+        Call(
+            size,
+            (solid, spec, loads, goal),
+            {"prove_it": wish.prove, "cache": cache},
+            heard={"watch": watch},
+            keeps_best=True,
         ),
-        keeps_best=True,
     )
     states = strut_states(part.model.problem, part.sized.analysis)
     return Outcome(part, states, density, tuple(steps))
@@ -365,6 +362,7 @@ def solve_struts(obj: App.DocumentObject) -> tuple[StrutState, ...]:
         VolfrepError: there is no analysis, or it or the infill makes no sense.
         Cancelled: in the window, by the user.
     """
+    from volfrep.apart.engine_process import Call
     from volfrep.jobs.sizing import solved
     from volfrep.sizing.strut_state import strut_states
 
@@ -372,6 +370,6 @@ def solve_struts(obj: App.DocumentObject) -> tuple[StrutState, ...]:
     solid, spec, cache = obj.Proxy.wanted(obj)
     model, analysis = run_job(
         job_title("Struts of {label}", obj),
-        lambda progress: solved(solid, spec, loads, progress=progress, cache=cache),
+        Call(solved, (solid, spec, loads), {"cache": cache}),
     )
     return strut_states(model.problem, analysis)

@@ -15,36 +15,31 @@ from volfrep.util.errors import VolfrepError
 if TYPE_CHECKING:
     import FreeCAD as App
 
-    from volfrep import LatticeSpec
     from volfrep.mesh.triangle_mesh import TriangleMesh
 
 
 @dataclass(frozen=True, eq=False)
 class Made:
-    """What a mesh was made of.
+    """What a mesh is made of.
 
     Attributes:
-        solid: that was filled, checked.
-        spec: how.
-        count: of the mesh's triangles.
+        kinds: (t,) uint8, what its triangles are.
         triangles: digest of them.
     """
 
-    solid: TriangleMesh
-    spec: LatticeSpec
-    count: int
+    kinds: NDArray[np.uint8]
     triangles: bytes
 
 
-def made_of(mesh: TriangleMesh, solid: TriangleMesh, spec: LatticeSpec) -> Made:
+def made_of(mesh: TriangleMesh, kinds: NDArray[np.uint8]) -> Made:
     """To be kept with a mesh, so that its triangles can be told apart later."""
-    return Made(solid, spec, len(mesh.triangles), _digest(mesh))
+    return Made(kinds, _digest(mesh))
 
 
 def is_just_made(obj: App.DocumentObject) -> bool:
     """Whether it is known what an infill's mesh was made of, without asking its properties."""
     made: Any = obj.Proxy.made
-    return made is not None and made.count == obj.Mesh.CountFacets
+    return made is not None and len(made.kinds) == obj.Mesh.CountFacets
 
 
 def kinds_of(obj: App.DocumentObject, mesh: TriangleMesh) -> NDArray[np.uint8]:
@@ -63,7 +58,7 @@ def kinds_of(obj: App.DocumentObject, mesh: TriangleMesh) -> NDArray[np.uint8]:
 
     made: Any = obj.Proxy.made
     if made is not None and made.triangles == _digest(mesh):
-        return kinds_of_triangles(mesh, made.solid, made.spec)
+        return made.kinds  # type: ignore[no-any-return]
     try:
         solid, spec, _ = obj.Proxy.inputs(obj)
     except VolfrepError:

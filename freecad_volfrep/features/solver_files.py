@@ -43,11 +43,12 @@ def axes_of(obj: App.DocumentObject) -> Clipped:
     """
     solid, spec, cache = inputs_of(obj)
     from freecad_volfrep.bridge.beams import place_in_document, placed_lattice
+    from volfrep.apart.engine_process import Call
     from volfrep.jobs.beam_part import clipped_infill
 
     clipped = run_job(
         job_title("Struts of {label}", obj),
-        lambda progress: clipped_infill(solid, spec, progress=progress, cache=cache),
+        Call(clipped_infill, (solid, spec), {"cache": cache}),
     )
     warn(obj, clipped.warnings)
     return replace(clipped, wireframe=placed_lattice(clipped.wireframe, place_in_document(obj)))

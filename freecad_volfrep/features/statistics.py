@@ -100,6 +100,7 @@ def _lattices(
 
 
 def _lattice(obj: App.DocumentObject) -> dict[str, str]:
+    from volfrep.apart.engine_process import Call
     from volfrep.mechanics.catalogue import known_properties
     from volfrep.mechanics.summary import cell_properties
 
@@ -117,7 +118,12 @@ def _lattice(obj: App.DocumentObject) -> dict[str, str]:
     if found is None:
         found = run_job(
             job_title("Properties of the lattice of {label}", obj),
-            lambda _: cell_properties(cell, size, radius, fillet=spec.fillet, material=material),
+            Call(
+                cell_properties,
+                (cell, size, radius),
+                {"fillet": spec.fillet, "material": material},
+                has_progress=False,
+            ),
         )
     rows = dict(found.rows())
     return {name: rows[name] for name in rows if name not in ("cell", "material")}

@@ -25,6 +25,8 @@ from .selection import selected_infill, selected_with_edges
 
 #: Of the list's pictures and of the large one, px.
 SMALL, LARGE = 84, 220
+#: Height of the sentences on a cell, px.
+NOTES = 56
 _CONTEXT = "VolfrepCells"
 FILTER = QT_TRANSLATE_NOOP("VolfrepCells", "Unit cell (*.json)")
 _STRETCHING = QT_TRANSLATE_NOOP("VolfrepCells", "stretching")
@@ -76,6 +78,12 @@ class CellLibrary(QtWidgets.QDialog):
         self._figures.setObjectName("Figures")
         self._note.setObjectName("Note")
         self._note.setWordWrap(True)
+        # Many sentences are scrolled: they would push the pictures under each other.
+        self._notes = QtWidgets.QScrollArea()
+        self._notes.setWidget(self._note)
+        self._notes.setWidgetResizable(True)
+        self._notes.setFrameShape(QtWidgets.QFrame.NoFrame)
+        self._notes.setFixedHeight(NOTES)
         self._buttons = {
             name: self._button(name, tip, act)
             for name, tip, act in (
@@ -257,7 +265,7 @@ class CellLibrary(QtWidgets.QDialog):
             line.addWidget(button)
         column = QtWidgets.QVBoxLayout(self)
         column.addLayout(both, 1)
-        column.addWidget(self._note)
+        column.addWidget(self._notes)
         column.addLayout(line)
         self.resize(880, 720)
 

@@ -84,6 +84,7 @@ class CellProperties(QtWidgets.QWidget):
 
     def compute(self) -> None:
         """Homogenise the cell; says here what is wrong with the values."""
+        from volfrep.apart.engine_process import Call
         from volfrep.mechanics.summary import cell_properties
 
         cell, (size, radius) = self._cell, self._sizes()
@@ -91,7 +92,10 @@ class CellProperties(QtWidgets.QWidget):
         material = self._material.currentData()
         title = translate(_CONTEXT, "Properties of {name}").format(name=cell.name)
         try:
-            found = run_job(title, lambda _: cell_properties(cell, size, radius, material=material))
+            call = Call(
+                cell_properties, (cell, size, radius), {"material": material}, has_progress=False
+            )
+            found = run_job(title, call)
         except VolfrepError as error:
             self._figures.setText(html.escape(str(error)))
         except Cancelled:

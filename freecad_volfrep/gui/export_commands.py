@@ -22,8 +22,12 @@ MODEL_NAMES = marked("VolfrepCommands", "beams", "tetrahedra")
 
 def export(obj: App.DocumentObject) -> None:
     """Ask for the file's name and write it."""
-    from freecad_volfrep.features.export import export_mesh, formats_of
-    from freecad_volfrep.features.solver_files import CONTENTS, estimate_file
+    from freecad_volfrep.features.export import (
+        chosen_format,
+        estimate_export,
+        export_mesh,
+        formats_of,
+    )
 
     folder = Path(obj.Document.FileName).parent if obj.Document.FileName else Path.home()
     formats = {form.filter: form for form in formats_of(obj)}
@@ -35,15 +39,12 @@ def export(obj: App.DocumentObject) -> None:
     )
     if not path:
         return
-    form = formats[chosen]
-    if Path(path).suffix.lower() != form.suffix and form.content != "mesh":
-        path = str(Path(path).with_suffix(form.suffix))
-    elif not Path(path).suffix:
-        path += form.suffix
+    path, form = chosen_format(path, formats[chosen], list(formats.values()))
     with errors_shown(box=True):
-        if form.content in CONTENTS and not ask(
+        estimate = estimate_export(obj, form)
+        if estimate and not ask(
             translate("VolfrepCommands", "{file}: {estimate}. Write it?").format(
-                file=Path(path).name, estimate=estimate_file(obj, form.content)
+                file=Path(path).name, estimate=estimate
             )
         ):
             return

@@ -12,8 +12,9 @@ from freecad_volfrep.deps import missing_packages
 from freecad_volfrep.translation import translate
 
 from .command import undo_step
-from .messages import errors_shown, tell, tell_error
+from .messages import ask, errors_shown, tell
 from .selection import selected_solids
+from .updating import begin_update, show_mesh
 
 
 def fillable_selection() -> list[App.DocumentObject] | None:
@@ -27,21 +28,28 @@ def fillable_selection() -> list[App.DocumentObject] | None:
 
 
 def fill_solids(bases: list[App.DocumentObject]) -> None:
-    """Fill one solid by way of its task panel, several at once; a cancelled job leaves nothing."""
+    """Fill one solid by way of its task panel, several with sizes that suit each."""
     doc = App.ActiveDocument
-    doc.openTransaction(translate("VOLFREP_LatticeInfill", "Lattice Infill"))
-    try:
-        if len(bases) == 1:
+    step = translate("VOLFREP_LatticeInfill", "Lattice Infill")
+    if len(bases) == 1:
+        doc.openTransaction(step)
+        try:
             open_panel(doc, bases[0])
-            return  # the panel's OK or Cancel ends the transaction
-        kept = fill_selected(doc, bases)
-    except BaseException:
-        doc.abortTransaction()
-        raise
-    if not kept:
-        doc.abortTransaction()
+        except BaseException:
+            doc.abortTransaction()
+            raise
+        return  # the panel's OK or Cancel ends the transaction
+    question = translate(
+        "VolfrepCommands",
+        "Fill {count} solids, each with cells that suit its size? A single one opens the panel.",
+    ).format(count=len(bases))
+    if not ask(question):
         return
-    doc.commitTransaction()
+    with undo_step(doc, step), errors_shown():
+        for base in bases:
+            obj = make_suitable_infill(doc, base)
+            # Before the next one is there: this recomputes the document.
+            begin_update(obj, ended=lambda is_there, obj=obj: show_mesh(obj) if is_there else None)
 
 
 def open_panel(doc: App.Document, base: App.DocumentObject) -> None:
@@ -64,39 +72,14 @@ def make_suitable_infill(doc: App.Document, base: App.DocumentObject) -> App.Doc
     return make_lattice_infill(doc, base, **preferred_values(tuple(high - low)))
 
 
-def fill_selected(doc: App.Document, bases: list[App.DocumentObject]) -> bool:
-    """Fill every base with sizes that suit it and show the results; False if cancelled.
-
-    An infill that cannot be computed stays, marked, so that its sizes can be corrected.
-    """
-    failures = []
-    with errors_shown():
-        for base in bases:
-            obj = make_suitable_infill(doc, base)
-            obj.Proxy.update(obj)  # a large job too: whoever clicks wants it
-            if obj.Proxy.was_cancelled:
-                return False
-            if obj.isValid():
-                base.Visibility = False
-                Gui.Selection.clearSelection()
-                Gui.Selection.addSelection(obj)
-            else:
-                failures.append(f"{obj.Label}: {obj.getStatusString()}")
-        if failures:
-            tell_error("\n".join(failures))
-        return True
-    return False
-
-
 def edit_infill(obj: App.DocumentObject) -> None:
     """Open the task panel of an infill."""
     Gui.getDocument(obj.Document.Name).setEdit(obj.Name)
 
 
 def update_infill(obj: App.DocumentObject) -> None:
-    """Compute now, AutoUpdate or not."""
-    with undo_step(obj.Document, translate("VOLFREP_Update", "Update Lattice Infill")):
-        obj.Proxy.update(obj)
+    """Compute now, AutoUpdate or not; the mesh comes while the user goes on."""
+    begin_update(obj)
 
 
 def open_faces(selected: tuple[App.DocumentObject, Any]) -> None:

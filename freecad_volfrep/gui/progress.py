@@ -1,28 +1,32 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A running job in the status bar: a bar, a Cancel button, and the Escape key.
+"""A job that is waited for, in the status bar: a bar, a Cancel button, and the Escape key.
 
-While a job runs nothing else in FreeCAD can be started. A modal window would see to that, and take
-the eye off the part; so all keys and clicks but those that cancel are taken out of the
-application's events instead, which is what FreeCAD itself does while a document is recomputed.
-FreeCAD's own progress indicator is not used: it cannot be cancelled by a click, its Escape asks a
-question, and a recompute holds it already.
+That is a job inside a recompute or a command, which cannot go on before. The engine makes it in a
+process of its own (`freecad_volfrep.engines`), so that the window lives and the part can be turned,
+but nothing else in FreeCAD can be started. A modal window would see to that, and take the eye off
+the part; so all other keys and clicks but those that cancel are taken out of the application's
+events instead, which is what FreeCAD itself does while a document is recomputed. FreeCAD's own
+progress indicator is not used: it cannot be cancelled by a click, its Escape asks a question, and a
+recompute holds it already.
 """
 
 from __future__ import annotations
 
-import threading
-from collections.abc import Callable, Iterator
-from concurrent.futures import ThreadPoolExecutor, wait
+from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TypeVar
+from typing import TYPE_CHECKING, Any
 
 import FreeCADGui as Gui
 
+from freecad_volfrep.engines import engines
 from freecad_volfrep.translation import marked, translate
-from volfrep.util.errors import Cancelled, VolfrepError
 from volfrep.util.progress import ProgressCallback
 
 from .qt import QtCore, QtGui, QtWidgets
+
+if TYPE_CHECKING:
+    from volfrep.apart.engine_process import Call
+    from volfrep.apart.engines import Running
 
 #: Quicker jobs show nothing, in ms.
 SHOW_AFTER = 700
@@ -52,16 +56,20 @@ _INPUT = (
     _EVENT.MouseMove, _EVENT.Wheel, _EVENT.ContextMenu, _EVENT.DragEnter, _EVENT.Drop,
     _EVENT.NativeGesture, _EVENT.TouchBegin, _EVENT.TabletPress,
 )  # fmt: skip
+#: What turns the view, where the pointer is on one.
+_TURNING = (
+    _EVENT.MouseButtonPress, _EVENT.MouseButtonRelease, _EVENT.MouseMove, _EVENT.Wheel,
+    _EVENT.NativeGesture, _EVENT.TouchBegin,
+)  # fmt: skip
 
-T = TypeVar("T")
 
-
-class _Bar(QtWidgets.QWidget):
+class Bar(QtWidgets.QWidget):
     """What is in the status bar: a text, a bar and a button."""
 
     def __init__(self, title: str) -> None:
         super().__init__(Gui.getMainWindow())
         self.setObjectName("VolfrepProgress")
+        self.hide()
         self._title = title
         self.text = QtWidgets.QLabel(title)
         self._bar = QtWidgets.QProgressBar()
@@ -78,8 +86,20 @@ class _Bar(QtWidgets.QWidget):
 
     def show_state(self, fraction: float, stage: str) -> None:
         """Show how far the job is, and what it does."""
-        self.text.setText(f"{self._title}: {translate('VolfrepProgress', stage)}")
+        done = f": {translate('VolfrepProgress', stage)}" if stage else ""
+        self.text.setText(self._title + done)
         self._bar.setValue(int(fraction * _STEPS))
+
+    def appear(self) -> None:
+        """Be in the status bar, to be seen."""
+        Gui.getMainWindow().statusBar().addPermanentWidget(self)
+        self.show()
+
+    def leave(self) -> None:
+        """Be gone."""
+        Gui.getMainWindow().statusBar().removeWidget(self)
+        self.setParent(None)  # at once: deleteLater waits for the outermost loop of events
+        self.deleteLater()
 
     def under_pointer(self) -> bool:
         """Whether the pointer is on the button; a click is first the window's, not the button's."""
@@ -87,13 +107,17 @@ class _Bar(QtWidgets.QWidget):
         return self.button.isVisible() and self.button.rect().contains(place)
 
     def show_cancelling(self) -> None:
-        """Say that the click has arrived: what runs in a library must come to its end."""
+        """Say that the click has arrived."""
         self.text.setText(translate("VolfrepProgress", "Cancelling..."))
         self.button.setEnabled(False)
 
 
 class _Guard(QtCore.QObject):
-    """Takes keys and clicks out of the application's events; Escape and Cancel set `cancelled`.
+    """Takes keys and clicks out of the application's events; Escape and Cancel are counted.
+
+    What turns a 3D view passes: the wheel, and the mouse without its right button, which would open
+    a menu. With a panel open the left one may belong to what that panel has begun. Inside a
+    recompute FreeCAD itself swallows the buttons, and leaves the wheel.
 
     Of the filters of an application the one installed last is asked first: this one sees events
     before FreeCAD's own, which swallows them during a recompute.
@@ -103,10 +127,11 @@ class _Guard(QtCore.QObject):
     Qt itself keeps the other windows' input away meanwhile.
     """
 
-    def __init__(self, bar: _Bar) -> None:
+    def __init__(self, bar: Bar) -> None:
         super().__init__()
         self._bar = bar
-        self.cancelled = False
+        self._is_turning = False
+        self.cancels = 0
 
     def eventFilter(self, target: QtCore.QObject, event: QtCore.QEvent) -> bool:  # noqa: N802
         kind = event.type()
@@ -115,62 +140,89 @@ class _Guard(QtCore.QObject):
             return True
         if kind not in _INPUT or QtWidgets.QApplication.activeModalWidget() is not None:
             return False
+        if kind in _TURNING and self._turns(event):
+            return False
         # A key first comes as ShortcutOverride; where a shortcut takes it, nothing follows.
         pressed = kind in (_EVENT.KeyPress, _EVENT.ShortcutOverride)
         escape = pressed and event.key() == QtCore.Qt.Key_Escape
         clicked = kind == _EVENT.MouseButtonPress and self._bar.under_pointer()
-        if (escape or clicked) and not self.cancelled:
-            self.cancelled = True
+        if escape or clicked:
+            self.cancels += 1
             self._bar.show_cancelling()
         return True
 
+    def _turns(self, event: QtCore.QEvent) -> bool:
+        """Whether an event is for a 3D view to turn what it shows."""
+        kind = event.type()
+        if kind == _EVENT.MouseButtonPress:
+            left = event.button() == QtCore.Qt.LeftButton and Gui.Control.activeDialog()
+            if left or event.button() == QtCore.Qt.RightButton or not _over_a_view():
+                return False
+            self._is_turning = True
+            return True
+        if kind == _EVENT.MouseButtonRelease:
+            was_turning = self._is_turning and event.button() != QtCore.Qt.RightButton
+            self._is_turning = self._is_turning and bool(event.buttons())
+            return was_turning
+        return self._is_turning or _over_a_view()
+
+
+def _over_a_view() -> bool:
+    """Whether the pointer is on a 3D view."""
+    widget = QtWidgets.QApplication.widgetAt(QtGui.QCursor.pos())
+    while widget is not None and widget.metaObject().className() != "Gui::View3DInventor":
+        widget = widget.parentWidget()
+    return widget is not None
+
+
+#: The jobs that are waited for now; one inside another.
+_waited_for: list[_Progress] = []
+
+
+def is_waited_for() -> bool:
+    """Whether a job is, inside a recompute or a command."""
+    return bool(_waited_for)
+
 
 class _Progress:
-    """One job in the status bar; `report` may be called on any thread, `refresh` on Qt's only."""
+    """One job that is waited for in the status bar."""
 
     def __init__(self, title: str) -> None:
-        self._bar = _Bar(title)
+        self._bar = Bar(title)
         self._guard = _Guard(self._bar)
-        self._state = 0.0, ""
         self._since = QtCore.QElapsedTimer()
 
     def __enter__(self) -> _Progress:
         application = QtWidgets.QApplication.instance()
         application.installEventFilter(self._guard)
         application.setOverrideCursor(QtGui.QCursor(QtCore.Qt.WaitCursor))
-        self._bar.hide()
         self._since.start()
+        _waited_for.append(self)
         return self
 
     def __exit__(self, *_: object) -> None:
+        _waited_for.remove(self)
         application = QtWidgets.QApplication.instance()
         application.removeEventFilter(self._guard)
         application.restoreOverrideCursor()
-        Gui.getMainWindow().statusBar().removeWidget(self._bar)
-        self._bar.setParent(None)  # at once: deleteLater waits for the outermost loop of events
-        self._bar.deleteLater()
+        self._bar.leave()
 
-    def report(self, fraction: float, stage: str) -> bool:
-        """Note how far the job is; False once the user has cancelled it."""
-        self._state = fraction, stage
-        return not self._guard.cancelled
+    @property
+    def is_cancelled(self) -> bool:
+        """Whether the user has cancelled it."""
+        return self._guard.cancels > 0
 
-    def refuse_if_cancelled(self) -> None:
-        """After the work's last look.
+    @property
+    def cancels(self) -> int:
+        """How often the user has."""
+        return self._guard.cancels
 
-        Raises:
-            Cancelled: the user has cancelled it meanwhile.
-        """
-        if self._guard.cancelled:
-            raise Cancelled("cancelled at the end")
-
-    def refresh(self) -> None:
-        """Show what was reported, and let the window live for a moment."""
+    def refresh(self, fraction: float, stage: str) -> None:
+        """Show how far the job is, and let the window live for a moment."""
         if self._since.elapsed() > SHOW_AFTER and self._bar.isHidden():
-            Gui.getMainWindow().statusBar().addPermanentWidget(self._bar)
-            self._bar.show()
-        if not self._guard.cancelled:
-            self._bar.show_state(*self._state)
+            self._bar.appear()
+        if not self._guard.cancels:
+            self._bar.show_state(fraction, stage)
         QtWidgets.QApplication.processEvents()
 
 
@@ -180,37 +232,29 @@ def progress_bar(title: str) -> Iterator[ProgressCallback]:
     with _Progress(title) as progress:
 
         def report(fraction: float, stage: str) -> bool:
-            progress.report(fraction, stage)
-            progress.refresh()
-            return progress.report(fraction, stage)
+            progress.refresh(fraction, stage)
+            return not progress.is_cancelled
 
         yield report
 
 
-#: Held while a job has a thread: Qt's thread waits there, and its events must not start another.
-_one_job = threading.Lock()
-
-
-def run_on_thread(title: str, work: Callable[[ProgressCallback], T], keeps_best: bool = False) -> T:
-    """What `work` returns or raises, run on a thread of its own while the window lives.
-
-    `work` must touch nothing of FreeCAD or Qt; it gets the callback for its progress. After a
-    cancel only work that keeps its best may return something.
+def wait_for(title: str, call: Call) -> Any:
+    """What a call of the engine returns or raises; the window lives meanwhile.
 
     Raises:
-        VolfrepError: another such job is running.
         Cancelled: by the user, be it while the work came to its end: what it made is dropped.
+        VolfrepError: as the call says, or its process has died.
     """
-    if not _one_job.acquire(blocking=False):
-        raise VolfrepError("Another lattice is being computed: wait for its end, or cancel it.")
+    running: Running = engines().begin(call)
+    cancels = 0
     try:
-        with _Progress(title) as progress, ThreadPoolExecutor(1, "volfrep-job") as pool:
-            job = pool.submit(work, progress.report)
-            while not wait([job], timeout=BREATH).done:
-                progress.refresh()
-            result = job.result()
-            if not keeps_best:
-                progress.refuse_if_cancelled()
-            return result
-    finally:
-        _one_job.release()
+        with _Progress(title) as progress:
+            while not running.wait(BREATH):
+                progress.refresh(*running.state)
+                if progress.cancels > cancels:
+                    cancels = progress.cancels
+                    running.cancel()
+    except BaseException:  # raised while the window lived
+        running.cancel()
+        raise
+    return running.result()

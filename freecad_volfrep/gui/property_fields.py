@@ -165,7 +165,10 @@ class PropertyFields:
 
         def set_value(value: Any) -> None:
             present = getattr(self._obj, name)
-            if is_driven(self._obj, name) or is_read_only(self._obj, name):
+            if is_driven(self._obj, name):
+                self._changed(name)
+                return
+            if is_read_only(self._obj, name):
                 return
             if value == getattr(present, "Value", present):
                 return

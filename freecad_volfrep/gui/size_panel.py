@@ -21,9 +21,11 @@ from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 from volfrep.util.errors import Cancelled, VolfrepError
 
 from .messages import WRONG
+from .panel_manners import entitle, fits_any_width, leave_the_wheel
 from .qt import OK_CANCEL, QtCore, QtWidgets
 from .report_window import show_report
 from .strut_view import close_struts, open_struts
+from .updating import begin_update
 
 #: The table of steps is brought up to date so often while they are made, ms.
 TICK = 150
@@ -129,22 +131,29 @@ class SizePanel:
         return OK_CANCEL
 
     def accept(self) -> bool:
-        """Make the mesh of the radii that were found, and close; stays open without any."""
+        """Keep the radii that were found, and close; their mesh comes while the user goes on.
+
+        Stays open without any.
+        """
         if self._outcome is None and not self.size():
             return False
         outcome = self._outcome
         assert outcome is not None
         close_struts(self._obj)
         store_outcome(self._obj, outcome)
-        if not self._obj.Proxy.update(self._obj):
+        begin_update(self._obj, ended=self._show_mesh)
+        if not self._obj.isValid():
             self._say(self._obj.Status, wrong=True)
             return False
         self._doc.commitTransaction()
         self._close()
-        self._obj.ViewObject.Visibility = True
         title = translate("VolfrepSizePanel", "Size Lattice: {label}").format(label=self._obj.Label)
         show_report(title, f"{self._obj.Label} sizing", outcome.tables())
         return True
+
+    def _show_mesh(self, is_there: bool | None) -> None:
+        if is_there:
+            self._obj.ViewObject.Visibility = True
 
     def reject(self) -> bool:
         """Close and leave the infill as it was."""
@@ -178,9 +187,8 @@ class SizePanel:
     def _build(self, wish: Wish) -> Any:
         form = QtWidgets.QWidget()
         form.setObjectName("VolfrepSizePanel")
-        form.setWindowTitle(
-            translate("VolfrepSizePanel", "Size Lattice: {label}").format(label=self._obj.Label)
-        )
+        title = translate("VolfrepSizePanel", "Size Lattice: {label}")
+        entitle(form, title.format(label=self._obj.Label))
         column = QtWidgets.QVBoxLayout(form)
         column.setContentsMargins(0, 0, 0, 0)
         column.addWidget(self._cases_box())
@@ -196,7 +204,7 @@ class SizePanel:
         self._table.setMinimumHeight(160)
         self._said = QtWidgets.QLabel()
         self._said.setObjectName("Said")
-        self._said.setWordWrap(True)
+        fits_any_width(self._said)
         button = QtWidgets.QPushButton(translate("VolfrepSizePanel", "Size"))
         button.setObjectName("Size")
         button.setToolTip(
@@ -209,6 +217,7 @@ class SizePanel:
         button.clicked.connect(lambda _=False: self.size())
         for widget in (button, self._said, self._table):
             column.addWidget(widget)
+        leave_the_wheel(form, [self._goal, *(field for _, field in self._fields.values())])
         return form
 
     def _cases_box(self) -> Any:

@@ -23,6 +23,7 @@ from volfrep.util.errors import VolfrepError
 
 from .command import undo_step
 from .messages import WRONG, tell_error
+from .panel_manners import entitle, fits_any_width, leave_the_wheel
 from .qt import CLOSE, QtCore, QtGui, QtWidgets
 from .study_plot import StudyPlot
 
@@ -92,7 +93,7 @@ class StudyPanel:
     def _build(self) -> Any:
         form = QtWidgets.QWidget()
         form.setObjectName("VolfrepStudyPanel")
-        form.setWindowTitle(self._obj.Label)
+        entitle(form, self._obj.Label)
         form.setWindowIcon(QtGui.QIcon(str(ICONS / "design_study.svg")))
         column = QtWidgets.QVBoxLayout(form)
         column.setContentsMargins(0, 0, 0, 0)
@@ -116,7 +117,7 @@ class StudyPanel:
         column.addLayout(line)
         self._text = QtWidgets.QLabel()
         self._text.setObjectName("Picked")
-        self._text.setWordWrap(True)
+        fits_any_width(self._text)
         column.addWidget(self._text)
         line = QtWidgets.QHBoxLayout()
         self._applies = self._button(line, "Apply", translate("VolfrepStudy", "Apply"), self.apply)
@@ -128,6 +129,7 @@ class StudyPanel:
             translate("VolfrepStudy", "Show the table and all plots in the browser")
         )
         column.addLayout(line)
+        leave_the_wheel(form, [self._across, self._up, *(name for name, _ in self._rows)])
         return form
 
     def _row(self, rows: Any, number: int) -> tuple[Any, Any]:

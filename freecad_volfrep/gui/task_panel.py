@@ -3,11 +3,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from contextlib import suppress
 from typing import Any
 
 import FreeCAD as App
 import FreeCADGui as Gui
 
+from freecad_volfrep.features.expressions import follow_expressions
 from freecad_volfrep.features.live_preview import TARGETS, LivePreview, Shown
 from freecad_volfrep.features.quantities import set_value
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
@@ -15,11 +18,13 @@ from volfrep.design import parameters
 from volfrep.util.errors import VolfrepError
 
 from .messages import WRONG
+from .panel_manners import allow_ok, entitle, fits_any_width, leave_the_wheel
 from .preview_only import end_preview
 from .preview_view import PreviewView
 from .property_fields import PropertyFields, is_read_only, label_of, said_property
 from .qt import OK_CANCEL, QtCore, QtWidgets
 from .section_view import close_section, open_section
+from .updating import Update, begin_update, show_mesh
 
 #: The preview waits until no value has changed for so long, ms.
 SETTLED = 120
@@ -45,6 +50,10 @@ FIELD = 82
 _HIDDEN = "Hidden"
 
 
+#: Previews that panels show, or have left, by names of document and infill.
+_shown_views: dict[tuple[str, str], PreviewView] = {}
+
+
 class TaskPanel:
     """Edits an infill inside one transaction, which Cancel takes back as a whole.
 
@@ -60,7 +69,9 @@ class TaskPanel:
         if transaction is not None:
             self._doc.openTransaction(transaction)
         self._live = LivePreview(obj)
-        self._view = PreviewView(obj)
+        self._key = obj.Document.Name, obj.Name
+        end_shown(self._key)
+        self._view = _shown_views[self._key] = PreviewView(obj)
         self._was_visible = {
             shown: shown.ViewObject.Visibility for shown in (obj, obj.Base) if shown is not None
         }
@@ -72,6 +83,8 @@ class TaskPanel:
         self._rows: dict[str, tuple[Any, Any]] = {}
         self._boxes: list[tuple[Any, tuple[str, ...]]] = []
         self._shown: Shown | None = None
+        self._update: Update | None = None
+        self._is_open = True
         self.form = self._build()
         self._timer = QtCore.QTimer(self.form)
         self._timer.setSingleShot(True)
@@ -86,46 +99,92 @@ class TaskPanel:
         return OK_CANCEL
 
     def accept(self) -> bool:
-        """Compute and close; stays open where that fails or is cancelled."""
-        if not self.compute():
+        """Keep the values and close; the mesh comes while the user goes on.
+
+        Stays open where the values make no sense.
+        """
+        if not self._begin(is_in_panel=False, ended=self._show_result) and self._is_wrong():
             return False
+        is_coming = self._update is not None
         self._doc.commitTransaction()
         self._close()
-        self._obj.ViewObject.Visibility = True
-        if self._obj.Base is not None:
-            self._obj.Base.ViewObject.Visibility = False
         Gui.Selection.clearSelection()
-        Gui.Selection.addSelection(self._obj)
+        if not is_coming:
+            self._show_result(True)
         return True
 
     def reject(self) -> bool:
         """Close and take back every change; an infill that was made for this panel is gone."""
-        for shown, visible in self._was_visible.items():
-            shown.ViewObject.Visibility = visible
+        if self._update is not None:
+            self._update.drop()
+        self._show_again()
         self._doc.abortTransaction()  # to end the editing would commit it
         self._close()
+        end_shown(self._key)
         self._doc.recompute()
         return True
 
-    def compute(self) -> bool:
-        """Make the mesh of the present values; says in the panel what is wrong with them."""
+    def compute(self) -> None:
+        """Make the mesh of the present values, and stay; says what is wrong with them."""
+        if not self._begin(is_in_panel=True, ended=self._show_computed) and not self._is_wrong():
+            self._show_computed(True)
+
+    def _begin(self, is_in_panel: bool, ended: Callable[[bool | None], None]) -> bool:
+        """Have the mesh of the present values made; whether there is anything to make.
+
+        One that is being made for the same values already is left to come.
+        """
         self._timer.stop()
-        if not self._obj.Proxy.update(self._obj):
-            self._say(self._obj.Status, wrong=True)
-            return False
-        self._say(self._obj.Status)
+        made = self._update
+        if made is not None and made.is_as_wanted():
+            made.is_in_panel, made.ended = is_in_panel, ended
+            return True
+        self._update = begin_update(self._obj, is_in_panel=is_in_panel, ended=ended)
+        self._say(self._obj.Status, wrong=self._is_wrong())
+        return self._update is not None
+
+    def _is_wrong(self) -> bool:
+        """Whether the values make no sense."""
+        return not self._obj.isValid()
+
+    def _show_computed(self, is_there: bool | None) -> None:
+        """In the panel: the mesh that has come, or why there is none."""
+        if is_there is None:
+            return
+        self._update = None
+        self._say(self._obj.Status, wrong=not is_there)
         self._tell_radius(self._obj.StrutRadius.Value)
-        return True
+        self._obj.ViewObject.Visibility = is_there
+        if is_there:
+            self._view.clear()
+
+    def _show_result(self, is_there: bool | None) -> None:
+        """After the panel: the mesh in place of the preview, or what was shown before."""
+        end_shown(self._key)
+        if is_there is None:
+            return
+        self._show_again()
+        if is_there:
+            show_mesh(self._obj)
+
+    def _show_again(self) -> None:
+        """Show what was shown before the panel was opened."""
+        for shown, visible in self._was_visible.items():
+            with suppress(ReferenceError):  # deleted while the mesh was made
+                shown.ViewObject.Visibility = visible
 
     def refresh(self) -> None:
         """Bring the preview and the figures up to the present values."""
         try:
+            follow_expressions(self._obj)
             shown = self._live.show()
         except VolfrepError as error:
             self._shown = None
             self._view.show_solid_only()
             self._say(str(error), wrong=True)
+            self._allow_ok(self._has_no_preview())
             return
+        self._allow_ok(True)
         self._shown = shown
         self._tell_radius(shown.preview.spec.strut_radius)
         if self._preview.isChecked():
@@ -134,10 +193,27 @@ class TaskPanel:
             self._view.clear()
         self._say(shown.text)
 
+    def _allow_ok(self, is_allowed: bool) -> None:
+        """Let OK be pressed, or not: once FreeCAD has put the panel up."""
+        self._ok_is_allowed = is_allowed
+        QtCore.QTimer.singleShot(0, self._show_ok)
+
+    def _show_ok(self) -> None:
+        if self._is_open:
+            allow_ok(self._ok_is_allowed)
+
+    def _has_no_preview(self) -> bool:
+        """Whether values that cannot be shown, as of a network or of walls, may be computed."""
+        try:
+            spec = self._obj.Proxy.read(self._obj)[0]
+        except VolfrepError:
+            return False
+        return spec.network is not None or spec.surface is not None
+
     def _build(self) -> Any:
         form = QtWidgets.QWidget()
         form.setObjectName("VolfrepTaskPanel")
-        form.setWindowTitle(self._obj.Label)
+        entitle(form, self._obj.Label)
         column = QtWidgets.QVBoxLayout(form)
         column.setContentsMargins(0, 0, 0, 0)
         column.addWidget(self._fields.cell_picker())
@@ -157,12 +233,13 @@ class TaskPanel:
                 self._rows[name] = label, widget
             column.addWidget(box)
             self._boxes.append((box, names))
+        leave_the_wheel(form, [widget for _, widget in self._rows.values()])
         return form
 
     def _add_figures(self, column: Any) -> None:
         self._figures = QtWidgets.QLabel()
         self._figures.setObjectName("Figures")
-        self._figures.setWordWrap(True)
+        fits_any_width(self._figures)
         column.addWidget(self._figures)
         line = QtWidgets.QHBoxLayout()
         self._preview = self._check_box(PREVIEW, True, line)
@@ -174,7 +251,7 @@ class TaskPanel:
                 "VolfrepTaskPanel", "Make the mesh of these values now and stay in this panel"
             )
         )
-        button.clicked.connect(self._compute_and_show)
+        button.clicked.connect(lambda _=False: self.compute())
         section = QtWidgets.QPushButton(translate("VolfrepTaskPanel", "Section"))
         section.setObjectName("Section")
         section.setToolTip(
@@ -198,10 +275,6 @@ class TaskPanel:
         box.toggled.connect(lambda _: self._timer.start(0))
         line.addWidget(box)
         return box
-
-    def _compute_and_show(self) -> None:
-        self._obj.ViewObject.Visibility = self.compute()
-        self._view.clear()
 
     def _toggle_section(self) -> None:
         if not close_section(self._obj):
@@ -242,8 +315,15 @@ class TaskPanel:
         self._figures.setText(text)
 
     def _close(self) -> None:
+        self._is_open = False
         self._timer.stop()
-        self._view.remove()
         Gui.Control.closeDialog()
         if Gui.ActiveDocument is not None:
             Gui.ActiveDocument.resetEdit()
+
+
+def end_shown(key: tuple[str, str]) -> None:
+    """Take the preview of a panel out of the view; it stays after OK until the mesh is there."""
+    view = _shown_views.pop(key, None)
+    if view is not None:
+        view.remove()

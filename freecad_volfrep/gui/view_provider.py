@@ -94,6 +94,8 @@ class LatticeInfillView:
         """A new mesh: what was made of the old one goes."""
         if name != "Mesh":
             return
+        if not obj.Mesh.CountFacets and not obj.Document.Restoring:
+            QtCore.QTimer.singleShot(0, self._show_solid)
         self._drawn.clear()
         for node, _ in self._modes.values():
             node.removeAllChildren()
@@ -196,6 +198,13 @@ class LatticeInfillView:
         """Fill the mode that is shown, once a file is read or a step undone."""
         with suppress(ReferenceError):  # the document was closed meanwhile
             self._make(self.object.ViewObject.DisplayMode, is_settled=True)
+
+    def _show_solid(self) -> None:
+        """Where a step back has taken the mesh, show what it stood for."""
+        with suppress(ReferenceError):
+            obj = self.object
+            if obj.Base is not None and not obj.Mesh.CountFacets and not Gui.Control.activeDialog():
+                obj.Base.Visibility = True
 
     def _modernise(self) -> None:
         """Show an infill of an older file as a new one is, unless someone chose how to."""

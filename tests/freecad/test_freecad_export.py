@@ -13,7 +13,7 @@ from conftest import SMALL
 from freecad_volfrep import export_mesh, make_lattice_infill, make_solid
 from freecad_volfrep.bridge.faceted import faceted_solid
 from freecad_volfrep.bridge.meshes import from_freecad, to_freecad
-from freecad_volfrep.features.export import formats_of
+from freecad_volfrep.features.export import FORMATS, chosen_format, estimate_export, formats_of
 from freecad_volfrep.features.faceted_solid import export_step, predict_solid
 from freecad_volfrep.features.input_files import refuse_inputs_of_all
 from freecad_volfrep.features.solver_files import CONTENTS
@@ -292,3 +292,24 @@ def test_a_saved_table_or_cell_does_not_replace_what_a_document_reads(doc, infil
     refuse_inputs_of_all(cell, but=("CellFile",))
     with pytest.raises(VolfrepError, match="is the RadiusField of '"):
         refuse_inputs_of_all(field, but=("CellFile",))
+
+
+def test_an_extension_that_is_typed_says_more_than_the_kind_that_the_dialog_stands_at():
+    by_title = {form.title: form for form in FORMATS}
+    stl, beams, axes = (
+        by_title[title] for title in ("STL", "3MF, beams only", "STEP, axes of the struts")
+    )
+    forms = list(FORMATS)
+    assert chosen_format("/a/part.inp", stl, forms)[1].content == "beam deck"
+    assert chosen_format("/a/part.STEP", stl, forms)[1].title == "STEP, plane faces"
+    assert chosen_format("/a/part.stp.stl", beams, forms) == ("/a/part.stp.3mf", beams)
+    assert chosen_format("/a/part", axes, forms) == ("/a/part.step", axes)
+    assert chosen_format("/a/part.step", axes, forms) == ("/a/part.step", axes)
+    assert chosen_format("/a/part.xyz", stl, forms) == ("/a/part.xyz", stl)
+
+
+def test_large_files_are_estimated_and_meshes_for_the_printer_are_not(infill):
+    by_title = {form.title: form for form in FORMATS}
+    assert estimate_export(infill, by_title["STL"]) == ""
+    assert "MB" in estimate_export(infill, by_title["STEP, plane faces"])
+    assert "MB" in estimate_export(infill, by_title["CalculiX, beams"])

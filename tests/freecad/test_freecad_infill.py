@@ -11,8 +11,10 @@ from freecad_volfrep import make_lattice_infill
 from freecad_volfrep.features import LatticeInfill, lattice_infill
 from freecad_volfrep.features.factory import suggested_sizes
 from freecad_volfrep.features.lattice_infill import (
+    BEING_MADE,
     CANCELLED,
     CANCELLED_FIRST,
+    CHANGED,
     OUT_OF_DATE,
     UP_TO_DATE,
 )
@@ -372,8 +374,8 @@ def test_a_copy_works_by_itself(doc, infill, runs):
 def test_cancelled_keeps_the_last_mesh(doc, infill, monkeypatch):
     before = digest(infill)
 
-    def cancelled_at_once(title, work):
-        return work(lambda fraction, stage: False)
+    def cancelled_at_once(title, call):
+        return call.here(lambda fraction, stage: False)
 
     with monkeypatch.context() as patch:
         patch.setattr(lattice_infill, "run_job", cancelled_at_once)
@@ -393,10 +395,65 @@ def test_cancelled_keeps_the_last_mesh(doc, infill, monkeypatch):
 def test_cancelled_the_first_time_speaks_of_no_mesh(doc, box, monkeypatch):
     obj = make_lattice_infill(doc, box, **SMALL)
     with monkeypatch.context() as patch:
-        patch.setattr(lattice_infill, "run_job", lambda _, work: work(lambda *_: False))
+        patch.setattr(lattice_infill, "run_job", lambda _, call: call.here(lambda *_: False))
         doc.recompute()
     assert obj.Status == CANCELLED_FIRST
     assert not obj.Mesh.CountFacets
+
+
+def test_a_mesh_that_is_made_beside_is_the_one_of_a_recompute(doc, infill):
+    infill.StrutRadius = 0.8
+    asked = infill.Proxy.begin(infill)
+    assert infill.Status == BEING_MADE
+    doc.recompute()
+    assert infill.Status == BEING_MADE, "a recompute leaves it alone until it is there"
+    assert infill.Proxy.arrive(infill, asked.call.here(), None)
+    assert infill.Status == UP_TO_DATE
+    assert "Touched" not in infill.State
+    beside = digest(infill)
+    infill.StrutRadius = 0.7
+    doc.recompute()
+    infill.StrutRadius = 0.8
+    doc.recompute()
+    assert digest(infill) == beside
+    assert infill.Proxy.begin(infill) is None, "there is nothing to make"
+    infill.StrutRadius = 0.75
+    infill.Proxy.begin(infill)
+    assert infill.Proxy.update(infill), "who waits gets the mesh"
+    assert infill.Status == UP_TO_DATE
+
+
+def test_values_that_change_while_it_is_made_leave_it_touched(doc, infill):
+    infill.StrutRadius = 0.8
+    asked = infill.Proxy.begin(infill)
+    made = asked.call.here()
+    infill.StrutRadius = 0.6
+    doc.recompute()
+    assert infill.Proxy.arrive(infill, made, None)
+    assert infill.Volume.Value == pytest.approx(made.report.volume_mm3)
+    assert infill.Status == CHANGED
+    assert "Touched" in infill.State
+    doc.recompute()
+    assert infill.Status == UP_TO_DATE
+    assert infill.Volume.Value < made.report.volume_mm3
+
+
+def test_what_goes_wrong_beside_keeps_the_mesh_and_says_why(doc, infill):
+    before = digest(infill)
+    infill.StrutRadius = 0.8
+    infill.Proxy.begin(infill)
+    assert not infill.Proxy.arrive(infill, None, VolfrepError("The engine's process has ended."))
+    assert not infill.isValid()
+    assert infill.Status == "The engine's process has ended."
+    assert digest(infill) == before
+    infill.Proxy.begin(infill)
+    assert not infill.Proxy.arrive(infill, None, Cancelled("by the user"))
+    assert infill.isValid()
+    assert infill.Status == CANCELLED
+    assert digest(infill) == before
+    infill.CellSize = 0
+    assert infill.Proxy.begin(infill) is None
+    assert not infill.isValid()
 
 
 def test_the_factory_refuses_what_there_is_not(doc, box):

@@ -17,6 +17,7 @@ from PySide import QtCore, QtGui
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from driving import (
     OUT,
+    answer_file_dialog,
     answer_panel,
     check,
     click,
@@ -41,7 +42,6 @@ from driving import (
     toolbar_button,
     type_value,
     wait_until,
-    when_dialog,
     window,
     xdotool,
 )
@@ -98,23 +98,6 @@ def close(name):
     """Really click a window's Close, and see it go."""
     click(button_of(window(name), "Close"))
     check(f"{name} closes", wait_until(lambda: window(name) is None))
-
-
-def answer_file_dialog(path, name):
-    """Once a file dialog is there, really type a path into it and press Return."""
-
-    def answer(dialog):
-        edit = dialog.findChild(QtGui.QLineEdit, "fileNameEdit")
-        edit.setFocus()
-        xdotool("windowfocus", int(dialog.winId()))
-        wait_until(edit.hasFocus)
-        xdotool("key", "ctrl+a")
-        xdotool("type", str(path))
-        wait_until(lambda: edit.text() == str(path))
-        picture(name)
-        xdotool("key", "Return")
-
-    when_dialog(QtGui.QFileDialog, answer)
 
 
 def every_command_is_known():

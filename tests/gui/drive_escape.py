@@ -41,6 +41,7 @@ from driving import (
     xdotool,
 )
 
+from freecad_volfrep.gui.background import are_there_jobs
 from freecad_volfrep.gui.progress import _Progress
 
 ESCAPES = int(os.environ.get("ESCAPES", "1"))
@@ -49,19 +50,26 @@ SEED = int(os.environ.get("SEED", "19"))
 
 @contextmanager
 def when_a_job_begins(act):
-    """Call `act` once, when the first job of what is done meanwhile shows its progress."""
-    enter, begun = _Progress.__enter__, []
+    """Call `act` once, when the first job of what is done meanwhile begins."""
+    from volfrep.apart.engines import Engines
+
+    enter, begin, begun = _Progress.__enter__, Engines.begin, []
 
     def entered(progress):
         if not begun:
             begun.append(act())
         return enter(progress)
 
-    _Progress.__enter__ = entered
+    def began(engines, call):
+        if not begun:
+            begun.append(act())
+        return begin(engines, call)
+
+    _Progress.__enter__, Engines.begin = entered, began
     try:
         yield begun
     finally:
-        _Progress.__enter__ = enter
+        _Progress.__enter__, Engines.begin = enter, begin
 
 
 def filled():
@@ -98,7 +106,8 @@ def coarse():
 def is_itself():
     """Whether nothing of a job is left."""
     return (
-        Gui.getMainWindow().findChild(QtGui.QWidget, "VolfrepProgress") is None
+        not are_there_jobs()
+        and Gui.getMainWindow().findChild(QtGui.QWidget, "VolfrepProgress") is None
         and QtGui.QApplication.overrideCursor() is None
         and QtGui.QApplication.activeModalWidget() is None
         and QtGui.QApplication.activePopupWidget() is None
@@ -195,7 +204,7 @@ def leave_the_print_check(obj):
 
 
 def leave_the_panel(obj):
-    """The panel's OK; where the job was cancelled the panel is still open."""
+    """The panel's OK, which closes it at once."""
     radius = new_radii(obj)
 
     def prepare():

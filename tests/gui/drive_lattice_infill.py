@@ -5,10 +5,9 @@ See tools/run_gui.sh. Writes pictures and ``result.json`` to GUI_OUT and leaves 
 check held.
 """
 
+import os
 import sys
-import threading
 import time
-from contextlib import contextmanager
 from pathlib import Path
 
 import FreeCAD as App
@@ -18,7 +17,6 @@ from PySide import QtCore, QtGui
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from driving import (
     OUT,
-    PATIENCE,
     Watch,
     answer_panel,
     check,
@@ -27,11 +25,13 @@ from driving import (
     drawn_share,
     figures,
     infills,
+    jobs_that_never_end,
     look_at_all,
     panel,
     panel_part,
     picture,
     previews,
+    progress_bar,
     red_share,
     run_checks,
     select,
@@ -342,68 +342,26 @@ def drive_the_radius(doc, obj):
 
 
 def run_a_job():
-    """A job has a thread of its own, is alone, and what it raises arrives."""
+    """A job has a process of its own, the window lives meanwhile, and what is raised arrives."""
     from freecad_volfrep.features.progress import run_job
-    from volfrep.util.errors import VolfrepError
+    from volfrep.apart.engine_process import Call
 
-    refusals, beats = [], []
-
-    def nested():
-        beats.append(time.monotonic())
-        if len(beats) != 1:
-            return
-        try:
-            run_job("Another job", lambda progress: None)
-        except VolfrepError as error:
-            refusals.append(str(error))
-
-    def work(progress):
-        end = time.monotonic() + PATIENCE
-        while len(beats) <= 15 and time.monotonic() < end:
-            time.sleep(0.01)
-        return threading.current_thread()
-
+    beats = []
     timer = QtCore.QTimer(Gui.getMainWindow())
-    timer.timeout.connect(nested)
+    timer.timeout.connect(lambda: beats.append(time.monotonic()))
     timer.start(20)
+    other = run_job("A job", Call(os.getpid, has_progress=False))
+    check("a job has a process of its own", other != os.getpid(), other)
+    beats.clear()
+    run_job("A job", Call(time.sleep, (2.0,), has_progress=False))
+    timer.stop()
+    check("the window lives meanwhile", len(beats) > 5, len(beats))
+    figures["beats of 20 ms in 2 s"] = len(beats)
     try:
-        thread = run_job("A job", work)
-    finally:
-        timer.stop()
-    check("a job has a thread of its own", thread is not threading.current_thread())
-    check("the window lives meanwhile", len(beats) > 15, len(beats))
-    check("a second job is refused", refusals and "wait for its end" in refusals[0], refusals)
-
-    def fail(progress):
-        raise VolfrepError("This job fails.")
-
-    try:
-        run_job("A job", fail)
+        run_job("A job", Call(float, ("no number",), has_progress=False))
         check("what it raises arrives", False)
-    except VolfrepError as error:
-        check("what it raises arrives", str(error) == "This job fails.")
-
-
-@contextmanager
-def held_until_cancelled():
-    """Jobs that have a thread wait there until they are cancelled, so that none ends before."""
-    from freecad_volfrep.gui.progress import _Progress
-
-    report, window = _Progress.report, threading.get_ident()
-
-    def report_when_cancelled(progress, fraction, stage):
-        end = time.monotonic() + PATIENCE
-        while not progress._guard.cancelled and time.monotonic() < end:
-            if threading.get_ident() == window:
-                break
-            time.sleep(0.01)
-        return report(progress, fraction, stage)
-
-    _Progress.report = report_when_cancelled
-    try:
-        yield
-    finally:
-        _Progress.report = report
+    except ValueError as error:
+        check("what it raises arrives", "no number" in str(error), error)
 
 
 def cancel_soon(pressed, by_click=False):
@@ -411,8 +369,8 @@ def cancel_soon(pressed, by_click=False):
     texts = []
 
     def look():
-        bar = Gui.getMainWindow().findChild(QtGui.QWidget, "VolfrepProgress")
-        if bar is None or not bar.isVisible():
+        bar = progress_bar()
+        if bar is None:
             return False
         texts.append(bar.text.text())
         if len(texts) < 3:  # by then it is drawn
@@ -442,7 +400,7 @@ def cancel_an_edit(doc, obj):
     doc.recompute()
     check("a large edit waits for the command", "large job" in obj.Status, obj.Status)
     check("and says what it comes to", "triangles" in obj.Expected, obj.Expected)
-    with held_until_cancelled():
+    with jobs_that_never_end():
         watch = cancel_soon(seen)
         obj.Proxy.update(obj)
     watch.stop()
@@ -464,25 +422,27 @@ def cancel_an_edit(doc, obj):
 
 
 def cancel_a_creation(doc, box, fill):
-    """A click on Cancel during the command leaves nothing behind."""
+    """A click on Cancel after OK leaves an infill without a mesh, and the solid to be seen."""
     select(box)
     names = sorted(o.Name for o in doc.Objects)
     undo_before = doc.UndoCount
     seen = []
     open_panel(fill)
-    with held_until_cancelled():
+    with jobs_that_never_end():
         watch = cancel_soon(seen, by_click=True)
         answer_panel("OK")
+        check("OK closes the panel at once", wait_until(lambda: panel() is None))
         wait_until(lambda: watch.over)
-        wait_until(lambda: Gui.getMainWindow().findChild(QtGui.QWidget, "VolfrepProgress") is None)
+        wait_until(lambda: progress_bar() is None)
     settle()
     check("a long command shows its progress", seen)
-    check("the panel stays when it is cancelled", panel() is not None)
-    answer_panel("Cancel")
-    wait_until(lambda: panel() is None)
-    check("nothing remains of it", sorted(o.Name for o in doc.Objects) == names, doc.Objects)
+    made = infills(doc)[0]
+    check("the infill says that it was cancelled", "no mesh yet" in made.Status, made.Status)
+    check("no preview stays", previews() == 0, previews())
+    check("its solid shows again", box.ViewObject.isVisible())
+    doc.undo()
+    check("one step back nothing remains", sorted(o.Name for o in doc.Objects) == names)
     check("the undo stack is as before", doc.UndoCount == undo_before, doc.UndoNames)
-    check("its solid still shows", box.ViewObject.isVisible())
 
 
 def check_the_print(doc, obj):

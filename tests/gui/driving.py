@@ -16,12 +16,15 @@ import sys
 import threading
 import time
 import traceback
+from contextlib import contextmanager
 from pathlib import Path
 
 import FreeCAD as App
 import FreeCADGui as Gui
 import numpy as np
 from PySide import QtCore, QtGui
+
+from freecad_volfrep.gui.background import are_there_jobs
 
 OUT = Path(os.environ["GUI_OUT"])
 #: Of what must come, in s: only what never comes takes so long.
@@ -133,8 +136,8 @@ class Watch(QtCore.QObject):
 def settle(seconds=PATIENCE):
     """Wait until the window has done what was asked for: returns whether it has.
 
-    Nothing is left in Qt's queue, no timer of the task panel runs, and every button of ours can be
-    used as its command says, which FreeCAD looks at from time to time.
+    Nothing is left in Qt's queue, no mesh is being made, no timer of the task panel runs, and every
+    button of ours can be used as its command says, which FreeCAD looks at from time to time.
     """
     done = comes_true(lambda: not _unsettled(), seconds)
     if not done:
@@ -147,6 +150,8 @@ def settle(seconds=PATIENCE):
 
 def _unsettled():
     """What the window has still to do, or an empty text."""
+    if are_there_jobs():
+        return "a mesh is being made"
     form = panel()
     if form is not None and any(timer.isActive() for timer in form.findChildren(QtCore.QTimer)):
         return "the panel's timer"
@@ -227,6 +232,12 @@ def xdotool(*arguments):
 
 def click(widget):
     """A real click in the middle of a widget, once it is there to be clicked."""
+    start_by_click(widget)
+    settle()
+
+
+def start_by_click(widget):
+    """The same, without waiting for what comes of it."""
 
     def is_on_top():
         over = QtGui.QApplication.widgetAt(middle(widget))
@@ -236,7 +247,7 @@ def click(widget):
         _scroll_to(widget)  # again: what is above it may grow
         return widget.isVisible() and is_on_top()
 
-    in_sight(widget)
+    _scroll_to(widget)
     for _ in range(TRIES):
         wait_until(can_be_clicked)
         move_mouse(middle(widget))
@@ -246,7 +257,6 @@ def click(widget):
         print(f"a click misses {type(widget).__name__} '{widget.objectName()}'", flush=True)
     else:
         fail(f"{TRIES} clicks miss {type(widget).__name__} '{widget.objectName()}'")
-    settle()
 
 
 def in_sight(widget):
@@ -280,6 +290,23 @@ def when_dialog(kind, act):
         return True
 
     return Watch(look, f"a {kind.__name__}")
+
+
+def answer_file_dialog(path, name):
+    """Once a file dialog is there, really type a path into it and press Return."""
+
+    def answer(dialog):
+        edit = dialog.findChild(QtGui.QLineEdit, "fileNameEdit")
+        edit.setFocus()
+        xdotool("windowfocus", int(dialog.winId()))
+        wait_until(edit.hasFocus)
+        xdotool("key", "ctrl+a")
+        xdotool("type", str(path))
+        wait_until(lambda: edit.text() == str(path))
+        picture(name)
+        xdotool("key", "Return")
+
+    when_dialog(QtGui.QFileDialog, answer)
 
 
 def preferences_open(visit, keep=True):
@@ -585,6 +612,28 @@ def type_value(name, text):
     xdotool("key", "Tab")
     wait_until(lambda: QtGui.QApplication.focusWidget() is not typed_into)
     settle()
+
+
+@contextmanager
+def jobs_that_never_end():
+    """Calls of the engine sleep in their process until they are cancelled."""
+    from volfrep.apart.engine_process import Call
+    from volfrep.apart.engines import Engines
+
+    begin = Engines.begin
+    Engines.begin = lambda self, call: begin(
+        self, Call(time.sleep, (10 * PATIENCE,), has_progress=False)
+    )
+    try:
+        yield
+    finally:
+        Engines.begin = begin
+
+
+def progress_bar():
+    """What a running job shows in the status bar, or None."""
+    bar = Gui.getMainWindow().findChild(QtGui.QWidget, "VolfrepProgress")
+    return bar if bar is not None and bar.isVisible() else None
 
 
 class UnexpectedMessages(QtCore.QObject):

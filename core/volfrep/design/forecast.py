@@ -80,8 +80,9 @@ class Forecast:
 
     def __str__(self) -> str:
         return (
-            f"{self.of_axes}, {_rounded(self.triangles)} triangles, {self.memory_gb:.2g} GB of "
-            f"memory, an STL file of {self.stl_mb:.2g} MB and {_duration(self.seconds)}"
+            f"{self.of_axes}, {_rounded(self.triangles)} triangles, "
+            f"{_rounded(self.memory_gb)} GB of memory, an STL file of {_rounded(self.stl_mb)} MB "
+            f"and {_duration(self.seconds)}"
         )
 
 
@@ -214,12 +215,14 @@ def _forecast(
     )
 
 
-def _rounded(count: int) -> str:
-    """Two significant figures."""
-    return f"{int(float(f'{count:.2g}')):,}"
+def _rounded(value: float) -> str:
+    """Two significant figures, written out."""
+    return f"{float(f'{value:.2g}'):,.15g}"
 
 
 def _duration(seconds: float) -> str:
     if seconds < 90.0:
-        return f"{max(1.0, seconds):.2g} s"
-    return f"{seconds / 60.0:.2g} min" if seconds < 5400.0 else f"{seconds / 3600.0:.2g} h"
+        return f"{_rounded(max(1.0, seconds))} s"
+    if seconds < 5400.0:
+        return f"{_rounded(seconds / 60.0)} min"
+    return f"{_rounded(seconds / 3600.0)} h"

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ..design.spec import LatticeSpec
+from ..grid.strut_graph import Wireframe
 from ..mesh.triangle_mesh import TriangleMesh
 from ..trim.beam_model import BeamModel, deformed_struts, refuse_fillets
 from ..trim.clip_struts import Clipped
@@ -45,6 +46,23 @@ def clipped_infill(
         Cancelled: the callback said so.
     """
     return infill_of(solid, spec, progress=progress, cache=cache).axes
+
+
+def struts_and_cavity(
+    solid: TriangleMesh,
+    spec: LatticeSpec,
+    *,
+    progress: ProgressCallback | None = None,
+    cache: StageCache | None = None,
+) -> tuple[Wireframe, TriangleMesh]:
+    """The struts of the active cells, and the wall that they are cut at: of `Infill` in one call.
+
+    Raises:
+        VolfrepError: the specification does not fit the solid.
+        Cancelled: the callback said so.
+    """
+    infill = infill_of(solid, spec, progress=progress, cache=cache)
+    return infill.struts, infill.cavity
 
 
 def block_beams(spec: LatticeSpec, count: Sequence[int]) -> BeamModel:

@@ -7,9 +7,16 @@ The stages are those of `volfrep.jobs.infill.Infill`, which computes any of them
 from __future__ import annotations
 
 from concurrent.futures import Executor
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
 
 from ..design.spec import LatticeSpec
+from ..io.solid import check_solid
 from ..mesh.triangle_mesh import TriangleMesh
+from ..reports.facet_roles import kinds_of_triangles
+from ..reports.report import Report
 from ..reports.result import Result
 from ..util.cache import StageCache
 from ..util.progress import ProgressCallback
@@ -41,3 +48,44 @@ def fill(
         Cancelled: the callback said so.
     """
     return filled(solid, spec, progress=progress, cache=cache, executor=executor)[0]
+
+
+class FilledMesh(NamedTuple):
+    """A filled part as whoever shows it wants it.
+
+    Attributes:
+        mesh: of all of it.
+        report: the figures.
+        kinds: (t,) uint8, what each triangle is: see `reports.facet_roles`.
+    """
+
+    mesh: TriangleMesh
+    report: Report
+    kinds: NDArray[np.uint8]
+
+
+def filled_mesh(
+    solid: TriangleMesh,
+    name: str,
+    spec: LatticeSpec,
+    *,
+    progress: ProgressCallback | None = None,
+    cache: StageCache | None = None,
+) -> FilledMesh:
+    """Check a solid, fill it, make one mesh of the result, and tell its triangles apart.
+
+    Args:
+        solid: as it came, mm.
+        name: of the solid, for sentences about what is wrong with it.
+        spec: what to make.
+        progress: as of `fill`.
+        cache: as of `fill`.
+
+    Raises:
+        VolfrepError: as `check_solid` and `fill`.
+        Cancelled: the callback said so.
+    """
+    checked = check_solid(solid, name)
+    result = fill(checked, spec, progress=progress, cache=cache)
+    mesh = result.mesh
+    return FilledMesh(mesh, result.report, kinds_of_triangles(mesh, checked, spec))

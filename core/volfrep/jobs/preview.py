@@ -100,6 +100,7 @@ class PartDepth:
         points = low + even_points(3, VOLUME_POINTS) * (high - low)
         points = points[inside_points(solid, points, Monitor())]
         self.bodies = max(1, inspect(solid).quality.bodies)
+        self._points = points
         self._sampled = (self._skinned or self._surface).near(points)[1]
 
     def below_skin(self, points: Floats, shell: float) -> Floats:
@@ -114,8 +115,13 @@ class PartDepth:
         return np.minimum(self._skinned.near(points)[1] - shell, depth)
 
     def volume_below(self, shell: float) -> float:
-        """Volume of what lies below a skin, mm3, within a few percent."""
-        return abs(self._solid.volume) * float((self._sampled > shell).mean())
+        """Volume of what lies below a skin, mm3, within a few percent; never nothing."""
+        count = max(0.5, float((self._sampled > shell).sum()))
+        return abs(self._solid.volume) * count / len(self._sampled)
+
+    def points_below(self, shell: float) -> Floats:
+        """(n, 3) points spread evenly over what lies below a skin."""
+        return np.asarray(self._points[self._sampled > shell])
 
 
 def preview(solid: TriangleMesh, spec: LatticeSpec, depth: PartDepth) -> Preview:
@@ -175,10 +181,11 @@ def preview(solid: TriangleMesh, spec: LatticeSpec, depth: PartDepth) -> Preview
         radius = _aimed_radius(spec, spec.target, bare, domain, skin)
         piece_radii *= radius / spec.strut_radius
         spec = replace(spec, strut_radius=radius)
-    lattice = lattice_volume(spec, bare, spec.template_radius)
+    # Struts that reach from a narrow domain into the skin are counted as a whole.
+    lattice = min(lattice_volume(spec, bare, spec.template_radius), domain)
     return Preview(
         start, end, piece_radii, cells, len(np.unique(owner)), grid,
-        lattice / max(domain, 1e-300), lattice + skin, (lattice + skin) * spec.density / 1000.0,
+        lattice / domain, lattice + skin, (lattice + skin) * spec.density / 1000.0,
         _edges(active, spec, grid, placement.mapping), spec,
     )  # fmt: skip
 
@@ -226,8 +233,13 @@ def _active(
         return active, int(active.sum())
     # No point of a cell lies deeper than its centre by more than its corners are away.
     reach = np.maximum(np.abs(around - at_centre).max(axis=0), 0.5 * np.sqrt(3.0) * size)
-    touching = (np.maximum(around.max(axis=0), at_centre) > 0.0) & every
-    return (at_centre + reach > 0.0) & every, int(touching.sum())
+    touching = np.maximum(around.max(axis=0), at_centre) > 0.0
+    inside = depth.points_below(spec.shell)
+    inside = inside if mapping is None else mapping.to_lattice(inside)
+    index = np.floor((inside - grid.origin) / size).astype(np.int64)
+    index = index[((index >= 0) & (index < shape)).all(axis=1)]
+    touching[tuple(index.T)] = True
+    return (at_centre + reach > 0.0) & every, int((touching & every).sum())
 
 
 def _inside(frame: Wireframe, spec: LatticeSpec, depth: PartDepth) -> tuple[Ints, Floats, Floats]:

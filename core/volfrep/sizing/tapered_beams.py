@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -65,13 +66,14 @@ def end_table(law: JointLaw, smallest: float, largest: float, count: int = 41) -
     at = np.geomspace(smallest * 0.999, largest * 1.001, count)
     ends = [law(radius) for radius in at.tolist()]
     logs = np.log([[end.length, end.axial, end.bending] for end in ends])
+    return partial(_read_table, np.log(at), logs)
 
-    def table(radii: Floats) -> Floats:
-        place = np.log(radii)
-        found = [np.interp(place, np.log(at), row) for row in logs.T]
-        return np.asarray(np.exp(np.stack(found, axis=-1)))
 
-    return table
+def _read_table(at: Floats, logs: Floats, radii: Floats) -> Floats:
+    """(n, 3) of (n,) radii, by logarithms: a function of its own, so that its table pickles."""
+    place = np.log(radii)
+    found = [np.interp(place, at, row) for row in logs.T]
+    return np.asarray(np.exp(np.stack(found, axis=-1)))
 
 
 @dataclass(frozen=True, eq=False)

@@ -1516,8 +1516,16 @@
       <translation>Netz prüfen: {label}</translation>
     </message>
     <message>
+      <source>Fill {count} solids, each with cells that suit its size? A single one opens the panel.</source>
+      <translation>{count} Körper füllen, jeden mit Zellen, die zu seiner Größe passen? Ein einzelner öffnet das Panel.</translation>
+    </message>
+    <message>
       <source>Make of '{label}':</source>
       <translation>Aus '{label}' machen:</translation>
+    </message>
+    <message>
+      <source>Mesh of {label}</source>
+      <translation>Netz von {label}</translation>
     </message>
     <message>
       <source>beams</source>
@@ -1543,16 +1551,16 @@
   <context>
     <name>VolfrepFigures</name>
     <message>
-      <source>strut radius {radius:.4g} mm</source>
-      <translation>Strebenradius {radius:.4g} mm</translation>
+      <source>strut radius {radius} mm</source>
+      <translation>Strebenradius {radius} mm</translation>
     </message>
     <message>
-      <source>{cells:,} active cells, {struts:,} struts
-relative density {density:.3g} %, mass {mass:.4g} g
-about {triangles:.2g} million triangles, {size:.2g} MB as STL, {seconds:.2g} s to compute</source>
-      <translation>{cells:,} aktive Zellen, {struts:,} Streben
-relative Dichte {density:.3g} %, Masse {mass:.4g} g
-etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s Rechenzeit</translation>
+      <source>{cells} active cells, {struts} struts
+relative density {density} %, mass {mass} g
+about {triangles} million triangles, {size} MB as STL, {seconds} s to compute</source>
+      <translation>{cells} aktive Zellen, {struts} Streben
+relative Dichte {density} %, Masse {mass} g
+etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translation>
     </message>
   </context>
   <context>
@@ -1681,6 +1689,17 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
     <message>
       <source>{path} written</source>
       <translation>{path} geschrieben</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepNumbers</name>
+    <message>
+      <source>,</source>
+      <translation>.</translation>
+    </message>
+    <message>
+      <source>.</source>
+      <translation>,</translation>
     </message>
   </context>
   <context>
@@ -1911,6 +1930,10 @@ etwa {triangles:.2g} Millionen Dreiecke, {size:.2g} MB als STL, {seconds:.2g} s 
     <message>
       <source>voxels</source>
       <translation>Voxel</translation>
+    </message>
+    <message>
+      <source>waiting</source>
+      <translation>wartet</translation>
     </message>
     <message>
       <source>write</source>

@@ -1516,8 +1516,16 @@
       <translation>Controlla mesh: {label}</translation>
     </message>
     <message>
+      <source>Fill {count} solids, each with cells that suit its size? A single one opens the panel.</source>
+      <translation>Riempire {count} solidi, ognuno con celle adatte alla sua misura? Uno solo apre il pannello.</translation>
+    </message>
+    <message>
       <source>Make of '{label}':</source>
       <translation>Ricava da '{label}':</translation>
+    </message>
+    <message>
+      <source>Mesh of {label}</source>
+      <translation>Mesh di {label}</translation>
     </message>
     <message>
       <source>beams</source>
@@ -1543,16 +1551,16 @@
   <context>
     <name>VolfrepFigures</name>
     <message>
-      <source>strut radius {radius:.4g} mm</source>
-      <translation>raggio delle aste {radius:.4g} mm</translation>
+      <source>strut radius {radius} mm</source>
+      <translation>raggio delle aste {radius} mm</translation>
     </message>
     <message>
-      <source>{cells:,} active cells, {struts:,} struts
-relative density {density:.3g} %, mass {mass:.4g} g
-about {triangles:.2g} million triangles, {size:.2g} MB as STL, {seconds:.2g} s to compute</source>
-      <translation>{cells:,} celle attive, {struts:,} aste
-densità relativa {density:.3g} %, massa {mass:.4g} g
-circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} s di calcolo</translation>
+      <source>{cells} active cells, {struts} struts
+relative density {density} %, mass {mass} g
+about {triangles} million triangles, {size} MB as STL, {seconds} s to compute</source>
+      <translation>{cells} celle attive, {struts} aste
+densità relativa {density} %, massa {mass} g
+circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo</translation>
     </message>
   </context>
   <context>
@@ -1681,6 +1689,17 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
     <message>
       <source>{path} written</source>
       <translation>{path} scritto</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepNumbers</name>
+    <message>
+      <source>,</source>
+      <translation>.</translation>
+    </message>
+    <message>
+      <source>.</source>
+      <translation>,</translation>
     </message>
   </context>
   <context>
@@ -1911,6 +1930,10 @@ circa {triangles:.2g} milioni di triangoli, {size:.2g} MB in STL, {seconds:.2g} 
     <message>
       <source>voxels</source>
       <translation>voxel</translation>
+    </message>
+    <message>
+      <source>waiting</source>
+      <translation>in attesa</translation>
     </message>
     <message>
       <source>write</source>

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A part's struts solved as they are, and a search for radii that is cancelled."""
 
+import pickle
 from dataclasses import replace
 
 import numpy as np
@@ -45,6 +46,24 @@ def test_what_is_solved_is_what_was_designed():
     # Twice the force, twice the displacement.
     _, doubled = solved(beam(), part.spec, bent(-400.0))
     assert doubled.largest == pytest.approx(2.0 * analysis.largest)
+
+
+@pytest.mark.parametrize("shell", [0.0, 1.0])
+def test_a_design_can_be_sent_to_another_process(shell):
+    goal = Goal(limits=Limits(displacement=0.3), radius_min=0.3, radius_max=1.6)
+    wanted = replace(SPEC, shell=shell)
+    part = size(beam(), wanted, bent(), goal, prove_it=False)
+    there = pickle.loads(pickle.dumps(part))
+    for here, sent in zip(
+        strut_states(part.model.problem, part.sized.analysis),
+        strut_states(there.model.problem, there.sized.analysis),
+        strict=True,
+    ):
+        np.testing.assert_array_equal(sent.stress, here.stress)
+    model, analysis = pickle.loads(pickle.dumps(solved(beam(), part.spec, bent())))
+    assert strut_states(model.problem, analysis)
+    steps = pickle.loads(pickle.dumps(part.sized.steps))
+    assert len(steps) == len(part.sized.steps)
 
 
 def test_a_cancelled_search_keeps_the_best_and_asks_no_other_solver():

@@ -85,6 +85,12 @@ class Tally:
         return sum(self.weights[key] for key in tuple(self._ended))
 
 
+def told_in(text: str, done: int, runs: int, seconds: float) -> str:
+    """How far a study is, in the words of a text that holds {done}, {runs} and {time}."""
+    left = f"{seconds:.0f} s" if seconds < 90.0 else f"{seconds / 60.0:.0f} min"
+    return text.format(done=done, runs=runs, time=left)
+
+
 def told_state(done: int, runs: int, seconds: float) -> str:
     """How far runs are, in words."""
     return f"{done:,} of {runs:,} runs, {told_time(seconds)} left"

@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Where the window's jobs run: in a Python beside FreeCAD, in FreeCAD without windows, or here."""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import FreeCAD as App
+
+from . import ROOT
+from .compat import package_folder
+from .deps import PACKAGES, python_executable
+from .preferences import THREADS, read
+
+if TYPE_CHECKING:
+    from volfrep.apart.engine_process import Program
+    from volfrep.apart.engines import Engines
+
+#: What the process imports before it is given anything to do.
+_WARM = ("volfrep.jobs.pipeline",)
+_CONSOLES = ("freecadcmd", "FreeCADCmd")
+_running: dict[int, Engines] = {}
+
+
+def engines() -> Engines:
+    """The processes for jobs, which use as many threads as is preferred now."""
+    from volfrep.apart.engines import Engines
+
+    threads = read(THREADS)
+    if threads not in _running:
+        for others in _running.values():
+            others.end()
+        _running.clear()
+        _running[threads] = Engines(programs(threads), _missed)
+    return _running[threads]
+
+
+def programs(threads: int) -> list[Program]:
+    """What can run the engine beside this FreeCAD, the best first."""
+    from volfrep.apart.engine_process import Program
+
+    use = f"from volfrep.util.threads import use_threads; use_threads({threads})"
+    front = str(ROOT / "core")
+    python = Program((python_executable(),), (front,), _package_folders(), use, _WARM)
+    found = [python]
+    console = _console()
+    if console is not None:
+        # It has its own folders; of the workbench it needs what mends them.
+        whole = f"from freecad_volfrep.engine import require_engine; require_engine(); {use}"
+        found.append(Program((console,), (str(ROOT),), tuple(sys.path), whole, _WARM))
+    return found
+
+
+def _package_folders() -> tuple[str, ...]:
+    """Where this FreeCAD finds the engine's packages: its own folders hold other things, too."""
+    folders = [str(package_folder())]
+    for name in PACKAGES:
+        spec = importlib.util.find_spec(name)
+        if spec is not None and spec.origin is not None:
+            folders.append(
+                str(Path(spec.origin).parents[1 if spec.submodule_search_locations else 0])
+            )
+    return tuple(dict.fromkeys(folders))
+
+
+def _console() -> str | None:
+    """FreeCAD without windows that belongs to this FreeCAD; else whichever is found."""
+    from volfrep.util.subprocesses import find_freecad
+
+    suffix = ".exe" if os.name == "nt" else ""
+    for name in _CONSOLES:
+        program = Path(App.getHomePath(), "bin", name + suffix)
+        if program.is_file():
+            return str(program)
+    return find_freecad()
+
+
+def _missed(sentence: str) -> None:
+    """Called on another thread, where FreeCAD's console may be used."""
+    App.Console.PrintWarning(
+        f"VOLFREP: the engine cannot run in a process of its own by {sentence}\n"
+    )

@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What the tests of the engine's process let it do."""
+
+from __future__ import annotations
+
+import os
+import sys
+import time
+from collections.abc import Callable
+from typing import Any
+
+from volfrep.util.cache import StageCache
+from volfrep.util.errors import Cancelled, VolfrepError
+
+#: After so long nobody is there any more, s.
+AT_MOST = 600.0
+
+
+def same(value: Any) -> Any:
+    """What it is given."""
+    return value
+
+
+def note(cache: StageCache, word: str) -> list[str]:
+    """The words that were noted in a cache so far."""
+    words: list[str] = cache.run("words", list).value
+    words.append(word)
+    return words
+
+
+def tell(
+    times: int, *, progress: Callable[[float, str], bool], watch: Callable[[int, str], bool]
+) -> int:
+    """Tell steps and progress."""
+    for step in range(times):
+        watch(step, "step")
+    progress(0.5, "telling")
+    return times
+
+
+def refuse(sentence: str) -> None:
+    """Fail as the engine does."""
+    raise VolfrepError(sentence)
+
+
+def wait_for_a_cancel(*, progress: Callable[[float, str], bool]) -> None:
+    """A call that asks whether it is still wanted."""
+    _until_cancelled(progress)
+    raise Cancelled("as asked")
+
+
+def best_so_far(*, progress: Callable[[float, str], bool]) -> str:
+    """A call that has something to give after a cancel."""
+    _until_cancelled(progress)
+    return "the best"
+
+
+def hold(seconds: float, *, progress: Callable[[float, str], bool]) -> None:
+    """A call that asks nobody."""
+    progress(0.0, "begun")
+    time.sleep(seconds)
+
+
+def leave(sentence: str, code: int) -> None:
+    """End the process, as a crash of a library does."""
+    print(sentence, file=sys.stderr, flush=True)
+    os._exit(code)
+
+
+def _until_cancelled(progress: Callable[[float, str], bool]) -> None:
+    end = time.monotonic() + AT_MOST
+    while progress(0.0, "begun") and time.monotonic() < end:
+        time.sleep(0.01)

@@ -145,11 +145,11 @@ class Infill:
         return self._cavity[0]
 
     @cached_property
-    def _cavity(self) -> tuple[TriangleMesh, Quality]:
+    def _cavity(self) -> tuple[TriangleMesh, Quality, tuple[str, ...]]:
         wall = TrimmedSurface(self.domain.mesh)
         clean = tidied(wall, shortest_edge(self.solid), self.monitor)
-        clean, quality, _ = finished(clean, measure(clean.mesh), self.monitor, moved=False)
-        return clean.mesh, quality
+        clean, quality, notes = finished(clean, measure(clean.mesh), self.monitor, moved=False)
+        return clean.mesh, quality, notes
 
     @cached_property
     def placement(self) -> Placement:
@@ -211,8 +211,10 @@ class Infill:
     @cached_property
     def cavity_result(self) -> Result:
         """The domain as a mesh, with the figures of the cells and struts that it will hold."""
-        mesh, quality = self._cavity
-        return self._reported("domain", Cleared(TrimmedSurface(mesh), quality, 0, 0))
+        mesh, quality, notes = self._cavity
+        found = self._reported("domain", Cleared(TrimmedSurface(mesh), quality, 0, 0))
+        report = replace(found.report, warnings=found.report.warnings + notes)
+        return Result(found.surface, found.wireframe, report) if notes else found
 
     @cached_property
     def lattice(self) -> Result:

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.progress import Monitor
-from ..util.types import Bools, Floats, Ints
-from .self_intersection import close_pairs, reached_from
+from ..util.types import Floats, Ints
+from .self_intersection import close_pairs
 
 Signs = NDArray[np.int8]
 
@@ -49,18 +49,6 @@ def piercing_pairs(mesh: TriangleMesh, monitor: Monitor | None = None) -> Ints:
         monitor.tick()
         found.append(_piercing(mesh, a, b))
     return np.unique(np.concatenate(found), axis=0)
-
-
-def piercing_among(mesh: TriangleMesh, among: Bools, monitor: Monitor) -> Ints:
-    """As `piercing_pairs`, of pairs with at least one of the chosen triangles (m,) bool."""
-    rows = reached_from(mesh, among)
-    part = TriangleMesh(mesh.vertices, mesh.triangles[rows])
-    found = [np.empty((0, 2), np.int64)]
-    for a, b in close_pairs(part.vertices[part.triangles], among[rows]):
-        monitor.tick()
-        found.append(_piercing(part, a, b))
-    result: Ints = np.unique(rows[np.concatenate(found)], axis=0)
-    return result
 
 
 def _piercing(mesh: TriangleMesh, a: Ints, b: Ints) -> Ints:

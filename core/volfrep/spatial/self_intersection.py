@@ -50,7 +50,7 @@ def crossing_edges(mesh: TriangleMesh, among: Bools, depth: float) -> tuple[Ints
     """
     found = [(np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros((0, 3)))]
     if among.any():
-        rows = reached_from(mesh, among)
+        rows = _reached_from(mesh, among)
         part = TriangleMesh(mesh.vertices, mesh.triangles[rows])
         for one, other, points in _crossing_edges(part, among[rows], depth):
             found.append((rows[one], rows[other], points))
@@ -58,7 +58,7 @@ def crossing_edges(mesh: TriangleMesh, among: Bools, depth: float) -> tuple[Ints
     return one, other, points
 
 
-def reached_from(mesh: TriangleMesh, among: Bools) -> Ints:
+def _reached_from(mesh: TriangleMesh, among: Bools) -> Ints:
     """The triangles whose boxes reach into cubes that those of the chosen ones reach into."""
     if among.all():
         return np.arange(len(among))

@@ -16,7 +16,7 @@ from ..mesh.precision import decimal_step, rounded
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
-from .piercing import piercing_among
+from .piercing import piercing_pairs
 
 #: The surface turns back at an edge where the cosine between its normals is below this.
 TURNS_BACK = -0.9
@@ -96,15 +96,19 @@ def turning_back(mesh: TriangleMesh) -> Bools:
 
 
 def _crossing(mesh: TriangleMesh, among: Bools, monitor: Monitor) -> Ints:
-    """(k, 2) triangles that cross in a binary file or in one of text."""
-    if not among.any():
+    """(k, 2) triangles, chosen or beside such, that cross in a binary file or in one of text."""
+    near = np.zeros(len(mesh.vertices), bool)
+    near[mesh.triangles[among]] = True
+    rows = np.flatnonzero(near[mesh.triangles].any(axis=1))
+    if not len(rows):
         return np.zeros((0, 2), np.int64)
     step = decimal_step(mesh.vertices)
     found = [
-        piercing_among(TriangleMesh(vertices, mesh.triangles), among, monitor)
+        piercing_pairs(TriangleMesh(vertices, mesh.triangles[rows]), monitor)
         for vertices in (_single(mesh.vertices), _single(rounded(mesh.vertices, step)))
     ]
-    return np.unique(np.concatenate(found), axis=0)
+    pairs: Ints = np.unique(rows[np.concatenate(found)], axis=0)
+    return pairs
 
 
 def _single(vertices: Floats) -> Floats:

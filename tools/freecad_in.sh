@@ -26,6 +26,10 @@ targets=("$@")
 command -v debootstrap >/dev/null || apt-get install -y -qq debootstrap >/dev/null ||
   refuse "debootstrap is missing and could not be installed."
 
+# One at a time: all runs in a Debian use the same copy of the checkout.
+exec 9>"$root.lock"
+flock -n 9 || { say "another run is in $root: waiting for its end"; flock 9; }
+
 if [ ! -e "$root/.complete" ]; then
   say "making a Debian '$suite' in $root"
   rm -rf --one-file-system "$root"

@@ -7,7 +7,7 @@ A lane's commands run one after the other, the lanes side by side; the first lan
 processor before the others', because a window that waits for its turn is not what is tested. What
 a command says is in build/test/NAME.log. One that fails is shown by its last lines when it ends,
 and last of all come all failed checks by name: the lines that begin with FAILED or ERROR, which
-pytest and the window's scripts write.
+pytest and the window's scripts write, and before them what held only at its second try (AGAIN).
 """
 
 from __future__ import annotations
@@ -36,6 +36,8 @@ class Part:
         command: for the shell.
         code: with which it ended, or None.
         seconds: it took.
+        failures: what failed, where something did.
+        again: what held only at its second try.
     """
 
     name: str
@@ -43,6 +45,7 @@ class Part:
     code: int | None = None
     seconds: float = 0.0
     failures: list[str] = field(default_factory=list)
+    again: list[str] = field(default_factory=list)
 
     @property
     def log(self) -> Path:
@@ -59,6 +62,7 @@ class Part:
             ).returncode  # fmt: skip
         self.seconds = time.monotonic() - start
         lines = self.log.read_text(encoding="utf-8", errors="replace").splitlines()
+        self.again = [line for line in lines if line.startswith("AGAIN ")]
         if self.code:
             self.failures = failures_of(lines) or [
                 f"left with {self.code}" + (" (time is over)" if self.code == 124 else "")
@@ -104,6 +108,9 @@ def main(arguments: list[str]) -> int:
     for thread in threads:
         thread.join()
     failed = [part for lane in lanes for part in lane if part.code != 0]
+    for part in (part for lane in lanes for part in lane if part.again):
+        print(f"\n{part.name} had a second try ({part.log}):")
+        print("".join(f"    {line}\n" for line in part.again), end="")
     print(f"\n{sum(len(lane) for lane in lanes) - len(failed)} parts passed, {len(failed)} failed.")
     for part in failed:
         print(f"{part.name} ({part.log}):")

@@ -142,6 +142,17 @@ def face_middle(
     return middle.x, middle.y, middle.z
 
 
+def placed_face(owner: App.DocumentObject, name: str, frame: App.Placement) -> Part.Face:
+    """A face of an object in the coordinates of `frame`.
+
+    Raises:
+        VolfrepError: there is no such face.
+    """
+    face = _face(owner, name)
+    move = _to_frame(owner, frame)
+    return face if move.isIdentity() else face.transformed(move.toMatrix())
+
+
 def edge_points(owner: App.DocumentObject, name: str, frame: App.Placement) -> NDArray[np.float64]:
     """(k, 3) points along an edge, in mm, in the coordinates of `frame`; two where it is straight.
 

@@ -266,6 +266,7 @@ def fingerprint_of(spec: LatticeSpec, solid: TriangleMesh) -> str:
     """
     import numpy as np
 
+    from volfrep.design.networks import GivenNetwork
     from volfrep.design.scattered_field import PointField
 
     digest = hashlib.sha256()
@@ -278,6 +279,9 @@ def fingerprint_of(spec: LatticeSpec, solid: TriangleMesh) -> str:
     if isinstance(field, PointField):
         digest.update(field.points.tobytes())
         digest.update(field.values.tobytes())
+    if isinstance(spec.network, GivenNetwork):
+        for array in (spec.network.nodes, spec.network.struts, spec.network.radii):
+            digest.update(array.tobytes())
     cell = spec.unit_cell()
     digest.update(np.ascontiguousarray(cell.nodes, np.float64).tobytes())
     digest.update(np.ascontiguousarray(cell.struts, np.int64).tobytes())

@@ -80,6 +80,7 @@ def values_in_effect(obj: App.DocumentObject) -> tuple[dict[str, Any], Target | 
     from volfrep.design.spec_parts import first_radius
     from volfrep.util.errors import VolfrepError
 
+    from .network_faces import laid_along_faces
     from .openings import openings_of
 
     material = material_of(obj)
@@ -101,6 +102,8 @@ def values_in_effect(obj: App.DocumentObject) -> tuple[dict[str, Any], Target | 
             values[name] = values[name] or values["strut_radius"]
     if "radius_field" in values:
         values["radius_field"] = _field(obj)
+    if values.get("network") == "faces":
+        values["network_faces"] = laid_along_faces(obj, values)
     return values, target
 
 

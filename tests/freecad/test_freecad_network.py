@@ -4,6 +4,7 @@
 import json
 
 import FreeCAD as App
+import Part
 import pytest
 
 from freecad_volfrep import make_lattice_infill
@@ -46,3 +47,111 @@ def test_a_network_of_a_file(doc, box, tmp_path):
     assert obj.isValid(), obj.Status
     assert (obj.Nodes, obj.Struts, obj.Bodies) == (5, 4, 1)
     assert App.ActiveDocument is not None
+
+
+def test_a_network_follows_its_file(doc, box, tmp_path):
+    file = tmp_path / "net.json"
+    nodes = [[0, 0, 0], [24, 24, 24], [24, 0, 0], [0, 24, 24], [12, 12, 12]]
+    struts = [[k, 4] for k in range(4)]
+    file.write_text(json.dumps({"nodes": nodes, "struts": struts}))
+    obj = make_lattice_infill(
+        doc, box, Network="File", NetworkFile=str(file), StrutRadius=1, ShellThickness=1.5
+    )
+    doc.recompute()
+    before = obj.Volume.Value
+    nodes[4] = [12, 12, 17]  # as many nodes and struts as before
+    file.write_text(json.dumps({"nodes": nodes, "struts": struts}))
+    obj.touch()
+    doc.recompute()
+    assert obj.Volume.Value != before
+
+
+@pytest.fixture
+def sector(doc):
+    """A quarter of a tube, its inner and outer faces."""
+    tube = doc.addObject("Part::Feature", "Sector")
+    outer = Part.makeCylinder(30, 40, App.Vector(), App.Vector(0, 0, 1), 90)
+    tube.Shape = outer.cut(Part.makeCylinder(20, 40, App.Vector(), App.Vector(0, 0, 1), 90))
+    doc.recompute()
+    curved = [k for k, face in enumerate(tube.Shape.Faces) if type(face.Surface) is Part.Cylinder]
+    by_area = sorted(curved, key=lambda k: tube.Shape.Faces[k].Area)
+    return tube, [f"Face{k + 1}" for k in by_area]
+
+
+def radii_of(obj):
+    """Of the nodes of the network, from the tube's axis."""
+    from freecad_volfrep.features.values import specification_of
+
+    nodes = specification_of(obj).network.nodes
+    return (nodes[:, 0] ** 2 + nodes[:, 1] ** 2) ** 0.5
+
+
+def test_cells_lie_between_the_two_faces_of_a_tubes_sector(doc, sector):
+    tube, (inner, outer) = sector
+    obj = make_lattice_infill(
+        doc, tube, CellType="Octet", Network="Faces", CellSize=8, StrutRadius=0.7, ShellThickness=0
+    )
+    doc.recompute()
+    assert "NetworkFaces" in obj.Status
+    obj.NetworkFaces = [(tube, (inner, outer))]
+    obj.NetworkLayers = 1
+    doc.recompute()
+    assert obj.isValid(), obj.Status
+    assert obj.Mesh.isSolid()
+    assert obj.Bodies == 1
+    radii = radii_of(obj)
+    assert radii.min() == pytest.approx(20, abs=1e-9)
+    assert radii.max() == pytest.approx(30, abs=1e-9)
+    # 5 cells along the height; 39.3 mm of arc in the mean are 5 too. Octet has a node in the
+    # middle of every face: on the curved faces, not on their chords.
+    assert sum(abs(radii - 30) < 1e-9) == 6 * 6 + 5 * 5
+    tube.Shape = tube.Shape.transformGeometry(App.Matrix(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1.5, 0))
+    doc.recompute()
+    assert obj.isValid(), obj.Status
+    assert obj.Mesh.BoundBox.ZLength > 55
+
+
+def test_layers_grow_from_one_face_into_the_solid(doc, sector):
+    tube, (_, outer) = sector
+    obj = make_lattice_infill(
+        doc, tube, CellType="BCC", Network="Faces", CellSize=8, StrutRadius=0.7, ShellThickness=0
+    )
+    obj.NetworkFaces = [(tube, (outer,))]
+    doc.recompute()
+    assert "NetworkThickness" in obj.Status
+    obj.NetworkThickness, obj.NetworkLayers = 8, 2
+    doc.recompute()
+    assert obj.isValid(), obj.Status
+    radii = radii_of(obj)
+    assert (radii.min(), radii.max()) == (pytest.approx(22), pytest.approx(30))
+
+
+def test_a_face_that_is_no_rectangle_serves_and_one_of_three_sides_does_not(doc):
+    corners = [(0, 0, 0), (30, 4, 0), (26, 22, 0), (-3, 17, 0), (0, 0, 0)]
+    base = doc.addObject("Part::Feature", "Prism")
+    flat = Part.Face(Part.makePolygon([App.Vector(*c) for c in corners]))
+    base.Shape = flat.extrude(App.Vector(0, 0, 12))
+    wedge = doc.addObject("Part::Feature", "Wedge")
+    flat = Part.Face(Part.makePolygon([App.Vector(*c) for c in (*corners[:3], corners[0])]))
+    wedge.Shape = flat.extrude(App.Vector(0, 0, 12))
+    doc.recompute()
+
+    def ends(solid):
+        return [
+            f"Face{k + 1}"
+            for k, face in enumerate(solid.Shape.Faces)
+            if abs(face.normalAt(0, 0).z) > 0.9
+        ]
+
+    obj = make_lattice_infill(
+        doc, base, CellType="Box", Network="Faces", CellSize=6, StrutRadius=0.5, ShellThickness=0
+    )
+    obj.NetworkFaces = [(base, tuple(ends(base)))]
+    doc.recompute()
+    assert obj.isValid(), obj.Status
+    assert obj.Bodies == 1
+    other = make_lattice_infill(doc, wedge, Network="Faces", CellSize=6, StrutRadius=0.5)
+    other.NetworkFaces = [(wedge, tuple(ends(wedge)))]
+    doc.recompute()
+    assert not other.isValid()
+    assert "has 3 sides" in other.Status

@@ -28,6 +28,8 @@ OUT = Path(os.environ["GUI_OUT"])
 PATIENCE = 60
 #: Of one check, in s: then it hangs, in a box that nobody answers or in FreeCAD.
 LONGEST = int(os.environ.get("GUI_LONGEST", "400"))
+#: Clicks at a widget that moves away under the mouse.
+TRIES = 5
 figures = {}
 failures = []
 
@@ -166,26 +168,41 @@ def _our_commands(known=[]):  # noqa: B006
     return known
 
 
-class _Arrived(QtCore.QObject):
-    """Sees whether a real event of the mouse has reached the window."""
+class _Landing(QtCore.QObject):
+    """Sees whether a real click has reached the window, and whether it hit a widget."""
 
-    def __init__(self, kind):
+    def __init__(self, widget=None):
         super().__init__()
-        self.kind, self.seen = kind, False
+        self.widget = widget
+        self.pressed = self.released = self.slipped = False
         QtGui.QApplication.instance().installEventFilter(self)
 
-    def eventFilter(self, widget, event):  # noqa: N802
+    def eventFilter(self, target, event):  # noqa: N802
         """Note it and let it pass."""
-        if event.type() == self.kind:
-            self.seen = True
+        kind = event.type()
+        if kind in (QtCore.QEvent.MouseButtonPress, QtCore.QEvent.MouseButtonDblClick):
+            self.pressed = self.pressed or self._is_ours(target)
+        elif kind == QtCore.QEvent.MouseButtonRelease:
+            self.released = True
+            if isinstance(self.widget, QtGui.QAbstractButton) and target is self.widget:
+                # Moved away under the mouse, a button takes its release for none.
+                self.slipped = not self.widget.rect().contains(event.pos())
         return False
 
+    def _is_ours(self, target):
+        return (
+            self.widget is not None
+            and isinstance(target, QtGui.QWidget)
+            and (target is self.widget or self.widget.isAncestorOf(target))
+        )
+
     def wait(self):
-        """For it to come."""
-        seen = comes_true(lambda: self.seen, PATIENCE)
+        """For it to come; returns whether the widget was hit."""
+        comes_true(lambda: self.released, PATIENCE)
         QtGui.QApplication.instance().removeEventFilter(self)
-        if not seen:
+        if not self.released:
             fail(f"a click at {QtGui.QCursor.pos().toTuple()} is not seen")
+        return self.pressed and not self.slipped
 
 
 def move_mouse(point):
@@ -196,11 +213,11 @@ def move_mouse(point):
     wait_until(lambda: QtGui.QCursor.pos() == point)
 
 
-def press_button(*options, button=1):
-    """A real click where the mouse is."""
-    arrived = _Arrived(QtCore.QEvent.MouseButtonRelease)
+def press_button(*options, button=1, on=None):
+    """A real click where the mouse is; returns whether it hit the widget `on`."""
+    landing = _Landing(on)
     xdotool("click", *options, button)
-    arrived.wait()
+    return landing.wait()
 
 
 def xdotool(*arguments):
@@ -220,9 +237,15 @@ def click(widget):
         return widget.isVisible() and is_on_top()
 
     in_sight(widget)
-    wait_until(can_be_clicked)
-    move_mouse(middle(widget))
-    press_button()
+    for _ in range(TRIES):
+        wait_until(can_be_clicked)
+        move_mouse(middle(widget))
+        # What is laid out between the look and the click may move it away: a user clicks again.
+        if press_button(on=widget):
+            break
+        print(f"a click misses {type(widget).__name__} '{widget.objectName()}'", flush=True)
+    else:
+        fail(f"{TRIES} clicks miss {type(widget).__name__} '{widget.objectName()}'")
     settle()
 
 

@@ -17,10 +17,11 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..design.parameters import BY_NAME
 from ..util.errors import VolfrepError
 from . import layers, material, printing_options, process, properties, sizing, solver_options, sweep
 from .files import check_files, read_part
-from .parameter_options import add_parameters, write_specification
+from .parameter_options import add_parameters, set_parameter, write_specification
 from .parser import Parser, Version, refuse_old, three_whole_numbers
 from .telling import Progress, print_rows, tell
 
@@ -106,12 +107,13 @@ def _parser() -> argparse.ArgumentParser:
     _add_output(block)
     add_parameters(block, of_block=True)
 
-    network = add("network", _network, "Mesh the nodes and struts of a file as they are.")
-    network.add_argument(
-        "file", metavar="FILE", help=".json, .csv, lines of .obj or .vtk, beams of .3mf"
+    network = add(
+        "network", _network, "Mesh the nodes and struts of a file, or cells laid into its mesh."
     )
+    network.add_argument("file", metavar="FILE", help=BY_NAME["network_file"].help)
     _add_output(network)
-    add_parameters(network, of_block=True)
+    laid = ("network_thickness", "network_layers", "network_reversed")
+    add_parameters(network, of_block=True, also=laid)
 
     add("cells", _cells, "List the library of unit cells.")
 
@@ -230,17 +232,15 @@ def _block(options: argparse.Namespace) -> None:
 
 
 def _network(options: argparse.Namespace) -> None:
-    from ..design.networks import read_network
     from ..jobs.networks import network_alone
     from ..trim.beam_model import BeamModel
 
-    options.network_file = options.file
+    set_parameter(options, "network", "file")
+    set_parameter(options, "network_file", options.file)
     spec = material.specified(options)
-    options.network_file = options.file
     _check_targets(options, spec)
     if solver_options.needs_axes(options):
         raise VolfrepError("A network alone is written as a mesh or as beams: choose such a file.")
-    spec = dataclasses.replace(spec, network=read_network(options.file))
     with Progress(options.quiet) as progress:
         result = network_alone(spec, progress=progress)
         start = time.perf_counter()

@@ -21,23 +21,31 @@ if TYPE_CHECKING:
 _PLACE = "parameter_"
 
 
-def add_parameters(parser: argparse.ArgumentParser, *, of_block: bool = False) -> None:
+def add_parameters(
+    parser: argparse.ArgumentParser, *, of_block: bool = False, also: tuple[str, ...] = ()
+) -> None:
     """Add an option for each parameter, by groups; each is None where the user leaves it out.
 
     Args:
         parser: of a command.
         of_block: whether the command makes free-standing blocks.
+        also: parameters that it has though blocks have not.
     """
     files = parser.add_argument_group("a whole specification")
     files.add_argument("--spec", metavar="FILE.toml", help="read it; options override its entries")
     files.add_argument("--write-spec", metavar="FILE.toml", help="write the one in force")
     for group, title in GROUPS.items():
         rows = [p for p in PARAMETERS if p.group == group and p.in_command]
-        rows = [p for p in rows if p.of_block or not of_block]
+        rows = [p for p in rows if p.of_block or not of_block or p.name in also]
         if rows:
             into = parser.add_argument_group(title)
             for parameter in rows:
                 _add(into, parameter)
+
+
+def set_parameter(options: argparse.Namespace, name: str, value: object) -> None:
+    """Give a parameter a value that no option gave it."""
+    setattr(options, _PLACE + name, value)
 
 
 def specification(options: argparse.Namespace) -> LatticeSpec:

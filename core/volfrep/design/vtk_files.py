@@ -53,27 +53,46 @@ def load_vtk(file: Path) -> tuple[Floats, dict[str, NDArray[Any]], list[str]]:
     Raises:
         VolfrepError: meshio is missing, or the file is damaged, or too large inside.
     """
+    mesh, points = mesh_of(file, "save the field as CSV", "an unstructured grid (.vtu) or as CSV")
+    # Legacy files write a blank in a name as %20.
+    legacy = file.suffix.lower() == ".vtk"
+    data = {unquote(k) if legacy else k: np.asarray(v) for k, v in mesh.point_data.items()}
+    return points, data, list(mesh.cell_data)
+
+
+def mesh_of(file: Path, without: str, better: str) -> tuple[Any, Floats]:
+    """What meshio reads of a .vtk, .vtu, .inp, .msh or .obj file, and its points (n, 3).
+
+    Args:
+        file: which.
+        without: what to do without meshio, for the error.
+        better: what to save it as if it cannot be read, for the error.
+
+    Raises:
+        VolfrepError: meshio is missing, or the file is damaged, or too large inside.
+    """
     try:
         import meshio
     except ImportError as error:
         raise VolfrepError(
             f"Reading '{file.name}' needs the Python package meshio: install it with "
-            "'pip install meshio', or save the field as CSV."
+            f"'pip install meshio', or {without}."
         ) from error
-    legacy = file.suffix.lower() == ".vtk"
-    if legacy:
+    kind = file.suffix.lower()
+    if kind == ".vtk":
         _refuse_empty_promises(file)
-    else:
+    elif kind == ".vtu":
         _refuse_document_type(file)
     inflated = _Inflated()
     # Not meshio.read: it ends the program when a file is damaged.
-    read = meshio.vtk.read if legacy else meshio.vtu.read
+    read = {
+        ".vtk": meshio.vtk.read, ".vtu": meshio.vtu.read, ".inp": meshio.abaqus.read,
+        ".msh": meshio.gmsh.read, ".obj": meshio.obj.read,
+    }[kind]  # fmt: skip
     try:
         with inflated.bounding(meshio):
             mesh: Any = read(os.fspath(file))
         points = np.asarray(mesh.points, dtype=np.float64)
-        # Legacy files write a blank in a name as %20.
-        data = {unquote(k) if legacy else k: np.asarray(v) for k, v in mesh.point_data.items()}
     except (meshio.ReadError, meshio._exceptions.CorruptionError, *DAMAGE) as error:
         if inflated.total > MAX_INFLATED_BYTES:
             raise VolfrepError(
@@ -81,12 +100,12 @@ def load_vtk(file: Path) -> tuple[Floats, dict[str, NDArray[Any]], list[str]]:
                 "it is decompressed: give fewer points or arrays."
             ) from error
         raise VolfrepError(
-            f"'{file.name}' is damaged, or of a kind that meshio does not read: save it as an "
-            "unstructured grid (.vtu) or as CSV, for instance with ParaView."
+            f"'{file.name}' is damaged, or of a kind that meshio does not read: save it as "
+            f"{better}, for instance with ParaView."
         ) from error
     if points.shape[1:] != (3,) or not len(points):
         raise VolfrepError(f"'{file.name}' holds no points in space.")
-    return points, data, list(mesh.cell_data)
+    return mesh, points
 
 
 class _Inflated:

@@ -257,6 +257,10 @@
       <translation>Exponentiell</translation>
     </message>
     <message>
+      <source>Faces</source>
+      <translation>Flächen</translation>
+    </message>
+    <message>
       <source>Faces in the middle of which holes are drilled</source>
       <translation>Flächen, in deren Mitte Löcher gebohrt werden</translation>
     </message>
@@ -321,6 +325,10 @@
       <translation>Wie es gedruckt wird</translation>
     </message>
     <message>
+      <source>How many layers of cells lie upon a surface or between two; 0 for as many as come nearest to the cell size</source>
+      <translation>Wie viele Lagen von Zellen auf einer Fläche oder zwischen zweien liegen; 0 für so viele, wie der Zellgröße am nächsten kommen</translation>
+    </message>
+    <message>
       <source>How many points lie in the part; 0 for as many as lie a cell size apart</source>
       <translation>Wie viele Punkte im Teil liegen; 0 für so viele, dass sie eine Zellengröße auseinander liegen</translation>
     </message>
@@ -383,6 +391,10 @@
     <message>
       <source>Lattice</source>
       <translation>Gitter</translation>
+    </message>
+    <message>
+      <source>Layers upon one surface lie on its other side, against its normals</source>
+      <translation>Lagen auf einer Fläche liegen auf ihrer anderen Seite, gegen ihre Normalen</translation>
     </message>
     <message>
       <source>Length of the longest strut of these</source>
@@ -461,8 +473,16 @@
       <translation>Netz: Dichte</translation>
     </message>
     <message>
+      <source>Network Faces</source>
+      <translation>Netzflächen</translation>
+    </message>
+    <message>
       <source>Network File</source>
       <translation>Netz: Datei</translation>
+    </message>
+    <message>
+      <source>Network Layers</source>
+      <translation>Netzlagen</translation>
     </message>
     <message>
       <source>Network Points</source>
@@ -473,6 +493,10 @@
       <translation>Netz: Ausgleich</translation>
     </message>
     <message>
+      <source>Network Reversed</source>
+      <translation>Netz umgekehrt</translation>
+    </message>
+    <message>
       <source>Network Seed</source>
       <translation>Netz: Startwert</translation>
     </message>
@@ -481,12 +505,16 @@
       <translation>Netz: kürzester Stab</translation>
     </message>
     <message>
+      <source>Network Thickness</source>
+      <translation>Netzdicke</translation>
+    </message>
+    <message>
       <source>Nodes</source>
       <translation>Knoten</translation>
     </message>
     <message>
-      <source>Nodes and struts: .json, .csv, lines of .obj or .vtk, beams of .3mf</source>
-      <translation>Knoten und Stäbe: .json, .csv, Linien aus .obj oder .vtk, Balken aus .3mf</translation>
+      <source>Nodes and struts: .json, .csv, lines of .obj or .vtk, beams of .3mf; or a mesh (.vtk, .vtu, .inp, .msh, .obj) whose hexahedra the cell is laid into, on whose quadrilaterals layers of it lie, or whose tetrahedra's edges are struts</source>
+      <translation>Knoten und Streben: .json, .csv, Linien aus .obj oder .vtk, Stäbe aus .3mf; oder ein Netz (.vtk, .vtu, .inp, .msh, .obj), in dessen Hexaeder die Zelle gelegt wird, auf dessen Vierecken sie in Lagen liegt oder dessen Tetraederkanten Streben sind</translation>
     </message>
     <message>
       <source>Nodes of the lattice before trimming</source>
@@ -499,6 +527,10 @@
     <message>
       <source>Of the facets that hang over: this object's mesh</source>
       <translation>Der überhängenden Facetten: das Netz dieses Objekts</translation>
+    </message>
+    <message>
+      <source>Of the layers of cells upon one surface together</source>
+      <translation>Der Lagen von Zellen auf einer Fläche zusammen</translation>
     </message>
     <message>
       <source>Of the part</source>
@@ -917,6 +949,10 @@
       <translation>Dreht das Gitter, nicht den Volumenkörper: um diese Achse, um diesen Winkel, gegen den Uhrzeigersinn, ihr entgegen gesehen</translation>
     </message>
     <message>
+      <source>Two faces between which cells lie, or one upon which they do; each has four sides</source>
+      <translation>Zwei Flächen, zwischen denen Zellen liegen, oder eine, auf der sie liegen; jede hat vier Seiten</translation>
+    </message>
+    <message>
       <source>Use Map Centre</source>
       <translation>Mittelpunkt verwenden</translation>
     </message>
@@ -989,8 +1025,8 @@
       <translation>Wovon die Zahlen sind</translation>
     </message>
     <message>
-      <source>What the lattice consists of: cells, the Voronoi or the Delaunay edges of random points, or the nodes and struts of a file</source>
-      <translation>Woraus das Gitter besteht: Zellen, die Voronoi- oder Delaunay-Kanten zufälliger Punkte, oder die Knoten und Stäbe einer Datei</translation>
+      <source>What the lattice consists of: cells, the Voronoi or the Delaunay edges of random points, the nodes and struts of a file, or layers of cells that follow faces picked in FreeCAD</source>
+      <translation>Woraus das Gitter besteht: aus Zellen, den Voronoi- oder Delaunay-Kanten zufälliger Punkte, den Knoten und Streben einer Datei oder Lagen von Zellen, die in FreeCAD gewählten Flächen folgen</translation>
     </message>
     <message>
       <source>What the part is made of: its density gives the mass, its stiffness goes into solver decks</source>

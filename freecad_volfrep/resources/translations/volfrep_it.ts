@@ -257,6 +257,10 @@
       <translation>Esponenziale</translation>
     </message>
     <message>
+      <source>Faces</source>
+      <translation>Facce</translation>
+    </message>
+    <message>
       <source>Faces in the middle of which holes are drilled</source>
       <translation>Facce nel cui centro si praticano i fori</translation>
     </message>
@@ -321,6 +325,10 @@
       <translation>Come sarà stampato</translation>
     </message>
     <message>
+      <source>How many layers of cells lie upon a surface or between two; 0 for as many as come nearest to the cell size</source>
+      <translation>Quanti strati di celle stanno su una superficie o tra due; 0 per quanti si avvicinano di più alla dimensione della cella</translation>
+    </message>
+    <message>
       <source>How many points lie in the part; 0 for as many as lie a cell size apart</source>
       <translation>Quanti punti stanno nel pezzo; 0 per quanti distano una cella</translation>
     </message>
@@ -383,6 +391,10 @@
     <message>
       <source>Lattice</source>
       <translation>Reticolo</translation>
+    </message>
+    <message>
+      <source>Layers upon one surface lie on its other side, against its normals</source>
+      <translation>Gli strati su una superficie stanno dall'altra parte, contro le sue normali</translation>
     </message>
     <message>
       <source>Length of the longest strut of these</source>
@@ -461,8 +473,16 @@
       <translation>Rete: densità</translation>
     </message>
     <message>
+      <source>Network Faces</source>
+      <translation>Facce della rete</translation>
+    </message>
+    <message>
       <source>Network File</source>
       <translation>Rete: file</translation>
+    </message>
+    <message>
+      <source>Network Layers</source>
+      <translation>Strati della rete</translation>
     </message>
     <message>
       <source>Network Points</source>
@@ -473,6 +493,10 @@
       <translation>Rete: rilassamento</translation>
     </message>
     <message>
+      <source>Network Reversed</source>
+      <translation>Rete invertita</translation>
+    </message>
+    <message>
       <source>Network Seed</source>
       <translation>Rete: seme</translation>
     </message>
@@ -481,12 +505,16 @@
       <translation>Rete: asta minima</translation>
     </message>
     <message>
+      <source>Network Thickness</source>
+      <translation>Spessore della rete</translation>
+    </message>
+    <message>
       <source>Nodes</source>
       <translation>Nodi</translation>
     </message>
     <message>
-      <source>Nodes and struts: .json, .csv, lines of .obj or .vtk, beams of .3mf</source>
-      <translation>Nodi e aste: .json, .csv, linee di .obj o .vtk, travi di .3mf</translation>
+      <source>Nodes and struts: .json, .csv, lines of .obj or .vtk, beams of .3mf; or a mesh (.vtk, .vtu, .inp, .msh, .obj) whose hexahedra the cell is laid into, on whose quadrilaterals layers of it lie, or whose tetrahedra's edges are struts</source>
+      <translation>Nodi e aste: .json, .csv, linee di .obj o .vtk, travi di .3mf; oppure una mesh (.vtk, .vtu, .inp, .msh, .obj) nei cui esaedri si pone la cella, sui cui quadrilateri sta a strati o i cui spigoli dei tetraedri sono aste</translation>
     </message>
     <message>
       <source>Nodes of the lattice before trimming</source>
@@ -499,6 +527,10 @@
     <message>
       <source>Of the facets that hang over: this object's mesh</source>
       <translation>Delle faccette a sbalzo: la mesh di questo oggetto</translation>
+    </message>
+    <message>
+      <source>Of the layers of cells upon one surface together</source>
+      <translation>Di tutti gli strati di celle su una superficie</translation>
     </message>
     <message>
       <source>Of the part</source>
@@ -917,6 +949,10 @@
       <translation>Ruota il reticolo, non il solido: attorno a questo asse, di questo angolo, in senso antiorario visto contro di esso</translation>
     </message>
     <message>
+      <source>Two faces between which cells lie, or one upon which they do; each has four sides</source>
+      <translation>Due facce tra cui stanno le celle, o una su cui stanno; ognuna ha quattro lati</translation>
+    </message>
+    <message>
       <source>Use Map Centre</source>
       <translation>Usa centro</translation>
     </message>
@@ -989,8 +1025,8 @@
       <translation>A che cosa si riferiscono i valori</translation>
     </message>
     <message>
-      <source>What the lattice consists of: cells, the Voronoi or the Delaunay edges of random points, or the nodes and struts of a file</source>
-      <translation>Di che cosa è fatto il reticolo: celle, i lati di Voronoi o di Delaunay di punti casuali, o i nodi e le aste di un file</translation>
+      <source>What the lattice consists of: cells, the Voronoi or the Delaunay edges of random points, the nodes and struts of a file, or layers of cells that follow faces picked in FreeCAD</source>
+      <translation>Di cosa consiste il reticolo: celle, gli spigoli di Voronoi o Delaunay di punti casuali, i nodi e le aste di un file, o strati di celle che seguono facce scelte in FreeCAD</translation>
     </message>
     <message>
       <source>What the part is made of: its density gives the mass, its stiffness goes into solver decks</source>

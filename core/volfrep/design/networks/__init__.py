@@ -1,7 +1,17 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Networks in place of cells: graphs that a user brings, and random ones as they are asked for."""
+"""Networks in place of cells: a user's graphs, cells laid into meshes, and random ones."""
 
 from .files import read_network
+from .laid_cells import laid_along, laid_into, layers_on
 from .wanted import KINDS, GivenNetwork, RandomNetwork, make_network
 
-__all__ = ["KINDS", "GivenNetwork", "RandomNetwork", "make_network", "read_network"]
+__all__ = [
+    "KINDS",
+    "GivenNetwork",
+    "RandomNetwork",
+    "laid_along",
+    "laid_into",
+    "layers_on",
+    "make_network",
+    "read_network",
+]

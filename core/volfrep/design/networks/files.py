@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Networks from files: JSON, CSV, the lines of an OBJ or a VTK file, the beams of a 3MF."""
+"""Networks from files: nodes and struts, lines, beams, and meshes that cells are laid into."""
 
 from __future__ import annotations
 
+import dataclasses
 import itertools
 import json
 import os
+import re
 import zipfile
 from pathlib import Path
 from typing import Any
@@ -15,11 +17,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...util.errors import VolfrepError
+from ..cells import UnitCell
+from ..vtk_files import mesh_of
+from .laid_cells import laid_into, layers_on
 from .wanted import GivenNetwork, make_network
 
 #: A file may not be larger than this, nor what a 3MF unpacks to.
 MAX_BYTES = 200_000_000
-SUFFIXES = (".json", ".csv", ".obj", ".vtk", ".3mf")
+SUFFIXES = (".json", ".csv", ".obj", ".vtk", ".vtu", ".inp", ".msh", ".3mf")
+#: Of these, those that may hold lines as text, and those that meshio reads the elements of.
+LINES, ELEMENTS = (".obj", ".vtk"), (".obj", ".vtk", ".vtu", ".inp", ".msh")
+#: Edges of a tetrahedron.
+_TETRAHEDRON = ((0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3))
 #: Ends of a CSV's lines nearer than this are one node, mm.
 SAME_PLACE = 1e-6
 #: Units of a 3MF in mm.
@@ -29,14 +38,27 @@ _UNITS = {
 }  # fmt: skip
 
 
-def read_network(path: str | os.PathLike[str]) -> GivenNetwork:
+def read_network(
+    path: str | os.PathLike[str],
+    cell: UnitCell | None = None,
+    thickness: float = 0.0,
+    layers: int = 1,
+) -> GivenNetwork:
     """The network of a file, by its extension; lengths are mm (a 3MF says its unit).
 
     - ``.json``: ``{"nodes": [[x, y, z], …], "struts": [[i, j], …], "radii": […]}``; radii for
       each strut, each of its ends, or each node may be left out.
     - ``.csv``: a line a strut: x, y, z of both ends, and then none, one or two radii.
-    - ``.obj``: its lines (``l``). ``.vtk``: the lines of a legacy ASCII file.
+    - ``.obj``, ``.vtk`` (legacy), ``.vtu``, ``.inp`` (Abaqus), ``.msh`` (Gmsh): lines; without
+      them hexahedra, with the cell in each (`laid_into`); without these the edges of tetrahedra;
+      without these quadrilaterals, with layers of the cell upon them (`layers_on`).
     - ``.3mf``: its beam lattice, with the beams' radii.
+
+    Args:
+        path: of the file.
+        cell: for hexahedra and quadrilaterals.
+        thickness: of all layers on quadrilaterals, mm.
+        layers: how many these are.
 
     Raises:
         VolfrepError: naming the file and what is wrong in it.
@@ -54,18 +76,64 @@ def read_network(path: str | os.PathLike[str]) -> GivenNetwork:
         if file.stat().st_size > MAX_BYTES:
             raise VolfrepError(f"The {where} is larger than {MAX_BYTES // 1_000_000} MB.")
         if suffix == ".3mf":
-            found = _beams(file, where)
-        else:
+            return make_network(*_beams(file, where), where, str(file))
+        if suffix not in ELEMENTS or (suffix in LINES and _holds_lines(file)):
             text = file.read_text(encoding="utf-8-sig")
             reader = {".json": _json, ".csv": _csv, ".obj": _obj, ".vtk": _vtk}[suffix]
-            found = reader(text, where)
+            return make_network(*reader(text, where), where, str(file))
+        return _of_elements(file, cell, thickness, layers, where)
     except OSError as error:
         raise VolfrepError(f"Cannot read the {where}: {error.strerror}.") from error
     except VolfrepError:
         raise
     except (ValueError, KeyError, IndexError, TypeError, RecursionError) as error:
         raise VolfrepError(f"The {where} cannot be read: {_said(error)}.") from error
-    return make_network(*found, where, str(file))
+
+
+def _holds_lines(file: Path) -> bool:
+    word = rb"(?mi)^l[ \t]" if file.suffix.lower() == ".obj" else rb"(?mi)^LINES[ \t]"
+    return re.search(word, file.read_bytes()) is not None
+
+
+def _of_elements(
+    file: Path, cell: UnitCell | None, thickness: float, layers: int, where: str
+) -> GivenNetwork:
+    """The network of a mesh: its lines, or what lies in or on its elements."""
+    mesh, points = mesh_of(file, "save the struts as .csv", "a legacy ASCII .vtk")
+
+    def elements(kind: str, corners: int) -> NDArray[np.int64]:
+        """Of second-order ones the corners, which come first."""
+        found = [
+            np.asarray(block.data, np.int64)[:, :corners]
+            for block in mesh.cells
+            if block.type.rstrip("0123456789") == kind
+        ]
+        rows = np.concatenate(found) if found else np.zeros((0, corners), np.int64)
+        if rows.size and not (rows.min() >= 0 and rows.max() < len(points)):
+            raise VolfrepError(f"In the {where}, an element names a point that is not there.")
+        return rows
+
+    source = str(file)
+    lines = elements("line", 2)
+    if len(lines):
+        return make_network(points, lines, (), where, source)
+    boxes, tetrahedra, quads = (
+        elements(*kind) for kind in (("hexahedron", 8), ("tetra", 4), ("quad", 4))
+    )
+    if len(boxes) or (len(quads) and not len(tetrahedra)):
+        if cell is None:
+            raise VolfrepError(f"The {where} holds a mesh to lay cells into: give the cell.")
+        if len(boxes):
+            return laid_into(cell, points, boxes, where, source)
+        made = layers_on(cell, points, quads, thickness, layers, where, source)
+        return dataclasses.replace(made, thickness=thickness, layers=layers)
+    if not len(tetrahedra):
+        raise VolfrepError(
+            f"The {where} holds no lines, hexahedra, tetrahedra or quadrilaterals to make a "
+            "network of."
+        )
+    edges = np.sort(tetrahedra[:, np.array(_TETRAHEDRON)].reshape(-1, 2), axis=1)
+    return make_network(points, np.unique(edges, axis=0), (), where, source)
 
 
 def _said(error: Exception) -> str:

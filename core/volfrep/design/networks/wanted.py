@@ -29,12 +29,16 @@ class GivenNetwork:
         struts: (m, 2) int64, rows of `nodes`.
         radii: (m, 2) float64, of each strut at its ends, mm; none, (0, 2), for the lattice's own.
         source: the file that it was read from; empty for none.
+        thickness: of the layers on the quadrilaterals of that file, mm; 0 for none.
+        layers: how many these are.
     """
 
     nodes: NDArray[np.float64] = field(compare=False)
     struts: NDArray[np.int64] = field(compare=False)
     radii: NDArray[np.float64] = field(compare=False)
     source: str = field(default="", compare=False)
+    thickness: float = field(default=0.0, compare=False)
+    layers: int = field(default=1, compare=False)
     _content: bytes = field(init=False, repr=False)
 
     def __post_init__(self) -> None:

@@ -8,18 +8,43 @@ from .parameter import Need, Parameter
 #: Networks in place of cells: edges between random points, or those of a file.
 RANDOM = ("voronoi", "delaunay")
 _RANDOM = (Need(("network",), RANDOM),)
+#: Cells in layers: on the quadrilaterals of a file, or upon or between faces picked in FreeCAD.
+_LAYERS = (Need(("network",), ("file", "faces")),)
 
 NETWORK = (
     Parameter(
         "network", "choice", "Network",
         "What the lattice consists of: cells, the Voronoi or the Delaunay edges of random points, "
-        "or the nodes and struts of a file",
-        default="cells", choices=("cells", *RANDOM, "file"), of_block=False,
+        "the nodes and struts of a file, or layers of cells that follow faces picked in FreeCAD",
+        default="cells", choices=("cells", *RANDOM, "file", "faces"), of_block=False,
     ),
     Parameter(
         "network_file", "file", "Network",
-        "Nodes and struts: .json, .csv, lines of .obj or .vtk, beams of .3mf",
+        "Nodes and struts: .json, .csv, lines of .obj or .vtk, beams of .3mf; or a mesh (.vtk, "
+        ".vtu, .inp, .msh, .obj) whose hexahedra the cell is laid into, on whose quadrilaterals "
+        "layers of it lie, or whose tetrahedra's edges are struts",
         needs=(Need(("network",), ("file",)),), required=True, of_block=False,
+    ),
+    Parameter(
+        "network_faces", "faces", "Network",
+        "Two faces between which cells lie, or one upon which they do; each has four sides",
+        needs=(Need(("network",), ("faces",)),), in_command=False,
+    ),
+    Parameter(
+        "network_thickness", "length", "Network",
+        "Of the layers of cells upon one surface together",
+        default=0.0, needs=_LAYERS, of_block=False,
+    ),
+    Parameter(
+        "network_layers", "integer", "Network",
+        "How many layers of cells lie upon a surface or between two; 0 for as many as come "
+        "nearest to the cell size",
+        default=0, needs=_LAYERS, of_block=False,
+    ),
+    Parameter(
+        "network_reversed", "flag", "Network",
+        "Layers upon one surface lie on its other side, against its normals",
+        default=False, needs=_LAYERS, of_block=False,
     ),
     Parameter(
         "network_points", "integer", "Network",

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from ...util.errors import VolfrepError
-from ..cells import LIBRARY, UnitCell
+from ..cells import LIBRARY, UnitCell, find_cell
 from ..grading import CellMap, Orientation, RadiusGrading, SizeGrading
 from ..networks import GivenNetwork, RandomNetwork, read_network
 from ..openings import DrainHoles, DrainPlace, OpenPlane
@@ -33,7 +33,8 @@ def specification(values: Mapping[str, Any], say: Naming = in_file) -> LatticeSp
 
     Args:
         values: by the names of the table. `cell` may be a `UnitCell`, and `radius_field` a
-            `PointField`; `open_faces` are those of `LatticeSpec`, beside the planes.
+            `PointField`; `open_faces` are those of `LatticeSpec`, beside the planes;
+            `network_faces` is the network that is laid along them.
         say: how to call a parameter in an error.
 
     Raises:
@@ -161,6 +162,9 @@ def values_of(spec: LatticeSpec) -> dict[str, Any]:
                 "The network has no file that could be named: save it as .json first."
             )
         found["network"], found["network_file"] = "file", spec.network.source
+        found["network_thickness"] = abs(spec.network.thickness)
+        found["network_layers"] = spec.network.layers
+        found["network_reversed"] = spec.network.thickness < 0.0
     elif spec.network is not None:
         found |= {
             name: getattr(spec.network, attribute) for name, attribute in _NETWORK_VALUES.items()
@@ -335,7 +339,22 @@ def _network(used: Mapping[str, Any], say: Naming) -> GivenNetwork | RandomNetwo
     if used["network"] == "file":
         if not used["network_file"]:
             raise VolfrepError(f"{say('network')} file needs {say('network_file')}: give it.")
-        return read_network(used["network_file"])
+        thickness, layers = used["network_thickness"], used["network_layers"]
+        cell = used["cell"]
+        return read_network(
+            used["network_file"],
+            find_cell(cell) if isinstance(cell, str) else cell,
+            -thickness if used["network_reversed"] else thickness,
+            layers or max(1, round(thickness / used["cell_size"])),
+        )
+    if used["network"] == "faces":
+        if used["network_faces"] is None:
+            raise VolfrepError(
+                "Faces for a network to follow are picked in FreeCAD: give a file of hexahedra or "
+                f"of quadrilaterals as {say('network_file')}."
+            )
+        laid: GivenNetwork = used["network_faces"]
+        return laid
     return RandomNetwork(**{key: used[name] for name, key in _NETWORK_VALUES.items()})
 
 

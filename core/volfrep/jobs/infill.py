@@ -142,14 +142,13 @@ class Infill:
     @property
     def cavity(self) -> TriangleMesh:
         """The domain's surface as a file can hold it: float32 takes no triangle of it."""
-        return self._cavity[0]
+        return self._cavity[0].mesh
 
     @cached_property
-    def _cavity(self) -> tuple[TriangleMesh, Quality, tuple[str, ...]]:
+    def _cavity(self) -> tuple[TrimmedSurface, Quality, tuple[str, ...]]:
         wall = TrimmedSurface(self.domain.mesh)
         clean = tidied(wall, shortest_edge(self.solid), self.monitor)
-        clean, quality, notes = finished(clean, measure(clean.mesh), self.monitor, moved=False)
-        return clean.mesh, quality, notes
+        return finished(clean, measure(clean.mesh), self.monitor, moved=False)
 
     @cached_property
     def placement(self) -> Placement:
@@ -211,10 +210,7 @@ class Infill:
     @cached_property
     def cavity_result(self) -> Result:
         """The domain as a mesh, with the figures of the cells and struts that it will hold."""
-        mesh, quality, notes = self._cavity
-        found = self._reported("domain", Cleared(TrimmedSurface(mesh), quality, 0, 0))
-        report = replace(found.report, warnings=found.report.warnings + notes)
-        return Result(found.surface, found.wireframe, report) if notes else found
+        return self._reported("domain", Cleared(*self._cavity[:2], 0, 0))
 
     @cached_property
     def lattice(self) -> Result:
@@ -368,7 +364,9 @@ class Infill:
         domain, pruned, warnings = self.domain, self.pruned, self.warnings
         surface, quality = cleared.surface, cleared.quality
         moved = not keeps_places(self._struts, self.placement)
-        if output != "domain":
+        if output == "domain":
+            warnings += self._cavity[2]
+        else:
             surface, quality, notes = finished(surface, quality, self.monitor, moved)
             warnings += self._notes + notes
         if output == "lattice":

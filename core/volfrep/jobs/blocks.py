@@ -101,7 +101,7 @@ def _meshed(laid: _Laid, spec: LatticeSpec, monitor: Monitor) -> Result:
             removed["pieces_removed"] = cleared.pieces_removed
             removed["specks_removed"] = cleared.specks_removed
         moved = not keeps_places(spec.struts, placement)
-        surface, measured, notes = finished(surface, measured, monitor, moved)
+        surface, measured, notes = finished(surface, measured, monitor, moved, cut=False)
     frame = graded_wireframe(laid.graph, spec.struts, placement)
     report = _report(laid, measured, frame, spec, monitor, removed)
     return Result(surface, frame, told(report, notes))

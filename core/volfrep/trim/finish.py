@@ -61,7 +61,7 @@ def tidied(surface: TrimmedSurface, precision: float, monitor: Monitor) -> Trimm
 
 
 def finished(
-    surface: TrimmedSurface, quality: Quality, monitor: Monitor, moved: bool
+    surface: TrimmedSurface, quality: Quality, monitor: Monitor, moved: bool, cut: bool = True
 ) -> tuple[TrimmedSurface, Quality, tuple[str, ...]]:
     """A surface as it is handed out, its quality that of any file, and sentences for the user.
 
@@ -70,6 +70,7 @@ def finished(
         quality: of it.
         monitor: for progress and cancel.
         moved: whether the octants' vertices are elsewhere than they were meshed.
+        cut: whether a wall has cut them; what is neither needs no look.
 
     Raises:
         VolfrepError: it encloses no volume, runs through itself, or touches itself so that no
@@ -79,17 +80,19 @@ def finished(
     apart = separate_vertices(mesh, edge_within(quality.bounds))
     if apart is not mesh:
         if _reaches_octants(surface, apart):
-            return finished(TrimmedSurface(surface.whole(monitor)), quality, monitor, moved)
+            return finished(TrimmedSurface(surface.whole(monitor)), quality, monitor, moved, cut)
         surface = replace(surface, mesh=apart)
         again = surface.inspected(monitor).found.quality
         if abs(again.volume - quality.volume) > MOST_MOVED * abs(quality.volume):
             raise _finer_than_files(mesh)
         refuse_merging(apart)
         quality = again
-    straight, place = uncrossed(surface.mesh, monitor)
+    straight, place = surface.mesh, None
+    if moved or cut:
+        straight, place = uncrossed(surface.mesh, monitor)
     if straight is not surface.mesh:
         if _reaches_octants(surface, straight):
-            return finished(TrimmedSurface(surface.whole(monitor)), quality, monitor, moved)
+            return finished(TrimmedSurface(surface.whole(monitor)), quality, monitor, moved, cut)
         surface = replace(surface, mesh=straight)
         quality = surface.inspected(monitor).found.quality
     refuse_no_solid(quality)

@@ -20,6 +20,7 @@ Each job is a process of its own with a bound on its time and memory. Exit code 
 from __future__ import annotations
 
 import argparse
+import dataclasses
 import json
 import math
 import os
@@ -36,6 +37,7 @@ import numpy as np
 
 from volfrep import LatticeSpec, VolfrepError
 from volfrep.design.cells import LIBRARY, UnitCell
+from volfrep.design.forecast import forecast_fill
 from volfrep.design.grading import CellMap, Orientation, RadiusGrading, SizeGrading
 from volfrep.design.openings import DrainHoles
 from volfrep.design.profile import Profile
@@ -49,10 +51,14 @@ from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.spatial.piercing import piercing_pairs
 from volfrep.spatial.self_intersection import crossing_triangles
 
+SUFFIXES = (".stl", ".3mf", ".ply", ".obj", ".off")
 SECONDS = 240
 BYTES = 8e9
 #: Lines through the result, and points on each.
-LINES, ON_LINE = 40, 40
+LINES, ON_LINE = 24, 24
+#: A typical job has no more expected triangles, and no more squares of the skin's thickness on its
+#: surface, so that it takes about a second; this share of the jobs has no such bounds.
+EXPECTED_TRIANGLES, EXPECTED_SQUARES, LARGE = 40_000, 4_000.0, 0.05
 #: Points nearer than this to a surface are not judged: to a strut's, in radii; to a wall, in
 #: thicknesses of the skin; and so much of the judged ones may be wrong.
 NEAR_STRUT, NEAR_WALL, WRONG = 0.25, 0.1, 0.01
@@ -134,12 +140,16 @@ def random_cell(rng: np.random.Generator) -> str | UnitCell:
 def random_spec(rng: np.random.Generator, solid: TriangleMesh) -> LatticeSpec:
     """What to fill it with; sizes that suit it more or less."""
     size = float(np.ptp(solid.bounds, axis=0).max())
-    length = size / rng.uniform(2.5, 8.0)
+    large = rng.random() < LARGE
+    length = size / rng.uniform(1.5, 8.0 if large else 5.0)
     radius = length * rng.uniform(0.04, 0.2)
+    shell = size * 10.0 ** rng.uniform(-2.0, -0.9)
+    if not large:
+        shell = max(shell, math.sqrt(solid.area / EXPECTED_SQUARES))
     made: dict[str, Any] = {
         "cell": random_cell(rng), "cell_size": length, "strut_radius": radius,
-        "shell": 0.0 if rng.random() < 0.3 else size * 10.0 ** rng.uniform(-2.0, -1.2),
-        "activation": str(rng.choice(["touching", "touching", "touching", "centre", "inside"])),
+        "shell": 0.0 if rng.random() < 0.3 else shell,
+        "activation": str(rng.choice(["touching"] * 8 + ["centre", "inside"])),
         "boundary": str(rng.choice(["trim", "trim", "whole"])),
         "output": str(rng.choice(["part", "part", "part", "lattice", "domain"])),
         "remove_dangling": bool(rng.random() < 0.2), "keep_pieces": bool(rng.random() < 0.15),
@@ -169,7 +179,19 @@ def random_spec(rng: np.random.Generator, solid: TriangleMesh) -> LatticeSpec:
         made["orientation"] = Orientation(axis, float(rng.uniform(0, 90)))
     if made["shell"] and made["output"] == "part" and rng.random() < 0.1:
         made["drains"] = DrainHoles(made["shell"] * rng.uniform(0.5, 2.0), count=1)
-    return LatticeSpec(**made)
+    spec = LatticeSpec(**made)
+    if large:
+        return spec
+    excess = forecast_fill(solid, spec).triangles / EXPECTED_TRIANGLES
+    if excess <= 1.0:
+        return spec
+    # Fewer cells of the same shape; where facets have a size of their own, that grows as well.
+    grown = math.sqrt(excess) if "deviation" in made else np.cbrt(excess)
+    return dataclasses.replace(spec, **{
+        name: made[name] * grown
+        for name in ("cell_size", "strut_radius", "deviation", "fillet", "shortest_stub")
+        if name in made
+    })  # fmt: skip
 
 
 # --- judged by distances of our own ---------------------------------------------------------------
@@ -324,7 +346,7 @@ def run_job(seed: int, number: int) -> dict[str, Any]:
         return told | {"refused": sentence, "fault": "a strange refusal" if bad else ""}
     report, faults = result.report, []
     with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / f"part{rng.choice(['.stl', '.3mf', '.ply', '.obj', '.off'])}"
+        path = Path(folder) / f"part{rng.choice(SUFFIXES)}"
         write_mesh(result.mesh, path, figures=report.figures)
         mesh = as_read(read_triangles(path))
         told["file"] = path.suffix
@@ -378,6 +400,16 @@ def in_a_process(seed: int, number: int) -> dict[str, Any]:
     return {"job": number, "fault": f"the process ended with signal {status & 127}"}
 
 
+def _import_all() -> None:
+    """Import what jobs use, once and not in each one's process."""
+    raw = manifold3d.Manifold.cube((1.0, 1.0, 1.0)).to_mesh64()
+    cube = TriangleMesh(np.asarray(raw.vert_properties, float)[:, :3], np.asarray(raw.tri_verts))
+    with tempfile.TemporaryDirectory() as folder:
+        for suffix in SUFFIXES:
+            write_mesh(cube, Path(folder) / f"cube{suffix}")
+            read_triangles(Path(folder) / f"cube{suffix}")
+
+
 def main() -> int:
     """Run jobs for so many minutes; tell faults as they come, and counts at the end."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
@@ -391,6 +423,7 @@ def main() -> int:
         print(json.dumps(run_job(seed, options.job), indent=1, default=str))
         return 0
     print(f"seed {seed}", flush=True)
+    _import_all()
     end = time.monotonic() + 60.0 * options.minutes
     number, made, refused, faults, judged, shallow = options.first, 0, 0, 0, 0, 0
     while time.monotonic() < end:

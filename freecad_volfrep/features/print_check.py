@@ -36,6 +36,7 @@ PROPERTIES = (
     result("App::PropertyString", "Limits", "Of the process, and their source"),
     result("App::PropertyFloat", "ThinnestStrut", "Smallest diameter of a strut, mm"),
     result("App::PropertyString", "NarrowestGap", "Between struts that do not meet, mm"),
+    result("App::PropertyString", "LargestBall", "That gets out of the lattice, mm; for powder"),
     result("App::PropertyPercent", "OverhangShare", "Of the struts' length, too flat"),
     result("App::PropertyLength", "LongestOverhang", "Length of the longest strut of these"),
     result("App::PropertyArea", "OverhangArea", "Of the facets that hang over: this object's mesh"),
@@ -110,6 +111,7 @@ class PrintCheck:
         from volfrep.apart.engine_process import Call
         from volfrep.jobs.beam_part import struts_and_cavity
         from volfrep.mesh.triangle_mesh import TriangleMesh, compact
+        from volfrep.reports.passage import ball_of
         from volfrep.reports.printability import overhanging_facets, print_report, unit_direction
         from volfrep.reports.processes import find_process
 
@@ -130,6 +132,7 @@ class PrintCheck:
             build_direction=direction,
             density=spec.density,
             domain=placed(cavity, place),
+            ball_mm=ball_of(spec),
         )
         hanging = overhanging_facets(mesh, unit_direction(direction), process.inclination)
         obj.Mesh = to_freecad(compact(TriangleMesh(mesh.vertices, mesh.triangles[hanging])))
@@ -189,6 +192,7 @@ def _write_results(obj: App.DocumentObject, report: PrintReport) -> None:
     )
     obj.ThinnestStrut = report.thinnest_strut_mm or 0.0
     obj.NarrowestGap = rows["narrowest gap"]
+    obj.LargestBall = rows.get("largest ball that gets out", "differs from cell to cell")
     obj.OverhangShare = round(100 * report.overhanging_share)
     obj.LongestOverhang = report.longest_overhang_mm
     obj.OverhangArea = report.overhang_area_mm2

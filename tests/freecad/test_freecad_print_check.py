@@ -9,6 +9,8 @@ import pytest
 from conftest import SMALL
 from freecad_volfrep import make_lattice_infill, make_print_check
 from freecad_volfrep.features.quantities import mass_of
+from volfrep.design.cells import find_cell
+from volfrep.reports.passage import largest_ball
 from volfrep.util.errors import VolfrepError
 
 
@@ -40,12 +42,22 @@ def test_figures(infill, check):
     assert report["process"]["name"] == check.Process == "FFF"
     assert check.ThinnestStrut == pytest.approx(2.0)
     assert mass_of(check) == pytest.approx(mass_of(infill), rel=1e-4)
+    ball = SMALL["CellSize"] * largest_ball(find_cell("CVC"), 0.1)
+    assert report["largest_ball_mm"] == pytest.approx(ball)
+    assert check.LargestBall == f"{ball:.3g} mm"
     assert check.OverhangShare == 100  # the struts of CVC rise at 35 degrees
     assert check.Voids == 1
     assert check.VoidVolume.Value == pytest.approx(12000 - infill.Volume.Value, rel=1e-4)
     assert len(check.Findings) == 1
     assert "45 degrees" in check.Findings[0]
     assert "Hubs" in check.Limits
+
+
+def test_a_graded_lattice_has_no_largest_ball(doc, infill, check):
+    infill.CellMap = "Spherical"
+    doc.recompute()
+    assert check.isValid(), check.getStatusString()
+    assert check.LargestBall == "differs from cell to cell"
 
 
 def test_another_process_and_direction(doc, check):

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..util.errors import VolfrepError
-from ..util.linalg import along, rotation
+from ..util.linalg import along, rotation, times
 from ..util.numbers import direction, number, point, whole
 from ..util.types import Floats
 from .profile import Profile
@@ -154,6 +154,24 @@ class CellMap:
         as_tuples(self, "axis", "centre")
         if self.around is not None:
             whole("number of cells around", self.around, LEAST_AROUND, MOST_AROUND)
+
+    def cells_around(self, cell_size: float, bounds: Floats, centre: Floats, frame: Floats) -> int:
+        """`around`, or as many as are L wide half-way from the axis to the farthest corner.
+
+        Args:
+            cell_size: L, mm.
+            bounds: (2, 3) box of the part, mm.
+            centre: (3,) where the axis or the centre lies, mm.
+            frame: (3, 3) the map's axes as columns; the last one is the axis.
+        """
+        if self.around is not None:
+            return self.around
+        corners = np.stack(np.meshgrid(*bounds.T), axis=-1).reshape(-1, 3)
+        local = times(corners - centre, frame)
+        count = 2 if self.kind == "cylindrical" else 3
+        outermost = float(np.linalg.norm(local[:, :count], axis=1).max())
+        wanted = round(2.0 * np.pi * 0.5 * outermost / cell_size)
+        return int(np.clip(wanted, LEAST_AROUND, MOST_AROUND))
 
 
 @dataclass(frozen=True)

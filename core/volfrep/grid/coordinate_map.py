@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..design.grading import LEAST_AROUND, MOST_AROUND, CellMap, Orientation, SizeGrading
+from ..design.grading import CellMap, Orientation, SizeGrading
 from ..design.profile import Profile
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.errors import VolfrepError
@@ -334,7 +334,7 @@ def lattice_map(
     kind = "cartesian" if cells is None else cells.kind
     around = 0
     if cells is not None:
-        around = cells.around or _cells_around(cells.kind, cell_size, bounds, centre, frame)
+        around = cells.cells_around(cell_size, bounds, centre, frame)
     base = Base(kind, centre, frame, around, cell_size)
     if size is None:
         return CoordinateMap(base)
@@ -343,14 +343,3 @@ def lattice_map(
         box = mapped_box(base.to_part, bounds)
         return CoordinateMap(base, block_stretch(direction, size.profile, box))
     return CoordinateMap(base, part_stretch(direction, size.profile, bounds, cell_size))
-
-
-def _cells_around(
-    kind: str, cell_size: float, bounds: Floats, centre: Floats, frame: Floats
-) -> int:
-    """So many cells that they are L wide half-way between the nearest and the farthest corner."""
-    corners = np.stack(np.meshgrid(*bounds.T), axis=-1).reshape(-1, 3)
-    local = times(corners - centre, frame)
-    count = 2 if kind == "cylindrical" else 3
-    outermost = float(np.linalg.norm(local[:, :count], axis=1).max())
-    return int(np.clip(round(2.0 * np.pi * 0.5 * outermost / cell_size), LEAST_AROUND, MOST_AROUND))

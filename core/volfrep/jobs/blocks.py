@@ -116,7 +116,8 @@ def _meshed(laid: _Laid, spec: LatticeSpec, monitor: Monitor) -> Result:
             surface, measured = cleared.surface, cleared.quality
             removed["pieces_removed"] += cleared.pieces_removed
             removed["specks_removed"] = cleared.specks_removed
-        surface, measured, notes = finished(surface, measured, monitor, _is_moved(spec, placement))
+        moved = _is_moved(spec, placement)
+        surface, measured, notes = finished(surface, measured, monitor, moved, cut=False)
     frame = _frame(laid, spec)
     report = _report(laid, measured, frame, spec, monitor, removed)
     return Result(surface, frame, told(report, notes))

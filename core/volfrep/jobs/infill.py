@@ -136,14 +136,13 @@ class Infill:
     @property
     def cavity(self) -> TriangleMesh:
         """The domain's surface as a file can hold it: float32 takes no triangle of it."""
-        return self._cavity[0]
+        return self._cavity[0].mesh
 
     @cached_property
-    def _cavity(self) -> tuple[TriangleMesh, Quality]:
+    def _cavity(self) -> tuple[TrimmedSurface, Quality, tuple[str, ...]]:
         wall = TrimmedSurface(self.domain.mesh)
         clean = tidied(wall, shortest_edge(self.solid), self.monitor)
-        clean, quality, _ = finished(clean, measure(clean.mesh), self.monitor, moved=False)
-        return clean.mesh, quality
+        return finished(clean, measure(clean.mesh), self.monitor, moved=False)
 
     @cached_property
     def placement(self) -> Placement:
@@ -210,8 +209,7 @@ class Infill:
     @cached_property
     def cavity_result(self) -> Result:
         """The domain as a mesh, with the figures of the cells and struts that it will hold."""
-        mesh, quality = self._cavity
-        return self._reported("domain", Cleared(TrimmedSurface(mesh), quality, 0, 0))
+        return self._reported("domain", Cleared(*self._cavity[:2], 0, 0))
 
     @cached_property
     def lattice(self) -> Result:
@@ -363,7 +361,9 @@ class Infill:
         """A mesh with the figures of what it is and of how it was made."""
         domain, pruned, warnings = self.domain, self.pruned, self.warnings
         surface, quality, moved = cleared.surface, cleared.quality, not self._keeps_places
-        if output != "domain":
+        if output == "domain":
+            warnings += self._cavity[2]
+        else:
             with self.monitor.stage("check", 1.0, 1.0):
                 surface, quality, notes = finished(surface, quality, self.monitor, moved)
             warnings += self._notes + notes

@@ -47,14 +47,14 @@ def largest_ball(cell: UnitCell, ratio: float) -> float:
 
 
 def ball_of(spec: LatticeSpec) -> float | None:
-    """The same of what was asked for, mm; None of a graded lattice, whose windows all differ.
+    """The same of what was asked for, mm; None where windows all differ: graded, or a network.
 
     None of walls, too, whose windows are not looked for.
 
     A fillet makes windows narrower still.
     """
-    graded = (spec.size_grading, spec.radius_grading, spec.cell_map)
-    if any(part is not None for part in (*graded, spec.surface)):
+    differing = (spec.size_grading, spec.radius_grading, spec.cell_map, spec.network, spec.surface)
+    if any(part is not None for part in differing):
         return None
     size = spec.cell_size
     return max(largest_ball(spec.unit_cell(), spec.strut_radius / size) * size, 0.0)

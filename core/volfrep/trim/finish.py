@@ -2,8 +2,8 @@
 """What may leave the engine: a solid that every file holds as it is, and figures that are its own.
 
 Octants are proved not to run through themselves when they are meshed (`octant_mesh`), and
-the Boolean hands out what does not; `tidied` looks at what it changes after that, and `finished`
-sends lines through what was moved since.
+the Boolean hands out what does not; `tidied` looks at what it changes after that. `finished` draws
+apart what would cross in a file, and sends lines through what was moved.
 """
 
 from __future__ import annotations
@@ -21,8 +21,10 @@ from ..mesh.float32_repair import (
 from ..mesh.quality import Quality
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.self_intersection import crossing_near
+from ..spatial.uncrossing import uncrossed
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
+from ..util.types import Floats
 from .trimmed_surface import TrimmedSurface
 
 #: Lines see no crossing where less than this part of the volume is not enclosed once: rounding.
@@ -59,7 +61,7 @@ def tidied(surface: TrimmedSurface, precision: float, monitor: Monitor) -> Trimm
 
 
 def finished(
-    surface: TrimmedSurface, quality: Quality, monitor: Monitor, moved: bool
+    surface: TrimmedSurface, quality: Quality, monitor: Monitor, moved: bool, cut: bool = True
 ) -> tuple[TrimmedSurface, Quality, tuple[str, ...]]:
     """A surface as it is handed out, its quality that of any file, and sentences for the user.
 
@@ -68,6 +70,7 @@ def finished(
         quality: of it.
         monitor: for progress and cancel.
         moved: whether the octants' vertices are elsewhere than they were meshed.
+        cut: whether a wall has cut them; what is neither needs no look.
 
     Raises:
         VolfrepError: it encloses no volume, runs through itself, or touches itself so that no
@@ -76,27 +79,32 @@ def finished(
     mesh = surface.mesh
     apart = separate_vertices(mesh, edge_within(quality.bounds))
     if apart is not mesh:
-        if surface.octants is not None:
-            moved_rows = (apart.vertices != mesh.vertices).any(axis=1)
-            about = apart.triangles[moved_rows[apart.triangles].any(axis=1)]
-            if surface.octants.reached(apart.vertices[about]).any():
-                whole = TrimmedSurface(surface.whole(monitor))
-                return finished(whole, quality, monitor, moved)
+        if _reaches_octants(surface, apart):
+            return finished(TrimmedSurface(surface.whole(monitor)), quality, monitor, moved, cut)
         surface = replace(surface, mesh=apart)
         again = surface.inspected(monitor).found.quality
         if abs(again.volume - quality.volume) > MOST_MOVED * abs(quality.volume):
             raise _finer_than_files(mesh)
         refuse_merging(apart)
         quality = again
+    straight, place = surface.mesh, None
+    if moved or cut:
+        straight, place = uncrossed(surface.mesh, monitor)
+    if straight is not surface.mesh:
+        if _reaches_octants(surface, straight):
+            return finished(TrimmedSurface(surface.whole(monitor)), quality, monitor, moved, cut)
+        surface = replace(surface, mesh=straight)
+        quality = surface.inspected(monitor).found.quality
     refuse_no_solid(quality)
+    told = () if place is None else (_touching(place),)
     if not moved:
-        return surface, quality, ()
+        return surface, quality, told
     from ..spatial.winding import windings  # of no use to most lattices
 
     met = monitor.call(lambda: windings(surface.whole(monitor)))
     share = met.odd / quality.volume
     if met.place is None or share <= ROUNDING:
-        return surface, quality, ()
+        return surface, quality, told
     x, y, z = met.place
     where = (
         f"There is so little room about ({x:.4g}, {y:.4g}, {z:.4g}) that facets run through each "
@@ -105,7 +113,16 @@ def finished(
     advice = "make it thinner or let the cells be larger there"
     if share > MOST_CROSSED:
         raise VolfrepError(f"{where}, {advice}.")
-    return surface, quality, (f"{where}; {advice} if that matters.",)
+    return surface, quality, (*told, f"{where}; {advice} if that matters.")
+
+
+def _reaches_octants(surface: TrimmedSurface, mesh: TriangleMesh) -> bool:
+    """Whether vertices that were moved in its mesh have triangles in the octants beside it."""
+    if surface.octants is None:
+        return False
+    moved = (mesh.vertices != surface.mesh.vertices).any(axis=1)
+    about = mesh.triangles[moved[mesh.triangles].any(axis=1)]
+    return bool(surface.octants.reached(mesh.vertices[about]).any())
 
 
 def pieces_told(
@@ -133,6 +150,14 @@ def pieces_told(
             "part's skin holds them together."
         )
     return tuple(sentences)
+
+
+def _touching(place: Floats) -> str:
+    x, y, z = place
+    return (
+        f"Near ({x:.4g}, {y:.4g}, {z:.4g}) two sides of the surface lie so close together that "
+        "facets run through each other."
+    )
 
 
 def _finer_than_files(mesh: TriangleMesh) -> VolfrepError:

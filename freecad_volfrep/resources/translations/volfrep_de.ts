@@ -393,6 +393,10 @@
       <translation>Lambda am Anfang</translation>
     </message>
     <message>
+      <source>Largest Ball</source>
+      <translation>Größte Kugel</translation>
+    </message>
+    <message>
       <source>Lattice</source>
       <translation>Gitter</translation>
     </message>
@@ -887,6 +891,10 @@
     <message>
       <source>Text</source>
       <translation>Text</translation>
+    </message>
+    <message>
+      <source>That gets out of the lattice, mm; for powder</source>
+      <translation>Die aus dem Gitter herauskommt, mm; für Pulver</translation>
     </message>
     <message>
       <source>The .json file of your own unit cell (nodes and struts), for the cell type Custom</source>

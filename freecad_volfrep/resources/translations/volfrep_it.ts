@@ -393,6 +393,10 @@
       <translation>Lambda all'inizio</translation>
     </message>
     <message>
+      <source>Largest Ball</source>
+      <translation>Sfera più grande</translation>
+    </message>
+    <message>
       <source>Lattice</source>
       <translation>Reticolo</translation>
     </message>
@@ -887,6 +891,10 @@
     <message>
       <source>Text</source>
       <translation>Testo</translation>
+    </message>
+    <message>
+      <source>That gets out of the lattice, mm; for powder</source>
+      <translation>Che esce dal reticolo, mm; per la polvere</translation>
     </message>
     <message>
       <source>The .json file of your own unit cell (nodes and struts), for the cell type Custom</source>

@@ -1,11 +1,16 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The largest ball that gets out of a lattice, against windows in closed form."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from volfrep.design.cells import UnitCell, find_cell
-from volfrep.reports.passage import largest_ball
+from volfrep.design.grading import CellMap
+from volfrep.design.networks import RandomNetwork
+from volfrep.design.spec import LatticeSpec
+from volfrep.reports.passage import ball_of, largest_ball
 
 #: Radii of the circles within the windows' axes, in units of L: a square of L, a triangle of
 #: L / sqrt(2) (the Octet's and the FCC's faces are halved by their diagonals).
@@ -36,3 +41,12 @@ def test_nothing_passes_a_wall_of_struts():
     rows = [(36 * k + 6 * i + j, 36 * k + 6 * i + j + 1)
             for k in range(3) for i in range(6) for j in range(5)]  # fmt: skip
     assert largest_ball(UnitCell("Shut", shut, rows), 0.12) == 0.0
+
+
+def test_of_windows_that_differ_nothing_is_told():
+    equal = LatticeSpec("Box", 10.0, 1.0)
+    assert ball_of(equal) == pytest.approx(8.0)
+    graded = replace(equal, cell_map=CellMap("spherical"))
+    network = replace(equal, network=RandomNetwork(points=20))
+    assert ball_of(graded) is None
+    assert ball_of(network) is None

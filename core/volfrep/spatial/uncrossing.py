@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Facets that run through each other once a file has rounded them, drawn apart.
+
+Where a wall grazes a strut two sheets of a surface enclose a wedge that is as thin as the steps of
+single precision, and where struts have next to no room between them facets fold over. Both have an
+edge at which the surface turns back: only there, and in the triangles next to it, is looked.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+
+from ..mesh.precision import decimal_step, rounded
+from ..mesh.triangle_mesh import TriangleMesh
+from ..util.progress import Monitor
+from ..util.types import Bools, Floats, Ints
+from .piercing import piercing_pairs
+
+#: The surface turns back at an edge where the cosine between its normals is below this.
+TURNS_BACK = -0.9
+#: Vertices of crossing triangles move by so much of the way to the middle of their neighbours, one
+#: share after the other.
+SHARES = (1e-4, 1e-3, 1e-3, 1e-3, 0.01, 0.01, 0.03, 0.03, 0.1, 0.1, 0.2, 0.2, 0.3, 0.3, 0.5, 0.1,
+          0.5, 0.3, 0.5, 0.3)  # fmt: skip
+#: So many rings of triangles round those that cross move, at most.
+MOST_RINGS = 3
+
+
+def uncrossed(mesh: TriangleMesh, monitor: Monitor) -> tuple[TriangleMesh, Floats | None]:
+    """The mesh with no triangles that cross where its surface turns back, as far as that goes.
+
+    Vertices of triangles that cross move a little towards the middle of their neighbours, or
+    anywhere, in turn. A move that leaves more crossings than before is taken back.
+
+    Args:
+        mesh: closed, or open where nothing turns back.
+        monitor: asked for a cancel.
+
+    Returns:
+        The mesh, the same one where nothing crosses; and (3,) where triangles still do, mm.
+    """
+    among = turning_back(mesh)
+    pairs, rings = _crossing(mesh, among, monitor), 0
+    random = np.random.default_rng(0)
+    for turn, share in enumerate(SHARES):
+        if not len(pairs):
+            break
+        monitor.tick()
+        chosen = np.zeros(len(mesh.vertices), bool)
+        chosen[mesh.triangles[pairs]] = True
+        for _ in range(rings):
+            chosen[mesh.triangles[chosen[mesh.triangles].any(axis=1)]] = True
+        near = chosen[mesh.triangles].any(axis=1)
+        rows = np.flatnonzero(chosen)
+        way = _to_neighbours(mesh, rows, mesh.triangles[near])
+        if turn % 2:
+            way = random.normal(size=way.shape) * np.linalg.norm(way, axis=1)[:, None]
+        vertices = mesh.vertices.copy()
+        vertices[rows] += share * way
+        moved = TriangleMesh(vertices, mesh.triangles)
+        left = _crossing(moved, among | near, monitor)
+        if len(left):  # each place by itself: what got worse there goes back
+            worse = _got_worse(mesh, chosen, pairs, left)[rows]
+            vertices[rows[worse]] = mesh.vertices[rows[worse]]
+            moved = TriangleMesh(vertices, mesh.triangles)
+            left = _crossing(moved, among | near, monitor)
+        if len(left) <= len(pairs):
+            mesh, pairs, among = moved, left, among | near
+        elif not turn % 2:
+            rings = min(rings + 1, MOST_RINGS)
+    if not len(pairs):
+        return mesh, None
+    return mesh, mesh.vertices[mesh.triangles[pairs[0, 0]]].mean(axis=0)
+
+
+def turning_back(mesh: TriangleMesh) -> Bools:
+    """(m,) the triangles that have a corner at an edge where the surface turns back on itself."""
+    t = mesh.triangles.astype(np.int64)
+    a, b, c = mesh.corners()
+    normal = np.cross(b - a, c - a)
+    normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+    start, end = t.ravel(), np.roll(t, -1, axis=1).ravel()
+    count = np.int64(len(mesh.vertices))
+    low, high = np.minimum(start, end), np.maximum(start, end)
+    edge = low * count + high
+    order = np.argsort(edge)
+    same = edge[order[1:]] == edge[order[:-1]]
+    one, two = order[:-1][same], order[1:][same]
+    turned = np.einsum("ij,ij->i", normal[one // 3], normal[two // 3]) < TURNS_BACK
+    near = np.zeros(len(mesh.vertices), bool)
+    near[t[one[turned] // 3]] = True
+    near[t[two[turned] // 3]] = True
+    return np.asarray(near[mesh.triangles].any(axis=1), np.bool_)
+
+
+def _crossing(mesh: TriangleMesh, among: Bools, monitor: Monitor) -> Ints:
+    """(k, 2) triangles, chosen or beside such, that cross in a binary file or in one of text."""
+    near = np.zeros(len(mesh.vertices), bool)
+    near[mesh.triangles[among]] = True
+    rows = np.flatnonzero(near[mesh.triangles].any(axis=1))
+    if not len(rows):
+        return np.zeros((0, 2), np.int64)
+    step = decimal_step(mesh.vertices)
+    found = [
+        piercing_pairs(TriangleMesh(vertices, mesh.triangles[rows]), monitor)
+        for vertices in (_single(mesh.vertices), _single(rounded(mesh.vertices, step)))
+    ]
+    pairs: Ints = np.unique(rows[np.concatenate(found)], axis=0)
+    return pairs
+
+
+def _single(vertices: Floats) -> Floats:
+    return vertices.astype(np.float32).astype(np.float64)
+
+
+def _got_worse(mesh: TriangleMesh, chosen: Bools, before: Ints, after: Ints) -> Bools:
+    """(n,) the chosen vertices of places where more triangles cross than before."""
+    t, size = mesh.triangles, len(mesh.vertices)
+    start, end = t.ravel(), np.roll(t, -1, axis=1).ravel()
+    both = chosen[start] & chosen[end]
+    pairs = (start[both], end[both])
+    graph = coo_matrix((np.ones(len(pairs[0]), np.int8), pairs), shape=(size, size))
+    count, place = connected_components(graph, directed=False)
+    crossing = []
+    for found in (before, after):
+        corners = t[found].reshape(len(found), 6)
+        where = np.where(chosen[corners], place[corners], -1).max(axis=1)
+        crossing.append(np.bincount(where[where >= 0], minlength=count))
+    return np.asarray(chosen & (crossing[1] > crossing[0])[place], np.bool_)
+
+
+def _to_neighbours(mesh: TriangleMesh, rows: Ints, near: Ints) -> Floats:
+    """(k, 3) the way from vertices, whose triangles are `near`, to their neighbours' middle."""
+    size = len(mesh.vertices)
+    here = np.tile(near.ravel(), 2)
+    there = np.concatenate([np.roll(near, -1, axis=1).ravel(), np.roll(near, 1, axis=1).ravel()])
+    degree = np.maximum(np.bincount(here, minlength=size)[rows], 1)
+    middle = np.stack(
+        [np.bincount(here, mesh.vertices[there, k], minlength=size)[rows] for k in range(3)], axis=1
+    )
+    result: Floats = middle / degree[:, None] - mesh.vertices[rows]
+    return result

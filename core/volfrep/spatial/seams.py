@@ -137,7 +137,7 @@ def _near_pairs(first: TriangleMesh, second: TriangleMesh) -> tuple[Ints, Ints]:
         middle = np.stack([column[runs] for column in middle], axis=1)
         for k in range(0, len(run), PAIRS_PER_STEP):
             r, f = run[k : k + PAIRS_PER_STEP], facet[k : k + PAIRS_PER_STEP]
-            above = np.matmul(normal[f, None], middle[r])[:, 0] - offset[f, None]
+            above = np.einsum("ij,ijk->ik", normal[f], middle[r]) - offset[f, None]
             row, place = np.divmod(np.flatnonzero(np.abs(above) <= reach[r]), RUN)
             r, two = r[row], f[row]
             one = runs[r, place]

@@ -81,11 +81,11 @@ def _balanced(surface: Surface, field: Distances) -> Surface:
     normal = remesh.normals(corners)
     area = 0.5 * np.linalg.norm(normal, axis=1)
     inner = ~surface.pinned.any(axis=1)
-    swept = float(area @ inner[surface.triangles].sum(axis=1)) / 3.0
+    swept = float((area * inner[surface.triangles].sum(axis=1)).sum()) / 3.0
     if swept <= 0.0:
         return surface
     limit = BALANCE_REACH * surface.edge
-    missed = float(area @ value.reshape(len(area), -1).mean(axis=1))
+    missed = float((area * value.reshape(len(area), -1).mean(axis=1)).sum())
     amount = float(np.clip(-missed / swept, -limit, limit))
     summed = np.zeros_like(surface.vertices)
     for corner in range(3):

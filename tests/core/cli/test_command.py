@@ -195,7 +195,7 @@ def inputs_and_outputs() -> Iterator[tuple[str, str, str]]:
     for command in ("fill", "block", "size"):
         is_size = command == "size"
         reads = set(run_options.INPUTS) - ({"material"} if is_size else {"loads"})
-        writes = set(run_options.OUTPUTS) - ({"json"} if is_size else {"json", "radii"})
+        writes = set(run_options.OUTPUTS) - ({"json"} if is_size else {"json", "radii", "plot"})
         for source in sorted(reads - ({"part", "network_file"} if command == "block" else set())):
             yield from ((command, source, output) for output in sorted(writes))
 
@@ -240,6 +240,7 @@ def test_no_output_is_an_input(
     arguments += ["--picture", outputs["picture"]]
     if command == "size":
         arguments += ["--loads", files["loads"], "--radii", outputs["radii"]]
+        arguments += ["--plot", outputs["plot"]]
     else:
         arguments += ["--material", files["material"]]
     arguments += ["--strut-radius", 1, "--radius-grading", "field"]

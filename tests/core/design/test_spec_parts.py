@@ -87,6 +87,8 @@ OTHERS = [
             "name": "mine",
             "nodes": LIBRARY["BCC"].nodes * 0.5,
             "struts": LIBRARY["BCC"].struts[:, ::-1],
+            "edges": (1.0, 1.0, 2.0),
+            "widths": np.full(20, 0.5),
         },
     ),
     (

@@ -49,14 +49,6 @@ def without_crossings(mesh: TriangleMesh, known: Judged, thickness: float) -> Tr
     return best
 
 
-def longest_crossing(known: Judged) -> float:
-    """How far two triangles of a mesh run along each other where they cross, at most, mm."""
-    if not len(known.edge_of):
-        return 0.0
-    low, high = _boxes(known, 0.0)
-    return float((high - low).max(initial=0.0))
-
-
 def _boxes(known: Judged, reach: float) -> tuple[Floats, Floats]:
     """(k, 3) lowest and highest corners of boxes, each about the points of a pair of triangles."""
     pairs = np.sort(np.stack([known.edge_of, known.through], axis=1), axis=1)

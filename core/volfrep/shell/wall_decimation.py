@@ -15,7 +15,7 @@ from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.self_intersection import crossing_triangles
 from ..util.types import Bools, Floats
 from .adaptive_contour import Wall
-from .crossing_plugs import CROSSING_DEPTH, longest_crossing, without_crossings
+from .crossing_plugs import CROSSING_DEPTH, without_crossings
 from .dual_contouring import Facets, fan_edges, fanned
 from .sampled_depth import DepthField
 from .wall_crossings import NOTHING_JUDGED, judged
@@ -28,8 +28,6 @@ LOCKED_FARTHEST = 0.8
 LOCKED_AROUND = 0.1
 #: So often the wall is simplified, each time with less where it crossed itself.
 TRIES = 4
-#: Crossings no longer than this (thicknesses) are filled without another try.
-SHORT = 0.03
 #: Rounds of false position on an edge that is crossed.
 SECANTS = 5
 
@@ -38,8 +36,8 @@ def simplified(wall: Wall, field: DepthField) -> TriangleMesh:
     """The wall with fewer facets, none of which run through each other.
 
     Where they would cross they stay as they were found; where those cross as well they are
-    replaced by fans. That is tried `TRIES` times, or until what crosses is `SHORT`: it lies where
-    the room between two walls ends, and is filled with small boxes.
+    replaced by fans. That is tried `TRIES` times. What crosses even then lies where the room
+    between two walls ends, and is filled with small boxes.
     """
     call, thickness = field.depth.monitor.call, field.depth.thickness
     tolerance = TOLERANCE * thickness
@@ -56,8 +54,7 @@ def simplified(wall: Wall, field: DepthField) -> TriangleMesh:
         crossed = known.crossed
         if crossed.sum() < fewest:
             best, best_known, fewest = simple, known, int(crossed.sum())
-        short = longest_crossing(known) <= SHORT * thickness
-        if short or done == TRIES - 1:
+        if not fewest or done == TRIES - 1:
             break
         balls = np.concatenate([balls, _balls(simple, crossed, thickness)])
         near = call(partial(_within, facets.mesh, balls))

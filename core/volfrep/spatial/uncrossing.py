@@ -24,6 +24,9 @@ TURNS_BACK = -0.9
 #: share after the other.
 SHARES = (1e-4, 1e-3, 1e-3, 1e-3, 0.01, 0.01, 0.03, 0.03, 0.1, 0.1, 0.2, 0.2, 0.3, 0.3, 0.5, 0.1,
           0.5, 0.3, 0.5, 0.3)  # fmt: skip
+#: Places that cross are looked at with what lies nearer than so many of their triangles' edges;
+#: more places than these with everything.
+REACH, MOST_PLACES = 4.0, 200
 #: So many rings of triangles round those that cross move, at most.
 MOST_RINGS = 3
 
@@ -43,6 +46,7 @@ def uncrossed(mesh: TriangleMesh, monitor: Monitor) -> tuple[TriangleMesh, Float
     """
     among = turning_back(mesh)
     pairs, rings = _crossing(mesh, among, monitor), 0
+    everywhere, among = among, _about(mesh, pairs, among)
     random = np.random.default_rng(0)
     for turn, share in enumerate(SHARES):
         if not len(pairs):
@@ -70,9 +74,29 @@ def uncrossed(mesh: TriangleMesh, monitor: Monitor) -> tuple[TriangleMesh, Float
             mesh, pairs, among = moved, left, among | near
         elif not turn % 2:
             rings = min(rings + 1, MOST_RINGS)
+    if among is not everywhere:  # what moved may have met what lies farther away
+        pairs = _crossing(mesh, everywhere | among, monitor)
     if not len(pairs):
         return mesh, None
     return mesh, mesh.vertices[mesh.triangles[pairs[0, 0]]].mean(axis=0)
+
+
+def _about(mesh: TriangleMesh, pairs: Ints, among: Bools) -> Bools:
+    """(m,) of some triangles those about pairs that cross; all of them where there are many."""
+    if not 0 < len(pairs) <= MOST_PLACES:
+        return among
+    corners = np.stack(mesh.corners(), axis=1)
+    low, high = corners.min(axis=1), corners.max(axis=1)
+    first, second = pairs.T
+    from_, to = np.minimum(low[first], low[second]), np.maximum(high[first], high[second])
+    reach = REACH * (to - from_).max(axis=1)[:, None]
+    rows = np.flatnonzero(among)
+    meets = np.zeros(len(rows), bool)
+    for lowest, highest in zip(from_ - reach, to + reach, strict=True):
+        meets |= ((low[rows] <= highest) & (high[rows] >= lowest)).all(axis=1)
+    found = np.zeros(len(among), bool)
+    found[rows[meets]] = True
+    return found
 
 
 def turning_back(mesh: TriangleMesh) -> Bools:

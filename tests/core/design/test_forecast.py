@@ -59,8 +59,15 @@ def test_a_part_of_cells_with_short_struts(cell):
     assert agrees(expected.triangles, report.triangles)
 
 
-@pytest.mark.parametrize("around", [None, 12])
-@pytest.mark.parametrize("kind", ["cylindrical", "spherical"])
+@pytest.mark.parametrize(
+    ("kind", "around"),
+    [
+        pytest.param("cylindrical", None, marks=pytest.mark.slow),
+        ("cylindrical", 12),
+        ("spherical", None),
+        ("spherical", 12),
+    ],
+)
 def test_cells_about_an_axis_or_a_centre(kind, around):
     spec = LatticeSpec(
         cell="CVC", cell_size=6.0, strut_radius=0.5, shell=0.0, resolution=12,

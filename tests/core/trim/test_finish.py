@@ -131,6 +131,7 @@ def test_a_lattice_of_many_bodies_is_told():
     assert not any("hang" in text or "touch" in text for text in whole.warnings)
 
 
+@pytest.mark.slow
 def test_graded_struts_that_run_through_each_other_are_told_with_their_place(monkeypatch):
     # Next to the axis the cells of a cylinder are narrower than their struts.
     spec = LatticeSpec("CVC", 10.0, 1.0, resolution=15, cell_map=CellMap("cylindrical"))

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import FreeCAD as App
 
 from .properties import PROPERTIES
-from .quantities import number_of, set_value
+from .quantities import is_driven, number_of, set_value
 
 if TYPE_CHECKING:
     from volfrep import LatticeSpec
@@ -74,10 +74,9 @@ def _thickness(spec: LatticeSpec) -> tuple[str, float]:
 
 def tell_driven(obj: App.DocumentObject, name: str, value: float) -> None:
     """Show in a property what drives it has come to; what an expression drives stays."""
-    expressions = {path.lstrip(".") for path, _ in obj.ExpressionEngine}
     plain = name in ("Density", "WallOffset")
     before = number_of(obj, name) if plain else getattr(obj, name).Value
-    if name not in expressions and before != value:
+    if not is_driven(obj, name) and before != value:
         set_value(obj, name, value)
 
 

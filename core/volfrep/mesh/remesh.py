@@ -73,6 +73,12 @@ def qualities(points: Floats) -> Floats:
     return result
 
 
+def worse_quality(a: Floats, b: Floats, left: Floats, right: Floats) -> Floats:
+    """(m,) the worse quality of the two triangles on each edge from a to b, all (m, 3)."""
+    one, two = qualities(np.stack([a, b, left], axis=1)), qualities(np.stack([b, a, right], axis=1))
+    return np.minimum(one, two)
+
+
 def normals(points: Floats) -> Floats:
     """(m, 3) vectors of twice the area of (m, 3, 3) triangles."""
     return np.cross(points[:, 1] - points[:, 0], points[:, 2] - points[:, 0])

@@ -157,7 +157,7 @@ def _flip(surface: Surface) -> Surface:
 
     def gain(ends: Ints, corners: Ints) -> Floats:
         a, b, c, d = v[ends[:, 0]], v[ends[:, 1]], v[corners[:, 0]], v[corners[:, 1]]
-        better = _shape(c, d, b, a) - _shape(a, b, c, d) - 1e-3
+        better = remesh.worse_quality(c, d, b, a) - remesh.worse_quality(a, b, c, d) - 1e-3
         # Only an edge between two primitives can lie across a crease: no other is looked at
         # unless its flip is wanted.
         look = np.flatnonzero((better > 0.0) | (nearest[ends[:, 0]] != nearest[ends[:, 1]]))
@@ -174,13 +174,6 @@ def _flip(surface: Surface) -> Surface:
         if not flipped:
             break
     return replace(surface, triangles=triangles)
-
-
-def _shape(a: Floats, b: Floats, left: Floats, right: Floats) -> Floats:
-    """The worse quality of the two triangles on an edge."""
-    one = remesh.qualities(np.stack([a, b, left], axis=1))
-    two = remesh.qualities(np.stack([b, a, right], axis=1))
-    return np.minimum(one, two)
 
 
 def _settle_on_edges(surface: Surface) -> Surface:

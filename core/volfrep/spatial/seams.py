@@ -16,9 +16,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..mesh.triangle_mesh import TriangleMesh
-from ..util.ragged import spread
 from ..util.types import Bools, Floats, Ints
-from .self_intersection import boxes_in_bins
+from .self_intersection import meeting_boxes
 
 #: Facets of the first surface that are looked at together, in their order.
 RUN = 32
@@ -179,17 +178,8 @@ def _touching(
     low: Floats, high: Floats, least: Floats, most: Floats, on: Floats, normal: Floats
 ) -> tuple[Ints, Ints]:
     """Boxes and facets that touch, by the facets' boxes and planes."""
-    origin = np.minimum(low.min(axis=0), least.min(axis=0))
     size = max(2.0 * float(np.median(high - low)), float((most - least).max()) / MOST_BINS)
-    box, its_bin = boxes_in_bins(low, high, origin, size)
-    order = np.argsort(its_bin, kind="stable")
-    box, its_bin = box[order], its_bin[order]
-    facet, bins = boxes_in_bins(least, most, origin, size)
-    begin = np.searchsorted(its_bin, bins)
-    row, place = spread(np.searchsorted(its_bin, bins, "right") - begin)
-    a, b = box[begin[row] + place], facet[row]
-    meets = ((low[a] <= most[b]) & (least[b] <= high[a])).all(axis=1)
-    a, b = a[meets], b[meets]
+    a, b = meeting_boxes(low, high, least, most, size)
     pairs = np.unique(a * np.int64(len(least)) + b)
     a, b = np.divmod(pairs, len(least))
     above = np.einsum("ij,ij->i", 0.5 * (low[a] + high[a]) - on[b], normal[b])

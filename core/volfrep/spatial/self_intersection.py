@@ -163,6 +163,30 @@ def boxes_in_bins(low: Floats, high: Floats, origin: Floats, size: float) -> tup
     return row, ((x + along_x) << 42) + ((y + along_y) << 21) + z + along_z
 
 
+def meeting_boxes(
+    low: Floats, high: Floats, least: Floats, most: Floats, size: float
+) -> tuple[Ints, Ints]:
+    """Boxes and other boxes that meet, as (box, other) pairs, some of them more than once.
+
+    Args:
+        low: (n, 3) lowest corners of the boxes.
+        high: (n, 3) their highest ones.
+        least: (m, 3) lowest corners of the others.
+        most: (m, 3) their highest ones.
+        size: of the bins in which they are looked for; of no effect on what is found.
+    """
+    origin = np.minimum(low.min(axis=0), least.min(axis=0))
+    box, its_bin = boxes_in_bins(low, high, origin, size)
+    order = np.argsort(its_bin, kind="stable")
+    box, its_bin = box[order], its_bin[order]
+    other, bins = boxes_in_bins(least, most, origin, size)
+    begin = np.searchsorted(its_bin, bins)
+    row, place = spread(np.searchsorted(its_bin, bins, "right") - begin)
+    a, b = box[begin[row] + place], other[row]
+    meets = ((low[a] <= most[b]) & (least[b] <= high[a])).all(axis=1)
+    return a[meets], b[meets]
+
+
 def _heights(corners: Floats, normal: Floats, a: Ints, b: Ints) -> Floats:
     """(k, 3) the corners of triangles a above the planes of triangles b."""
     above: Floats = np.einsum("nij,nj->ni", corners[a] - corners[b, :1], normal[b])

@@ -18,10 +18,9 @@ from ..lattice.assembly import Layout
 from ..mesh import remesh
 from ..mesh.booleans import from_library, to_library
 from ..mesh.triangle_mesh import TriangleMesh, compact
-from ..spatial.self_intersection import boxes_in_bins
+from ..spatial.self_intersection import meeting_boxes
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
-from ..util.ragged import spread
 from ..util.types import Bools, Floats, Ints
 from .culling import without_pinches
 from .group_cut import Group, Piece, open_vertices
@@ -254,17 +253,7 @@ def _touching(low: Floats, high: Floats, wall: TriangleMesh, near: float) -> Int
     """(t, 2) boxes and triangles that touch, by their boxes and by the triangles' planes."""
     corners = wall.vertices[wall.triangles]
     first, last = corners.min(axis=1) - near, corners.max(axis=1) + near
-    origin = np.minimum(low.min(axis=0), first.min(axis=0))
-    size = float((high - low).max())
-    box, its_bin = boxes_in_bins(low, high, origin, size)
-    order = np.argsort(its_bin, kind="stable")
-    box, its_bin = box[order], its_bin[order]
-    triangle, bins = boxes_in_bins(first, last, origin, size)
-    begin = np.searchsorted(its_bin, bins)
-    row, place = spread(np.searchsorted(its_bin, bins, "right") - begin)
-    a, b = box[begin[row] + place], triangle[row]
-    meets = ((low[a] <= last[b]) & (first[b] <= high[a])).all(axis=1)
-    a, b = a[meets], b[meets]
+    a, b = meeting_boxes(low, high, first, last, float((high - low).max()))
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     above = np.einsum("ij,ij->i", 0.5 * (low[a] + high[a]) - corners[b, 0], normal[b])
     reach = np.einsum("ij,ij->i", 0.5 * (high[a] - low[a]) + near, np.abs(normal[b]))

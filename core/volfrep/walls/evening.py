@@ -121,7 +121,7 @@ def _flipped(surface: Surface) -> Surface:
 
     def gain(ends: Ints, corners: Ints) -> Floats:
         a, b, c, d = v[ends[:, 0]], v[ends[:, 1]], v[corners[:, 0]], v[corners[:, 1]]
-        return _worse(c, d, b, a) - _worse(a, b, c, d) - 1e-3
+        return remesh.worse_quality(c, d, b, a) - remesh.worse_quality(a, b, c, d) - 1e-3
 
     triangles = surface.triangles
     for _ in range(2):
@@ -129,10 +129,3 @@ def _flipped(surface: Surface) -> Surface:
         if not flipped:
             break
     return replace(surface, triangles=triangles)
-
-
-def _worse(a: Floats, b: Floats, left: Floats, right: Floats) -> Floats:
-    """The worse quality of the two triangles on an edge."""
-    one = remesh.qualities(np.stack([a, b, left], axis=1))
-    two = remesh.qualities(np.stack([b, a, right], axis=1))
-    return np.minimum(one, two)

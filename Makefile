@@ -95,7 +95,7 @@ translations: setup ## refresh the .ts files from the sources, and compile them 
 docs-tables: setup ## the documentation's tables of parameters anew, from the program's own
 	@$(PYTHON) tools/parameter_tables.py
 
-catalogue: setup ## the cells' properties anew, with the charts of docs/cells.md (10 min)
+catalogue: setup ## cells that the catalogue lacks, and the charts of docs/cells.md (half a minute a cell)
 	@$(PYTHON) tools/catalogue.py $(CATALOGUE_ARGS)
 
 torture: setup ## every broken, odd and real file beside what it must get

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""`make catalogue`: the cells' properties anew, with the charts and tables of docs/cells.md.
+"""`make catalogue`: the cells' properties, with the charts and tables of docs/cells.md.
 
-    python tools/catalogue.py [--charts]
+    python tools/catalogue.py [--charts] [--fit] [CELL...]
 
-With --charts what is shipped stays, and only pictures and tables are made again. matplotlib comes
-with FreeCAD.
+Cells of the library that are not in the catalogue are computed, or those that are named; with --fit
+only the ends of struts are fitted anew; with --charts what is shipped stays. Pictures and tables
+are always made again. matplotlib comes with FreeCAD.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ from matplotlib.colors import Normalize
 from volfrep.design.cells import LIBRARY, PAPERS, USES
 from volfrep.mechanics import catalogue as shipped
 from volfrep.mechanics.endless import strains_held
+from volfrep.mechanics.making import catalogue_cells
 from volfrep.mechanics.materials import MATERIALS
 from volfrep.mechanics.tensor import gibson_ashby, hashin_shtrikman, moduli, young
 
@@ -29,6 +31,8 @@ ROOT = Path(__file__).resolve().parent.parent
 IMAGES = ROOT / "docs" / "images"
 PAGE = ROOT / "docs" / "cells.md"
 COLOURS = ("#0b5cad", "#d95f02", "#1b9e77", "#7570b3", "#e7298a", "#a6761d")
+#: Cells that are not alike along x, y and z, and two that are.
+UNEVEN = ("BCCz", "FCCz", "Pyramid", "Re-entrant", "Kagome", "Diamond")
 #: Relative densities of the table, and that of the surfaces.
 DENSITIES = (0.05, 0.1, 0.2, 0.3)
 OF_SURFACES = 0.1
@@ -73,14 +77,41 @@ def charts() -> None:
     plt.close(figure)
 
 
-def surfaces() -> None:
-    """E in every direction, a body for each cell, at one relative density."""
+def uses() -> None:
+    """E along z over relative density of the whole library, a plot for each use."""
+    known = shipped.catalogue()
+    figure, axes = plt.subplots(2, 3, figsize=(15, 9.4), layout="constrained")
+    density = np.geomspace(0.01, 0.75, 100)
+    bound, foam = hashin_shtrikman(density)[0], gibson_ashby(density)[0]
+    plots = axes.ravel()
+    plots[-1].axis("off")
+    for plot, (use, text) in zip(plots, USES.items(), strict=False):
+        cells = [known[name] for name, cell in LIBRARY.items() if cell.use == use and name in known]
+        for cell, colour in zip(cells, plt.cm.tab10.colors * 2, strict=False):
+            ratios = np.geomspace(cell.ratios[0], cell.ratios[-1], 40)
+            along = [young(cell.tensor(ratio), np.eye(3)[2]) for ratio in ratios]
+            across = [cell.at(ratio)["relative_density"] for ratio in ratios]
+            plot.loglog(across, along, "-", color=colour, label=cell.name, linewidth=1.8)
+        plot.loglog(density, bound, "k-", linewidth=1, label="Hashin-Shtrikman")
+        plot.loglog(density, foam, "k--", linewidth=1, label="Gibson-Ashby")
+        plot.set_title(text, fontsize=12)
+        plot.set_xlabel("relative density")
+        plot.set_ylabel("E along z [001] / E of the solid")
+        plot.set_ylim(1e-4, 0.7)
+        plot.grid(which="both", linewidth=0.3)
+        plot.legend(fontsize=8, loc="lower right")
+    figure.savefig(IMAGES / "cells_uses.png", dpi=80)
+    plt.close(figure)
+
+
+def surfaces(names: tuple[str, ...], picture: str) -> None:
+    """E in every direction, a body for each of six cells, at one relative density."""
     polar, around = np.meshgrid(np.linspace(0, np.pi, 91), np.linspace(0, 2 * np.pi, 181))
     ways = np.stack(
         [np.sin(polar) * np.cos(around), np.sin(polar) * np.sin(around), np.cos(polar)], axis=-1
     )
     figure = plt.figure(figsize=(13, 8.6), layout="constrained")
-    for place, name in enumerate(PAPERS, 1):
+    for place, name in enumerate(names, 1):
         cell = shipped.catalogue()[name]
         tensor = cell.tensor(cell.ratio_of_density(OF_SURFACES))
         along = young(tensor, ways)
@@ -90,15 +121,14 @@ def surfaces() -> None:
         plot.plot_surface(x, y, z, facecolors=colours, rcount=91, ccount=181, linewidth=0,
                           antialiased=False, shade=True)  # fmt: skip
         found = moduli(tensor)
-        plot.set_title(
-            f"{name}: {along.min():.2g} to {along.max():.2g}, Zener {found.zener:.2g}", fontsize=12
-        )
+        zener = "" if len(cell.tensors) else f", Zener {found.zener:.2g}"
+        plot.set_title(f"{name}: {along.min():.2g} to {along.max():.2g}{zener}", fontsize=12)
         plot.set_box_aspect((1, 1, 1))
         plot.set(xlim=(-1, 1), ylim=(-1, 1), zlim=(-1, 1), xticks=[], yticks=[], zticks=[])
         plot.set_xlabel("[100]", labelpad=-10)
         plot.set_ylabel("[010]", labelpad=-10)
         plot.set_zlabel("[001]", labelpad=-10)
-    figure.savefig(IMAGES / "cells_directions.png", dpi=80)
+    figure.savefig(IMAGES / picture, dpi=80)
     plt.close(figure)
 
 
@@ -125,19 +155,22 @@ def cells_table() -> str:
 def properties_table() -> str:
     """The cells at a few relative densities, as Markdown."""
     lines = [
-        "| cell | relative density | r / L | E [100] | E [110] | E [111] | G | nu | Zener | "
-        "strength | conductivity |",
-        "|---|---|---|---|---|---|---|---|---|---|---|",
+        "| cell | relative density | r / L | E [100] | E [001] | E [110] | E [111] | G | nu | "
+        "Zener | strength | conductivity |",
+        "|---|---|---|---|---|---|---|---|---|---|---|---|",
     ]
     for name, cell in shipped.catalogue().items():
         for density in DENSITIES:
             if not cell.values[0, 0] <= density <= cell.values[-1, 0]:
                 continue
             ratio = cell.ratio_of_density(density)
-            found, values = moduli(cell.tensor(ratio)), cell.at(ratio)
+            tensor, values = cell.tensor(ratio), cell.at(ratio)
+            found, upright = moduli(tensor), young(tensor, np.eye(3)[2])
+            told = [found.E100, upright, found.E110, found.E111, found.G]
+            figures = " | ".join(f"{e:.3g}" if e > 1e-6 * upright else "0" for e in told)
+            zener = "-" if len(cell.tensors) else f"{found.zener:.3g}"
             lines.append(
-                f"| {name} | {density:g} | {ratio:.4f} | {found.E100:.3g} | {found.E110:.3g} | "
-                f"{found.E111:.3g} | {found.G:.3g} | {found.nu:.3f} | {found.zener:.3g} | "
+                f"| {name} | {density:g} | {ratio:.4f} | {figures} | {found.nu:.3f} | {zener} | "
                 f"{values['strength']:.3g} | {values['conductivity']:.3g} |"
             )
     return "\n".join(lines)
@@ -175,11 +208,14 @@ def write_tables() -> None:
 
 def main() -> None:
     """Compute, draw, write."""
-    if "--charts" not in sys.argv[1:]:
-        shipped.main([])
+    arguments = sys.argv[1:]
+    if "--charts" not in arguments:
+        catalogue_cells.main(arguments)
         shipped.catalogue.cache_clear()
     charts()
-    surfaces()
+    uses()
+    surfaces(PAPERS, "cells_directions.png")
+    surfaces(UNEVEN, "cells_directions_uneven.png")
     write_tables()
 
 

@@ -27,6 +27,9 @@ JOINT_LENGTH = 0.8
 JOINT_STIFFNESS = 1000.0
 #: The r / L up to which lattices of such beams were compared with solid elements (docs/solver.md).
 MEASURED_TO = 0.15
+#: Where the frame of a library's cell misses Young's modulus by more, whatever its ends, that is
+#: told.
+LARGEST_MISFIT = 0.05
 #: Ends are never longer than this part of a strut.
 LONGEST_JOINT = 0.45
 #: Elements along a strut between its stiff ends, none shorter than so many radii.
@@ -176,7 +179,9 @@ def fitted_beams(
         model = beam_model(
             wireframe, on_wall, joint_law=profile, elements_per_strut=elements_per_strut
         )
-        return model, _too_thick(wireframe, cell_size)
+        return model, _too_thick(wireframe, cell_size) + _misfit(
+            wireframe, cell, cell_size, section
+        )
     except VolfrepError as error:
         model = beam_model(wireframe, on_wall, elements_per_strut=elements_per_strut)
         return model, (f"The beams have rigid ends of {JOINT_LENGTH:g} radii. {error}",)
@@ -191,6 +196,25 @@ def _too_thick(wireframe: Wireframe, cell_size: float) -> tuple[str, ...]:
         f"Struts of r/L = {ratio:.2g} are hardly beams: these were held against solid elements up "
         f"to {MEASURED_TO:g}, where they are within 5 %; beyond it they may be farther off, and "
         "tetrahedra are safer.",
+    )
+
+
+def _misfit(
+    wireframe: Wireframe, cell: UnitCell, cell_size: float, section: str
+) -> tuple[str, ...]:
+    """A sentence where no ends give a library's cell its stiffness."""
+    from ..mechanics.catalogue import known_cell
+
+    known = known_cell(cell)
+    if known is None:
+        return ()
+    ratio = float(wireframe.radii.max()) / cell_size
+    missed = known.misfit_at(ratio, section)
+    if missed <= LARGEST_MISFIT:
+        return ()
+    return (
+        f"No ends make beams of {cell.name} at r/L = {ratio:.2g} as stiff as their solid: Young's "
+        f"modulus along an edge is up to {100 * missed:.0f} % off; tetrahedra are safer.",
     )
 
 

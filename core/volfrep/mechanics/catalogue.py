@@ -1,40 +1,33 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The library's cells over r / L, computed beforehand and shipped, and what lies between.
 
-`python -m volfrep.mechanics.catalogue` computes it anew (`make catalogue` draws the charts too).
+`make catalogue` computes what is missing (`volfrep.mechanics.making`) and draws the charts.
 """
 
 from __future__ import annotations
 
 import json
-import sys
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from ..design.cells import LIBRARY, PAPERS, UnitCell
+from ..design.cells import LIBRARY, UnitCell
 from ..util.errors import VolfrepError
 from ..util.types import Floats
 from .frame import CIRCLE, SQUARE_SECTION, Ends, JointLaw
 from .homogenise import homogenise
-from .joint_fit import JointFit, fit_joint
+from .joint_fit import fit_joint
 from .materials import SolidMaterial
-from .summary import MODULI, POISSON, CellProperties, cell_properties
+from .summary import MODULI, POISSON, CellProperties
 from .summary import RATIOS as PURE_RATIOS
 from .tensor import cubic, moduli
 
 FILE = Path(__file__).with_name("catalogue.json")
-#: r / L of the catalogue; and the density above which struts are hardly struts any more.
-RATIOS = (0.02, 0.03, 0.04, 0.05, 0.07, 0.1, 0.125, 0.15, 0.2)
-DENSEST = 0.75
-#: The paper's six are known at all of these, the others at fewer.
-FEWER_RATIOS = (0.03, 0.05, 0.07, 0.1, 0.15)
-#: A cell is listed where its tensor differs from a cubic one by less than this share of C11.
-CUBIC_WITHIN = 0.03
+#: Stiffness below this part of a tensor's largest is none.
+_NOTHING = 1e-9
 #: What is stored of a cell at each ratio, each with its error: in units of the solid's.
 NAMES = ("relative_density", "C11", "C12", "C44", "strength", "shear_strength", "conductivity")
 #: Of what the stiffness comes to, the relative errors are stored too; where they were not computed
@@ -54,11 +47,13 @@ class CatalogueCell:
     Attributes:
         name: of the library's cell.
         ratios: (n,) r / L.
-        values: (n, 7) by `NAMES`.
+        values: (n, 7) by `NAMES`; of a cell that is not cubic the means over x, y and z.
         errors: (n, 7) by how much each may be off.
         doubts: (n, 7) by how much `FIGURES` may be off, as shares of them.
         ends: for each section (n, 3) length, axial and bending of the fitted ends.
         misfit: for each section (n, 4), see `joint_fit.JointFit`.
+        tensors: (n, 6, 6) of a cell that is not cubic; (0, 6, 6) of one that is.
+        tensor_errors: (n, 6, 6) by how much these may be off.
     """
 
     name: str
@@ -68,6 +63,8 @@ class CatalogueCell:
     doubts: Floats
     ends: dict[str, Floats]
     misfit: dict[str, Floats]
+    tensors: Floats = field(default_factory=lambda: np.zeros((0, 6, 6)))
+    tensor_errors: Floats = field(default_factory=lambda: np.zeros((0, 6, 6)))
 
     def at(self, ratio: float) -> dict[str, float]:
         """The values by name at an r / L: cubic splines through their logarithms.
@@ -86,9 +83,38 @@ class CatalogueCell:
         return {name: float(value) for name, value in found.items()}
 
     def tensor(self, ratio: float) -> Floats:
-        """(6, 6) stiffness over the solid's E at an r / L."""
-        found = self.at(ratio)
-        return cubic(found["C11"], found["C12"], found["C44"])
+        """(6, 6) stiffness over the solid's E at an r / L.
+
+        Of a cell that is not cubic by a spline through the matrices' logarithms, which for cubic
+        ones is the same.
+        """
+        if not len(self.tensors):
+            found = self.at(ratio)
+            return cubic(found["C11"], found["C12"], found["C44"])
+        self._refuse(ratio)
+        values, vectors = np.linalg.eigh(self.tensors)
+        values = np.log(np.maximum(values, _NOTHING * values[:, -1:]))
+        logs = (vectors * values[:, None]) @ vectors.swapaxes(1, 2)
+        values, axes = np.linalg.eigh(_spline(self.ratios, logs)(np.log(ratio)))
+        result: Floats = (axes * np.exp(values)) @ axes.T
+        return result
+
+    def error_of_tensor(self, ratio: float) -> Floats:
+        """(6, 6) by how much the stiffness at an r / L may be off."""
+        place, places = np.log(ratio), np.log(self.ratios)
+        if len(self.tensors):
+            scale = np.abs(self.tensors).max(axis=(1, 2))
+            shares = (self.tensor_errors / scale[:, None, None]).reshape(len(scale), 36)
+            found = [np.interp(place, places, column) for column in shares.T]
+            return np.reshape(found, (6, 6)) * float(np.abs(self.tensor(ratio)).max())
+        values = self.at(ratio)
+        return cubic(
+            *(
+                values[name]
+                * float(np.interp(place, places, self.errors[:, k] / self.values[:, k]))
+                for k, name in enumerate(NAMES[1:4], 1)
+            )
+        )
 
     def ratio_of_density(self, density: float) -> float:
         """The r / L of a relative density.
@@ -114,11 +140,16 @@ class CatalogueCell:
         ]
         return Ends(*(float(value) for value in np.exp(logs)))
 
+    def misfit_at(self, ratio: float, section: str = "circle") -> float:
+        """The largest relative error of E along the edges that the ends leave at an r / L."""
+        place = np.log(ratio)
+        return float(np.interp(place, np.log(self.ratios), self.misfit[section][:, 0]))
+
     def _logs(self) -> Floats:
         values = self.values.copy()
         along, across = self.values[:, 1], self.values[:, 2]
         values[:, 1], values[:, 2] = (along - across) / 2.0, (along + 2.0 * across) / 3.0
-        logs: Floats = np.log(values)
+        logs: Floats = np.log(np.maximum(values, np.finfo(float).tiny))
         return logs
 
     def _refuse(self, ratio: float) -> None:
@@ -153,11 +184,23 @@ def catalogue() -> dict[str, CatalogueCell]:
                 np.array(cell.get("doubts") or _bounds(cell["values"], cell["errors"]), float),
                 {key: np.array(rows, float) for key, rows in cell["ends"].items()},
                 {key: np.array(rows, float) for key, rows in cell["misfit"].items()},
+                *(
+                    _matrices(np.array(cell[key], float)) if key in cell else np.zeros((0, 6, 6))
+                    for key in ("constants", "constant_errors")
+                ),
             )
             for name, cell in data["cells"].items()
         }
     except (OSError, ValueError, KeyError) as error:
         raise VolfrepError(f"The catalogue '{FILE}' cannot be read: {error}.") from error
+
+
+def _matrices(rows: Floats) -> Floats:
+    """(n, 6, 6) symmetric, of (n, 21) upper triangles."""
+    result = np.zeros((len(rows), 6, 6))
+    one, two = np.triu_indices(6)
+    result[:, one, two] = result[:, two, one] = rows
+    return result
 
 
 def _bounds(values: list[list[float]], errors: list[list[float]]) -> list[list[float]]:
@@ -219,13 +262,11 @@ def known_properties(
     errors: dict[str, Any] = {
         name: abs(values[name]) * share(known.doubts[:, k]) for k, name in enumerate(FIGURES)
     }
-    shares = dict(zip(NAMES, (known.errors / known.values).T, strict=True))
+    shares = dict(zip(NAMES, shares_of(known.errors, known.values).T, strict=True))
     for name in ("strength", "shear_strength", "conductivity"):
         errors[name] = values[name] * share(shares[name])
     errors["relative_density"] = found["relative_density"] * share(shares["relative_density"])
-    errors["stiffness"] = young * cubic(
-        *(found[name] * share(shares[name]) for name in ("C11", "C12", "C44"))
-    )
+    errors["stiffness"] = young * known.error_of_tensor(ratio)
     return CellProperties(
         cell.name,
         float(cell_size),
@@ -239,6 +280,13 @@ def known_properties(
         {},
         0,
     )
+
+
+def shares_of(errors: Floats, values: Floats) -> Floats:
+    """Errors as shares of what they belong to; none of what is zero."""
+    some = np.abs(values) > np.finfo(float).tiny
+    result: Floats = np.where(some, np.abs(errors / np.where(some, values, 1.0)), 0.0)
+    return result
 
 
 def joint_law(cell: UnitCell, cell_size: float, section: str = "circle") -> JointLaw:
@@ -283,115 +331,3 @@ def _fitted(cell: UnitCell, key: tuple[bytes, bytes], ratio: float, section: str
         logs.append(np.log([found.length, found.axial, found.bending]))
     share = place - below
     return Ends(*np.exp((1.0 - share) * logs[0] + share * logs[1]).tolist())
-
-
-def is_listed(cell: UnitCell) -> bool:
-    """Whether three constants say all of a cell's stiffness: it is cubic, and carries in shear."""
-    try:
-        found = homogenise(cell, FEWER_RATIOS[1], poisson=POISSON, along=32).tensor
-    except VolfrepError:  # it does not hang together
-        return False
-    cubic_part = cubic(
-        found[:3, :3].trace() / 3.0,
-        (found[0, 1] + found[0, 2] + found[1, 2]) / 3.0,
-        found[3:, 3:].trace() / 3.0,
-    )
-    return bool(np.abs(found - cubic_part).max() < CUBIC_WITHIN * found[0, 0])
-
-
-def compute(name: str, say: Callable[[str], None] = lambda _: None) -> CatalogueCell:
-    """A cell of the library over its ratios, as far as its density allows."""
-    cell = LIBRARY[name]
-    ratios, values, errors, doubts = [], [], [], []
-    for ratio in RATIOS if name in PAPERS else FEWER_RATIOS:
-        row, error, doubt = point(cell, ratio)
-        if row[0] > DENSEST:
-            break
-        ratios.append(ratio)
-        values.append(row)
-        errors.append(error)
-        doubts.append(doubt)
-        say(f"{name} r/L {ratio:g}: density {row[0]:.4f}, C11 {row[1]:.5g}, C44 {row[3]:.5g}")
-    return refitted(
-        CatalogueCell(
-            name, np.array(ratios), np.array(values), np.array(errors), np.array(doubts), {}, {}
-        )
-    )
-
-
-def refitted(known: CatalogueCell) -> CatalogueCell:
-    """The same cell with its ends fitted anew, each beginning at those of the radius before."""
-    cell = LIBRARY[known.name]
-    ends: dict[str, Floats] = {}
-    misfit: dict[str, Floats] = {}
-    for key, section in SECTIONS.items():
-        fits: list[JointFit] = []
-        for ratio, row in zip(known.ratios.tolist(), known.values, strict=True):
-            fits.append(
-                fit_joint(
-                    cell,
-                    ratio,
-                    cubic(*row[1:4]),
-                    section=section,
-                    widen=WIDEN[key],
-                    start=fits[-1].ends if fits else None,
-                )
-            )
-        ends[key] = np.array([[f.ends.length, f.ends.axial, f.ends.bending] for f in fits])
-        misfit[key] = np.array([f.misfit for f in fits])
-    return replace(known, ends=ends, misfit=misfit)
-
-
-def point(cell: UnitCell, ratio: float) -> tuple[list[float], list[float], list[float]]:
-    """The values by `NAMES` of one cell and r / L, their errors, and the relative of `FIGURES`."""
-    found = cell_properties(cell, 1.0, ratio)
-    places = ((0, 0), (0, 1), (3, 3))
-    values = [found.relative_density, *(float(found.stiffness[place]) for place in places)]
-    errors = [
-        found.errors["relative_density"],
-        *(float(found.errors["stiffness"][place]) for place in places),
-    ]
-    for name in NAMES[4:]:
-        values.append(found.values[name])
-        errors.append(found.errors[name])
-    return values, errors, [abs(found.errors[name] / found.values[name]) for name in FIGURES]
-
-
-def main(arguments: list[str]) -> None:
-    """Compute the cells named, or all, and write the file anew with the others as they were.
-
-    With ``--fit`` only the ends are fitted anew, to the stiffness that is known.
-    """
-    data = json.loads(FILE.read_text(encoding="utf-8"))
-    known: dict[str, Any] = data["cells"]
-    names = [name for name in arguments if name != "--fit"]
-    if "--fit" in arguments:
-        for name in names or list(known):
-            known[name].update(_fits(refitted(catalogue()[name])))
-    else:
-        for name in names or [name for name, cell in LIBRARY.items() if is_listed(cell)]:
-            cell = compute(name, lambda text: print(text, flush=True))
-            known[name] = {
-                "ratios": cell.ratios.tolist(),
-                "values": _short(cell.values),
-                "errors": _short(cell.errors, 2),
-                "doubts": _short(cell.doubts, 2),
-                **_fits(cell),
-            }
-    data["cells"] = {name: known[name] for name in LIBRARY if name in known}
-    FILE.write_text(json.dumps(data, indent=1) + "\n", encoding="utf-8")
-
-
-def _fits(cell: CatalogueCell) -> dict[str, Any]:
-    return {
-        "ends": {key: _short(rows, 4) for key, rows in cell.ends.items()},
-        "misfit": {key: _short(rows, 2) for key, rows in cell.misfit.items()},
-    }
-
-
-def _short(rows: Floats, digits: int = 6) -> list[list[float]]:
-    return [[float(f"{value:.{digits}g}") for value in row] for row in rows]
-
-
-if __name__ == "__main__":
-    main(sys.argv[1:])

@@ -35,6 +35,10 @@ MOST_VOXELS = {True: 30_000, False: 12_000}
 #: Part of the last step (between the two finest grids, or from there to the limit) that the limit
 #: is in doubt by.
 DOUBT = 1.0 / 3.0
+#: The limit keeps at least this part of the finest grid's stiffness, whatever the strain, and
+#: exceeds it by no more than that: where struts nearly touch, coarse voxels join them, and a
+#: parabola through them ends anywhere.
+KEPT, EXCEEDED = 0.5, 1.02
 #: Relative error of solving and of filling voxels, beside that.
 FLOOR = 1e-3
 #: A lattice softer than this in every way, over the solid, carries nothing.
@@ -133,20 +137,62 @@ def homogenise(
         density: the exact relative density, which every grid is filled to; None: as it comes.
 
     Raises:
-        VolfrepError: the cell does not hang together.
+        VolfrepError: the cell does not hang together, or is no cube with struts of one radius.
     """
     refuse_odd(cell)
     endless = endless_cell(cell)
     octant = cell.is_mirror_symmetric
     sizes = grid_sizes(endless, radius, octant, along)
-    cubic = octant and is_cubic(cell)
-    grids = []
-    for size in sizes:
-        voxels = voxels_of(endless, radius, fillet, size, octant=octant, density=density)
-        grids.append(solve_grid(voxels, poisson, cubic=cubic))
+
+    def voxels(size: int) -> Voxels:
+        return voxels_of(endless, radius, fillet, size, octant=octant, density=density)
+
+    return homogenised(voxels, sizes, poisson, cubic=octant and is_cubic(cell), name=cell.name)
+
+
+def homogenised(
+    voxels: Callable[[int], Voxels],
+    sizes: tuple[int, ...],
+    poisson: float,
+    *,
+    cubic: bool,
+    name: str,
+) -> Homogenised:
+    """The elastic tensor of whatever is made of voxels.
+
+    Args:
+        voxels: makes those of a number of voxels along L.
+        sizes: three such numbers, finest last.
+        poisson: the solid's ratio.
+        cubic: whether three constants say all of the tensor.
+        name: of the cell, for the sentences.
+
+    Raises:
+        VolfrepError: the solid does not hang together.
+    """
+    grids = [solve_grid(voxels(size), poisson, cubic=cubic) for size in sizes]
     found = np.array([grid.tensor for grid in grids])
-    _refuse_loose(found[-1], cell.name)
-    return Homogenised(extrapolate(found, sizes), found, sizes, grids[-1], grids[-2])
+    _refuse_loose(found[-1], name)
+    limit = _bounded_by(extrapolate(found, sizes), found[-1])
+    return Homogenised(limit, found, sizes, grids[-1], grids[-2])
+
+
+def _bounded_by(limit: Floats, finest: Floats) -> Floats:
+    """The limit, brought between `KEPT` of the finest grid's stiffness and all of it.
+
+    It stays as it is where it lies there, or next to nothing above.
+    """
+    values, vectors = np.linalg.eigh(0.5 * (finest + finest.T))
+    some = values > _NOTHING * values[-1]
+    root = np.sqrt(values[some])
+    shares, ways = np.linalg.eigh(
+        (vectors[:, some] / root).T @ (0.5 * (limit + limit.T)) @ (vectors[:, some] / root)
+    )
+    if shares[0] >= KEPT and shares[-1] <= EXCEEDED:
+        return limit
+    back = vectors[:, some] * root @ ways
+    result: Floats = (back * np.clip(shares, KEPT, 1.0)) @ back.T
+    return result
 
 
 def grid_sizes(
@@ -158,11 +204,25 @@ def grid_sizes(
     plane is represented best.
     """
     if along is None:
-        wanted = PER_RADIUS[octant] / radius
         # What struts alone make of the density, without their overlaps.
-        rough = min(np.pi * radius**2 * endless.lengths.sum(), 1.0) / (8 if octant else 1)
-        wanted = min(wanted, (MOST_VOXELS[octant] / rough) ** (1 / 3), MOST_ALONG[octant])
-        along = max(_even(wanted), LEAST_ALONG)
+        rough = min(np.pi * radius**2 * endless.lengths.sum(), 1.0)
+        along = bounded(PER_RADIUS[octant] / radius, rough, octant)
+    return three_sizes(along)
+
+
+def bounded(wanted: float, density: float, octant: bool) -> int:
+    """Voxels along L, so many as are wanted unless that were too few, or too many to solve."""
+    part = density / (8 if octant else 1)
+    most = min((MOST_VOXELS[octant] / part) ** (1 / 3), MOST_ALONG[octant])
+    return max(_even(min(wanted, most)), LEAST_ALONG)
+
+
+def three_sizes(along: int) -> tuple[int, ...]:
+    """Voxels along L on three grids, of the finest of which they are given.
+
+    Raises:
+        VolfrepError: there are too few or too many.
+    """
     if not FEWEST <= along <= FINEST:
         raise VolfrepError(f"A cell needs {FEWEST} to {FINEST} voxels along its edge, not {along}.")
     fine = _even(along)
@@ -228,5 +288,5 @@ def _free(nodes: Nodes, strains: Floats) -> Floats:
 def _refuse_loose(tensor: Floats, name: str) -> None:
     if not np.linalg.eigvalsh(tensor)[-1] > _NOTHING:
         raise VolfrepError(
-            f"The cell '{name}' carries no load: its struts do not reach through it."
+            f"The cell '{name}' carries no load: its solid does not reach through it."
         )

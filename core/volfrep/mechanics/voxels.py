@@ -91,6 +91,32 @@ def voxels_of(
     points = (index[cut][:, None] + inner).reshape(-1, 3) * step
     distance = near.rows(np.repeat(np.arange(len(cut)), len(inner))).values(points)
     distance = distance.reshape(len(cut), -1) * (along * PARTS)
+    return voxels_by_distance(index, full, cut, distance, along, octant=octant, density=density)
+
+
+def voxels_by_distance(
+    index: Ints,
+    full: NDArray[np.bool_],
+    cut: Ints,
+    distance: Floats,
+    along: int,
+    *,
+    octant: bool,
+    density: float | None,
+) -> Voxels:
+    """The voxels of a grid, filled by the distances of the parts of those that are cut.
+
+    Args:
+        index: (n, 3) int64, places in the grid.
+        full: (n,) which are wholly solid.
+        cut: (k,) int64, rows of those that the surface may cut.
+        distance: (k, PARTS^3) of their parts' middles from the surface, negative inside, in edges
+            of a part.
+        along: voxels along L.
+        octant: whether the grid is of an octant only.
+        density: as for `voxels_of`.
+    """
+    count = distance.shape[1]
 
     def shares(shift: float) -> Floats:
         result: Floats = np.clip(0.5 - distance + shift, 0.0, 1.0)
@@ -101,8 +127,8 @@ def voxels_of(
         wanted = density * along**3 / (8 if octant else 1) - np.count_nonzero(full)
         for _ in range(6):
             filled = shares(shift)
-            rate = np.count_nonzero((filled > 0.0) & (filled < 1.0)) / len(inner)
-            shift += (wanted - filled.sum() / len(inner)) / max(rate, 1e-12)
+            rate = np.count_nonzero((filled > 0.0) & (filled < 1.0)) / count
+            shift += (wanted - filled.sum() / count) / max(rate, 1e-12)
     parts = shares(shift)
     held = parts.any(axis=1)
     rows = np.concatenate([np.flatnonzero(full), cut[held]])

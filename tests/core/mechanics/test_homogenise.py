@@ -135,6 +135,13 @@ def test_voxels_hold_the_exact_density_and_forty_of_them_stay_few():
         assert 3 * len(nodes_of(voxels).place) < most
 
 
+def test_struts_that_nearly_touch_end_between_nothing_and_the_finest_grid():
+    """Coarse voxels join them; a parabola would go anywhere."""
+    found = homogenise(LIBRARY["Re-entrant"], 0.075, along=48)
+    assert np.linalg.eigvalsh(found.tensor)[0] > 0.0
+    assert np.linalg.eigvalsh(1.02 * found.tensors[-1] - found.tensor)[0] > 0.0
+
+
 def test_the_grids_follow_the_radius():
     endless = endless_cell(LIBRARY["CVC"])
     assert grid_sizes(endless, 0.1, True) == (20, 40, 80)

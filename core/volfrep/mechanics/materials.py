@@ -109,14 +109,16 @@ MATERIALS = {
                       "handbook"),
         SolidMaterial("316L", 7.97, 185_000, 0.30, 480, _METAL,
                       "EOS StainlessSteel 316L-4441, process data sheet (M 290, 20 um, upright): "
-                      "density and yield (M 400-4, 40 um: 7.9 and 490); modulus not checked, the "
-                      "sheets give none; nu: handbook"),
+                      "density and yield (M 400-4, 40 um: 7.9 and 490); modulus: the sheets give "
+                      "none, but it is within what Hitzler et al. measured (Materials 10, 2017, "
+                      "1136: 148,000 to 227,000 by direction); nu: handbook"),
         SolidMaterial("IN718", 8.15, 160_000, 0.29, 634, _METAL,
                       "EOS NickelAlloy IN718, process data sheet (M 290, 40 um) as others quote "
                       "it: density; modulus and yield not checked; nu: handbook"),
         SolidMaterial("PA12", 0.93, 1_550, 0.40, 42, _POWDER,
                       "EOS PA 2200, data sheet as others quote it: modulus and strength (upright; "
-                      "along X 1,600 and 48 MPa); density not checked; nu: handbook"),
+                      "along X 1,600 and 48 MPa); density as additive.tools gives it for PA 2200 "
+                      "(0.88-0.96); nu: handbook"),
         SolidMaterial("PA11", 0.99, 1_600, 0.40, 48, _POWDER,
                       "EOS PA 1101: not checked in its sheet, but within what additive.tools "
                       "gives for PA11 (0.93-1.00, 1,000-2,000, 37-48); nu: handbook"),
@@ -128,12 +130,15 @@ MATERIALS = {
                       "the VOLFREP paper's sample; yield not checked in the sheet, but within "
                       "what additive.tools gives for strength (44-56)"),
         SolidMaterial("ABS", 1.10, 1_680, 0.39, 39, ("FFF",),
-                      "Ultimaker ABS: not checked (FreeCAD's card ABS-Generic: density 1.06, nu "
-                      "0.37)"),
+                      "Ultimaker ABS: not checked in its sheet, but between others: Kimya's 1,443 "
+                      "and 35.3 (its maker's figures in PMC10406103), Stratasys' P400 of 1.05 "
+                      "g/cm3, 2,480 and 34 (FDM 2000 manual); FreeCAD's card ABS-Generic: density "
+                      "1.06, nu 0.37"),
         SolidMaterial("Resin", 1.17, 2_800, 0.40, 65, ("SLA",),
-                      "Formlabs Clear Resin V4 after curing: modulus not checked; density and "
-                      "strength not checked in its sheet, but within what renato.design gives for "
-                      "clear resins (1.1-1.2, 38-65); nu: handbook"),
+                      "Formlabs Clear Resin V4 after curing: not checked in its sheet; density "
+                      "and strength within what renato.design gives for clear resins (1.1-1.2, "
+                      "38-65), modulus near its maker's 2,900 for another clear resin, Surgical "
+                      "Guide (PMC10406103); nu: handbook"),
     )
 }  # fmt: skip
 _FIELDS = {"name", "density", "young", "poisson", "yield_stress", "processes", "source"}

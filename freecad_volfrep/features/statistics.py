@@ -9,6 +9,7 @@ from typing import Any
 
 import FreeCAD as App
 
+from volfrep.design.walls import Wall
 from volfrep.util.errors import VolfrepError
 
 from .lattice_infill import LatticeInfill
@@ -90,7 +91,8 @@ def _lattices(
 ) -> tuple[tuple[Any, ...], ...]:
     """Moduli, strength and conductivity of the endless lattice of each infill, with their errors.
 
-    None of an infill whose mesh does not fit its properties, or whose cells or radii vary.
+    None of an infill whose mesh does not fit its properties, whose cells or radii vary, or which is
+    neither of cubes nor of walls.
     """
     columns = [
         _lattice(obj) if report else {} for obj, report in zip(infills, reports, strict=True)
@@ -101,8 +103,8 @@ def _lattices(
 
 def _lattice(obj: App.DocumentObject) -> dict[str, str]:
     from volfrep.apart.engine_process import Call
+    from volfrep.jobs.properties import lattice_properties
     from volfrep.mechanics.catalogue import known_properties
-    from volfrep.mechanics.summary import cell_properties
 
     try:
         _, spec, _ = obj.Proxy.inputs(obj)
@@ -110,23 +112,31 @@ def _lattice(obj: App.DocumentObject) -> dict[str, str]:
         return {}
     if spec.size_grading is not None or spec.struts.is_graded or spec.output == "domain":
         return {}
-    if spec.surface is not None:
+    if spec.network is not None or (spec.surface is None and not spec.unit_cell().is_plain):
         return {}
-    material, cell = material_of(obj), spec.unit_cell()
-    size, radius = spec.cell_size, spec.strut_radius
-    found = None if spec.fillet else known_properties(cell, size, radius, material)
+    material, size = material_of(obj), spec.cell_size
+    found = None
+    if spec.surface is not None:
+        arguments, rest = (spec.surface, size), _of_walls(spec.wall)
+    else:
+        cell, radius = spec.unit_cell(), spec.strut_radius
+        arguments, rest = (cell, size, radius), {"fillet": spec.fillet}
+        if not spec.fillet:
+            found = known_properties(cell, size, radius, material)
     if found is None:
-        found = run_job(
-            job_title("Properties of the lattice of {label}", obj),
-            Call(
-                cell_properties,
-                (cell, size, radius),
-                {"fillet": spec.fillet, "material": material},
-                has_progress=False,
-            ),
+        call = Call(
+            lattice_properties, arguments, {**rest, "material": material}, has_progress=False
         )
+        found = run_job(job_title("Properties of the lattice of {label}", obj), call)
     rows = dict(found.rows())
     return {name: rows[name] for name in rows if name not in ("cell", "material")}
+
+
+def _of_walls(wall: Wall) -> dict[str, Any]:
+    """What says how thick a wall is, as `lattice_properties` takes it."""
+    if wall.is_sheet:
+        return {"wall_kind": wall.kind, "wall_thickness": wall.thickness}
+    return {"wall_kind": wall.kind, "wall_offset": wall.offset}
 
 
 def _plain(key: str, value: Any) -> Any:

@@ -67,6 +67,24 @@ def test_statistics_tell_what_the_lattice_does(doc, infill):
     assert does.rows == ()
 
 
+def test_statistics_tell_what_walls_do(doc, infill, monkeypatch):
+    """On coarse grids: how fine they are is the engine's matter."""
+    asked = []
+
+    def coarse(title, call):
+        asked.append(call.arguments)
+        return call.function(*call.arguments, **call.keywords, along=16)
+
+    monkeypatch.setattr("freecad_volfrep.features.statistics.run_job", coarse)
+    infill.CellType = "Gyroid"
+    infill.WallThickness = 1.5
+    doc.recompute()
+    does = {table.title: table for table in statistics([infill])}["What the lattice does"]
+    rows = {row[0]: row[1] for row in does.rows}
+    assert len(asked) == 1
+    assert {"relative density", "E100", "G", "strength", "conductivity"} <= rows.keys()
+
+
 def test_a_window_may_say_tables_in_other_words():
     table = Table("Sizes", (("cell", 3, True),), ("", "A", "B"))
     said = {"Sizes": "Größen", "cell": "Zelle", "yes": "ja"}

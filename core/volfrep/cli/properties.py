@@ -21,16 +21,20 @@ _TEXT = "Tell density, stiffness, strength and conductance of a cell's lattice."
 def add_command(add: Callable[[str, Callable[[argparse.Namespace], None], str], Any]) -> None:
     """Add the command with `cli`'s own function for that."""
     parser = add("properties", _properties, _TEXT)
-    parser.add_argument("cell", metavar="CELL", help="a library cell, or a cell's .json file")
+    parser.add_argument(
+        "cell",
+        metavar="CELL",
+        help="a library cell, a surface of walls such as Gyroid, or a cell's .json file",
+    )
     add_run_options(parser, "properties")
 
 
 def _properties(options: argparse.Namespace) -> None:
-    from ..mechanics.summary import cell_properties
+    from ..jobs.properties import lattice_properties
     from ..util.files import replacing
 
     check_files(options)
-    found = cell_properties(
+    found = lattice_properties(
         options.cell,
         options.cell_size,
         options.strut_radius,
@@ -38,6 +42,10 @@ def _properties(options: argparse.Namespace) -> None:
         fillet=options.fillet,
         material=options.material,
         along=options.voxels,
+        wall_kind=options.wall_kind,
+        wall_thickness=options.wall_thickness,
+        wall_offset=options.wall_offset,
+        wall_formula=options.wall_formula,
     )
     if options.json is not None:
         with replacing(options.json) as file:

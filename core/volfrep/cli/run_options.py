@@ -250,8 +250,23 @@ RUN_OPTIONS = (
         either="size", required=True,
     ),
     RunOption(
-        "relative-density", ("properties",), "from 0 to 1, in place of the radius", "D",
+        "wall-thickness", ("properties",), "of a sheet of walls", "MM", read=float, either="size",
+        required=True,
+    ),
+    RunOption(
+        "wall-offset", ("properties",), "of a skeleton or complement of walls", "MM", read=float,
+        either="size", required=True,
+    ),
+    RunOption(
+        "relative-density", ("properties",), "from 0 to 1, in place of these", "D",
         read=float, either="size", required=True,
+    ),
+    RunOption(
+        "wall-kind", ("properties",), "of walls (default: sheet)", "WORD",
+        choices=("sheet", "skeleton", "complement"),
+    ),
+    RunOption(
+        "wall-formula", ("properties",), "the surface of the cell Formula", "F", default="",
     ),
     RunOption(
         "fillet", ("properties",), "round at the joints (default 0)", "MM", read=float, default=0.0,

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from ..design.cells import UnitCell, find_cell
 from ..design.spec_parts import Grid, Struts
+from ..design.walls import Wall
 from ..util.errors import VolfrepError
 from ..util.types import Floats
 from .conductance import conductance
@@ -37,9 +38,9 @@ class CellProperties:
     engineering shear strains.
 
     Attributes:
-        cell: its name.
+        cell: its name, or its surface's.
         cell_size: L, mm.
-        strut_radius: r, mm.
+        strut_radius: r, mm; 0 of walls.
         fillet: mm.
         relative_density: solid volume over the cell's.
         material: the solid; None for one with E = 1 and nu = `POISSON`.
@@ -51,6 +52,7 @@ class CellProperties:
         errors: by how much each may be off, by the same names, and relative_density and stiffness.
         von_mises: the solid's stress per unit of each macroscopic stress, by its name.
         along: voxels along L of the finest grid; 0 where the catalogue was read.
+        wall: what is solid beside the surface; None of struts.
     """
 
     cell: str
@@ -64,6 +66,7 @@ class CellProperties:
     errors: dict[str, Any]
     von_mises: dict[str, float]
     along: int
+    wall: Wall | None = None
 
     def young(self, direction: ArrayLike) -> float:
         """Young's modulus along a direction, such as (1, 2, 0), in the unit of the moduli.
@@ -86,8 +89,7 @@ class CellProperties:
         return {
             "cell": self.cell,
             "cell_size_mm": self.cell_size,
-            "strut_radius_mm": self.strut_radius,
-            "fillet_mm": self.fillet,
+            **self._size(),
             "relative_density": self.relative_density,
             "material": None if solid is None else solid.as_dict(),
             "unit": "the solid's Young's modulus" if solid is None else "MPa",
@@ -109,6 +111,23 @@ class CellProperties:
             },
         }
 
+    def _size(self) -> dict[str, Any]:
+        """What says how thick the struts or the walls are."""
+        wall = self.wall
+        if wall is None:
+            return {"strut_radius_mm": self.strut_radius, "fillet_mm": self.fillet}
+        if wall.is_sheet:
+            return {"wall_kind": wall.kind, "wall_thickness_mm": wall.thickness}
+        return {"wall_kind": wall.kind, "wall_offset_mm": wall.offset}
+
+    def _sized(self) -> str:
+        wall = self.wall
+        if wall is None:
+            return f"r = {self.strut_radius:.5g} mm"
+        if wall.is_sheet:
+            return f"{wall.kind} {wall.thickness:.5g} mm thick"
+        return f"{wall.kind}, offset {wall.offset:.5g} mm"
+
     def rows(self) -> list[tuple[str, str]]:
         """Names and values, for people."""
         solid = self.material
@@ -116,7 +135,7 @@ class CellProperties:
         yields = solid is not None and solid.yield_stress is not None
         share = self.errors["relative_density"]
         rows = [
-            ("cell", f"{self.cell}, L = {self.cell_size:g} mm, r = {self.strut_radius:.5g} mm"),
+            ("cell", f"{self.cell}, L = {self.cell_size:g} mm, {self._sized()}"),
             ("relative density", f"{100 * self.relative_density:.3f} +- {100 * share:.3f} %"),
         ]
         if solid is not None:
@@ -158,7 +177,7 @@ def cell_properties(
     material: str | SolidMaterial | None = None,
     along: int | None = None,
 ) -> CellProperties:
-    """What the endless lattice of a cell does.
+    """What the endless lattice of a cell of struts does.
 
     Args:
         cell: a library cell's name, the path of a cell's file, or the cell.
@@ -182,18 +201,18 @@ def cell_properties(
     if (strut_radius is None) == (relative_density is None):
         raise VolfrepError("Give either a strut radius or a relative density.")
     solid = find_material(material) if isinstance(material, str) else material
+    size = Grid(cell_size).size
     if strut_radius is None:
-        _check(cell_size, cell_size * 1e-3, fillet)
+        _check(size, size * 1e-3, fillet)
         assert relative_density is not None
-        radius = radius_of_density(unit_cell, float(relative_density), fillet / cell_size)
-        strut_radius = radius * cell_size
-    _check(cell_size, strut_radius, fillet)
-    return _summary(unit_cell, float(cell_size), float(strut_radius), float(fillet), solid, along)
+        strut_radius = size * radius_of_density(unit_cell, float(relative_density), fillet / size)
+    _check(size, strut_radius, fillet)
+    return _summary(unit_cell, size, float(strut_radius), float(fillet), solid, along)
 
 
 def _check(size: float, radius: float, fillet: float) -> None:
     """Refuse what no lattice can be made of; the number of facets does not matter here."""
-    Struts(radius, fillet).refuse_too_thick(Grid(size).size)
+    Struts(radius, fillet).refuse_too_thick(size)
 
 
 def _summary(
@@ -205,12 +224,33 @@ def _summary(
     along: int | None,
 ) -> CellProperties:
     poisson = POISSON if solid is None else solid.poisson
-    young = 1.0 if solid is None else solid.young
-    limit = 1.0 if solid is None or solid.yield_stress is None else solid.yield_stress
     density = relative_density(cell, radius / size, fillet / size)
     found = homogenise(
         cell, radius / size, fillet / size, poisson=poisson, along=along, density=density.value
     )
+    whole = figures_of(found, solid)
+    whole.errors["relative_density"] = density.error
+    return CellProperties(
+        cell.name, size, radius, fillet, density.value, solid, whole.stiffness, whole.values,
+        whole.errors, whole.von_mises, found.along[-1],
+    )  # fmt: skip
+
+
+@dataclass(frozen=True, eq=False)
+class Figures:
+    """What follows from the homogenised solid, as `CellProperties` has it."""
+
+    stiffness: Floats
+    values: dict[str, float]
+    errors: dict[str, Any]
+    von_mises: dict[str, float]
+
+
+def figures_of(found: Homogenised, solid: SolidMaterial | None) -> Figures:
+    """What a homogenised solid does, of a material or of one with E = 1 and yield stress 1."""
+    poisson = POISSON if solid is None else solid.poisson
+    young = 1.0 if solid is None else solid.young
+    limit = 1.0 if solid is None or solid.yield_stress is None else solid.yield_stress
     names = (*MODULI, *RATIOS)
 
     def figures(tensor: Floats) -> Floats:
@@ -225,22 +265,10 @@ def _summary(
     for name, (value, error) in _limits(found, poisson).items():
         values[name], errors[name] = limit * value, limit * error
     values["conductivity"], errors["conductivity"] = _conducted(found)
-    errors["relative_density"] = density.error
     errors["stiffness"] = young * found.error_of(lambda tensor: tensor)
     stressed = stresses(found.finest, poisson)
-    return CellProperties(
-        cell.name,
-        size,
-        radius,
-        fillet,
-        density.value,
-        solid,
-        young * found.tensor,
-        values,
-        errors,
-        dict(zip(stressed.names, stressed.largest.tolist(), strict=True)),
-        found.along[-1],
-    )
+    von_mises = dict(zip(stressed.names, stressed.largest.tolist(), strict=True))
+    return Figures(young * found.tensor, values, errors, von_mises)
 
 
 def _limits(found: Homogenised, poisson: float) -> dict[str, tuple[float, float]]:

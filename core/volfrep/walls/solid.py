@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..design.walls import PeriodicSurface, Wall
-from ..util.types import Floats
+from ..util.types import Bools, Floats
 from .midsurface import Feet, Midsurface, midsurface
 
 #: Steps to a foot point for vertices, which lie near the surface.
@@ -63,14 +63,18 @@ class WallSolid:
         reach = abs(self.level) + band + self.surface.spacing
         near, away = self.surface.near(points, reach)
         found = np.isfinite(away)
-        # Far from the surface the side tells whether a point is in the solid.
-        side = np.where(self.surface.values(points) < 0.0, -1.0, 1.0)
-        far = {"sheet": np.ones(len(points)), "skeleton": side, "complement": -side}[self.kind]
-        values = far * 2.0 * band
+        values = np.where(self.is_inside(points), -2.0, 2.0) * band
         feet = self.surface.feet(points[found], near[found], STEPS)
         values[found] = self.outward(feet) * feet.distances - self.level
         grid = values.reshape((steps,) * 3)
         return np.pad(grid, (0, 1), mode="wrap")
+
+    def is_inside(self, points: Floats) -> Bools:
+        """(n,) whether points far from the surface are in the solid: their side tells."""
+        if self.kind == "sheet":
+            return np.zeros(len(points), bool)
+        negative: Bools = self.surface.values(points) < 0.0
+        return negative if self.kind == "skeleton" else ~negative
 
     def levels(self, points: Floats) -> Floats:
         """(n,) the levels from which on points are solid."""

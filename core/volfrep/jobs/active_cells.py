@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from ..design.memory_guard import refuse_cells
 from ..design.spec_parts import Grid
-from ..grid.activation import active_cells, make_grid, mapped_grid
+from ..grid.activation import active_cells, inside_cells, make_grid, mapped_grid
 from ..grid.placement import part_map
 from ..lattice.padded_grid import PaddedGrid, padded_grid
 from ..mesh.triangle_mesh import TriangleMesh, box_of, concatenate
@@ -24,10 +24,25 @@ class ActiveCells:
     Attributes:
         padded: the part's grid, and the cells about it that the lattice may be laid on.
         active: (nx, ny, nz) bool, those of the part's grid that hold one.
+        narrow: how many, with their centres in what the lattice fills, hold none, because next to
+            an axis or a pole they leave their struts no room.
     """
 
     padded: PaddedGrid
     active: Bools
+    narrow: int = 0
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """A sentence on cells that are too narrow for their struts."""
+        if not self.narrow:
+            return ()
+        cells = "cell is" if self.narrow == 1 else "cells are"
+        return (
+            f"{self.narrow:,} {cells} too narrow for struts, next to the axis or the poles that "
+            "cells lie about, and left hollow there: thinner struts or fewer cells around leave "
+            "less.",
+        )
 
 
 def activated(
@@ -60,9 +75,11 @@ def activated(
         cells = mapped_grid(whole, mapping, grid.size, grid.origin, monitor)
     refuse_cells(cells.cells, grid.size)
     padded = padded_grid(cells, mapping, least)
-    usable = padded.inner_usable
+    usable, narrow = padded.inner_usable, 0
+    if usable is not None and not usable.all():
+        narrow = int((inside_cells(cells, domain.mesh, monitor, mapping) & ~usable).sum())
     return ActiveCells(
-        padded, active_cells(cells, domain.mesh, activation, monitor, mapping, usable)
+        padded, active_cells(cells, domain.mesh, activation, monitor, mapping, usable), narrow
     )
 
 

@@ -275,9 +275,9 @@ class Infill:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """What is to be said of the solid and of its skin."""
+        """What is to be said of the solid, its skin and its cells."""
         notes = self.solid.notes if isinstance(self.solid, Solid) else ()
-        return notes + self.domain.warnings
+        return notes + self.domain.warnings + self.cells.warnings
 
     @property
     def _beam_warnings(self) -> tuple[str, ...]:

@@ -3,7 +3,8 @@
 
 Where a wall grazes a strut two sheets of a surface enclose a wedge that is as thin as the steps of
 single precision, and where struts have next to no room between them facets fold over. Both have an
-edge at which the surface turns back: only there, and in the triangles next to it, is looked.
+edge at which the surface turns back, or one that is sharper than struts have it: only there, and in
+the triangles next to it, is looked.
 """
 
 from __future__ import annotations
@@ -20,6 +21,9 @@ from .piercing import piercing_pairs
 
 #: The surface turns back at an edge where the cosine between its normals is below this.
 TURNS_BACK = -0.9
+#: Deformed struts do so at an edge that sticks out and is sharper than this: facets round a strut
+#: turn by 60 degrees at most, and where struts meet is a valley.
+STICKS_OUT = -0.2
 #: Vertices of crossing triangles move by so much of the way to the middle of their neighbours, one
 #: share after the other.
 SHARES = (1e-4, 1e-3, 1e-3, 1e-3, 0.01, 0.01, 0.03, 0.03, 0.1, 0.1, 0.2, 0.2, 0.3, 0.3, 0.5, 0.1,
@@ -31,7 +35,9 @@ REACH, MOST_PLACES = 4.0, 200
 MOST_RINGS = 3
 
 
-def uncrossed(mesh: TriangleMesh, monitor: Monitor) -> tuple[TriangleMesh, Floats | None]:
+def uncrossed(
+    mesh: TriangleMesh, monitor: Monitor, deformed: bool = False
+) -> tuple[TriangleMesh, Floats | None]:
     """The mesh with no triangles that cross where its surface turns back, as far as that goes.
 
     Vertices of triangles that cross move a little towards the middle of their neighbours, or
@@ -40,11 +46,12 @@ def uncrossed(mesh: TriangleMesh, monitor: Monitor) -> tuple[TriangleMesh, Float
     Args:
         mesh: closed, or open where nothing turns back.
         monitor: asked for a cancel.
+        deformed: whether vertices are elsewhere than they were meshed, so that facets may fold.
 
     Returns:
         The mesh, the same one where nothing crosses; and (3,) where triangles still do, mm.
     """
-    among = turning_back(mesh)
+    among = turning_back(mesh, deformed)
     pairs, rings = _crossing(mesh, among, monitor), 0
     everywhere, among = among, _about(mesh, pairs, among)
     random = np.random.default_rng(0)
@@ -99,8 +106,11 @@ def _about(mesh: TriangleMesh, pairs: Ints, among: Bools) -> Bools:
     return found
 
 
-def turning_back(mesh: TriangleMesh) -> Bools:
-    """(m,) the triangles that have a corner at an edge where the surface turns back on itself."""
+def turning_back(mesh: TriangleMesh, deformed: bool = False) -> Bools:
+    """(m,) the triangles that have a corner at an edge where the surface turns back on itself.
+
+    Where it is deformed, also those at sharp edges that stick out.
+    """
     t = mesh.triangles.astype(np.int64)
     a, b, c = mesh.corners()
     normal = np.cross(b - a, c - a)
@@ -112,7 +122,13 @@ def turning_back(mesh: TriangleMesh) -> Bools:
     order = np.argsort(edge)
     same = edge[order[1:]] == edge[order[:-1]]
     one, two = order[:-1][same], order[1:][same]
-    turned = np.einsum("ij,ij->i", normal[one // 3], normal[two // 3]) < TURNS_BACK
+    cosine = np.einsum("ij,ij->i", normal[one // 3], normal[two // 3])
+    turned = cosine < TURNS_BACK
+    if deformed:
+        sharp = np.flatnonzero((cosine < STICKS_OUT) & ~turned)
+        beyond = mesh.vertices[t[two[sharp] // 3, (two[sharp] + 2) % 3]]
+        beyond = beyond - mesh.vertices[start[one[sharp]]]
+        turned[sharp] = np.einsum("ij,ij->i", normal[one[sharp] // 3], beyond) < 0.0
     near = np.zeros(len(mesh.vertices), bool)
     near[t[one[turned] // 3]] = True
     near[t[two[turned] // 3]] = True

@@ -89,7 +89,7 @@ def finished(
         quality = again
     straight, place = surface.mesh, None
     if moved or cut:
-        straight, place = uncrossed(surface.mesh, monitor)
+        straight, place = uncrossed(surface.mesh, monitor, moved)
     if straight is not surface.mesh:
         if _reaches_octants(surface, straight):
             return finished(TrimmedSurface(surface.whole(monitor)), quality, monitor, moved, cut)
@@ -117,9 +117,11 @@ def finished(
 
 
 def _reaches_octants(surface: TrimmedSurface, mesh: TriangleMesh) -> bool:
-    """Whether vertices that were moved in its mesh have triangles in the octants beside it."""
+    """Whether vertices that were moved in its mesh belong to the octants beside it, or reach in."""
     if surface.octants is None:
         return False
+    if not replace(surface, mesh=mesh).is_joined:
+        return True
     moved = (mesh.vertices != surface.mesh.vertices).any(axis=1)
     about = mesh.triangles[moved[mesh.triangles].any(axis=1)]
     return bool(surface.octants.reached(mesh.vertices[about]).any())

@@ -140,7 +140,7 @@ def test_graded_struts_that_run_through_each_other_are_told_with_their_place(mon
     assert not crossing_triangles(apart.mesh, every, 1e-2).any()
     assert not any("run through" in sentence for sentence in apart.report.warnings)
     # As they come out of the grading:
-    monkeypatch.setattr("volfrep.trim.finish.uncrossed", lambda mesh, monitor: (mesh, None))
+    monkeypatch.setattr("volfrep.trim.finish.uncrossed", lambda mesh, monitor, moved: (mesh, None))
     result = block(spec, (6, 5, 1))
     assert crossing_triangles(result.mesh, every, 1e-2).any()
     assert "run through each other there" in result.report.warnings[-1]
@@ -191,3 +191,23 @@ def test_new_triangles_are_those_that_were_not_there():
     assert 0 < new.sum() < 10
     assert not places(mesh, new) & old
     assert places(mesh, ~new) <= old
+
+
+def test_vertices_at_the_rim_of_octants_beside_the_mesh_take_these_along(monkeypatch):
+    """Drawn apart alone they would leave the octants, which have them where they were."""
+    moved = []
+
+    def nudged(mesh, monitor, deformed):
+        edges = np.sort(mesh.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+        edges, count = np.unique(edges, axis=0, return_counts=True)
+        rim = edges[count == 1].ravel()
+        vertices = mesh.vertices.copy()
+        vertices[rim[:1]] += 1e-4
+        moved.append(len(rim))
+        return TriangleMesh(vertices, mesh.triangles), None
+
+    monkeypatch.setattr("volfrep.trim.finish.uncrossed", nudged)
+    result = fill(samples.box((36.0, 36.0, 36.0)), LatticeSpec("Box", 6.0, 0.5, shell=1.0))
+    assert moved[0]
+    assert result.report.watertight
+    assert result.report.bodies == 1

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import importlib
 import importlib.metadata
 import importlib.util
 import os
@@ -64,12 +65,17 @@ def engine_folders() -> tuple[str, ...]:
     return tuple(folders)
 
 
-def install_command(packages: list[str]) -> str:
-    """The command, for a shell, that installs the packages where this FreeCAD finds them."""
+def install_arguments(packages: list[str]) -> list[str]:
+    """The program and its arguments that install the packages where this FreeCAD finds them."""
     pins = [f"{name}=={importlib.metadata.version(name)}" for name in SHARED if _installed(name)]
     wanted = [name for name in packages if not _installed(name)]
     target = str(package_folder())
-    arguments = [python_executable(), "-m", "pip", "install", "--target", target, *wanted, *pins]
+    return [python_executable(), "-m", "pip", "install", "--target", target, *wanted, *pins]
+
+
+def install_command(packages: list[str]) -> str:
+    """The same as a command for a shell."""
+    arguments = install_arguments(packages)
     if os.name == "nt":
         return " ".join(f'"{part}"' if " " in part else part for part in arguments)
     return shlex.join(arguments)
@@ -81,6 +87,18 @@ def explain_missing(packages: list[str]) -> str:
         f"VOLFREP needs the Python packages {', '.join(packages)}: install them for this FreeCAD "
         f"with the command  {install_command(packages)}  and restart FreeCAD."
     )
+
+
+def find_installed() -> list[str]:
+    """Look again after an installation, in this FreeCAD as it runs; returns what is missing yet.
+
+    FreeCAD has the folder on its path only where it was there at its start.
+    """
+    folder = str(package_folder())
+    if Path(folder).is_dir() and folder not in sys.path:
+        sys.path.append(folder)
+    importlib.invalidate_caches()
+    return missing_packages()
 
 
 def _installed(name: str) -> bool:

@@ -60,6 +60,7 @@ RESOLUTION = Preference("NewResolution", 0, 4, 400, automatic=True)
 DEVIATION = Preference("NewDeviation", 0.0, 0.0001, 10.0, automatic=True)
 AUTO_UPDATE = Preference("NewAutoUpdate", True)
 DENSITY = Preference("NewDensity", 1.0, 0.001, 25.0)
+PRICE = Preference("NewMaterialPrice", 0.0, 0.0, 1e6)
 LARGEST_AUTOMATIC = Preference("LargestAutomaticTriangles", 3_000_000, 0, 2_000_000_000)
 LARGEST_SHOWN = Preference("LargestShownTriangles", 1_000_000, 1_000, 2_000_000_000)
 TRANSPARENCY = Preference("Transparency", 60, 0, 100)
@@ -73,7 +74,7 @@ THREADS = Preference("Threads", 0, 1, 256, automatic=True)
 #: All of them, as the tests and the page see them.
 PREFERENCES = (
     CELL_TYPE, CELL_SIZE, STRUT_SHARE, SKIN, RESOLUTION, DEVIATION, AUTO_UPDATE, DENSITY,
-    LARGEST_AUTOMATIC, LARGEST_SHOWN, TRANSPARENCY, MOST_PRISMS, STRUT_COLOUR, SKIN_COLOUR,
+    PRICE, LARGEST_AUTOMATIC, LARGEST_SHOWN, TRANSPARENCY, MOST_PRISMS, STRUT_COLOUR, SKIN_COLOUR,
     CUT_COLOUR, OVERHANG_COLOUR, THREADS,
 )  # fmt: skip
 
@@ -101,6 +102,20 @@ def write(preference: Preference, value: Any) -> None:
         _call("Rem", preference)
     else:
         _call("Set", preference, value)
+
+
+def is_folded(section: str, usually: bool) -> bool:
+    """Whether the user has folded a section of a panel away, or it usually is."""
+    return bool(App.ParamGet(f"{GROUP}/Sections").GetBool(section, usually))
+
+
+def keep_folded(section: str, folded: bool, usually: bool) -> None:
+    """Remember whether a section is folded; what is usual is stored by storing nothing."""
+    group = App.ParamGet(f"{GROUP}/Sections")
+    if folded == usually:
+        group.RemBool(section)
+    else:
+        group.SetBool(section, folded)
 
 
 def allowed(preference: Preference, value: Any) -> Any:

@@ -79,6 +79,7 @@ def preferred_values(extent: tuple[float, float, float]) -> dict[str, Any]:
         "Deviation": 0.0 if resolution else preferences.read(preferences.DEVIATION),
         "AutoUpdate": preferences.read(preferences.AUTO_UPDATE),
         "Density": preferences.read(preferences.DENSITY),
+        "MaterialPrice": preferences.read(preferences.PRICE),
     }
 
 

@@ -11,6 +11,7 @@ import FreeCAD as App
 
 from freecad_volfrep.translation import figure, grouped, translate
 
+from .lattice_infill import fingerprint_of
 from .materials import advice, material_of
 
 if TYPE_CHECKING:
@@ -39,6 +40,7 @@ class Shown:
         advice: sentences on what does not suit the chosen process.
         stiffness: Young's modulus along the chosen direction, MPa; None without a material, or
             for a cell or radius that the catalogue does not have.
+        is_made: whether the infill's mesh is of these values.
     """
 
     solid: TriangleMesh
@@ -46,6 +48,7 @@ class Shown:
     forecast: Forecast
     advice: tuple[str, ...] = ()
     stiffness: float | None = None
+    is_made: bool = False
 
     @property
     def text(self) -> str:
@@ -118,6 +121,7 @@ class LivePreview:
             forecast_fill(solid, shown.spec),
             advice(self._obj, shown.spec.struts.extremes[0]),
             _stiffness(self._obj, shown.spec),
+            self._obj.Fingerprint == fingerprint_of(spec, mesh),
         )
 
 

@@ -12,10 +12,15 @@ import FreeCAD as App
 import FreeCADGui as Gui
 
 from freecad_volfrep import ICONS
-from freecad_volfrep.deps import explain_missing, missing_packages
+from freecad_volfrep.deps import missing_packages
+from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 
 from .help_window import page_address
-from .messages import show_error
+from .install_window import offer_packages
+from .reasons import tell_why
+
+#: Why no command can be used beside a task panel.
+PANEL_OPEN = QT_TRANSLATE_NOOP("VolfrepCommands", "A panel is open: end it first.")
 
 
 @dataclass(frozen=True)
@@ -30,6 +35,7 @@ class Command:
         keys: shortcut as FreeCAD writes it, or nothing; none of FreeCAD's own.
         selected: what of the selection the command works on, or None.
         act: is called with that.
+        wanted: a sentence on what has to be there for `selected` to find something.
         computes: whether it needs the engine's packages.
     """
 
@@ -40,6 +46,7 @@ class Command:
     keys: str
     selected: Callable[[], Any]
     act: Callable[[Any], None]
+    wanted: str = ""
     computes: bool = True
 
     def GetResources(self) -> dict[str, str]:  # noqa: N802
@@ -54,14 +61,24 @@ class Command:
         return {**resources, "Accel": self.keys} if self.keys else resources
 
     def IsActive(self) -> bool:  # noqa: N802
-        """Whether it can be used now."""
-        return not Gui.Control.activeDialog() and self.selected() is not None
+        """Whether it can be used now; its tips say why not."""
+        why = self.why_not()
+        tell_why(self.name, why)
+        return not why
+
+    def why_not(self) -> str:
+        """Why it cannot be used now, in the user's language; empty where it can."""
+        if Gui.Control.activeDialog():
+            return str(translate("VolfrepCommands", PANEL_OPEN))
+        if self.selected() is None:
+            return str(translate("VolfrepCommands", self.wanted))
+        return ""
 
     def Activated(self) -> None:  # noqa: N802
-        """Do it; where packages are missing, say which."""
+        """Do it; where packages are missing, offer to install them."""
         missing = missing_packages()
         if missing and self.computes:
-            show_error(explain_missing(missing))
+            offer_packages(missing)
             return
         self.act(self.selected())
 

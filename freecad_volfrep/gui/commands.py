@@ -30,6 +30,13 @@ from .result_commands import (
     study_designs,
 )
 from .selection import (
+    A_MESH,
+    A_SOLID,
+    AN_INFILL,
+    AN_INFILL_AND_FACES,
+    AN_INFILL_IN_VIEW,
+    AN_INFILL_OR_STUDY,
+    SOME_INFILLS,
     infill_in_view,
     selected_infill,
     selected_infill_and_faces,
@@ -59,6 +66,7 @@ _TABLE = (
         "L, F",
         fillable_selection,
         fill_solids,
+        A_SOLID,
     ),
     Command(
         "VOLFREP_Edit",
@@ -68,6 +76,7 @@ _TABLE = (
         "L, D",
         selected_infill,
         edit_infill,
+        AN_INFILL,
     ),
     Command(
         "VOLFREP_PreviewOnly",
@@ -78,6 +87,7 @@ _TABLE = (
         "L, W",
         infill_in_view,
         preview_only,
+        AN_INFILL_IN_VIEW,
     ),
     Command(
         "VOLFREP_Update",
@@ -87,6 +97,7 @@ _TABLE = (
         "L, U",
         selected_infill,
         update_infill,
+        AN_INFILL,
     ),
     Command(
         "VOLFREP_OpenFaces",
@@ -96,6 +107,7 @@ _TABLE = (
         "L, O",
         selected_infill_and_faces,
         open_faces,
+        AN_INFILL_AND_FACES,
     ),
     Command(
         "VOLFREP_CellLibrary",
@@ -116,6 +128,7 @@ _TABLE = (
         "L, M",
         selected_mesh,
         report_mesh,
+        A_MESH,
     ),
     Command(
         "VOLFREP_PrintCheck",
@@ -126,6 +139,7 @@ _TABLE = (
         "L, P",
         selected_infill,
         check_print,
+        AN_INFILL,
     ),
     Command(
         "VOLFREP_SectionView",
@@ -136,6 +150,7 @@ _TABLE = (
         "L, N",
         selected_mesh,
         show_section,
+        A_MESH,
     ),
     Command(
         "VOLFREP_Statistics",
@@ -146,6 +161,7 @@ _TABLE = (
         "L, T",
         selected_or_all_infills,
         show_statistics,
+        SOME_INFILLS,
     ),
     Command(
         "VOLFREP_Export",
@@ -156,6 +172,7 @@ _TABLE = (
         "L, X",
         selected_mesh,
         export,
+        A_MESH,
     ),
     Command(
         "VOLFREP_ToSolid",
@@ -166,6 +183,7 @@ _TABLE = (
         "L, S",
         selected_mesh,
         make_solid_of,
+        A_MESH,
     ),
     Command(
         "VOLFREP_FemAnalysis",
@@ -176,6 +194,7 @@ _TABLE = (
         "L, A",
         selected_infill,
         analyse,
+        AN_INFILL,
     ),
     Command(
         "VOLFREP_SizeLattice",
@@ -186,6 +205,7 @@ _TABLE = (
         "L, Z",
         infill_in_view,
         size_lattice,
+        AN_INFILL_IN_VIEW,
     ),
     Command(
         "VOLFREP_StrutResults",
@@ -196,6 +216,7 @@ _TABLE = (
         "L, R",
         infill_in_view,
         show_strut_results,
+        AN_INFILL_IN_VIEW,
     ),
     Command(
         "VOLFREP_DesignStudy",
@@ -206,6 +227,7 @@ _TABLE = (
         "L, Y",
         selected_infill_or_study,
         study_designs,
+        AN_INFILL_OR_STUDY,
     ),
     Command(
         "VOLFREP_Help",

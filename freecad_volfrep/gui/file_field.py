@@ -33,6 +33,16 @@ class FileField(QtWidgets.QWidget):
         row.setContentsMargins(0, 0, 0, 0)
         row.addWidget(self._line, 1)
         row.addWidget(button)
+        self.setFocusProxy(self._line)
+
+    def setAccessibleName(self, name: str) -> None:  # noqa: N802
+        """Tell who cannot see the field what its line is for."""
+        super().setAccessibleName(name)
+        self._line.setAccessibleName(name)
+
+    def show_path(self, path: str) -> None:
+        """Show another file; nothing is told."""
+        self._line.setText(path)
 
     def _ask(self) -> None:
         present = self._line.text().strip()

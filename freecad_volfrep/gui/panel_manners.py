@@ -35,6 +35,25 @@ def leave_the_wheel(form: Any, fields: Iterable[Any]) -> None:
         field.installEventFilter(leaves)
 
 
+class _KeepSpace(QtCore.QObject):
+    """Leaves Space to the button or list in focus: FreeCAD hides what is selected by it."""
+
+    def eventFilter(self, widget: QtCore.QObject, event: QtCore.QEvent) -> bool:  # noqa: N802
+        is_space = event.type() == QtCore.QEvent.ShortcutOverride and (
+            event.key() == QtCore.Qt.Key_Space
+        )
+        if is_space:
+            event.accept()
+        return bool(is_space)
+
+
+def keep_space(form: Any, widgets: Iterable[Any]) -> None:
+    """Let Space press the buttons of a panel, and open its lists."""
+    keeps = _KeepSpace(form)
+    for widget in widgets:
+        widget.installEventFilter(keeps)
+
+
 def entitle(form: Any, title: str) -> None:
     """Give a panel a title, shortened in its middle where it is long: the tree has all of it."""
     ends = LONGEST_TITLE // 2 - 1

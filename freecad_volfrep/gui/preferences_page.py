@@ -164,6 +164,15 @@ class NewInfillPage(Page):
                     ),
                     " g/cm³",
                 ),
+                Row(
+                    prefs.PRICE,
+                    QT_TRANSLATE_NOOP("VolfrepPreferences", "Price of a kilogram"),
+                    QT_TRANSLATE_NOOP(
+                        "VolfrepPreferences",
+                        "Of the material, in your currency, from which the panel tells the cost; "
+                        "0: no cost is told",
+                    ),
+                ),
             ),
         ),
     )

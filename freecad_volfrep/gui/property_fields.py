@@ -20,8 +20,10 @@ from volfrep.util.errors import VolfrepError
 
 from .cell_library import cell_files
 from .cell_picture import cell_icon, wall_icon
+from .curve_editor import CurveEditor
 from .file_field import FileField
 from .qt import QtCore, QtGui, QtWidgets
+from .typed_sums import TypedSums
 
 #: Size of a cell's picture, px.
 PICTURE = 48
@@ -52,11 +54,15 @@ class PropertyFields:
     ) -> None:
         self._obj, self._changed, self._refused = obj, changed, refused
         self._bindings: list[Any] = []
+        self._sums: list[TypedSums] = []
+        #: What draws a formula, by the name of its property.
+        self.curves: dict[str, CurveEditor] = {}
 
     def cell_picker(self) -> Any:
         """The list of unit cells with their pictures."""
-        picker = QtWidgets.QListWidget()
+        picker = self._picker = QtWidgets.QListWidget()
         picker.setObjectName("CellType")
+        picker.setAccessibleName(label_of("CellType"))
         picker.setViewMode(QtWidgets.QListView.IconMode)
         picker.setIconSize(QtCore.QSize(PICTURE, PICTURE))
         picker.setMovement(QtWidgets.QListView.Static)
@@ -102,7 +108,7 @@ class PropertyFields:
             return box
         if kind == "App::PropertyString":
             line = QtWidgets.QLineEdit(getattr(self._obj, name))
-            line.editingFinished.connect(lambda: self._setter(name)(line.text()))
+            line.editingFinished.connect(lambda: self._type_text(name, line.text()))
             return line
         if kind == "App::PropertyFile":
             return FileField(getattr(self._obj, name), _files(name), self._setter(name))
@@ -117,10 +123,10 @@ class PropertyFields:
         spin.setProperty("minimum", 0.0)
         present = getattr(self._obj, name)
         spin.setProperty("rawValue", getattr(present, "Value", present))
+        line = spin.findChild(QtWidgets.QLineEdit)
         # Its own signal has a type that Python's Qt does not know.
-        spin.findChild(QtWidgets.QLineEdit).textChanged.connect(
-            lambda _: self._setter(name)(spin.property("rawValue"))
-        )
+        line.textChanged.connect(lambda _: self._setter(name)(spin.property("rawValue")))
+        self._sums.append(TypedSums(self._obj, spin, line, self._refused))
         binding = Gui.ExpressionBinding(spin)
         binding.bind(self._obj, name)
         self._bindings.append(binding)
@@ -156,9 +162,41 @@ class PropertyFields:
         field.editingFinished.connect(finished)
         return field
 
+    def curve_of(self, name: str, field: Any) -> CurveEditor:
+        """A drawing of a formula beside its field."""
+
+        def drawn(formula: str) -> None:
+            field.setText(formula)
+            self._setter(name)(formula)
+
+        title = translate("VolfrepCurve", "Curve: {name}").format(name=label_of(name))
+        self.curves[name] = CurveEditor(getattr(self._obj, name), title, drawn)
+        return self.curves[name]
+
     def show(self, name: str, field: Any) -> None:
-        """Show a number in its field that was not typed there."""
-        field.setProperty("value" if name in UNITS else "rawValue", number_of(self._obj, name))
+        """Show a property's value in its field that was not set there."""
+        value = getattr(self._obj, name)
+        if isinstance(field, QtWidgets.QComboBox):
+            field.setCurrentIndex(field.findData(value))
+        elif isinstance(field, QtWidgets.QCheckBox):
+            field.setChecked(value)
+        elif isinstance(field, FileField):
+            field.show_path(value)
+        elif isinstance(field, QtWidgets.QLineEdit):
+            is_way = self._obj.getTypeIdOfProperty(name) == "App::PropertyVector"
+            field.setText(_direction_text(value) if is_way else value)
+        else:
+            kind = "value" if name in UNITS else "rawValue"
+            field.setProperty(kind, number_of(self._obj, name))
+        if name in self.curves:
+            self.curves[name].show_formula(value)
+
+    def show_cell(self) -> None:
+        """Choose in the list the cell that was set elsewhere."""
+        for row in range(self._picker.count()):
+            if self._picker.item(row).text() == self._obj.CellType:
+                self._picker.setCurrentRow(row)
+        self._draw_own_cell()
 
     def _setter(self, name: str) -> Callable[[Any], None]:
         """Sets a property that the user has changed, and tells of it."""
@@ -178,6 +216,12 @@ class PropertyFields:
             self._changed(name)
 
         return set_value
+
+    def _type_text(self, name: str, text: str) -> None:
+        """Take a text over, and draw it where there is a drawing of it."""
+        self._setter(name)(text)
+        if name in self.curves:
+            self.curves[name].show_formula(text)
 
     def _set_direction(self, name: str, text: str) -> None:
         """Take a direction over; what is none is said, and the last one shown again."""

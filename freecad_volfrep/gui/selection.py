@@ -6,6 +6,29 @@ from __future__ import annotations
 import FreeCAD as App
 import FreeCADGui as Gui
 
+from freecad_volfrep.translation import QT_TRANSLATE_NOOP
+
+#: What the functions below look for, as sentences for who has not selected it.
+A_SOLID = QT_TRANSLATE_NOOP(
+    "VolfrepCommands", "Select one or more solids: a Body, a Part, a link to one, a closed mesh."
+)
+AN_INFILL = QT_TRANSLATE_NOOP("VolfrepCommands", "Select one lattice infill.")
+AN_INFILL_IN_VIEW = QT_TRANSLATE_NOOP(
+    "VolfrepCommands", "Select one lattice infill that has a solid, with its 3D view in front."
+)
+AN_INFILL_AND_FACES = QT_TRANSLATE_NOOP(
+    "VolfrepCommands", "Select one lattice infill and, with Ctrl, faces of its solid."
+)
+AN_INFILL_OR_STUDY = QT_TRANSLATE_NOOP(
+    "VolfrepCommands", "Select one lattice infill or one design study."
+)
+SOME_INFILLS = QT_TRANSLATE_NOOP(
+    "VolfrepCommands", "There is no lattice infill in this document: make one first."
+)
+A_MESH = QT_TRANSLATE_NOOP(
+    "VolfrepCommands", "Select one lattice infill that is computed, or one mesh."
+)
+
 
 def selected_solids() -> list[App.DocumentObject]:
     """The selected objects, each once, if every one of them can be filled; else none."""

@@ -14,37 +14,28 @@ from freecad_volfrep.features.expressions import follow_expressions
 from freecad_volfrep.features.live_preview import TARGETS, LivePreview, Shown
 from freecad_volfrep.features.quantities import set_value
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
-from volfrep.design import parameters
 from volfrep.util.errors import VolfrepError
 
 from .messages import WRONG
-from .panel_manners import allow_ok, entitle, fits_any_width, leave_the_wheel
+from .panel_manners import allow_ok, entitle, fits_any_width, keep_space, leave_the_wheel
 from .preview_only import end_preview
 from .preview_view import PreviewView
+from .print_panel import PrintFigures
 from .property_fields import PropertyFields, is_read_only, label_of, said_property
 from .qt import OK_CANCEL, QtCore, QtWidgets
+from .recipe_row import RecipeRow
 from .section_view import close_section, open_section
+from .sections import CURVES, FOLDED, GROUPS, Section, give_accelerators
 from .updating import Update, begin_update, show_mesh
 
 #: The preview waits until no value has changed for so long, ms.
 SETTLED = 120
-#: What the panel shows, by group: properties of the object. Those that do not apply are hidden.
-GROUPS = {
-    group: names
-    for group in parameters.GROUPS
-    if (
-        names := tuple(
-            row.property_name
-            for row in parameters.PARAMETERS
-            if row.group == group and row.in_panel and row.in_freecad
-        )
-    )
-}
 #: The switches of what is shown in the view.
 PREVIEW = QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Preview")
 CELLS = QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Cells")
 #: Above this group are the figures: what is used most is seen without scrolling.
 SECOND = "Boundary"
+PRINT = QT_TRANSLATE_NOOP("VolfrepTaskPanel", "To print")
 #: Least width of a field, px: the panel must fit beside FreeCAD's tree.
 FIELD = 82
 _HIDDEN = "Hidden"
@@ -77,9 +68,8 @@ class TaskPanel:
         }
         for shown in self._was_visible:
             shown.ViewObject.Visibility = False
-        self._fields = PropertyFields(
-            obj, self._value_changed, lambda text: self._say(text, wrong=True)
-        )
+        self._fields = PropertyFields(obj, self._value_changed, self._refuse)
+        self._refusal = ""
         self._rows: dict[str, tuple[Any, Any]] = {}
         self._boxes: list[tuple[Any, tuple[str, ...]]] = []
         self._shown: Shown | None = None
@@ -157,6 +147,7 @@ class TaskPanel:
         self._obj.ViewObject.Visibility = is_there
         if is_there:
             self._view.clear()
+            self._tell_print()
 
     def _show_result(self, is_there: bool | None) -> None:
         """After the panel: the mesh in place of the preview, or what was shown before."""
@@ -181,8 +172,10 @@ class TaskPanel:
         except VolfrepError as error:
             self._shown = None
             self._view.show_solid_only()
-            self._say(str(error), wrong=True)
-            self._allow_ok(self._has_no_preview())
+            has_none = self._has_no_preview()
+            self._say(str(error), wrong=not has_none)
+            self._print.show_none()
+            self._allow_ok(has_none)
             return
         self._allow_ok(True)
         self._shown = shown
@@ -191,7 +184,27 @@ class TaskPanel:
             self._view.show(shown, self._grid.isChecked())
         else:
             self._view.clear()
-        self._say(shown.text)
+        self._say(self._refusal or shown.text, wrong=bool(self._refusal))
+        self._print.tell(self._obj, shown)
+
+    def _tell_print(self) -> None:
+        """Once a mesh has come: what was foretold is measured now."""
+        with suppress(VolfrepError):  # of values that were changed meanwhile
+            self._print.tell(self._obj, self._live.show())
+
+    def _refuse(self, text: str) -> None:
+        """Say why something that was typed or chosen is not taken, until a value changes."""
+        self._refusal = text
+        self._say(text, wrong=True)
+
+    def _show_all(self) -> None:
+        """Show what was set elsewhere than in the fields: by a recipe."""
+        for name, (_, widget) in self._rows.items():
+            self._fields.show(name, widget)
+        self._fields.show_cell()
+        self._refusal = ""
+        self._show_rows()
+        self._timer.start(0)
 
     def _allow_ok(self, is_allowed: bool) -> None:
         """Let OK be pressed, or not: once FreeCAD has put the panel up."""
@@ -216,25 +229,49 @@ class TaskPanel:
         entitle(form, self._obj.Label)
         column = QtWidgets.QVBoxLayout(form)
         column.setContentsMargins(0, 0, 0, 0)
-        column.addWidget(self._fields.cell_picker())
+        self._recipes = RecipeRow(self._obj, self._show_all, self._refuse)
+        column.addWidget(self._recipes)
+        picker = self._fields.cell_picker()
+        sections = [Section("Cell", label_of("CellType"), picker)]
+        column.addWidget(sections[0])
         for title, names in GROUPS.items():
             if title == SECOND:
                 self._add_figures(column)
-            box = QtWidgets.QGroupBox(said_property(title))
-            rows = QtWidgets.QFormLayout(box)
-            rows.setContentsMargins(6, 4, 6, 4)
-            rows.setRowWrapPolicy(QtWidgets.QFormLayout.WrapLongRows)
-            for name in names:
-                label, widget = QtWidgets.QLabel(label_of(name)), self._fields.field(name)
-                widget.setObjectName(name)
-                widget.setMinimumWidth(FIELD)
-                widget.setToolTip(said_property(self._obj.getDocumentationOfProperty(name)))
-                rows.addRow(label, widget)
-                self._rows[name] = label, widget
-            column.addWidget(box)
-            self._boxes.append((box, names))
-        leave_the_wheel(form, [widget for _, widget in self._rows.values()])
+            section = self._section(title, names)
+            sections.append(section)
+            column.addWidget(section)
+        self._print = PrintFigures()
+        sections.append(Section("Print", translate("VolfrepTaskPanel", PRINT), self._print))
+        column.addWidget(sections[-1])
+        fields = [widget for _, widget in self._rows.values()]
+        lists = [self._recipes.list, *(curve.shapes for curve in self._fields.curves.values())]
+        titles = [section.title for section in sections]
+        leave_the_wheel(form, [*fields, *lists])
+        keep_space(form, [*fields, *lists, *titles, *self._buttons, self._recipes.save, picker])
+        give_accelerators([*self._buttons, *titles, self._recipes.save])
+        QtCore.QTimer.singleShot(0, picker.setFocus)
         return form
+
+    def _section(self, title: str, names: tuple[str, ...]) -> Section:
+        """The fields of a group."""
+        body = QtWidgets.QWidget()
+        rows = QtWidgets.QFormLayout(body)
+        rows.setContentsMargins(6, 4, 6, 4)
+        rows.setRowWrapPolicy(QtWidgets.QFormLayout.WrapLongRows)
+        for name in names:
+            label, widget = QtWidgets.QLabel(label_of(name)), self._fields.field(name)
+            widget.setObjectName(name)
+            widget.setMinimumWidth(FIELD)
+            widget.setToolTip(said_property(self._obj.getDocumentationOfProperty(name)))
+            widget.setAccessibleName(label_of(name))
+            label.setBuddy(widget)
+            rows.addRow(label, widget)
+            self._rows[name] = label, widget
+            if name in CURVES:
+                rows.addRow(self._fields.curve_of(name, widget))
+        section = Section(title, said_property(title), body, title in FOLDED)
+        self._boxes.append((section, names))
+        return section
 
     def _add_figures(self, column: Any) -> None:
         self._figures = QtWidgets.QLabel()
@@ -262,6 +299,7 @@ class TaskPanel:
             )
         )
         section.clicked.connect(self._toggle_section)
+        self._buttons = [button, section, self._preview, self._grid]
         column.addLayout(line)
         line = QtWidgets.QHBoxLayout()
         line.addWidget(section)
@@ -284,6 +322,7 @@ class TaskPanel:
         """Show what applies now, and a new preview once nothing changes any more."""
         if name == "RadiusDrivenBy":
             self._begin_target(self._obj.RadiusDrivenBy)
+        self._refusal = ""
         self._show_rows()
         self._timer.start(SETTLED)
 
@@ -292,6 +331,9 @@ class TaskPanel:
         for name, row in self._rows.items():
             for widget in row:
                 widget.setVisible(_HIDDEN not in self._obj.getEditorMode(name))
+            if name in self._fields.curves:
+                is_shown = _HIDDEN not in self._obj.getEditorMode(name)
+                self._fields.curves[name].setVisible(is_shown)
         for box, names in self._boxes:
             box.setVisible(any(_HIDDEN not in self._obj.getEditorMode(name) for name in names))
         self._rows["StrutRadius"][1].setEnabled(not is_read_only(self._obj, "StrutRadius"))

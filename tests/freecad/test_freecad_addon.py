@@ -197,3 +197,19 @@ def test_nothing_without_windows_imports_the_gui_at_its_top():
             module = getattr(node, "module", "") or ""
             assert not any("FreeCADGui" in name or "PySide" in name for name in [*names, module])
             assert ".gui" not in module
+
+
+def test_the_addon_manager_reads_what_it_is_and_needs(monkeypatch):
+    """FreeCAD's own Add-on Manager, where it can be driven without its window."""
+    homes = (App.getHomePath(), App.getResourceDir())
+    folders = [Path(home) / "Mod" / "AddonManager" for home in homes]
+    folder = next((f for f in folders if (f / "addonmanager_installer.py").is_file()), None)
+    if folder is None:
+        pytest.skip("the Add-on Manager of this FreeCAD has its window only")
+    monkeypatch.syspath_prepend(str(folder))
+    from Addon import Addon
+
+    addon = Addon("VOLFREP", str(ROOT), Addon.Status.NOT_INSTALLED, "main")
+    addon.load_metadata_file(str(ROOT / "package.xml"))
+    assert addon.contains_workbench()
+    assert addon.python_requires == set(deps.PACKAGES.values())

@@ -676,12 +676,25 @@ def clear():
         dock.close()
     Gui.Selection.clearSelection()
     App.ParamGet("User parameter:BaseApp/Preferences/Mod/VOLFREP").Clear()
+    fold_sections(False)
     if Gui.activeWorkbench().name() != "VolfrepWorkbench":
         Gui.activateWorkbench("VolfrepWorkbench")
     settle()
     view = Gui.getMainWindow().findChild(QtGui.QTextEdit, "Report view")
     if view is not None:
         view.clear()
+
+
+def fold_sections(as_usual=True):
+    """The task panel's sections as a new user finds them, or all open: what is folded is not seen.
+
+    Told before the panel is opened.
+    """
+    from freecad_volfrep.gui.sections import FOLDED
+    from freecad_volfrep.preferences import keep_folded
+
+    for section in FOLDED:
+        keep_folded(section, as_usual, usually=True)
 
 
 def run_checks(name, checks):

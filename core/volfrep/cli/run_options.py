@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from ..design.parameters.recipes import RECIPES
 from ..util.errors import VolfrepError
 from .parser import shard, three_whole_numbers
 
@@ -103,8 +104,9 @@ RUN_OPTIONS = (
         read=three_whole_numbers, required=True,
     ),
     RunOption(
-        "spec", LATTICE, "read a specification; options override its entries",
-        "FILE.toml", SPEC_GROUP, reads="specification",
+        "spec", LATTICE, f"read a specification, or one to start from by its name "
+        f"({', '.join(RECIPES)}); options override its entries",
+        "FILE.toml|NAME", SPEC_GROUP, reads="specification",
     ),
     RunOption(
         "write-spec", LATTICE, "write the specification in force",

@@ -53,11 +53,23 @@ def _clip(x: Floats, low: Floats, high: Floats) -> Floats:
     return _least(_largest(x, low), high)
 
 
+def _through(x: Floats, *points: Floats) -> Floats:
+    """Straight from point to point, level beyond the first and the last: a sum of ramps."""
+    at, values = points[0::2], points[1::2]
+    result = np.asarray(values[0], dtype=np.float64)
+    for k in range(len(at) - 1):
+        share = np.clip((x - at[k]) / (at[k + 1] - at[k]), 0.0, 1.0)
+        result = result + share * (values[k + 1] - values[k])
+    return result
+
+
 class _Function(NamedTuple):
     usage: str
     fewest: int
     most: int
     evaluate: Callable[..., Any]
+    #: Whether pairs follow upon the first argument.
+    in_pairs: bool = False
 
 
 #: A new function is one more line here (and in docs/grading.md).
@@ -84,6 +96,7 @@ FUNCTIONS: dict[str, _Function] = {
     "clip": _Function("clip(x, low, high)", 3, 3, _clip),
     "step": _Function("step(edge, x)", 2, 2, _step),
     "smoothstep": _Function("smoothstep(first, last, x)", 3, 3, _smoothstep),
+    "through": _Function("through(x, x1, y1, x2, y2, ...)", 5, MAX_NODES, _through, True),
 }
 
 _BINARY: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
@@ -274,7 +287,9 @@ def _complaint_of_call(call: ast.Call) -> str:
     function = FUNCTIONS.get(call.func.id) if isinstance(call.func, ast.Name) else None
     if function is None:
         return f"is not a function of formulas: use {', '.join(FUNCTIONS)}"
-    if call.keywords or not function.fewest <= len(call.args) <= function.most:
+    count = len(call.args)
+    fits = function.fewest <= count <= function.most and not (function.in_pairs and count % 2 == 0)
+    if call.keywords or not fits:
         return f"has the wrong arguments: write {function.usage}"
     return ""
 

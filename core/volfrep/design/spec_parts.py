@@ -246,10 +246,11 @@ class Resolution:
         needed = math.ceil(size / (LONGEST_FACET * radius) - 1e-9)
         if needed > MAX_RESOLUTION:
             thinnest = size / (LONGEST_FACET * MAX_RESOLUTION)
+            largest = LONGEST_FACET * MAX_RESOLUTION * radius
             raise VolfrepError(
-                f"Struts of radius {radius:.3g} mm are too thin for cells of {size:g} mm: they "
-                f"need {needed:.4g} facets along a cell, the limit is {MAX_RESOLUTION}; make them "
-                f"{thinnest:.3g} mm or thicker, or the cells smaller."
+                f"Cells of {size:g} mm are too large for struts of radius {radius:.3g} mm: make "
+                f"the cells {largest:.4g} mm or smaller, or the struts {thinnest:.3g} mm or "
+                "thicker."
             )
         return max(needed, COARSEST)
 

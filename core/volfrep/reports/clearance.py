@@ -3,16 +3,21 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ..grid.strut_graph import Wireframe
+from ..design.cells import UnitCell
+from ..grid.strut_graph import Wireframe, cell_graph
 from ..util.types import Floats, Ints
 
 #: Pieces that struts are searched by: short ones lie near to fewer others than whole struts do.
 PIECES = 4
 #: Struts whose pairs are looked at in one step (bounds the memory).
 STRUTS_PER_STEP = 4096
+#: Gaps of an endless lattice are looked for up to so many times L.
+WIDEST_GAP = 0.3
 
 
 def narrowest_gap(lattice: Wireframe, among: Ints, widest: float) -> tuple[float, Floats] | None:
@@ -51,6 +56,27 @@ def narrowest_gap(lattice: Wireframe, among: Ints, widest: float) -> tuple[float
         if len(gap) and gap.min() < best:
             best, place = float(gap.min()), at[gap.argmin()]
     return None if place is None else (best, place)
+
+
+@lru_cache(maxsize=64)
+def endless_gap(cell: UnitCell, ratio: float) -> float | None:
+    """The narrowest gap of an endless lattice, in units of L; None above `WIDEST_GAP`.
+
+    Args:
+        cell: the unit cell.
+        ratio: radius of the struts over L.
+
+    >>> from volfrep.design.cells import find_cell
+    >>> round(endless_gap(find_cell("Cross"), 0.1), 3)  # between the joint spheres of neighbours
+    0.28
+    """
+    # What is nearer than half a cell lies in two neighbours.
+    graph = cell_graph(cell, np.ones((2, 2, 2), bool), 1.0, np.zeros(3))
+    radii = np.full((len(graph.struts), 2), ratio)
+    joints = np.full(len(graph.nodes), ratio * (1.0 + ratio))
+    lattice = Wireframe(graph.nodes, graph.struts, radii, joints)
+    found = narrowest_gap(lattice, np.arange(len(graph.struts)), WIDEST_GAP)
+    return None if found is None else found[0]
 
 
 def _gaps(lattice: Wireframe, one: Ints, two: Ints) -> tuple[Floats, Floats]:

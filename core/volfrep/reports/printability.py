@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from ..design.spec import LatticeSpec
 from ..grid.strut_graph import Wireframe
 from ..mesh.quality import inspect
 from ..mesh.triangle_mesh import TriangleMesh
@@ -20,7 +21,7 @@ from ..spatial.rays import inside_points
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats
-from .clearance import narrowest_gap
+from .clearance import endless_gap, narrowest_gap
 from .processes import Process
 
 #: Pieces of a strut, each of which counts as inside the part by its middle.
@@ -133,6 +134,36 @@ class PrintReport:
         return "\n".join(f"{name:<{width}}{value}" for name, value in self.rows())
 
 
+@dataclass(frozen=True)
+class PrintForecast:
+    """What of a print report is known before anything is meshed.
+
+    Attributes:
+        thinnest_strut_mm: smallest diameter.
+        narrowest_gap_mm: between struts without a common node; None where it is above
+            `clearance.WIDEST_GAP` times L, or not the same everywhere (graded lattices).
+        is_gap_known: whether None means that gaps are wide.
+        overhanging_share: of the struts' length, below the inclination that needs no support; 0
+            without a process.
+        longest_flat_mm: length of the longest strut that lies flat.
+        void_mm3: volume of what a closed skin holds beside the lattice, which keeps its powder or
+            resin; 0 where it is open.
+        mass_g: of the part.
+        saved_g: that the solid has more.
+        saved_share: of the solid's mass.
+    """
+
+    thinnest_strut_mm: float
+    narrowest_gap_mm: float | None
+    is_gap_known: bool
+    overhanging_share: float
+    longest_flat_mm: float
+    void_mm3: float
+    mass_g: float
+    saved_g: float
+    saved_share: float
+
+
 def print_report(
     mesh: TriangleMesh,
     lattice: Wireframe,
@@ -210,6 +241,50 @@ def print_report(
         findings=(),
     )
     return PrintReport(**{**vars(report), "findings": tuple(_findings(report))})
+
+
+def print_forecast(
+    spec: LatticeSpec,
+    struts: tuple[Floats, Floats, Floats],
+    volumes: tuple[float, float],
+    process: Process | None = None,
+    build_direction: tuple[float, float, float] = (0.0, 0.0, 1.0),
+) -> PrintForecast:
+    """What is known of how a part will be printed while it is but lines, as a preview has it.
+
+    Args:
+        spec: what is to be made.
+        struts: (k, 3) starts and ends of what of them lies in the part, and (k, 2) radii, mm.
+        volumes: of the solid, and of the part made of it, mm3.
+        process: whose inclination overhangs are told for; None for none.
+        build_direction: from the build plate up, of any length.
+
+    Raises:
+        VolfrepError: the build direction is no direction.
+    """
+    up, (start, end, radii), (solid, part) = unit_direction(build_direction), struts, volumes
+    span = end - start
+    length = np.linalg.norm(span, axis=1)
+    rise = np.abs((span * up).sum(axis=1)) / np.maximum(length, 1e-300)
+    angle = np.degrees(np.arcsin(np.minimum(rise, 1.0)))
+    least = 0.0 if process is None else process.inclination
+    overhanging = float(length[angle < least - 1e-9].sum()) / max(float(length.sum()), 1e-300)
+    saved = max(abs(solid) - part, 0.0)
+    differing = (spec.size_grading, spec.radius_grading, spec.cell_map)
+    is_even = all(part is None for part in differing)
+    gap = endless_gap(spec.unit_cell(), spec.strut_radius / spec.cell_size) if is_even else None
+    is_closed = spec.with_skin and not spec.open_faces and spec.drains is None
+    return PrintForecast(
+        thinnest_strut_mm=2.0 * float(radii.min()),
+        narrowest_gap_mm=None if gap is None else gap * spec.cell_size,
+        is_gap_known=is_even,
+        overhanging_share=overhanging,
+        longest_flat_mm=float(length[angle < FLAT].max(initial=0.0)),
+        void_mm3=saved if is_closed else 0.0,
+        mass_g=part * spec.density / 1000.0,
+        saved_g=saved * spec.density / 1000.0,
+        saved_share=saved / abs(solid),
+    )
 
 
 def unit_direction(direction: tuple[float, float, float]) -> Floats:

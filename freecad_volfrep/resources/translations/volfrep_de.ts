@@ -461,6 +461,10 @@
       <translation>Werkstoffdatei</translation>
     </message>
     <message>
+      <source>Material Price</source>
+      <translation>Materialpreis</translation>
+    </message>
+    <message>
       <source>Mesh</source>
       <translation>Netz</translation>
     </message>
@@ -1053,6 +1057,10 @@
       <translation>Wasserdicht</translation>
     </message>
     <message>
+      <source>What a kilogram of the material costs, in your currency, from which the panel tells the cost of what is printed; 0 for not known</source>
+      <translation>Was ein Kilogramm des Materials kostet, in Ihrer Währung; daraus sagt das Fenster, was das Gedruckte kostet; 0 für unbekannt</translation>
+    </message>
+    <message>
       <source>What an update of these properties comes to</source>
       <translation>Was eine Aktualisierung mit diesen Eigenschaften ergibt</translation>
     </message>
@@ -1516,6 +1524,10 @@
   <context>
     <name>VolfrepCommands</name>
     <message>
+      <source>A panel is open: end it first.</source>
+      <translation>Ein Aufgabenfenster ist offen: erst dieses beenden.</translation>
+    </message>
+    <message>
       <source>Analyse '{label}' with:</source>
       <translation>'{label}' analysieren mit:</translation>
     </message>
@@ -1534,6 +1546,34 @@
     <message>
       <source>Mesh of {label}</source>
       <translation>Netz von {label}</translation>
+    </message>
+    <message>
+      <source>Select one lattice infill and, with Ctrl, faces of its solid.</source>
+      <translation>Eine Gitterfüllung und, mit Strg, Flächen ihres Körpers auswählen.</translation>
+    </message>
+    <message>
+      <source>Select one lattice infill or one design study.</source>
+      <translation>Eine Gitterfüllung oder eine Variantenstudie auswählen.</translation>
+    </message>
+    <message>
+      <source>Select one lattice infill that has a solid, with its 3D view in front.</source>
+      <translation>Eine Gitterfüllung mit Körper auswählen, deren 3D-Ansicht vorn ist.</translation>
+    </message>
+    <message>
+      <source>Select one lattice infill that is computed, or one mesh.</source>
+      <translation>Eine berechnete Gitterfüllung oder ein Netz auswählen.</translation>
+    </message>
+    <message>
+      <source>Select one lattice infill.</source>
+      <translation>Eine Gitterfüllung auswählen.</translation>
+    </message>
+    <message>
+      <source>Select one or more solids: a Body, a Part, a link to one, a closed mesh.</source>
+      <translation>Einen oder mehrere Körper auswählen: Körper, Part, Verknüpfung dazu oder geschlossenes Netz.</translation>
+    </message>
+    <message>
+      <source>There is no lattice infill in this document: make one first.</source>
+      <translation>In diesem Dokument ist keine Gitterfüllung: erst eine erzeugen.</translation>
     </message>
     <message>
       <source>beams</source>
@@ -1557,10 +1597,109 @@
     </message>
   </context>
   <context>
+    <name>VolfrepCurve</name>
+    <message>
+      <source>Curve: {name}</source>
+      <translation>Kurve: {name}</translation>
+    </message>
+    <message>
+      <source>Drag a point; double click for a new one, right click to remove one. Keys: Page Up and Down choose a point, arrows move it, Insert and Delete add and remove.</source>
+      <translation>Einen Punkt ziehen; Doppelklick fügt einen hinzu, Rechtsklick entfernt einen. Tasten: Bild auf und ab wählen einen Punkt, Pfeile bewegen ihn, Einfg und Entf fügen hinzu und entfernen.</translation>
+    </message>
+    <message>
+      <source>Falling</source>
+      <translation>Fallend</translation>
+    </message>
+    <message>
+      <source>Rising</source>
+      <translation>Steigend</translation>
+    </message>
+    <message>
+      <source>Shape of the curve</source>
+      <translation>Form der Kurve</translation>
+    </message>
+    <message>
+      <source>Shape...</source>
+      <translation>Form ...</translation>
+    </message>
+    <message>
+      <source>Step</source>
+      <translation>Stufe</translation>
+    </message>
+    <message>
+      <source>Thick at the ends</source>
+      <translation>Dick an den Enden</translation>
+    </message>
+    <message>
+      <source>Thick in the middle</source>
+      <translation>Dick in der Mitte</translation>
+    </message>
+  </context>
+  <context>
     <name>VolfrepFigures</name>
+    <message>
+      <source>Choose a Print process to see its limits.</source>
+      <translation>Ein Druckverfahren wählen, um dessen Grenzen zu sehen.</translation>
+    </message>
+    <message>
+      <source>Told by Print Check, once computed.</source>
+      <translation>Sagt die Druckprüfung nach dem Berechnen.</translation>
+    </message>
+    <message>
+      <source>a closed skin</source>
+      <translation>geschlossene Haut</translation>
+    </message>
+    <message>
+      <source>at least {limit}</source>
+      <translation>mindestens {limit}</translation>
+    </message>
+    <message>
+      <source>at most {limit}</source>
+      <translation>höchstens {limit}</translation>
+    </message>
+    <message>
+      <source>closed voids</source>
+      <translation>geschlossene Hohlräume</translation>
+    </message>
+    <message>
+      <source>cost of the material</source>
+      <translation>Kosten des Materials</translation>
+    </message>
+    <message>
+      <source>longest flat strut</source>
+      <translation>längster flacher Stab</translation>
+    </message>
+    <message>
+      <source>narrowest gap</source>
+      <translation>engster Spalt</translation>
+    </message>
+    <message>
+      <source>none</source>
+      <translation>keine</translation>
+    </message>
+    <message>
+      <source>over {width} mm</source>
+      <translation>über {width} mm</translation>
+    </message>
+    <message>
+      <source>saved against the solid</source>
+      <translation>gegen massiv gespart</translation>
+    </message>
     <message>
       <source>strut radius {radius} mm</source>
       <translation>Strebenradius {radius} mm</translation>
+    </message>
+    <message>
+      <source>struts below {angle}°</source>
+      <translation>Stäbe unter {angle}°</translation>
+    </message>
+    <message>
+      <source>thinnest strut</source>
+      <translation>dünnster Stab</translation>
+    </message>
+    <message>
+      <source>varies: see Print Check</source>
+      <translation>verschieden: siehe Druckprüfung</translation>
     </message>
     <message>
       <source>{cells} active cells, {struts} struts
@@ -1569,6 +1708,10 @@ about {triangles} million triangles, {size} MB as STL, {seconds} s to compute</s
       <translation>{cells} aktive Zellen, {struts} Streben
 relative Dichte {density} %, Masse {mass} g
 etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translation>
+    </message>
+    <message>
+      <source>{voids}, holding {volume} cm³</source>
+      <translation>{voids} mit {volume} cm³</translation>
     </message>
   </context>
   <context>
@@ -1639,6 +1782,49 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
     <message>
       <source>Contents</source>
       <translation>Inhalt</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepInstall</name>
+    <message>
+      <source>&amp;Copy Command</source>
+      <translation>Befehl &amp;kopieren</translation>
+    </message>
+    <message>
+      <source>&amp;Install</source>
+      <translation>&amp;Installieren</translation>
+    </message>
+    <message>
+      <source>All packages are there: go on.</source>
+      <translation>Alle Pakete sind da: es kann weitergehen.</translation>
+    </message>
+    <message>
+      <source>C&amp;lose</source>
+      <translation>&amp;Schließen</translation>
+    </message>
+    <message>
+      <source>Installing...</source>
+      <translation>Wird installiert ...</translation>
+    </message>
+    <message>
+      <source>Packages for VOLFREP</source>
+      <translation>Pakete für VOLFREP</translation>
+    </message>
+    <message>
+      <source>The command is on the clipboard: run it, then restart FreeCAD.</source>
+      <translation>Der Befehl ist in der Zwischenablage: ausführen, dann FreeCAD neu starten.</translation>
+    </message>
+    <message>
+      <source>VOLFREP needs the Python packages {names}. Install puts them into FreeCAD's own folder {folder}, and nowhere else; it takes a connection to the internet and about a minute.</source>
+      <translation>VOLFREP braucht die Python-Pakete {names}. Installieren legt sie in FreeCADs eigenen Ordner {folder} und nirgendwo sonst; das braucht eine Verbindung ins Internet und etwa eine Minute.</translation>
+    </message>
+    <message>
+      <source>What the installation says</source>
+      <translation>Was die Installation sagt</translation>
+    </message>
+    <message>
+      <source>{names} could not be installed: read below why. The command can be copied and run elsewhere.</source>
+      <translation>{names} ließ sich nicht installieren: unten steht, warum. Der Befehl kann kopiert und anderswo ausgeführt werden.</translation>
     </message>
   </context>
   <context>
@@ -1825,6 +2011,14 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
       <translation>Einer neuen Druckprüfung</translation>
     </message>
     <message>
+      <source>Of the material, in your currency, from which the panel tells the cost; 0: no cost is told</source>
+      <translation>Des Materials, in Ihrer Währung; daraus sagt das Fenster die Kosten; 0: keine</translation>
+    </message>
+    <message>
+      <source>Price of a kilogram</source>
+      <translation>Preis eines Kilogramms</translation>
+    </message>
+    <message>
       <source>Radius of the struts as a share of the cell size L</source>
       <translation>Radius der Streben als Anteil der Zellgröße L</translation>
     </message>
@@ -1950,6 +2144,53 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
     <message>
       <source>{done} of {runs} runs, about {time} left</source>
       <translation>{done} von {runs} Läufen, noch etwa {time}</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepRecipes</name>
+    <message>
+      <source>Bone-like</source>
+      <translation>Knochenartig</translation>
+    </message>
+    <message>
+      <source>Cushion</source>
+      <translation>Polster</translation>
+    </message>
+    <message>
+      <source>Heat sink</source>
+      <translation>Kühlkörper</translation>
+    </message>
+    <message>
+      <source>Keep these settings under a name, for other solids and documents</source>
+      <translation>Diese Einstellungen unter einem Namen behalten, für andere Körper und Dokumente</translation>
+    </message>
+    <message>
+      <source>Light bracket, LPBF</source>
+      <translation>Leichte Halterung, LPBF</translation>
+    </message>
+    <message>
+      <source>Name of these settings:</source>
+      <translation>Name dieser Einstellungen:</translation>
+    </message>
+    <message>
+      <source>Recipe</source>
+      <translation>Rezept</translation>
+    </message>
+    <message>
+      <source>Recipe...</source>
+      <translation>Rezept ...</translation>
+    </message>
+    <message>
+      <source>Save Recipe</source>
+      <translation>Rezept speichern</translation>
+    </message>
+    <message>
+      <source>Save...</source>
+      <translation>Sichern ...</translation>
+    </message>
+    <message>
+      <source>Start from named settings: VOLFREP's own, and those that you have saved</source>
+      <translation>Mit benannten Einstellungen beginnen: denen von VOLFREP und Ihren gespeicherten</translation>
     </message>
   </context>
   <context>
@@ -2685,6 +2926,10 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
       <translation>'{text}' ist keine Richtung: 100, 110, 111 oder drei Zahlen wie 1,2,0 schreiben.</translation>
     </message>
     <message>
+      <source>'{text}' is no value: type one such as 2 mm, a sum such as 2 mm + 1 mm, or = for a formula.</source>
+      <translation>'{text}' ist kein Wert: etwa 2 mm eingeben, eine Summe wie 2 mm + 1 mm, oder = für eine Formel.</translation>
+    </message>
+    <message>
       <source>Cells</source>
       <translation>Zellen</translation>
     </message>
@@ -2719,6 +2964,10 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
     <message>
       <source>Section</source>
       <translation>Schnitt</translation>
+    </message>
+    <message>
+      <source>To print</source>
+      <translation>Zum Drucken</translation>
     </message>
   </context>
   <context>

@@ -461,6 +461,10 @@
       <translation>File del materiale</translation>
     </message>
     <message>
+      <source>Material Price</source>
+      <translation>Prezzo del materiale</translation>
+    </message>
+    <message>
       <source>Mesh</source>
       <translation>Mesh</translation>
     </message>
@@ -1053,6 +1057,10 @@
       <translation>Stagno</translation>
     </message>
     <message>
+      <source>What a kilogram of the material costs, in your currency, from which the panel tells the cost of what is printed; 0 for not known</source>
+      <translation>Quanto costa un chilogrammo del materiale, nella propria valuta: da questo il pannello dice il costo di ciò che si stampa; 0 se non è noto</translation>
+    </message>
+    <message>
       <source>What an update of these properties comes to</source>
       <translation>Quanto comporta un aggiornamento di queste proprietà</translation>
     </message>
@@ -1516,6 +1524,10 @@
   <context>
     <name>VolfrepCommands</name>
     <message>
+      <source>A panel is open: end it first.</source>
+      <translation>È aperto un pannello: chiuderlo prima.</translation>
+    </message>
+    <message>
       <source>Analyse '{label}' with:</source>
       <translation>Analizza '{label}' con:</translation>
     </message>
@@ -1534,6 +1546,34 @@
     <message>
       <source>Mesh of {label}</source>
       <translation>Mesh di {label}</translation>
+    </message>
+    <message>
+      <source>Select one lattice infill and, with Ctrl, faces of its solid.</source>
+      <translation>Selezionare un riempimento reticolare e, con Ctrl, facce del suo solido.</translation>
+    </message>
+    <message>
+      <source>Select one lattice infill or one design study.</source>
+      <translation>Selezionare un riempimento reticolare o uno studio di varianti.</translation>
+    </message>
+    <message>
+      <source>Select one lattice infill that has a solid, with its 3D view in front.</source>
+      <translation>Selezionare un riempimento reticolare che ha un solido, con la sua vista 3D in primo piano.</translation>
+    </message>
+    <message>
+      <source>Select one lattice infill that is computed, or one mesh.</source>
+      <translation>Selezionare un riempimento reticolare calcolato, o una mesh.</translation>
+    </message>
+    <message>
+      <source>Select one lattice infill.</source>
+      <translation>Selezionare un riempimento reticolare.</translation>
+    </message>
+    <message>
+      <source>Select one or more solids: a Body, a Part, a link to one, a closed mesh.</source>
+      <translation>Selezionare uno o più solidi: un Corpo, una Parte, un collegamento, una mesh chiusa.</translation>
+    </message>
+    <message>
+      <source>There is no lattice infill in this document: make one first.</source>
+      <translation>In questo documento non c'è un riempimento reticolare: crearne prima uno.</translation>
     </message>
     <message>
       <source>beams</source>
@@ -1557,10 +1597,109 @@
     </message>
   </context>
   <context>
+    <name>VolfrepCurve</name>
+    <message>
+      <source>Curve: {name}</source>
+      <translation>Curva: {name}</translation>
+    </message>
+    <message>
+      <source>Drag a point; double click for a new one, right click to remove one. Keys: Page Up and Down choose a point, arrows move it, Insert and Delete add and remove.</source>
+      <translation>Trascinare un punto; doppio clic per aggiungerne uno, clic destro per toglierne uno. Tasti: Pag su e giù scelgono un punto, le frecce lo spostano, Ins e Canc aggiungono e tolgono.</translation>
+    </message>
+    <message>
+      <source>Falling</source>
+      <translation>Discendente</translation>
+    </message>
+    <message>
+      <source>Rising</source>
+      <translation>Ascendente</translation>
+    </message>
+    <message>
+      <source>Shape of the curve</source>
+      <translation>Forma della curva</translation>
+    </message>
+    <message>
+      <source>Shape...</source>
+      <translation>Forma...</translation>
+    </message>
+    <message>
+      <source>Step</source>
+      <translation>Gradino</translation>
+    </message>
+    <message>
+      <source>Thick at the ends</source>
+      <translation>Spesso alle estremità</translation>
+    </message>
+    <message>
+      <source>Thick in the middle</source>
+      <translation>Spesso al centro</translation>
+    </message>
+  </context>
+  <context>
     <name>VolfrepFigures</name>
+    <message>
+      <source>Choose a Print process to see its limits.</source>
+      <translation>Scegliere un processo di stampa per vederne i limiti.</translation>
+    </message>
+    <message>
+      <source>Told by Print Check, once computed.</source>
+      <translation>Lo dice il controllo di stampa, dopo il calcolo.</translation>
+    </message>
+    <message>
+      <source>a closed skin</source>
+      <translation>pelle chiusa</translation>
+    </message>
+    <message>
+      <source>at least {limit}</source>
+      <translation>almeno {limit}</translation>
+    </message>
+    <message>
+      <source>at most {limit}</source>
+      <translation>al massimo {limit}</translation>
+    </message>
+    <message>
+      <source>closed voids</source>
+      <translation>vuoti chiusi</translation>
+    </message>
+    <message>
+      <source>cost of the material</source>
+      <translation>costo del materiale</translation>
+    </message>
+    <message>
+      <source>longest flat strut</source>
+      <translation>asta piana più lunga</translation>
+    </message>
+    <message>
+      <source>narrowest gap</source>
+      <translation>spazio più stretto</translation>
+    </message>
+    <message>
+      <source>none</source>
+      <translation>nessuno</translation>
+    </message>
+    <message>
+      <source>over {width} mm</source>
+      <translation>oltre {width} mm</translation>
+    </message>
+    <message>
+      <source>saved against the solid</source>
+      <translation>risparmio rispetto al pieno</translation>
+    </message>
     <message>
       <source>strut radius {radius} mm</source>
       <translation>raggio delle aste {radius} mm</translation>
+    </message>
+    <message>
+      <source>struts below {angle}°</source>
+      <translation>aste sotto {angle}°</translation>
+    </message>
+    <message>
+      <source>thinnest strut</source>
+      <translation>asta più sottile</translation>
+    </message>
+    <message>
+      <source>varies: see Print Check</source>
+      <translation>varia: vedere il controllo di stampa</translation>
     </message>
     <message>
       <source>{cells} active cells, {struts} struts
@@ -1569,6 +1708,10 @@ about {triangles} million triangles, {size} MB as STL, {seconds} s to compute</s
       <translation>{cells} celle attive, {struts} aste
 densità relativa {density} %, massa {mass} g
 circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo</translation>
+    </message>
+    <message>
+      <source>{voids}, holding {volume} cm³</source>
+      <translation>{voids} con {volume} cm³</translation>
     </message>
   </context>
   <context>
@@ -1639,6 +1782,49 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
     <message>
       <source>Contents</source>
       <translation>Indice</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepInstall</name>
+    <message>
+      <source>&amp;Copy Command</source>
+      <translation>&amp;Copia il comando</translation>
+    </message>
+    <message>
+      <source>&amp;Install</source>
+      <translation>&amp;Installa</translation>
+    </message>
+    <message>
+      <source>All packages are there: go on.</source>
+      <translation>Tutti i pacchetti ci sono: si può continuare.</translation>
+    </message>
+    <message>
+      <source>C&amp;lose</source>
+      <translation>C&amp;hiudi</translation>
+    </message>
+    <message>
+      <source>Installing...</source>
+      <translation>Installazione...</translation>
+    </message>
+    <message>
+      <source>Packages for VOLFREP</source>
+      <translation>Pacchetti per VOLFREP</translation>
+    </message>
+    <message>
+      <source>The command is on the clipboard: run it, then restart FreeCAD.</source>
+      <translation>Il comando è negli appunti: eseguirlo, poi riavviare FreeCAD.</translation>
+    </message>
+    <message>
+      <source>VOLFREP needs the Python packages {names}. Install puts them into FreeCAD's own folder {folder}, and nowhere else; it takes a connection to the internet and about a minute.</source>
+      <translation>VOLFREP ha bisogno dei pacchetti Python {names}. Installa li mette nella cartella propria di FreeCAD {folder} e in nessun'altra; servono una connessione a Internet e circa un minuto.</translation>
+    </message>
+    <message>
+      <source>What the installation says</source>
+      <translation>Che cosa dice l'installazione</translation>
+    </message>
+    <message>
+      <source>{names} could not be installed: read below why. The command can be copied and run elsewhere.</source>
+      <translation>{names}: installazione non riuscita, il perché è scritto sotto. Il comando si può copiare ed eseguire altrove.</translation>
     </message>
   </context>
   <context>
@@ -1825,6 +2011,14 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
       <translation>Di un nuovo controllo di stampa</translation>
     </message>
     <message>
+      <source>Of the material, in your currency, from which the panel tells the cost; 0: no cost is told</source>
+      <translation>Del materiale, nella propria valuta, da cui il pannello dice il costo; 0: nessun costo</translation>
+    </message>
+    <message>
+      <source>Price of a kilogram</source>
+      <translation>Prezzo di un chilogrammo</translation>
+    </message>
+    <message>
       <source>Radius of the struts as a share of the cell size L</source>
       <translation>Raggio delle aste come frazione della dimensione L della cella</translation>
     </message>
@@ -1950,6 +2144,53 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
     <message>
       <source>{done} of {runs} runs, about {time} left</source>
       <translation>{done} esecuzioni su {runs}, ancora circa {time}</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepRecipes</name>
+    <message>
+      <source>Bone-like</source>
+      <translation>Simile all'osso</translation>
+    </message>
+    <message>
+      <source>Cushion</source>
+      <translation>Cuscino</translation>
+    </message>
+    <message>
+      <source>Heat sink</source>
+      <translation>Dissipatore</translation>
+    </message>
+    <message>
+      <source>Keep these settings under a name, for other solids and documents</source>
+      <translation>Conservare queste impostazioni sotto un nome, per altri solidi e documenti</translation>
+    </message>
+    <message>
+      <source>Light bracket, LPBF</source>
+      <translation>Staffa leggera, LPBF</translation>
+    </message>
+    <message>
+      <source>Name of these settings:</source>
+      <translation>Nome di queste impostazioni:</translation>
+    </message>
+    <message>
+      <source>Recipe</source>
+      <translation>Ricetta</translation>
+    </message>
+    <message>
+      <source>Recipe...</source>
+      <translation>Ricetta...</translation>
+    </message>
+    <message>
+      <source>Save Recipe</source>
+      <translation>Salva ricetta</translation>
+    </message>
+    <message>
+      <source>Save...</source>
+      <translation>Salva...</translation>
+    </message>
+    <message>
+      <source>Start from named settings: VOLFREP's own, and those that you have saved</source>
+      <translation>Partire da impostazioni con un nome: quelle di VOLFREP e quelle salvate</translation>
     </message>
   </context>
   <context>
@@ -2685,6 +2926,10 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
       <translation>'{text}' non è una direzione: scrivere 100, 110, 111 o tre numeri come 1,2,0.</translation>
     </message>
     <message>
+      <source>'{text}' is no value: type one such as 2 mm, a sum such as 2 mm + 1 mm, or = for a formula.</source>
+      <translation>'{text}' non è un valore: scrivere per esempio 2 mm, una somma come 2 mm + 1 mm, o = per una formula.</translation>
+    </message>
+    <message>
       <source>Cells</source>
       <translation>Celle</translation>
     </message>
@@ -2719,6 +2964,10 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
     <message>
       <source>Section</source>
       <translation>Sezione</translation>
+    </message>
+    <message>
+      <source>To print</source>
+      <translation>Per la stampa</translation>
     </message>
   </context>
   <context>

@@ -83,3 +83,9 @@ def test_mesh_and_specification_are_two_files(
     out = str(tmp_path / "x.stl")
     assert cli.run(["block", "-o", out, "--count", "1,1,1", "--write-spec", out]) == 2
     assert "cannot both be written" in capsys.readouterr().err
+
+
+def test_a_recipe_goes_by_its_name(tmp_path: Path) -> None:
+    spec = made(tmp_path, "--spec", "cushion", "--cell-size", 9)
+    assert (spec["cell"], spec["cell_size"]) == ("Kelvin", 9.0)
+    assert run("block", "-o", tmp_path / "x.stl", "--count", "1,1,1", "--spec", "pillow") == 2

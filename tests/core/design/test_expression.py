@@ -64,6 +64,10 @@ def value(text: str, s: float = 0.0) -> float:
         ("step(0.5, s)", 0.4999, 0),
         ("smoothstep(0, 2, s)", 0.5, 5 / 32),  # 3 t2 - 2 t3 at t = 1/4
         ("smoothstep(0.2, 0.4, s)", 0.5, 1),
+        ("through(s, 0, 1, 0.5, 3, 1, 2)", 0.25, 2),
+        ("through(s, 0, 1, 0.5, 3, 1, 2)", 0.75, 2.5),
+        ("through(s, 0.2, 1, 0.8, 3)", 0.1, 1),
+        ("through(s, 0.2, 1, 0.8, 3)", 0.9, 3),
         ("(1 +\n s)", 1, 2),
     ],
 )
@@ -414,3 +418,17 @@ def test_the_formulas_of_the_documentation_work() -> None:
     assert len(formulas) >= 5
     for formula in formulas:
         assert compile_expression(formula)(SAMPLES).min() > 0.0
+
+
+def test_a_curve_goes_through_its_points_as_numpy_interpolates() -> None:
+    at, values = [0.0, 0.1, 0.45, 0.5, 1.0], [1.0, 0.4, 2.0, 0.7, 0.7]
+    numbers = ", ".join(f"{a}, {v}" for a, v in zip(at, values, strict=True))
+    places = np.linspace(-0.5, 1.5, 401)
+    curve = compile_expression(f"through(s, {numbers})")(places)
+    assert curve == pytest.approx(np.interp(places, at, values), abs=1e-14)
+
+
+@pytest.mark.parametrize("text", ["through(s, 0, 1)", "through(s, 0, 1, 1)"])
+def test_points_of_a_curve_come_in_pairs(text: str) -> None:
+    with pytest.raises(VolfrepError, match=r"write through\(x, x1, y1, x2, y2, \.\.\.\)"):
+        compile_expression(text)

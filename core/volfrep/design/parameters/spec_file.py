@@ -15,6 +15,7 @@ from ...util.files import check_writable, replacing
 from ...util.toml import read_toml
 from ..spec import LatticeSpec
 from .parameter import GROUPS
+from .recipes import recipe_or_file
 from .specification import specification, values_of
 from .table import BY_NAME, PARAMETERS
 from .values import from_plain, to_plain
@@ -25,7 +26,7 @@ _HEAD = "# A lattice for VOLFREP. Lengths are in mm, angles in degrees, the dens
 
 
 def read_spec(path: str | os.PathLike[str]) -> LatticeSpec:
-    """The specification of a file.
+    """The specification of a file, or of a recipe by its name (`recipes.RECIPES`).
 
     Raises:
         VolfrepError: the file cannot be read, or its specification makes no sense.
@@ -57,10 +58,13 @@ def write_spec(spec: LatticeSpec, path: str | os.PathLike[str]) -> None:
 def read_values(path: str | os.PathLike[str]) -> dict[str, Any]:
     """The values of a file by name, each of its kind; paths as seen from the present folder.
 
+    Args:
+        path: of the file, or the name of a recipe.
+
     Raises:
         VolfrepError: the file cannot be read, or the first entry that makes no sense.
     """
-    path = Path(path)
+    path = recipe_or_file(path)
     return {name: _value(path, name, value) for name, value in parsed(path).items()}
 
 

@@ -363,6 +363,12 @@ PARAMETERS = (
         default=NOTHING, in_command=False, in_panel=True,
     ),
     Parameter(
+        "material_price", "number", "Material",
+        "What a kilogram of the material costs, in your currency, from which the panel tells the "
+        "cost of what is printed; 0 for not known",
+        default=0.0, in_command=False, in_panel=True,
+    ),
+    Parameter(
         "density", "density", "Material",
         "Density of the material in g/cm3",
         default=1.0,

@@ -21,6 +21,7 @@ from .infill_commands import (
 )
 from .result_commands import (
     check_print,
+    colour_infill,
     open_help,
     report_mesh,
     show_section,
@@ -31,6 +32,7 @@ from .result_commands import (
 )
 from .selection import (
     infill_in_view,
+    infill_with_mesh,
     selected_infill,
     selected_infill_and_faces,
     selected_infill_or_study,
@@ -136,6 +138,16 @@ _TABLE = (
         "L, N",
         selected_mesh,
         show_section,
+    ),
+    Command(
+        "VOLFREP_ColourBy",
+        "colour_by.svg",
+        "Colour By",
+        "Colour the selected lattice infill by radius, cell size, overhang, stress or another "
+        "quantity, with a legend, and read off values with the mouse",
+        "L, B",
+        infill_with_mesh,
+        colour_infill,
     ),
     Command(
         "VOLFREP_Statistics",
@@ -244,6 +256,7 @@ TOOLBARS = {
     ],
     QT_TRANSLATE_NOOP("Workbench", "VOLFREP Results"): [
         "VOLFREP_SectionView",
+        "VOLFREP_ColourBy",
         "VOLFREP_CheckMesh",
         "VOLFREP_PrintCheck",
         "VOLFREP_Statistics",

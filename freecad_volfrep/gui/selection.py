@@ -89,3 +89,9 @@ def infill_in_view() -> App.DocumentObject | None:
         return None
     view = Gui.activeDocument().activeView()
     return infill if hasattr(view, "getSceneGraph") else None
+
+
+def infill_with_mesh() -> App.DocumentObject | None:
+    """The same, if it has a mesh."""
+    infill = infill_in_view()
+    return infill if infill is not None and infill.Mesh.CountFacets else None

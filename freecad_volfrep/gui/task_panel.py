@@ -17,11 +17,13 @@ from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 from volfrep.design import parameters
 from volfrep.util.errors import VolfrepError
 
+from .colour_field import colour_field
 from .messages import WRONG
 from .panel_manners import allow_ok, entitle, fits_any_width, leave_the_wheel
+from .pick_box import PickBox
 from .preview_only import end_preview
 from .preview_view import PreviewView
-from .property_fields import PropertyFields, is_read_only, label_of, said_property
+from .property_fields import PropertyFields, direction_text, is_read_only, label_of, said_property
 from .qt import OK_CANCEL, QtCore, QtWidgets
 from .section_view import close_section, open_section
 from .updating import Update, begin_update, show_mesh
@@ -233,7 +235,10 @@ class TaskPanel:
                 self._rows[name] = label, widget
             column.addWidget(box)
             self._boxes.append((box, names))
-        leave_the_wheel(form, [widget for _, widget in self._rows.values()])
+        colours = form.findChildren(QtWidgets.QComboBox, "ColourBy")
+        leave_the_wheel(
+            form, [*colours, *self._picking.lists, *(widget for _, widget in self._rows.values())]
+        )
         return form
 
     def _add_figures(self, column: Any) -> None:
@@ -263,6 +268,9 @@ class TaskPanel:
         )
         section.clicked.connect(self._toggle_section)
         column.addLayout(line)
+        column.addWidget(colour_field(self._obj.ViewObject, lambda: self._timer.start(0)))
+        self._picking = PickBox(self._obj, self._picked, lambda text: self._say(text, wrong=True))
+        column.addWidget(self._picking)
         line = QtWidgets.QHBoxLayout()
         line.addWidget(section)
         line.addWidget(button)
@@ -280,6 +288,12 @@ class TaskPanel:
         if not close_section(self._obj):
             open_section(self._obj, self._view)
 
+    def _picked(self, name: str) -> None:
+        """Show what was picked in its field too, if it has one."""
+        if name in self._rows:
+            self._rows[name][1].setText(direction_text(getattr(self._obj, name)))
+        self._value_changed(name)
+
     def _value_changed(self, name: str) -> None:
         """Show what applies now, and a new preview once nothing changes any more."""
         if name == "RadiusDrivenBy":
@@ -294,6 +308,7 @@ class TaskPanel:
                 widget.setVisible(_HIDDEN not in self._obj.getEditorMode(name))
         for box, names in self._boxes:
             box.setVisible(any(_HIDDEN not in self._obj.getEditorMode(name) for name in names))
+        self._picking.show_applicable()
         self._rows["StrutRadius"][1].setEnabled(not is_read_only(self._obj, "StrutRadius"))
 
     def _begin_target(self, driver: str) -> None:
@@ -317,6 +332,7 @@ class TaskPanel:
     def _close(self) -> None:
         self._is_open = False
         self._timer.stop()
+        self._picking.end()
         Gui.Control.closeDialog()
         if Gui.ActiveDocument is not None:
             Gui.ActiveDocument.resetEdit()

@@ -84,6 +84,7 @@ class ColourDock(ObjectDock):
         view = self._obj.ViewObject
         view.ColourFrom = view.ColourTo = 0.0
         view.ColourBy = self._quantity.currentData()
+        self._tell(None)
         self.show_state()
 
     def _set_range(self, low: float, high: float) -> None:

@@ -91,8 +91,8 @@ def point_values(
         return _in_range(values_in_space(solid, spec, quantity, points))
     if spec.surface is not None:
         raise VolfrepError(f"Walls have no struts to colour by '{quantity}'.")
-    from .networks.infill import infill_of
     from .sizing import solved
+    from .targets import infill_of
 
     if quantity == "Radius":
         frame = infill_of(solid, spec, progress=progress, cache=cache).struts

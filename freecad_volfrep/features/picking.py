@@ -61,6 +61,13 @@ def pick(obj: App.DocumentObject, name: str, owner: App.DocumentObject, element:
         setattr(obj, _SWITCHES[name], True)
 
 
+def picked_of(obj: App.DocumentObject, name: str) -> Any:
+    """What a property is; an empty list where it is not in use."""
+    if name in _SWITCHES and not getattr(obj, _SWITCHES[name]):
+        return []
+    return getattr(obj, name)
+
+
 def unpick(obj: App.DocumentObject, name: str) -> None:
     """Give a property its first value again."""
     if name in _SWITCHES:

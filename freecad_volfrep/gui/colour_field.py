@@ -8,6 +8,7 @@ from typing import Any
 
 from freecad_volfrep.translation import translate
 
+from .panel_manners import narrow
 from .qt import QtWidgets
 
 #: What is known of a preview's struts.
@@ -23,6 +24,7 @@ def colour_field(view: Any, changed: Callable[[], None]) -> Any:
     """
     holder, choice = QtWidgets.QWidget(), QtWidgets.QComboBox()
     choice.setObjectName("ColourBy")
+    narrow(choice)
     for name in view.getEnumerationsOfProperty("ColourBy"):
         if name in PREVIEWED or name == view.ColourBy:
             choice.addItem(translate("VolfrepColours", name), name)

@@ -11,12 +11,21 @@ import FreeCADGui as Gui
 import numpy as np
 
 from freecad_volfrep.bridge.solids import face_facets, parent_placement
-from freecad_volfrep.features.picking import DIRECTION, FACES, PICKED, pick, pickable, unpick
+from freecad_volfrep.features.picking import (
+    DIRECTION,
+    FACES,
+    PICKED,
+    pick,
+    pickable,
+    picked_of,
+    unpick,
+)
 from freecad_volfrep.translation import translate
 from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.util.errors import VolfrepError
 
 from . import drawing
+from .panel_manners import narrow
 from .prisms import prisms
 from .property_fields import label_of
 from .qt import QtCore, QtWidgets
@@ -46,6 +55,7 @@ class PickBox(QtWidgets.QWidget):
         super().__init__()
         self._obj, self._changed, self._refused = obj, changed, refused
         self._was_visible: bool | None = None
+        self._is_over = False
         self._picture = _Picture(obj)
         self._what = QtWidgets.QComboBox()
         self._what.setObjectName("PickWhat")
@@ -66,10 +76,11 @@ class PickBox(QtWidgets.QWidget):
         self._said.setWordWrap(True)
         column = QtWidgets.QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
+        narrow(self._what)
+        column.addWidget(self._what)
         line = QtWidgets.QHBoxLayout()
-        for widget, stretch in ((self._what, 1), (self._pick, 0), (self._clear, 0)):
-            line.addWidget(widget, stretch)
-        self._what.setMinimumContentsLength(6)
+        line.addWidget(self._pick)
+        line.addWidget(self._clear)
         column.addLayout(line)
         column.addWidget(self._said)
         self.show_applicable()
@@ -99,7 +110,7 @@ class PickBox(QtWidgets.QWidget):
     def show_picked(self) -> None:
         """Say what the chosen property is, and draw it while it is picked."""
         name = self._what.currentData()
-        value = getattr(self._obj, name)
+        value = picked_of(self._obj, name)
         if PICKED[name] == FACES:
             text = ", ".join(f"{o.Label}: {', '.join(names)}" for o, names in value)
         else:
@@ -109,9 +120,11 @@ class PickBox(QtWidgets.QWidget):
         self._picture.show(name if self._pick.isChecked() else None)
 
     def end(self) -> None:
-        """Pick no more, and leave nothing in the view."""
-        self._pick.setChecked(False)
-        self._picture.show(None)
+        """Pick no more, and leave nothing in the view; once more does nothing."""
+        if not self._is_over:
+            self._is_over = True
+            self._pick.setChecked(False)
+            self._picture.show(None)
 
     def addSelection(self, *_: Any) -> None:  # noqa: N802
         """Called by FreeCAD, which is not done with it yet."""
@@ -172,8 +185,10 @@ class _Picture:
         if self._scene is not None:
             self._scene.removeChild(self._root)
             self._scene = None
+        if name is None:
+            return
         view = Gui.getDocument(self._obj.Document.Name).activeView()
-        if name is None or not hasattr(view, "getSceneGraph"):
+        if not hasattr(view, "getSceneGraph"):
             return
         mesh = self._mesh(name)
         if mesh is None:
@@ -194,7 +209,7 @@ class _Picture:
         self._scene.addChild(self._root)
 
     def _mesh(self, name: str) -> TriangleMesh | None:
-        value = getattr(self._obj, name)
+        value = picked_of(self._obj, name)
         if PICKED[name] == FACES:
             frame = parent_placement(self._obj)
             found = [face_facets(o, element, frame) for o, names in value for element in names]

@@ -119,6 +119,7 @@ class TaskPanel:
         """Close and take back every change; an infill that was made for this panel is gone."""
         if self._update is not None:
             self._update.drop()
+        self._picking.end()  # as long as the infill is there
         self._show_again()
         self._doc.abortTransaction()  # to end the editing would commit it
         self._close()

@@ -71,6 +71,9 @@ CUT_COLOUR = Colour("CutColour", 0xFA9429FF)
 OVERHANG_COLOUR = Colour("OverhangColour", 0xD9291FFF)
 THREADS = Preference("Threads", 0, 1, 256, automatic=True)
 
+#: The likeness of a mesh that is too large has this share of the triangles that may be shown.
+LIKENESS = 0.25
+
 #: All of them, as the tests and the page see them.
 PREFERENCES = (
     CELL_TYPE, CELL_SIZE, STRUT_SHARE, SKIN, RESOLUTION, DEVIATION, AUTO_UPDATE, DENSITY,
@@ -147,6 +150,14 @@ def largest_automatic() -> float:
 def largest_shown() -> int:
     """Triangles above which a mesh is coarsened for the screen."""
     return int(read(LARGEST_SHOWN))
+
+
+def triangles_drawn() -> tuple[int, int] | None:
+    """Up to how many triangles a mesh is drawn as it is, and of how many for each kind otherwise.
+
+    What is small keeps turning. None without a window.
+    """
+    return (largest_shown(), int(LIKENESS * largest_shown())) if App.GuiUp else None
 
 
 def _call(verb: str, preference: Preference, *value: Any) -> Any:

@@ -9,7 +9,8 @@ declare -A PICTURES=(
   [1_select]=tutorial_1_select [2_panel]=tutorial_2_panel [3_preview]=preview_only
   [4_computed]=tutorial_4_computed [5_radius]=property_recomputed [6_check]=check_mesh
   [7_export]=export [cell_library]=cell_library [statistics]=statistics
-  [section_view]=section_2_moved [size_lattice]=sizing_2_sized
+  [section_view]=section_2_moved [colour_by]=colours_1_radius
+  [sizing_plot]=sizing_2_plot [picking]=11_picked_direction [size_lattice]=sizing_2_sized
   [strut_results]=results_deformed
   [example_bracket]=example_bracket [example_piston_rod]=example_piston_rod
 )

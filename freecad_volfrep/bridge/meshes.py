@@ -7,15 +7,20 @@ several from lists to a mesh; a file in the temporary folder is several times fa
 
 from __future__ import annotations
 
+import struct
 import tempfile
 from pathlib import Path
 
 import Mesh
 import numpy as np
+from numpy.typing import NDArray
 
 from volfrep.io.write.ply import END_OF_HEADER, FACE, ply_chunks
 from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.util.errors import VolfrepError
+
+#: How FreeCAD's binary meshes begin: a number by which they are known, a version, room for a text.
+_BMS_HEAD = struct.pack("<II", 0xA0B0C0D0, 0x010000) + bytes(256)
 
 
 def to_freecad(mesh: TriangleMesh) -> Mesh.Mesh:
@@ -34,6 +39,37 @@ def to_freecad(mesh: TriangleMesh) -> Mesh.Mesh:
     if result.CountFacets != len(mesh.triangles):
         raise VolfrepError(
             f"FreeCAD took {result.CountFacets} of the mesh's {len(mesh.triangles)} triangles: "
+            "use a coarser deviation."
+        )
+    return result
+
+
+def with_neighbours(vertices: NDArray[np.float64], facets: NDArray[np.uint32]) -> Mesh.Mesh:
+    """FreeCAD's mesh of a mesh whose neighbours are known already, which takes a third as long.
+
+    FreeCAD's own binary format holds them, and is read without a look at the edges.
+
+    Args:
+        vertices: (n, 3) mm.
+        facets: (t, 6) of `volfrep.mesh.drawn.facets_with_neighbours`.
+
+    Raises:
+        VolfrepError: FreeCAD did not take every triangle.
+    """
+    if not len(facets):
+        return Mesh.Mesh()
+    points = np.ascontiguousarray(vertices, "<f4")
+    box = np.stack([points.min(axis=0), points.max(axis=0)], axis=1)
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "mesh.bms"
+        with path.open("wb") as file:
+            file.write(_BMS_HEAD + struct.pack("<II", len(points), len(facets)))
+            for array in (points, np.ascontiguousarray(facets, "<u4"), box):
+                file.write(array.data)
+        result = Mesh.Mesh(str(path))
+    if result.CountFacets != len(facets):
+        raise VolfrepError(
+            f"FreeCAD took {result.CountFacets} of the mesh's {len(facets)} triangles: "
             "use a coarser deviation."
         )
     return result

@@ -23,11 +23,13 @@ class Example:
         title: of the document.
         make: models the part in a document.
         lattice: properties of the infill.
+        turned: what shows most of it is the isometric view turned so many degrees about Z.
     """
 
     title: str
     make: Callable[[Any], Any]
     lattice: dict[str, Any]
+    turned: float = 0.0
 
 
 #: Facets coarser than by default: an example is there at once.
@@ -42,6 +44,7 @@ EXAMPLES = {
             "ShellThickness": 3,
             "Deviation": 0.05,
         },
+        turned=180.0,
     ),
     "PistonRod": Example(
         "Piston rod",

@@ -12,6 +12,8 @@ from .properties import PROPERTIES
 from .quantities import is_driven, number_of, set_value
 
 if TYPE_CHECKING:
+    import Mesh
+
     from volfrep import LatticeSpec
     from volfrep.apart.engine_process import Call
     from volfrep.jobs.pipeline import FilledMesh
@@ -35,15 +37,25 @@ class Asked:
     call: Call
 
 
-def install(obj: App.DocumentObject, asked: Asked, filled: FilledMesh) -> None:
-    """Give an infill the mesh that was asked for, and its figures."""
-    from freecad_volfrep.bridge.meshes import to_freecad
+def loaded(filled: FilledMesh) -> Mesh.Mesh:
+    """FreeCAD's mesh of what has come.
 
+    Raises:
+        VolfrepError: FreeCAD did not take every triangle.
+    """
+    from freecad_volfrep.bridge.meshes import to_freecad, with_neighbours
+
+    if filled.shown is None:
+        return to_freecad(filled.mesh)
+    return with_neighbours(filled.mesh.vertices, filled.shown.facets)
+
+
+def install(obj: App.DocumentObject, asked: Asked, filled: FilledMesh, mesh: Mesh.Mesh) -> None:
+    """Give an infill the mesh that was asked for, and its figures."""
     from .skin import made_of
 
     made = with_radius(asked.spec, filled.report.target)
-    mesh = to_freecad(filled.mesh)
-    obj.Proxy.made = made_of(filled.mesh, filled.kinds)
+    obj.Proxy.made = made_of(filled)
     placement = obj.Placement
     obj.Mesh = mesh
     obj.Placement = placement  # assigning a mesh also assigns the mesh's placement

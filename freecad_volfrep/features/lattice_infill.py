@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any
 import FreeCAD as App
 
 from freecad_volfrep.engine import require_engine
-from freecad_volfrep.preferences import largest_automatic
+from freecad_volfrep.preferences import largest_automatic, triangles_drawn
 
 from .applicable import CONTROLS, show_applicable
-from .infill_results import Asked, install, tell_driven, with_radius
+from .infill_results import Asked, install, loaded, tell_driven, with_radius
 from .progress import job_title, run_job
 from .properties import (
     ensure_properties,
@@ -27,6 +27,8 @@ from .screen import attach_view, revive_view
 from .values import specification_of
 
 if TYPE_CHECKING:
+    import Mesh
+
     from volfrep import LatticeSpec
     from volfrep.jobs.pipeline import FilledMesh
     from volfrep.mesh.triangle_mesh import TriangleMesh
@@ -134,16 +136,24 @@ class LatticeInfill:
         return self.being_made
 
     def arrive(
-        self, obj: App.DocumentObject, filled: FilledMesh | None, error: BaseException | None
+        self,
+        obj: App.DocumentObject,
+        come: tuple[FilledMesh, Mesh.Mesh] | None,
+        error: BaseException | None,
     ) -> bool:
         """Install what `begin` has asked for, or say why there is none.
 
         Where values have changed meanwhile the object stays touched. Returns whether the mesh is
         there.
+
+        Args:
+            obj: the infill.
+            come: what has come, and FreeCAD's mesh of it (`infill_results.loaded`).
+            error: why nothing has.
         """
         asked, self.being_made = self.being_made, None
         assert asked is not None
-        self.was_cancelled, self._arrived = False, (asked, filled, error)
+        self.was_cancelled, self._arrived = False, (asked, come, error)
         obj.touch()
         obj.Document.recompute()
         self._arrived = None
@@ -223,7 +233,7 @@ class LatticeInfill:
 
     def _run(self, obj: App.DocumentObject, forced: bool) -> None:
         if self._arrived is not None:
-            asked, filled, error = self._arrived
+            asked, come, error = self._arrived
             if error is not None:
                 raise error
         elif self.being_made is not None:
@@ -237,7 +247,8 @@ class LatticeInfill:
                 self.being_made, obj.Status = asked, BEING_MADE
                 return
             filled = run_job(asked.title, asked.call)
-        install(obj, asked, filled)
+            come = filled, loaded(filled)
+        install(obj, asked, *come)
         obj.Status = UP_TO_DATE
 
     def _asked(self, obj: App.DocumentObject, forced: bool) -> Asked | None:
@@ -264,7 +275,8 @@ class LatticeInfill:
             obj.Status = LARGE
             App.Console.PrintMessage(f"VOLFREP, {obj.Label}: {LARGE}; {forecast}\n")
             return None
-        call = Call(filled_mesh, (solid, obj.Base.Label, spec), {"cache": self._cache})
+        options = {"cache": self._cache, "show": triangles_drawn()}
+        call = Call(filled_mesh, (solid, obj.Base.Label, spec), options)
         return Asked(spec, fingerprint, job_title("Filling {label}", obj.Base), call)
 
     def differs(self, obj: App.DocumentObject, asked: Asked) -> bool:

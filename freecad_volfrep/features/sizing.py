@@ -275,7 +275,7 @@ def size_struts(
     from volfrep.sizing.strut_state import strut_states
 
     solid, spec, cache = obj.Proxy.wanted(obj)
-    loads = _loads(obj, analyses)
+    loads = loads_of(obj, analyses)
     goal = _goal(wish, loads)
     density = loads.material.density
     steps: list[tuple[str, ...]] = []
@@ -300,7 +300,12 @@ def size_struts(
     return Outcome(part, states, density, tuple(steps))
 
 
-def _loads(obj: App.DocumentObject, analyses: Sequence[App.DocumentObject]) -> LoadCases:
+def loads_of(obj: App.DocumentObject, analyses: Sequence[App.DocumentObject]) -> LoadCases:
+    """What analyses say that an infill carries.
+
+    Raises:
+        VolfrepError: there is none, or what they say makes no sense.
+    """
     from freecad_volfrep.bridge.fem_loads import load_cases_of
     from freecad_volfrep.bridge.solids import parent_placement
 
@@ -366,7 +371,7 @@ def solve_struts(obj: App.DocumentObject) -> tuple[StrutState, ...]:
     from volfrep.jobs.sizing import solved
     from volfrep.sizing.strut_state import strut_states
 
-    loads = _loads(obj, analyses_of(obj))
+    loads = loads_of(obj, analyses_of(obj))
     solid, spec, cache = obj.Proxy.wanted(obj)
     model, analysis = run_job(
         job_title("Struts of {label}", obj),

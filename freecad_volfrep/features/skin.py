@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -15,25 +14,28 @@ from volfrep.util.errors import VolfrepError
 if TYPE_CHECKING:
     import FreeCAD as App
 
+    from volfrep.jobs.pipeline import FilledMesh, ShownMesh
     from volfrep.mesh.triangle_mesh import TriangleMesh
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(eq=False)
 class Made:
     """What a mesh is made of.
 
     Attributes:
         kinds: (t,) uint8, what its triangles are.
         triangles: digest of them.
+        shown: what is drawn of it, before the object's Placement moves it, where that is known.
     """
 
     kinds: NDArray[np.uint8]
     triangles: bytes
+    shown: ShownMesh | None
 
 
-def made_of(mesh: TriangleMesh, kinds: NDArray[np.uint8]) -> Made:
-    """To be kept with a mesh, so that its triangles can be told apart later."""
-    return Made(kinds, _digest(mesh))
+def made_of(filled: FilledMesh) -> Made:
+    """To be kept with a mesh, so that its triangles can be told apart later, and drawn."""
+    return Made(filled.kinds, filled.digest, filled.shown)
 
 
 def is_just_made(obj: App.DocumentObject) -> bool:
@@ -53,11 +55,12 @@ def kinds_of(obj: App.DocumentObject, mesh: TriangleMesh) -> NDArray[np.uint8]:
         obj: the infill.
         mesh: its mesh, as it lies before the object's Placement moves it.
     """
+    from volfrep.jobs.pipeline import triangles_digest
     from volfrep.mesh.vertex_cluster import is_outside
     from volfrep.reports.facet_roles import LATTICE, OUTSIDE, kinds_of_triangles
 
     made: Any = obj.Proxy.made
-    if made is not None and made.triangles == _digest(mesh):
+    if made is not None and made.triangles == triangles_digest(mesh):
         return made.kinds  # type: ignore[no-any-return]
     try:
         solid, spec, _ = obj.Proxy.inputs(obj)
@@ -65,7 +68,3 @@ def kinds_of(obj: App.DocumentObject, mesh: TriangleMesh) -> NDArray[np.uint8]:
         outside = is_outside(mesh)
         return np.where(outside & (not outside.all()), OUTSIDE, LATTICE).astype(np.uint8)
     return kinds_of_triangles(mesh, solid, spec)
-
-
-def _digest(mesh: TriangleMesh) -> bytes:
-    return hashlib.blake2b(np.ascontiguousarray(mesh.triangles, np.int32)).digest()

@@ -3,14 +3,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
 
 import FreeCADGui as Gui
 
 from freecad_volfrep.engines import engines
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP
+from volfrep.util.errors import Cancelled
 
+from .in_steps import are_there_steps
 from .progress import SHOW_AFTER, Bar, is_waited_for
 from .qt import QtCore, QtWidgets
 
@@ -21,10 +23,13 @@ if TYPE_CHECKING:
 #: Jobs are looked at so often, ms.
 TICK = 40
 WAITING = QT_TRANSLATE_NOOP("VolfrepProgress", "waiting")
+TAKING_OVER = QT_TRANSLATE_NOOP("VolfrepProgress", "into the document when you pause")
 _EVENT = QtCore.QEvent
 
 #: What is to be done with a call's result or its error.
 Then = Callable[[Any, "BaseException | None"], None]
+#: What is to be done with a call's result before, in steps.
+Prepare = Callable[[Any], Iterator[None]]
 
 
 class Job:
@@ -34,6 +39,7 @@ class Job:
         title: in the status bar.
         call: of the engine.
         then: is given the result, or the error.
+        prepare: what is done with the result before, in steps: one each time it is looked at.
         is_wanted: asked all the time; without it the call is cancelled, and `then` not called.
         is_time: whether `then` may be called now.
         dropped: called where it is not wanted any more.
@@ -44,11 +50,14 @@ class Job:
         title: str,
         call: Call,
         then: Then,
+        prepare: Prepare,
         is_wanted: Callable[[], bool],
         is_time: Callable[[], bool],
         dropped: Callable[[], None],
     ) -> None:
         self._call, self._then, self._dropped = call, then, dropped
+        self._prepare = prepare
+        self._steps: Iterator[None] | None = None
         self._is_wanted, self._is_time = is_wanted, is_time
         self._running: Running | None = None
         self._bar = Bar(title)
@@ -69,6 +78,7 @@ class Job:
         if not self._is_wanted():
             if self._running is not None:
                 self._running.cancel()
+            self._steps = None
             self._bar.leave()
             self._dropped()
             return True
@@ -81,12 +91,19 @@ class Job:
             return False
         if not (_is_quiet() and self._is_time()):
             return False
-        self._bar.leave()
         try:
             result = self._running.result()
+            if self._is_cancelled and self._steps is not None:
+                raise Cancelled("cancelled while it was taken over")
+            self._steps = self._prepare(result) if self._steps is None else self._steps
+            if next(self._steps, self) is not self:
+                self._show(1.0, TAKING_OVER)
+                return False
         except Exception as error:
+            self._bar.leave()
             self._then(None, error)
         else:
+            self._bar.leave()
             self._then(result, None)
         return True
 
@@ -158,6 +175,7 @@ def begin(
     call: Call,
     then: Then,
     *,
+    prepare: Prepare = lambda _: iter(()),
     is_wanted: Callable[[], bool] = lambda: True,
     is_time: Callable[[], bool] = lambda: True,
     dropped: Callable[[], None] = lambda: None,
@@ -169,20 +187,21 @@ def begin(
         call: of the engine.
         then: is given the result, or the error, by Qt's loop: when nothing is open that waits for
             an answer.
+        prepare: done with the result before, a step at a time, between which the window answers.
         is_wanted: once it says no, the call is ended without a word.
         is_time: whether `then` may be called now.
         dropped: called in place of `then` where it is not wanted any more.
     """
     if not _jobs:
         _jobs.append(_Jobs())
-    job = Job(title, call, then, is_wanted, is_time, dropped)
+    job = Job(title, call, then, prepare, is_wanted, is_time, dropped)
     _jobs[0].add(job)
     return job
 
 
 def are_there_jobs() -> bool:
-    """Whether anything is being made, or waits for its turn."""
-    return bool(_jobs) and _jobs[0].are_there
+    """Whether anything is being made or drawn, or waits for its turn."""
+    return are_there_steps() or (bool(_jobs) and _jobs[0].are_there)
 
 
 def _is_quiet() -> bool:

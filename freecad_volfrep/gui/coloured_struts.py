@@ -8,8 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from volfrep.mesh.shading import shaded
+
 from . import drawing
-from .preview_view import SIDES, prisms
+from .prisms import CREASE_ANGLE, SIDES, prisms
 
 #: From the smallest value to the largest: viridis, which keeps its order for all eyes and in grey
 #: (S. van der Walt & N. Smith, 2015, public domain).
@@ -25,15 +27,13 @@ LEFT, BOTTOM, WIDTH, HEIGHT = 0.03, 0.28, 0.03, 0.44
 LETTERS = 13
 #: What the legend stands on, so that it is read on any background, and how far that reaches.
 GROUND, INK, GROUND_WIDTH, MARGIN = (0.13, 0.13, 0.16), (1.0, 1.0, 1.0), 0.19, 0.02
-#: Of white, in the shade too: without it the dark end would be black there.
-SHADE = (0.5, 0.5, 0.5)
 TICKS = 5
 LINE_WIDTH = 3
 
 
 def colours_of(values: NDArray[np.float64], low: float, high: float) -> NDArray[np.float32]:
     """(n, 3) red, green and blue from 0 to 1, of (n,) values between two ends."""
-    share = np.clip((values - low) / max(high - low, 1e-300), 0.0, 1.0)
+    share = np.clip((np.asarray(values, np.float64) - low) / max(high - low, 1e-300), 0.0, 1.0)
     places = np.linspace(0.0, 1.0, len(COLOURS))
     return np.stack([np.interp(share, places, COLOURS[:, k]) for k in range(3)], axis=1).astype(
         np.float32
@@ -58,12 +58,11 @@ def coloured_struts(
     """
     from pivy import coin
 
-    look = coin.SoMaterial()
-    look.ambientColor = SHADE
-    binding = coin.SoMaterialBinding()
-    binding.value = coin.SoMaterialBinding.PER_VERTEX_INDEXED
-    coordinates = coin.SoCoordinate3()
     if len(start) > most_prisms:
+        look = coin.SoMaterial()
+        binding = coin.SoMaterialBinding()
+        binding.value = coin.SoMaterialBinding.PER_VERTEX_INDEXED
+        coordinates = coin.SoCoordinate3()
         points = np.stack([start, end], axis=1).reshape(-1, 3).astype(np.float32)
         coordinates.point.setValues(0, len(points), points)
         look.diffuseColor.setValues(0, len(points), colours.reshape(-1, 3))
@@ -75,23 +74,17 @@ def coloured_struts(
         style.lineWidth = LINE_WIDTH
         return drawing.separate(drawing.flat_light(), style, look, binding, coordinates, lines)
     mesh = prisms(start, end, radii)
-    middle = np.repeat(np.stack([start, end], axis=1).reshape(-1, 3), SIDES, axis=0)
-    outwards = mesh.vertices - middle
-    outwards /= np.maximum(np.linalg.norm(outwards, axis=1), 1e-12)[:, None]
-    coordinates.point.setValues(0, len(mesh.vertices), mesh.vertices.astype(np.float32))
-    normals = coin.SoNormal()
-    normals.vector.setValues(0, len(outwards), outwards.astype(np.float32))
-    with_normals = coin.SoNormalBinding()
-    with_normals.value = coin.SoNormalBinding.PER_VERTEX_INDEXED
-    each = np.repeat(colours.reshape(-1, 3), SIDES, axis=0)
-    look.diffuseColor.setValues(0, len(each), each)
-    faces = coin.SoIndexedFaceSet()
+    drawn = shaded(mesh, CREASE_ANGLE)
+    vertex = np.empty(len(drawn.points), np.int64)
+    vertex[drawn.triangles.ravel()] = mesh.triangles.ravel()
+    each = np.repeat(colours.reshape(-1, 3), SIDES, axis=0)[vertex]
     index = np.full((len(mesh.triangles), 4), -1)
-    index[:, :3] = mesh.triangles
-    faces.coordIndex.setValues(0, index.size, index.ravel().tolist())
+    index[:, :3] = drawn.triangles
+    node = drawing.piece(drawn.points, drawn.normals, index)
+    drawing.colour_piece(node, each)
     two_sided = coin.SoShapeHints()
     two_sided.vertexOrdering = coin.SoShapeHints.COUNTERCLOCKWISE
-    return drawing.separate(two_sided, look, binding, coordinates, normals, with_normals, faces)
+    return drawing.separate(two_sided, node)
 
 
 def legend(title: str, low: float, high: float) -> Any:

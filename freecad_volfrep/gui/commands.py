@@ -21,6 +21,7 @@ from .infill_commands import (
 )
 from .result_commands import (
     check_print,
+    colour_infill,
     open_help,
     report_mesh,
     show_section,
@@ -30,6 +31,7 @@ from .result_commands import (
     study_designs,
 )
 from .selection import (
+    A_COMPUTED_INFILL_IN_VIEW,
     A_MESH,
     A_SOLID,
     AN_INFILL,
@@ -38,6 +40,7 @@ from .selection import (
     AN_INFILL_OR_STUDY,
     SOME_INFILLS,
     infill_in_view,
+    infill_with_mesh,
     selected_infill,
     selected_infill_and_faces,
     selected_infill_or_study,
@@ -153,6 +156,17 @@ _TABLE = (
         A_MESH,
     ),
     Command(
+        "VOLFREP_ColourBy",
+        "colour_by.svg",
+        "Colour By",
+        "Colour the selected lattice infill by radius, cell size, overhang, stress or another "
+        "quantity, with a legend, and read off values with the mouse",
+        "L, B",
+        infill_with_mesh,
+        colour_infill,
+        A_COMPUTED_INFILL_IN_VIEW,
+    ),
+    Command(
         "VOLFREP_Statistics",
         "statistics.svg",
         "Statistics",
@@ -266,6 +280,7 @@ TOOLBARS = {
     ],
     QT_TRANSLATE_NOOP("Workbench", "VOLFREP Results"): [
         "VOLFREP_SectionView",
+        "VOLFREP_ColourBy",
         "VOLFREP_CheckMesh",
         "VOLFREP_PrintCheck",
         "VOLFREP_Statistics",

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from volfrep.mesh.drawn import in_pieces
 from volfrep.mesh.shading import CREASE_ANGLE, shaded, sharp_edges
 from volfrep.mesh.triangle_mesh import TriangleMesh
 
@@ -16,6 +17,8 @@ SPECULAR, SHININESS = (0.10, 0.10, 0.10), 0.3
 #: Shares of a colour: that glows, that no shade takes away, that of the light that falls on it.
 #: Large faces are seen by their colour, struts by their shade.
 FACE, STRUT = (0.14, 0.20, 0.70), (0.06, 0.10, 0.88)
+#: Of what is coloured by a value, in the shade too: without it the dark end would be black there.
+VALUE_SHADE = (0.5, 0.5, 0.5)
 #: So much of the depth of the view edges are drawn nearer than the faces that they are on, and
 #: what is cut through nearer still, because the edges behind it are hidden.
 EDGES_NEARER, CUT_NEARER = 2e-4, 3e-4
@@ -24,25 +27,54 @@ EDGE_WIDTH, EDGE_DARKER = 2.0, 0.4
 
 def faces(mesh: TriangleMesh, crease_angle: float = CREASE_ANGLE) -> Any:
     """A group that draws a mesh, without a look: coordinates, normals, triangles."""
-    from pivy import coin
+    group = _group(_coin().SoGroup())
+    for arrays in in_pieces(shaded(mesh, crease_angle)):
+        group.addChild(piece(*arrays))
+    return group
 
-    drawn = shaded(mesh, crease_angle)
-    coordinates, normals = coin.SoCoordinate3(), coin.SoNormal()
-    coordinates.point.setValues(0, len(drawn.points), drawn.points)
-    normals.vector.setValues(0, len(drawn.normals), drawn.normals)
+
+def piece(
+    points: NDArray[np.float32], normals: NDArray[np.float32], index: NDArray[np.int32]
+) -> Any:
+    """A separator that draws a piece of a mesh, see `volfrep.mesh.drawn`."""
+    coin = _coin()
+    coordinates, directions = coin.SoCoordinate3(), coin.SoNormal()
+    coordinates.point.setValues(0, len(points), points)
+    directions.vector.setValues(0, len(normals), normals)
     binding = coin.SoNormalBinding()
     binding.value = coin.SoNormalBinding.PER_VERTEX_INDEXED
     triangles = coin.SoIndexedFaceSet()
-    index = np.full((len(drawn.triangles), 4), -1)
-    index[:, :3] = drawn.triangles
+    # Coin takes a list in a fifth of the time that it takes an array in.
     triangles.coordIndex.setValues(0, index.size, index.ravel().tolist())
-    return _group(coin.SoGroup(), coordinates, normals, binding, triangles)
+    return separate(coordinates, directions, binding, triangles)
+
+
+def colour_piece(node: Any, colours: NDArray[np.float32] | None) -> None:
+    """Give the points of a `piece` (n, 3) colours of their own, or take them away."""
+    coin = _coin()
+    if isinstance(node.getChild(0), coin.SoMaterial):
+        node.removeChild(0)
+        node.removeChild(0)
+    if colours is None:
+        return
+    look = coin.SoMaterial()
+    look.ambientColor, look.specularColor = VALUE_SHADE, SPECULAR
+    look.shininess = SHININESS
+    look.diffuseColor.setValues(0, len(colours), np.ascontiguousarray(colours, np.float32))
+    binding = coin.SoMaterialBinding()
+    binding.value = coin.SoMaterialBinding.PER_VERTEX_INDEXED
+    node.insertChild(look, 0)
+    node.insertChild(binding, 1)
 
 
 def edges(mesh: TriangleMesh) -> Any:
     """A group that draws a mesh's sharp edges, without a colour."""
-    start, end = mesh.vertices[sharp_edges(mesh).T]
-    return lines(start, end, EDGE_WIDTH)
+    return edge_lines(mesh.vertices[sharp_edges(mesh)])
+
+
+def edge_lines(ends: NDArray[Any]) -> Any:
+    """The same of their (e, 2, 3) ends."""
+    return lines(ends[:, 0], ends[:, 1], EDGE_WIDTH)
 
 
 def lines(start: NDArray[np.float64], end: NDArray[np.float64], width: float) -> Any:
@@ -156,11 +188,11 @@ class SeeThrough:
     their order.
 
     Args:
-        mesh: the solid's surface, or a part of it.
-        shape: the `faces` of that.
+        lines: its `edges`.
+        shape: its `faces`, or those of a part of it.
     """
 
-    def __init__(self, mesh: TriangleMesh, shape: Any) -> None:
+    def __init__(self, lines: Any, shape: Any) -> None:
         from pivy import coin
 
         self._look, self._edge_look = material((0.0, 0.0, 0.0)), material((0.0, 0.0, 0.0))
@@ -170,7 +202,7 @@ class SeeThrough:
         self._faces.addChild(coloured)
         self._faces.addChild(separate(see_through(), nearer(0.0), unseen, coloured))
         self.node = separate(
-            separate(self._edge_look, nearer(EDGES_NEARER), edges(mesh)),
+            separate(self._edge_look, nearer(EDGES_NEARER), lines),
             seen_from(outside=True), self._faces,
         )  # fmt: skip
 
@@ -180,6 +212,16 @@ class SeeThrough:
         self._edge_look.diffuseColor = tuple(EDGE_DARKER * part for part in colour[:3])
         self._look.transparency = transparency
         self._faces.whichChild = 0 if transparency == 0 else 1
+
+
+def transform(placement: Any) -> Any:
+    """What moves nodes as FreeCAD's Placement does."""
+    from pivy import coin
+
+    turn = coin.SoMatrixTransform()
+    a = placement.toMatrix().A
+    turn.matrix.setValue(*[a[4 * column + row] for row in range(4) for column in range(4)])
+    return turn
 
 
 def unpickable() -> Any:
@@ -196,6 +238,12 @@ def separate(*parts: Any) -> Any:
     from pivy import coin
 
     return _group(coin.SoSeparator(), *parts)
+
+
+def _coin() -> Any:
+    from pivy import coin
+
+    return coin
 
 
 def _group(group: Any, *parts: Any) -> Any:

@@ -16,6 +16,9 @@ from .messages import ask, errors_shown, tell
 from .selection import selected_solids
 from .updating import begin_update, show_mesh
 
+#: How the camera is turned about Z and then tilted in the isometric view, degrees.
+ISOMETRIC = (45.0, 54.7356)
+
 
 def fillable_selection() -> list[App.DocumentObject] | None:
     """The selected solids; anything that is selected where packages are missing.
@@ -90,6 +93,9 @@ def open_faces(selected: tuple[App.DocumentObject, Any]) -> None:
     with undo_step(infill.Document, translate("VOLFREP_OpenFaces", "Open Faces")):
         open_faces(infill, faces)
         infill.Document.recompute()
+    if infill.isValid() and infill.Mesh.CountFacets:
+        Gui.Selection.clearSelection()
+        show_mesh(infill)
 
 
 def preview_only(infill: App.DocumentObject) -> None:
@@ -115,10 +121,11 @@ def browse_cells(_: object) -> None:
 
 def show_example(name: str) -> None:
     """Model and fill an example in a new document, and look at all of it."""
-    from freecad_volfrep.examples.filled import open_example
+    from freecad_volfrep.examples.filled import EXAMPLES, open_example
 
     with errors_shown():
         infill = open_example(name)
         infill.Base.Visibility = not infill.Mesh.CountFacets  # the part, where it was cancelled
-        Gui.activeDocument().activeView().viewIsometric()
+        turn = App.Rotation(ISOMETRIC[0] + EXAMPLES[name].turned, 0.0, ISOMETRIC[1])
+        Gui.activeDocument().activeView().setCameraOrientation(turn.Q)
         Gui.SendMsgToActiveView("ViewFit")

@@ -54,6 +54,12 @@ def keep_space(form: Any, widgets: Iterable[Any]) -> None:
         widget.installEventFilter(keeps)
 
 
+def narrow(choice: Any) -> None:
+    """Let a list be narrower than its entries: the panel must fit beside FreeCAD's tree."""
+    choice.setMinimumContentsLength(4)
+    choice.setSizeAdjustPolicy(type(choice).AdjustToMinimumContentsLengthWithIcon)
+
+
 def entitle(form: Any, title: str) -> None:
     """Give a panel a title, shortened in its middle where it is long: the tree has all of it."""
     ends = LONGEST_TITLE // 2 - 1

@@ -10,9 +10,11 @@ import FreeCADGui as Gui
 import numpy as np
 
 from freecad_volfrep import preferences
-from volfrep.mesh.triangle_mesh import TriangleMesh
 
 from . import drawing
+from .coloured_struts import coloured_struts, colours_of
+from .legend import Legend
+from .prisms import CREASE_ANGLE, prisms
 
 if TYPE_CHECKING:
     from freecad_volfrep.features.live_preview import Shown
@@ -20,12 +22,8 @@ if TYPE_CHECKING:
 
 #: Name of what is added to the view's scene.
 NODE = "VolfrepPreview"
-#: Struts are drawn as prisms of so many sides, or as lines where there are very many.
-SIDES = 6
 GRID = (0.55, 0.55, 0.55)
 LINE_WIDTH = 2
-#: Prisms are drawn round: their sides meet at a smaller angle, in radians.
-CREASE_ANGLE = 1.2
 #: Where the preview itself is seen through a solid that the view shows opaque, in percent.
 LEAST_TRANSPARENCY = 50
 
@@ -42,13 +40,12 @@ class PreviewView:
 
         from freecad_volfrep.bridge.solids import parent_placement
 
-        self._view = obj.ViewObject
+        self._obj, self._view = obj, obj.ViewObject
+        self._legend = Legend()
         self._plane: Any = None
         self._root = coin.SoSeparator()
         self._root.setName(NODE)
-        turn = coin.SoMatrixTransform()
-        a = parent_placement(obj).toMatrix().A
-        turn.matrix.setValue(*[a[4 * column + row] for row in range(4) for column in range(4)])
+        turn = drawing.transform(parent_placement(obj))
         self._struts, self._grid, self._solid = (coin.SoSeparator() for _ in range(3))
         for part in (turn, drawing.unpickable(), self._struts, self._grid, self._solid):
             self._root.addChild(part)
@@ -61,7 +58,8 @@ class PreviewView:
         """Draw a preview in the place of the last one."""
         self._struts.removeAllChildren()
         self._grid.removeAllChildren()
-        self._drawn = Struts(self._struts, shown.preview)
+        self._legend.remove()
+        self._drawn = self._coloured(shown) or Struts(self._struts, shown.preview)
         self._drawn.set_look(self._view, self._plane is not None)
         if with_grid:
             look = drawing.material(GRID)
@@ -69,10 +67,24 @@ class PreviewView:
             self._grid.addChild(drawing.separate(look, lines))
         if self._shown_solid is not shown.solid:
             self._solid.removeAllChildren()
-            skin = drawing.SeeThrough(shown.solid, drawing.faces(shown.solid))
+            skin = drawing.SeeThrough(drawing.edges(shown.solid), drawing.faces(shown.solid))
             paint_solid(skin, self._view)
             self._solid.addChild(skin.node)
             self._shown_solid = shown.solid
+
+    def _coloured(self, shown: Shown) -> ColouredStruts | None:
+        """The struts in the colours of what the view is coloured by, if that is known of them."""
+        quantity = self._view.ColourBy
+        values = preview_values(self._obj, shown, quantity)
+        if values is None or not values.size:
+            return None
+        low, high = float(values.min()), float(values.max())
+        if quantity == "Overhang":
+            low, high = 0.0, 90.0
+        if self._view.ColourFrom != self._view.ColourTo:
+            low, high = self._view.ColourFrom, self._view.ColourTo
+        self._legend.show(self._obj, quantity, low, high)
+        return ColouredStruts(self._struts, shown.preview, values, low, high)
 
     @property
     def bounds(self) -> np.ndarray:
@@ -81,6 +93,7 @@ class PreviewView:
 
     def show_solid_only(self) -> None:
         """Leave the solid that was drawn last: its values have no struts to show."""
+        self._legend.remove()
         self._struts.removeAllChildren()
         self._grid.removeAllChildren()
 
@@ -96,12 +109,14 @@ class PreviewView:
 
     def clear(self) -> None:
         """Draw nothing."""
+        self._legend.remove()
         for part in (self._struts, self._grid, self._solid):
             part.removeAllChildren()
         self._shown_solid = None
 
     def remove(self) -> None:
         """Leave nothing in the view."""
+        self._legend.remove()
         self._scene.removeChild(self._root)
 
 
@@ -136,36 +151,53 @@ class Struts:
             self._inside.paint(cut if is_cut else view.LatticeColor)
 
 
+class ColouredStruts:
+    """The same in colours.
+
+    Args:
+        node: an empty node of the scene.
+        shown: the struts.
+        values: (k, 2) at their ends.
+        low: where the scale of colours begins.
+        high: where it ends.
+    """
+
+    def __init__(
+        self, node: Any, shown: Preview, values: np.ndarray, low: float, high: float
+    ) -> None:
+        colours = colours_of(values.ravel(), low, high).reshape(-1, 2, 3)
+        most = preferences.read(preferences.MOST_PRISMS)
+        node.addChild(coloured_struts(shown.start, shown.end, shown.radii, colours, most))
+
+    def set_look(self, view: Any, is_cut: bool) -> None:
+        """Colours say something: a section leaves them."""
+
+
+def preview_values(obj: App.DocumentObject, shown: Shown, quantity: str) -> np.ndarray | None:
+    """(k, 2) a quantity at the ends of a preview's struts; None where it is not known of them."""
+    from volfrep.jobs.point_values import values_in_space
+    from volfrep.util.errors import VolfrepError
+
+    struts = shown.preview
+    if quantity == "Radius":
+        return struts.radii
+    if quantity == "Overhang":
+        along = struts.end - struts.start
+        up = np.array(tuple(obj.BuildDirection))
+        rise = np.abs((along * up).sum(axis=1)) / np.maximum(
+            np.linalg.norm(along, axis=1) * np.linalg.norm(up), 1e-12
+        )
+        return np.repeat(np.degrees(np.arcsin(np.minimum(rise, 1.0)))[:, None], 2, axis=1)
+    if quantity not in ("Cell size", "Field"):
+        return None
+    points = np.concatenate([struts.start, struts.end])
+    try:
+        values = values_in_space(shown.solid, struts.spec, quantity, points)
+    except VolfrepError:
+        return None  # there is no such thing in this lattice
+    return values.reshape(2, -1).T
+
+
 def paint_solid(skin: drawing.SeeThrough, view: Any) -> None:
     """Give the solid round struts the skin's colour; it is seen through, whatever the skin is."""
     skin.paint(view.ShapeColor, max(view.Transparency, LEAST_TRANSPARENCY) / 100.0)
-
-
-def prisms(start: np.ndarray, end: np.ndarray, radii: np.ndarray) -> TriangleMesh:
-    """Closed prisms in the place of struts, (k, 3) starts and ends, (k, 2) radii."""
-    axis = end - start
-    axis /= np.maximum(np.linalg.norm(axis, axis=1), 1e-12)[:, None]
-    helper = np.where(np.abs(axis[:, :1]) < 0.7, [[1.0, 0.0, 0.0]], [[0.0, 1.0, 0.0]])
-    one = np.cross(axis, helper)
-    one /= np.linalg.norm(one, axis=1)[:, None]
-    two = np.cross(axis, one)
-    angle = 2.0 * np.pi * np.arange(SIDES) / SIDES
-    out = np.cos(angle)[:, None] * one[:, None] + np.sin(angle)[:, None] * two[:, None]
-    rings = [
-        middle[:, None] + radius[:, None, None] * out
-        for middle, radius in ((start, radii[:, 0]), (end, radii[:, 1]))
-    ]
-    vertices = np.concatenate(rings, axis=1).reshape(-1, 3)
-    k = np.arange(SIDES)
-    following, inner = (k + 1) % SIDES, k[1:-1]
-    sides = np.concatenate(
-        [
-            np.stack([k, following, following + SIDES], 1),
-            np.stack([k, following + SIDES, k + SIDES], 1),
-            np.stack([0 * inner, inner + 1, inner], 1),
-            np.stack([0 * inner, inner, inner + 1], 1) + SIDES,
-        ]
-    )
-    first = 2 * SIDES * np.arange(len(start))
-    triangles = (first[:, None, None] + sides).reshape(-1, 3)
-    return TriangleMesh(vertices, triangles.astype(np.int32))

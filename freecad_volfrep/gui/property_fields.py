@@ -115,7 +115,7 @@ class PropertyFields:
         if name in UNITS:
             return self._number_field(name)
         if kind == "App::PropertyVector":
-            way = QtWidgets.QLineEdit(_direction_text(getattr(self._obj, name)))
+            way = QtWidgets.QLineEdit(direction_text(getattr(self._obj, name)))
             way.editingFinished.connect(lambda: self._set_direction(name, way.text()))
             return way
         spin = Gui.UiLoader().createWidget("Gui::QuantitySpinBox")
@@ -184,7 +184,7 @@ class PropertyFields:
             field.show_path(value)
         elif isinstance(field, QtWidgets.QLineEdit):
             is_way = self._obj.getTypeIdOfProperty(name) == "App::PropertyVector"
-            field.setText(_direction_text(value) if is_way else value)
+            field.setText(direction_text(value) if is_way else value)
         else:
             kind = "value" if name in UNITS else "rawValue"
             field.setProperty(kind, number_of(self._obj, name))
@@ -292,7 +292,7 @@ def _files(name: str) -> str:
     return f"{translate('VolfrepTaskPanel', POINTS)} ({suffixes})"
 
 
-def _direction_text(way: App.Vector) -> str:
+def direction_text(way: App.Vector) -> str:
     """A direction as the panel's field shows and takes it."""
     numbers = tuple(way)
     for short in ("100", "110", "111"):

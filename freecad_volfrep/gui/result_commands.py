@@ -51,6 +51,13 @@ def show_section(obj: App.DocumentObject) -> None:
     open_section(obj)
 
 
+def colour_infill(obj: App.DocumentObject) -> None:
+    """Choose what an infill is coloured by."""
+    from .colour_dock import open_colours
+
+    open_colours(obj)
+
+
 def report_mesh(obj: App.DocumentObject) -> None:
     """Look at a mesh and show what was found in a window."""
     from freecad_volfrep.features.mesh_check import check_mesh

@@ -229,6 +229,13 @@ def refresh_section(obj: App.DocumentObject) -> None:
             dock.show_cut_faces()
 
 
+def plane_of(obj: App.DocumentObject) -> Any:
+    """The clipping plane that cuts an object open on the screen; None where it is whole."""
+    root = obj.ViewObject.RootNode
+    nodes = (root.getChild(k) for k in range(root.getNumChildren()))
+    return next((node for node in nodes if node.getName().getString() == NODE), None)
+
+
 def _draws_cuts(view: Any) -> bool:
     """Whether an object's own view draws cut faces (`view_provider.LatticeInfillView`)."""
     return hasattr(view.Proxy, "show_cut")

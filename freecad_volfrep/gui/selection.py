@@ -29,6 +29,10 @@ A_MESH = QT_TRANSLATE_NOOP(
     "VolfrepCommands", "Select one lattice infill that is computed, or one mesh."
 )
 
+A_COMPUTED_INFILL_IN_VIEW = QT_TRANSLATE_NOOP(
+    "VolfrepCommands", "Select one lattice infill that is computed, with its 3D view in front."
+)
+
 
 def selected_solids() -> list[App.DocumentObject]:
     """The selected objects, each once, if every one of them can be filled; else none."""
@@ -112,3 +116,9 @@ def infill_in_view() -> App.DocumentObject | None:
         return None
     view = Gui.activeDocument().activeView()
     return infill if hasattr(view, "getSceneGraph") else None
+
+
+def infill_with_mesh() -> App.DocumentObject | None:
+    """The same, if it has a mesh."""
+    infill = infill_in_view()
+    return infill if infill is not None and infill.Mesh.CountFacets else None

@@ -34,7 +34,7 @@ class SimplifiedPart:
             struts = drawing.separate()
             self._struts = Struts(struts, shown.preview)
             node.addChild(struts)
-        self._skin = drawing.SeeThrough(shown.solid, drawing.faces(shown.solid))
+        self._skin = drawing.SeeThrough(drawing.edges(shown.solid), drawing.faces(shown.solid))
         node.addChild(self._skin.node)
 
     def set_look(self, view: Any, is_cut: bool) -> None:

@@ -22,6 +22,7 @@ from volfrep.util.errors import Cancelled, VolfrepError
 
 from .messages import WRONG
 from .panel_manners import entitle, fits_any_width, leave_the_wheel
+from .plot_window import show_plot
 from .qt import OK_CANCEL, QtCore, QtWidgets
 from .report_window import show_report
 from .strut_view import close_struts, open_struts
@@ -168,6 +169,7 @@ class SizePanel:
         self._steps.clear()
         self._show_steps()
         self._outcome = None
+        self._plot.setEnabled(False)
         self._timer.start(TICK)
         try:
             self._outcome = size_struts(self._obj, self._chosen(), self._wish(), self._steps.append)
@@ -180,9 +182,18 @@ class SizePanel:
         finally:
             self._timer.stop()
             self._show_steps()
+        self._plot.setEnabled(True)
         self._say(self._outcome.summary(), wrong=not self._outcome.holds)
         open_struts(self._obj, self._outcome.states)
         return True
+
+    def _show_plot(self) -> None:
+        """The steps as a plot."""
+        from volfrep.reports.sizing_plot import sizing_plot
+
+        if self._outcome is not None:
+            title = translate("VolfrepSizePanel", "Steps of {label}")
+            show_plot(title.format(label=self._obj.Label), sizing_plot(self._outcome.part.report))
 
     def _build(self, wish: Wish) -> Any:
         form = QtWidgets.QWidget()
@@ -215,7 +226,14 @@ class SizePanel:
             )
         )
         button.clicked.connect(lambda _=False: self.size())
-        for widget in (button, self._said, self._table):
+        self._plot = QtWidgets.QPushButton(translate("VolfrepSizePanel", "Plot"))
+        self._plot.setObjectName("Plot")
+        self._plot.setToolTip(
+            translate("VolfrepSizePanel", "How mass and limits went, step by step")
+        )
+        self._plot.setEnabled(False)
+        self._plot.clicked.connect(lambda _=False: self._show_plot())
+        for widget in (button, self._said, self._table, self._plot):
             column.addWidget(widget)
         leave_the_wheel(form, [self._goal, *(field for _, field in self._fields.values())])
         return form

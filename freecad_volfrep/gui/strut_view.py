@@ -4,19 +4,23 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import FreeCAD as App
 import FreeCADGui as Gui
+import numpy as np
 
 from freecad_volfrep import preferences
 from freecad_volfrep.bridge.solids import parent_placement
-from freecad_volfrep.translation import marked, translate
+from freecad_volfrep.translation import figure, marked, translate
 from volfrep.sizing.strut_state import QUANTITIES, drawn_factor, value_range
+from volfrep.spatial.nearest_struts import NearestStrut
 
 from . import drawing
+from .colour_range import ColourRange
 from .coloured_struts import coloured_struts, colours_of, legend
 from .object_dock import ObjectDock, close_docks
+from .probe import Probe
 from .qt import QtWidgets
 
 if TYPE_CHECKING:
@@ -73,12 +77,19 @@ class StrutDock(ObjectDock):
         self._quantity.setCurrentIndex(self._quantity.findData("stress"))
         self._deformed = QtWidgets.QCheckBox(translate("VolfrepStrutView", "Deformed"))
         self._deformed.setObjectName("Deformed")
+        self._ends: dict[str, tuple[float, float]] = {}
+        self._range = ColourRange(self._set_range)
+        self._pointed = QtWidgets.QLabel()
+        self._pointed.setObjectName("Pointed")
         self._factor = QtWidgets.QLabel()
         self._factor.setObjectName("Factor")
         self._lay_out()
         self._case.currentIndexChanged.connect(lambda _: self.draw())
         self._quantity.currentIndexChanged.connect(lambda _: self.draw())
         self._deformed.toggled.connect(lambda _: self.draw())
+        self._shapes: list[Any] = []
+        view = Gui.getDocument(obj.Document.Name).activeView()
+        self._probe: Probe | None = Probe(view, lambda: self._shapes, self._tell)
         self.draw()
 
     def draw(self) -> None:
@@ -86,7 +97,8 @@ class StrutDock(ObjectDock):
         self._root.removeAllChildren()
         state = self._states[self._case.currentIndex()]
         name = self._quantity.currentData()
-        low, high = value_range(self._states, name)
+        low, high = self._ends.get(name) or value_range(self._states, name)
+        self._range.show_ends(low, high)
         ends = state.ends
         self._factor.setText("")
         if self._deformed.isChecked():
@@ -96,15 +108,31 @@ class StrutDock(ObjectDock):
             )
             ends = ends + factor * state.moved
         colours = colours_of(state.values(name).ravel(), low, high).reshape(-1, 2, 3)
-        from pivy import coin
-
-        turn = coin.SoMatrixTransform()
-        a = parent_placement(self._obj).toMatrix().A
-        turn.matrix.setValue(*[a[4 * column + row] for row in range(4) for column in range(4)])
+        turn = drawing.transform(parent_placement(self._obj))
         most_prisms = preferences.read(preferences.MOST_PRISMS)
         struts = coloured_struts(ends[:, 0], ends[:, 1], state.radii, colours, most_prisms)
+        self._shapes = [turn, struts]
+        self._nearest = NearestStrut(ends)
         self._root.addChild(drawing.separate(turn, drawing.unpickable(), struts, self._outline))
         self._root.addChild(legend(translate("VolfrepStrutView", QUANTITIES[name]), low, high))
+
+    def _set_range(self, low: float, high: float) -> None:
+        name = self._quantity.currentData()
+        if low == high:
+            self._ends.pop(name, None)
+        else:
+            self._ends[name] = low, high
+        self.draw()
+
+    def _tell(self, place: tuple[float, float, float] | None) -> None:
+        if place is None:
+            self._pointed.setText("")
+            return
+        strut, share = (found[0] for found in self._nearest.of(np.array([place])))
+        state = self._states[self._case.currentIndex()]
+        one, two = state.values(self._quantity.currentData())[strut]
+        said = translate("VolfrepColours", "{value} under the mouse")
+        self._pointed.setText(said.format(value=figure((1.0 - share) * one + share * two, 4)))
 
     def slotChangedObject(self, obj: App.DocumentObject, name: str) -> None:  # noqa: N802
         """Called by FreeCAD: the struts of a new mesh are others."""
@@ -113,12 +141,18 @@ class StrutDock(ObjectDock):
 
     def forget(self, document_too: bool) -> None:
         """There is nothing to be shown again; with the document, the scene is gone."""
+        if self._probe is not None:
+            self._probe.end(view_is_gone=document_too)
+            self._probe = None
         self._was_visible.clear()
         if document_too:
             self._scene = None
 
     def take_away(self) -> None:
         """Show the infill again."""
+        if self._probe is not None:
+            self._probe.end()
+            self._probe = None
         if self._scene is not None:
             self._scene.removeChild(self._root)
             self._scene = None
@@ -137,6 +171,8 @@ class StrutDock(ObjectDock):
             line.addWidget(box)
         line.addWidget(self._deformed)
         line.addWidget(self._factor)
+        line.addWidget(self._range)
+        line.addWidget(self._pointed)
         line.addStretch()
         self.setWidget(panel)
 

@@ -16,12 +16,14 @@ from freecad_volfrep.features.quantities import set_value
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 from volfrep.util.errors import VolfrepError
 
+from .colour_field import colour_field
 from .messages import WRONG
 from .panel_manners import allow_ok, entitle, fits_any_width, keep_space, leave_the_wheel
+from .pick_box import PickBox
 from .preview_only import end_preview
 from .preview_view import PreviewView
 from .print_panel import PrintFigures
-from .property_fields import PropertyFields, is_read_only, label_of, said_property
+from .property_fields import PropertyFields, direction_text, is_read_only, label_of, said_property
 from .qt import OK_CANCEL, QtCore, QtWidgets
 from .recipe_row import RecipeRow
 from .section_view import close_section, open_section
@@ -107,6 +109,7 @@ class TaskPanel:
         """Close and take back every change; an infill that was made for this panel is gone."""
         if self._update is not None:
             self._update.drop()
+        self._picking.end()  # as long as the infill is there
         self._show_again()
         self._doc.abortTransaction()  # to end the editing would commit it
         self._close()
@@ -244,7 +247,12 @@ class TaskPanel:
         sections.append(Section("Print", translate("VolfrepTaskPanel", PRINT), self._print))
         column.addWidget(sections[-1])
         fields = [widget for _, widget in self._rows.values()]
-        lists = [self._recipes.list, *(curve.shapes for curve in self._fields.curves.values())]
+        lists = [
+            self._recipes.list,
+            *(curve.shapes for curve in self._fields.curves.values()),
+            *form.findChildren(QtWidgets.QComboBox, "ColourBy"),
+            *self._picking.lists,
+        ]
         titles = [section.title for section in sections]
         leave_the_wheel(form, [*fields, *lists])
         keep_space(form, [*fields, *lists, *titles, *self._buttons, self._recipes.save, picker])
@@ -301,6 +309,9 @@ class TaskPanel:
         section.clicked.connect(self._toggle_section)
         self._buttons = [button, section, self._preview, self._grid]
         column.addLayout(line)
+        column.addWidget(colour_field(self._obj.ViewObject, lambda: self._timer.start(0)))
+        self._picking = PickBox(self._obj, self._picked, lambda text: self._say(text, wrong=True))
+        column.addWidget(self._picking)
         line = QtWidgets.QHBoxLayout()
         line.addWidget(section)
         line.addWidget(button)
@@ -317,6 +328,12 @@ class TaskPanel:
     def _toggle_section(self) -> None:
         if not close_section(self._obj):
             open_section(self._obj, self._view)
+
+    def _picked(self, name: str) -> None:
+        """Show what was picked in its field too, if it has one."""
+        if name in self._rows:
+            self._rows[name][1].setText(direction_text(getattr(self._obj, name)))
+        self._value_changed(name)
 
     def _value_changed(self, name: str) -> None:
         """Show what applies now, and a new preview once nothing changes any more."""
@@ -336,6 +353,7 @@ class TaskPanel:
                 self._fields.curves[name].setVisible(is_shown)
         for box, names in self._boxes:
             box.setVisible(any(_HIDDEN not in self._obj.getEditorMode(name) for name in names))
+        self._picking.show_applicable()
         self._rows["StrutRadius"][1].setEnabled(not is_read_only(self._obj, "StrutRadius"))
 
     def _begin_target(self, driver: str) -> None:
@@ -359,6 +377,7 @@ class TaskPanel:
     def _close(self) -> None:
         self._is_open = False
         self._timer.stop()
+        self._picking.end()
         Gui.Control.closeDialog()
         if Gui.ActiveDocument is not None:
             Gui.ActiveDocument.resetEdit()

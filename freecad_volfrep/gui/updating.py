@@ -3,19 +3,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
 import FreeCAD as App
 import FreeCADGui as Gui
 
+from freecad_volfrep.features.infill_results import loaded
 from freecad_volfrep.translation import translate
 
 from .background import Job, begin
+from .in_steps import Stillness
+from .likeness import Likeness
+from .qt import QtWidgets
 
 if TYPE_CHECKING:
+    import Mesh
+
     from freecad_volfrep.features.infill_results import Asked
     from volfrep.jobs.pipeline import FilledMesh
+
+#: FreeCAD takes a mesh of more triangles while the user does nothing: it needs a tenth of a second
+#: for each million.
+LARGE = 1_000_000
+#: That is for so long; and what is waited for at most, ms.
+STILL, LONGEST = 700, 10_000
 
 #: Called once, with whether the mesh is there; or with None where nobody wants it any more,
 #: because the infill or its document has gone, or it was asked for anew.
@@ -33,13 +45,16 @@ class Update:
     def __init__(self, obj: App.DocumentObject, asked: Asked, is_in_panel: bool, ended: Ended):
         self._obj, self._doc, self._asked = obj, obj.Document, asked
         self.is_in_panel, self.ended = is_in_panel, ended
+        self._likeness: Likeness | None = None
+        self._mesh: Mesh.Mesh = None
         self._job: Job = begin(
             asked.title,
             asked.call,
             self._arrive,
+            prepare=self._take_over,
             is_wanted=self._is_wanted,
             is_time=self._is_time,
-            dropped=lambda: self.ended(None),
+            dropped=self._drop,
         )
 
     def cancel(self) -> None:
@@ -49,6 +64,11 @@ class Update:
     def drop(self) -> None:
         """End it without a word."""
         self._obj.Proxy.being_made = None
+
+    def _drop(self) -> None:
+        if self._likeness is not None:
+            self._likeness.remove()
+        self.ended(None)
 
     def is_as_wanted(self) -> bool:
         """Whether it makes the mesh of the present values."""
@@ -64,13 +84,30 @@ class Update:
         """FreeCAD has one transaction a document: ours would end what a panel has begun."""
         return self.is_in_panel or not self._doc.HasPendingTransaction
 
+    def _take_over(self, filled: FilledMesh) -> Iterator[None]:
+        """Make FreeCAD's mesh; a large one when the user does nothing, after its likeness."""
+        if len(filled.mesh.triangles) > LARGE:
+            self._likeness = Likeness(self._obj, filled)
+            stillness = Stillness(QtWidgets.QApplication.instance())
+            try:
+                yield
+                while not stillness.is_there(STILL, LONGEST):
+                    yield
+            finally:
+                stillness.end()
+        self._mesh = loaded(filled)
+        yield
+
     def _arrive(self, filled: FilledMesh | None, error: BaseException | None) -> None:
+        if self._likeness is not None:
+            self._likeness.remove()
         step = translate("VolfrepCommands", "Mesh of {label}").format(label=self._obj.Label)
         has_step = error is None and not self.is_in_panel
         if has_step:
             self._doc.openTransaction(step)
         try:
-            is_there = self._obj.Proxy.arrive(self._obj, filled, error)
+            come = None if filled is None else (filled, self._mesh)
+            is_there = self._obj.Proxy.arrive(self._obj, come, error)
         finally:
             if has_step:
                 self._doc.commitTransaction()

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from contextlib import suppress
 from typing import Any
 
@@ -16,7 +17,9 @@ from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 from volfrep.util.errors import VolfrepError
 
 from .coarse_view import COARSE, show_likeness
-from .filled_view import FILLED, show_filled
+from .colouring import Colouring, add_properties
+from .filled_view import FILLED, FilledPart, show_filled
+from .in_steps import do_in_steps, drop_steps
 from .qt import QtCore, QtGui
 from .simplified_view import SIMPLIFIED, SimplifiedPart
 
@@ -26,6 +29,8 @@ _MODES = {FILLED: show_filled, COARSE: show_likeness, SIMPLIFIED: SimplifiedPart
 _PLAIN = "Shaded"
 #: What of a view is in the look of our modes; FreeCAD 1.0 has another name for the colour.
 _LOOKS = ("ShapeColor", "ShapeAppearance", "Transparency", "LatticeColor")
+#: And what says that it is coloured by a quantity.
+_COLOURS = ("ColourBy", "ColourFrom", "ColourTo", "Visibility", "Transparency")
 #: Saved with a view, so that one of an older file is known.
 _VERSION = 2
 #: FreeCAD would otherwise draw all that is selected green, skin and lattice alike.
@@ -59,12 +64,19 @@ class LatticeInfillView:
         self.object = view.Object
         self._is_cut = False
         self._drawn: dict[str, Any] = {}
+        self._coming: list[Iterator[None]] = []
+        self._whole: set[str] = set()
         if not hasattr(view, "LatticeColor"):
             view.addProperty("App::PropertyColor", "LatticeColor", "Object Style", LATTICE_COLOUR)
             view.LatticeColor = preferences.colour(preferences.STRUT_COLOUR)
+        self._colouring = Colouring(self.object)
+        add_properties(view)
         self._modes = {mode: (coin.SoSeparator(), show) for mode, show in _MODES.items()}
         for mode, (node, _) in self._modes.items():
             view.addDisplayMode(node, mode)
+        QtCore.QTimer.singleShot(
+            0, self._show_solid
+        )  # an invalid one of a file has nothing to show
         if self._is_older:
             QtCore.QTimer.singleShot(0, self._modernise)
 
@@ -85,6 +97,10 @@ class LatticeInfillView:
         """Draw what is drawn already in the new colours."""
         if name in _LOOKS:
             self._set_looks()
+        if name in _COLOURS and not self.object.Document.Restoring:
+            self._colouring.refresh()
+        if name == "DisplayMode":
+            self._colour_shown()
         if self._is_cut and name in ("DisplayMode", "Transparency"):
             from .section_view import refresh_section
 
@@ -97,6 +113,10 @@ class LatticeInfillView:
         if not obj.Mesh.CountFacets and not obj.Document.Restoring:
             QtCore.QTimer.singleShot(0, self._show_solid)
         self._drawn.clear()
+        self._colouring.follow(None)
+        self._whole.clear()
+        while self._coming:
+            drop_steps(self._coming.pop())
         for node, _ in self._modes.values():
             node.removeAllChildren()
         view = obj.ViewObject
@@ -116,6 +136,11 @@ class LatticeInfillView:
         self._is_cut = is_cut
         self._set_looks()
         return self.object.ViewObject.DisplayMode in _MODES
+
+    @property
+    def colouring(self) -> Colouring:
+        """What colours it by a quantity."""
+        return self._colouring
 
     def getIcon(self) -> str:  # noqa: N802
         """Path of the tree's icon."""
@@ -148,6 +173,7 @@ class LatticeInfillView:
 
     def onDelete(self, view: Any, names: Any) -> bool:  # noqa: N802
         """Let the infill go, and show its solid again, unless another infill stands for it."""
+        self._colouring.end()
         obj, base = view.Object, view.Object.Base
         others = [other for other in infills_of(obj.Document) if other != obj]
         if base is not None and not any(o.Base == base and o.Visibility for o in others):
@@ -183,11 +209,30 @@ class LatticeInfillView:
             QtCore.QTimer.singleShot(0, self._make_shown)
             return
         try:
-            self._drawn[mode] = show(self.object, node)
+            drawn = self._drawn[mode] = show(self.object, node)
             self._set_looks()
+            if not getattr(drawn, "is_whole", True):
+                self._coming.append(self._come(mode, drawn))
+                do_in_steps(self._coming[-1])
+            elif mode == self.object.ViewObject.DisplayMode:
+                self._colour_shown()
         except VolfrepError as error:
             node.removeAllChildren()
             App.Console.PrintError(f"VOLFREP, {self.object.Label}: not shown {mode}. {error}\n")
+
+    def _come(self, mode: str, drawn: FilledPart) -> Iterator[None]:
+        """All of what is drawn as a likeness, and then its colours."""
+        yield from drawn.add_pieces()
+        self._whole.add(mode)
+        with suppress(ReferenceError):
+            self._colour_shown()
+
+    def _colour_shown(self) -> None:
+        """Let what is shown now have the colours, once all of it is there."""
+        mode = self.object.ViewObject.DisplayMode
+        drawn = self._drawn.get(mode)
+        is_whole = isinstance(drawn, FilledPart) and (drawn.is_whole or mode in self._whole)
+        self._colouring.follow(drawn if is_whole else None)
 
     def _set_looks(self) -> None:
         """Give everything that is drawn the view's present colours."""
@@ -200,9 +245,12 @@ class LatticeInfillView:
             self._make(self.object.ViewObject.DisplayMode, is_settled=True)
 
     def _show_solid(self) -> None:
-        """Where a step back has taken the mesh, show what it stood for."""
+        """Where there is no mesh, show what it would stand for."""
         with suppress(ReferenceError):
             obj = self.object
+            if obj.Document.Restoring:
+                QtCore.QTimer.singleShot(0, self._show_solid)
+                return
             if obj.Base is not None and not obj.Mesh.CountFacets and not Gui.Control.activeDialog():
                 obj.Base.Visibility = True
 

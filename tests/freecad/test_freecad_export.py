@@ -12,12 +12,13 @@ import pytest
 from conftest import SMALL
 from freecad_volfrep import export_mesh, make_lattice_infill, make_solid
 from freecad_volfrep.bridge.faceted import faceted_solid
-from freecad_volfrep.bridge.meshes import from_freecad, to_freecad
+from freecad_volfrep.bridge.meshes import from_freecad, to_freecad, with_neighbours
 from freecad_volfrep.features.export import FORMATS, chosen_format, estimate_export, formats_of
 from freecad_volfrep.features.faceted_solid import export_step, predict_solid
 from freecad_volfrep.features.input_files import refuse_inputs_of_all
 from freecad_volfrep.features.solver_files import CONTENTS
 from volfrep.io.write import MESH_WRITERS
+from volfrep.mesh.drawn import facets_with_neighbours
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
 from volfrep.util.errors import VolfrepError
 
@@ -33,6 +34,12 @@ def test_meshes_pass_both_ways_unchanged():
     assert np.array_equal(mesh.vertices, again.vertices)
     assert np.array_equal(mesh.triangles, again.triangles)
     assert to_freecad(mesh).isSolid()
+    quick = with_neighbours(mesh.vertices, facets_with_neighbours(mesh))
+    again = from_freecad(quick)
+    assert np.array_equal(mesh.vertices, again.vertices)
+    assert np.array_equal(mesh.triangles, again.triangles)
+    assert quick.isSolid()
+    assert quick.CountEdges == to_freecad(mesh).CountEdges
 
 
 def test_an_empty_mesh_passes():

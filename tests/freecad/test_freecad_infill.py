@@ -10,6 +10,7 @@ from conftest import SMALL
 from freecad_volfrep import make_lattice_infill
 from freecad_volfrep.features import LatticeInfill, lattice_infill
 from freecad_volfrep.features.factory import suggested_sizes
+from freecad_volfrep.features.infill_results import loaded
 from freecad_volfrep.features.lattice_infill import (
     BEING_MADE,
     CANCELLED,
@@ -401,13 +402,19 @@ def test_cancelled_the_first_time_speaks_of_no_mesh(doc, box, monkeypatch):
     assert not obj.Mesh.CountFacets
 
 
+def come_of(asked):
+    """What has come of a mesh that was asked for."""
+    filled = asked.call.here()
+    return filled, loaded(filled)
+
+
 def test_a_mesh_that_is_made_beside_is_the_one_of_a_recompute(doc, infill):
     infill.StrutRadius = 0.8
     asked = infill.Proxy.begin(infill)
     assert infill.Status == BEING_MADE
     doc.recompute()
     assert infill.Status == BEING_MADE, "a recompute leaves it alone until it is there"
-    assert infill.Proxy.arrive(infill, asked.call.here(), None)
+    assert infill.Proxy.arrive(infill, come_of(asked), None)
     assert infill.Status == UP_TO_DATE
     assert "Touched" not in infill.State
     beside = digest(infill)
@@ -429,7 +436,7 @@ def test_values_that_change_while_it_is_made_leave_it_touched(doc, infill):
     made = asked.call.here()
     infill.StrutRadius = 0.6
     doc.recompute()
-    assert infill.Proxy.arrive(infill, made, None)
+    assert infill.Proxy.arrive(infill, (made, loaded(made)), None)
     assert infill.Volume.Value == pytest.approx(made.report.volume_mm3)
     assert infill.Status == CHANGED
     assert "Touched" in infill.State

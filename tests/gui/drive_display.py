@@ -7,14 +7,20 @@ from pathlib import Path
 
 import FreeCAD as App
 import FreeCADGui as Gui
-from PySide import QtGui
+import numpy as np
+from PySide import QtCore, QtGui
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from driving import (
     OUT,
+    answer_panel,
     check,
     click,
+    comes_true,
     figures,
+    move_mouse,
+    panel,
+    panel_part,
     picture,
     run_checks,
     section_docks,
@@ -22,6 +28,8 @@ from driving import (
     settle,
     toolbar_button,
     view_3d,
+    wait_until,
+    xdotool,
 )
 
 FIXTURE = Path(__file__).resolve().parents[1] / "freecad" / "fixtures" / "infill-0.1.0.FCStd"
@@ -219,6 +227,123 @@ def section(obj):
     check("it closes with its object", dock() is None)
 
 
+def graded():
+    """An infill whose radius grows along X, moved from where its solid was made."""
+    (obj,) = made()
+    obj.RadiusGrading, obj.RadiusDirection = "Direction", App.Vector(1, 0, 0)
+    obj.RadiusProfile, obj.RadiusStart, obj.RadiusEnd = "Linear", 0.6, 1.4
+    obj.Document.recompute()
+    settle()
+    return (obj,)
+
+
+def colours_dock():
+    """The dock of Colour By, or None."""
+    found = Gui.getMainWindow().findChildren(QtGui.QDockWidget, "VolfrepColourBy")
+    return next((dock for dock in found if dock.isVisible()), None)
+
+
+def legends():
+    """How many legends are in the 3D view."""
+    scene = Gui.activeDocument().activeView().getSceneGraph()
+    names = [scene.getChild(k).getName().getString() for k in range(scene.getNumChildren())]
+    return names.count("VolfrepLegend")
+
+
+def colourful(name):
+    """Share of the 3D view's middle, in a picture, that has the scale's yellow or green."""
+    _, green, blue = np.moveaxis(seen(name, view_3d()).astype(int), 2, 0)
+    return float(((green > 1.4 * blue) & (green > 90)).mean())
+
+
+def colours(obj):
+    """Coloured by radius, cell size and overhang, with a legend; the mouse reads off values."""
+    view = obj.ViewObject
+    Gui.Selection.clearSelection()
+    Gui.Selection.addSelection(obj)
+    settle()
+    picture("colours_0_none")
+    click(toolbar_button("Colour By"))
+    check("the dock opens", wait_until(lambda: colours_dock() is not None))
+    settle()
+    Gui.Selection.clearSelection()
+    dock = colours_dock()
+    quantity = dock.findChild(QtGui.QComboBox, "Quantity")
+    low, high = (dock.findChild(QtGui.QDoubleSpinBox, name) for name in ("From", "To"))
+    check("it begins with the radius", view.ColourBy == "Radius", view.ColourBy)
+    check("there is a legend", wait_until(lambda: legends() == 1), legends())
+    wait_until(low.isEnabled)
+    ends = low.value(), high.value()
+    check("from the smallest to the largest", np.allclose(ends, (0.6, 1.4), atol=0.05), ends)
+    picture("colours_1_radius")
+    plain, coloured = colourful("colours_0_none"), colourful("colours_1_radius")
+    check("the lattice has the colours", coloured > plain + 0.02, (plain, coloured))
+    said = dock.findChild(QtGui.QLabel, "Said")
+
+    def value_at(x):
+        """What is told where the mouse rests on the lattice at a place along X, mm."""
+        place = Gui.activeDocument().activeView().getPointOnScreen(App.Vector(x, 15, 10))
+        widget = view_3d().findChild(QtGui.QGraphicsView) or view_3d()
+        point = widget.mapToGlobal(widget.rect().bottomLeft())
+        texts = []
+        for step in range(12):
+            said.setText("")
+            move_mouse(QtCore.QPoint(point.x() + place[0] + 3 * step, point.y() - place[1]))
+            if comes_true(lambda: said.text()[:1].isdigit(), 3):
+                return float(said.text().split()[0])
+            texts.append(said.text())
+        return texts
+
+    values = value_at(6), value_at(34)
+    figures["values under the mouse"] = values
+    check("the mouse reads off radii", all(isinstance(v, float) for v in values), values)
+    check("which grow along X", values[0] < values[1], values)
+    click(high)
+    xdotool("key", "ctrl+a")
+    xdotool("type", "1")
+    xdotool("key", "Tab")
+    check(
+        "the scale's end is set", wait_until(lambda: abs(view.ColourTo - 1.0) < 1e-9), high.text()
+    )
+    settle()
+    picture("colours_2_range")
+    click(dock.findChild(QtGui.QPushButton, "Automatic"))
+    check("and given back", wait_until(lambda: view.ColourFrom == view.ColourTo == 0.0))
+    quantity.setCurrentIndex(quantity.findData("Overhang"))
+    settle()
+    check("overhangs go to 90 degrees", wait_until(lambda: high.value() == 90.0), high.value())
+    picture("colours_3_overhang")
+    dock.close()
+    settle()
+    check("colours stay without the dock", view.ColourBy == "Overhang" and legends() == 1)
+    view.Visibility = False
+    check("the legend goes with the infill", legends() == 0, legends())
+    view.Visibility = True
+    settle()
+    saved = OUT / "colours.FCStd"
+    obj.Document.saveAs(str(saved))
+    name = obj.Name
+    App.closeDocument(obj.Document.Name)
+    again = App.openDocument(str(saved)).getObject(name)
+    settle()
+    check("a file keeps them", again.ViewObject.ColourBy == "Overhang")
+    check("and shows them", wait_until(lambda: legends() == 1), legends())
+    Gui.activeDocument().setEdit(again.Name)
+    check("the panel opens", wait_until(lambda: panel() is not None))
+    settle()
+    choice = panel_part("ColourBy")
+    choice.setCurrentIndex(choice.findData("Radius"))
+    settle()
+    picture("colours_4_preview")
+    check("the preview has the colours", colourful("colours_4_preview") > plain + 0.02)
+    check("and a legend", legends() == 1, legends())
+    answer_panel("Cancel")
+    settle()
+    again.ViewObject.ColourBy = "None"
+    settle()
+    check("none is none", legends() == 0, legends())
+
+
 def frames():
     """What a frame of a mesh of half a million triangles costs, and of its struts."""
     from freecad_volfrep import make_lattice_infill
@@ -249,5 +374,12 @@ def frames():
 
 run_checks(
     "display",
-    {display_modes: made, many_struts: made, saved_modes: made, section: made, frames: None},
+    {
+        display_modes: made,
+        many_struts: made,
+        saved_modes: made,
+        section: made,
+        colours: graded,
+        frames: None,
+    },
 )

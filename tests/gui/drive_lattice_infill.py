@@ -22,14 +22,18 @@ from driving import (
     check,
     click,
     click_item,
+    comes_true,
     drawn_share,
+    fail,
     figures,
     infills,
     jobs_that_never_end,
     look_at_all,
+    move_mouse,
     panel,
     panel_part,
     picture,
+    press_button,
     previews,
     progress_bar,
     red_share,
@@ -40,6 +44,7 @@ from driving import (
     toolbar_button,
     tree_items,
     type_value,
+    view_3d,
     wait_until,
     when_dialog,
     xdotool,
@@ -466,6 +471,7 @@ def check_the_print(doc, obj):
 
 def open_a_face(doc, obj):
     """Open Faces leaves a picked face of the solid without a skin, in one undo step."""
+    obj.Visibility, obj.Base.Visibility = False, True  # to pick a face
     Gui.Selection.clearSelection()
     Gui.Selection.addSelection(obj)
     Gui.Selection.addSelection(obj.Base, "Face6")
@@ -478,10 +484,85 @@ def open_a_face(doc, obj):
     check("the face is open", [tuple(n) for _, n in obj.OpenFaces] == [("Face6",)], obj.Status)
     check("there is less skin", obj.Volume.Value < closed)
     check("the void is open", obj.Voids == 0)
+    check("the lattice shows again", obj.Visibility and not obj.Base.Visibility)
     check("it is one step", doc.UndoCount == undo + 1, doc.UndoNames)
     doc.undo()
     doc.recompute()
     check("and can be undone", obj.Volume.Value == closed, obj.Status)
+
+
+def click_in_view(place, done):
+    """Really click at a point of the part, mm, until it has done what it is to do.
+
+    A user whose click is not seen by a busy window clicks again.
+    """
+    Gui.updateGui()
+    view = view_3d()
+    x, y = Gui.activeDocument().activeView().getPointOnScreen(App.Vector(*place))
+    corner = view.mapToGlobal(view.rect().bottomLeft())
+    for _ in range(5):
+        move_mouse(QtCore.QPoint(corner.x() + x + 4, corner.y() - y))
+        move_mouse(QtCore.QPoint(corner.x() + x, corner.y() - y))
+        press_button()
+        settle()
+        if comes_true(done, 5):
+            return
+    fail(f"clicks at {place} do nothing")
+
+
+def pick_in_the_panel(doc, obj):
+    """Open faces, a direction and a drain hole by clicks at the solid; Cancel takes them back."""
+    look_at_all()
+    open_to_edit(obj)
+    what, button = panel_part("PickWhat"), panel_part("Pick")
+    told = panel_part("Picked")
+    offered = [what.itemData(k) for k in range(what.count())]
+    check("what applies is offered", {"OpenFaces", "BuildDirection"} <= set(offered), offered)
+    check("and nothing else", "NetworkFaces" not in offered, offered)
+
+    def begin(name):
+        what.setCurrentIndex(what.findData(name))
+        settle()
+
+    begin("OpenFaces")
+    click(button)
+    check("the solid is shown", wait_until(lambda: obj.Base.Visibility))
+    size = [getattr(obj.Base, name).Value for name in ("Length", "Width", "Height")]
+    top = (0.5 * size[0], 0.5 * size[1], size[2])
+    click_in_view(top, lambda: obj.OpenFaces)
+    faces = [tuple(names) for _, names in obj.OpenFaces]
+    check("a click opens a face", faces == [("Face6",)], (faces, told.text()))
+    check("and it is told", "Face6" in told.text(), told.text())
+    picture("10_picked_face")
+    click_in_view(top, lambda: not obj.OpenFaces)
+    check("another click closes it", obj.OpenFaces == [], obj.OpenFaces)
+    click_in_view(top, lambda: obj.OpenFaces)
+    begin("BuildDirection")
+    before = tuple(obj.BuildDirection)
+    front = (0.5 * size[0], 0.0, 0.5 * size[2])
+    click_in_view(front, lambda: tuple(obj.BuildDirection) != before)
+    way = tuple(obj.BuildDirection)
+    check("a face gives a direction", way == (0.0, -1.0, 0.0), way)
+    check("there is an arrow", scene_has("VolfrepPicked"))
+    picture("11_picked_direction")
+    begin("Origin")
+    check("no origin is said to be there", not any(c.isdigit() for c in told.text()), told.text())
+    click_in_view((0.3 * size[0], 0.0, 0.3 * size[2]), lambda: told.text()[:1].isdigit())
+    check("a face gives its middle", tuple(obj.Origin) == front, obj.Origin)
+    check("which is told", f"{front[0]:g}" in told.text(), told.text())
+    click(panel_part("ClearPicked"))
+    check("and can be cleared", not any(c.isdigit() for c in told.text()), told.text())
+    click(button)
+    check("the solid goes again", wait_until(lambda: not obj.Base.Visibility))
+    check("and so does the arrow", not scene_has("VolfrepPicked"))
+    answer_panel("Cancel")
+    check("Cancel takes all of it back", obj.OpenFaces == [], obj.OpenFaces)
+
+
+def scene_has(name):
+    """Whether something of that name hangs in the view's scene."""
+    scene = Gui.activeDocument().activeView().getSceneGraph()
+    return name in [scene.getChild(k).getName().getString() for k in range(scene.getNumChildren())]
 
 
 def make_a_solid(doc, obj):
@@ -544,6 +625,27 @@ def save_and_reopen(doc, obj):
     picture("9_reopened")
 
 
+def open_an_invalid_one(doc, obj):
+    """An infill that could not be computed opens with its solid, and not with nothing."""
+    empty = doc.copyObject(obj, False)
+    empty.ShellThickness = 50
+    doc.recompute()
+    check("it has no mesh", not empty.Mesh.CountFacets or not empty.isValid(), empty.Status)
+    base, path = obj.Base.Name, OUT / "invalid.FCStd"
+    doc.removeObject(obj.Name)
+    import Mesh
+
+    empty.Mesh = Mesh.Mesh()
+    settle()
+    doc.getObject(base).Visibility = False
+    doc.saveAs(str(path))
+    App.closeDocument(doc.Name)
+    again = App.openDocument(str(path))
+    check("its solid shows", wait_until(lambda: again.getObject(base).Visibility))
+    App.Console.PrintMessage("It was meant to fail.\n")
+    Gui.getMainWindow().findChild(QtGui.QTextEdit, "Report view").clear()
+
+
 def choose_walls(doc, obj):
     """A Gyroid of the panel's list asks for a thickness in place of a radius, and is made."""
     open_to_edit(obj)
@@ -577,10 +679,12 @@ run_checks(
         cancel_an_edit: filled,
         cancel_a_creation: boxed,
         open_a_face: filled,
+        pick_in_the_panel: filled,
         check_the_print: filled,
         show_coarsely: filled,
         make_a_solid: coarse,
         make_an_analysis: coarse,
         save_and_reopen: filled,
+        open_an_invalid_one: filled,
     },
 )

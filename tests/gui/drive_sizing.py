@@ -12,8 +12,10 @@ from driving import (
     check,
     click,
     click_menu,
+    comes_true,
     figures,
     look_at_all,
+    move_mouse,
     picture,
     run_checks,
     select,
@@ -22,6 +24,7 @@ from driving import (
     toolbar_button,
     view_3d,
     wait_until,
+    window,
     xdotool,
 )
 from PySide import QtCore, QtGui
@@ -123,6 +126,13 @@ def size_and_take(doc, obj):
     picture("sizing_2_sized")
     figures["shades"] = shades("sizing_2_sized", view_3d())
     check("in colours", figures["shades"] > 200, figures["shades"])
+    click(part("Plot"))
+    check("the steps have a plot", wait_until(lambda: window("VolfrepPlot") is not None))
+    shown = window("VolfrepPlot").findChild(QtGui.QLabel, "Plot").pixmap()
+    check("with lines in it", shown.width() > 300 and shown.height() > 200, shown.size())
+    picture("sizing_2_plot")
+    window("VolfrepPlot").close()
+    settle()
     answer_panel("OK")
     check("the panel closes", wait_until(lambda: sizing_panel() is None, 90))
     settle()
@@ -216,12 +226,48 @@ def show_results(doc, obj):
     factor = dock().findChild(QtGui.QLabel, "Factor").text()
     check("deformed says how much", factor.endswith("times enlarged"), factor)
     picture("results_deformed")
+    high = dock().findChild(QtGui.QDoubleSpinBox, "To")
+    most = high.value()
+    click(high)
+    xdotool("key", "ctrl+a")
+    xdotool("type", f"{most / 2:.4g}")
+    xdotool("key", "Tab")
+    settle()
+    case.setCurrentIndex(1)
+    settle()
+    check("the scale stays with the quantity", abs(high.value() - most / 2) < 1e-3 * most)
+    click(dock().findChild(QtGui.QPushButton, "Automatic"))
+    settle()
+    check("and is given back", abs(high.value() - most) < 1e-3 * most, (high.value(), most))
+    pointed = dock().findChild(QtGui.QLabel, "Pointed")
+    middle = view_3d().mapToGlobal(view_3d().rect().center())
+
+    def is_told():
+        move_mouse(QtCore.QPoint(middle.x() + next(steps), middle.y()))
+        return comes_true(lambda: pointed.text()[:1].isdigit(), 2)
+
+    steps = iter(range(-60, 400, 7))
+    check("the mouse reads off a value", wait_until(is_told), pointed.text())
     dock().close()
     settle()
     check("closing shows the infill again", obj.ViewObject.Visibility)
+    colour_the_mesh(doc, obj)
     scene = Gui.activeDocument().activeView().getSceneGraph()
     names = [scene.getChild(k).getName().getString() for k in range(scene.getNumChildren())]
     check("and leaves nothing in the view", "VolfrepStrutResults" not in names, names)
+
+
+def colour_the_mesh(doc, obj):
+    """Colour By shows the stress of the document's cases on the mesh itself."""
+    obj.ViewObject.ColourBy = "Stress"
+    settle()
+    scene = Gui.activeDocument().activeView().getSceneGraph()
+    names = [scene.getChild(k).getName().getString() for k in range(scene.getNumChildren())]
+    check("with a legend", "VolfrepLegend" in names, names)
+    picture("results_on_the_mesh")
+    figures["shades on the mesh"] = shades("results_on_the_mesh", view_3d())
+    check("in colours", figures["shades on the mesh"] > 400, figures["shades on the mesh"])
+    obj.ViewObject.ColourBy = "None"
 
 
 def without_an_analysis(doc, obj):

@@ -17,6 +17,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 from driving import (
     PATIENCE,
     Watch,
+    are_there_jobs,
     check,
     click,
     figures,
@@ -355,36 +356,76 @@ def fill_two_at_once(doc, boxes):
 
 
 def answers_meanwhile(doc, obj):
-    """Figures only: the longest time that Qt's loop stood still while a mesh was made, and when."""
-    beats = []
+    """Figures: the longest time that Qt's loop stood still while a mesh was made and taken over.
+
+    A large one is first a likeness, and then drawn in pieces; in the end all of it is there.
+    """
+    from freecad_volfrep.gui import updating
+
+    beats, likenesses = [], []
     obj.CellSize, obj.StrutRadius = 4, 0.5
     timer = QtCore.QTimer(Gui.getMainWindow())
     timer.timeout.connect(lambda: beats.append(time.monotonic()))
     timer.start(10)
-    with meshes_held_back():
-        start_by_click(toolbar_button("Update Lattice Infill"))
-        wait_until(lambda: is_being_made(obj))
+    for name, large in (("of", updating.LARGE), ("of a likeness and", 200_000)):
+        largest, updating.LARGE = updating.LARGE, large
+        waits = updating.STILL, updating.LONGEST
+        updating.STILL = updating.LONGEST = 1000 * PATIENCE  # until its likeness was seen
+        obj.StrutRadius = obj.StrutRadius.Value + 0.02
+        with meshes_held_back():
+            start_by_click(toolbar_button("Update Lattice Infill"))
+            wait_until(lambda: is_being_made(obj))
+            beats.clear()
+            wait_until(lambda: _has_ended())
+            figures[f"longest time without an answer, {name} making, s"] = longest(beats)
         beats.clear()
-        end = time.monotonic() + PATIENCE
-        job = None
-        while time.monotonic() < end and not (job and job.wait(0)):
-            QtGui.QApplication.processEvents()
-            job = _first_running()
-    gaps = [after - before for before, after in itertools.pairwise(beats)]
-    start = time.monotonic()
-    settle()
+        wait_until(lambda: scene_has("VolfrepLikeness") or not is_being_made(obj))
+        likenesses.append(scene_has("VolfrepLikeness"))
+        if likenesses[-1]:
+            shoot("window_4_likeness")
+            beats.clear()
+        updating.STILL, updating.LONGEST = waits
+        wait_until(lambda: not is_being_made(obj))
+        figures[f"longest time without an answer, {name} taking over, s"] = longest(beats)
+        beats.clear()
+        wait_until(lambda: not are_there_jobs())
+        figures[f"longest time without an answer, {name} drawing, s"] = longest(beats)
+        updating.LARGE = largest
+        check("no likeness is left", not scene_has("VolfrepLikeness"))
     timer.stop()
-    figures["longest time without an answer while it is made, s"] = round(max(gaps, default=0.0), 3)
-    figures["from the result to the end, s"] = round(time.monotonic() - start, 2)
+    settle()
     figures["triangles"] = obj.Mesh.CountFacets
+    check("a likeness is shown of large ones only", likenesses == [False, True], likenesses)
     check("it is made", obj.Status == "Up to date", obj.Status)
+    check("and closed", obj.Mesh.isSolid() and obj.Watertight)
+    check("every triangle is drawn", drawn_triangles(obj) >= obj.Mesh.CountFacets)
 
 
-def _first_running():
+def longest(beats):
+    """The longest time between two beats, s."""
+    return round(max((b - a for a, b in itertools.pairwise(beats)), default=0.0), 3)
+
+
+def scene_has(name):
+    """Whether something of that name hangs in the view's scene."""
+    scene = Gui.activeDocument().activeView().getSceneGraph()
+    return name in [scene.getChild(k).getName().getString() for k in range(scene.getNumChildren())]
+
+
+def drawn_triangles(obj):
+    """How many triangles the view draws of an infill."""
+    from pivy import coin
+
+    count = coin.SoGetPrimitiveCountAction()
+    count.apply(obj.ViewObject.RootNode)
+    return count.getTriangleCount()
+
+
+def _has_ended():
     from freecad_volfrep.gui import background
 
     jobs = background._jobs[0]._jobs
-    return jobs[0]._running if jobs else None
+    return bool(jobs) and jobs[0]._running is not None and jobs[0]._running.wait(0)
 
 
 run_checks(

@@ -6,6 +6,7 @@ The stages are those of `volfrep.jobs.infill.Infill`, which computes any of them
 
 from __future__ import annotations
 
+import hashlib
 from concurrent.futures import Executor
 from typing import NamedTuple
 
@@ -14,8 +15,9 @@ from numpy.typing import NDArray
 
 from ..design.spec import LatticeSpec
 from ..io.solid import check_solid
+from ..mesh.drawn import DrawnPart, drawn_parts, facets_with_neighbours
 from ..mesh.triangle_mesh import TriangleMesh
-from ..reports.facet_roles import kinds_of_triangles
+from ..reports.facet_roles import OUTSIDE, kinds_of_triangles
 from ..reports.report import Report
 from ..reports.result import Result
 from ..util.cache import StageCache
@@ -57,11 +59,29 @@ class FilledMesh(NamedTuple):
         mesh: of all of it.
         report: the figures.
         kinds: (t,) uint8, what each triangle is: see `reports.facet_roles`.
+        digest: of the triangles, see `triangles_digest`.
+        shown: what a window draws at once; None: not asked for.
     """
 
     mesh: TriangleMesh
     report: Report
     kinds: NDArray[np.uint8]
+    digest: bytes
+    shown: ShownMesh | None
+
+
+class ShownMesh(NamedTuple):
+    """What the window's thread would need seconds for.
+
+    Attributes:
+        facets: (t, 6) uint32, triangles and their neighbours: see `mesh.drawn`.
+        parts: what is drawn.
+        is_coarse: whether that is a likeness, because the mesh has too many triangles.
+    """
+
+    facets: NDArray[np.uint32]
+    parts: tuple[DrawnPart, ...]
+    is_coarse: bool
 
 
 def filled_mesh(
@@ -69,6 +89,7 @@ def filled_mesh(
     name: str,
     spec: LatticeSpec,
     *,
+    show: tuple[int, int] | None = None,
     progress: ProgressCallback | None = None,
     cache: StageCache | None = None,
 ) -> FilledMesh:
@@ -78,6 +99,8 @@ def filled_mesh(
         solid: as it came, mm.
         name: of the solid, for sentences about what is wrong with it.
         spec: what to make.
+        show: what is drawn is wanted too: up to how many triangles as they are, and of how many
+            for each kind of them where there are more.
         progress: as of `fill`.
         cache: as of `fill`.
 
@@ -88,4 +111,17 @@ def filled_mesh(
     checked = check_solid(solid, name)
     result = fill(checked, spec, progress=progress, cache=cache)
     mesh = result.mesh
-    return FilledMesh(mesh, result.report, kinds_of_triangles(mesh, checked, spec))
+    kinds = kinds_of_triangles(mesh, checked, spec)
+    shown = None if show is None else _shown(mesh, kinds, *show)
+    return FilledMesh(mesh, result.report, kinds, triangles_digest(mesh), shown)
+
+
+def _shown(mesh: TriangleMesh, kinds: NDArray[np.uint8], most: int, likeness: int) -> ShownMesh:
+    is_coarse = len(mesh.triangles) > most
+    parts = drawn_parts(mesh, kinds, likeness if is_coarse else most, (OUTSIDE,))
+    return ShownMesh(facets_with_neighbours(mesh), parts, is_coarse)
+
+
+def triangles_digest(mesh: TriangleMesh) -> bytes:
+    """By which a mesh's triangles are known again."""
+    return hashlib.blake2b(np.ascontiguousarray(mesh.triangles, np.int32).data).digest()

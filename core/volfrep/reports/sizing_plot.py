@@ -28,17 +28,23 @@ def check_plot(path: str | os.PathLike[str]) -> None:
 
 
 def write_sizing_plot(report: Mapping[str, Any], path: str | os.PathLike[str]) -> None:
-    """Write the steps of a sizing report: the struts' mass, and the use of every limit.
+    """Write `sizing_plot` to an .svg file.
+
+    Raises:
+        VolfrepError: it cannot be written.
+    """
+    with replacing(path) as file:
+        file.write(sizing_plot(report).encode())
+
+
+def sizing_plot(report: Mapping[str, Any]) -> str:
+    """The steps of a sizing report as SVG: the struts' mass, and the use of every limit.
 
     Without limits, the work of the loads. A step's mass is that with which it holds the limits, as
     far as one factor for all radii can tell (`volfrep.sizing.optimise.Step`).
 
     Args:
         report: of `volfrep.reports.sizing_report`.
-        path: of the .svg file.
-
-    Raises:
-        VolfrepError: it cannot be written.
     """
     steps = report["steps"]
     density = report["strut_mass_g"] / report["strut_volume_mm3"]
@@ -73,8 +79,7 @@ def write_sizing_plot(report: Mapping[str, Any], path: str | os.PathLike[str]) -
     for (name, _), colour in zip([first, *uses], _COLOURS, strict=False):
         parts.append(f'<text x="{place}" y="22" fill="{colour}">{escape(name)}</text>')
         place += 7.0 * len(name) + 14.0
-    with replacing(path) as file:
-        file.write("\n".join([*parts, "</svg>\n"]).encode())
+    return "\n".join([*parts, "</svg>\n"])
 
 
 def _line(values: Sequence[float], most: float, colour: str) -> list[str]:

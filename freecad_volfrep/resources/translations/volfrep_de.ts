@@ -1081,6 +1081,10 @@
       <translation>Woraus das Gitter besteht: aus Zellen, den Voronoi- oder Delaunay-Kanten zufälliger Punkte, den Knoten und Streben einer Datei oder Lagen von Zellen, die in FreeCAD gewählten Flächen folgen</translation>
     </message>
     <message>
+      <source>What the lattice is coloured by</source>
+      <translation>Wonach das Gitter eingefärbt ist</translation>
+    </message>
+    <message>
       <source>What the part is made of: its density gives the mass, its stiffness goes into solver decks</source>
       <translation>Woraus das Teil besteht: die Dichte ergibt die Masse, die Steifigkeit geht in die Dateien für Löser</translation>
     </message>
@@ -1099,6 +1103,14 @@
     <message>
       <source>Where the records and the page of the study are</source>
       <translation>Wo die Aufzeichnungen und die Seite der Studie liegen</translation>
+    </message>
+    <message>
+      <source>Where the scale of colours begins; as its end: from the values themselves</source>
+      <translation>Wo die Farbskala beginnt; gleich ihrem Ende: nach den Werten selbst</translation>
+    </message>
+    <message>
+      <source>Where the scale of colours ends</source>
+      <translation>Wo die Farbskala endet</translation>
     </message>
     <message>
       <source>Whether the mesh fits the properties, or why not</source>
@@ -1173,6 +1185,17 @@
     <message>
       <source>Report on the selected mesh: closed, bodies, volume, angles, triangles that cross, and what a file keeps of it</source>
       <translation>Bericht über das gewählte Netz: geschlossen, Körper, Volumen, Winkel, sich kreuzende Dreiecke, und was eine Datei davon behält</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_ColourBy</name>
+    <message>
+      <source>Colour By</source>
+      <translation>Einfärben nach</translation>
+    </message>
+    <message>
+      <source>Colour the selected lattice infill by radius, cell size, overhang, stress or another quantity, with a legend, and read off values with the mouse</source>
+      <translation>Die ausgewählte Gitterfüllung nach Radius, Zellgröße, Überhang, Spannung oder einer anderen Größe einfärben, mit Legende, und Werte mit der Maus ablesen</translation>
     </message>
   </context>
   <context>
@@ -1522,6 +1545,101 @@
     </message>
   </context>
   <context>
+    <name>VolfrepColours</name>
+    <message>
+      <source>Automatic</source>
+      <translation>Automatisch</translation>
+    </message>
+    <message>
+      <source>Buckling</source>
+      <translation>Knicken</translation>
+    </message>
+    <message>
+      <source>Cell size</source>
+      <translation>Zellgröße</translation>
+    </message>
+    <message>
+      <source>Cell size, mm</source>
+      <translation>Zellgröße, mm</translation>
+    </message>
+    <message>
+      <source>Colour by</source>
+      <translation>Einfärben nach</translation>
+    </message>
+    <message>
+      <source>Colours of {label}</source>
+      <translation>Farben von {label}</translation>
+    </message>
+    <message>
+      <source>Displacement</source>
+      <translation>Verschiebung</translation>
+    </message>
+    <message>
+      <source>Displacement, mm</source>
+      <translation>Verschiebung, mm</translation>
+    </message>
+    <message>
+      <source>Field</source>
+      <translation>Feld</translation>
+    </message>
+    <message>
+      <source>Field of the radius</source>
+      <translation>Feld des Radius</translation>
+    </message>
+    <message>
+      <source>From the smallest to the largest of the values</source>
+      <translation>Vom kleinsten bis zum größten der Werte</translation>
+    </message>
+    <message>
+      <source>None</source>
+      <translation>Keine</translation>
+    </message>
+    <message>
+      <source>Overhang</source>
+      <translation>Überhang</translation>
+    </message>
+    <message>
+      <source>Overhang, degrees</source>
+      <translation>Überhang, Grad</translation>
+    </message>
+    <message>
+      <source>Point at the lattice</source>
+      <translation>Auf das Gitter zeigen</translation>
+    </message>
+    <message>
+      <source>Radius</source>
+      <translation>Radius</translation>
+    </message>
+    <message>
+      <source>Share of the buckling load</source>
+      <translation>Anteil der Knicklast</translation>
+    </message>
+    <message>
+      <source>Stress</source>
+      <translation>Spannung</translation>
+    </message>
+    <message>
+      <source>Stress (von Mises), MPa</source>
+      <translation>Spannung (von Mises), MPa</translation>
+    </message>
+    <message>
+      <source>Strut radius, mm</source>
+      <translation>Stabradius, mm</translation>
+    </message>
+    <message>
+      <source>from</source>
+      <translation>von</translation>
+    </message>
+    <message>
+      <source>to</source>
+      <translation>bis</translation>
+    </message>
+    <message>
+      <source>{value} under the mouse</source>
+      <translation>{value} unter der Maus</translation>
+    </message>
+  </context>
+  <context>
     <name>VolfrepCommands</name>
     <message>
       <source>A panel is open: end it first.</source>
@@ -1562,6 +1680,10 @@
     <message>
       <source>Select one lattice infill that is computed, or one mesh.</source>
       <translation>Eine berechnete Gitterfüllung oder ein Netz auswählen.</translation>
+    </message>
+    <message>
+      <source>Select one lattice infill that is computed, with its 3D view in front.</source>
+      <translation>Eine berechnete Gitterfüllung auswählen, deren 3D-Ansicht vorn ist.</translation>
     </message>
     <message>
       <source>Select one lattice infill.</source>
@@ -1838,6 +1960,10 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
       <translation>{label} wird geprüft</translation>
     </message>
     <message>
+      <source>Colours of {label}</source>
+      <translation>Farben von {label}</translation>
+    </message>
+    <message>
       <source>Exact surfaces of {label}</source>
       <translation>Exakte Flächen von {label}</translation>
     </message>
@@ -2100,6 +2226,10 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
     <message>
       <source>crossings</source>
       <translation>Durchdringungen</translation>
+    </message>
+    <message>
+      <source>into the document when you pause</source>
+      <translation>ins Dokument, sobald Sie innehalten</translation>
     </message>
     <message>
       <source>lattice</source>
@@ -2710,6 +2840,10 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
       <translation>Wievielmal so groß die Last sein darf, bevor die erste Strebe knickt; 0 für keine Grenze</translation>
     </message>
     <message>
+      <source>How mass and limits went, step by step</source>
+      <translation>Wie Masse und Grenzen verliefen, Schritt für Schritt</translation>
+    </message>
+    <message>
       <source>Largest radius</source>
       <translation>Größter Radius</translation>
     </message>
@@ -2742,6 +2876,10 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
       <translation>Knoten, deren Streben zusammenwachsen würden, bleiben darunter</translation>
     </message>
     <message>
+      <source>Plot</source>
+      <translation>Diagramm</translation>
+    </message>
+    <message>
       <source>Size</source>
       <translation>Dimensionieren</translation>
     </message>
@@ -2756,6 +2894,10 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
     <message>
       <source>Step</source>
       <translation>Schritt</translation>
+    </message>
+    <message>
+      <source>Steps of {label}</source>
+      <translation>Schritte von {label}</translation>
     </message>
     <message>
       <source>Struts of {mass:.4g} g hold all limits; no one radius between these does.</source>
@@ -2934,6 +3076,10 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
       <translation>Zellen</translation>
     </message>
     <message>
+      <source>Clear</source>
+      <translation>Leeren</translation>
+    </message>
+    <message>
       <source>Compute</source>
       <translation>Berechnen</translation>
     </message>
@@ -2954,6 +3100,10 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
       <translation>Werkstoff</translation>
     </message>
     <message>
+      <source>Pick</source>
+      <translation>Anklicken</translation>
+    </message>
+    <message>
       <source>Points and values</source>
       <translation>Punkte und Werte</translation>
     </message>
@@ -2966,8 +3116,16 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
       <translation>Schnitt</translation>
     </message>
     <message>
+      <source>Shows the solid: click at a face, an edge, a vertex, an axis or a plane; once more ends it</source>
+      <translation>Zeigt den Körper: auf eine Fläche, eine Kante, einen Punkt, eine Achse oder eine Ebene klicken; noch einmal beendet es</translation>
+    </message>
+    <message>
       <source>To print</source>
       <translation>Zum Drucken</translation>
+    </message>
+    <message>
+      <source>nothing picked</source>
+      <translation>nichts angeklickt</translation>
     </message>
   </context>
   <context>

@@ -1081,6 +1081,10 @@
       <translation>Di cosa consiste il reticolo: celle, gli spigoli di Voronoi o Delaunay di punti casuali, i nodi e le aste di un file, o strati di celle che seguono facce scelte in FreeCAD</translation>
     </message>
     <message>
+      <source>What the lattice is coloured by</source>
+      <translation>In base a cosa è colorato il reticolo</translation>
+    </message>
+    <message>
       <source>What the part is made of: its density gives the mass, its stiffness goes into solver decks</source>
       <translation>Di che cosa è fatto il pezzo: la densità dà la massa, la rigidezza va nei file per i solutori</translation>
     </message>
@@ -1099,6 +1103,14 @@
     <message>
       <source>Where the records and the page of the study are</source>
       <translation>Dove sono le registrazioni e la pagina dello studio</translation>
+    </message>
+    <message>
+      <source>Where the scale of colours begins; as its end: from the values themselves</source>
+      <translation>Dove comincia la scala dei colori; uguale alla fine: dai valori stessi</translation>
+    </message>
+    <message>
+      <source>Where the scale of colours ends</source>
+      <translation>Dove finisce la scala dei colori</translation>
     </message>
     <message>
       <source>Whether the mesh fits the properties, or why not</source>
@@ -1173,6 +1185,17 @@
     <message>
       <source>Report on the selected mesh: closed, bodies, volume, angles, triangles that cross, and what a file keeps of it</source>
       <translation>Rapporto sulla mesh selezionata: chiusura, corpi, volume, angoli, triangoli che si incrociano e ciò che ne resta in un file</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_ColourBy</name>
+    <message>
+      <source>Colour By</source>
+      <translation>Colora per</translation>
+    </message>
+    <message>
+      <source>Colour the selected lattice infill by radius, cell size, overhang, stress or another quantity, with a legend, and read off values with the mouse</source>
+      <translation>Colora il riempimento selezionato per raggio, dimensione delle celle, sbalzo, tensione o un'altra grandezza, con legenda, e legge i valori con il mouse</translation>
     </message>
   </context>
   <context>
@@ -1522,6 +1545,101 @@
     </message>
   </context>
   <context>
+    <name>VolfrepColours</name>
+    <message>
+      <source>Automatic</source>
+      <translation>Automatico</translation>
+    </message>
+    <message>
+      <source>Buckling</source>
+      <translation>Instabilità</translation>
+    </message>
+    <message>
+      <source>Cell size</source>
+      <translation>Dimensione delle celle</translation>
+    </message>
+    <message>
+      <source>Cell size, mm</source>
+      <translation>Dimensione delle celle, mm</translation>
+    </message>
+    <message>
+      <source>Colour by</source>
+      <translation>Colora per</translation>
+    </message>
+    <message>
+      <source>Colours of {label}</source>
+      <translation>Colori di {label}</translation>
+    </message>
+    <message>
+      <source>Displacement</source>
+      <translation>Spostamento</translation>
+    </message>
+    <message>
+      <source>Displacement, mm</source>
+      <translation>Spostamento, mm</translation>
+    </message>
+    <message>
+      <source>Field</source>
+      <translation>Campo</translation>
+    </message>
+    <message>
+      <source>Field of the radius</source>
+      <translation>Campo del raggio</translation>
+    </message>
+    <message>
+      <source>From the smallest to the largest of the values</source>
+      <translation>Dal più piccolo al più grande dei valori</translation>
+    </message>
+    <message>
+      <source>None</source>
+      <translation>Nessuno</translation>
+    </message>
+    <message>
+      <source>Overhang</source>
+      <translation>Sbalzo</translation>
+    </message>
+    <message>
+      <source>Overhang, degrees</source>
+      <translation>Sbalzo, gradi</translation>
+    </message>
+    <message>
+      <source>Point at the lattice</source>
+      <translation>Puntare il reticolo</translation>
+    </message>
+    <message>
+      <source>Radius</source>
+      <translation>Raggio</translation>
+    </message>
+    <message>
+      <source>Share of the buckling load</source>
+      <translation>Quota del carico critico</translation>
+    </message>
+    <message>
+      <source>Stress</source>
+      <translation>Tensione</translation>
+    </message>
+    <message>
+      <source>Stress (von Mises), MPa</source>
+      <translation>Tensione (von Mises), MPa</translation>
+    </message>
+    <message>
+      <source>Strut radius, mm</source>
+      <translation>Raggio delle aste, mm</translation>
+    </message>
+    <message>
+      <source>from</source>
+      <translation>da</translation>
+    </message>
+    <message>
+      <source>to</source>
+      <translation>a</translation>
+    </message>
+    <message>
+      <source>{value} under the mouse</source>
+      <translation>{value} sotto il mouse</translation>
+    </message>
+  </context>
+  <context>
     <name>VolfrepCommands</name>
     <message>
       <source>A panel is open: end it first.</source>
@@ -1562,6 +1680,10 @@
     <message>
       <source>Select one lattice infill that is computed, or one mesh.</source>
       <translation>Selezionare un riempimento reticolare calcolato, o una mesh.</translation>
+    </message>
+    <message>
+      <source>Select one lattice infill that is computed, with its 3D view in front.</source>
+      <translation>Selezionare un riempimento reticolare calcolato, con la sua vista 3D in primo piano.</translation>
     </message>
     <message>
       <source>Select one lattice infill.</source>
@@ -1838,6 +1960,10 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
       <translation>Controllo di {label}</translation>
     </message>
     <message>
+      <source>Colours of {label}</source>
+      <translation>Colori di {label}</translation>
+    </message>
+    <message>
       <source>Exact surfaces of {label}</source>
       <translation>Superfici esatte di {label}</translation>
     </message>
@@ -2100,6 +2226,10 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
     <message>
       <source>crossings</source>
       <translation>intersezioni</translation>
+    </message>
+    <message>
+      <source>into the document when you pause</source>
+      <translation>nel documento alla prima pausa</translation>
     </message>
     <message>
       <source>lattice</source>
@@ -2710,6 +2840,10 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
       <translation>Quante volte il carico può essere prima che la prima asta si instabilizzi; 0 per nessun limite</translation>
     </message>
     <message>
+      <source>How mass and limits went, step by step</source>
+      <translation>Come sono andati massa e limiti, passo per passo</translation>
+    </message>
+    <message>
       <source>Largest radius</source>
       <translation>Raggio massimo</translation>
     </message>
@@ -2742,6 +2876,10 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
       <translation>I nodi le cui aste si fonderebbero restano al di sotto</translation>
     </message>
     <message>
+      <source>Plot</source>
+      <translation>Grafico</translation>
+    </message>
+    <message>
       <source>Size</source>
       <translation>Dimensiona</translation>
     </message>
@@ -2756,6 +2894,10 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
     <message>
       <source>Step</source>
       <translation>Passo</translation>
+    </message>
+    <message>
+      <source>Steps of {label}</source>
+      <translation>Passi di {label}</translation>
     </message>
     <message>
       <source>Struts of {mass:.4g} g hold all limits; no one radius between these does.</source>
@@ -2934,6 +3076,10 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
       <translation>Celle</translation>
     </message>
     <message>
+      <source>Clear</source>
+      <translation>Svuota</translation>
+    </message>
+    <message>
       <source>Compute</source>
       <translation>Calcola</translation>
     </message>
@@ -2954,6 +3100,10 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
       <translation>Materiale</translation>
     </message>
     <message>
+      <source>Pick</source>
+      <translation>Scegli</translation>
+    </message>
+    <message>
       <source>Points and values</source>
       <translation>Punti e valori</translation>
     </message>
@@ -2966,8 +3116,16 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
       <translation>Sezione</translation>
     </message>
     <message>
+      <source>Shows the solid: click at a face, an edge, a vertex, an axis or a plane; once more ends it</source>
+      <translation>Mostra il solido: fare clic su una faccia, uno spigolo, un vertice, un asse o un piano; ancora una volta per finire</translation>
+    </message>
+    <message>
       <source>To print</source>
       <translation>Per la stampa</translation>
+    </message>
+    <message>
+      <source>nothing picked</source>
+      <translation>niente di scelto</translation>
     </message>
   </context>
   <context>

@@ -24,7 +24,7 @@ from volfrep.apart.engines import Engines, Running
 from volfrep.apart.wire import LARGE
 from volfrep.design.spec import LatticeSpec
 from volfrep.io.solid import check_solid
-from volfrep.jobs.pipeline import fill, filled_mesh
+from volfrep.jobs.pipeline import fill, filled_mesh, triangles_digest
 from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.reports.facet_roles import kinds_of_triangles
 from volfrep.util.cache import StageCache
@@ -78,12 +78,14 @@ def test_a_lattice_made_elsewhere_is_the_one_made_here(engine):
     spec = LatticeSpec(cell="BCC", cell_size=5.0, strut_radius=0.5, shell=0.5)
     solid = check_solid(cube, "cube")
     here = fill(solid, spec)
-    call = Call(filled_mesh, (cube, "cube", spec), {"cache": StageCache()})
-    mesh, report, kinds = engine.begin(call).result()
+    call = Call(filled_mesh, (cube, "cube", spec), {"cache": StageCache(), "show": (10**6, 10**5)})
+    mesh, report, kinds, digest, shown = engine.begin(call).result()
     np.testing.assert_array_equal(mesh.vertices, here.mesh.vertices)
     np.testing.assert_array_equal(mesh.triangles, here.mesh.triangles)
     assert report.volume_mm3 == here.report.volume_mm3
     np.testing.assert_array_equal(kinds, kinds_of_triangles(here.mesh, solid, spec))
+    assert digest == triangles_digest(here.mesh)
+    assert sum(len(part.pieces.index) for part in shown.parts) == len(mesh.triangles)
 
 
 def test_a_cache_stays_there_for_the_next_call_until_it_is_dropped_here(engine):

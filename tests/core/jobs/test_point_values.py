@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What a part is coloured by, held against closed forms and against every strut looked at."""
+
+import numpy as np
+import pytest
+
+import samples
+from volfrep import LatticeSpec, VolfrepError
+from volfrep.design.grading import CellMap
+from volfrep.jobs.infill import Infill
+from volfrep.jobs.pipeline import fill
+from volfrep.jobs.point_values import overhang, point_values, values_in_space
+from volfrep.spatial.nearest_struts import NearestStrut
+
+SOLID = samples.box((24.0, 16.0, 16.0))
+
+
+def test_the_nearest_strut_is_the_nearest_of_all():
+    random = np.random.default_rng(5)
+    start = random.uniform(0.0, 10.0, (200, 3))
+    ends = np.stack([start, start + random.normal(0.0, 1.5, (200, 3))], axis=1)
+    points = random.uniform(0.0, 10.0, (500, 3))
+    along = ends[:, 1] - ends[:, 0]
+    share = np.clip(
+        ((points[:, None] - start) * along).sum(axis=2) / (along**2).sum(axis=1), 0.0, 1.0
+    )
+    away = np.linalg.norm(start + share[..., None] * along - points[:, None], axis=2)
+    strut, found = NearestStrut(ends).of(points)
+    rows = np.arange(len(points))
+    assert (away[rows, strut] <= away.min(axis=1) + 0.3).all()
+    nearest = strut == away.argmin(axis=1)
+    assert nearest.mean() > 0.95
+    assert found[nearest] == pytest.approx(share[rows, strut][nearest])
+
+
+def test_the_lattices_own_radius_is_that_of_its_surface():
+    spec = LatticeSpec(cell="Box", cell_size=8, strut_radius=0.8, output="lattice")
+    mesh = fill(SOLID, spec).mesh
+    found = point_values(SOLID, spec, "Radius", mesh.vertices, mesh.vertices)
+    assert found.values == pytest.approx(0.8, rel=1e-6)
+    frame = Infill(SOLID, spec).struts
+    ends = frame.nodes[frame.struts]
+    strut, share = NearestStrut(ends).of(mesh.vertices)
+    foot = ends[strut, 0] + share[:, None] * (ends[strut, 1] - ends[strut, 0])
+    # No vertex is farther from the axis than the joint's sphere, nor much nearer than the strut.
+    away = np.linalg.norm(mesh.vertices - foot, axis=1)
+    assert away.max() < 1.1 * 0.8 * 1.05
+
+
+def test_cells_of_a_grid_have_its_size():
+    spec = LatticeSpec(cell="BCC", cell_size=8, strut_radius=0.8)
+    assert values_in_space(SOLID, spec, "Cell size", SOLID.vertices) == pytest.approx(8.0)
+
+
+def test_cells_about_an_axis_grow_with_the_distance_from_it():
+    spec = LatticeSpec(
+        cell="BCC",
+        cell_size=4,
+        strut_radius=0.4,
+        cell_map=CellMap("cylindrical", (0, 0, 0), around=12),
+    )
+    points = np.array([[6.0, 0.0, 8.0], [12.0, 0.0, 8.0]])
+    near, far = values_in_space(SOLID, spec, "Cell size", points) ** 3
+    assert far / near == pytest.approx(2.0, rel=1e-3)
+
+
+def test_overhangs_are_angles_to_the_plate():
+    turns = np.radians([0.0, 30.0, 45.0, 90.0])
+    down = np.stack([np.sin(turns), 0 * turns, -np.cos(turns)], axis=1)
+    assert overhang(down, (0, 0, 2)) == pytest.approx([0.0, 30.0, 45.0, 90.0])
+    assert overhang(-down, (0, 0, 2)) == pytest.approx(90.0)
+    found = point_values(SOLID, LatticeSpec(), "Overhang", down, down)
+    assert (found.low, found.high) == (0.0, 90.0)
+
+
+def test_what_there_is_not_is_said():
+    points = SOLID.vertices
+    with pytest.raises(VolfrepError, match="no quantity 'Colour'"):
+        point_values(SOLID, LatticeSpec(), "Colour", points, points)
+    with pytest.raises(VolfrepError, match="needs loads"):
+        point_values(SOLID, LatticeSpec(), "Stress", points, points)
+    with pytest.raises(VolfrepError, match="No field drives"):
+        point_values(SOLID, LatticeSpec(), "Field", points, points)

@@ -188,8 +188,12 @@ def meeting_boxes(
     begin = np.searchsorted(its_bin, bins)
     row, place = spread(np.searchsorted(its_bin, bins, "right") - begin)
     a, b = box[begin[row] + place], other[row]
-    meets = ((low[a] <= most[b]) & (least[b] <= high[a])).all(axis=1)
-    return a[meets], b[meets]
+    for axis in range(3):
+        ends = (np.ascontiguousarray(each[:, axis]) for each in (low, high, least, most))
+        lowest, highest, its_least, its_most = ends
+        meets = (lowest[a] <= its_most[b]) & (its_least[b] <= highest[a])
+        a, b = a[meets], b[meets]
+    return a, b
 
 
 def _heights(corners: Floats, normal: Floats, a: Ints, b: Ints) -> Floats:

@@ -6,10 +6,9 @@ Calls that hold Python's lock, such as those of the Boolean library, run side by
 
 from __future__ import annotations
 
-import multiprocessing
 import signal
 from collections.abc import Iterator
-from concurrent.futures import Executor, ProcessPoolExecutor
+from concurrent.futures import Executor
 from contextlib import contextmanager
 from importlib import import_module
 from typing import Any
@@ -42,6 +41,9 @@ def processes(count: int | None = None, module: str = "") -> Iterator[Executor |
     if count == 1:
         yield None
         return
+    import multiprocessing  # slow to load, as the next one is
+    from concurrent.futures import ProcessPoolExecutor
+
     context = multiprocessing.get_context("spawn")
     pool = ProcessPoolExecutor(count, context, _prepared, (module,))
     if module:

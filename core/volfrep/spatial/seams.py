@@ -22,7 +22,7 @@ from .self_intersection import meeting_boxes
 #: Facets of the first surface that are looked at together, in their order.
 RUN = 32
 #: Runs and facets of the second surface that one vectorised step takes at a time.
-PAIRS_PER_STEP = 20_000
+PAIRS_PER_STEP = 4_000
 #: Bins along the largest facet of the second surface.
 MOST_BINS = 64
 #: Determinants below this part of what their factors could give have no certain sign.
@@ -141,10 +141,12 @@ def _near_pairs(first: TriangleMesh, second: TriangleMesh) -> tuple[Ints, Ints]:
             r, two = r[row], f[row]
             one = runs[r, place]
             keep = (r + 1 < len(runs)) | (place <= (count - 1) % RUN)
+            one, two = one[keep], two[keep]
             for axis in range(3):
-                keep &= low[axis, one] <= most[axis, two]
-                keep &= least[axis, two] <= high[axis, one]
-            found.append((one[keep], two[keep]))
+                keep = low[axis][one] <= most[axis][two]
+                keep &= least[axis][two] <= high[axis][one]
+                one, two = one[keep], two[keep]
+            found.append((one, two))
     one, two = (np.concatenate(column) for column in zip(*found, strict=True))
     return one, two
 

@@ -141,10 +141,10 @@ def _workers(options: argparse.Namespace, triangles: int) -> Iterator[Executor |
             yield executor
         return
     count, module = options.workers, ""
-    if triangles < WORTH_WORKERS:
-        count = count or 1
-    else:  # they start while this process looks for the wall
+    if triangles >= WORTH_WORKERS:  # they start while this process looks for the wall
         module = "volfrep.trim.group_cut"
+    elif count is None:
+        count = 1
     with processes(count, module) as executor:
         yield executor
 

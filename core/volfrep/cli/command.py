@@ -38,6 +38,8 @@ if TYPE_CHECKING:
 
 EXIT_DEFECT = 1
 EXIT_BAD_INPUT = 2
+#: Fewer triangles than these are cut in this process: others take longer to start.
+WORTH_WORKERS = 600_000
 
 
 def run(arguments: Sequence[str]) -> int:
@@ -130,16 +132,21 @@ def _parser() -> argparse.ArgumentParser:
 
 
 @contextmanager
-def _workers(options: argparse.Namespace) -> Iterator[Executor | None]:
-    """Those that the options ask for."""
+def _workers(options: argparse.Namespace, triangles: int) -> Iterator[Executor | None]:
+    """Those that the options ask for; where they do not, as many as so many triangles are worth."""
     from ..util.workers import dask_workers, processes
 
-    if options.scheduler is None:
-        with processes(options.workers) as executor:
-            yield executor
-    else:
+    if options.scheduler is not None:
         with dask_workers(options.scheduler) as executor:
             yield executor
+        return
+    count, module = options.workers, ""
+    if triangles >= WORTH_WORKERS:  # they start while this process looks for the wall
+        module = "volfrep.trim.group_cut"
+    elif count is None:
+        count = 1
+    with processes(count, module) as executor:
+        yield executor
 
 
 def _fill(options: argparse.Namespace) -> None:
@@ -155,11 +162,12 @@ def _fill(options: argparse.Namespace) -> None:
     solid = read_part(options, spec.cell_size)
     read_seconds = time.perf_counter() - start
     meshed = solver_options.is_meshed(options)
+    expected = forecast_fill(solid, roughly_aimed(solid, spec), streamed=_is_plain(options))
     if not options.quiet:
-        aim = roughly_aimed(solid, spec)
-        expected = forecast_fill(solid, aim, streamed=_is_plain(options))
         print(f"Expected: {expected if meshed else expected.of_axes}.", flush=True)
-    with _workers(options) as executor, Progress(options.quiet) as progress:
+    is_cut = meshed and spec.network is None and spec.output != "domain"
+    cut = expected.triangles if is_cut else 0
+    with _workers(options, cut) as executor, Progress(options.quiet) as progress:
         infill = aimed(
             solid, spec, progress=progress, meshed=meshed, executor=executor,
             streamed=_is_plain(options),

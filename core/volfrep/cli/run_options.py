@@ -289,8 +289,9 @@ RUN_OPTIONS = (
     ),
     RunOption(
         "workers", ("fill",),
-        "processes that cut the lattice at the wall, side by side (default: one a core; 1 for "
-        "this process alone); the file is the same with any number",
+        "processes that cut the lattice at the wall, side by side (default: one a core, and this "
+        "process alone for fewer than about 600,000 triangles); the file is the same with any "
+        "number",
         "N", read=int, either="who works",
     ),
     RunOption(

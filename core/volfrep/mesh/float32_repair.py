@@ -108,17 +108,29 @@ def _names(triangles: NDArray[np.int32]) -> NDArray[np.uint64]:
 
 def _slivers(points: NDArray[np.float64], triangles: NDArray[np.int32], tolerance: float) -> Ints:
     """The triangles with an edge or a height below the tolerance."""
+    # Axis by axis, which numpy takes in faster than rows of three.
+    columns = np.ascontiguousarray(points.T)
     starts = range(0, len(triangles), BLOCK_TRIANGLES)
-    found = [_slivers_in(points[triangles[k : k + BLOCK_TRIANGLES]], tolerance) + k for k in starts]
+    found = [
+        _slivers_in(columns, triangles[k : k + BLOCK_TRIANGLES], tolerance) + k for k in starts
+    ]
     return np.concatenate([np.zeros(0, np.int64), *found])
 
 
-def _slivers_in(corners: NDArray[np.float64], tolerance: float) -> Ints:
-    sides = [corners[:, k] - corners[:, k - 2] for k in range(3)]
-    squares = np.stack([np.einsum("ij,ij->i", side, side) for side in sides])
-    twice = np.cross(sides[0], sides[1])
-    thin = np.einsum("ij,ij->i", twice, twice) < tolerance**2 * squares.max(axis=0)
-    thin |= squares.min(axis=0) < tolerance**2
+def _slivers_in(
+    columns: NDArray[np.float64], triangles: NDArray[np.int32], tolerance: float
+) -> Ints:
+    corners = [np.ascontiguousarray(triangles[:, k]) for k in range(3)]
+    sides: list[list[NDArray[np.float64]]] = [[], [], []]
+    for column in columns:
+        a, b, c = (column[corner] for corner in corners)
+        for side, difference in zip(sides, (a - b, b - c, c - a), strict=True):
+            side.append(difference)
+    first, second, third = (x * x + y * y + z * z for x, y, z in sides)
+    (x, y, z), (u, v, w) = sides[:2]
+    twice = (y * w - z * v) ** 2 + (z * u - x * w) ** 2 + (x * v - y * u) ** 2
+    thin = twice < tolerance**2 * np.maximum(np.maximum(first, second), third)
+    thin |= np.minimum(np.minimum(first, second), third) < tolerance**2
     return np.flatnonzero(thin)
 
 

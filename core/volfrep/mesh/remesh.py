@@ -292,18 +292,20 @@ def split(
     table = edges(triangles, count)
     inner = table.triangles[:, 1] >= 0
     ends = table.ends[inner]
-    todo = ends[wanted(ends[:, 0], ends[:, 1])]
+    chosen = wanted(ends[:, 0], ends[:, 1])
+    todo, rows = ends[chosen], np.unique(table.triangles[inner][chosen])
     middle = 0.5 * (vertices[todo[:, 0]] + vertices[todo[:, 1]])
     vertices = np.concatenate([vertices, middle])
     fresh = np.arange(count, len(vertices))
     while len(todo):
-        # Each triangle takes one split at a time; the others wait for the next round.
-        table = edges(triangles, len(vertices))
+        # Each triangle takes one split at a time; the others wait for the next round. Only the
+        # triangles at edges that are to be split, and what became of them, are looked at.
+        table = edges(triangles[rows], len(vertices))
         key = (np.sort(table.ends, axis=1) * np.array([len(vertices), 1])).sum(axis=1)
         want = (np.sort(todo, axis=1) * np.array([len(vertices), 1])).sum(axis=1)
         order = np.argsort(key)
         found = order[np.searchsorted(key[order], want)]
-        pair = table.triangles[found]
+        pair = rows[table.triangles[found]]
         first = np.full(len(triangles), len(todo))
         for side in (0, 1):
             np.minimum.at(first, pair[:, side], np.arange(len(todo)))
@@ -320,5 +322,6 @@ def split(
                 np.stack([new, edge[:, 0], corner[:, 1]], axis=1),
             ]
         )
+        rows = np.concatenate([rows, np.arange(len(triangles) - 2 * len(new), len(triangles))])
         todo, fresh = todo[~now], fresh[~now]
     return vertices, triangles

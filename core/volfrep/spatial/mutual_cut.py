@@ -331,7 +331,7 @@ def _triangulated(
     result, source = [], []
     end = np.cumsum(length)
     cuts = np.searchsorted(number, np.arange(0, len(facets) + FACETS_PER_CALL, FACETS_PER_CALL))
-    loops = np.split(flat, end[:-1])
+    loops = [flat[a:b] for a, b in zip((end - length).tolist(), end.tolist(), strict=True)]
     for begin, stop in pairwise(cuts):
         found = np.asarray(triangulate(loops[begin:stop])).reshape(-1, 3).astype(np.int64)
         found += end[begin] - length[begin]

@@ -22,6 +22,8 @@ Signs = NDArray[np.int8]
 
 #: A determinant of 3 x 3 differences errs by no more than this times its terms without signs.
 ROUNDING = 8.0 * np.finfo(np.float64).eps
+#: And one of a corner and a plane by no more than this times the lengths of the three differences.
+ROUGHLY = 64.0 * np.finfo(np.float64).eps
 
 
 def piercing_pairs(mesh: TriangleMesh, monitor: Monitor | None = None) -> Ints:
@@ -42,29 +44,135 @@ def piercing_pairs(mesh: TriangleMesh, monitor: Monitor | None = None) -> Ints:
     Raises:
         Cancelled: when the monitor says so.
     """
+    return piercing_among(mesh, pairs_at_planes(mesh, 0.0, monitor))
+
+
+def pairs_at_planes(mesh: TriangleMesh, moves: float, monitor: Monitor | None = None) -> Ints:
+    """(k, 2) pairs of triangles that may pierce each other, once vertices have moved a little.
+
+    What is left out does not: their boxes are apart, or one lies in front of or behind the plane
+    of the other, or a plane across the way between them divides them, by more than the moves and
+    rounding can turn.
+
+    Args:
+        mesh: any mesh, mm.
+        moves: no coordinate of a vertex changes by more, mm.
+        monitor: asked for a cancel.
+    """
     monitor = monitor or Monitor()
-    count = len(mesh.triangles)
+    corners = mesh.vertices[mesh.triangles]
+    planes = _Planes(mesh, moves)
     found = [np.empty((0, 2), np.int64)]
-    for a, b in close_pairs(mesh.vertices[mesh.triangles], np.ones(count, bool)):
+    for a, b in close_pairs(corners, np.ones(len(corners), bool), moves):
         monitor.tick()
-        found.append(_piercing(mesh, a, b))
-    return np.unique(np.concatenate(found), axis=0)
+        for _ in range(2):
+            near = planes.reached(a, b)
+            a, b = b[near], a[near]
+        near = ~planes.divided(a, b)
+        a, b = a[near], b[near]
+        found.append(np.stack([a, b], axis=1))
+    return np.concatenate(found)
 
 
-def _piercing(mesh: TriangleMesh, a: Ints, b: Ints) -> Ints:
-    """(k, 2) of the pairs (a, b) and (b, a), those of which the first pierces the second."""
+class _Planes:
+    """The planes of triangles, and which others may have corners on both sides of them."""
+
+    def __init__(self, mesh: TriangleMesh, moves: float) -> None:
+        # A column for every coordinate of every corner: numpy takes rows of three slowly.
+        self._corner = np.ascontiguousarray(mesh.triangles.T)
+        columns = np.ascontiguousarray(mesh.vertices.T)
+        self._at = [[column[corner] for column in columns] for corner in self._corner]
+        a, b, c = self._at
+        e, f = ([q[k] - a[k] for k in range(3)] for q in (b, c))
+        self._normal = [e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2],
+                        e[0] * f[1] - e[1] * f[0]]  # fmt: skip
+        # A difference of two vertices moves by so much; a determinant is linear in three of them.
+        self._far = 2.0 * np.sqrt(3.0) * moves
+        long, wide = (np.sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) for d in (e, f))
+        self._both = (long + self._far) * (wide + self._far)
+        self._less = self._both - long * wide
+
+    def reached(self, a: Ints, b: Ints) -> NDArray[np.bool_]:
+        """(n,) whether triangles a may have corners on both sides of triangles b.
+
+        Not where they share an edge. A corner that they share is on neither side.
+        """
+        origin = [column[b] for column in self._at[0]]
+        normal = [column[b] for column in self._normal]
+        both, less = self._both[b], self._less[b]
+        theirs = [corner[b] for corner in self._corner]
+        above, below = np.zeros((2, len(a)), bool)
+        shared = np.zeros(len(a), np.int8)
+        for number, at in zip(self._corner, self._at, strict=True):
+            own = number[a]
+            same = _among(own, theirs)
+            x, y, z = (column[a] - start for column, start in zip(at, origin, strict=True))
+            height = x * normal[0] + y * normal[1] + z * normal[2]
+            away = np.sqrt(x * x + y * y + z * z)
+            # (away + far) both - away long wide, and what rounding adds to it.
+            unsure = self._far * both + away * (less + ROUGHLY * both)
+            above |= (height >= -unsure) & ~same
+            below |= (height <= unsure) & ~same
+            shared += same
+        result: NDArray[np.bool_] = above & below & (shared < 2)
+        return result
+
+    def divided(self, a: Ints, b: Ints) -> NDArray[np.bool_]:
+        """(n,) whether a plane across the way between their middles has both on its two sides.
+
+        Of triangles that share a corner it goes through that, and the way is between what they
+        go from there.
+        """
+        ours, theirs = ([corner[rows] for corner in self._corner] for rows in (a, b))
+        at = [[[column[rows] for column in corner] for corner in self._at] for rows in (a, b)]
+        # Places from the corner that they share, or else from the first one of a.
+        origin = at[0][0]
+        for corner, places in zip(ours[1:], at[0][1:], strict=True):
+            same = _among(corner, theirs)
+            origin = [np.where(same, x, start) for x, start in zip(places, origin, strict=True)]
+        at = [[[x - o for x, o in zip(p, origin, strict=True)] for p in each] for each in at]
+        shared = [_among(corner, theirs) for corner in ours], [_among(c, ours) for c in theirs]
+        meets = shared[0][0] | shared[0][1] | shared[0][2]
+        way: list[Floats] = [np.zeros(len(a)) for _ in range(3)]
+        for each, sign in zip(at, (1.0, -1.0), strict=True):
+            middle = [sum(places[k] for places in each) / 3.0 for k in range(3)]
+            length = np.sqrt(sum(x * x for x in middle))
+            scale = np.where(meets, sign / np.maximum(length, 1e-300), sign)
+            way = [w + scale * x for w, x in zip(way, middle, strict=True)]
+        long = np.sqrt(sum(w * w for w in way))
+        unsure = np.zeros(len(a))
+        ends = []
+        for each, alike, sign in zip(at, shared, (1.0, -1.0), strict=True):
+            least = np.full(len(a), np.inf)
+            for places, is_shared in zip(each, alike, strict=True):
+                along = sum(w * x for w, x in zip(way, places, strict=True))
+                far = sum(np.abs(x) for x in places)
+                unsure = np.maximum(unsure, long * (self._far + ROUGHLY * far))
+                least = np.minimum(least, np.where(is_shared, np.inf, sign * along))
+            ends.append(least)
+        # Without a common corner the plane may lie anywhere between them.
+        both = (ends[0] > unsure) & (ends[1] > unsure)
+        result: NDArray[np.bool_] = np.where(meets, both, ends[0] + ends[1] > 2.0 * unsure)
+        return result
+
+
+def _among(corner: NDArray[np.int32], others: list[NDArray[np.int32]]) -> NDArray[np.bool_]:
+    return np.asarray((corner == others[0]) | (corner == others[1]) | (corner == others[2]))
+
+
+def piercing_among(mesh: TriangleMesh, pairs: Ints) -> Ints:
+    """As `piercing_pairs`, of (k, 2) pairs of triangles only, in either order."""
+    a, b = pairs.T
     one, two = mesh.triangles[a], mesh.triangles[b]
-    alike = one[:, :, None] == two[:, None, :]
-    near = alike.sum(axis=(1, 2)) < 2
-    a, b, one, two = a[near], b[near], one[near], two[near]
     for _ in range(2):
         both = _on_both_sides(mesh.vertices, one, two)
         a, b, one, two = b[both], a[both], two[both], one[both]
-    pairs = []
+    found = []
     for first, second, edges, faces in ((a, b, one, two), (b, a, two, one)):
         pierced = _edges_pierce(mesh.vertices, edges, faces)
-        pairs.append(np.stack([first[pierced], second[pierced]], axis=1))
-    return np.concatenate(pairs)
+        found.append(np.stack([first[pierced], second[pierced]], axis=1))
+    result: Ints = np.unique(np.concatenate(found), axis=0)
+    return result
 
 
 def _on_both_sides(

@@ -99,13 +99,18 @@ def _crossing_edges(
                 yield one[hit], other[hit], points
 
 
-def close_pairs(corners: Floats, among: Bools) -> Iterator[tuple[Ints, Ints]]:
+def close_pairs(corners: Floats, among: Bools, margin: float = 0.0) -> Iterator[tuple[Ints, Ints]]:
     """Pairs of triangles whose boxes overlap, at least one of them chosen; some of them twice.
 
     They meet in the bins of several grids, each twice as coarse as the one before: every triangle
     waits in the bins of its own size, and visits those and all coarser ones.
+
+    Args:
+        corners: (m, 3, 3) of the triangles, mm.
+        among: (m,) bool, the chosen ones.
+        margin: by which each box is larger than its triangle on every side, mm.
     """
-    low, high = corners.min(axis=1), corners.max(axis=1)
+    low, high = corners.min(axis=1) - margin, corners.max(axis=1) + margin
     extent = (high - low).max(axis=1)
     size = max(float(np.percentile(extent, 50)), float(extent.max()) / MOST_BINS)
     level = np.ceil(np.log2(np.maximum(extent / size, 1.0))).astype(np.int64)
@@ -183,8 +188,12 @@ def meeting_boxes(
     begin = np.searchsorted(its_bin, bins)
     row, place = spread(np.searchsorted(its_bin, bins, "right") - begin)
     a, b = box[begin[row] + place], other[row]
-    meets = ((low[a] <= most[b]) & (least[b] <= high[a])).all(axis=1)
-    return a[meets], b[meets]
+    for axis in range(3):
+        ends = (np.ascontiguousarray(each[:, axis]) for each in (low, high, least, most))
+        lowest, highest, its_least, its_most = ends
+        meets = (lowest[a] <= its_most[b]) & (its_least[b] <= highest[a])
+        a, b = a[meets], b[meets]
+    return a, b
 
 
 def _heights(corners: Floats, normal: Floats, a: Ints, b: Ints) -> Floats:

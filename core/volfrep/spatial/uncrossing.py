@@ -10,14 +10,15 @@ the triangles next to it, is looked.
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
 from ..mesh.precision import decimal_step, rounded
-from ..mesh.triangle_mesh import TriangleMesh
+from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
-from .piercing import piercing_pairs
+from .piercing import pairs_at_planes, piercing_among
 
 #: The surface turns back at an edge where the cosine between its normals is below this.
 TURNS_BACK = -0.9
@@ -111,41 +112,69 @@ def turning_back(mesh: TriangleMesh, deformed: bool = False) -> Bools:
 
     Where it is deformed, also those at sharp edges that stick out.
     """
-    t = mesh.triangles.astype(np.int64)
-    a, b, c = mesh.corners()
-    normal = np.cross(b - a, c - a)
-    normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
-    start, end = t.ravel(), np.roll(t, -1, axis=1).ravel()
-    count = np.int64(len(mesh.vertices))
-    low, high = np.minimum(start, end), np.maximum(start, end)
-    edge = low * count + high
+    size = len(mesh.vertices)
+    corners = np.ascontiguousarray(mesh.triangles.T)
+    normal = _unit_normals(mesh.vertices, corners)
+    # At both ends of such an edge two of the normals nearly cancel out, and so their sum is short.
+    length = np.zeros(size)
+    for along in normal:
+        length += sum(np.bincount(corner, along, size) for corner in corners) ** 2
+    count = sum(np.bincount(corner, minlength=size) for corner in corners)
+    least = STICKS_OUT if deformed else TURNS_BACK
+    sharp = np.sqrt(length) <= count - 2.0 + np.sqrt(2.0 + 2.0 * least) + 1e-6
+    rows = np.flatnonzero(sum(sharp[corner].astype(np.int8) for corner in corners) > 1)
+    start = mesh.triangles[rows].astype(np.int64)
+    end = np.roll(start, -1, axis=1)
+    side = np.flatnonzero((sharp[start] & sharp[end]).ravel())
+    apex = np.roll(start, -2, axis=1).ravel()[side]
+    start, end, owner = start.ravel()[side], end.ravel()[side], rows[side // 3]
+    edge = np.minimum(start, end) * np.int64(size) + np.maximum(start, end)
     order = np.argsort(edge)
     same = edge[order[1:]] == edge[order[:-1]]
-    one, two = order[:-1][same], order[1:][same]
-    cosine = np.einsum("ij,ij->i", normal[one // 3], normal[two // 3])
+    side, other = order[:-1][same], order[1:][same]
+    one, two = owner[side], owner[other]
+    cosine = sum(along[one] * along[two] for along in normal)
     turned = cosine < TURNS_BACK
     if deformed:
-        sharp = np.flatnonzero((cosine < STICKS_OUT) & ~turned)
-        beyond = mesh.vertices[t[two[sharp] // 3, (two[sharp] + 2) % 3]]
-        beyond = beyond - mesh.vertices[start[one[sharp]]]
-        turned[sharp] = np.einsum("ij,ij->i", normal[one[sharp] // 3], beyond) < 0.0
-    near = np.zeros(len(mesh.vertices), bool)
-    near[t[one[turned] // 3]] = True
-    near[t[two[turned] // 3]] = True
-    return np.asarray(near[mesh.triangles].any(axis=1), np.bool_)
+        beyond = mesh.vertices[apex[other]] - mesh.vertices[start[side]]
+        sticks_out = sum(along[one] * beyond[:, k] for k, along in enumerate(normal)) < 0.0
+        turned |= (cosine < STICKS_OUT) & sticks_out
+    near = np.zeros(size, bool)
+    near[mesh.triangles[one[turned]]] = True
+    near[mesh.triangles[two[turned]]] = True
+    return _touching(near, corners)
+
+
+def _unit_normals(vertices: Floats, corners: NDArray[np.int32]) -> list[Floats]:
+    """Three of (m,): the normals of triangles, (3, m), of length 1, axis by axis."""
+    columns = np.ascontiguousarray(vertices.T)
+    a, b, c = ([column[corner] for column in columns] for corner in corners)
+    e, f = ([q[k] - a[k] for k in range(3)] for q in (b, c))
+    normal = [e[i] * f[j] - e[j] * f[i] for i, j in ((1, 2), (2, 0), (0, 1))]
+    length = np.maximum(np.sqrt(sum(along * along for along in normal)), 1e-300)
+    return [along / length for along in normal]
+
+
+def _touching(near: Bools, corners: NDArray[np.int32]) -> Bools:
+    """(m,) which of the triangles, (3, m), have a corner among the near vertices."""
+    a, b, c = (near[corner] for corner in corners)
+    return np.asarray(a | b | c, np.bool_)
 
 
 def _crossing(mesh: TriangleMesh, among: Bools, monitor: Monitor) -> Ints:
     """(k, 2) triangles, chosen or beside such, that cross in a binary file or in one of text."""
     near = np.zeros(len(mesh.vertices), bool)
     near[mesh.triangles[among]] = True
-    rows = np.flatnonzero(near[mesh.triangles].any(axis=1))
+    rows = np.flatnonzero(_touching(near, mesh.triangles.T))
     if not len(rows):
         return np.zeros((0, 2), np.int64)
     step = decimal_step(mesh.vertices)
+    part = compact(TriangleMesh(mesh.vertices, mesh.triangles[rows]))
+    # Neither rounding moves a coordinate by more than a step: few pairs need an exact look, twice.
+    close = pairs_at_planes(part, step, monitor)
     found = [
-        piercing_pairs(TriangleMesh(vertices, mesh.triangles[rows]), monitor)
-        for vertices in (_single(mesh.vertices), _single(rounded(mesh.vertices, step)))
+        piercing_among(TriangleMesh(vertices, part.triangles), close)
+        for vertices in (_single(part.vertices), _single(rounded(part.vertices, step)))
     ]
     pairs: Ints = np.unique(rows[np.concatenate(found)], axis=0)
     return pairs

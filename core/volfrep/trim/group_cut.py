@@ -273,12 +273,20 @@ def read_runs(result: manifold3d.Mesh64) -> tuple[TriangleMesh, NDArray[np.int64
 
 def open_vertices(mesh: TriangleMesh) -> Ints:
     """The vertices at edges of one triangle, ascending."""
-    start = mesh.triangles.astype(np.int64)
-    end = np.roll(start, -1, axis=1)
-    size = np.int64(len(mesh.vertices))
-    key, back = (start * size + end).ravel(), (end * size + start).ravel()
+    corners = [np.ascontiguousarray(mesh.triangles[:, k]).astype(np.int64) for k in range(3)]
+    size = len(mesh.vertices)
+    # Sorted, the two ways along an edge follow each other: an even number and the next one.
+    key = np.concatenate(
+        [
+            (np.minimum(a, b) * size + np.maximum(a, b)) * 2 + (a > b)
+            for a, b in zip(corners, [*corners[1:], corners[0]], strict=True)
+        ]
+    )
     key.sort()
-    place = np.minimum(np.searchsorted(key, back), len(key) - 1)
-    alone = key[place] != back if len(key) else np.zeros(0, bool)
-    result: Ints = np.unique(np.concatenate([start.ravel()[alone], end.ravel()[alone]]))
-    return result
+    first = np.flatnonzero((key[1:] ^ key[:-1]) == 1)
+    alone = np.ones(len(key), bool)
+    alone[first] = alone[first + 1] = False
+    at_rim = np.zeros(size, bool)
+    start, end = np.divmod(key[alone] >> 1, max(size, 1))
+    at_rim[start] = at_rim[end] = True
+    return np.flatnonzero(at_rim)

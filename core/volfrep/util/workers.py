@@ -6,11 +6,11 @@ Calls that hold Python's lock, such as those of the Boolean library, run side by
 
 from __future__ import annotations
 
-import multiprocessing
 import signal
 from collections.abc import Iterator
-from concurrent.futures import Executor, ProcessPoolExecutor
+from concurrent.futures import Executor
 from contextlib import contextmanager
+from importlib import import_module
 from typing import Any
 
 from .errors import VolfrepError
@@ -22,14 +22,15 @@ PATIENCE = 20
 
 
 @contextmanager
-def processes(count: int | None = None) -> Iterator[Executor | None]:
+def processes(count: int | None = None, module: str = "") -> Iterator[Executor | None]:
     """An executor of so many processes; None where that is one.
 
-    They start when they are first given something, as new interpreters: a script that uses them
-    needs its `if __name__ == "__main__":`.
+    They are new interpreters: a script that uses them needs its `if __name__ == "__main__":`.
 
     Args:
         count: of the processes; None for as many as `threads` says.
+        module: where what they will be given lies: they start at once and import it, while this
+            process does something else. Empty: they start when they are first given something.
 
     Raises:
         VolfrepError: fewer than one is wanted.
@@ -40,17 +41,24 @@ def processes(count: int | None = None) -> Iterator[Executor | None]:
     if count == 1:
         yield None
         return
+    import multiprocessing  # slow to load, as the next one is
+    from concurrent.futures import ProcessPoolExecutor
+
     context = multiprocessing.get_context("spawn")
-    pool = ProcessPoolExecutor(count, context, _ignore_interrupts)
+    pool = ProcessPoolExecutor(count, context, _prepared, (module,))
+    if module:
+        pool.submit(int)
     try:
         yield pool
     finally:
         pool.shutdown(cancel_futures=True)
 
 
-def _ignore_interrupts() -> None:
+def _prepared(module: str) -> None:
     """Leave Ctrl-C, which a terminal sends to all its processes, to the one that is asked."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    if module:
+        import_module(module)
 
 
 @contextmanager

@@ -6,6 +6,9 @@ from __future__ import annotations
 import os
 import signal
 import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 
@@ -15,6 +18,7 @@ import pytest
 import command
 import samples
 import volfrep
+import volfrep.cli.command
 from clusters import WORKERS, worker
 from clusters import cluster as cluster
 from volfrep import LatticeSpec, VolfrepError
@@ -27,6 +31,10 @@ from volfrep.util import workers
 LATTICE = ["--cell", "CVC", "--cell-size", "8", "--strut-radius", "0.8"]
 fill = partial(command.fill, LATTICE)
 SPEC = LatticeSpec("CVC", cell_size=8.0, strut_radius=0.8, shell=2.0)
+
+
+def _modules() -> list[str]:
+    return list(sys.modules)
 
 
 @pytest.fixture(autouse=True)
@@ -48,6 +56,24 @@ def test_the_file_is_the_same_with_any_number_of_workers(tmp_path: Path, part: P
     assert one == two == three
 
 
+def test_others_help_where_the_job_is_worth_it_or_they_are_asked_for(
+    tmp_path: Path, part: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[tuple[int | None, str]] = []
+
+    @contextmanager
+    def nobody(count: int | None = None, module: str = "") -> Iterator[None]:
+        asked.append((count, module))
+        yield None
+
+    monkeypatch.setattr(workers, "processes", nobody)
+    for least, given in ((10**9, ()), (10**9, ("--workers", 3)), (1, ()), (1, ("--workers", 3))):
+        monkeypatch.setattr(volfrep.cli.command, "WORTH_WORKERS", least)
+        assert fill(part, tmp_path / "out.stl", "--quiet", "--cell-size", 20, *given) == 0
+    module = "volfrep.trim.group_cut"
+    assert asked == [(1, ""), (3, ""), (None, module), (3, module)]
+
+
 def test_as_many_workers_as_are_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
     with workers.processes(1) as executor:
         assert executor is None, "this process alone"
@@ -56,6 +82,9 @@ def test_as_many_workers_as_are_asked_for(monkeypatch: pytest.MonkeyPatch) -> No
         assert workers.at_once(executor) == 5
     with pytest.raises(VolfrepError, match="At least 1 worker"), workers.processes(0):
         pass
+    with workers.processes(2, "volfrep.trim.group_cut") as executor:
+        assert executor is not None
+        assert "volfrep.trim.group_cut" in executor.submit(_modules).result(), "before it is asked"
 
 
 def test_what_does_not_go_together_is_refused(

@@ -7,7 +7,7 @@ import trimesh
 
 import samples
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
-from volfrep.spatial.piercing import piercing_pairs
+from volfrep.spatial.piercing import pairs_at_planes, piercing_among, piercing_pairs
 from volfrep.util.errors import Cancelled
 from volfrep.util.progress import Monitor
 
@@ -110,6 +110,25 @@ def test_boxes_that_touch_do_so_where_edges_cross_only():
     ):
         both = concatenate(one, TriangleMesh(one.vertices + np.asarray(shift), one.triangles))
         assert bool(len(piercing_pairs(both))) == edges_cross
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_nothing_that_small_moves_bring_to_cross_is_left_out(seed):
+    """Flat fans, needles and facets a hair above each other, every coordinate moved at random."""
+    random = np.random.default_rng(seed)
+    moves, count = 1e-3, 70
+    vertices = random.uniform(-1.0, 1.0, (count, 3)) * [1.0, 1.0, (1.0, 1e-3)[seed % 2]] + 40.0
+    triangles = np.array([random.choice(count, 3, replace=False) for _ in range(90)], np.int32)
+    close = pairs_at_planes(TriangleMesh(vertices, triangles), moves)
+    every = np.stack(np.triu_indices(len(triangles), 1), axis=1)
+    shared = (triangles[every[:, 0], :, None] == triangles[every[:, 1], None, :]).sum(axis=(1, 2))
+    every = every[shared < 2]
+    assert len(np.unique(np.sort(close, axis=1), axis=0)) < 0.9 * len(every)
+    for _ in range(20):
+        there = vertices + random.choice([-moves, 0.3 * moves, moves], vertices.shape)
+        moved = TriangleMesh(there, triangles)
+        assert np.array_equal(piercing_among(moved, close), piercing_among(moved, every))
+        assert len(piercing_among(moved, every)) > 100
 
 
 def test_it_can_be_cancelled():

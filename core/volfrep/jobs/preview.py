@@ -17,7 +17,8 @@ from ..design.memory_guard import refuse_cells
 from ..design.openings import OpenFace, open_triangles
 from ..design.spec import LatticeSpec
 from ..design.target import Target
-from ..grid.activation import CellGrid, make_grid, mapped_grid
+from ..grid.activation import make_grid, mapped_grid
+from ..grid.cell_grid import CellGrid
 from ..grid.coordinate_map import CoordinateMap
 from ..grid.placement import graded_wireframe, placement_in
 from ..grid.strut_graph import Wireframe, cell_graph

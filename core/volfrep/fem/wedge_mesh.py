@@ -19,8 +19,6 @@ _FLAT = 0.03
 _EVENED_OUT, _DRAWN_BACK = 60, 8
 #: The volume at a wedge's corner over what upright walls would give: at least, and wanted.
 _UPRIGHT, _WANTED = 0.05, 0.2
-#: Triangles lower than this part of their longest edge are needles.
-_NEEDLE = 0.15
 
 
 @dataclass(frozen=True, eq=False)
@@ -228,17 +226,14 @@ def upright(outer: Floats, inner: Floats, triangles: Ints) -> Floats:
     """The inner vertices, moved where what is between the surfaces would be turned over.
 
     First along their surface, which keeps the thickness, towards the middle of their neighbours;
-    what is left towards the outside. Nothing is done for needles, and where the outside itself is
-    folded: they are left out.
+    what is left towards the outside. Where the outside itself is folded nothing helps, and nothing
+    is done.
     """
     way = np.cross(*(outer[triangles[:, k]] - outer[triangles[:, 0]] for k in (1, 2)))
     mean = np.zeros_like(outer)
     for corner in range(3):
         np.add.at(mean, triangles[:, corner], way)
     folded = np.einsum("ij,ij->i", mean[triangles].sum(axis=1), way) <= 0.0
-    # A needle is left out rather than that all about it become thin.
-    longest = np.linalg.norm(outer[triangles] - outer[np.roll(triangles, 1, 1)], axis=2).max(axis=1)
-    folded |= np.linalg.norm(way, axis=1) < _NEEDLE * longest**2
     inner = inner.copy()
 
     def turned(least: float) -> Bools:

@@ -272,7 +272,6 @@ def size_struts(
     """
     from volfrep.apart.engine_process import Call
     from volfrep.jobs.sizing import size
-    from volfrep.sizing.strut_state import strut_states
 
     solid, spec, cache = obj.Proxy.wanted(obj)
     loads = loads_of(obj, analyses)
@@ -296,7 +295,7 @@ def size_struts(
             keeps_best=True,
         ),
     )
-    states = strut_states(part.model.problem, part.sized.analysis)
+    states = part.states
     return Outcome(part, states, density, tuple(steps))
 
 

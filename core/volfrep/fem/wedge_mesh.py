@@ -6,15 +6,19 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.sparse import csr_matrix
 
 from ..util.types import Bools, Floats, Ints
 
 #: Pads take no more than this part of an edge, both ends together.
 _MOST_OF_EDGE = 0.8
-#: So many times are vertices whose wedges are turned over evened out, and then drawn back by half.
-_EVENED_OUT, _DRAWN_BACK = 20, 8
-#: The volume at a wedge's corner over what upright walls would give, at least.
-_UPRIGHT = 0.05
+#: Directions in which the planes about a vertex agree to less than this say nothing of its place.
+_FLAT = 0.03
+#: So many times are inner vertices evened out where wedges would be turned over, and what is left
+#: drawn back by half.
+_EVENED_OUT, _DRAWN_BACK = 60, 8
+#: The volume at a wedge's corner over what upright walls would give: at least, and wanted.
+_UPRIGHT, _WANTED = 0.05, 0.2
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,12 +108,36 @@ def pad_shares(length: Floats, first: Floats, second: Floats) -> tuple[Floats, F
     return first * allowed, second * allowed
 
 
+def vertex_planes(
+    vertices: Floats, triangles: Ints, normal: Floats, weight: Floats
+) -> tuple[Floats, Floats, Bools]:
+    """The planes about vertices as one quadratic form: its values, axes, and which of them count.
+
+    Args:
+        vertices: (n, 3) mm.
+        triangles: (t, 3) rows of them.
+        normal: (t, 3) of unit length.
+        weight: (t,) of each triangle.
+
+    Returns:
+        (n, 3) values; (n, 3, 3) axes as columns; (n, 3) bool, along which the planes hold the
+        vertex: one on a face, two on an edge, three in a corner.
+    """
+    square = np.zeros((len(vertices), 3, 3))
+    outer = normal[:, :, None] * normal[:, None, :] * weight[:, None, None]
+    for corner in range(3):
+        np.add.at(square, triangles[:, corner], outer)
+    values, axes = np.linalg.eigh(square)
+    return values, axes, values > _FLAT * np.maximum(values[:, -1:], 1e-300)
+
+
 def wedge_mesh(outer: Floats, inner: Floats, triangles: Ints, pads: Floats) -> WedgeMesh:
     """Wedges between two surfaces of the same triangles.
 
     Args:
         outer: (n, 3) mm.
-        inner: (n, 3) the same vertices on the other side, mm.
+        inner: (n, 3) the same vertices on the other side, mm; where wedges would be turned over
+            they are moved along their surface.
         triangles: (t, 3) rows of both, seen from outside anticlockwise; needles that are folded
             over have no wedge.
         pads: (n,) mm; about a vertex the triangles are cut at this distance from it along their
@@ -117,8 +145,8 @@ def wedge_mesh(outer: Floats, inner: Floats, triangles: Ints, pads: Floats) -> W
     """
     triangles = triangles.astype(np.int64)
     own = len(outer)
-    inner = _upright(outer, inner, triangles)
-    triangles = triangles[_stands(outer[triangles], inner[triangles])]
+    inner = upright(outer, inner, triangles)
+    triangles = triangles[_stands(outer[triangles], inner[triangles], _UPRIGHT)]
     vertices, pieces, is_pad, of, ring = _cut(own, triangles, pads, outer)
     (near, far), share = vertices
     above = (1.0 - share)[:, None] * outer[near] + share[:, None] * outer[far]
@@ -194,42 +222,57 @@ def _cut(
     return vertices, pieces[good], is_pad[good], of[good], ring
 
 
-def _upright(outer: Floats, inner: Floats, triangles: Ints) -> Floats:
-    """The inner vertices, moved where a wedge would be turned over.
+def upright(outer: Floats, inner: Floats, triangles: Ints) -> Floats:
+    """The inner vertices, moved where what is between the surfaces would be turned over.
 
-    First each goes as deep, and the way, as those about it do on the whole; then towards the
-    outside. Where the outside itself is folded nothing helps, and nothing is done.
+    First along their surface, which keeps the thickness, towards the middle of their neighbours;
+    what is left towards the outside. Where the outside itself is folded nothing helps, and nothing
+    is done.
     """
-    depth = inner - outer
     way = np.cross(*(outer[triangles[:, k]] - outer[triangles[:, 0]] for k in (1, 2)))
     mean = np.zeros_like(outer)
     for corner in range(3):
         np.add.at(mean, triangles[:, corner], way)
     folded = np.einsum("ij,ij->i", mean[triangles].sum(axis=1), way) <= 0.0
-    for number in range(_EVENED_OUT + _DRAWN_BACK):
-        bad = ~folded & ~_stands(outer[triangles], (outer + depth)[triangles])
+    inner = inner.copy()
+
+    def turned(least: float) -> Bools:
+        return np.asarray(~folded & ~_stands(outer[triangles], inner[triangles], least))
+
+    if turned(_WANTED).any():
+        size = np.linalg.norm(way, axis=1)
+        normal = way / np.maximum(size, 1e-300)[:, None]
+        _, axes, held = vertex_planes(outer, triangles, normal, size)
+        along = np.einsum("nik,nk,njk->nij", axes, (~held).astype(float), axes)
+        pairs = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+        near = csr_matrix((np.ones(len(pairs)), tuple(pairs.T)), (len(outer),) * 2)
+        near = near + near.T
+        near.data[:] = 1.0
+        number = np.maximum(np.asarray(near.sum(axis=1)).ravel(), 1.0)[:, None]
+        for _ in range(_EVENED_OUT):
+            bad = turned(_WANTED)
+            if not bad.any():
+                break
+            some = np.unique(triangles[bad])
+            step = (near[some] @ inner) / number[some] - inner[some]
+            inner[some] += 0.5 * np.einsum("nij,nj->ni", along[some], step)
+    for _ in range(_DRAWN_BACK):
+        bad = turned(_UPRIGHT)
         if not bad.any():
             break
-        if number < _EVENED_OUT:
-            total, count = np.zeros_like(depth), np.zeros(len(depth))
-            mean = depth[triangles[bad]].mean(axis=1)
-            for corner in range(3):
-                np.add.at(total, triangles[bad, corner], mean)
-                np.add.at(count, triangles[bad, corner], 1.0)
-            depth = np.where(count[:, None] > 0.0, total / np.maximum(count, 1.0)[:, None], depth)
-        else:
-            depth[np.unique(triangles[bad])] *= 0.5
-    return outer + depth
+        some = np.unique(triangles[bad])
+        inner[some] = 0.5 * (inner[some] + outer[some])
+    return inner
 
 
-def _stands(high: Floats, low: Floats) -> Bools:
-    """(t,) whether wedges between triangles (t, 3, 3) are turned over nowhere."""
+def _stands(high: Floats, low: Floats, least: float) -> Bools:
+    """(t,) whether prisms between triangles (t, 3, 3) are turned over nowhere."""
     ways = [np.cross(side[:, 1] - side[:, 0], side[:, 2] - side[:, 0]) for side in (low, high)]
     size = np.linalg.norm(ways[1], axis=1)
     result = np.ones(len(high), bool)
     for way in ways:
         for corner in range(3):
             rise = high[:, corner] - low[:, corner]
-            upright = size * np.linalg.norm(rise, axis=1)
-            result &= np.einsum("ij,ij->i", rise, way) > _UPRIGHT * upright
+            whole = size * np.linalg.norm(rise, axis=1)
+            result &= np.einsum("ij,ij->i", rise, way) > least * whole
     return result

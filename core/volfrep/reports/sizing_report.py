@@ -83,8 +83,8 @@ def sizing_report(
         }
     if model.skin is not None:
         shells = model.skin.shells
-        count = model.frame_nodes
-        felt = shells.stresses(final.displacements[count:])
+        moved = model.skin.of_middle(final.displacements[model.frame_nodes :])
+        felt = shells.stresses(moved)
         result["skin_stress_mpa"] = [all_but(row, shells.area, PEAKS) for row in felt.T]
     return result
 

@@ -133,12 +133,7 @@ def proved(
         monitor=monitor,
     )  # fmt: skip
     mine = final.displacements[:, :3][there]
-    theirs = found.displacements[place]
-    if solid is not None:  # shells move as the middle of the skin does
-        theirs[count:] = 0.5 * (
-            theirs[count:] + found.displacements[len(deck.nodes) + solid.mesh.inner]
-        )
-    theirs = theirs[there]
+    theirs = found.displacements[place[there]]
     off = np.linalg.norm(theirs - mine, axis=(0, 1)) / np.linalg.norm(theirs, axis=(0, 1))
     own = stresses(beams, of_struts, final.forces)
     summed = np.abs(own.axial) + own.bending
@@ -197,8 +192,7 @@ def solid_skin(
         arms: those nodes.
         material: of the skin.
     """
-    inner = 2.0 * skin.middle - skin.outside.vertices
-    mesh = wedge_mesh(skin.outside.vertices, inner, skin.shells.triangles, skin.pads)
+    mesh = wedge_mesh(skin.outside.vertices, skin.inside, skin.shells.triangles, skin.pads)
     first = len(model.nodes)
     tips = first - 3 * len(arms) + np.arange(3 * len(arms))
     vertex = np.repeat(skin.pad_of(model.nodes[arms]), 3)

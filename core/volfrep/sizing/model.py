@@ -15,7 +15,7 @@ from scipy.spatial import cKDTree
 from ..design.cells import UnitCell
 from ..grid.strut_graph import Wireframe
 from ..loads.load_cases import LoadCase
-from ..loads.nodal_loads import Body, nodal_case
+from ..loads.nodal_loads import ROUNDING, Body, nodal_case
 from ..loads.regions import AnyOf, Region, simple_regions
 from ..mechanics.catalogue import joint_law
 from ..mechanics.frame import SQUARE_SECTION
@@ -34,6 +34,9 @@ from .tapered_beams import Elastic, beams_of, end_table
 
 #: Struts that graze the skin are not longer in it than at this cosine to its normal.
 _STEEPEST = 0.3
+#: A star of sections reaches farther than a disc of its second moment of area, and so holds the
+#: skin: by so much in skinned boxes of second-order tetrahedra.
+_STAR = 1.3
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,7 +107,8 @@ def feet_of(wireframe: Wireframe, clipped: Clipped, domain: TriangleMesh, radii:
     total = np.stack([np.bincount(group, row, count) for row in places.T], axis=1)
     middle: Floats = total / number[:, None]
     square = ((places - middle[group]) ** 2).sum(axis=1) + 0.5 * reach**2
-    return Feet(middle, np.sqrt(2.0 * np.bincount(group, square, count) / number))
+    radius = np.sqrt(2.0 * np.bincount(group, square, count) / number)
+    return Feet(middle, np.where(number > 1.0, _STAR, 1.0) * radius)
 
 
 def sizing_model(
@@ -192,7 +196,7 @@ def sizing_model(
         )
         facets = skin.outside.triangles[skin.used].astype(np.int64)
         places = np.concatenate([nodes, skin.outside.vertices])
-        nodes = np.concatenate([nodes, skin.middle])
+        nodes = places
     beams = beams_of(nodes, struts, stuff, joined=joined, section=SQUARE_SECTION, ends=table)
     structure = Structure(nodes, beams, ties, blocks)
 
@@ -254,16 +258,32 @@ class _Found:
         return str(self.region)
 
 
+def held_facets(solid: TriangleMesh, cases: Sequence[LoadCase]) -> Bools:
+    """(m,) which facets of the part no case lets move anywhere."""
+    result = np.ones(len(solid.triangles), bool)
+    for case in cases:
+        held = np.zeros(len(result), bool)
+        for support in case.supports:
+            if None not in support.displacement:
+                for region in simple_regions(support.region):
+                    held |= region.facets(solid, _tolerance(solid))
+        result &= held
+    return result
+
+
+def _tolerance(solid: TriangleMesh) -> float:
+    return ROUNDING * float(np.linalg.norm(np.ptp(solid.bounds, axis=0)))
+
+
 def _on_skin(case: LoadCase, solid: TriangleMesh, body: Body) -> LoadCase:
     """A load case whose regions take those facets of the skin that lie on what they take of it."""
     surface = body.surface()
     middles = surface.vertices[surface.triangles].mean(axis=1)
     nearest = closest_points(solid, middles)[2]
-    tolerance = 1e-4 * float(np.linalg.norm(np.ptp(solid.bounds, axis=0)))
 
     def found(region: Region) -> Region:
         parts = tuple(
-            cast(Any, _Found(simple, simple.facets(solid, tolerance)[nearest]))
+            cast(Any, _Found(simple, simple.facets(solid, _tolerance(solid))[nearest]))
             for simple in simple_regions(region)
         )
         return parts[0] if len(parts) == 1 else AnyOf(parts)

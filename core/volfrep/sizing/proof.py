@@ -37,10 +37,9 @@ _ROW = 12
 DIRECTION = 1e-6
 #: Shear modulus of a single square element over what makes it twist and slide as the square does.
 SQUARE_SHEAR = 0.5 * (SQUARE_SECTION.torsion + SQUARE_SECTION.shear)
-
-
-#: How much stiffer the skin is where struts stand on it.
-PAD_STIFFNESS = 10.0
+#: How much stiffer the skin is where struts stand on it, through its whole thickness: with it
+#: skinned boxes bend as their tetrahedra do.
+PAD_STIFFNESS = 1.5
 
 
 @dataclass(frozen=True, eq=False)

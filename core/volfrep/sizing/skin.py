@@ -1,20 +1,24 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The skin as shells in the middle of its thickness, and the struts that end in it.
 
+Supports and loads are on the outside, and so are the shells' nodes: from each a rigid arm leads to
+the middle, as a shell's normal is rigid. Walls that end at a face that is held reach to it: there
+the middle is taken to lie on the outside.
+
 Where the part is thinner than two skins it is solid: there the shells of both sides have half of
 its thickness each, and the material between them holds them together.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.sparse import csr_matrix
 from scipy.spatial import cKDTree
 
 from ..design.openings import lie_on
-from ..fem.wedge_mesh import barycentric
+from ..fem.wedge_mesh import barycentric, vertex_planes
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.proximity import closest_points
 from ..spatial.rays import segment_crossings
@@ -27,12 +31,11 @@ from .tapered_beams import Elastic, cross_matrix
 
 #: A corner of the middle surface lies no farther from the outside's than this many times the depth.
 _FARTHEST = 2.0
-#: Directions in which the planes about a vertex agree to less than this say nothing of its place.
-_FLAT = 0.03
 #: Where a line inwards meets the other side nearer than so many thicknesses, the part is solid.
 _SOLID = 2.02
-#: What walls have in common takes no more than this part of a triangle's inscribed circle.
-_RIGID_CORNER = 0.8
+#: What walls have in common counts as rigid by this share, and takes no more than so much of a
+#: triangle's inscribed circle. (Hollow boxes of solid bricks say so.)
+_COMMON, _RIGID_CORNER = 0.5, 0.8
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,8 +77,11 @@ class SkinModel:
     """A skin's shells.
 
     Attributes:
-        outside: the part's surface in even triangles, mm; a row of its vertices is a shell's node.
-        middle: (n, 3) the same vertices in the middle of the skin, mm.
+        outside: the part's surface in even triangles, mm; a row of its vertices is a node, whose
+            displacements are those of the outside.
+        middle: (n, 3) where the shells' corners are, mm: in the middle of the skin, on the outside
+            of what is held.
+        inside: (n, 3) the vertices on the other side of the skin, mm.
         shells: triangles between them, those of open faces left out.
         used: (t,) bool, which triangles of `outside` have a shell.
         blocks: stiffness and mass, of shells and of what is solid between them.
@@ -85,11 +91,17 @@ class SkinModel:
 
     outside: TriangleMesh
     middle: Floats
+    inside: Floats
     shells: Shells
     used: Bools
     blocks: Blocks
     pads: Floats
     joined: Joined
+
+    def of_middle(self, displacements: Floats) -> Floats:
+        """(n, 6, k) how the shells' corners move, of the nodes' displacements (n, 6, k)."""
+        led: Floats = _arms(self.outside.vertices, self.middle) @ displacements
+        return led
 
     def pad_of(self, nodes: Floats) -> Ints:
         """(k,) the vertex whose pad struts' ends at (k, 3) stand on."""
@@ -107,6 +119,8 @@ def skin_model(
     openings: TriangleMesh | None = None,
     feet: Feet = NO_FEET,
     monitor: Monitor | None = None,
+    *,
+    held: Bools | None = None,
 ) -> SkinModel:
     """The skin of a part as shells.
 
@@ -118,6 +132,7 @@ def skin_model(
         openings: the faces that have none.
         feet: where struts meet it.
         monitor: asked for a cancel.
+        held: (m,) which of the part's triangles no load case moves; None for none.
     """
     outside = even_surface(solid, edge, monitor, feet.places)
     triangles = outside.triangles.astype(np.int64)
@@ -131,8 +146,13 @@ def skin_model(
     room = _room(outside, triangles, normal, doubled, _SOLID * thickness)
     # Each side has its half of what is solid.
     local = np.minimum(thickness, 0.5 * room)
-    middle = _inwards(outside.vertices, triangles[used], normal[used], doubled[used], 0.5 * local)
     kept = triangles[used]
+    walls = kept, normal[used], doubled[used]
+    middle = _inwards(outside.vertices, *walls, 0.5 * local)
+    inside = 2.0 * middle - outside.vertices
+    if held is not None and held.any():
+        stays = held[closest_points(solid, corners[used].mean(axis=1))[2]]
+        middle = _inwards(outside.vertices, *walls, 0.5 * local, stays)
     clear = _clear(outside.vertices, middle, kept, normal[used], local)
     pads = np.zeros(len(middle))
     if len(feet.radii):
@@ -153,7 +173,12 @@ def skin_model(
             np.concatenate([blocks.stiffness, between.stiffness]),
             np.concatenate([blocks.mass, between.mass]),
         )
-    return SkinModel(outside, middle, shells, used, blocks, pads, joined)
+    arms = _arms(outside.vertices, middle)
+    rows, columns = arms[blocks.rows].swapaxes(1, 2), arms[blocks.columns]
+    blocks = replace(
+        blocks, stiffness=rows @ blocks.stiffness @ columns, mass=rows @ blocks.mass @ columns
+    )
+    return SkinModel(outside, middle, inside, shells, used, blocks, pads, joined)
 
 
 def ties_to(skin: SkinModel, nodes: Floats, rows: Ints, offset: int) -> Ties:
@@ -179,7 +204,15 @@ def ties_to(skin: SkinModel, nodes: Floats, rows: Ints, offset: int) -> Ties:
         share = shares[:, corner, None, None]
         blocks[:, corner, :3, :3] = blocks[:, corner, 3:, 3:] = share * np.eye(3)
         blocks[:, corner, :3, 3:] = -share * arm
-    return Ties(rows, leaders + offset, blocks)
+    return Ties(rows, leaders + offset, blocks @ _arms(skin.outside.vertices, skin.middle)[leaders])
+
+
+def _arms(outside: Floats, middle: Floats) -> Floats:
+    """(n, 6, 6) what a displacement and a turn of the outside are in the middle."""
+    result = np.zeros((len(outside), 6, 6))
+    result[:] = np.eye(6)
+    result[:, :3, 3:] = -cross_matrix(middle - outside)
+    return result
 
 
 def _room(
@@ -210,17 +243,22 @@ def _room(
 
 
 def _inwards(
-    vertices: Floats, triangles: Ints, normal: Floats, weight: Floats, depth: Floats
+    vertices: Floats,
+    triangles: Ints,
+    normal: Floats,
+    weight: Floats,
+    depth: Floats,
+    stays: Bools | None = None,
 ) -> Floats:
-    """Vertices moved so that the planes of their triangles lie deeper by (n,) `depth`."""
-    square = np.zeros((len(vertices), 3, 3))
+    """Vertices moved so that the planes of their triangles lie deeper by (n,) `depth`.
+
+    Planes of triangles that stay (t,) lie no deeper.
+    """
     right = np.zeros_like(vertices)
-    outer = normal[:, :, None] * normal[:, None, :] * weight[:, None, None]
+    moves = weight if stays is None else np.where(stays, 0.0, weight)
     for corner in range(3):
-        np.add.at(square, triangles[:, corner], outer)
-        np.add.at(right, triangles[:, corner], normal * weight[:, None])
-    values, axes = np.linalg.eigh(square)
-    known = values > _FLAT * np.maximum(values[:, -1:], 1e-300)
+        np.add.at(right, triangles[:, corner], normal * moves[:, None])
+    values, axes, known = vertex_planes(vertices, triangles, normal, weight)
     along = np.einsum("nji,nj->ni", axes, right)
     step = np.where(known, along / np.where(known, values, 1.0), 0.0)
     move = -depth[:, None] * np.einsum("nij,nj->ni", axes, step)
@@ -239,7 +277,7 @@ def _clear(
     """
     half = 0.5 * depth[triangles][:, :, None] * normal[:, None, :]
     corner = middle[triangles]
-    way = np.asarray(corner - outside[triangles] + half, np.float64)
+    way = _COMMON * np.asarray(corner - outside[triangles] + half, np.float64)
     # In the triangle's plane; at an edge that turns inwards the wall leaves it the other way.
     plane = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
     plane /= np.maximum(np.linalg.norm(plane, axis=1), 1e-300)[:, None]

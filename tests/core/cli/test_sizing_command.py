@@ -197,4 +197,7 @@ def test_limits_that_cannot_be_held_are_told(
     part: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert size(part, *WHOLE, "--max-stress", "1", "--steps", "2", "--no-proof") == 0
-    assert "limit of stress cannot be held" in capsys.readouterr().err
+    said = capsys.readouterr().err
+    assert "limit of stress cannot be held" in said
+    assert "by the strut at (" in said
+    assert "What may help: thicker struts, where --thickest limits them" in said

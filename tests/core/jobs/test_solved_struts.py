@@ -55,7 +55,7 @@ def test_a_design_can_be_sent_to_another_process(shell):
     part = size(beam(), wanted, bent(), goal, prove_it=False)
     there = pickle.loads(pickle.dumps(part))
     for here, sent in zip(
-        strut_states(part.model.problem, part.sized.analysis),
+        part.states,
         strut_states(there.model.problem, there.sized.analysis),
         strict=True,
     ):

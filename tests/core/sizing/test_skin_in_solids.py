@@ -56,7 +56,7 @@ def test_a_skinned_box_bends_as_its_tetrahedra_do(tmp_path: Path) -> None:
     made = size(solid, spec, LoadCases(material, (case,)), Goal(), most_steps=1, prove_it=False)
     ours = made.before.compliance[0]
 
-    body = as_manifold(Infill(solid, spec).part.mesh).simplify(0.02)
+    body = as_manifold(Infill(solid, spec).part.mesh).simplify(0.03)
     filled = tetrahedra(as_mesh(body.refine_to_length(FINE)))
     shares = shares_of_face(filled, LENGTH)
     loaded = np.flatnonzero(shares)
@@ -65,4 +65,4 @@ def test_a_skinned_box_bends_as_its_tetrahedra_do(tmp_path: Path) -> None:
     step = StaticStep(held, loaded, FORCE, shares[loaded])
     write_tetrahedra(filled, deck, material.for_solver(), step=step)
     theirs = float(shares @ solve(deck) @ np.array(FORCE))
-    assert ours == pytest.approx(theirs, rel=0.06)
+    assert ours == pytest.approx(theirs, rel=0.05)

@@ -21,13 +21,14 @@ from ...grid.placement import NUDGE
 from ...grid.strut_graph import Wireframe
 from ...loads.load_cases import LoadCases
 from ...mesh.triangle_mesh import TriangleMesh
-from ...reports.sizing_report import PEAKS, sizing_report
+from ...reports.sizing_report import sizing_report
 from ...sizing.analysis import Analysis, Limits, Problem, analysed
 from ...sizing.design_proof import proved, stricter_limits
-from ...sizing.model import SizingModel, elastic, feet_of, sizing_model
+from ...sizing.model import SizingModel, elastic, feet_of, held_facets, sizing_model
 from ...sizing.node_radii import smoothing
 from ...sizing.optimise import Sized, Step, Watch, lightest, scaled_to_limits, stiffest, uniform
 from ...sizing.skin import skin_model
+from ...sizing.strut_state import StrutState, strut_states
 from ...util.cache import StageCache
 from ...util.errors import Cancelled, VolfrepError
 from ...util.files import replacing
@@ -36,6 +37,7 @@ from ...util.types import Floats
 from ..infill import Infill
 from ..targets import aimed
 from .goal import Goal
+from .notes import not_held, stressed_skin
 
 #: Edges of the skin's triangles over the cell size, and over its thickness at least.
 SKIN_EDGE, SKIN_EDGE_LEAST = 0.5, 1.5
@@ -69,6 +71,11 @@ class SizedPart:
     before: Analysis
     even: tuple[Analysis, bool] | None
     report: dict[str, Any] = field(repr=False)
+
+    @property
+    def states(self) -> tuple[StrutState, ...]:
+        """The design's struts in every load case: radius, stress, buckling use, displacement."""
+        return strut_states(self.model.problem, self.sized.analysis)
 
 
 def size(
@@ -133,22 +140,8 @@ def size(
     with monitor.stage("sizing", 0.4, 0.95):
         sized, even = _designed(problem, goal, first, most_steps, told)
     if not sized.holds:
-        uses = sized.analysis.uses
-        worst = max(uses, key=lambda name: uses[name])
-        notes.append(
-            f"The limit of {worst} cannot be held: with the thickest struts that the cells bear "
-            f"and that were allowed, {uses[worst]:.0%} of it is used."
-        )
-    if model.skin is not None and goal.limits.stress is not None:
-        shells, count = model.skin.shells, model.frame_nodes
-        felt = shells.stresses(sized.analysis.displacements[count:]).max(axis=1)
-        over = float(shells.area[felt > goal.limits.stress].sum() / shells.area.sum())
-        if over > PEAKS:
-            notes.append(
-                f"The skin, which is not sized, is stressed by more than {goal.limits.stress:.4g} "
-                f"MPa on {over:.1%} of its area, mostly where it is held and loaded: make it "
-                "thicker, or look at those places with solid elements."
-            )
+        notes.append(not_held(problem, sized.analysis))
+    notes += stressed_skin(model, sized.analysis, goal.limits)
     if sized.stopped == "cancelled":
         notes.append("The search was cancelled: this is the best design so far.")
     final = _stored(problem, sized.analysis.radii, goal.limits)
@@ -322,7 +315,7 @@ def _model(infill: Infill, loads: LoadCases, goal: Goal, cache: StageCache) -> S
             skin = skin_model(
                 infill.solid, spec.shell, edge, elastic(material), infill.domain.openings,
                 feet_of(wireframe, clipped, infill.domain.mesh, _given_radii(wireframe)),
-                infill.monitor,
+                infill.monitor, held=held_facets(infill.solid, loads.cases),
             )  # fmt: skip
     model = sizing_model(
         wireframe, clipped, spec.unit_cell(), spec.cell_size, material, loads.cases,

@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What a user is told about a design beside its figures."""
+
+from __future__ import annotations
+
+from ...reports.sizing_report import PEAKS
+from ...sizing.analysis import Analysis, Limits, Problem
+from ...sizing.model import SizingModel
+
+#: What may help where a limit cannot be held.
+_REMEDIES = {
+    "stress": "a thicker skin there, a load or support on a larger area, or a lower safety",
+    "buckling": "smaller cells, a thicker skin there, or a lower factor",
+    "displacement": "a thicker skin, a cell that is stiffer in that direction, or a higher limit",
+    "frequency": "a thicker skin, a stiffer cell, more supports, or a lower limit",
+}
+
+
+def not_held(problem: Problem, analysis: Analysis) -> str:
+    """Which limit cannot be held, where, and what to do: of a design as thick as it can be."""
+    uses = analysis.uses
+    worst = max(uses, key=lambda name: uses[name])
+    case, row = analysis.worst[worst]
+    structure = problem.structure
+    where = ""
+    if case >= 0:
+        is_node = worst == "displacement"
+        place = structure.nodes[row if is_node else structure.beams.struts[row]].reshape(-1, 3)
+        x, y, z = place.mean(axis=0).tolist()
+        where = (
+            f", by the {'node' if is_node else 'strut'} at ({x:.4g}, {y:.4g}, {z:.4g}) in case "
+            f"'{problem.cases[case].name}'"
+        )
+    used = f"{uses[worst]:.1%} of it is used{where}"
+    return (
+        f"The limit of {worst} cannot be held: with the thickest struts that the cells bear and "
+        f"that were allowed, {used}. What may help: thicker struts, where --thickest limits them; "
+        f"larger cells, which bear thicker ones; {_REMEDIES[worst]}."
+    )
+
+
+def stressed_skin(model: SizingModel, analysis: Analysis, limits: Limits) -> list[str]:
+    """A sentence where the skin, which is not sized, is stressed by more than the limit."""
+    if model.skin is None or limits.stress is None:
+        return []
+    shells = model.skin.shells
+    moved = model.skin.of_middle(analysis.displacements[model.frame_nodes :])
+    felt = shells.stresses(moved).max(axis=1)
+    over = float(shells.area[felt > limits.stress].sum() / shells.area.sum())
+    if over <= PEAKS:
+        return []
+    return [
+        f"The skin, which is not sized, is stressed by more than {limits.stress:.4g} "
+        f"MPa on {over:.1%} of its area, mostly where it is held and loaded: make it "
+        "thicker, or look at those places with solid elements."
+    ]

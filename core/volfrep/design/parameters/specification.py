@@ -55,7 +55,14 @@ def specification(values: Mapping[str, Any], say: Naming = in_file) -> LatticeSp
         radius = first_radius(used["cell_size"], used["fillet"])
     cell = used["cell"]
     if isinstance(cell, str):
-        cell = find_surface(cell, used["wall_formula"] or "") or cell
+        cell = find_surface(cell, used["wall_formula"] or "") or find_cell(
+            cell, used["cell_values"]
+        )
+    elif used["cell_values"].strip():
+        raise VolfrepError(
+            f"{say('cell_values')} are for cells by name or file, not for one that is given whole: "
+            "leave them out."
+        )
     return LatticeSpec(
         cell=cell,
         cell_size=used["cell_size"],
@@ -117,9 +124,10 @@ def values_of(spec: LatticeSpec) -> dict[str, Any]:
         VolfrepError: it holds what no value can say: a cell or a field without a file, or a face
             picked in FreeCAD.
     """
-    cell = spec.cell
+    cell, values = spec.cell, {}
     if isinstance(cell, UnitCell):
-        own = LIBRARY.get(cell.name) != cell
+        values = {"cell_values": cell.values}
+        own = cell.name not in LIBRARY or find_cell(cell.name, cell.values) != cell
         if own and not (cell.source and _is_file(cell.source)):
             raise VolfrepError(
                 f"The cell '{cell.name}' has no file that could be named: save it as .json first."
@@ -141,7 +149,7 @@ def values_of(spec: LatticeSpec) -> dict[str, Any]:
         "remove_dangling": spec.remove_dangling, "shortest_stub": spec.shortest_stub,
         "keep_pieces": spec.keep_pieces,
         "resolution": spec.resolution, "deviation": spec.deviation, "make": spec.output,
-        "density": spec.density, "keep_radius": spec.keep_radius, **walls,
+        "density": spec.density, "keep_radius": spec.keep_radius, **walls, **values,
     }  # fmt: skip
     if spec.open_faces:
         planes = [face for face in spec.open_faces if isinstance(face, OpenPlane)]
@@ -366,7 +374,7 @@ def _network(used: Mapping[str, Any], say: Naming) -> GivenNetwork | RandomNetwo
         cell = used["cell"]
         return read_network(
             used["network_file"],
-            find_cell(cell) if isinstance(cell, str) else cell,
+            find_cell(cell, used["cell_values"]) if isinstance(cell, str) else cell,
             -thickness if used["network_reversed"] else thickness,
             layers or max(1, round(thickness / used["cell_size"])),
         )

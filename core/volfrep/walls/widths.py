@@ -2,9 +2,9 @@
 """How thin walls and the gaps between them are: the smallest balls that touch both their sides.
 
 A ball that touches the surface at a point, and grows until it touches it somewhere else, has the
-width there for its diameter. It is found by shrinking a larger one until no point of the surface
-is in it (J. Ma, S. W. Bae and S. Choi, The Visual Computer 28, 2012). All lengths are in units of
-L.
+width there for its diameter, if the two places lie on opposite sides: elsewhere it only tells how
+bent the surface is. It is found by shrinking a larger one until no point of the surface is in it
+(J. Ma, S. W. Bae and S. Choi, The Visual Computer 28, 2012). All lengths are in units of L.
 """
 
 from __future__ import annotations
@@ -23,6 +23,8 @@ ROUNDS = 12
 ON_SURFACE = 1e-4
 #: Points nearer than this part of the ball's diameter tell of its own place and not of another.
 SETTLED = 1e-3
+#: Two places are on opposite sides where the cosine between the surface's normals is below this.
+OPPOSITE = -0.5
 
 
 @dataclass(frozen=True)
@@ -30,8 +32,8 @@ class WallWidths:
     """Widths of walls, of which one period tells all.
 
     Attributes:
-        thickness: of the solid where it is thinnest.
-        gap: of the room beside it where that is narrowest.
+        thickness: of the solid where it is thinnest; no more than `WIDEST`.
+        gap: of the room beside it where that is narrowest; no more than `WIDEST`.
     """
 
     thickness: float
@@ -41,7 +43,8 @@ class WallWidths:
 def wall_widths(solid: WallSolid) -> WallWidths:
     """The least thickness and the least gap of an endless wall, in units of L.
 
-    Both are told up to a hundredth of a cell too large, for the surface is known at points.
+    Both are told up to a fiftieth of a cell too large, for the surface is known at points; a
+    sheet's thickness is exact.
 
     >>> from volfrep.design.walls import SURFACES, Wall
     >>> sheet = WallSolid.of(SURFACES["Gyroid"], Wall("sheet", 1.0), 10.0)
@@ -71,6 +74,7 @@ def wall_widths(solid: WallSolid) -> WallWidths:
 def _least_ball(tree: object, points: Floats, into: Floats) -> float:
     """The diameter of the smallest ball that touches the surface at two places, on one side."""
     radius = np.full(len(points), 0.5 * WIDEST)
+    other = np.arange(len(points))
     going = np.arange(len(points))
     for _ in range(ROUNDS):
         centre = points[going] + radius[going, None] * into[going]
@@ -86,4 +90,6 @@ def _least_ball(tree: object, points: Floats, into: Floats) -> float:
         across = np.einsum("ij,ij->i", gap, into[going])
         smaller = np.einsum("ij,ij->i", gap, gap) / np.maximum(2.0 * across, 1e-12)
         radius[going] = np.minimum(radius[going], np.maximum(smaller, 1e-6))
-    return 2.0 * float(radius.min())
+        other[going] = near
+    cosine = np.einsum("ij,ij->i", into, into[other])
+    return 2.0 * float(radius[cosine < OPPOSITE].min(initial=0.5 * WIDEST))

@@ -93,6 +93,10 @@
       <translation>Zelltyp</translation>
     </message>
     <message>
+      <source>Cell Values</source>
+      <translation>Zellenwerte</translation>
+    </message>
+    <message>
       <source>Cell map</source>
       <translation>Zellanordnung</translation>
     </message>
@@ -405,6 +409,10 @@
       <translation>Lagen auf einer Fläche liegen auf ihrer anderen Seite, gegen ihre Normalen</translation>
     </message>
     <message>
+      <source>Least thickness of walls, mm</source>
+      <translation>Kleinste Dicke von Wänden, mm</translation>
+    </message>
+    <message>
       <source>Length of the longest strut of these</source>
       <translation>Länge der längsten dieser Streben</translation>
     </message>
@@ -531,6 +539,10 @@
     <message>
       <source>None</source>
       <translation>Keine</translation>
+    </message>
+    <message>
+      <source>Numbers that the cell leaves to be chosen, such as 'arm = 0.15' of Re-entrant; 'volfrep cells' tells which</source>
+      <translation>Zahlen, die die Zelle zur Wahl lässt, etwa 'arm = 0.15' bei Re-entrant; 'volfrep cells' sagt, welche</translation>
     </message>
     <message>
       <source>Of the facets that hang over: this object's mesh</source>
@@ -943,6 +955,10 @@
     <message>
       <source>Thinnest Strut</source>
       <translation>Dünnste Strebe</translation>
+    </message>
+    <message>
+      <source>Thinnest Wall</source>
+      <translation>Dünnste Wand</translation>
     </message>
     <message>
       <source>Through-holes of the mesh</source>

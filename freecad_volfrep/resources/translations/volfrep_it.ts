@@ -93,6 +93,10 @@
       <translation>Tipo di cella</translation>
     </message>
     <message>
+      <source>Cell Values</source>
+      <translation>Valori della cella</translation>
+    </message>
+    <message>
       <source>Cell map</source>
       <translation>Disposizione delle celle</translation>
     </message>
@@ -405,6 +409,10 @@
       <translation>Gli strati su una superficie stanno dall'altra parte, contro le sue normali</translation>
     </message>
     <message>
+      <source>Least thickness of walls, mm</source>
+      <translation>Spessore minimo delle pareti, mm</translation>
+    </message>
+    <message>
       <source>Length of the longest strut of these</source>
       <translation>Lunghezza della più lunga di queste aste</translation>
     </message>
@@ -531,6 +539,10 @@
     <message>
       <source>None</source>
       <translation>Nessuno</translation>
+    </message>
+    <message>
+      <source>Numbers that the cell leaves to be chosen, such as 'arm = 0.15' of Re-entrant; 'volfrep cells' tells which</source>
+      <translation>Numeri che la cella lascia scegliere, come 'arm = 0.15' di Re-entrant; 'volfrep cells' dice quali</translation>
     </message>
     <message>
       <source>Of the facets that hang over: this object's mesh</source>
@@ -943,6 +955,10 @@
     <message>
       <source>Thinnest Strut</source>
       <translation>Asta più sottile</translation>
+    </message>
+    <message>
+      <source>Thinnest Wall</source>
+      <translation>Parete più sottile</translation>
     </message>
     <message>
       <source>Through-holes of the mesh</source>

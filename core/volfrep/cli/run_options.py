@@ -305,6 +305,7 @@ _OTHER_INPUTS = {
     "part": "part",
     "cell": "cell file",
     "radius_field": "field file",
+    "network_field": "network's field file",
     "network_file": "network file",
 }
 #: What the command calls its input files, by where the options keep their names.

@@ -5,6 +5,10 @@
   <context>
     <name>App::Property</name>
     <message>
+      <source>A field that the density of the points follows in place of the depth: s is 0 at its smallest value and 1 at its largest (files as of a radius field, of one column)</source>
+      <translation>Ein Feld, dem die Dichte der Punkte statt der Tiefe folgt: s ist 0 bei seinem kleinsten Wert und 1 bei seinem größten (Dateien wie für ein Radiusfeld, mit einer Spalte)</translation>
+    </message>
+    <message>
       <source>A point of the axis, or the centre</source>
       <translation>Ein Punkt der Achse, oder der Mittelpunkt</translation>
     </message>
@@ -493,12 +497,20 @@
       <translation>Netzflächen</translation>
     </message>
     <message>
+      <source>Network Field</source>
+      <translation>Netzwerkfeld</translation>
+    </message>
+    <message>
       <source>Network File</source>
       <translation>Netz: Datei</translation>
     </message>
     <message>
       <source>Network Layers</source>
       <translation>Netzlagen</translation>
+    </message>
+    <message>
+      <source>Network On Wall</source>
+      <translation>Netzwerk auf der Wand</translation>
     </message>
     <message>
       <source>Network Points</source>
@@ -851,6 +863,10 @@
     <message>
       <source>Struts of the lattice before trimming</source>
       <translation>Streben des Gitters vor dem Beschneiden</translation>
+    </message>
+    <message>
+      <source>Struts run along the wall, too, where it cuts the faces of the points' cells</source>
+      <translation>Stäbe verlaufen auch auf der Wand, wo sie die Flächen der Zellen der Punkte schneidet</translation>
     </message>
     <message>
       <source>Struts shorter than this are drawn together into one node; 0 for four radii</source>

@@ -5,6 +5,10 @@
   <context>
     <name>App::Property</name>
     <message>
+      <source>A field that the density of the points follows in place of the depth: s is 0 at its smallest value and 1 at its largest (files as of a radius field, of one column)</source>
+      <translation>Un campo che la densità dei punti segue al posto della profondità: s è 0 al suo valore minimo e 1 al massimo (file come per un campo del raggio, con una colonna)</translation>
+    </message>
+    <message>
       <source>A point of the axis, or the centre</source>
       <translation>Un punto dell'asse, o il centro</translation>
     </message>
@@ -493,12 +497,20 @@
       <translation>Facce della rete</translation>
     </message>
     <message>
+      <source>Network Field</source>
+      <translation>Campo della rete</translation>
+    </message>
+    <message>
       <source>Network File</source>
       <translation>Rete: file</translation>
     </message>
     <message>
       <source>Network Layers</source>
       <translation>Strati della rete</translation>
+    </message>
+    <message>
+      <source>Network On Wall</source>
+      <translation>Rete sulla parete</translation>
     </message>
     <message>
       <source>Network Points</source>
@@ -851,6 +863,10 @@
     <message>
       <source>Struts of the lattice before trimming</source>
       <translation>Aste del reticolo prima del taglio</translation>
+    </message>
+    <message>
+      <source>Struts run along the wall, too, where it cuts the faces of the points' cells</source>
+      <translation>Le aste corrono anche sulla parete, dove questa taglia le facce delle celle dei punti</translation>
     </message>
     <message>
       <source>Struts shorter than this are drawn together into one node; 0 for four radii</source>

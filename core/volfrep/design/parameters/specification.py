@@ -19,6 +19,7 @@ from ..target import AIMS, Target, read_stiffness, stiffness_text
 from ..walls import FORMULA, SURFACES, PeriodicSurface, Wall, find_surface, surface_name
 from .parameter import Need, effective
 from .table import BY_NAME, PARAMETERS, TWO_ENDED
+from .values import field_file, is_file
 
 #: How a user calls a parameter: in an option, a file, or a document.
 Naming = Callable[[str], str]
@@ -128,7 +129,7 @@ def values_of(spec: LatticeSpec) -> dict[str, Any]:
     if isinstance(cell, UnitCell):
         values = {"cell_values": cell.values}
         own = cell.name not in LIBRARY or find_cell(cell.name, cell.values) != cell
-        if own and not (cell.source and _is_file(cell.source)):
+        if own and not (cell.source and is_file(cell.source)):
             raise VolfrepError(
                 f"The cell '{cell.name}' has no file that could be named: save it as .json first."
             )
@@ -179,7 +180,7 @@ def values_of(spec: LatticeSpec) -> dict[str, Any]:
         found["rotate"] = (*spec.orientation.axis, spec.orientation.angle)
         found["rotate_origin"] = spec.orientation.origin
     if isinstance(spec.network, GivenNetwork):
-        if not spec.network.source or not _is_file(spec.network.source):
+        if not spec.network.source or not is_file(spec.network.source):
             raise VolfrepError(
                 "The network has no file that could be named: save it as .json first."
             )
@@ -191,6 +192,8 @@ def values_of(spec: LatticeSpec) -> dict[str, Any]:
         found |= {
             name: getattr(spec.network, attribute) for name, attribute in _NETWORK_VALUES.items()
         }
+        if spec.network.field is not None:
+            found["network_field"] = field_file(spec.network.field, "the points' density follows")
     if spec.target is not None:
         aim = spec.target.aim
         found[aim] = stiffness_text(spec.target) if aim == "stiffness" else spec.target.value
@@ -314,12 +317,7 @@ def _radius_grading(used: Mapping[str, Any], say: Naming) -> RadiusGrading | Non
 def _radius_values(grading: RadiusGrading) -> dict[str, Any]:
     field = grading.field
     if isinstance(field, PointField):
-        if not field.source or not _is_file(field.source):
-            raise VolfrepError(
-                "The field that the radius follows has no file that could be named: save it as a "
-                "table of points and values first."
-            )
-        field = field.source
+        field = field_file(field, "the radius follows")
     curve = ", ".join(f"{value!r}:{radius!r}" for value, radius in grading.curve)
     return {
         "radius_grading": grading.by,
@@ -333,12 +331,6 @@ def _radius_values(grading: RadiusGrading) -> dict[str, Any]:
         "radius_direction": grading.direction,
         "radius_reach": grading.reach,
     }
-
-
-def _is_file(source: str) -> bool:
-    from pathlib import Path
-
-    return Path(source).is_file()
 
 
 def _cell_map(used: Mapping[str, Any]) -> CellMap | None:
@@ -361,6 +353,7 @@ _NETWORK_VALUES = {
     "network_density": "density",
     "network_shortest": "shortest",
     "network_angle": "least_angle",
+    "network_on_wall": "on_wall",
 }
 
 
@@ -386,7 +379,11 @@ def _network(used: Mapping[str, Any], say: Naming) -> GivenNetwork | RandomNetwo
             )
         laid: GivenNetwork = used["network_faces"]
         return laid
-    return RandomNetwork(**{key: used[name] for name, key in _NETWORK_VALUES.items()})
+    field = used["network_field"] or None
+    return RandomNetwork(
+        **{key: used[name] for name, key in _NETWORK_VALUES.items()},
+        field=read_point_field(field) if isinstance(field, str) else field,
+    )
 
 
 def _orientation(used: Mapping[str, Any]) -> Orientation | None:

@@ -55,7 +55,7 @@ def aimed_walls(
             levels = solid.levels((inside - start) / spec.cell_size) * spec.cell_size
         else:
             levels = part_levels(inside, start, solid, spec.cell_size, mapping)
-        table = _table(levels, weights)
+        table = level_table(levels, weights)
     skin = abs(infill.solid.volume) - domain.volume if spec.with_skin else 0.0
     wanted = target.value * domain.volume
     scale = wanted
@@ -63,7 +63,7 @@ def aimed_walls(
         scale = target.value * 1000.0 / spec.density
         wanted = scale - skin
     for made in range(1, MESHES + 1):
-        infill = made_of(_with_volume(spec, target, table, wanted, domain.volume), monitor=monitor)
+        infill = made_of(with_volume(spec, target, table, wanted, domain.volume), monitor=monitor)
         if not meshed:
             return infill
         report = infill.result.report
@@ -95,20 +95,26 @@ def aimed_walls_block(spec: LatticeSpec, volume: float, target: Target) -> Latti
         )
     points = even_points(3, POINTS)
     levels = solid_of(spec).levels(points) * spec.cell_size
-    table = _table(levels, np.full(len(points), volume / len(points)))
+    table = level_table(levels, np.full(len(points), volume / len(points)))
     wanted = target.value * volume
     if target.aim == "mass":
         wanted = target.value * 1000.0 / spec.density
-    return _with_volume(spec, target, table, wanted, volume)
+    return with_volume(spec, target, table, wanted, volume)
 
 
-def _table(levels: Floats, weights: Floats) -> VolumeByRadius:
+def level_table(levels: Floats, weights: Floats) -> VolumeByRadius:
+    """Volumes of walls over the level up to which points are solid.
+
+    Args:
+        levels: (n,) from which on points are solid, mm.
+        weights: (n,) the volume that each stands for, mm3.
+    """
     order = np.argsort(levels)
     steps = np.cumsum(weights[order])
     return VolumeByRadius(levels[order], steps - 0.5 * weights[order])
 
 
-def _with_volume(
+def with_volume(
     spec: LatticeSpec, target: Target, table: VolumeByRadius, wanted: float, domain: float
 ) -> LatticeSpec:
     """The specification with walls of a volume in mm3."""

@@ -24,9 +24,8 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .design.parameters.keywords import accepted, with_target, with_wall
 from .design.spec import LatticeSpec
-from .design.spec_parts import first_radius
-from .design.target import AIMS, Target, read_stiffness
 from .grid.strut_graph import Wireframe
 from .io.solid import Solid, check_solid, read_solid
 from .mesh.triangle_mesh import TriangleMesh
@@ -188,7 +187,8 @@ def fill(
         executor: cuts the lattice at the wall on its workers; the mesh is the same with any.
         parameters: of a `LatticeSpec`, in place of one or on top of it; in place of `strut_radius`
             also `relative_density`, `mass` (g, of the finished part) or `stiffness` (such as
-            "500:111": a modulus, and 100, 110, 111 or X,Y,Z).
+            "500:111": a modulus, and 100, 110, 111 or X,Y,Z); of walls `wall_kind`,
+            `wall_thickness`, `wall_offset` and `wall_formula`.
 
     Raises:
         VolfrepError: the part is no closed solid, or the specification makes no sense or does
@@ -343,7 +343,7 @@ def specified(
     Raises:
         VolfrepError: there is no such parameter, or they make no sense.
     """
-    known = {field.name for field in dataclasses.fields(LatticeSpec)} | set(AIMS)
+    known = accepted()
     unknown = [name for name in parameters if name not in known]
     if unknown:
         import difflib
@@ -358,31 +358,7 @@ def specified(
         solid = find_material(material)
         young = solid.young
         parameters = {"density": solid.density, **parameters}
-    parameters = _with_target(parameters, spec, young)
+    parameters = with_target(with_wall(parameters, spec), spec, young)
     if spec is None:
         return LatticeSpec(**parameters)
     return dataclasses.replace(spec, **parameters) if parameters else spec
-
-
-def _with_target(
-    parameters: dict[str, Any], spec: LatticeSpec | None, young: float
-) -> dict[str, Any]:
-    """The parameters with a `Target` in place of what one is given by."""
-    given = [name for name in ("strut_radius", *AIMS, "target") if parameters.get(name) is not None]
-    if len(given) > 1:
-        raise VolfrepError(
-            f"{', '.join(given[:-1])} and {given[-1]} each say how thick the struts are: give one "
-            "of them."
-        )
-    rest = {name: value for name, value in parameters.items() if name not in AIMS}
-    if given == ["strut_radius"] and spec is not None:
-        rest["target"] = None
-    if not given or given[0] not in AIMS:
-        return rest
-    aim = given[0]
-    value = parameters[aim]
-    rest["target"] = read_stiffness(value, young) if aim == "stiffness" else Target(aim, value)
-    usual = spec or LatticeSpec()
-    size, fillet = (parameters.get(n, getattr(usual, n)) for n in ("cell_size", "fillet"))
-    rest["strut_radius"] = first_radius(size, fillet)
-    return rest

@@ -8,9 +8,8 @@ from dataclasses import replace
 import FreeCAD as App
 import numpy as np
 
-from volfrep.grid.strut_graph import Wireframe
+from volfrep.grid.strut_graph import BeamModel, Wireframe
 from volfrep.mesh.triangle_mesh import TriangleMesh
-from volfrep.trim.beam_model import BeamModel
 
 from .solids import parent_placement, placed
 

@@ -31,7 +31,7 @@ from .screen import attach_view, revive_view
 from .values import plain_values, values_in_effect
 
 if TYPE_CHECKING:
-    from volfrep.studies.running.runs import Interpreter
+    from volfrep.studies.running.batches import Interpreter
     from volfrep.studies.study import Study
 
 #: Kinds of parameters that can vary.
@@ -249,7 +249,7 @@ def run_study(obj: App.DocumentObject) -> bool:
     """
     require_engine()
     from volfrep.apart.engine_process import Call
-    from volfrep.studies.running.executors import told_in
+    from volfrep.studies.running.executors import told_state
     from volfrep.studies.sweep import sweep
 
     study, folder = study_of(obj), _folder(obj)
@@ -265,7 +265,7 @@ def run_study(obj: App.DocumentObject) -> bool:
                 {
                     "workers": 1 if python is None else None,
                     "interpreter": python,
-                    "words": partial(told_in, _words()),
+                    "words": partial(told_state, text=_words()),
                 },
             ),
         )
@@ -334,14 +334,14 @@ def apply_design(obj: App.DocumentObject, key: str) -> bool:
 def _python(executable: str, folders: tuple[str, ...]) -> Interpreter | None:
     """The interpreter that goes with this FreeCAD; None where it cannot run the engine."""
     from volfrep.studies.running.apart import runs_engine
-    from volfrep.studies.running.runs import Interpreter
+    from volfrep.studies.running.batches import Interpreter
 
     python = Interpreter(executable, folders)
     return python if runs_engine(python) else None
 
 
 def _words() -> str:
-    """How far a study is, for the window, as `told_in` takes it."""
+    """How far a study is, for the window, as `told_state` takes it."""
     return str(translate("VolfrepProgress", "{done} of {runs} runs, about {time} left"))
 
 

@@ -74,7 +74,7 @@ def ingredients_of(obj: App.DocumentObject, progress: Any = None) -> Ingredients
         Cancelled: in the window, by the user.
     """
     solid, spec, cache = inputs_of(obj)
-    from volfrep.jobs.networks.infill import infill_of
+    from volfrep.jobs.targets import infill_of
     from volfrep.trim.beam_model import deformed_struts
 
     infill = infill_of(solid, spec, progress=progress, cache=cache)

@@ -158,7 +158,7 @@ def _field(obj: App.DocumentObject) -> PointField | None:
     """The field of the FEM result, of the file, or of the sized radii; None where there is none."""
     from freecad_volfrep.bridge.fem_fields import field_of_result
     from freecad_volfrep.bridge.solids import parent_placement
-    from volfrep.design.scattered_field import read_point_field
+    from volfrep.design.grading import read_point_field
     from volfrep.util.errors import VolfrepError
 
     if obj.RadiusResult is not None:

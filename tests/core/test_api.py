@@ -13,6 +13,8 @@ import trimesh
 import samples
 import volfrep
 from volfrep import LatticeSpec, VolfrepError
+from volfrep.api import specified
+from volfrep.design.walls import Wall
 
 BOX = {"cell": "CVC", "cell_size": 10, "strut_radius": 1, "shell": 2}
 
@@ -33,6 +35,20 @@ def test_a_part_is_the_same_from_a_file_a_mesh_and_arrays(
     for one in (*given, (box.vertices, box.triangles)):
         same = volfrep.fill(one, LatticeSpec(**BOX))
         assert same.report.volume_mm3 == pytest.approx(part.report.volume_mm3, rel=1e-9)
+
+
+def test_walls_are_asked_for_as_on_the_command_line() -> None:
+    spec = specified(None, {"cell": "Gyroid", "cell_size": 8, "wall_thickness": 0.8}, None)
+    assert spec == LatticeSpec("Gyroid", 8, wall=Wall("sheet", 0.8))
+    other = specified(spec, {"wall_kind": "skeleton", "wall_offset": 0.2}, None)
+    assert other.wall == Wall("skeleton", 0.8, 0.2)
+    own = specified(None, {"wall_formula": "cos(x) + cos(y) + cos(z)"}, None)
+    assert own.surface is not None
+    assert own.surface.formula == "cos(x) + cos(y) + cos(z)"
+    with pytest.raises(VolfrepError, match="of the cell Formula"):
+        specified(None, {"cell": "Gyroid", "wall_formula": "x"}, None)
+    with pytest.raises(VolfrepError, match="did you mean 'wall_kind'"):
+        specified(None, {"wall_kin": "sheet"}, None)
 
 
 def test_a_part_shows_its_mesh_struts_and_figures(part: volfrep.Part) -> None:

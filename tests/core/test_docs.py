@@ -6,12 +6,16 @@ The table of commands is read as text: it can be imported inside FreeCAD only.
 
 import ast
 import importlib.util
+import inspect
 import re
+from operator import attrgetter
 from pathlib import Path
 
 import pytest
 
+import volfrep
 from volfrep.design.parameters import GROUPS, PARAMETERS
+from volfrep.design.parameters.keywords import accepted
 
 ROOT = Path(__file__).resolve().parents[2]
 DOCS = ROOT / "docs"
@@ -72,6 +76,30 @@ def test_every_shortcut_is_of_one_command() -> None:
 def test_no_page_is_without_a_command() -> None:
     pages = {path.stem for path in PAGES.glob("VOLFREP_*.md")}
     assert pages == set(COMMANDS)
+
+
+def calls_of_examples() -> list[tuple[str, str, set[str]]]:
+    """Page, function and keywords of every call of the package in the pages' Python."""
+    found = []
+    for page in [*sorted(DOCS.rglob("*.md")), ROOT / "README.md"]:
+        for code in re.findall(r"```python\n(.*?)```", page.read_text(encoding="utf-8"), re.S):
+            for call in ast.walk(ast.parse(code)):
+                name = ast.unparse(call.func) if isinstance(call, ast.Call) else ""
+                if re.fullmatch(r"volfrep(\.\w+)+", name):
+                    keywords = {word.arg for word in call.keywords if word.arg is not None}
+                    found.append((page.name, name.removeprefix("volfrep."), keywords))
+    return found
+
+
+def test_every_keyword_of_an_example_exists() -> None:
+    calls = calls_of_examples()
+    assert ("walls.md", "fill", {"cell", "cell_size", "wall_thickness", "shell"}) in calls
+    for page, name, keywords in calls:
+        function = attrgetter(name)(volfrep)
+        own = set(inspect.signature(function).parameters)
+        if "parameters" in own:
+            own |= accepted()
+        assert keywords <= own, f"{page}: {name}"
 
 
 @pytest.mark.parametrize(

@@ -31,9 +31,9 @@ if TYPE_CHECKING:
     from concurrent.futures import Executor
 
     from ..design.spec import LatticeSpec
+    from ..grid.strut_graph import BeamModel
     from ..mesh.triangle_mesh import TriangleMesh
     from ..reports.result import Result
-    from ..trim.beam_model import BeamModel
     from .solver_options import Writer
 
 EXIT_DEFECT = 1
@@ -218,8 +218,8 @@ def _block(options: argparse.Namespace) -> None:
 
 
 def _network(options: argparse.Namespace) -> None:
+    from ..grid.strut_graph import BeamModel
     from ..jobs.networks.alone import network_alone
-    from ..trim.beam_model import BeamModel
 
     set_parameter(options, "network", "file")
     set_parameter(options, "network_file", options.file)

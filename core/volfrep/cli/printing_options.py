@@ -17,10 +17,10 @@ from .telling import print_rows, print_warnings
 
 if TYPE_CHECKING:
     from ..design.spec import LatticeSpec
+    from ..grid.strut_graph import BeamModel
     from ..mesh.triangle_mesh import TriangleMesh
     from ..reports.printability import PrintReport
     from ..reports.result import Result
-    from ..trim.beam_model import BeamModel
 
 
 def check(options: argparse.Namespace, out: Path) -> None:

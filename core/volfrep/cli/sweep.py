@@ -43,7 +43,7 @@ def _sweep(options: argparse.Namespace) -> None:
         _warn("passed over", found.refused)
         print_rows(
             ("designs", f"{len(found.designs):,}" + _twice(found.repeated)),
-            ("one after the other", f"{told_time(seconds)}, up to {memory:.2g} GB of memory"),
+            ("one after the other", f"about {told_time(seconds)}, up to {memory:.2g} GB of memory"),
         )
         return
     with Progress(options.quiet) as progress:

@@ -20,13 +20,16 @@ from ..util.content import content_of, held
 from ..util.errors import VolfrepError
 from ..util.numbers import number_rows
 from ..util.types import Floats
-from .cell_files.parameters import CellParameter, chosen_values, read_parameters, with_values
+from .cell_files.parameters import CellParameter, chosen_values, read_parameters
+from .expression import CONSTANTS, FUNCTIONS, evaluated
 from .walls.library import SURFACES
 
 #: A custom cell's file may not be larger than this, nor have more nodes or struts.
 MAX_FILE_BYTES = 1_000_000
 MAX_NODES = 500
 MAX_STRUTS = 2000
+#: And of the points whose bodies it is a tessellation of.
+MOST_POINTS = 64
 #: Nodes nearer than this, in units of L, are taken for the same node.
 NODE_TOLERANCE = 1e-6
 
@@ -212,10 +215,10 @@ def load_cell(path: str | os.PathLike[str], values: str = "") -> UnitCell:
     if not isinstance(also, list) or not all(isinstance(other, str) for other in also):
         raise VolfrepError(f"In the cell file '{file}', 'also' must be a list of names.")
     where = f"cell file '{file}'"
-    parameters = read_parameters(data.get("parameters", {}), where)
+    parameters = read_parameters(data.get("parameters", {}), where, {*FUNCTIONS, *CONSTANTS})
     chosen = chosen_values(parameters, values, name.strip())
-    edges = with_values(data.get("edges", [1.0, 1.0, 1.0]), chosen, where)
-    widths = with_values(data.get("widths", []), chosen, where)
+    edges = evaluated(data.get("edges", [1.0, 1.0, 1.0]), chosen, where)
+    widths = evaluated(data.get("widths", []), chosen, where)
     if "tessellation" in data:
         # of no use to most cells, and slow to import
         from .cell_files.tessellation import ruled
@@ -227,10 +230,11 @@ def load_cell(path: str | os.PathLike[str], values: str = "") -> UnitCell:
         x, y, z = _numbers(edges, 3, "edges", where)
         rules = data["tessellation"]
         if isinstance(rules, dict) and isinstance(points := rules.get("about"), list):
-            rules = {**rules, "about": with_values(points, chosen, where)}
+            points = evaluated(points, chosen, where)
+            rules = rules | {"about": number_rows(points, 3, "point", where, MOST_POINTS)}
         nodes, struts = ruled(rules, (x, y, z), where)
     else:
-        nodes = with_values(data["nodes"], chosen, where)
+        nodes = evaluated(data["nodes"], chosen, where)
         struts = data["struts"]
     cell = make_cell(name.strip(), nodes, struts, where, edges=edges, widths=widths or ())
     usual = {one.name: one.usual for one in parameters}

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -14,8 +15,9 @@ from ..util.errors import VolfrepError
 from ..util.linalg import along, rotation, times
 from ..util.numbers import direction, number, point, whole
 from ..util.types import Floats
+from .field_files import read_points
 from .profile import Profile
-from .scattered_field import PointField, TransferCurve, default_curve, read_point_field
+from .scattered_field import PointField, TransferCurve, default_curve
 
 Vector = tuple[float, float, float]
 
@@ -44,6 +46,20 @@ class SizeGrading:
     def __post_init__(self) -> None:
         direction("grading direction", self.direction)
         as_tuples(self, "direction")
+
+
+def read_point_field(path: str | os.PathLike[str], column: str | None = None) -> PointField:
+    """Read a field from a table of points (CSV, text) or from a VTK file (.vtk, .vtu).
+
+    Args:
+        path: the file; what `volfrep.design.field_files` says of its formats holds.
+        column: name of the column or point data array that holds the value; may be left out
+            when there is only one.
+
+    Raises:
+        VolfrepError: naming the file, the line where there is one, and what is wrong.
+    """
+    return PointField(*read_points(path, column), source=os.fspath(path))
 
 
 @dataclass(frozen=True)

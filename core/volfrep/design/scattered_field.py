@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import os
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -14,7 +13,6 @@ from ..util.content import content_of, held
 from ..util.errors import VolfrepError
 from ..util.threads import threads
 from ..util.types import Floats
-from .field_files import read_points
 
 if TYPE_CHECKING:
     from scipy.spatial import cKDTree
@@ -127,20 +125,6 @@ def _merge(points: Floats, values: Floats) -> tuple[Floats, Floats]:
     start = np.flatnonzero(first)
     count = np.diff(np.append(start, len(points)))
     return points[start], np.add.reduceat(values / np.repeat(count, count), start)
-
-
-def read_point_field(path: str | os.PathLike[str], column: str | None = None) -> PointField:
-    """Read a field from a table of points (CSV, text) or from a VTK file (.vtk, .vtu).
-
-    Args:
-        path: the file; what `volfrep.design.field_files` says of its formats holds.
-        column: name of the column or point data array that holds the value; may be left out
-            when there is only one.
-
-    Raises:
-        VolfrepError: naming the file, the line where there is one, and what is wrong.
-    """
-    return PointField(*read_points(path, column), source=os.fspath(path))
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +14,7 @@ from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 from ..util.ragged import pairs_in_steps
 from ..util.types import Floats
+from .cell_grid import CellGrid
 from .coordinate_map import CoordinateMap, triangles_in_lattice
 
 #: A grid of more cells than this would not fit into memory with its lattice.
@@ -21,33 +22,6 @@ MAX_CELLS = 200_000_000
 _CENTRE = np.zeros((1, 3))
 #: A cell that overlaps the domain by less than this, in units of L, only touches it from outside.
 TOUCH_TOLERANCE = 1e-6
-
-
-@dataclass(frozen=True, eq=False)
-class CellGrid:
-    """A regular grid of cubic cells.
-
-    Attributes:
-        origin: (3,) float64, lowest corner, mm.
-        cell_size: L, mm.
-        shape: cells along x, y, z (of lattice space, where that is not the part's own).
-        periodic: axes along which the last cell is followed by the first one.
-    """
-
-    origin: Floats
-    cell_size: float
-    shape: tuple[int, int, int]
-    periodic: tuple[bool, bool, bool] = (False, False, False)
-
-    @property
-    def cells(self) -> int:
-        """How many cells the grid has."""
-        return self.shape[0] * self.shape[1] * self.shape[2]
-
-    def centres(self, axis: int) -> Floats:
-        """Coordinates of the cells' centres along an axis, mm."""
-        steps = np.arange(self.shape[axis]) + 0.5
-        return np.asarray(self.origin[axis] + self.cell_size * steps, np.float64)
 
 
 def make_grid(

@@ -7,7 +7,7 @@ And what follows from it: the nodes' places in the part, and their radii.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -19,54 +19,15 @@ from ..util.errors import VolfrepError
 from ..util.linalg import determinants
 from ..util.progress import Monitor
 from ..util.types import OPEN, Floats
-from .activation import CellGrid
+from .cell_grid import CellGrid
 from .coordinate_map import CoordinateMap, lattice_map, mapped_box
+from .motion import Motion
 from .strut_graph import CellGraph, Wireframe, wireframe
 
 #: A lattice that a wall cuts is moved by this, in units of L. Parts and walls like round numbers,
 #: and so do cells: where a wall lies in a plane of the cells' own, struts would touch it along
 #: lines and leave edges of four triangles. No printer or solver sees two microns in 10 mm.
 NUDGE = np.array([2.1e-4, 1.3e-4, 1.7e-4])
-
-
-@dataclass(frozen=True, eq=False)
-class Motion:
-    """A rigid motion of lattice space; equal points go to equal places, whoever moves them.
-
-    It takes one number at a time: sums of a library may come in another order for other shapes.
-
-    Attributes:
-        shift: (3,) that is added at last, mm.
-        frame: (3, 3) the directions that x, y, z turn into, as columns; None: they are not turned.
-        centre: (3,) where the origin is turned to, mm.
-    """
-
-    shift: Floats
-    frame: Floats | None = None
-    centre: Floats = field(default_factory=lambda: np.zeros(3))
-
-    def __call__(self, points: Floats) -> Floats:
-        """Where (..., 3) points go, mm."""
-        if self.frame is None:
-            return points + self.shift
-        return (self.turned(points) + self.centre) + self.shift
-
-    def turned(self, directions: Floats) -> Floats:
-        """What becomes of (..., 3) directions."""
-        if self.frame is None:
-            return directions
-        return self._sums(directions, self.frame)
-
-    def back(self, points: Floats) -> Floats:
-        """Where (..., 3) points came from, mm."""
-        if self.frame is None:
-            return points - self.shift
-        return self._sums((points - self.shift) - self.centre, self.frame.T)
-
-    @staticmethod
-    def _sums(vectors: Floats, rows: Floats) -> Floats:
-        x, y, z = (vectors[..., k] for k in range(3))
-        return np.stack([x * a + y * b + z * c for a, b, c in rows], axis=-1)
 
 
 @dataclass(frozen=True, eq=False)

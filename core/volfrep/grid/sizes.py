@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ..util.linalg import determinants
 from ..util.types import Bools
-from .activation import CellGrid
+from .cell_grid import CellGrid
 from .coordinate_map import CoordinateMap
 from .strut_graph import Wireframe
 

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..design.cells import NODE_TOLERANCE, UnitCell, joint_radius
+from ..mesh.triangle_mesh import TriangleMesh
 from ..util.types import Bools, Floats, Ints
 
 
@@ -65,6 +66,25 @@ class CellGraph(Graph):
     row: NDArray[np.int32]
     node_of: NDArray[np.int32]
     first: NDArray[np.int64]
+
+
+@dataclass(frozen=True, eq=False)
+class BeamModel:
+    """A lattice of beams, cut and joined to its skin; mm.
+
+    Attributes:
+        lattice: the nodes and struts, with their radii.
+        clip: closed mesh; what of the lattice lies outside it is cut off. None: nothing is.
+        skin: closed mesh that the lattice is joined to; None for none.
+        warnings: sentences for the user.
+        loose: what is to be said of pieces that hang on nothing, where no mesh says it.
+    """
+
+    lattice: Wireframe
+    clip: TriangleMesh | None = None
+    skin: TriangleMesh | None = None
+    warnings: tuple[str, ...] = ()
+    loose: tuple[str, ...] = ()
 
 
 def cell_graph(

@@ -6,14 +6,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ..design.spec import LatticeSpec
-from ..grid.strut_graph import Wireframe
+from ..grid.strut_graph import BeamModel, Wireframe
 from ..mesh.triangle_mesh import TriangleMesh
-from ..trim.beam_model import BeamModel, deformed_struts, refuse_fillets
+from ..trim.beam_model import deformed_struts, refuse_fillets
 from ..trim.clip_struts import Clipped
 from ..util.cache import StageCache
 from ..util.progress import ProgressCallback
 from .blocks import block_wireframe
-from .networks.infill import infill_of
+from .targets import infill_of
 
 
 def beam_model(

@@ -16,7 +16,7 @@ from ..design.forecast import BYTES_PER_STREAMED_CELL
 from ..design.memory_guard import BYTES_PER_STRUT, refuse_block, refuse_expected
 from ..design.networks import CellNetwork
 from ..design.spec import LatticeSpec
-from ..grid.activation import CellGrid
+from ..grid.cell_grid import CellGrid
 from ..grid.placement import Placement, block_placement, graded_wireframe
 from ..grid.sizes import mapped_volume
 from ..grid.strut_graph import CellGraph, Wireframe, cell_graph

@@ -16,7 +16,7 @@ from ..design.cells import UnitCell
 from ..design.memory_guard import refuse_expected
 from ..design.spec import LatticeSpec
 from ..grid.placement import Placement, graded_wireframe, placement_in
-from ..grid.strut_graph import CellGraph, Wireframe, cell_graph
+from ..grid.strut_graph import BeamModel, CellGraph, Wireframe, cell_graph
 from ..io.solid import Solid
 from ..lattice.assembly import Layout
 from ..lattice.deform import Deformed
@@ -30,7 +30,6 @@ from ..octants.octant_spec import OctantSpec
 from ..reports.result import Result, report_of
 from ..shell.domain import Domain, find_domain
 from ..trim.beam_model import (
-    BeamModel,
     deformed_struts,
     part_beams,
     reaching_into,

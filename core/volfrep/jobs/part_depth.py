@@ -10,7 +10,7 @@ import numpy as np
 from ..design.openings import OpenFace, open_triangles
 from ..design.spec import LatticeSpec
 from ..design.spec_parts import Skin
-from ..grid.activation import CellGrid
+from ..grid.cell_grid import CellGrid
 from ..mesh.quality import inspect
 from ..mesh.triangle_mesh import TriangleMesh
 from ..shell.domain import find_domain

@@ -16,7 +16,8 @@ from ..design.cells import LIBRARY
 from ..design.memory_guard import refuse_cells
 from ..design.spec import LatticeSpec
 from ..design.target import Target
-from ..grid.activation import CellGrid, make_grid, mapped_grid
+from ..grid.activation import make_grid, mapped_grid
+from ..grid.cell_grid import CellGrid
 from ..grid.coordinate_map import CoordinateMap
 from ..grid.placement import Placement, graded_wireframe, placement_in
 from ..grid.strut_graph import Wireframe, cell_graph
@@ -28,7 +29,7 @@ from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
 from .networks.frame import network_struts, network_volume
-from .networks.targets import with_radius
+from .networks.radius import with_radius
 from .part_depth import PartDepth, Preview
 from .rough_radius import lattice_volume, radius_of_volume
 from .stiffness_target import ratio_of_stiffness

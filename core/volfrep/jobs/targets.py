@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The strut radius of a target: the part that comes out has the density, mass or stiffness.
+"""The infill that is asked for, and the strut radius of a target.
+
+The part that comes out has the density, mass or stiffness that was aimed at.
 
 The radius of a density or a mass is read off `lattice.strut_volume`, in the very domain that the
 lattice is cut by. The mesh is then measured; where it misses by more than `CLOSE` it is made again,
@@ -32,19 +34,40 @@ from ..reports.report import Report
 from ..reports.result import Result
 from ..util.cache import StageCache
 from ..util.errors import VolfrepError
-from ..util.progress import ProgressCallback
+from ..util.progress import Monitor, ProgressCallback
 from .blocks import block_volume, block_wireframe, measured_block
 from .infill import Infill
-from .networks.infill import infill_of
+from .networks.infill import NetworkInfill
 from .networks.targets import aimed_network
 from .rough_radius import radius_range
 from .stiffness_target import ratio_of_stiffness
+from .walls.infill import WallInfill
 from .walls.targets import CLOSE, MESHES, aimed_walls, aimed_walls_block
 
 #: The first guess is this near, relative; a radius is sought up to so much above it.
 _ROUGHLY = 1.12
 #: A joint sphere's radius over the strut's is less.
 _REACH = 1.5
+
+
+def infill_of(
+    solid: TriangleMesh,
+    spec: LatticeSpec,
+    *,
+    cache: StageCache | None = None,
+    progress: ProgressCallback | None = None,
+    monitor: Monitor | None = None,
+    executor: Executor | None = None,
+    streamed: bool = False,
+) -> Infill:
+    """The stages of a solid filled with cells, walls or a network; arguments as of `Infill`."""
+    kind = WallInfill if spec.surface is not None else Infill
+    if spec.network is not None:
+        kind = NetworkInfill
+    return kind(
+        solid, spec, cache=cache, progress=progress, monitor=monitor, executor=executor,
+        streamed=streamed,
+    )  # fmt: skip
 
 
 def aimed(

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ..design.cells import UnitCell, joint_radius
 from ..design.spec_parts import Struts
-from ..grid.activation import CellGrid
+from ..grid.cell_grid import CellGrid
 from ..grid.coordinate_map import CoordinateMap, identity_map
 from ..grid.node_frames import NodeFrames, node_frames
 from ..grid.placement import Placement, node_radii

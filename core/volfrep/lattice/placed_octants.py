@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..grid.placement import Motion
+from ..grid.motion import Motion
 from ..mesh.triangle_mesh import TriangleMesh
 from ..octants.octant import used_kinds
 from ..util.progress import Monitor

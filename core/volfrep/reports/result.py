@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..design.spec import LatticeSpec
-from ..grid.activation import CellGrid
+from ..grid.cell_grid import CellGrid
 from ..grid.placement import Placement
 from ..grid.sizes import sizes
 from ..grid.strut_graph import Wireframe

@@ -26,8 +26,8 @@ from .designs import Design, Designs, Part, design_of, designs_of, named_part, r
 from .expectation import planned
 from .page import write_page
 from .records import keep_part, prepare, read_record
+from .running.batches import Interpreter, Limits
 from .running.executors import Words, told_state
-from .running.runs import Interpreter, Limits
 from .running.scheduling import How, Job, weight
 from .study import Front, Study, read_study
 from .table import Table, table_of, write_csv, write_parquet
@@ -193,7 +193,7 @@ def _begun(study: Study, folder: str | os.PathLike[str]) -> tuple[Path, tuple[Pa
         parts.append(named_part(source, solid))
         keep_part(at, parts[-1].content, solid)
         if study.loads is not None:
-            from ..jobs.sizing import goal_of
+            from ..jobs.sizing.goal import goal_of
             from ..loads.load_file import read_load_cases
 
             path = Path(study.loads).resolve()

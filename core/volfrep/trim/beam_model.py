@@ -3,13 +3,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ..design.openings import DrainHoles
 from ..design.spec_parts import Grid, Skin, Struts
-from ..grid.strut_graph import Wireframe
+from ..grid.strut_graph import BeamModel, Wireframe
 from ..mesh.booleans import difference
 from ..mesh.triangle_mesh import TriangleMesh, concatenate
 from ..spatial.proximity import closest_points
@@ -18,25 +16,6 @@ from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 from .drains import drain
 from .trimmed_surface import TrimmedSurface
-
-
-@dataclass(frozen=True, eq=False)
-class BeamModel:
-    """A lattice of beams, cut and joined to its skin; mm.
-
-    Attributes:
-        lattice: the nodes and struts, with their radii.
-        clip: closed mesh; what of the lattice lies outside it is cut off. None: nothing is.
-        skin: closed mesh that the lattice is joined to; None for none.
-        warnings: sentences for the user.
-        loose: what is to be said of pieces that hang on nothing, where no mesh says it.
-    """
-
-    lattice: Wireframe
-    clip: TriangleMesh | None = None
-    skin: TriangleMesh | None = None
-    warnings: tuple[str, ...] = ()
-    loose: tuple[str, ...] = ()
 
 
 def part_beams(

@@ -8,7 +8,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..grid.activation import CellGrid, crossed_cells, inside_cells, wall_corners
+from ..grid.activation import crossed_cells, inside_cells, wall_corners
+from ..grid.cell_grid import CellGrid
 from ..grid.coordinate_map import STRAIGHT, CoordinateMap
 from ..lattice.assembly import Layout, lay_out
 from ..mesh.triangle_mesh import TriangleMesh

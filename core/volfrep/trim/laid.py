@@ -9,7 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..grid.placement import Motion
+from ..grid.motion import Motion
 from ..lattice.assembly import Layout, lay_out
 from ..lattice.certificate import agree_on_faces
 from ..lattice.deform import Deformed

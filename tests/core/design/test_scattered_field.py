@@ -13,13 +13,13 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from volfrep.design import field_files, vtk_files
+from volfrep.design.grading import read_point_field
 from volfrep.design.scattered_field import (
     CHUNK,
     NEIGHBOURS,
     PointField,
     TransferCurve,
     default_curve,
-    read_point_field,
 )
 from volfrep.util.errors import VolfrepError
 

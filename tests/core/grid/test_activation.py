@@ -3,7 +3,8 @@ import numpy as np
 import pytest
 
 import samples
-from volfrep.grid.activation import CellGrid, active_cells, make_grid
+from volfrep.grid.activation import active_cells, make_grid
+from volfrep.grid.cell_grid import CellGrid
 from volfrep.mesh.triangle_mesh import concatenate
 from volfrep.spatial.rays import column_crossings, inside_grid, inside_points
 from volfrep.util.errors import Cancelled, VolfrepError

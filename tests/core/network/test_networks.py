@@ -19,7 +19,7 @@ from volfrep.design.profile import Profile
 from volfrep.io.write.stl import as_read
 from volfrep.io.write.threemf import write_3mf_beams
 from volfrep.jobs.networks.alone import network_alone
-from volfrep.jobs.networks.infill import infill_of
+from volfrep.jobs.targets import infill_of
 from volfrep.mesh.quality import measure
 from volfrep.network.random_graph import drawn_together, without_narrow
 from volfrep.trim.beam_model import BeamModel

@@ -22,7 +22,7 @@ from volfrep.io.solid import check_solid
 from volfrep.io.write.stl import write_stl
 from volfrep.studies import page
 from volfrep.studies.running import apart
-from volfrep.studies.running.runs import Interpreter
+from volfrep.studies.running.batches import Interpreter
 
 BOX = check_solid(samples.box((24.0, 16.0, 16.0)), "box")
 FILLED = Study(
@@ -92,7 +92,7 @@ def test_a_process_that_dies_gets_its_run_again_and_then_is_at_fault(
 
 
 def test_a_process_ends_when_nobody_is_there_any_more(tmp_path: Path) -> None:
-    program = "from volfrep.studies.running.apart import serve; serve()"
+    program = "from volfrep.studies.running.served import serve; serve()"
     child = subprocess.Popen([sys.executable, "-c", program], stdin=subprocess.PIPE)
     assert child.stdin is not None
     child.stdin.close()

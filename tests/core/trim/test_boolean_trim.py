@@ -14,7 +14,8 @@ import samples
 from contract import assert_same_quality
 from volfrep.design.cells import LIBRARY, PAPERS
 from volfrep.grid.activation import make_grid
-from volfrep.grid.placement import NUDGE, Motion
+from volfrep.grid.motion import Motion
+from volfrep.grid.placement import NUDGE
 from volfrep.mesh import quality
 from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.octants.octant import ALL_ACTIVE, OctantGrid, OctantKey

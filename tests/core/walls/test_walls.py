@@ -23,7 +23,7 @@ from volfrep.design.walls import SURFACES, PeriodicSurface, Wall
 from volfrep.io.solid import check_solid
 from volfrep.io.write.stl import as_read
 from volfrep.jobs.blocks import block, write_block_stl
-from volfrep.jobs.networks.infill import infill_of
+from volfrep.jobs.targets import infill_of
 from volfrep.lattice.assembly import lay, lay_out
 from volfrep.lattice.certificate import agree_on_faces, certify
 from volfrep.mesh.quality import measure

@@ -3,15 +3,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Collection
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
 from ...util.errors import VolfrepError
-from ...util.numbers import number
-from ..expression import CONSTANTS, FUNCTIONS, compile_expression
 
 MOST_PARAMETERS = 12
 
@@ -34,11 +31,16 @@ class CellParameter:
     about: str = ""
 
 
-def read_parameters(data: Any, where: str) -> tuple[CellParameter, ...]:
+def read_parameters(data: Any, where: str, taken: Collection[str]) -> tuple[CellParameter, ...]:
     """The parameters of a cell's file: ``{"t": {"usual": 0.2, "least": 0.1, "most": 0.4}}``.
 
+    Args:
+        data: of the file.
+        where: which that is, in errors.
+        taken: names that formulas know anyway.
+
     Raises:
-        VolfrepError: naming what is wrong; `where` says in which file.
+        VolfrepError: naming what is wrong.
     """
     if not isinstance(data, dict) or len(data) > MOST_PARAMETERS:
         raise VolfrepError(
@@ -46,7 +48,7 @@ def read_parameters(data: Any, where: str) -> tuple[CellParameter, ...]:
         )
     found = []
     for name, row in data.items():
-        if not name.isidentifier() or name in FUNCTIONS or name in CONSTANTS:
+        if not name.isidentifier() or name in taken:
             raise VolfrepError(
                 f"In the {where}, the parameter '{name}' must have another name: letters and "
                 "digits, and none that formulas know."
@@ -57,7 +59,7 @@ def read_parameters(data: Any, where: str) -> tuple[CellParameter, ...]:
                 "and 'most'."
             )
         usual, least, most = (
-            number(f"parameter '{name}' of the {where}", row[key], "degrees", positive=None)
+            _finite(row[key], f"parameter '{name}' of the {where}")
             for key in ("usual", "least", "most")
         )
         if not least <= usual <= most:
@@ -97,7 +99,7 @@ def chosen_values(parameters: tuple[CellParameter, ...], text: str, cell: str) -
                 f"The cell '{cell}' has no value '{name}' to choose: "
                 + (f"it has {told}." if told else "it has none; leave the cell values out.")
             )
-        chosen, one = number(f"cell value '{name}'", value, "degrees", positive=None), known[name]
+        chosen, one = _finite(value, f"cell value '{name}'"), known[name]
         if not one.least <= chosen <= one.most:
             raise VolfrepError(
                 f"The cell value '{name}' must be from {one.least:g} to {one.most:g} for "
@@ -107,27 +109,11 @@ def chosen_values(parameters: tuple[CellParameter, ...], text: str, cell: str) -
     return values
 
 
-def with_values(data: Any, values: Mapping[str, float], where: str) -> Any:
-    """Lists of numbers and formulas with the numbers that the formulas come to.
-
-    Args:
-        data: of a file: numbers, texts, and lists of them.
-        values: of the parameters.
-        where: the file, in errors.
-
-    Raises:
-        VolfrepError: a formula cannot be read, or has no value.
-    """
-    if not values:
-        return data
-    if isinstance(data, list):
-        return [with_values(item, values, where) for item in data]
-    if not isinstance(data, str):
-        return data
+def _finite(value: Any, what: str) -> float:
     try:
-        result = float(compile_expression(data, tuple(values))(*values.values()))
-    except VolfrepError as error:
-        raise VolfrepError(f"In the {where}: {error}") from error
-    if not np.isfinite(result):
-        raise VolfrepError(f"In the {where}, the formula '{data}' has no value.")
+        result = math.nan if isinstance(value, bool) else float(value)
+    except (TypeError, ValueError, OverflowError):
+        result = math.nan
+    if not math.isfinite(result):
+        raise VolfrepError(f"The {what} must be a finite number, not {value!r}.")
     return result

@@ -16,7 +16,6 @@ import numpy as np
 from scipy.spatial import Voronoi
 
 from ...util.errors import VolfrepError
-from ...util.numbers import number_rows
 from ...util.types import Floats, Ints
 
 #: What may be joined, in the order of the documentation.
@@ -34,7 +33,6 @@ TESSELLATIONS = {
     "rhombic dodecahedra": [[0, 0, 0], [0, 0.5, 0.5], [0.5, 0, 0.5], [0.5, 0.5, 0]],
     "hexagonal prisms": [[0, 0, 0.5], [0.5, 0.5, 0.5]],
 }
-MOST_POINTS = 64
 #: Places nearer than this, in units of L, are one; so short a piece is none.
 SAME = 1e-7
 
@@ -43,7 +41,7 @@ def ruled(data: Any, edges: tuple[float, float, float], where: str) -> tuple[Flo
     """The nodes and struts of a cell by rules.
 
     Args:
-        data: ``{"about": [[x, y, z], …], "rules": ["edges", …]}``; ``about`` may name one of
+        data: ``{"about": (n, 3) points, "rules": ["edges", …]}``; ``about`` may name one of
             `TESSELLATIONS`, and points are in units of the box's edges.
         edges: of the box, in units of L.
         where: the file, in errors.
@@ -72,7 +70,7 @@ def ruled(data: Any, edges: tuple[float, float, float], where: str) -> tuple[Flo
         about = TESSELLATIONS[about]
     if not isinstance(rules, list) or not rules or not all(rule in RULES for rule in rules):
         raise VolfrepError(f"In the {where}, 'rules' must be a list of some of {', '.join(RULES)}.")
-    points = number_rows(about, 3, "point", where, MOST_POINTS) % 1.0
+    points = np.asarray(about, float) % 1.0
     segments = _segments(points, np.array(edges), set(rules))
     return _in_box(segments / np.array(edges))
 

@@ -8,11 +8,11 @@ from typing import Any
 
 from ...util.errors import VolfrepError
 from ..cells import LIBRARY, UnitCell, find_cell
-from ..grading import CellMap, Orientation, RadiusGrading, SizeGrading
+from ..grading import CellMap, Orientation, RadiusGrading, SizeGrading, read_point_field
 from ..networks import GivenNetwork, RandomNetwork, read_network
 from ..openings import DrainHoles, DrainPlace, OpenPlane
 from ..profile import Profile
-from ..scattered_field import PointField, read_curve, read_point_field
+from ..scattered_field import PointField, read_curve
 from ..spec import LatticeSpec
 from ..spec_parts import first_radius
 from ..target import AIMS, Target, read_stiffness, stiffness_text

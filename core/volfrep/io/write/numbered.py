@@ -15,7 +15,7 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ...grid.placement import Motion
+from ...grid.motion import Motion
 from ...lattice.assembly import Layout, coordinate_blocks, facet_blocks
 from ...mesh.precision import BLOCK_ROWS, decimal_step, refuse_lost_corners, rounded
 from ...mesh.precision import single_precision as in_single

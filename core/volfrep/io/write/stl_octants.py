@@ -16,7 +16,7 @@ from itertools import chain
 import numpy as np
 from numpy.typing import NDArray
 
-from ...grid.placement import Motion
+from ...grid.motion import Motion
 from ...lattice.assembly import Layout, in_steps, placed
 from ...octants.octant import OctantGrid
 from ...trim.trimmed_surface import TrimmedSurface

@@ -31,7 +31,7 @@ from ...util.types import Floats
 from .numbered import Numbered, numbered
 
 if TYPE_CHECKING:
-    from ...trim.beam_model import BeamModel
+    from ...grid.strut_graph import BeamModel
 
 #: What is written as triangles.
 Surface = TriangleMesh | TrimmedSurface

@@ -9,7 +9,7 @@ from ...design.cells import joint_radius
 from ...design.networks import GivenNetwork, laid_along
 from ...design.spec import LatticeSpec
 from ...design.spec_parts import DEFAULT_RELATIVE_DEVIATION
-from ...grid.activation import CellGrid
+from ...grid.cell_grid import CellGrid
 from ...grid.placement import Placement, node_radii
 from ...grid.strut_graph import Wireframe
 from ...mesh.edge_table import plural

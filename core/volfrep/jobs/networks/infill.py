@@ -3,16 +3,13 @@
 
 from __future__ import annotations
 
-from concurrent.futures import Executor
 from functools import cached_property
 
 import numpy as np
 
-from ...design.spec import LatticeSpec
-from ...grid.activation import CellGrid
+from ...grid.cell_grid import CellGrid
 from ...grid.strut_graph import Wireframe
 from ...lattice.padded_grid import PaddedGrid
-from ...mesh.triangle_mesh import TriangleMesh
 from ...network.surface import NetworkSurface
 from ...reports.result import Result
 from ...trim.boolean_trim import Trimmed
@@ -20,34 +17,11 @@ from ...trim.group_cut import cut_mesh
 from ...trim.loose_pieces import Cleared
 from ...trim.stage import cleared_cut, drained_part
 from ...trim.trimmed_surface import TrimmedSurface
-from ...util.cache import StageCache
 from ...util.errors import VolfrepError
-from ...util.progress import Monitor, ProgressCallback
 from ..active_cells import ActiveCells
 from ..infill import Infill
-from ..walls.infill import WallInfill
 from .alone import meshed, overlaps_told, uncut
 from .frame import network_struts
-
-
-def infill_of(
-    solid: TriangleMesh,
-    spec: LatticeSpec,
-    *,
-    cache: StageCache | None = None,
-    progress: ProgressCallback | None = None,
-    monitor: Monitor | None = None,
-    executor: Executor | None = None,
-    streamed: bool = False,
-) -> Infill:
-    """The stages of a solid filled with cells, walls or a network; arguments as of `Infill`."""
-    kind = WallInfill if spec.surface is not None else Infill
-    if spec.network is not None:
-        kind = NetworkInfill
-    return kind(
-        solid, spec, cache=cache, progress=progress, monitor=monitor, executor=executor,
-        streamed=streamed,
-    )  # fmt: skip
 
 
 class NetworkInfill(Infill):

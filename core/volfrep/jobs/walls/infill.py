@@ -5,13 +5,12 @@ from __future__ import annotations
 
 from functools import cached_property
 
-from ...grid.strut_graph import Wireframe
+from ...grid.strut_graph import BeamModel, Wireframe
 from ...lattice.assembly import Layout
 from ...lattice.deform import Deformed
 from ...lattice.padded_grid import LEAST_WIDTH_STRETCHED
 from ...octants.octant import Octant, OctantKey
 from ...octants.octant_spec import OctantSpec
-from ...trim.beam_model import BeamModel
 from ...trim.clip_struts import Clipped
 from ...trim.culling import KeptOctants, cull, keep_all
 from ...util.errors import VolfrepError

@@ -12,15 +12,15 @@ from scipy.ndimage import map_coordinates
 from ...design.grading import RadiusGrading
 from ...design.spec import LatticeSpec
 from ...design.walls import PeriodicSurface
-from ...grid.activation import CellGrid
+from ...grid.cell_grid import CellGrid
 from ...grid.placement import Placement
 from ...mesh.triangle_mesh import TriangleMesh
 from ...util.errors import VolfrepError
 from ...util.types import Bools, Floats
 from ...walls.midsurface import midsurface
 from ..part_depth import PartDepth, Preview
+from .levels import level_table, with_volume
 from .making import surface_of
-from .targets import level_table, with_volume
 
 #: Samples along a cell, of which there are never more than so many in the part's box; fewer than
 #: the least along a cell would not show what it is.

@@ -7,19 +7,18 @@ A point is solid from one level on; the levels of many points, sorted, are the v
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 
 import numpy as np
 
 from ...design.spec import LatticeSpec
 from ...design.target import Target
 from ...grid.coordinate_map import identity_map
-from ...lattice.strut_volume import FINE, VolumeByRadius, points_inside
+from ...lattice.strut_volume import FINE, points_inside
 from ...spatial.even_points import even_points
 from ...util.errors import VolfrepError
-from ...util.types import Floats
 from ...walls.placing import part_levels
 from ..infill import Infill
+from .levels import level_table, with_volume
 from .making import solid_of
 
 #: A mesh that misses its target by more, relative, is made again; so many are made at most.
@@ -100,32 +99,3 @@ def aimed_walls_block(spec: LatticeSpec, volume: float, target: Target) -> Latti
     if target.aim == "mass":
         wanted = target.value * 1000.0 / spec.density
     return with_volume(spec, target, table, wanted, volume)
-
-
-def level_table(levels: Floats, weights: Floats) -> VolumeByRadius:
-    """Volumes of walls over the level up to which points are solid.
-
-    Args:
-        levels: (n,) from which on points are solid, mm.
-        weights: (n,) the volume that each stands for, mm3.
-    """
-    order = np.argsort(levels)
-    steps = np.cumsum(weights[order])
-    return VolumeByRadius(levels[order], steps - 0.5 * weights[order])
-
-
-def with_volume(
-    spec: LatticeSpec, target: Target, table: VolumeByRadius, wanted: float, domain: float
-) -> LatticeSpec:
-    """The specification with walls of a volume in mm3."""
-    low = 0.0 if spec.wall.is_sheet else 0.02 * domain
-    if not low < wanted < 0.98 * domain:
-        share = wanted / domain
-        raise VolfrepError(
-            f"No {spec.wall.called} meets the target of {target.called}: the walls would fill "
-            f"{100 * share:.3g} % of their room; choose one for which they fill 2 to 98 %."
-        )
-    level = table.radius_of(wanted)
-    if spec.wall.is_sheet:
-        return replace(spec, wall=replace(spec.wall, thickness=2.0 * level))
-    return replace(spec, wall=replace(spec.wall, offset=level))

@@ -1,15 +1,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Runs in a process of their own, which may be ended, or die, without harm to the study.
 
-The process is this Python's. It reads pickled runs and answers with a line each; when the pipe
-closes, because whoever started it is gone, it ends at once.
+The process is this Python's, and `served` is what it does.
 """
 
 from __future__ import annotations
 
 import os
 import pickle
-import queue
 import subprocess
 import sys
 import threading
@@ -18,56 +16,22 @@ from collections.abc import Iterable
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import IO
 
 from ...util.errors import Cancelled, VolfrepError
 from ...util.progress import ProgressCallback
 from ...util.subprocesses import NO_WINDOW
 from ...util.version import VERSION
 from ..designs import Design
-from ..records import write_record
-from .bench import Shared
-from .runs import Batch, Ended, Interpreter, Limits, bench_of, record_of, run_design, run_in_turn
+from .batches import DONE, Batch, Ended, Interpreter, Limits, note, record_of
 
 #: How often a run is looked at, s.
 LOOK = 0.2
 #: A process that dies by itself gets its run again, so often; then the run is at fault.
 TRIES = 2
-_PROGRAM = "from volfrep.studies.running.apart import serve; serve()"
-_DONE = b"done\n"
+_PROGRAM = "from volfrep.studies.running.served import serve; serve()"
 CANCELLED = "cancelled"
 #: Variables by which linear algebra is told its threads.
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
-
-
-def run_batch(
-    batch: Batch, ended: Ended | None = None, progress: ProgressCallback | None = None
-) -> int:
-    """Do the runs of a batch; what is in the records already is not done again.
-
-    Args:
-        batch: what to do.
-        ended: called after each run.
-        progress: called while a run goes on; returning False cancels.
-
-    Returns:
-        How many designs there were.
-
-    Raises:
-        VolfrepError: this worker has another version of the engine, does not see the study's
-            folder, or cannot tell how much memory a run takes.
-        Cancelled: the callback said so; the run that was going on leaves no record.
-    """
-    if batch.version != VERSION:
-        raise VolfrepError(
-            f"The study was begun with VOLFREP {batch.version}, and this worker has {VERSION}: "
-            "install the same version."
-        )
-    if batch.apart or batch.limits.any:
-        run_apart((batch,), ended, progress)
-    else:
-        run_in_turn((batch,), ended, progress)
-    return len(batch.designs)
 
 
 def run_apart(
@@ -176,7 +140,7 @@ class _Child:
             raise Cancelled("cancelled between runs")
         if broken:
             return _Ending(broken[0], limited=True)
-        if answer == _DONE:
+        if answer == DONE:
             return None
         if answer:
             raise VolfrepError(answer.decode().strip())
@@ -270,47 +234,3 @@ def _watch(
         if broken:
             process.kill()
             return
-
-
-def note(batch: Batch, design: Design, sentence: str) -> None:
-    """Write into a design's record why what is missing of it cannot be done."""
-    record = record_of(batch, design)
-    for name in record.missing(batch.actions, batch.asked, batch.retry):
-        record.results.pop(name, None)
-        record.errors[name] = sentence
-        record.keep(name, batch.asked, 0.0)
-    write_record(batch.asked.folder, record)
-
-
-def serve() -> None:
-    """What the process does until its pipe closes; called by nobody else."""
-    import signal
-
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # whoever started us decides
-    answers = os.fdopen(os.dup(1), "wb", buffering=0)
-    os.dup2(2, 1)  # what libraries print is no answer
-    sent: queue.SimpleQueue[object] = queue.SimpleQueue()
-    threading.Thread(target=_receive, args=(sys.stdin.buffer, sent), daemon=True).start()
-    batch = sent.get()
-    assert isinstance(batch, Batch)
-    from ...util.threads import use_threads
-
-    use_threads(batch.threads)
-    shared = Shared()
-    while True:
-        design = sent.get()
-        assert isinstance(design, Design)
-        try:
-            run_design(batch, design, bench_of(batch, design, shared))
-            answers.write(_DONE)
-        except VolfrepError as error:
-            answers.write(str(error).replace("\n", " ").encode() + b"\n")
-
-
-def _receive(stream: IO[bytes], sent: queue.SimpleQueue[object]) -> None:
-    """Pass on what is sent; end this process when nobody is there any more."""
-    while True:
-        try:
-            sent.put(pickle.load(stream))
-        except EOFError:
-            os._exit(0)

@@ -16,7 +16,8 @@ from ...io.solid import Solid
 from ...io.write import mesh_writer
 from ...jobs.infill import Infill
 from ...jobs.preview import PartDepth
-from ...jobs.sizing import goal_of, size, solved, values_with_radii, write_radii
+from ...jobs.sizing.goal import goal_of
+from ...jobs.sizing.sizing import size, solved, values_with_radii, write_radii
 from ...jobs.targets import aimed
 from ...loads.load_cases import LoadCases
 from ...loads.load_file import read_load_cases

@@ -15,13 +15,17 @@ from ...design.memory_guard import free_memory
 from ...util.errors import Cancelled, VolfrepError
 from ...util.progress import ProgressCallback
 from ...util.threads import threads
-from .apart import note, run_apart, run_batch
-from .runs import Batch, run_in_turn
+from ...util.version import VERSION
+from .apart import run_apart
+from .batches import Batch, Ended, note
+from .runs import run_in_turn
 
 #: How often the caller is told how far the runs are, s.
 TELL = 0.5
 #: The share of the free memory that the runs may take together.
 SHARE = 0.8
+#: How far runs are.
+STATE = "{done} of {runs} runs, about {time} left"
 
 
 #: Says how far runs are, of how many are done, how many there are, and the seconds left.
@@ -85,24 +89,20 @@ class Tally:
         return sum(self.weights[key] for key in tuple(self._ended))
 
 
-def told_in(text: str, done: int, runs: int, seconds: float) -> str:
-    """How far a study is, in the words of a text that holds {done}, {runs} and {time}."""
-    left = f"{seconds:.0f} s" if seconds < 90.0 else f"{seconds / 60.0:.0f} min"
-    return text.format(done=done, runs=runs, time=left)
-
-
-def told_state(done: int, runs: int, seconds: float) -> str:
-    """How far runs are, in words."""
-    return f"{done:,} of {runs:,} runs, {told_time(seconds)} left"
+def told_state(done: int, runs: int, seconds: float, text: str = STATE) -> str:
+    """How far runs are, in the words of a text that holds {done}, {runs} and {time}."""
+    return text.format(done=f"{done:,}", runs=f"{runs:,}", time=told_time(seconds))
 
 
 def told_time(seconds: float) -> str:
-    """A time in words."""
+    """A time with its unit, to be read.
+
+    >>> told_time(89), told_time(1200), told_time(5400)
+    ('89 s', '20 min', '1.5 h')
+    """
     if seconds < 90.0:
-        return f"about {seconds:.0f} s"
-    return (
-        f"about {seconds / 60.0:.0f} min" if seconds < 5400.0 else f"about {seconds / 3600:.1f} h"
-    )
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60.0:.0f} min" if seconds < 5400.0 else f"{seconds / 3600.0:.1f} h"
 
 
 def fitting_workers(memory_gb: float, wanted: int | None) -> int:
@@ -121,6 +121,36 @@ def fitting_workers(memory_gb: float, wanted: int | None) -> int:
         return wanted
     fit = int(SHARE * free_memory() / (1e9 * max(memory_gb, 1e-3)))
     return max(1, min(threads(), fit))
+
+
+def run_batch(
+    batch: Batch, ended: Ended | None = None, progress: ProgressCallback | None = None
+) -> int:
+    """Do the runs of a batch; what is in the records already is not done again.
+
+    Args:
+        batch: what to do.
+        ended: called after each run.
+        progress: called while a run goes on; returning False cancels.
+
+    Returns:
+        How many designs there were.
+
+    Raises:
+        VolfrepError: this worker has another version of the engine, does not see the study's
+            folder, or cannot tell how much memory a run takes.
+        Cancelled: the callback said so; the run that was going on leaves no record.
+    """
+    if batch.version != VERSION:
+        raise VolfrepError(
+            f"The study was begun with VOLFREP {batch.version}, and this worker has {VERSION}: "
+            "install the same version."
+        )
+    if batch.apart or batch.limits.any:
+        run_apart((batch,), ended, progress)
+    else:
+        run_in_turn((batch,), ended, progress)
+    return len(batch.designs)
 
 
 def run_here(batches: Sequence[Batch], tally: Tally) -> None:

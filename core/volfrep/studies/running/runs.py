@@ -1,105 +1,28 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Runs: what is missing in a design's record is done, and the record written anew.
-
-A `Batch` is what one worker gets at a time: designs that share a wall or a cell, so that it is made
-once. It is a plain value that any `concurrent.futures.Executor` can take to another process or
-machine, which must see the study's folder.
-"""
+"""Runs: what is missing in a design's record is done, and the record written anew."""
 
 from __future__ import annotations
 
 import time
 import traceback
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from collections.abc import Iterable
 
 from ...design.parameters.table import BY_NAME
 from ...util.errors import Cancelled, VolfrepError
 from ...util.progress import ProgressCallback
-from ..actions import Asked
-from ..designs import Design, shown_values
-from ..records import Record, kept_part, read_record, write_record
+from ..designs import Design
+from ..records import kept_part, write_record
+from .batches import Batch, Ended, record_of
 from .bench import FIGURES, Bench, Shared
 
 #: What is said of a run whose process ran out of memory.
 NO_MEMORY = "There was not enough memory for this run: use larger cells or a coarser resolution."
 
 
-@dataclass(frozen=True)
-class Limits:
-    """What one run may take.
-
-    Attributes:
-        hours: of time; None for no limit.
-        memory_gb: of resident memory; None for no limit.
-    """
-
-    hours: float | None = None
-    memory_gb: float | None = None
-
-    def __post_init__(self) -> None:
-        for name, value, unit in (
-            ("time", self.hours, "hours"), ("memory", self.memory_gb, "GB")
-        ):  # fmt: skip
-            if value is not None and not value > 0.0:
-                raise VolfrepError(
-                    f"The limit of a run's {name} must be above 0 {unit}, not {value}."
-                )
-
-    @property
-    def any(self) -> bool:
-        """Whether there is one."""
-        return self.hours is not None or self.memory_gb is not None
-
-
-@dataclass(frozen=True)
-class Interpreter:
-    """A Python that can run the engine in processes.
-
-    Attributes:
-        executable: path of the program.
-        path: folders in which it finds the engine and what that needs, beside its own.
-    """
-
-    executable: str
-    path: tuple[str, ...]
-
-
-@dataclass(frozen=True, eq=False)
-class Batch:
-    """Runs for one worker, one after the other.
-
-    Attributes:
-        designs: of the runs.
-        actions: to be done with each.
-        asked: what the actions take.
-        version: of the engine that the study was begun with.
-        limits: of each run.
-        retry: whether what failed is tried again.
-        threads: that each run may use; 0 for all.
-        apart: whether runs have a process of their own, which may die without harm.
-        interpreter: of these processes; None for the one that starts them.
-    """
-
-    designs: tuple[Design, ...]
-    actions: tuple[str, ...]
-    asked: Asked
-    version: str
-    limits: Limits
-    retry: bool
-    threads: int
-    apart: bool
-    interpreter: Interpreter | None = None
-
-
-#: Called when a run has ended, with its design's key.
-Ended = Callable[[str], None]
-
-
 def run_in_turn(
     batches: Iterable[Batch], ended: Ended | None, progress: ProgressCallback | None
 ) -> None:
-    """Do the runs of batches of one study in this process; `apart.run_batch` says more.
+    """Do the runs of batches of one study in this process; `executors.run_batch` says more.
 
     Raises:
         VolfrepError: the study's folder cannot be used.
@@ -145,16 +68,6 @@ def run_design(batch: Batch, design: Design, bench: Bench) -> None:
             record.notes[name] = bench.notes[name]
     if missing:
         write_record(batch.asked.folder, record)
-
-
-def record_of(batch: Batch, design: Design) -> Record:
-    """The record of a design, or an empty one."""
-    return read_record(batch.asked.folder, design.key) or Record(
-        design.key,
-        batch.version,
-        {"name": design.part.name, "content": design.part.content},
-        shown_values(design),
-    )
 
 
 def bench_of(

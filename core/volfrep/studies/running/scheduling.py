@@ -23,6 +23,7 @@ from ..actions import ACTIONS, Asked
 from ..designs import Design
 from ..expectation import planned
 from ..records import Record, kept_part, read_record
+from .batches import Batch, Interpreter, Limits
 from .executors import (
     Tally,
     Words,
@@ -32,7 +33,6 @@ from .executors import (
     run_here,
     told_state,
 )
-from .runs import Batch, Interpreter, Limits
 
 #: Expected seconds of a run without a mesh, with a cell of the catalogue and with another one.
 QUICK, HOMOGENISED = 0.02, 10.0

@@ -189,11 +189,8 @@ def print_report(
         thinnest, thinnest_at = 2.0 * float(radius[strut, piece]), _point(points[strut, piece])
     narrowest = narrowest_gap(lattice, present, LOOK_FOR * process.gap)
 
-    if narrowest is None and walls_mm[1] is not None:
-        gap_mm, gap_at = walls_mm[1], None
-    else:
-        gap_mm = None if narrowest is None else narrowest[0]
-        gap_at = None if narrowest is None else _point(narrowest[1])
+    gap_mm = walls_mm[1] if narrowest is None else narrowest[0]
+    gap_at = None if narrowest is None else _point(narrowest[1])
 
     angle = inclinations(lattice, up)
     total = max(float(length.sum()), 1e-300)

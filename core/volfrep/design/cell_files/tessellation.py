@@ -108,7 +108,7 @@ def _segments(points: Floats, edges: Floats, rules: set[str]) -> Floats:
 def _without_repeats(corners: Floats) -> Floats:
     """A face's corners in turn, each once: where four bodies or more meet some come twice."""
     gap = np.linalg.norm(corners - np.roll(corners, 1, axis=0), axis=1)
-    return corners[gap > SAME]
+    return np.asarray(corners[gap > SAME])
 
 
 def _middle(corners: Floats) -> Floats:

@@ -45,7 +45,7 @@ def test_a_network_is_shown_before_it_is_made_and_meets_a_density(doc, box):
     assert obj.isValid(), obj.Status
     assert obj.RelativeDensity == pytest.approx(0.12, rel=5e-3)
     assert shown.preview.spec.strut_radius == pytest.approx(obj.StrutRadius.Value, rel=0.05)
-    assert shown.preview.struts == pytest.approx(obj.Struts, rel=0.1)
+    assert 0.7 * obj.Struts < shown.preview.struts <= obj.Struts  # those that reach inside
 
 
 def test_a_cells_values_are_a_property(doc, box):

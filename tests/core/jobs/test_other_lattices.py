@@ -61,7 +61,7 @@ def test_a_preview_has_the_figures_of_what_is_made(more: dict[str, object]) -> N
     found = inspect(shown.wall).quality
     assert found.watertight
     lattice = made.relative_density * made.domain_volume_mm3
-    assert found.volume == pytest.approx(lattice, rel=0.3)  # thin sheets are drawn thicker
+    assert 0.7 * lattice < found.volume < 1.6 * lattice  # thin sheets are drawn thicker
 
 
 def test_walls_that_are_too_many_are_not_shown() -> None:

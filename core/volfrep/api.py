@@ -112,6 +112,7 @@ class Part:
             VolfrepError: there is no such process, or the direction is none.
         """
         from .jobs.pipeline import fill
+        from .reports.passage import ball_of, walls_of
         from .reports.printability import print_report
         from .reports.processes import find_process
 
@@ -127,6 +128,8 @@ class Part:
             build_direction=build_direction,
             density=self.spec.density,
             domain=domain,
+            ball_mm=ball_of(self.spec),
+            walls_mm=walls_of(self.spec),
         )
 
     def plot(

@@ -131,6 +131,8 @@ def _stiffness(obj: App.DocumentObject, spec: LatticeSpec) -> float | None:
     from volfrep.jobs.stiffness_target import modulus
     from volfrep.mechanics.catalogue import known_cell
 
+    if spec.surface is not None or spec.network is not None:
+        return None
     material, known = material_of(obj), known_cell(spec.unit_cell())
     ratio = spec.strut_radius / spec.cell_size
     if material is None or known is None or spec.fillet:

@@ -35,6 +35,7 @@ PROPERTIES = (
     result("App::PropertyStringList", "Findings", "What does not suit the process"),
     result("App::PropertyString", "Limits", "Of the process, and their source"),
     result("App::PropertyFloat", "ThinnestStrut", "Smallest diameter of a strut, mm"),
+    result("App::PropertyFloat", "ThinnestWall", "Least thickness of walls, mm"),
     result("App::PropertyString", "NarrowestGap", "Between struts that do not meet, mm"),
     result("App::PropertyString", "LargestBall", "That gets out of the lattice, mm; for powder"),
     result("App::PropertyPercent", "OverhangShare", "Of the struts' length, too flat"),
@@ -111,7 +112,7 @@ class PrintCheck:
         from volfrep.apart.engine_process import Call
         from volfrep.jobs.beam_part import struts_and_cavity
         from volfrep.mesh.triangle_mesh import TriangleMesh, compact
-        from volfrep.reports.passage import ball_of
+        from volfrep.reports.passage import ball_of, walls_of
         from volfrep.reports.printability import overhanging_facets, print_report, unit_direction
         from volfrep.reports.processes import find_process
 
@@ -133,6 +134,7 @@ class PrintCheck:
             density=spec.density,
             domain=placed(cavity, place),
             ball_mm=ball_of(spec),
+            walls_mm=walls_of(spec),
         )
         hanging = overhanging_facets(mesh, unit_direction(direction), process.inclination)
         obj.Mesh = to_freecad(compact(TriangleMesh(mesh.vertices, mesh.triangles[hanging])))
@@ -187,10 +189,12 @@ def _write_results(obj: App.DocumentObject, report: PrintReport) -> None:
     rows = dict(report.rows())
     obj.Findings = list(report.findings)
     obj.Limits = (
-        f"strut {report.process.strut:g} mm, gap {report.process.gap:g} mm, inclination "
+        f"strut {report.process.strut:g} mm, wall {report.process.wall:g} mm, "
+        f"gap {report.process.gap:g} mm, inclination "
         f"{report.process.inclination:g} degrees ({report.process.source})"
     )
     obj.ThinnestStrut = report.thinnest_strut_mm or 0.0
+    obj.ThinnestWall = report.thinnest_wall_mm or 0.0
     obj.NarrowestGap = rows["narrowest gap"]
     obj.LargestBall = rows.get("largest ball that gets out", "differs from cell to cell")
     obj.OverhangShare = round(100 * report.overhanging_share)

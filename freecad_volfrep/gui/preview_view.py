@@ -19,6 +19,7 @@ from .prisms import CREASE_ANGLE, prisms
 if TYPE_CHECKING:
     from freecad_volfrep.features.live_preview import Shown
     from volfrep.jobs.preview import Preview
+    from volfrep.mesh.triangle_mesh import TriangleMesh
 
 #: Name of what is added to the view's scene.
 NODE = "VolfrepPreview"
@@ -127,21 +128,27 @@ class Struts:
 
     Args:
         node: an empty node of the scene.
-        shown: the struts.
+        shown: the struts, or the walls.
     """
 
     def __init__(self, node: Any, shown: Preview) -> None:
         self._look, self._inside = drawing.material((0.0, 0.0, 0.0)), None
+        if shown.wall is not None:
+            self._draw_faces(node, shown.wall)
+            return
         if len(shown.start) > preferences.read(preferences.MOST_PRISMS):
             lines = drawing.lines(shown.start, shown.end, LINE_WIDTH)
             node.addChild(drawing.separate(self._look, lines))
             return
         if len(shown.start):
-            shape = drawing.faces(prisms(shown.start, shown.end, shown.radii), CREASE_ANGLE)
-            self._inside = drawing.Inside(shape)
-            front = drawing.seen_from(outside=True)
-            node.addChild(self._inside.node)
-            node.addChild(drawing.separate(front, self._look, shape))
+            self._draw_faces(node, prisms(shown.start, shown.end, shown.radii))
+
+    def _draw_faces(self, node: Any, mesh: TriangleMesh) -> None:
+        shape = drawing.faces(mesh, CREASE_ANGLE)
+        self._inside = drawing.Inside(shape)
+        front = drawing.seen_from(outside=True)
+        node.addChild(self._inside.node)
+        node.addChild(drawing.separate(front, self._look, shape))
 
     def set_look(self, view: Any, is_cut: bool) -> None:
         """Colours of the object's view."""

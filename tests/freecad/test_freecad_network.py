@@ -8,6 +8,7 @@ import Part
 import pytest
 
 from freecad_volfrep import make_lattice_infill
+from freecad_volfrep.features.live_preview import LivePreview
 
 
 @pytest.fixture
@@ -32,6 +33,34 @@ def test_a_voronoi_network_fills_a_solid_and_follows_its_seed(doc, box):
     doc.recompute()
     assert obj.Volume.Value != before
     assert json.loads(obj.Report)["spec"]["network"]["seed"] == 2
+
+
+def test_a_network_is_shown_before_it_is_made_and_meets_a_density(doc, box):
+    obj = make_lattice_infill(
+        doc, box, Network="Voronoi", NetworkPoints=15, ShellThickness=1.5,
+        RadiusDrivenBy="Relative density", TargetDensity=0.12, NetworkOnWall=True,
+    )  # fmt: skip
+    shown = LivePreview(obj).show()
+    doc.recompute()
+    assert obj.isValid(), obj.Status
+    assert obj.RelativeDensity == pytest.approx(0.12, rel=5e-3)
+    assert shown.preview.spec.strut_radius == pytest.approx(obj.StrutRadius.Value, rel=0.05)
+    assert 0.7 * obj.Struts < shown.preview.struts <= obj.Struts  # those that reach inside
+
+
+def test_a_cells_values_are_a_property(doc, box):
+    obj = make_lattice_infill(
+        doc, box, CellType="Re-entrant", CellSize=12, ShellThickness=1.5, CellValues="arm = 0.2"
+    )
+    doc.recompute()
+    assert obj.isValid(), obj.Status
+    before = obj.Volume.Value
+    obj.CellValues = ""
+    doc.recompute()
+    assert obj.Volume.Value != before
+    obj.CellValues = "leg = 0.2"
+    doc.recompute()
+    assert "has no value 'leg'" in obj.Status
 
 
 def test_a_network_of_a_file(doc, box, tmp_path):

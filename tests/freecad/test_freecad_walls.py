@@ -6,7 +6,8 @@ import json
 import FreeCAD as App
 import pytest
 
-from freecad_volfrep import make_lattice_infill
+from freecad_volfrep import make_lattice_infill, make_print_check
+from freecad_volfrep.features.live_preview import LivePreview
 
 HIDDEN = "Hidden"
 
@@ -73,3 +74,19 @@ def test_a_formula_of_ones_own_is_made_and_a_wrong_one_refused(box) -> None:
     doc.recompute()
     assert "must repeat" in infill.Status
     assert infill.Triangles == made
+
+
+def test_the_preview_and_the_print_check_know_walls(box) -> None:
+    doc = box.Document
+    infill = make_lattice_infill(
+        doc, box, CellType="Gyroid", CellSize=8, WallThickness=0.6, ShellThickness=1, Resolution=24
+    )
+    shown = LivePreview(infill).show()
+    assert len(shown.preview.wall.triangles) > 1000
+    assert shown.stiffness is None
+    doc.recompute()
+    assert shown.preview.relative_density == pytest.approx(infill.RelativeDensity, rel=0.06)
+    check = make_print_check(doc, infill, "SLS")
+    doc.recompute()
+    assert check.ThinnestWall == pytest.approx(0.6, rel=0.01)
+    assert any("Walls are down to 0.6 mm" in sentence for sentence in check.Findings)

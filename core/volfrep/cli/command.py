@@ -117,8 +117,6 @@ def _parser() -> argparse.ArgumentParser:
     laid = ("network_thickness", "network_layers", "network_reversed")
     add_parameters(network, of_block=True, also=laid)
 
-    add("cells", _cells, "List the library of unit cells.")
-
     layers.add_command(add)
     properties.add_command(add)
 
@@ -321,29 +319,6 @@ def _finish(
     if options.print_report is not None:
         printing = printing_options.report_of(result, options, spec, domain)
     tell(dataclasses.replace(report, warnings=warnings), options, printing)
-
-
-def _cells(_: argparse.Namespace) -> None:
-    from ..design.cells import LIBRARY, USES
-    from ..design.walls import FORMULA, SURFACES
-    from ..mechanics.endless import strains_held
-
-    print(f"{'name':<25}{'nodes':>6}{'struts':>8}{'Maxwell':>9}  {'carries by':<13}also known as")
-    use = None
-    for cell in LIBRARY.values():
-        if cell.use != use:
-            use = cell.use
-            print(f"\n{USES[use]}")
-        carries = "stretching" if strains_held(cell) == 6 else "bending"
-        row = (
-            f"{cell.name:<25}{len(cell.nodes):>6}{len(cell.struts):>8}"
-            f"{cell.maxwell_number:>9}  {carries:<13}{', '.join(cell.also)}"
-        )
-        print(row.rstrip())
-    print("\nWalls, along a surface")
-    for surface in SURFACES.values():
-        print(f"{surface.name:<25}{surface.about}")
-    print(f"{FORMULA:<25}a formula of your own, of x, y and z")
 
 
 def _check(options: argparse.Namespace) -> None:

@@ -49,8 +49,8 @@ def specification(options: argparse.Namespace) -> LatticeSpec:
     """The specification of the file and the options.
 
     Sets ``options.build_direction``, which the print report wants too, and, as they were given or
-    None, ``options.density``, ``options.cell``, ``options.radius_field`` and
-    ``options.network_file``.
+    None, ``options.density``, ``options.cell``, ``options.radius_field``,
+    ``options.network_file`` and ``options.network_field``.
 
     Raises:
         VolfrepError: a value that makes no sense, or an option that would have no effect.
@@ -77,6 +77,7 @@ def specification(options: argparse.Namespace) -> LatticeSpec:
     options.density = values.get("density")
     options.cell, options.radius_field = values.get("cell"), values.get("radius_field")
     options.network_file = values.get("network_file")
+    options.network_field = values.get("network_field")
     return spec
 
 

@@ -56,7 +56,7 @@ def report_of(
     domain: TriangleMesh | None,
 ) -> PrintReport:
     """The print report that the options ask for."""
-    from ..reports.passage import ball_of
+    from ..reports.passage import ball_of, walls_of
     from ..reports.printability import print_report
     from ..reports.processes import find_process
 
@@ -68,6 +68,7 @@ def report_of(
         density=result.report.spec["density"],
         domain=domain,
         ball_mm=ball_of(spec),
+        walls_mm=walls_of(spec),
     )
 
 

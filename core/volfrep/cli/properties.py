@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The command ``volfrep properties``: what the lattice of a cell does.
+"""The commands ``volfrep cells`` and ``volfrep properties``: which cells there are, what they do.
 
 numpy and the engine are imported inside the functions, as in `command`.
 """
@@ -11,15 +11,25 @@ import json
 from collections.abc import Callable
 from typing import Any
 
+from ..util.errors import VolfrepError
 from .files import check_files
 from .run_options import add_run_options
 from .telling import print_rows
 
 _TEXT = "Tell density, stiffness, strength and conductance of a cell's lattice."
+_CELLS_TEXT = (
+    "List the library of unit cells, or those of a catalogue's text; or take one out of it."
+)
 
 
 def add_command(add: Callable[[str, Callable[[argparse.Namespace], None], str], Any]) -> None:
-    """Add the command with `cli`'s own function for that."""
+    """Add the commands with `cli`'s own function for that."""
+    cells = add("cells", _cells, _CELLS_TEXT)
+    cells.add_argument(
+        "catalogue", metavar="CATALOGUE", nargs="?",
+        help="a text of cells in the format of Lumpe and Stankovic; without it, the library",
+    )  # fmt: skip
+    add_run_options(cells, "cells")
     parser = add("properties", _properties, _TEXT)
     parser.add_argument(
         "cell",
@@ -27,6 +37,60 @@ def add_command(add: Callable[[str, Callable[[argparse.Namespace], None], str], 
         help="a library cell, a surface of walls such as Gyroid, or a cell's .json file",
     )
     add_run_options(parser, "properties")
+
+
+def _cells(options: argparse.Namespace) -> None:
+    if options.catalogue is None:
+        if options.entry is not None or options.output is not None:
+            raise VolfrepError("--entry and --output are for a cell of a catalogue: name its file.")
+        _library_told()
+        return
+    from ..design.cell_files.catalogue_text import catalogue_entry, catalogue_names
+    from ..design.cells import make_cell
+    from ..design.drawn_cell import save_cell
+    from ..util.files import refuse_overwriting
+
+    check_files(options)
+    if options.output is not None:
+        refuse_overwriting({"output": options.output}, {"catalogue": options.catalogue})
+    if options.entry is None:
+        if options.output is not None:
+            raise VolfrepError("--output needs --entry: which cell of the catalogue?")
+        print("\n".join(catalogue_names(options.catalogue)))
+        return
+    name, edges, nodes, struts = catalogue_entry(options.catalogue, options.entry)
+    cell = make_cell(name, nodes, struts, f"cell '{name}' of the catalogue", edges=edges)
+    rows = {"cell": name, "nodes": len(nodes), "struts": len(struts)}
+    if options.output is not None:
+        save_cell(cell, options.output)
+        rows["written"] = options.output
+    print_rows(*((key, str(value)) for key, value in rows.items()))
+
+
+def _library_told() -> None:
+    from ..design.cells import LIBRARY, USES
+    from ..design.walls import FORMULA, SURFACES
+    from ..mechanics.endless import strains_held
+
+    print(f"{'name':<25}{'nodes':>6}{'struts':>8}{'Maxwell':>9}  {'carries by':<13}also known as")
+    use = None
+    for cell in LIBRARY.values():
+        if cell.use != use:
+            use = cell.use
+            print(f"\n{USES[use]}")
+        carries = "stretching" if strains_held(cell) == 6 else "bending"
+        row = (
+            f"{cell.name:<25}{len(cell.nodes):>6}{len(cell.struts):>8}"
+            f"{cell.maxwell_number:>9}  {carries:<13}{', '.join(cell.also)}"
+        )
+        print(row.rstrip())
+        for one in cell.parameters:
+            told = f"{one.name} = {one.usual:g} ({one.least:g} to {one.most:g})"
+            print(f"    --cell-values {told}: {one.about}")
+    print("\nWalls, along a surface")
+    for surface in SURFACES.values():
+        print(f"{surface.name:<25}{surface.about}")
+    print(f"{FORMULA:<25}a formula of your own, of x, y and z")
 
 
 def _properties(options: argparse.Namespace) -> None:
@@ -42,6 +106,7 @@ def _properties(options: argparse.Namespace) -> None:
         fillet=options.fillet,
         material=options.material,
         along=options.voxels,
+        cell_values=options.cell_values or "",
         wall_kind=options.wall_kind,
         wall_thickness=options.wall_thickness,
         wall_offset=options.wall_offset,

@@ -94,6 +94,10 @@ RUN_OPTIONS = (
         "of records, table and page; what is done there is not done again",
         "FOLDER", required=True, short="o",
     ),
+    RunOption("entry", ("cells",), "the cell of the catalogue", "NAME"),
+    RunOption(
+        "output", ("cells",), "a cell file of it", "FILE.json", writes="output", short="o",
+    ),
     RunOption(
         "unit", ("fill", "slice", "size", "check"),
         "of the file's lengths: mm, cm, m, inch, ft or um (default: what the file says, else mm)",
@@ -274,6 +278,9 @@ RUN_OPTIONS = (
         "fillet", ("properties",), "round at the joints (default 0)", "MM", read=float, default=0.0,
     ),
     RunOption(
+        "cell-values", ("properties",), "numbers that the cell leaves to be chosen", "TEXT",
+    ),
+    RunOption(
         "voxels", ("properties",), "along L (default: what the radius asks for)", "N", read=int,
     ),
     RunOption(
@@ -316,6 +323,7 @@ _OTHER_INPUTS = {
     "part": "part",
     "cell": "cell file",
     "radius_field": "field file",
+    "network_field": "network's field file",
     "network_file": "network file",
 }
 #: What the command calls its input files, by where the options keep their names.

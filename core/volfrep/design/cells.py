@@ -20,12 +20,16 @@ from ..util.content import content_of, held
 from ..util.errors import VolfrepError
 from ..util.numbers import number_rows
 from ..util.types import Floats
+from .cell_files.parameters import CellParameter, chosen_values, read_parameters
+from .expression import CONSTANTS, FUNCTIONS, evaluated
 from .walls.library import SURFACES
 
 #: A custom cell's file may not be larger than this, nor have more nodes or struts.
 MAX_FILE_BYTES = 1_000_000
 MAX_NODES = 500
 MAX_STRUTS = 2000
+#: And of the points whose bodies it is a tessellation of.
+MOST_POINTS = 64
 #: Nodes nearer than this, in units of L, are taken for the same node.
 NODE_TOLERANCE = 1e-6
 
@@ -46,6 +50,8 @@ class UnitCell:
         use: what it is for, a key of `USES`; empty where nobody said.
         about: what it is, in a few words.
         also: names that others know it by.
+        parameters: that its file leaves to be chosen.
+        values: the chosen ones that differ from the usual, as ``t = 0.3, angle = 60``.
 
     >>> cell = find_cell("BCC")
     >>> len(cell.nodes), len(cell.struts), cell.maxwell_number
@@ -61,6 +67,8 @@ class UnitCell:
     use: str = field(default="", compare=False, repr=False)
     about: str = field(default="", compare=False, repr=False)
     also: tuple[str, ...] = field(default=(), compare=False, repr=False)
+    parameters: tuple[CellParameter, ...] = field(default=(), compare=False, repr=False)
+    values: str = field(default="", compare=False, repr=False)
     _content: bytes = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -110,22 +118,30 @@ USES = {
     "auxetic": "auxetic: wider when pulled",
 }
 _FOLDER = Path(__file__).with_name("cell_library")
+#: The library's files by the names of their cells.
+_FILES: dict[str, str] = {}
 
 
 def _library() -> dict[str, UnitCell]:
-    cells = [replace(load_cell(file), source="") for file in _FOLDER.glob("*.json")]
+    cells = [load_cell(file) for file in _FOLDER.glob("*.json")]
+    _FILES.update((cell.name, cell.source) for cell in cells)
+    cells = [replace(cell, source="") for cell in cells]
     uses = list(USES)
     cells.sort(key=lambda cell: (uses.index(cell.use), len(cell.struts), cell.name))
     return {cell.name: cell for cell in cells}
 
 
-def find_cell(name: str) -> UnitCell:
+def find_cell(name: str, values: str = "") -> UnitCell:
     """The library's cell of that name (case does not matter), or the cell of a JSON file.
 
     A library's cell is found by the names that others know it by, too.
 
+    Args:
+        name: of the cell, or its file.
+        values: of its parameters, such as ``t = 0.3, angle = 60``; empty for the usual ones.
+
     Raises:
-        VolfrepError: no such cell, or the file is not a valid cell.
+        VolfrepError: no such cell, the file is not a valid cell, or it has no such values.
 
     >>> find_cell("octet").name
     'Octet'
@@ -133,23 +149,30 @@ def find_cell(name: str) -> UnitCell:
     wanted = name.strip().lower()
     for cell in LIBRARY.values():
         if wanted in (cell.name.lower(), *(other.lower() for other in cell.also)):
-            return cell
+            if not values.strip():
+                return cell
+            return replace(load_cell(_FILES[cell.name], values), source="")
     if name.lower().endswith(".json"):
-        return load_cell(name)
+        return load_cell(name, values)
     raise VolfrepError(
         f"There is no unit cell named '{name}': choose one of {', '.join(LIBRARY)}, for walls one "
         f"of {', '.join(SURFACES)}, or give the path of a cell's .json file."
     )
 
 
-def load_cell(path: str | os.PathLike[str]) -> UnitCell:
+def load_cell(path: str | os.PathLike[str], values: str = "") -> UnitCell:
     """Read a custom cell: ``{"name": …, "nodes": [[x, y, z], …], "struts": [[i, j], …]}``.
 
     Nodes are in units of L within [0, 1], struts are pairs of node indices from 0. ``edges`` are
     three lengths of its box in units of L where it is no cube, and nodes are in units of these;
-    ``widths`` are one number for each strut where the lattice's radius is multiplied by it. The
-    file may tell a ``use``, a key of `USES`, a few words ``about`` the cell, and in ``also`` a list
-    of other names.
+    ``widths`` are one number for each strut where the lattice's radius is multiplied by it. In
+    place of nodes and struts there may be a ``tessellation`` (`cell_files.tessellation`). Numbers
+    may be formulas of the cell's ``parameters`` (`cell_files.parameters`). The file may tell a
+    ``use``, a key of `USES`, a few words ``about`` the cell, and in ``also`` a list of other names.
+
+    Args:
+        path: of the file.
+        values: of its parameters, such as ``t = 0.3, angle = 60``; empty for the usual ones.
 
     Raises:
         VolfrepError: naming the file and what is wrong in it.
@@ -172,25 +195,54 @@ def load_cell(path: str | os.PathLike[str]) -> UnitCell:
         if isinstance(error, VolfrepError):
             raise
         raise VolfrepError(f"The cell file '{file}' is not valid JSON: {error}.") from error
-    if not isinstance(data, dict) or not {"nodes", "struts"} <= data.keys():
-        raise VolfrepError(f"The cell file '{file}' must be an object with 'nodes' and 'struts'.")
+    if not isinstance(data, dict) or not (
+        {"nodes", "struts"} <= data.keys() or "tessellation" in data
+    ):
+        raise VolfrepError(
+            f"The cell file '{file}' must be an object with 'nodes' and 'struts', or with a "
+            "'tessellation'."
+        )
     name = data.get("name", file.stem)
     if not isinstance(name, str) or not name.strip():
         raise VolfrepError(f"In the cell file '{file}', 'name' must be a text.")
-    use, about, also = data.get("use", ""), data.get("about", ""), data.get("also", [])
+    use, about_text, also = data.get("use", ""), data.get("about", ""), data.get("also", [])
     if use not in ("", *USES):
         raise VolfrepError(
             f"In the cell file '{file}', 'use' must be one of {', '.join(USES)}, or left out."
         )
-    if not isinstance(about, str):
+    if not isinstance(about_text, str):
         raise VolfrepError(f"In the cell file '{file}', 'about' must be a text.")
     if not isinstance(also, list) or not all(isinstance(other, str) for other in also):
         raise VolfrepError(f"In the cell file '{file}', 'also' must be a list of names.")
-    cell = make_cell(
-        name.strip(), data["nodes"], data["struts"], f"cell file '{file}'",
-        edges=data.get("edges", (1.0, 1.0, 1.0)), widths=data.get("widths", ()),
+    where = f"cell file '{file}'"
+    parameters = read_parameters(data.get("parameters", {}), where, {*FUNCTIONS, *CONSTANTS})
+    chosen = chosen_values(parameters, values, name.strip())
+    edges = evaluated(data.get("edges", [1.0, 1.0, 1.0]), chosen, where)
+    widths = evaluated(data.get("widths", []), chosen, where)
+    if "tessellation" in data:
+        # of no use to most cells, and slow to import
+        from .cell_files.tessellation import ruled
+
+        if "nodes" in data or "struts" in data or "widths" in data:
+            raise VolfrepError(
+                f"The {where} has a 'tessellation': leave nodes, struts and widths out."
+            )
+        x, y, z = _numbers(edges, 3, "edges", where)
+        rules = data["tessellation"]
+        if isinstance(rules, dict) and isinstance(points := rules.get("about"), list):
+            points = evaluated(points, chosen, where)
+            rules = rules | {"about": number_rows(points, 3, "point", where, MOST_POINTS)}
+        nodes, struts = ruled(rules, (x, y, z), where)
+    else:
+        nodes = evaluated(data["nodes"], chosen, where)
+        struts = data["struts"]
+    cell = make_cell(name.strip(), nodes, struts, where, edges=edges, widths=widths or ())
+    usual = {one.name: one.usual for one in parameters}
+    told = ", ".join(f"{key} = {value!r}" for key, value in chosen.items() if value != usual[key])
+    return replace(
+        cell, source=str(file), use=use, about=about_text, also=tuple(also),
+        parameters=parameters, values=told,
     )  # fmt: skip
-    return replace(cell, source=str(file), use=use, about=about, also=tuple(also))
 
 
 def make_cell(

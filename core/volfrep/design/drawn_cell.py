@@ -99,6 +99,10 @@ def save_cell(cell: UnitCell, path: str | os.PathLike[str]) -> None:
         "struts": cell.struts.tolist(),
     }
     lines = [f'  "name": {json.dumps(cell.name)}']
+    if cell.edges != (1.0, 1.0, 1.0):
+        lines.append(f'  "edges": {json.dumps(list(cell.edges))}')
+    if len(cell.widths):
+        lines.append(f'  "widths": {json.dumps(cell.widths.tolist())}')
     for key, values in rows.items():
         lines.append(f'  "{key}": [\n    ' + ",\n    ".join(map(json.dumps, values)) + "\n  ]")
     with replacing(path) as file:

@@ -217,6 +217,32 @@ def compile_expression(text: str, variables: tuple[str, ...] = (VARIABLE,)) -> E
     return Expression(text, variables, _tree=tree)
 
 
+def evaluated(data: Any, values: Mapping[str, float], where: str) -> Any:
+    """Lists of numbers and formulas with the numbers that the formulas come to.
+
+    Args:
+        data: of a file: numbers, texts, and lists of them.
+        values: of what the formulas are formulas of; none: texts stay.
+        where: what holds them, in errors.
+
+    Raises:
+        VolfrepError: a formula cannot be read, or has no value.
+    """
+    if not values:
+        return data
+    if isinstance(data, list):
+        return [evaluated(item, values, where) for item in data]
+    if not isinstance(data, str):
+        return data
+    try:
+        result = float(compile_expression(data, tuple(values))(*values.values()))
+    except VolfrepError as error:
+        raise VolfrepError(f"In the {where}: {error}") from error
+    if not np.isfinite(result):
+        raise VolfrepError(f"In the {where}, the formula '{data}' has no value.")
+    return result
+
+
 def check_finite(expression: Expression) -> None:
     """Make sure that a formula has a finite value everywhere on [0, 1], as far as samples tell.
 

@@ -174,7 +174,7 @@ class LatticeSpec:
             "orientation": self.orientation is not None,
             "fillet": self.fillet > 0.0,
             "removal of dangling struts": self.remove_dangling or self.shortest_stub > 0.0,
-            "target": self.target is not None,
+            "target of stiffness": self.target is not None and self.target.aim == "stiffness",
             "wall": self.surface is not None,
         }
         for what, is_given in given.items():
@@ -185,6 +185,12 @@ class LatticeSpec:
                         f"'{self.unit_cell().name}' is not: leave it out, or choose another cell."
                     )
                 raise VolfrepError(f"A {what} is for cells and not for a network: leave it out.")
+        own = isinstance(self.network, GivenNetwork) and len(self.network.radii)
+        if own and self.target is not None:
+            raise VolfrepError(
+                f"The network's own radii say how thick its struts are: leave the target of "
+                f"{self.target.called} out, or the radii."
+            )
 
     def _refuse_beside_walls(self) -> None:
         """Refuse what is about struts, of which walls have none."""

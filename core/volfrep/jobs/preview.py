@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Wireframe preview: struts clipped to the domain, and its density, before anything is meshed.
+"""Preview: struts clipped to the domain, or walls, and the density, before anything is meshed.
 
 The skin's inner wall is not looked for: a point lies in the lattice's domain where its depth
 below the part's surface is more than the skin. Depths come from `SurfaceIndex.near`, struts are
@@ -8,121 +8,41 @@ cut between points along them, and so ends lie within a few hundredths of a cell
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from ..design.cells import LIBRARY
 from ..design.memory_guard import refuse_cells
-from ..design.openings import OpenFace, open_triangles
 from ..design.spec import LatticeSpec
 from ..design.target import Target
 from ..grid.activation import make_grid, mapped_grid
 from ..grid.cell_grid import CellGrid
 from ..grid.coordinate_map import CoordinateMap
-from ..grid.placement import graded_wireframe, placement_in
+from ..grid.placement import Placement, graded_wireframe, placement_in
 from ..grid.strut_graph import Wireframe, cell_graph
-from ..lattice.padded_grid import least_width, padded_grid
-from ..mesh.quality import inspect
+from ..lattice.padded_grid import LEAST_WIDTH_STRETCHED, least_width, padded_grid
 from ..mesh.triangle_mesh import TriangleMesh
-from ..spatial.even_points import even_points
-from ..spatial.proximity import index_surface
-from ..spatial.rays import inside_points
 from ..trim.clip_struts import Pieces
 from ..trim.held_struts import largest
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
+from .networks.frame import network_struts, network_volume
+from .networks.radius import with_radius
+from .part_depth import PartDepth, Preview
 from .rough_radius import lattice_volume, radius_of_volume
 from .stiffness_target import ratio_of_stiffness
+from .walls.preview import shown_walls
 
-#: The surface is sampled this often along the diagonal of the part's box.
-SAMPLES_ALONG = 150.0
+__all__ = ["PartDepth", "Preview", "preview"]
+
 #: Pieces that a strut near the wall is looked at in.
 PIECES = 8
 #: A corner of a cell this far outside, in units of L, lies on the wall.
 ON_WALL = 1e-6
-#: Points by which the volume within a skin is measured (a power of 2).
-VOLUME_POINTS = 14
 #: More struts than this are no preview.
 MOST_STRUTS = 2_000_000
-
-
-@dataclass(frozen=True, eq=False)
-class Preview:
-    """What of the struts lies inside, and what the lattice will come to.
-
-    Attributes:
-        start: (k, 3) float64, where the pieces begin, mm.
-        end: (k, 3) where they end.
-        radii: (k, 2) at both.
-        cells: active unit cells, nearly.
-        struts: with a piece inside.
-        grid: the cells' grid, in lattice space.
-        relative_density: of the lattice in what it fills.
-        volume: of the part, mm3.
-        mass: in g.
-        grid_lines: (l, 3) starts and ends of the edges of the active cells, mm.
-        spec: what is shown, with the radius that was found where there is a target.
-    """
-
-    start: Floats
-    end: Floats
-    radii: Floats
-    cells: int
-    struts: int
-    grid: CellGrid
-    relative_density: float
-    volume: float
-    mass: float
-    grid_lines: tuple[Floats, Floats]
-    spec: LatticeSpec
-
-
-class PartDepth:
-    """How deep points lie in a part; made once, asked at every change of the lattice.
-
-    Args:
-        solid: checked closed mesh, mm.
-        open_faces: faces that have no skin, as `LatticeSpec` has them.
-
-    Attributes:
-        bodies: how many the part has.
-    """
-
-    def __init__(self, solid: TriangleMesh, open_faces: tuple[OpenFace, ...] = ()) -> None:
-        self._solid = solid
-        diagonal = float(np.linalg.norm(np.ptp(solid.bounds, axis=0)))
-        self._surface = index_surface(solid, diagonal / SAMPLES_ALONG)
-        self._skinned = None
-        if open_faces:
-            self._skinned = self._surface.without(open_triangles(solid, open_faces))
-        low, high = solid.bounds
-        points = low + even_points(3, VOLUME_POINTS) * (high - low)
-        points = points[inside_points(solid, points, Monitor())]
-        self.bodies = max(1, inspect(solid).quality.bodies)
-        self._points = points
-        self._sampled = (self._skinned or self._surface).near(points)[1]
-
-    def below_skin(self, points: Floats, shell: float) -> Floats:
-        """(n,) how far below a skin (n, 3) points lie, mm; negative in the skin and outside."""
-        depth = self._surface.near(points)[1]
-        # On which side a point lies does not matter where it is nearer than the skin is thick.
-        far = np.flatnonzero(depth > (shell if self._skinned is None else 0.0))
-        outside = far[~inside_points(self._solid, points[far], Monitor())]
-        depth[outside] *= -1.0
-        if self._skinned is None:
-            return depth - shell
-        return np.minimum(self._skinned.near(points)[1] - shell, depth)
-
-    def volume_below(self, shell: float) -> float:
-        """Volume of what lies below a skin, mm3, within a few percent; never nothing."""
-        count = max(0.5, float((self._sampled > shell).sum()))
-        return abs(self._solid.volume) * count / len(self._sampled)
-
-    def points_below(self, shell: float) -> Floats:
-        """(n, 3) points spread evenly over what lies below a skin."""
-        return np.asarray(self._points[self._sampled > shell])
 
 
 def preview(solid: TriangleMesh, spec: LatticeSpec, depth: PartDepth) -> Preview:
@@ -137,32 +57,55 @@ def preview(solid: TriangleMesh, spec: LatticeSpec, depth: PartDepth) -> Preview
     Raises:
         VolfrepError: the specification does not fit the solid, or no radius meets its target.
     """
-    if spec.network is not None or spec.surface is not None:
-        what, it = ("Walls are", "them") if spec.network is None else ("A network is", "it")
-        raise VolfrepError(f"{what} shown once computed; there is no preview of {it}.")
-    cell = spec.unit_cell()
-    struts = spec.struts
     is_cut = spec.ending.meets_wall(spec.skin)
     placement = placement_in(solid, spec.grid, is_cut, Monitor())
+    if spec.network is not None:
+        if spec.target is not None:
+            spec = _aimed_network(solid, spec, depth, placement)
+        frame = network_struts(spec, placement, lambda: depth.domain(spec.skin), Monitor())
+        none = CellGrid(np.zeros(3), spec.cell_size, (0, 0, 0))
+        no_lines = (np.zeros((0, 3)), np.zeros((0, 3)))
+        return _shown(solid, spec, depth, frame, 0, none, no_lines)
     if placement.mapping is None:
         grid = make_grid(solid.bounds, spec.cell_size, spec.origin)
     else:
         grid = mapped_grid(solid, placement.mapping, spec.cell_size, spec.origin, Monitor())
     refuse_cells(grid.cells, grid.cell_size)
-    least = least_width(cell, grid.cell_size, struts)
+    least = LEAST_WIDTH_STRETCHED
+    if spec.surface is None:
+        least = least_width(spec.unit_cell(), grid.cell_size, spec.struts)
     usable = padded_grid(grid, placement.mapping, least).inner_usable
     active, cells = _active(grid, spec, placement.mapping, depth, usable)
+    lines = _edges(active, spec, grid, placement.mapping)
+    if spec.surface is not None:
+        return shown_walls(solid, spec, depth, placement, grid, usable, cells, lines)
+    cell = spec.unit_cell()
     if int(active.sum()) * len(cell.struts) > MOST_STRUTS:
         raise VolfrepError(
             f"{int(active.sum()):,} cells are too many to be shown as lines: enlarge the cells."
         )
     graph = cell_graph(cell, active, spec.cell_size, grid.origin, grid.periodic)
-    frame = graded_wireframe(graph, struts, placement)
+    frame = graded_wireframe(graph, spec.struts, placement)
+    return _shown(solid, spec, depth, frame, cells, grid, lines)
+
+
+def _shown(
+    solid: TriangleMesh,
+    spec: LatticeSpec,
+    depth: PartDepth,
+    frame: Wireframe,
+    cells: int,
+    grid: CellGrid,
+    lines: tuple[Floats, Floats],
+) -> Preview:
+    """The preview of struts."""
     owner, low, high = _inside(frame, spec, depth)
     if not len(owner):
         raise VolfrepError(
             f"No strut of cells of {spec.cell_size:g} mm lies inside the skin: reduce the cell "
             "size or the shell thickness."
+            if spec.network is None
+            else "No strut of the network lies inside the skin: reduce the shell thickness."
         )
     if spec.skin is None and not spec.keep_pieces:
         stays = largest(Pieces(owner, low, high), frame, depth.bodies)
@@ -178,16 +121,37 @@ def preview(solid: TriangleMesh, spec: LatticeSpec, depth: PartDepth) -> Preview
     bare = float(np.pi * (length * piece_radii.prod(axis=1)).sum()) / spec.template_radius**2
     domain = depth.volume_below(spec.shell)
     skin = abs(solid.volume) - domain if spec.output == "part" else 0.0
-    if spec.target is not None:
-        radius = _aimed_radius(spec, spec.target, bare, domain, skin)
-        piece_radii *= radius / spec.strut_radius
-        spec = replace(spec, strut_radius=radius)
-    # Struts that reach from a narrow domain into the skin are counted as a whole.
-    lattice = min(lattice_volume(spec, bare, spec.template_radius), domain)
+    if spec.network is not None:
+        lattice = network_volume(frame, spec, depth.points_below(spec.shell), domain)
+    else:
+        if spec.target is not None:
+            radius = _aimed_radius(spec, spec.target, bare, domain, skin)
+            piece_radii *= radius / spec.strut_radius
+            spec = replace(spec, strut_radius=radius)
+        # Struts that reach from a narrow domain into the skin are counted as a whole.
+        lattice = min(lattice_volume(spec, bare, spec.template_radius), domain)
     return Preview(
         start, end, piece_radii, cells, len(np.unique(owner)), grid,
         lattice / domain, lattice + skin, (lattice + skin) * spec.density / 1000.0,
-        _edges(active, spec, grid, placement.mapping), spec,
+        lines, spec,
+    )  # fmt: skip
+
+
+def _aimed_network(
+    solid: TriangleMesh, spec: LatticeSpec, depth: PartDepth, placement: Placement
+) -> LatticeSpec:
+    """The specification of a network with about the radius of its target."""
+    target, domain = spec.target, depth.volume_below(spec.shell)
+    assert target is not None
+    points = depth.points_below(spec.shell)
+    skin = abs(solid.volume) - domain if spec.with_skin else 0.0
+    wanted = target.value * domain
+    if target.aim == "mass":
+        wanted = target.value * 1000.0 / spec.density - skin
+    weights = np.full(len(points), domain / max(len(points), 1))
+    return with_radius(
+        spec, placement, lambda: depth.domain(spec.skin), lambda _: (points, weights), wanted,
+        skin, Monitor(),
     )  # fmt: skip
 
 

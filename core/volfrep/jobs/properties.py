@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from ..design.cells import UnitCell
+from ..design.cells import UnitCell, find_cell
 from ..design.spec_parts import Grid
 from ..design.walls import KINDS, PeriodicSurface, Wall, find_surface
 from ..mechanics.materials import SolidMaterial, find_material
@@ -21,6 +21,7 @@ def lattice_properties(
     fillet: float = 0.0,
     material: str | SolidMaterial | None = None,
     along: int | None = None,
+    cell_values: str = "",
     wall_kind: str | None = None,
     wall_thickness: float | None = None,
     wall_offset: float | None = None,
@@ -37,6 +38,7 @@ def lattice_properties(
         fillet: radius of the round between struts, mm.
         material: the solid, by name, file or itself; None: figures in units of the solid's.
         along: voxels along L of the finest of three grids; None for what the radius asks for.
+        cell_values: of a named cell's parameters, such as ``t = 0.3``; empty for the usual ones.
         wall_kind: of walls: ``sheet`` (as without it), ``skeleton`` or ``complement``.
         wall_thickness: of a sheet, mm.
         wall_offset: of a skeleton or complement, mm.
@@ -60,10 +62,16 @@ def lattice_properties(
         if given not in (["strut radius"], ["relative density"]) or wall_kind or wall_formula:
             raise VolfrepError("Of struts give either a strut radius or a relative density.")
         assert not isinstance(cell, PeriodicSurface)
+        if cell_values:
+            if not isinstance(cell, str):
+                raise VolfrepError("Values are for a cell that is given by its name or file.")
+            cell = find_cell(cell, cell_values)
         return cell_properties(
             cell, cell_size, strut_radius, relative_density=relative_density, fillet=fillet,
             material=material, along=along,
         )  # fmt: skip
+    if cell_values:
+        raise VolfrepError("Surfaces have no values of their own: they are for cells of struts.")
     kind = wall_kind or KINDS[0]
     wall = Wall(
         kind,

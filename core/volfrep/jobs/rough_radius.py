@@ -69,7 +69,9 @@ def radius_range(spec: LatticeSpec) -> tuple[float, float]:
 
 
 def roughly_aimed(solid: TriangleMesh, spec: LatticeSpec) -> LatticeSpec:
-    """A specification with about the radius of its target, for a forecast; walls are as they are.
+    """A specification with about the radius of its target, for a forecast.
+
+    Walls and networks are as they are.
 
     Args:
         solid: closed mesh, mm.
@@ -79,7 +81,9 @@ def roughly_aimed(solid: TriangleMesh, spec: LatticeSpec) -> LatticeSpec:
         VolfrepError: no radius meets the target.
     """
     target, size = spec.target, spec.cell_size
-    if target is None or spec.output == "domain" or spec.surface is not None:
+    if target is None or spec.output == "domain":
+        return spec
+    if spec.surface is not None or spec.network is not None:
         return spec
     cell = spec.unit_cell()
     if target.aim == "stiffness":

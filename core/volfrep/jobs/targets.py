@@ -38,6 +38,7 @@ from ..util.progress import Monitor, ProgressCallback
 from .blocks import block_volume, block_wireframe, measured_block
 from .infill import Infill
 from .networks.infill import NetworkInfill
+from .networks.targets import aimed_network
 from .rough_radius import radius_range
 from .stiffness_target import ratio_of_stiffness
 from .walls.infill import WallInfill
@@ -106,6 +107,8 @@ def aimed(
         return made_of(_stiff(spec, target), progress=progress)
     if spec.surface is not None:
         return aimed_walls(infill, target, made_of, meshed=meshed)
+    if spec.network is not None:
+        return aimed_network(infill, target, made_of, meshed=meshed)
     monitor, domain = infill.monitor, infill.domain.mesh.volume
     frame = infill.struts
     with monitor.stage("target", 0.4, 0.4):
@@ -169,6 +172,11 @@ def aimed_block(
     target = spec.target
     if target is None:
         return spec
+    if spec.network is not None:
+        raise VolfrepError(
+            f"A block of '{spec.unit_cell().name}', whose cells are no cubes or whose struts "
+            f"differ, takes no target of {target.called}: give the strut radius."
+        )
     if target.aim == "stiffness":
         return _stiff(spec, target)
     if spec.surface is not None:

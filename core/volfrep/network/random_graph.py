@@ -18,7 +18,7 @@ from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.rays import inside_points
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
-from ..util.types import Floats, Ints
+from ..util.types import Bools, Floats, Ints
 
 #: How far the points reach beyond the part's box, in units of their distance.
 _BEYOND = 2.0
@@ -27,6 +27,8 @@ _LONGEST = 3.0
 #: Places on a strut that are looked at to see whether it is in the part.
 _LOOKS = 7
 _FEWEST = 8
+#: Halvings of a strut to find where it crosses the wall.
+_BISECTIONS = 24
 #: No more points than this are drawn in all, of which a thin part may hold few.
 _MOST_DRAWN = 400_000
 
@@ -59,9 +61,12 @@ def random_graph(
     for _ in range(wanted.relax):
         points = _relaxed(points)
         monitor.tick(0.2)
+    on_wall = np.zeros((0, 2), np.int64)
     if wanted.kind == "voronoi":
         found = Voronoi(points)
         nodes, struts = found.vertices, _ridge_edges(found)[0]
+        if wanted.on_wall:
+            nodes, struts, on_wall = _ended_on_wall(found, struts, domain, monitor)
     else:
         nodes = points
         corners = Delaunay(points).simplices
@@ -72,8 +77,13 @@ def random_graph(
         length = np.linalg.norm(nodes[struts[:, 1]] - nodes[struts[:, 0]], axis=1)
         struts = struts[length < _LONGEST * spacing]
     monitor.tick(0.5)
-    nodes, struts = _of_domain(nodes, struts, domain, monitor)
-    nodes, struts = drawn_together(nodes, struts, wanted.shortest or shortest)
+    kept = _in_domain(nodes, struts, domain, monitor)
+    at_wall = np.zeros(len(nodes), bool)
+    at_wall[on_wall] = True
+    struts = np.concatenate([struts[kept], on_wall])
+    at_wall = at_wall[np.unique(struts)]
+    nodes, struts = _used(nodes, struts)
+    nodes, struts = drawn_together(nodes, struts, wanted.shortest or shortest, at_wall)
     struts = without_narrow(nodes, struts, wanted.least_angle)
     struts = _without_free_ends(nodes, struts, domain, monitor)
     if not len(struts):
@@ -108,8 +118,12 @@ def _points(
         )
     drawn = random.uniform(low, high, (int(needed), 3))
     if not even:
-        below = depth(drawn)
-        s = np.clip(below / max(float(below.max()), 1e-12), 0.0, 1.0)
+        if wanted.field is not None:
+            least, most = wanted.field.range
+            s = (wanted.field(drawn) - least) / max(most - least, 1e-300)
+        else:
+            below = depth(drawn)
+            s = np.clip(below / max(float(below.max()), 1e-12), 0.0, 1.0)
         wish = np.maximum(wanted.formula(s), 0.0)
         drawn = drawn[random.random(len(drawn)) * wish.max() < wish]
     inside = inside_points(domain, drawn, monitor)
@@ -154,22 +168,64 @@ def _relaxed(points: Floats) -> Floats:
     return np.where((bad | (number == 0))[:, None], points, moved)
 
 
-def _of_domain(
-    nodes: Floats, struts: Ints, domain: TriangleMesh, monitor: Monitor
-) -> tuple[Floats, Ints]:
-    """The struts of which some of a few places lie in the domain."""
+def _ended_on_wall(
+    found: Voronoi, struts: Ints, domain: TriangleMesh, monitor: Monitor
+) -> tuple[Floats, Ints, Ints]:
+    """Voronoi edges that end on a wall, and struts along it where it cuts the cells' faces.
+
+    Returns:
+        nodes, the edges with their inner ends and places on the wall for those that cross it, and
+        struts between such places on one face.
+    """
+    nodes = np.array(found.vertices)
+    inside = inside_points(domain, nodes, monitor)
+    crossing = np.flatnonzero(inside[struts[:, 0]] != inside[struts[:, 1]])
+    inner = np.where(inside[struts[crossing, 0]], struts[crossing, 0], struts[crossing, 1])
+    outer = struts[crossing].sum(axis=1) - inner
+    low, high = nodes[inner], nodes[outer]
+    for _ in range(_BISECTIONS):
+        middle = 0.5 * (low + high)
+        within = inside_points(domain, middle, monitor)[:, None]
+        low, high = np.where(within, middle, low), np.where(within, high, middle)
+    place = np.arange(len(crossing)) + len(nodes)
+    ended = struts.copy()
+    ended[crossing] = np.stack([inner, place], axis=1)
+    # What crosses the domain between two outer ends cuts a corner off it: nothing holds that.
+    ended = ended[(np.append(inside, np.ones(len(place), bool))[ended]).all(axis=1)]
+    # A face's border is walked round; from where it leaves the domain to where it comes back the
+    # wall cuts a corner off the face.
+    key = struts[crossing].min(axis=1) * len(nodes) + struts[crossing].max(axis=1)
+    known = dict(zip(key.tolist(), place.tolist(), strict=True))
+    along = []
+    for ridge in found.ridge_vertices:
+        if -1 in ridge or inside[ridge].all() or not inside[ridge].any():
+            continue
+        steps = list(zip(ridge, [*ridge[1:], ridge[0]], strict=True))
+        at = [k for k, (a, b) in enumerate(steps) if inside[a] and not inside[b]]
+        for first in at:
+            last = first + 1
+            while inside[steps[last % len(steps)][0]] or not inside[steps[last % len(steps)][1]]:
+                last += 1
+            ends = [steps[first], steps[last % len(steps)]]
+            along.append([known[min(a, b) * len(nodes) + max(a, b)] for a, b in ends])
+    pairs = np.array(along, np.int64).reshape(-1, 2)
+    return np.concatenate([nodes, 0.5 * (low + high)]), ended, pairs
+
+
+def _in_domain(nodes: Floats, struts: Ints, domain: TriangleMesh, monitor: Monitor) -> Bools:
+    """(m,) the struts of which some of a few places lie in the domain."""
     low, high = domain.bounds
     ends = nodes[struts]
     near = ((ends.max(axis=1) > low) & (ends.min(axis=1) < high)).all(axis=1)
     # What reaches far out of the box would be long, and is cut anyway.
     margin = 0.5 * float((high - low).max())
     near &= ((ends > low - margin) & (ends < high + margin)).all(axis=(1, 2))
-    struts = struts[near]
     share = np.linspace(0.0, 1.0, _LOOKS)[:, None, None]
-    start, end = nodes[struts].swapaxes(0, 1)
+    start, end = nodes[struts[near]].swapaxes(0, 1)
     places = start + share * (end - start)
     inside = inside_points(domain, places.reshape(-1, 3), monitor).reshape(_LOOKS, -1)
-    return _used(nodes, struts[inside.any(axis=0)])
+    near[near] = inside.any(axis=0)
+    return np.asarray(near, np.bool_)
 
 
 def _used(nodes: Floats, struts: Ints) -> tuple[Floats, Ints]:
@@ -177,12 +233,21 @@ def _used(nodes: Floats, struts: Ints) -> tuple[Floats, Ints]:
     return nodes[used], rows.reshape(-1, 2)
 
 
-def drawn_together(nodes: Floats, struts: Ints, shortest: float) -> tuple[Floats, Ints]:
+def drawn_together(
+    nodes: Floats, struts: Ints, shortest: float, held: Bools | None = None
+) -> tuple[Floats, Ints]:
     """The network with the ends of short struts made one node, again and again, in their middle.
 
     The shortest go first, none beside another in the same round, so that long chains of short
     struts do not fall into one place.
+
+    Args:
+        nodes: (n, 3) mm.
+        struts: (m, 2).
+        shortest: length below which they are short, mm.
+        held: (n,) nodes that others are drawn to; None for none.
     """
+    held = np.zeros(len(nodes), bool) if held is None else held
     while len(struts):
         length = np.linalg.norm(nodes[struts[:, 1]] - nodes[struts[:, 0]], axis=1)
         short = np.flatnonzero(length < shortest)
@@ -198,9 +263,13 @@ def drawn_together(nodes: Floats, struts: Ints, shortest: float) -> tuple[Floats
             (np.ones(len(chosen), bool), struts[chosen].T), shape=(len(nodes), len(nodes))
         )
         count, label = connected_components(graph, directed=False)
+        any_held = np.zeros(count, bool)
+        any_held[label[held]] = True
+        counts = held | ~any_held[label]
         middle = np.zeros((count, 3))
-        np.add.at(middle, label, nodes)
-        nodes = middle / np.bincount(label)[:, None]
+        np.add.at(middle, label[counts], nodes[counts])
+        nodes = middle / np.bincount(label[counts], minlength=count)[:, None]
+        held = any_held
         struts = np.sort(label[struts].astype(np.int64), axis=1)
         struts = np.unique(struts[struts[:, 0] != struts[:, 1]], axis=0)
     return _used(nodes, struts)

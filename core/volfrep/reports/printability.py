@@ -47,8 +47,10 @@ class PrintReport:
         strut_length_mm: their length in the part.
         thinnest_strut_mm: smallest diameter in the part; None where there is no strut.
         thinnest_at: where, mm.
-        narrowest_gap_mm: smallest gap between two struts without a common node; None where it is
-            more than `LOOK_FOR` times the limit. Gaps to the skin do not count.
+        thinnest_wall_mm: least thickness of walls, which every cell has; None of struts, or where
+            it is not known.
+        narrowest_gap_mm: smallest gap between two struts without a common node, None where it is
+            more than `LOOK_FOR` times the limit; or between walls. Gaps to the skin do not count.
         narrowest_at: where, mm.
         largest_ball_mm: diameter of the largest ball that gets through the endless lattice, by the
             windows between struts that meet as well; None where the lattice is graded.
@@ -70,6 +72,7 @@ class PrintReport:
     strut_length_mm: float
     thinnest_strut_mm: float | None
     thinnest_at: tuple[float, float, float] | None
+    thinnest_wall_mm: float | None
     narrowest_gap_mm: float | None
     narrowest_at: tuple[float, float, float] | None
     largest_ball_mm: float | None
@@ -103,6 +106,11 @@ class PrintReport:
             ("process", f"{process.name}, {process.title}"),
             ("limits from", process.source),
             ("thinnest strut", _against(thin, process.strut, "none")),
+            *(
+                [("thinnest wall", _against(self.thinnest_wall_mm, process.wall, "none"))]
+                if self.thinnest_wall_mm is not None
+                else []
+            ),
             ("narrowest gap", _against(gap, process.gap, f"over {LOOK_FOR * process.gap:g} mm")),
         ]
         if self.largest_ball_mm is not None:
@@ -173,6 +181,7 @@ def print_report(
     density: float = 1.0,
     domain: TriangleMesh | None = None,
     ball_mm: float | None = None,
+    walls_mm: tuple[float | None, float | None] = (None, None),
 ) -> PrintReport:
     """Hold a part against a process.
 
@@ -185,6 +194,7 @@ def print_report(
         domain: closed mesh of what the lattice fills; struts outside do not count. None: all do.
         ball_mm: diameter of the largest ball that gets through the lattice (`passage`); None where
             it is not known.
+        walls_mm: least thickness of walls and least gap between them (`passage.walls_of`).
 
     Raises:
         VolfrepError: the build direction is no direction.
@@ -210,6 +220,9 @@ def print_report(
         thinnest, thinnest_at = 2.0 * float(radius[strut, piece]), _point(points[strut, piece])
     narrowest = narrowest_gap(lattice, present, LOOK_FOR * process.gap)
 
+    gap_mm = walls_mm[1] if narrowest is None else narrowest[0]
+    gap_at = None if narrowest is None else _point(narrowest[1])
+
     angle = inclinations(lattice, up)
     total = max(float(length.sum()), 1e-300)
     edges = np.arange(0, 90 + CLASS, CLASS)
@@ -224,8 +237,9 @@ def print_report(
         strut_length_mm=float(length.sum()),
         thinnest_strut_mm=thinnest,
         thinnest_at=thinnest_at,
-        narrowest_gap_mm=None if narrowest is None else narrowest[0],
-        narrowest_at=None if narrowest is None else _point(narrowest[1]),
+        thinnest_wall_mm=walls_mm[0],
+        narrowest_gap_mm=gap_mm,
+        narrowest_at=gap_at,
         largest_ball_mm=ball_mm,
         inclinations=tuple(float(share) for share in classes),
         overhanging_share=float(overhanging.sum()) / total,
@@ -341,7 +355,18 @@ def _findings(report: PrintReport) -> list[str]:
             f"Struts are down to {thin:.3g} mm thick near {_place(report.thinnest_at)}, and "
             f"{process.name} wants {process.strut:g} mm: enlarge the radius."
         )
-    if gap is not None and gap < process.gap - 1e-9:
+    if (wall := report.thinnest_wall_mm) is not None and wall < process.wall - 1e-9:
+        found.append(
+            f"Walls are down to {wall:.3g} mm thick in every cell, and {process.name} wants "
+            f"{process.wall:g} mm: make them thicker, or enlarge the cells of a skeleton."
+        )
+    if gap is not None and gap < process.gap - 1e-9 and report.narrowest_at is None:
+        found.append(
+            f"Walls are only {gap:.3g} mm apart in every cell, and {process.name} wants "
+            f"{process.gap:g} mm: they may fuse or hold powder; make them thinner, or enlarge the "
+            "cells."
+        )
+    elif gap is not None and gap < process.gap - 1e-9:
         found.append(
             f"Struts are only {gap:.3g} mm apart near {_place(report.narrowest_at)}, and "
             f"{process.name} wants {process.gap:g} mm: they may fuse or hold powder; enlarge the "

@@ -5,6 +5,10 @@
   <context>
     <name>App::Property</name>
     <message>
+      <source>A field that the density of the points follows in place of the depth: s is 0 at its smallest value and 1 at its largest (files as of a radius field, of one column)</source>
+      <translation>Ein Feld, dem die Dichte der Punkte statt der Tiefe folgt: s ist 0 bei seinem kleinsten Wert und 1 bei seinem größten (Dateien wie für ein Radiusfeld, mit einer Spalte)</translation>
+    </message>
+    <message>
       <source>A point of the axis, or the centre</source>
       <translation>Ein Punkt der Achse, oder der Mittelpunkt</translation>
     </message>
@@ -91,6 +95,10 @@
     <message>
       <source>Cell Type</source>
       <translation>Zelltyp</translation>
+    </message>
+    <message>
+      <source>Cell Values</source>
+      <translation>Zellenwerte</translation>
     </message>
     <message>
       <source>Cell map</source>
@@ -405,6 +413,10 @@
       <translation>Lagen auf einer Fläche liegen auf ihrer anderen Seite, gegen ihre Normalen</translation>
     </message>
     <message>
+      <source>Least thickness of walls, mm</source>
+      <translation>Kleinste Dicke von Wänden, mm</translation>
+    </message>
+    <message>
       <source>Length of the longest strut of these</source>
       <translation>Länge der längsten dieser Streben</translation>
     </message>
@@ -489,12 +501,20 @@
       <translation>Netzflächen</translation>
     </message>
     <message>
+      <source>Network Field</source>
+      <translation>Netzwerkfeld</translation>
+    </message>
+    <message>
       <source>Network File</source>
       <translation>Netz: Datei</translation>
     </message>
     <message>
       <source>Network Layers</source>
       <translation>Netzlagen</translation>
+    </message>
+    <message>
+      <source>Network On Wall</source>
+      <translation>Netzwerk auf der Wand</translation>
     </message>
     <message>
       <source>Network Points</source>
@@ -535,6 +555,10 @@
     <message>
       <source>None</source>
       <translation>Keine</translation>
+    </message>
+    <message>
+      <source>Numbers that the cell leaves to be chosen, such as 'arm = 0.15' of Re-entrant; 'volfrep cells' tells which</source>
+      <translation>Zahlen, die die Zelle zur Wahl lässt, etwa 'arm = 0.15' bei Re-entrant; 'volfrep cells' sagt, welche</translation>
     </message>
     <message>
       <source>Of the facets that hang over: this object's mesh</source>
@@ -845,6 +869,10 @@
       <translation>Streben des Gitters vor dem Beschneiden</translation>
     </message>
     <message>
+      <source>Struts run along the wall, too, where it cuts the faces of the points' cells</source>
+      <translation>Stäbe verlaufen auch auf der Wand, wo sie die Flächen der Zellen der Punkte schneidet</translation>
+    </message>
+    <message>
       <source>Struts shorter than this are drawn together into one node; 0 for four radii</source>
       <translation>Kürzere Stäbe werden zu einem Knoten zusammengezogen; 0 für vier Radien</translation>
     </message>
@@ -947,6 +975,10 @@
     <message>
       <source>Thinnest Strut</source>
       <translation>Dünnste Strebe</translation>
+    </message>
+    <message>
+      <source>Thinnest Wall</source>
+      <translation>Dünnste Wand</translation>
     </message>
     <message>
       <source>Through-holes of the mesh</source>

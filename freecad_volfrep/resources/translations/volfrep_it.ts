@@ -5,6 +5,10 @@
   <context>
     <name>App::Property</name>
     <message>
+      <source>A field that the density of the points follows in place of the depth: s is 0 at its smallest value and 1 at its largest (files as of a radius field, of one column)</source>
+      <translation>Un campo che la densità dei punti segue al posto della profondità: s è 0 al suo valore minimo e 1 al massimo (file come per un campo del raggio, con una colonna)</translation>
+    </message>
+    <message>
       <source>A point of the axis, or the centre</source>
       <translation>Un punto dell'asse, o il centro</translation>
     </message>
@@ -91,6 +95,10 @@
     <message>
       <source>Cell Type</source>
       <translation>Tipo di cella</translation>
+    </message>
+    <message>
+      <source>Cell Values</source>
+      <translation>Valori della cella</translation>
     </message>
     <message>
       <source>Cell map</source>
@@ -405,6 +413,10 @@
       <translation>Gli strati su una superficie stanno dall'altra parte, contro le sue normali</translation>
     </message>
     <message>
+      <source>Least thickness of walls, mm</source>
+      <translation>Spessore minimo delle pareti, mm</translation>
+    </message>
+    <message>
       <source>Length of the longest strut of these</source>
       <translation>Lunghezza della più lunga di queste aste</translation>
     </message>
@@ -489,12 +501,20 @@
       <translation>Facce della rete</translation>
     </message>
     <message>
+      <source>Network Field</source>
+      <translation>Campo della rete</translation>
+    </message>
+    <message>
       <source>Network File</source>
       <translation>Rete: file</translation>
     </message>
     <message>
       <source>Network Layers</source>
       <translation>Strati della rete</translation>
+    </message>
+    <message>
+      <source>Network On Wall</source>
+      <translation>Rete sulla parete</translation>
     </message>
     <message>
       <source>Network Points</source>
@@ -535,6 +555,10 @@
     <message>
       <source>None</source>
       <translation>Nessuno</translation>
+    </message>
+    <message>
+      <source>Numbers that the cell leaves to be chosen, such as 'arm = 0.15' of Re-entrant; 'volfrep cells' tells which</source>
+      <translation>Numeri che la cella lascia scegliere, come 'arm = 0.15' di Re-entrant; 'volfrep cells' dice quali</translation>
     </message>
     <message>
       <source>Of the facets that hang over: this object's mesh</source>
@@ -845,6 +869,10 @@
       <translation>Aste del reticolo prima del taglio</translation>
     </message>
     <message>
+      <source>Struts run along the wall, too, where it cuts the faces of the points' cells</source>
+      <translation>Le aste corrono anche sulla parete, dove questa taglia le facce delle celle dei punti</translation>
+    </message>
+    <message>
       <source>Struts shorter than this are drawn together into one node; 0 for four radii</source>
       <translation>Le aste più corte sono riunite in un nodo; 0 per quattro raggi</translation>
     </message>
@@ -947,6 +975,10 @@
     <message>
       <source>Thinnest Strut</source>
       <translation>Asta più sottile</translation>
+    </message>
+    <message>
+      <source>Thinnest Wall</source>
+      <translation>Parete più sottile</translation>
     </message>
     <message>
       <source>Through-holes of the mesh</source>

@@ -196,7 +196,9 @@ def inputs_and_outputs() -> Iterator[tuple[str, str, str]]:
         is_size = command == "size"
         reads = set(run_options.INPUTS) - ({"material"} if is_size else {"loads"})
         writes = set(run_options.OUTPUTS) - ({"json"} if is_size else {"json", "radii", "plot"})
-        for source in sorted(reads - ({"part", "network_file"} if command == "block" else set())):
+        for source in sorted(
+            reads - ({"part", "network_file", "network_field"} if command == "block" else set())
+        ):
             yield from ((command, source, output) for output in sorted(writes))
 
 
@@ -218,6 +220,7 @@ def test_no_output_is_an_input(
         "cell": tmp_path / "own.json",
         "radius_field": tmp_path / "field.csv",
         "network_file": tmp_path / "graph.csv",
+        "network_field": tmp_path / "dense.csv",
         "material": tmp_path / "metal.toml",
         "loads": tmp_path / "loads.toml",
     }
@@ -227,6 +230,7 @@ def test_no_output_is_an_input(
     save_cell(UnitCell("own", box.nodes, box.struts), files["cell"])
     files["radius_field"].write_text("x,y,z,v\n0,0,0,1\n9,0,0,2\n")
     files["network_file"].write_text("0,0,0,9,9,9")
+    files["network_field"].write_text("x,y,z,v\n0,0,0,1\n9,0,0,2\n")
     before = {file: file.read_bytes() for file in files.values()}
     target = files[source]
     if way != "its name":
@@ -247,6 +251,9 @@ def test_no_output_is_an_input(
     arguments += ["--radius-field", files["radius_field"], "--radius-curve", "1:1,2:0.8"]
     if source == "network_file":
         arguments += ["--network", "file", "--network-file", files["network_file"]]
+    if source == "network_field":
+        arguments += ["--network", "voronoi", "--network-density", "1 + s"]
+        arguments += ["--network-field", files["network_field"]]
     said = refused(capsys, *arguments)
     assert f"is the {run_options.INPUTS[source]} itself" in said
     assert {file: file.read_bytes() for file in files.values()} == before

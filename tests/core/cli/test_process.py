@@ -106,7 +106,7 @@ def test_warnings_of_libraries_are_not_for_the_user(tmp_path: Path) -> None:
     code = (
         "import sys, numpy as np, volfrep.__main__ as command, volfrep.design.cells as cells\n"
         "find = cells.find_cell\n"
-        "def warned(name):\n    np.float64(1.0) / np.zeros(1)\n    return find(name)\n"
+        "def warned(*name):\n    np.float64(1.0) / np.zeros(1)\n    return find(*name)\n"
         "cells.find_cell = warned\n"
         "import volfrep.design.spec as spec\nspec.find_cell = warned\n"
         "command.main()"

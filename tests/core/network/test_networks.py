@@ -178,6 +178,45 @@ def test_points_may_be_denser_at_the_wall():
     assert at_the_wall("1 - 0.95 * s") > at_the_wall("") + 0.04
 
 
+def test_points_may_follow_a_field(tmp_path):
+    solid = samples.box((30.0, 30.0, 30.0))
+    path = tmp_path / "field.csv"
+    path.write_text("x,y,z,v\n0,15,15,0\n30,15,15,8\n")
+    values = {
+        "network": "voronoi", "network_points": 150, "network_density": "0.05 + s",
+        "network_field": str(path), "strut_radius": 0.3, "shell": 0.0,
+    }  # fmt: skip
+    spec = specification(values)
+    assert specification(values_of(spec)) == spec
+    nodes = infill_of(solid, spec).struts.nodes
+    inside = nodes[((nodes > 0) & (nodes < 30)).all(axis=1)]
+    # Of a density that grows along x from almost nothing two thirds or more lie in one half.
+    assert (inside[:, 0] > 15.0).mean() > 0.62
+    with pytest.raises(VolfrepError, match="network_field has no effect"):
+        specification({"network": "voronoi", "network_field": str(path)})
+
+
+def test_struts_along_the_wall_lie_on_it_and_hold_what_ends_there():
+    solid = samples.box((30.0, 24.0, 20.0))
+    wanted = {"strut_radius": 0.4, "shell": 0.0}
+    infill = infill_of(solid, LatticeSpec(network=RandomNetwork(points=60, on_wall=True), **wanted))
+    nodes, struts = infill.struts.nodes, infill.struts.struts
+    size = np.array([30.0, 24.0, 20.0])
+    from_wall = np.minimum(nodes, size - nodes).min(axis=1)
+    assert from_wall.min() > -0.01  # nothing is left outside
+    on_wall = np.abs(from_wall) < 0.01
+    along = on_wall[struts].all(axis=1)
+    assert along.sum() > 60
+    held = np.bincount(struts[along].ravel(), minlength=len(nodes))[on_wall]
+    assert (held >= 2).mean() > 0.9  # a Voronoi edge ends where three faces meet
+    report = infill.lattice.report
+    plain = infill_of(solid, LatticeSpec(network=RandomNetwork(points=60), **wanted)).lattice.report
+    assert report.bodies == 1
+    assert report.volume_mm3 > plain.volume_mm3
+    with pytest.raises(VolfrepError, match="choose voronoi"):
+        RandomNetwork("delaunay", on_wall=True)
+
+
 def test_a_given_network_is_trimmed_skinned_and_graded():
     frame = volfrep.block((4, 3, 2), cell="Kelvin", cell_size=10, strut_radius=0.6).struts
     network = make_network(frame.nodes, frame.struts)

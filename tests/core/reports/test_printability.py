@@ -23,7 +23,7 @@ from volfrep.reports.processes import PROCESSES, Process, find_process
 
 UP = np.array([0.0, 0.0, 1.0])
 FFF, SLS, LPBF = (PROCESSES[name] for name in ("FFF", "SLS", "LPBF"))
-EASY = Process("easy", "anything goes", 0.0, 0.0, 0.0, None, None, "nobody")
+EASY = Process("easy", "anything goes", 0.0, 0.0, 0.0, 0.0, None, None, "nobody")
 NOTHING = Wireframe(np.zeros((0, 3)), np.zeros((0, 2), np.int32), np.zeros((0, 2)), np.zeros(0))
 
 

@@ -13,6 +13,7 @@ from ...util.content import content_of, held
 from ...util.errors import VolfrepError
 from ...util.numbers import number, number_rows
 from ..expression import SAMPLES, Expression, compile_expression
+from ..scattered_field import PointField
 
 #: Random networks: edges of the points' Voronoi cells, or between points that are neighbours.
 KINDS = ("voronoi", "delaunay")
@@ -84,10 +85,12 @@ class RandomNetwork:
         seed: the same gives the same points.
         relax: how often each point moves to the middle of its cell (S. P. Lloyd, IEEE Trans.
             Inf. Theory 28, 1982).
-        density: of the points, a formula of s, which is 0 at the wall and 1 at the deepest place;
-            empty for an even one.
+        density: of the points, a formula of s, which is 0 at the wall and 1 at the deepest place,
+            or at the field's smallest and largest value; empty for an even one.
         shortest: struts shorter than this are drawn together into one node, mm; 0 for four radii.
         least_angle: of two struts at a node the longer one goes where they meet at less, degrees.
+        field: that the density of the points follows in place of the depth; None for the depth.
+        on_wall: struts run along the wall, too, where it cuts the faces of Voronoi cells.
     """
 
     kind: str = "voronoi"
@@ -97,6 +100,8 @@ class RandomNetwork:
     density: str = ""
     shortest: float = 0.0
     least_angle: float = 25.0
+    field: PointField | None = None
+    on_wall: bool = False
 
     def __post_init__(self) -> None:
         if self.kind not in KINDS:
@@ -112,6 +117,12 @@ class RandomNetwork:
             object.__setattr__(self, name, int(value))
         number("shortest strut", self.shortest, "mm", positive=False)
         number("least angle", self.least_angle, "degrees", positive=False)
+        if self.field is not None and not self.density.strip():
+            raise VolfrepError(
+                "The points of a network follow a field by a density such as '1 + 3 * s': give it."
+            )
+        if self.on_wall and self.kind != "voronoi":
+            raise VolfrepError("Edges on the wall are those of Voronoi cells: choose voronoi.")
         if self.least_angle > 60.0:
             raise VolfrepError(
                 f"A least angle of {self.least_angle:g} degrees would leave hardly a strut: keep "
@@ -132,7 +143,9 @@ class RandomNetwork:
 
     def as_plain(self) -> dict[str, Any]:
         """It as plain JSON values."""
-        return {name: getattr(self, name) for name in self.__dataclass_fields__}
+        values = {name: getattr(self, name) for name in self.__dataclass_fields__}
+        values["field"] = None if self.field is None else self.field.source or "points"
+        return values
 
 
 def make_network(

@@ -68,6 +68,17 @@ NETWORK = (
         default="", needs=_RANDOM, of_block=False,
     ),
     Parameter(
+        "network_field", "file", "Network",
+        "A field that the density of the points follows in place of the depth: s is 0 at its "
+        "smallest value and 1 at its largest (files as of a radius field, of one column)",
+        needs=(*_RANDOM, Need(("network_density",))), of_block=False,
+    ),
+    Parameter(
+        "network_on_wall", "flag", "Network",
+        "Struts run along the wall, too, where it cuts the faces of the points' cells",
+        default=False, needs=(Need(("network",), ("voronoi",)),), of_block=False,
+    ),
+    Parameter(
         "network_shortest", "length", "Network",
         "Struts shorter than this are drawn together into one node; 0 for four radii",
         default=0.0, needs=_RANDOM, of_block=False,

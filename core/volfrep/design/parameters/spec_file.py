@@ -124,7 +124,8 @@ def nearest_key(name: str) -> str:
 
 def is_path(name: str, value: Any) -> bool:
     """Whether a value of a parameter names a file."""
-    return name == "radius_field" or (name == "cell" and str(value).lower().endswith(".json"))
+    files = ("radius_field", "network_file", "network_field")
+    return name in files or (name == "cell" and str(value).lower().endswith(".json"))
 
 
 def _seen_from(folder: Path, path: str) -> str:

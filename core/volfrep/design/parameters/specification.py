@@ -19,6 +19,7 @@ from ..target import AIMS, Target, read_stiffness, stiffness_text
 from ..walls import FORMULA, SURFACES, PeriodicSurface, Wall, find_surface, surface_name
 from .parameter import Need, effective
 from .table import BY_NAME, PARAMETERS, TWO_ENDED
+from .values import field_file, is_file
 
 #: How a user calls a parameter: in an option, a file, or a document.
 Naming = Callable[[str], str]
@@ -55,7 +56,14 @@ def specification(values: Mapping[str, Any], say: Naming = in_file) -> LatticeSp
         radius = first_radius(used["cell_size"], used["fillet"])
     cell = used["cell"]
     if isinstance(cell, str):
-        cell = find_surface(cell, used["wall_formula"] or "") or cell
+        cell = find_surface(cell, used["wall_formula"] or "") or find_cell(
+            cell, used["cell_values"]
+        )
+    elif used["cell_values"].strip():
+        raise VolfrepError(
+            f"{say('cell_values')} are for cells by name or file, not for one that is given whole: "
+            "leave them out."
+        )
     return LatticeSpec(
         cell=cell,
         cell_size=used["cell_size"],
@@ -117,10 +125,11 @@ def values_of(spec: LatticeSpec) -> dict[str, Any]:
         VolfrepError: it holds what no value can say: a cell or a field without a file, or a face
             picked in FreeCAD.
     """
-    cell = spec.cell
+    cell, values = spec.cell, {}
     if isinstance(cell, UnitCell):
-        own = LIBRARY.get(cell.name) != cell
-        if own and not (cell.source and _is_file(cell.source)):
+        values = {"cell_values": cell.values}
+        own = cell.name not in LIBRARY or find_cell(cell.name, cell.values) != cell
+        if own and not (cell.source and is_file(cell.source)):
             raise VolfrepError(
                 f"The cell '{cell.name}' has no file that could be named: save it as .json first."
             )
@@ -141,7 +150,7 @@ def values_of(spec: LatticeSpec) -> dict[str, Any]:
         "remove_dangling": spec.remove_dangling, "shortest_stub": spec.shortest_stub,
         "keep_pieces": spec.keep_pieces,
         "resolution": spec.resolution, "deviation": spec.deviation, "make": spec.output,
-        "density": spec.density, "keep_radius": spec.keep_radius, **walls,
+        "density": spec.density, "keep_radius": spec.keep_radius, **walls, **values,
     }  # fmt: skip
     if spec.open_faces:
         planes = [face for face in spec.open_faces if isinstance(face, OpenPlane)]
@@ -171,7 +180,7 @@ def values_of(spec: LatticeSpec) -> dict[str, Any]:
         found["rotate"] = (*spec.orientation.axis, spec.orientation.angle)
         found["rotate_origin"] = spec.orientation.origin
     if isinstance(spec.network, GivenNetwork):
-        if not spec.network.source or not _is_file(spec.network.source):
+        if not spec.network.source or not is_file(spec.network.source):
             raise VolfrepError(
                 "The network has no file that could be named: save it as .json first."
             )
@@ -183,6 +192,8 @@ def values_of(spec: LatticeSpec) -> dict[str, Any]:
         found |= {
             name: getattr(spec.network, attribute) for name, attribute in _NETWORK_VALUES.items()
         }
+        if spec.network.field is not None:
+            found["network_field"] = field_file(spec.network.field, "the points' density follows")
     if spec.target is not None:
         aim = spec.target.aim
         found[aim] = stiffness_text(spec.target) if aim == "stiffness" else spec.target.value
@@ -306,12 +317,7 @@ def _radius_grading(used: Mapping[str, Any], say: Naming) -> RadiusGrading | Non
 def _radius_values(grading: RadiusGrading) -> dict[str, Any]:
     field = grading.field
     if isinstance(field, PointField):
-        if not field.source or not _is_file(field.source):
-            raise VolfrepError(
-                "The field that the radius follows has no file that could be named: save it as a "
-                "table of points and values first."
-            )
-        field = field.source
+        field = field_file(field, "the radius follows")
     curve = ", ".join(f"{value!r}:{radius!r}" for value, radius in grading.curve)
     return {
         "radius_grading": grading.by,
@@ -325,12 +331,6 @@ def _radius_values(grading: RadiusGrading) -> dict[str, Any]:
         "radius_direction": grading.direction,
         "radius_reach": grading.reach,
     }
-
-
-def _is_file(source: str) -> bool:
-    from pathlib import Path
-
-    return Path(source).is_file()
 
 
 def _cell_map(used: Mapping[str, Any]) -> CellMap | None:
@@ -353,6 +353,7 @@ _NETWORK_VALUES = {
     "network_density": "density",
     "network_shortest": "shortest",
     "network_angle": "least_angle",
+    "network_on_wall": "on_wall",
 }
 
 
@@ -366,7 +367,7 @@ def _network(used: Mapping[str, Any], say: Naming) -> GivenNetwork | RandomNetwo
         cell = used["cell"]
         return read_network(
             used["network_file"],
-            find_cell(cell) if isinstance(cell, str) else cell,
+            find_cell(cell, used["cell_values"]) if isinstance(cell, str) else cell,
             -thickness if used["network_reversed"] else thickness,
             layers or max(1, round(thickness / used["cell_size"])),
         )
@@ -378,7 +379,11 @@ def _network(used: Mapping[str, Any], say: Naming) -> GivenNetwork | RandomNetwo
             )
         laid: GivenNetwork = used["network_faces"]
         return laid
-    return RandomNetwork(**{key: used[name] for name, key in _NETWORK_VALUES.items()})
+    field = used["network_field"] or None
+    return RandomNetwork(
+        **{key: used[name] for name, key in _NETWORK_VALUES.items()},
+        field=read_point_field(field) if isinstance(field, str) else field,
+    )
 
 
 def _orientation(used: Mapping[str, Any]) -> Orientation | None:

@@ -53,6 +53,12 @@ PARAMETERS = (
         needs=(Need(("cell",), (CUSTOM_CELL,)),), in_command=False, in_panel=True,
     ),
     Parameter(
+        "cell_values", "text", "Lattice",
+        "Numbers that the cell leaves to be chosen, such as 'arm = 0.15' of Re-entrant; "
+        "'volfrep cells' tells which",
+        default="", needs=(OF_STRUTS,),
+    ),
+    Parameter(
         "cell_size", "length", "Lattice",
         "L: edge length of the cubic cell",
         default=10.0, in_panel=True,

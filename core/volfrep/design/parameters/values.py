@@ -6,10 +6,14 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable
-from typing import Any
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from ...util.errors import VolfrepError
 from .parameter import REPEATED, SHAPES, Parameter
+
+if TYPE_CHECKING:
+    from ..scattered_field import PointField
 
 #: So many of the table's unit is one of these.
 SCALES: dict[str, dict[str, float]] = {
@@ -166,3 +170,22 @@ def _called(parameter: Parameter) -> str:
 def _example(parameter: Parameter) -> str:
     example = f"[{LENGTHS[parameter.kind][1].replace(',', ', ')}]"
     return f"[{example}]" if parameter.kind in REPEATED else example
+
+
+def is_file(source: str) -> bool:
+    """Whether there is a file of that name."""
+    return Path(source).is_file()
+
+
+def field_file(field: PointField, what: str) -> str:
+    """The file that a field is from; `what` says in an error what follows it.
+
+    Raises:
+        VolfrepError: it is from none.
+    """
+    if not field.source or not is_file(field.source):
+        raise VolfrepError(
+            f"The field that {what} has no file that could be named: save it as a table of points "
+            "and values first."
+        )
+    return field.source

@@ -120,6 +120,10 @@ def network_alone(spec: LatticeSpec, *, progress: ProgressCallback | None = None
     wanted, monitor = spec.network, Monitor(progress)
     if not isinstance(wanted, GivenNetwork):
         raise VolfrepError("A network in free space is one of a file: give its nodes and struts.")
+    if spec.target is not None:
+        raise VolfrepError(
+            f"A target of {spec.target.called} is for a network in a part: give the strut radius."
+        )
 
     def depth(_: Floats) -> Floats:
         raise VolfrepError(

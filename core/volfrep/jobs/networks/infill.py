@@ -7,28 +7,21 @@ from functools import cached_property
 
 import numpy as np
 
-from ...design.networks import CellNetwork, RandomNetwork
 from ...grid.cell_grid import CellGrid
 from ...grid.strut_graph import Wireframe
 from ...lattice.padded_grid import PaddedGrid
-from ...network.random_graph import random_graph
 from ...network.surface import NetworkSurface
 from ...reports.result import Result
-from ...spatial.proximity import closest_points
-from ...spatial.rays import inside_points
 from ...trim.boolean_trim import Trimmed
 from ...trim.group_cut import cut_mesh
 from ...trim.loose_pieces import Cleared
 from ...trim.stage import cleared_cut, drained_part
 from ...trim.trimmed_surface import TrimmedSurface
 from ...util.errors import VolfrepError
-from ...util.types import Floats
 from ..active_cells import ActiveCells
 from ..infill import Infill
-from .alone import cells_about, meshed, network_frame, overlaps_told, uncut
-
-#: Struts of a random network are drawn together where they are shorter than so many radii.
-SHORTEST = 4.0
+from .alone import meshed, overlaps_told, uncut
+from .frame import network_struts
 
 
 class NetworkInfill(Infill):
@@ -46,26 +39,8 @@ class NetworkInfill(Infill):
     @cached_property
     def struts(self) -> Wireframe:
         """The network's nodes and struts, whole, where its mesh has them."""
-        wanted, placement = self.spec.network, self.placement
-        if isinstance(wanted, RandomNetwork):
-            domain = self.domain.mesh
-
-            def depth(points: Floats) -> Floats:
-                inside = inside_points(domain, points, self.monitor)
-                found = np.zeros(len(points))
-                found[inside] = closest_points(domain, points[inside])[1]
-                return found
-
-            shortest = SHORTEST * self.spec.struts.extremes[1]
-            with self.monitor.stage("network", 0.3, 0.4):
-                nodes, struts = random_graph(
-                    wanted, domain, self.spec.cell_size, shortest, depth, self.monitor
-                )
-            return network_frame(nodes, None, struts, self.spec, placement)
-        if isinstance(wanted, CellNetwork):
-            wanted = cells_about(self.domain.mesh.bounds, self.spec)
-        assert wanted is not None
-        return network_frame(wanted.nodes, wanted, wanted.struts, self.spec, placement)
+        with self.monitor.stage("network", 0.3, 0.4):
+            return network_struts(self.spec, self.placement, lambda: self.domain.mesh, self.monitor)
 
     @cached_property
     def surface(self) -> NetworkSurface:

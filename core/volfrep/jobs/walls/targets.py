@@ -7,19 +7,18 @@ A point is solid from one level on; the levels of many points, sorted, are the v
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 
 import numpy as np
 
 from ...design.spec import LatticeSpec
 from ...design.target import Target
 from ...grid.coordinate_map import identity_map
-from ...lattice.strut_volume import FINE, VolumeByRadius, points_inside
+from ...lattice.strut_volume import FINE, points_inside
 from ...spatial.even_points import even_points
 from ...util.errors import VolfrepError
-from ...util.types import Floats
 from ...walls.placing import part_levels
 from ..infill import Infill
+from .levels import level_table, with_volume
 from .making import solid_of
 
 #: A mesh that misses its target by more, relative, is made again; so many are made at most.
@@ -55,7 +54,7 @@ def aimed_walls(
             levels = solid.levels((inside - start) / spec.cell_size) * spec.cell_size
         else:
             levels = part_levels(inside, start, solid, spec.cell_size, mapping)
-        table = _table(levels, weights)
+        table = level_table(levels, weights)
     skin = abs(infill.solid.volume) - domain.volume if spec.with_skin else 0.0
     wanted = target.value * domain.volume
     scale = wanted
@@ -63,7 +62,7 @@ def aimed_walls(
         scale = target.value * 1000.0 / spec.density
         wanted = scale - skin
     for made in range(1, MESHES + 1):
-        infill = made_of(_with_volume(spec, target, table, wanted, domain.volume), monitor=monitor)
+        infill = made_of(with_volume(spec, target, table, wanted, domain.volume), monitor=monitor)
         if not meshed:
             return infill
         report = infill.result.report
@@ -95,31 +94,8 @@ def aimed_walls_block(spec: LatticeSpec, volume: float, target: Target) -> Latti
         )
     points = even_points(3, POINTS)
     levels = solid_of(spec).levels(points) * spec.cell_size
-    table = _table(levels, np.full(len(points), volume / len(points)))
+    table = level_table(levels, np.full(len(points), volume / len(points)))
     wanted = target.value * volume
     if target.aim == "mass":
         wanted = target.value * 1000.0 / spec.density
-    return _with_volume(spec, target, table, wanted, volume)
-
-
-def _table(levels: Floats, weights: Floats) -> VolumeByRadius:
-    order = np.argsort(levels)
-    steps = np.cumsum(weights[order])
-    return VolumeByRadius(levels[order], steps - 0.5 * weights[order])
-
-
-def _with_volume(
-    spec: LatticeSpec, target: Target, table: VolumeByRadius, wanted: float, domain: float
-) -> LatticeSpec:
-    """The specification with walls of a volume in mm3."""
-    low = 0.0 if spec.wall.is_sheet else 0.02 * domain
-    if not low < wanted < 0.98 * domain:
-        share = wanted / domain
-        raise VolfrepError(
-            f"No {spec.wall.called} meets the target of {target.called}: the walls would fill "
-            f"{100 * share:.3g} % of their room; choose one for which they fill 2 to 98 %."
-        )
-    level = table.radius_of(wanted)
-    if spec.wall.is_sheet:
-        return replace(spec, wall=replace(spec.wall, thickness=2.0 * level))
-    return replace(spec, wall=replace(spec.wall, offset=level))
+    return with_volume(spec, target, table, wanted, volume)

@@ -25,6 +25,7 @@ from ...mechanics.catalogue import known_properties
 from ...mechanics.materials import SolidMaterial
 from ...mechanics.summary import MODULI, RATIOS, cell_properties
 from ...reports.mesh_report import mesh_report
+from ...reports.passage import walls_of
 from ...reports.picture import picture
 from ...reports.printability import print_report
 from ...sizing.analysis import Analysis
@@ -208,6 +209,7 @@ def _print(bench: Bench) -> dict[str, Figure]:
         build_direction=bench.up,
         density=bench.spec.density,
         domain=infill.cavity,
+        walls_mm=walls_of(bench.spec),
     )
     return {
         "findings": len(report.findings),

@@ -4,9 +4,11 @@
 import numpy as np
 import pytest
 
+import samples
 from volfrep.design.cells import LIBRARY, find_cell
 from volfrep.design.networks import laid_along, laid_into, layers_on
 from volfrep.design.networks.laid_cells import CORNERS
+from volfrep.spatial.proximity import closest_points
 from volfrep.util.errors import VolfrepError
 
 #: The numbers of a cube's corners, the cube turned about x by a right angle.
@@ -87,6 +89,35 @@ def test_every_node_of_a_tubes_outer_layer_lies_on_it() -> None:
     assert radius.max() == pytest.approx(30.0, abs=1e-12)
     # Octet has a node in the middle of every face, which a chord would miss.
     assert (np.abs(radius - 30.0) < 1e-12).sum() == 5 * 5 + 4 * 4
+
+
+def test_the_nodes_of_a_layer_in_a_wing_lie_on_its_skin_and_as_deep_below() -> None:
+    chord, deep = 200.0, 5.0
+    wing = samples.naca2412(chord, 60.0, points=400)
+
+    def skin(x: np.ndarray) -> np.ndarray:
+        """(n, 2) places of the upper side, of the NACA 2412 of chord 1."""
+        half = 0.6 * (
+            0.2969 * np.sqrt(x) - 0.1260 * x - 0.3516 * x**2 + 0.2843 * x**3 - 0.1015 * x**4
+        )
+        front = x < 0.4
+        camber = np.where(front, 0.125 * (0.8 * x - x**2), (0.2 + 0.8 * x - x**2) / 18.0)
+        angle = np.arctan(np.where(front, 0.25 * (0.4 - x), (0.8 - 2.0 * x) / 18.0))
+        return np.stack([x - half * np.sin(angle), camber + half * np.cos(angle)], axis=1)
+
+    def place(q: np.ndarray) -> np.ndarray:
+        share = 0.15 + 0.5 * q[:, 0]
+        way = skin(share + 1e-6) - skin(share - 1e-6)
+        way /= np.linalg.norm(way, axis=1)[:, None]
+        inward = np.stack([way[:, 1], -way[:, 0]], axis=1)
+        flat = chord * skin(share) + deep * q[:, 2:] * inward
+        return np.concatenate([flat, 10.0 + 40.0 * q[:, 1:2]], axis=1)
+
+    laid = laid_along(find_cell("BCC"), place, (20, 8, 1))
+    away = closest_points(wing, laid.nodes)[1]
+    assert (away < 0.01).sum() == 21 * 9  # the corners on the skin: its facets are chords
+    np.testing.assert_allclose(away[away > 0.75 * deep], deep, atol=0.02)
+    assert (away > 0.75 * deep).sum() == 21 * 9
 
 
 def test_layers_stand_upon_quadrilaterals_along_their_normals() -> None:

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The nodes and struts that a network comes to in a part, before any of it is meshed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from ...design.networks import CellNetwork, RandomNetwork
+from ...design.spec import LatticeSpec
+from ...grid.placement import Placement
+from ...grid.strut_graph import Wireframe
+from ...lattice.strut_volume import volume_by_radius
+from ...mesh.triangle_mesh import TriangleMesh
+from ...network.random_graph import random_graph
+from ...spatial.proximity import closest_points
+from ...spatial.rays import inside_points
+from ...util.progress import Monitor
+from ...util.types import Floats
+from .alone import cells_about, network_frame
+
+#: Struts of a random network are drawn together where they are shorter than so many radii.
+SHORTEST = 4.0
+
+
+def network_struts(
+    spec: LatticeSpec,
+    placement: Placement,
+    domain_of: Callable[[], TriangleMesh],
+    monitor: Monitor,
+) -> Wireframe:
+    """A network's nodes and struts, whole, where its mesh has them.
+
+    Args:
+        spec: with a network.
+        placement: where it lies in the part.
+        domain_of: gives what is filled; asked where the network depends on it.
+        monitor: for progress and cancel.
+
+    Raises:
+        VolfrepError: nothing is left of it.
+    """
+    wanted = spec.network
+    if isinstance(wanted, RandomNetwork):
+        domain = domain_of()
+
+        def depth(points: Floats) -> Floats:
+            inside = inside_points(domain, points, monitor)
+            found = np.zeros(len(points))
+            found[inside] = closest_points(domain, points[inside])[1]
+            return found
+
+        shortest = SHORTEST * spec.struts.extremes[1]
+        nodes, struts = random_graph(wanted, domain, spec.cell_size, shortest, depth, monitor)
+        return network_frame(nodes, None, struts, spec, placement)
+    if isinstance(wanted, CellNetwork):
+        wanted = cells_about(domain_of().bounds, spec)
+    assert wanted is not None
+    return network_frame(wanted.nodes, wanted, wanted.struts, spec, placement)
+
+
+def median_length(frame: Wireframe) -> float:
+    """The median length of struts, which stands for L in their joints, mm."""
+    span = frame.nodes[frame.struts[:, 1]] - frame.nodes[frame.struts[:, 0]]
+    return float(np.median(np.linalg.norm(span, axis=1)))
+
+
+def network_volume(frame: Wireframe, spec: LatticeSpec, points: Floats, domain: float) -> float:
+    """About the volume of a network's struts and joints in a domain, mm3.
+
+    Args:
+        frame: whole struts.
+        spec: whose radius they have.
+        points: (n, 3) spread evenly over the domain.
+        domain: its volume, mm3.
+    """
+    radius, median = spec.template_radius, median_length(frame)
+    weights = np.full(len(points), domain / max(len(points), 1))
+    return volume_by_radius(frame, radius, median, points, weights, radius).at(radius)

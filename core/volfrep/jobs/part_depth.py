@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What a preview is, and how deep points lie in a part: what previews of all lattices share."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..design.openings import OpenFace, open_triangles
+from ..design.spec import LatticeSpec
+from ..design.spec_parts import Skin
+from ..grid.cell_grid import CellGrid
+from ..mesh.quality import inspect
+from ..mesh.triangle_mesh import TriangleMesh
+from ..shell.domain import find_domain
+from ..spatial.even_points import even_points
+from ..spatial.proximity import index_surface
+from ..spatial.rays import inside_points
+from ..util.progress import Monitor
+from ..util.types import Floats
+
+#: The surface is sampled this often along the diagonal of the part's box.
+SAMPLES_ALONG = 150.0
+#: Points by which the volume within a skin is measured (a power of 2).
+VOLUME_POINTS = 14
+
+
+@dataclass(frozen=True, eq=False)
+class Preview:
+    """What of the struts lies inside, and what the lattice will come to.
+
+    Attributes:
+        start: (k, 3) float64, where the pieces begin, mm.
+        end: (k, 3) where they end.
+        radii: (k, 2) at both.
+        cells: active unit cells, nearly.
+        struts: with a piece inside.
+        grid: the cells' grid, in lattice space.
+        relative_density: of the lattice in what it fills.
+        volume: of the part, mm3.
+        mass: in g.
+        grid_lines: (l, 3) starts and ends of the edges of the active cells, mm.
+        spec: what is shown, with the radius that was found where there is a target.
+        wall: of walls, their surface as coarse as it is quick, in place of struts.
+    """
+
+    start: Floats
+    end: Floats
+    radii: Floats
+    cells: int
+    struts: int
+    grid: CellGrid
+    relative_density: float
+    volume: float
+    mass: float
+    grid_lines: tuple[Floats, Floats]
+    spec: LatticeSpec
+    wall: TriangleMesh | None = None
+
+
+class PartDepth:
+    """How deep points lie in a part; made once, asked at every change of the lattice.
+
+    Args:
+        solid: checked closed mesh, mm.
+        open_faces: faces that have no skin, as `LatticeSpec` has them.
+
+    Attributes:
+        bodies: how many the part has.
+    """
+
+    def __init__(self, solid: TriangleMesh, open_faces: tuple[OpenFace, ...] = ()) -> None:
+        self._solid = solid
+        diagonal = float(np.linalg.norm(np.ptp(solid.bounds, axis=0)))
+        self._surface = index_surface(solid, diagonal / SAMPLES_ALONG)
+        self._skinned = None
+        if open_faces:
+            self._skinned = self._surface.without(open_triangles(solid, open_faces))
+        low, high = solid.bounds
+        points = low + even_points(3, VOLUME_POINTS) * (high - low)
+        points = points[inside_points(solid, points, Monitor())]
+        self.bodies = max(1, inspect(solid).quality.bodies)
+        self._points = points
+        self._sampled = (self._skinned or self._surface).near(points)[1]
+        self._domain: tuple[Skin | None, TriangleMesh] | None = None
+
+    def domain(self, skin: Skin | None) -> TriangleMesh:
+        """What lies below a skin, as the part's own stages find it; the last one is kept."""
+        if self._domain is None or self._domain[0] != skin:
+            self._domain = skin, find_domain(self._solid, skin, Monitor()).mesh
+        return self._domain[1]
+
+    def below_skin(self, points: Floats, shell: float) -> Floats:
+        """(n,) how far below a skin (n, 3) points lie, mm; negative in the skin and outside."""
+        depth = self._surface.near(points)[1]
+        # On which side a point lies does not matter where it is nearer than the skin is thick.
+        far = np.flatnonzero(depth > (shell if self._skinned is None else 0.0))
+        outside = far[~inside_points(self._solid, points[far], Monitor())]
+        depth[outside] *= -1.0
+        if self._skinned is None:
+            return depth - shell
+        return np.minimum(self._skinned.near(points)[1] - shell, depth)
+
+    def volume_below(self, shell: float) -> float:
+        """Volume of what lies below a skin, mm3, within a few percent; never nothing."""
+        count = max(0.5, float((self._sampled > shell).sum()))
+        return abs(self._solid.volume) * count / len(self._sampled)
+
+    def points_below(self, shell: float) -> Floats:
+        """(n, 3) points spread evenly over what lies below a skin."""
+        return np.asarray(self._points[self._sampled > shell])

@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Previews of walls and networks, and the radius of a network that has a target."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import samples
+from volfrep.design.cells import LIBRARY, make_cell
+from volfrep.design.grading import CellMap, RadiusGrading
+from volfrep.design.networks import RandomNetwork, make_network
+from volfrep.design.profile import Profile
+from volfrep.design.spec import LatticeSpec
+from volfrep.design.target import Target
+from volfrep.design.walls import Wall
+from volfrep.io.solid import check_solid
+from volfrep.jobs.pipeline import fill
+from volfrep.jobs.preview import PartDepth, preview
+from volfrep.jobs.targets import aimed, aimed_block, filled
+from volfrep.mesh.quality import inspect
+from volfrep.util.errors import VolfrepError
+
+BOX = check_solid(samples.box((24.0, 18.0, 16.0), (-12.0, -9.0, -8.0)), "box")
+DEPTH = PartDepth(BOX)
+BONE = RandomNetwork("voronoi", points=40)
+#: Struts along x, y and z through the box.
+GRID = np.stack(np.meshgrid([-16.0, -8, 0, 8, 16], [-8.0, 0, 8], [-8.0, 0, 8], indexing="ij"), -1)
+NODES = GRID.reshape(-1, 3)
+STRUTS = np.argwhere(np.triu(np.isclose(np.linalg.norm(NODES[:, None] - NODES, axis=2), 8.0)))
+OWN = make_network(NODES, STRUTS)
+
+
+@pytest.mark.parametrize(
+    "more",
+    [
+        {"cell": "Gyroid", "wall": Wall("sheet", 1.0)},
+        {"cell": "Schwarz P", "shell": 0.0, "wall": Wall("skeleton", offset=-0.5)},
+        {"cell": "Gyroid", "target": Target("relative_density", 0.3)},
+        {"cell": "Gyroid", "cell_map": CellMap("cylindrical")},
+        {
+            "cell": "Gyroid",
+            "radius_grading": RadiusGrading("skin", Profile("linear", 0.8, 1.6), reach=5.0),
+        },
+        {"network": BONE, "strut_radius": 0.5},
+        {"network": OWN, "strut_radius": 0.8},
+        {"network": BONE, "target": Target("mass", 3.0)},
+    ],
+)
+def test_a_preview_has_the_figures_of_what_is_made(more: dict[str, object]) -> None:
+    spec = LatticeSpec(**({"cell_size": 8.0, "shell": 1.0} | more))  # type: ignore[arg-type]
+    shown, made = preview(BOX, spec, DEPTH), fill(BOX, spec).report
+    assert shown.relative_density == pytest.approx(made.relative_density, rel=0.06)
+    assert shown.volume == pytest.approx(made.volume_mm3, rel=0.04)
+    assert shown.cells == made.cells_active
+    if spec.surface is None:
+        assert shown.struts == pytest.approx(made.struts, rel=0.1 if more["network"] is BONE else 1)
+        assert len(shown.start) >= shown.struts
+        return
+    assert shown.wall is not None
+    found = inspect(shown.wall).quality
+    assert found.watertight
+    lattice = made.relative_density * made.domain_volume_mm3
+    assert 0.7 * lattice < found.volume < 1.6 * lattice  # thin sheets are drawn thicker
+
+
+def test_walls_that_are_too_many_are_not_shown() -> None:
+    with pytest.raises(VolfrepError, match="too much to be shown"):
+        preview(BOX, LatticeSpec("Gyroid", 0.3, wall=Wall("sheet", 0.1)), DEPTH)
+
+
+@pytest.mark.parametrize("network", [BONE, OWN])
+@pytest.mark.parametrize("target", [Target("relative_density", 0.15), Target("mass", 3.5)])
+def test_a_network_in_a_part_meets_its_target(network: object, target: Target) -> None:
+    spec = LatticeSpec(cell_size=8.0, shell=1.0, network=network, target=target)  # type: ignore[arg-type]
+    result, found = filled(BOX, spec)
+    reached = result.report.relative_density
+    if target.aim == "mass":
+        reached = result.report.volume_mm3 / 1000.0
+    assert reached == pytest.approx(target.value, rel=3e-3)
+    assert result.report.bodies == 1
+    again = fill(BOX, LatticeSpec(
+        cell_size=8.0, shell=1.0, network=found.network, strut_radius=found.strut_radius
+    ))  # fmt: skip
+    assert again.report.volume_mm3 == pytest.approx(result.report.volume_mm3, rel=1e-9)
+
+
+def test_targets_that_a_network_cannot_meet_are_refused() -> None:
+    spec = LatticeSpec(cell_size=8.0, network=OWN, target=Target("relative_density", 0.95))
+    with pytest.raises(VolfrepError, match="No strut radius meets the target"):
+        aimed(BOX, spec)
+    with pytest.raises(VolfrepError, match="own radii say how thick"):
+        LatticeSpec(
+            network=make_network(NODES, STRUTS, np.ones(len(STRUTS))), target=Target("mass", 3.0)
+        )
+    with pytest.raises(VolfrepError, match="target of stiffness is for cells"):
+        LatticeSpec(network=BONE, target=Target("stiffness", 10.0, (1.0, 0.0, 0.0), 1000.0))
+    flat = make_cell("Flat", LIBRARY["BCC"].nodes, LIBRARY["BCC"].struts, edges=(1.0, 1.0, 0.8))
+    squat = LatticeSpec(flat, target=Target("mass", 3.0))
+    with pytest.raises(VolfrepError, match="takes no target of mass"):
+        aimed_block(squat, (2, 2, 2))

@@ -253,7 +253,9 @@ def test_a_field_sets_the_radius_through_its_curve():
 
 def test_cells_about_an_axis_leave_room_for_their_struts():
     """None is squeezed to less than what its struts need: the lattice is hollow about the axis."""
-    spec = LatticeSpec(cell_size=10.0, strut_radius=0.8, cell_map=CellMap("cylindrical"))
+    spec = LatticeSpec(
+        cell_size=10.0, strut_radius=0.8, resolution=8, cell_map=CellMap("cylindrical")
+    )
     result = fill(samples.plate(), spec)
     middle = samples.plate().bounds.mean(axis=0)
     out = np.linalg.norm((result.wireframe.nodes - middle)[:, :2], axis=1)

@@ -38,13 +38,18 @@ needs = [
 
 
 def test_every_cubic_cell_of_the_library_is_there():
-    assert set(PAPERS) <= set(catalogue()) <= {n for n, cell in LIBRARY.items() if is_listed(cell)}
+    assert set(PAPERS) <= set(catalogue()) <= set(LIBRARY)
     for cell in catalogue().values():
         assert (np.diff(cell.ratios) > 0).all()
         assert (np.diff(cell.values[:, 0]) > 0).all()
         assert (cell.errors > 0).all()
         # Stiffness is good to a few percent everywhere.
         assert (cell.errors[:, [1, 3]] < 0.06 * cell.values[:, [1, 3]]).all()
+
+
+@pytest.mark.slow
+def test_cells_that_are_there_are_cubic():
+    assert set(catalogue()) <= {n for n, cell in LIBRARY.items() if is_listed(cell)}
 
 
 @pytest.mark.parametrize(("name", "row"), [("Box", 5), ("CVC", 6), ("Octahedron", 5)])

@@ -116,11 +116,24 @@ def _meshed(laid: _Laid, spec: LatticeSpec, monitor: Monitor) -> Result:
             surface, measured = cleared.surface, cleared.quality
             removed["pieces_removed"] += cleared.pieces_removed
             removed["specks_removed"] = cleared.specks_removed
-        moved = _is_moved(spec, placement)
-        surface, measured, notes = finished(surface, measured, monitor, moved, cut=False)
+            proved = False
+        else:
+            proved = not spec.is_graded and _fits_a_file(layout, measured)
+        notes: tuple[str, ...] = ()
+        if proved:
+            refuse_no_solid(measured)
+        else:
+            moved = _is_moved(spec, placement)
+            surface, measured, notes = finished(surface, measured, monitor, moved, cut=False)
     frame = _frame(laid, spec)
     report = _report(laid, measured, frame, spec, monitor, removed)
     return Result(surface, frame, told(report, notes))
+
+
+def _fits_a_file(layout: Layout, measured: Quality) -> bool:
+    """Whether its octants prove that a file of single precision holds a block as it is."""
+    kinds, edge = layout.octants.values(), 0.5 * layout.grid.cell_size
+    return agree_on_faces(layout) and keeps_corners(kinds, edge, measured.bounds)
 
 
 def write_block_stl(
@@ -156,9 +169,7 @@ def write_block_stl(
         with monitor.stage("check", 0.4, 0.5):
             measured = certify(laid.layout)
             refuse_no_solid(measured)
-            streams = measured.shells == 1 and agree_on_faces(laid.layout)
-            kinds, edge = laid.layout.octants.values(), 0.5 * spec.cell_size
-            streams = streams and keeps_corners(kinds, edge, measured.bounds)
+            streams = measured.shells == 1 and _fits_a_file(laid.layout, measured)
         if streams:
             monitor.count("triangles laid", laid.layout.triangles)
             with monitor.stage("write", 0.5, 1.0):

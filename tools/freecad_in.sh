@@ -4,6 +4,7 @@
 # once, about 3 GB) with a copy of this checkout inside. Needs root:
 #     tools/freecad_in.sh trixie            # Debian 13: FreeCAD 1.0, Python 3.13
 #     tools/freecad_in.sh forky setup       # Debian testing: FreeCAD 1.1, Python 3.14
+#     tools/freecad_in.sh bookworm test     # Debian 12, with nothing in it but make: FreeCAD 0.20
 # Further arguments are the make targets to run there instead of test-in-freecad. The folders lie
 # in FREECAD_ROOTS (default: /var/tmp); what the run left in build/ comes back as build/<Debian>.
 set -euo pipefail
@@ -13,9 +14,11 @@ suite=${1:-}
 say() { printf 'freecad-in: %s\n' "$*"; }
 refuse() { printf 'freecad-in: %s\n' "$*" >&2; exit 1; }
 case "$suite" in
-  trixie) name=debian13 ;;
-  forky) name=forky ;;
-  *) refuse "say which Debian: 'trixie' (FreeCAD 1.0) or 'forky' (FreeCAD 1.1), not '$suite'." ;;
+  bookworm) name=debian12 without= ;;
+  trixie) name=debian13 without=1 ;;
+  forky) name=forky without=1 ;;
+  *) refuse "say which Debian: 'bookworm' (FreeCAD 0.20), 'trixie' (1.0) or 'forky' (1.1), not \
+'$suite'." ;;
 esac
 shift
 root=${FREECAD_ROOTS:-/var/tmp}/volfrep-$name
@@ -81,7 +84,9 @@ git ls-files -z --cached --others --exclude-standard | tar -c --null -T - --igno
 inside() {
   chroot "$root" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 \
     ${PIP_INDEX_URL:+PIP_INDEX_URL="$PIP_INDEX_URL"} \
-    SSL_CERT_FILE=/etc/ssl/certs/ca-certificates.crt SETUP_WITHOUT_TOOLS=1 "${real[@]}" "$@"
+    SSL_CERT_FILE=/etc/ssl/certs/ca-certificates.crt ${without:+SETUP_WITHOUT_TOOLS=1} \
+    ${PYTEST_XDIST_AUTO_NUM_WORKERS:+PYTEST_XDIST_AUTO_NUM_WORKERS="$PYTEST_XDIST_AUTO_NUM_WORKERS"} \
+    "${real[@]}" "$@"
 }
 status=0
 inside make --no-print-directory -C /repository setup "${targets[@]}" </dev/null || status=$?

@@ -3,8 +3,8 @@
 
     tools/side_by_side.py LANE... where a LANE is one or more "NAME=COMMAND", with "," between lanes
 
-A lane's commands run one after the other, the lanes side by side; the first lane's have the
-processor before the others', because a window that waits for its turn is not what is tested. What
+A lane's commands run one after the other, the lanes side by side; those named window-... have the
+processor before the others, because a window that waits for its turn is not what is tested. What
 a command says is in build/test/NAME.log. One that fails is shown by its last lines when it ends,
 and last of all come all failed checks by name: the lines that begin with FAILED or ERROR, which
 pytest and the window's scripts write, and before them what held only at its second try (AGAIN).
@@ -52,12 +52,17 @@ class Part:
         """What it said."""
         return LOGS / f"{self.name}.log"
 
-    def run(self, niceness: int) -> None:
+    @property
+    def niceness(self) -> int:
+        """By which others go before it."""
+        return 0 if self.name.startswith("window-") else 10
+
+    def run(self) -> None:
         """Run it, and tell how it ended."""
         start = time.monotonic()
         with self.log.open("wb") as log:
             self.code = subprocess.run(
-                ["nice", "-n", str(niceness), "bash", "-c", self.command],
+                ["nice", "-n", str(self.niceness), "bash", "-c", self.command],
                 stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT,
             ).returncode  # fmt: skip
         self.seconds = time.monotonic() - start
@@ -97,12 +102,11 @@ def main(arguments: list[str]) -> int:
         else:
             lanes[-1].append(Part(*argument.split("=", 1)))
 
-    def follow(lane: list[Part], niceness: int) -> None:
+    def follow(lane: list[Part]) -> None:
         for part in lane:
-            part.run(niceness)
+            part.run()
 
-    threads = [threading.Thread(target=follow, args=(lane, 10 if number else 0))
-               for number, lane in enumerate(lanes)]  # fmt: skip
+    threads = [threading.Thread(target=follow, args=(lane,)) for lane in lanes]
     for thread in threads:
         thread.start()
     for thread in threads:

@@ -16,7 +16,7 @@ from volfrep import LatticeSpec, VolfrepError
 from volfrep.api import specified
 from volfrep.design.walls import Wall
 
-BOX = {"cell": "CVC", "cell_size": 10, "strut_radius": 1, "shell": 2}
+BOX = {"cell": "CVC", "cell_size": 10, "strut_radius": 1, "shell": 2, "resolution": 10}
 
 
 @pytest.fixture(scope="module")

@@ -8,12 +8,14 @@ import ast
 import importlib.util
 import inspect
 import re
+import shlex
 from operator import attrgetter
 from pathlib import Path
 
 import pytest
 
 import volfrep
+from volfrep.cli.command import _parser
 from volfrep.design.parameters import GROUPS, PARAMETERS
 from volfrep.design.parameters.keywords import accepted
 
@@ -100,6 +102,31 @@ def test_every_keyword_of_an_example_exists() -> None:
         if "parameters" in own:
             own |= accepted()
         assert keywords <= own, f"{page}: {name}"
+
+
+def commands_of_examples() -> list[tuple[str, list[str]]]:
+    """Page and arguments of every command that a page or the workflow file shows."""
+    pages = [*sorted(DOCS.rglob("*.md")), ROOT / "README.md"]
+    shown = [
+        (p.name, t)
+        for p in pages
+        for t in re.findall(r"```sh\n(.*?)```", p.read_text("utf-8"), re.S)
+    ]
+    shown.append(("tests.yml", (ROOT / ".github" / "workflows" / "tests.yml").read_text("utf-8")))
+    return [
+        (name, shlex.split(line.strip(), comments=True)[1:])
+        for name, text in shown
+        for line in text.replace("\\\n", " ").splitlines()
+        if line.strip().startswith("volfrep ")
+    ]
+
+
+def test_every_command_that_is_shown_is_understood() -> None:
+    commands = commands_of_examples()
+    assert {"walls.md", "README.md", "tests.yml"} <= {name for name, _ in commands}
+    parser = _parser()
+    for _, arguments in commands:
+        parser.parse_args([re.sub(r"\$\w+", "1", word) for word in arguments if word != "..."])
 
 
 @pytest.mark.parametrize(

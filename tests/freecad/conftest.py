@@ -66,6 +66,34 @@ def infill(doc, box):
     return obj
 
 
+@pytest.fixture(scope="session", autouse=True)
+def kept_fills():
+    """What a new object asks for is filled once in all tests: many begin with the same lattice.
+
+    A fill with a cache of its own that holds nothing yet, and that nobody follows, is kept with
+    what it left in the cache; all others, such as an object's second one, are done.
+    """
+    require_engine()
+    from volfrep.jobs import pipeline
+    from volfrep.util.content import content_of
+
+    kept, fill = {}, pipeline.fill
+
+    def once(solid, spec, *, progress=None, cache=None, executor=None):
+        if progress is not None or executor is not None or cache is None or cache._entries:
+            return fill(solid, spec, progress=progress, cache=cache, executor=executor)
+        asked = content_of(solid.vertices, solid.triangles), solid.notes, spec
+        if asked not in kept:
+            kept[asked] = fill(solid, spec, cache=cache), dict(cache._entries)
+        result, entries = kept[asked]
+        cache._entries.update(entries)
+        return result
+
+    pipeline.fill = once
+    yield
+    pipeline.fill = fill
+
+
 @pytest.fixture
 def runs(monkeypatch):
     """The specifications that the engine has been run with since the test began."""

@@ -6,9 +6,19 @@ import pytest
 
 from conftest import SMALL
 from freecad_volfrep import apply_design, make_design_study, make_lattice_infill, run_study
+from freecad_volfrep.engine import require_engine
 from freecad_volfrep.features import DesignStudy
 from freecad_volfrep.features.design_study import designs_of_study
 from volfrep.util.errors import VolfrepError
+
+
+@pytest.fixture(autouse=True)
+def _unplotted(monkeypatch):
+    """A page's plots take a second each; tests/core/studies/test_page looks at them."""
+    require_engine()
+    from volfrep.studies import page
+
+    monkeypatch.setattr(page, "plots_of", lambda *_: [])
 
 
 @pytest.fixture

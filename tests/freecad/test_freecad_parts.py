@@ -22,7 +22,10 @@ SETTINGS = {
 }
 
 #: Large or finely rounded: many seconds each.
-SLOW = {"nist_ctc_02_asme1_rc.stp", "nist_ftc_06_asme1_rd.stp", "piston_rod.step"}
+SLOW = {
+    "nist_ctc_01_asme1_rd.stp", "nist_ctc_02_asme1_rc.stp", "nist_ftc_06_asme1_rd.stp",
+    "nist_ftc_10_asme1_rb.stp", "piston_rod.step", "trimesh_featuretype.STEP",
+}  # fmt: skip
 
 
 @pytest.fixture

@@ -136,19 +136,6 @@ def test_crossing_triangles_that_enclose_nothing_twice_are_a_defect(doc):
     assert rows["triangles that cross"].startswith("1 pair, first near (0")
 
 
-def test_the_shipped_bracket_is_without_defects():
-    """FreeCAD 0.20 names 11 pairs of needles that lie beside each other, as a list of None."""
-    from freecad_volfrep.examples.filled import open_example
-
-    bracket = open_example("Bracket")
-    try:
-        tables = check_mesh(bracket)
-        assert tables[0].title == f"{bracket.Label}: closed and without defects"
-        assert rows_of(tables)["triangles that cross"] == "none"
-    finally:
-        App.closeDocument(bracket.Document.Name)
-
-
 def test_nothing_to_check_is_one_sentence(doc, box):
     obj = make_lattice_infill(doc, box, **SMALL)
     with pytest.raises(VolfrepError, match="has no mesh to check"):

@@ -87,7 +87,7 @@ def test_what_gmsh_cannot_fill():
 @needs_gmsh
 def test_a_part_has_its_cavity_and_knows_its_outside():
     """Also where the wall's Boolean left needles, which are mended."""
-    solid = samples.box((30.0, 20.0, 20.0))
+    solid = samples.box((20.0, 20.0, 20.0))
     mesh = fill(solid, LatticeSpec(cell="CVC", shell=2, resolution=8)).mesh
     assert is_bad(mesh.vertices[mesh.triangles]).any()
     filled = tetrahedra(mesh)

@@ -14,7 +14,7 @@ from volfrep.jobs.blocks import block, block_wireframe
 from volfrep.jobs.infill import Infill
 from volfrep.jobs.pipeline import fill
 
-SPEC = LatticeSpec(cell="BCC", cell_size=8, strut_radius=0.8, shell=2, resolution=12)
+SPEC = LatticeSpec(cell="BCC", cell_size=8, strut_radius=0.8, shell=2, resolution=8)
 
 
 @pytest.fixture(scope="module")

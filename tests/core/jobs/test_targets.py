@@ -90,8 +90,8 @@ def test_a_block_has_the_relative_density_asked_for(cell, count) -> None:
 
 def test_a_graded_block_has_the_mass_asked_for() -> None:
     grading = SizeGrading(Profile("linear", 1.0, 1.6))
-    made = volfrep.block((3, 2, 2), cell="BCC", cell_size=6, size_grading=grading, mass=1.5)
-    assert made.mesh.volume / 1000.0 == pytest.approx(1.5, rel=NEAR)
+    made = volfrep.block((2, 1, 2), cell="BCC", cell_size=6, size_grading=grading, mass=0.5)
+    assert made.mesh.volume / 1000.0 == pytest.approx(0.5, rel=NEAR)
 
 
 @pytest.mark.parametrize(
@@ -121,7 +121,7 @@ def test_a_lattice_that_is_pruned_or_deformed_has_the_density_asked_for(settings
 
 def test_a_job_is_forecast_with_about_the_radius_of_its_target() -> None:
     solid = check_solid(samples.bracket(33.0), "part")
-    for target in (density(0.2), Target("mass", 48.0), Target("stiffness", 0.01, (1.0, 1.0, 1.0))):
+    for target in (Target("mass", 48.0), Target("stiffness", 0.01, (1.0, 1.0, 1.0))):
         spec = LatticeSpec(
             cell="BCC", cell_size=8.0, strut_radius=0.5, density=2.67, target=target
         )  # fmt: skip
@@ -133,7 +133,7 @@ def test_a_job_is_forecast_with_about_the_radius_of_its_target() -> None:
 
 def test_the_volume_inside_whole_cells_is_that_of_the_endless_lattice() -> None:
     """Cells that fill a box to its faces are cut there as the endless lattice's cells are."""
-    solid = check_solid(samples.box((32.0, 24.0, 16.0)), "box")
+    solid = check_solid(samples.box((16.0, 16.0, 8.0)), "box")
     spec = LatticeSpec(cell="Octet", cell_size=8.0, strut_radius=0.7, shell=0.0)
     points, weights = points_inside(solid, 19, Monitor())
     table = volume_by_radius(Infill(solid, spec).struts, 0.7, 8.0, points, weights, 1.2)
@@ -152,7 +152,7 @@ def test_the_lattice_has_the_stiffness_asked_for(direction) -> None:
         (1, 1, 1), cell="BCC", cell_size=6, stiffness=f"40:{direction}", material="PA12"
     )
     way = found.spec.target.direction
-    solved = volfrep.properties("BCC", 6.0, found.spec.strut_radius, material="PA12")
+    solved = volfrep.properties("BCC", 6.0, found.spec.strut_radius, material="PA12", along=32)
     unit = np.array(way) / np.linalg.norm(way)
     pull = np.outer(unit, unit)[[0, 1, 2, 1, 0, 0], [0, 1, 2, 2, 2, 1]]
     modulus = 1.0 / (pull @ np.linalg.inv(solved.stiffness) @ pull)
@@ -194,7 +194,7 @@ def test_a_part_that_misses_its_target_is_made_again(monkeypatch) -> None:
 
     monkeypatch.setattr(targets, "volume_by_radius", wrong)
     spec = LatticeSpec(cell_size=8.0, strut_radius=0.5, target=density(0.2))
-    report = aimed(check_solid(samples.bracket(33.0), "part"), spec).result.report
+    report = aimed(check_solid(samples.box((32.0, 24.0, 20.0)), "part"), spec).result.report
     assert report.relative_density == pytest.approx(0.2, rel=NEAR)
     assert report.work["walls found"] == 1
 

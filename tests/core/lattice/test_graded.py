@@ -253,9 +253,12 @@ def test_a_field_sets_the_radius_through_its_curve():
 
 def test_cells_about_an_axis_leave_room_for_their_struts():
     """None is squeezed to less than what its struts need: the lattice is hollow about the axis."""
-    spec = LatticeSpec(cell_size=10.0, strut_radius=0.8, cell_map=CellMap("cylindrical"))
-    result = fill(samples.plate(), spec)
-    middle = samples.plate().bounds.mean(axis=0)
+    spec = LatticeSpec(
+        cell_size=10.0, strut_radius=0.8, resolution=8, cell_map=CellMap("cylindrical")
+    )
+    solid = samples.box((44.0, 44.0, 14.0))
+    result = fill(solid, spec)
+    middle = solid.bounds.mean(axis=0)
     out = np.linalg.norm((result.wireframe.nodes - middle)[:, :2], axis=1)
     assert out.min() > narrowest(spec.unit_cell(), 10.0, 0.8) * 10.0 / 2
     assert result.report.bodies == 1

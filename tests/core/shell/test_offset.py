@@ -100,9 +100,10 @@ def test_a_wall_too_thin_for_memory_is_refused(monkeypatch):
         inner_wall(samples.box(), 0.01, Monitor())
 
 
-def test_no_skin_is_advised_that_the_part_has_no_room_for():
+def test_no_skin_is_advised_that_the_part_has_no_room_for(monkeypatch):
     """A plate of which no skin fits into memory: its deepest points lie half its thickness deep."""
-    plate = samples.box((20_000.0, 20_000.0, 0.5))
+    monkeypatch.setattr(offset, "MEMORY_LIMIT", offset.MEMORY_LIMIT / 100)
+    plate = samples.box((2_000.0, 2_000.0, 0.5))
     with pytest.raises(VolfrepError, match=r"nowhere deeper than about 0\.2.* without a skin"):
         inner_wall(plate, 0.02, Monitor())
 

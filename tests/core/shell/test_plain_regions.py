@@ -37,7 +37,7 @@ def test_a_sheet_needs_few_cubes_and_few_samples():
 
 
 def test_the_distance_to_a_surface_with_fewer_samples_is_right_where_the_wall_is():
-    solid = samples.sheet((40.0, 40.0, 3.0))
+    solid = samples.sheet((28.0, 28.0, 3.0))
     plain, _ = found(solid)
     index = index_surface(solid, 0.3 * SKIN, (plain.samples, plain.owner))
     wall = inner_wall(solid, SKIN, Monitor()).mesh

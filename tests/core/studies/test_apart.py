@@ -28,7 +28,7 @@ BOX = check_solid(samples.box((24.0, 16.0, 16.0)), "box")
 FILLED = Study(
     parts=(BOX,),
     vary={"cell": ("BCC", "CVC"), "strut_radius": (0.8, 0.9)},
-    fixed={"cell_size": 8.0, "shell": 1.0},
+    fixed={"cell_size": 8.0, "shell": 1.0, "resolution": 8},
     do=("forecast", "properties", "fill", "measure"),
 )
 SLOW = Study(
@@ -44,10 +44,17 @@ def _unplotted(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(page, "plots_of", lambda *_: [])
 
 
-def test_two_processes_make_the_same_table_as_this_one(tmp_path: Path) -> None:
-    volfrep.sweep(FILLED, tmp_path / "here", workers=1)
-    volfrep.sweep(FILLED, tmp_path / "beside", workers=2)
-    assert timeless(tmp_path / "beside") == timeless(tmp_path / "here")
+@pytest.fixture(scope="module")
+def here(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The runs, as this process makes them."""
+    folder = tmp_path_factory.mktemp("here")
+    volfrep.sweep(FILLED, folder, workers=1)
+    return folder
+
+
+def test_two_processes_make_the_same_table_as_this_one(here: Path, tmp_path: Path) -> None:
+    volfrep.sweep(FILLED, tmp_path, workers=2)
+    assert timeless(tmp_path) == timeless(here)
 
 
 def test_a_run_over_its_limits_is_ended_and_told(tmp_path: Path) -> None:
@@ -61,10 +68,9 @@ def test_a_run_over_its_limits_is_ended_and_told(tmp_path: Path) -> None:
         volfrep.sweep(SLOW, tmp_path, limit_hours=0.0)
 
 
-def test_limits_that_are_kept_change_nothing(tmp_path: Path) -> None:
-    volfrep.sweep(FILLED, tmp_path / "free", workers=1)
-    volfrep.sweep(FILLED, tmp_path / "limited", workers=1, limit_hours=1.0, limit_memory=8.0)
-    assert timeless(tmp_path / "limited") == timeless(tmp_path / "free")
+def test_limits_that_are_kept_change_nothing(here: Path, tmp_path: Path) -> None:
+    volfrep.sweep(FILLED, tmp_path, workers=1, limit_hours=1.0, limit_memory=8.0)
+    assert timeless(tmp_path) == timeless(here)
 
 
 def test_a_process_that_dies_gets_its_run_again_and_then_is_at_fault(

@@ -125,7 +125,7 @@ def test_the_command_of_a_chosen_design_makes_exactly_that_part(
         parts=(str(tmp_path / "a box.stl"),),
         vary={"strut_radius": (0.7, 0.9)},
         fixed={
-            "cell": "BCC", "cell_size": 7.3, "shell": 1.0, "remove_dangling": True,
+            "cell": "BCC", "cell_size": 7.3, "shell": 1.0, "resolution": 8, "remove_dangling": True,
             "open_plane": ((0.0, 0.0, 16.0, 0.0, 0.0, 1.0),), "rotate": (0.0, 0.0, 1.0, 15.0),
         },
         do=("forecast",),
@@ -298,7 +298,7 @@ def test_a_range_is_bounds_for_an_optimiser(tmp_path: Path) -> None:
         bounds,
         vectorized=True,
         updating="deferred",
-        maxiter=8,
+        maxiter=5,
         tol=0.0,
         popsize=5,
         seed=1,

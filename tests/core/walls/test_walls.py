@@ -220,12 +220,12 @@ def test_graded_walls_have_their_thickness_in_the_part() -> None:
         "Schwarz P", 8.0, shell=0.0, radius_grading=grading, resolution=24,
         size_grading=SizeGrading(Profile("linear", 1.0, 1.5), (1.0, 0.0, 0.0)),
     )  # fmt: skip
-    mesh = block(spec, (3, 2, 4)).mesh
+    mesh = block(spec, (3, 2, 3)).mesh
     assert measure(mesh).watertight
     middle, (low, high) = np.mean(mesh.corners(), axis=0), mesh.bounds
     inner = ((middle > low + 2.5) & (middle < high - 2.5)).all(axis=1)
     chosen = np.flatnonzero(inner)[::151]
-    share = across(mesh, chosen) / (0.6 + middle[chosen, 2] / 32.0)
+    share = across(mesh, chosen) / (0.6 + middle[chosen, 2] / 24.0)
     assert np.median(share) == pytest.approx(1.0, abs=0.02)
     assert np.quantile(share, [0.05, 0.95]) == pytest.approx(1.0, abs=0.1)
 
@@ -248,12 +248,12 @@ def test_walls_about_an_axis_keep_the_contract() -> None:
     [
         (Target("relative_density", 0.2), Wall()),
         pytest.param(Target("relative_density", 0.35), Wall("skeleton"), marks=pytest.mark.slow),
-        pytest.param(Target("mass", 9.0), Wall(), marks=pytest.mark.slow),
+        pytest.param(Target("mass", 3.5), Wall(), marks=pytest.mark.slow),
     ],
 )
 def test_walls_come_out_with_their_target(target, wall) -> None:
     spec = LatticeSpec("Gyroid", 10.0, shell=1.0, resolution=18, wall=wall, target=target)
-    made = volfrep.fill(samples.box((30.0, 20.0, 20.0)), spec)
+    made = volfrep.fill(samples.box((20.0, 15.0, 15.0)), spec)
     report = made.report
     reached = report.mass_g if target.aim == "mass" else report.relative_density
     assert reached == pytest.approx(target.value, rel=5e-3)

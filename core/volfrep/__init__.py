@@ -38,7 +38,7 @@ _HOMES = {
     "TriangleMesh": "mesh.triangle_mesh",
     "Result": "reports.result",
     "CellProperties": "mechanics.summary",
-    "properties": "jobs.properties:lattice_properties",
+    "properties": "jobs.figures.properties:lattice_properties",
     "StageCache": "util.cache",
     "Part": "api",
     "as_solid": "api",

@@ -103,7 +103,7 @@ def _lattices(
 
 def _lattice(obj: App.DocumentObject) -> dict[str, str]:
     from volfrep.apart.engine_process import Call
-    from volfrep.jobs.properties import lattice_properties
+    from volfrep.jobs.figures.properties import lattice_properties
     from volfrep.mechanics.catalogue import known_properties
 
     try:

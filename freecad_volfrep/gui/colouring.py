@@ -18,13 +18,14 @@ from .legend import Legend
 from .messages import tell_error
 
 if TYPE_CHECKING:
-    from volfrep.jobs.point_values import PointValues
+    from volfrep.jobs.figures.point_values import PointValues
 
     from .filled_view import FilledPart
 
 #: Nothing to colour by.
 NOTHING = "None"
-#: What there is to choose from, marked for translation: `volfrep.jobs.point_values.QUANTITIES`.
+#: What there is to choose from, marked for translation: `QUANTITIES` of
+#: `volfrep.jobs.figures.point_values`.
 QUANTITY_NAMES = marked(
     "VolfrepColours",
     "None",
@@ -56,7 +57,7 @@ TO = QT_TRANSLATE_NOOP("App::Property", "Where the scale of colours ends")
 
 def add_properties(view: Any) -> None:
     """Give a view what it says of its colours."""
-    from volfrep.jobs.point_values import QUANTITIES
+    from volfrep.jobs.figures.point_values import QUANTITIES
 
     if not hasattr(view, "ColourBy"):
         view.addProperty("App::PropertyEnumeration", "ColourBy", "Object Style", BY)
@@ -169,7 +170,7 @@ class Colouring:
         from freecad_volfrep.features.progress import job_title
         from freecad_volfrep.features.sizing import analyses_of, loads_of
         from volfrep.apart.engine_process import Call
-        from volfrep.jobs.point_values import OF_LOADS, point_values
+        from volfrep.jobs.figures.point_values import OF_LOADS, point_values
 
         key = self._key
         if self._asked == key:

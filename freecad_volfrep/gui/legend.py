@@ -24,7 +24,7 @@ class Legend:
 
     def show(self, obj: Any, quantity: str, low: float, high: float) -> None:
         """Show it in the place of the last one."""
-        from volfrep.jobs.point_values import QUANTITIES
+        from volfrep.jobs.figures.point_values import QUANTITIES
 
         self.remove()
         view = Gui.getDocument(obj.Document.Name).activeView()

@@ -182,7 +182,7 @@ class ColouredStruts:
 
 def preview_values(obj: App.DocumentObject, shown: Shown, quantity: str) -> np.ndarray | None:
     """(k, 2) a quantity at the ends of a preview's struts; None where it is not known of them."""
-    from volfrep.jobs.point_values import values_in_space
+    from volfrep.jobs.figures.point_values import values_in_space
     from volfrep.util.errors import VolfrepError
 
     struts = shown.preview

@@ -94,7 +94,7 @@ def _library_told() -> None:
 
 
 def _properties(options: argparse.Namespace) -> None:
-    from ..jobs.properties import lattice_properties
+    from ..jobs.figures.properties import lattice_properties
     from ..util.files import replacing
 
     check_files(options)

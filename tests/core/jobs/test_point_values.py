@@ -7,9 +7,9 @@ import pytest
 import samples
 from volfrep import LatticeSpec, VolfrepError
 from volfrep.design.grading import CellMap
+from volfrep.jobs.figures.point_values import overhang, point_values, values_in_space
 from volfrep.jobs.infill import Infill
 from volfrep.jobs.pipeline import fill
-from volfrep.jobs.point_values import overhang, point_values, values_in_space
 from volfrep.spatial.nearest_struts import NearestStrut
 
 SOLID = samples.box((24.0, 16.0, 16.0))

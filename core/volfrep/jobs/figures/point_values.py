@@ -8,19 +8,19 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..design.scattered_field import PointField
-from ..design.spec import LatticeSpec
-from ..grid.placement import part_map
-from ..mesh.triangle_mesh import TriangleMesh
-from ..sizing.strut_state import strut_states
-from ..spatial.nearest_struts import NearestStrut
-from ..util.cache import StageCache
-from ..util.errors import VolfrepError
-from ..util.progress import ProgressCallback
-from ..util.types import Floats
+from ...design.scattered_field import PointField
+from ...design.spec import LatticeSpec
+from ...grid.placement import part_map
+from ...mesh.triangle_mesh import TriangleMesh
+from ...sizing.strut_state import strut_states
+from ...spatial.nearest_struts import NearestStrut
+from ...util.cache import StageCache
+from ...util.errors import VolfrepError
+from ...util.progress import ProgressCallback
+from ...util.types import Floats
 
 if TYPE_CHECKING:
-    from ..loads.load_cases import LoadCases
+    from ...loads.load_cases import LoadCases
 
 #: What there is, and what it is called.
 QUANTITIES = {
@@ -91,8 +91,8 @@ def point_values(
         return _in_range(values_in_space(solid, spec, quantity, points))
     if spec.surface is not None:
         raise VolfrepError(f"Walls have no struts to colour by '{quantity}'.")
-    from .sizing import solved
-    from .targets import infill_of
+    from ..sizing import solved
+    from ..targets import infill_of
 
     if quantity == "Radius":
         frame = infill_of(solid, spec, progress=progress, cache=cache).struts

@@ -3,13 +3,13 @@
 
 from __future__ import annotations
 
-from ..design.cells import UnitCell, find_cell
-from ..design.spec_parts import Grid
-from ..design.walls import KINDS, PeriodicSurface, Wall, find_surface
-from ..mechanics.materials import SolidMaterial, find_material
-from ..mechanics.summary import CellProperties, cell_properties
-from ..util.errors import VolfrepError
-from .walls.properties import wall_properties
+from ...design.cells import UnitCell, find_cell
+from ...design.spec_parts import Grid
+from ...design.walls import KINDS, PeriodicSurface, Wall, find_surface
+from ...mechanics.materials import SolidMaterial, find_material
+from ...mechanics.summary import CellProperties, cell_properties
+from ...util.errors import VolfrepError
+from ..walls.properties import wall_properties
 
 
 def lattice_properties(

@@ -191,7 +191,7 @@ class Resolution:
     Attributes:
         facets: along L, and never fewer than struts need (`coarsest`); or
         deviation: distance in mm between a facet and the exact strut, kept within 1.5 times on
-            97 % of the surface; in the creases where struts meet it is more. With neither, the
+            99 % of the surface, and within 3.5 times where struts meet. With neither, the
             deviation is `DEFAULT_RELATIVE_DEVIATION` r.
     """
 

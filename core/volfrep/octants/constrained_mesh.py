@@ -18,6 +18,10 @@ from .sdf import Field, distances_and_gradients
 
 #: Vertices that are not on a face of their octant keep this distance to it, in sampling steps.
 FACE_MARGIN = 1e-3
+#: Surfaces that meet at a lesser angle than this (cosine) have no crease worth a vertex.
+CREASE_COSINE = np.cos(np.radians(12.0))
+#: A vertex nearer to a primitive's surface than this, in units of the wanted edge, lies on it.
+ON_SURFACE = 1e-3
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,8 +133,8 @@ def step_to_primitives(
     return np.asarray(-(jacobian * factor[:, :, None]).sum(axis=1))
 
 
-def shortened(steps: Floats, longest: float) -> Floats:
-    """The (n, 3) steps, none of them longer than `longest`."""
+def shortened(steps: Floats, longest: float | Floats) -> Floats:
+    """The (n, 3) steps, none of them longer than `longest`, one for all or (n,)."""
     size = np.linalg.norm(steps, axis=1)
     short: Floats = steps * np.minimum(1.0, longest / np.maximum(size, 1e-300))[:, None]
     return short
@@ -157,3 +161,47 @@ def between_samples(surface: Surface, index: Ints) -> tuple[Floats, Floats]:
     low = np.where(loose, (cell + margin) * surface.step, points)
     high = np.where(loose, (cell + 1.0 - margin) * surface.step, points)
     return low, high
+
+
+def crease_points(
+    surface: Surface, ends: Ints, one: Ints, two: Ints, loose: Bools
+) -> tuple[Floats, Ints, Bools]:
+    """Where edges between two primitives cross their crease.
+
+    Args:
+        surface: whose primitives they are.
+        ends: (k, 2) vertices of the edges.
+        one: (k,) the primitives that the first ends lie on.
+        two: (k,) those of the second ones.
+        loose: (k, 3) coordinates that may change.
+
+    Returns:
+        (k, 3) points; (k, 3) the primitives that meet there, -1 for no third one, which is where
+        a third one would bury the crossing; (k,) whether there is such a place.
+    """
+    primitives = surface.field.primitives
+    a, b = surface.vertices[ends[:, 0]], surface.vertices[ends[:, 1]]
+    first, second = primitives.take(one), primitives.take(two)
+    # The two distances are equal about here along the edge.
+    at_a = distances_and_gradients(a, second)[0]
+    at_b = distances_and_gradients(b, first)[0]
+    share = np.clip(at_a / np.maximum(at_a + at_b, 1e-300), 0.0, 1.0)
+    point = a + share[:, None] * (b - a)
+    held = np.stack([one, two, np.full(len(one), -1)], axis=1)
+    for _ in range(5):
+        step = step_to_primitives(surface, point, held, loose)
+        point = point + shortened(step, 0.5 * surface.edge)
+    field = surface.field.rows(ends[:, 0])
+    least, third = field.nearest(point)
+    tolerance = ON_SURFACE * surface.edge
+    buried = least < -tolerance
+    held[buried, 2] = third[buried]
+    for _ in range(6):
+        step = step_to_primitives(surface, point[buried], held[buried], loose[buried])
+        point[buried] += shortened(step, 0.5 * surface.edge)
+    value_one, gradient_one = distances_and_gradients(point, first)
+    value_two, gradient_two = distances_and_gradients(point, second)
+    good = np.einsum("ij,ij->i", gradient_one, gradient_two) < CREASE_COSINE
+    good &= np.maximum(np.abs(value_one), np.abs(value_two)) < tolerance
+    good &= field.values(point) > -tolerance
+    return point, held, good

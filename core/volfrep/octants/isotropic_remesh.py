@@ -21,13 +21,13 @@ import numpy as np
 from ..mesh import remesh
 from ..util.types import Bools, Floats, Ints
 from .constrained_mesh import (
+    ON_SURFACE,
     Surface,
     between_samples,
+    crease_points,
     moved,
     neighbour_mean,
     project,
-    shortened,
-    step_to_primitives,
 )
 from .sdf import distances_and_gradients
 from .untangle import proper_border
@@ -38,12 +38,8 @@ COLLAPSE_BELOW = 0.7
 COLLAPSE_UP_TO = 1.5
 #: Passes of flips at a time.
 FLIP_PASSES = 2
-#: Surfaces that meet at a lesser angle than this (cosine) have no crease worth a vertex.
-CREASE_COSINE = np.cos(np.radians(12.0))
 #: A vertex may move this far, in units of the wanted edge, to reach a crease.
 SNAP_REACH = 1.5
-#: A vertex nearer to a primitive's surface than this, in units of the wanted edge, lies on it.
-ON_SURFACE = 1e-3
 #: Halvings that settle a vertex on an octant's edge.
 BISECTIONS = 30
 
@@ -71,15 +67,15 @@ def even_out(raw: Surface, gently: bool = False) -> tuple[Surface, Ints]:
     for _ in range(3):
         surface, stay = _collapse(surface)
         origin = origin[stay]
-        surface = _relax(_flip(surface))
+        surface = _relax(flipped(surface))
     if surface.field.fillet <= 0.0:
         for _ in range(3):
-            surface = _flip(_sharpen(surface))
+            surface = flipped(_sharpen(surface))
             surface, stay = _collapse(surface)
             origin = origin[stay]
     for _ in range(3):
-        surface = _relax(_flip(surface))
-    return _flip(surface), origin
+        surface = _relax(flipped(surface))
+    return flipped(surface), origin
 
 
 def _relax(surface: Surface, *, border: bool = False, passes: int = 1) -> Surface:
@@ -148,7 +144,7 @@ def _collapse(surface: Surface) -> tuple[Surface, Ints]:
     return project(smaller), stay
 
 
-def _flip(surface: Surface) -> Surface:
+def flipped(surface: Surface) -> Surface:
     """Flips that make angles better, or that take an edge out of the way of a crease."""
     field, v = surface.field, surface.vertices
     nearest = field.nearest(v)[1]
@@ -170,8 +166,8 @@ def _flip(surface: Surface) -> Surface:
 
     triangles = surface.triangles
     for _ in range(FLIP_PASSES):
-        triangles, flipped = remesh.flip(v, triangles, gain, surface.share_face)
-        if not flipped:
+        triangles, count = remesh.flip(v, triangles, gain, surface.share_face)
+        if not count:
             break
     return replace(surface, triangles=triangles)
 
@@ -252,7 +248,7 @@ def _snap(surface: Surface, ends: Ints, movable: Bools) -> Surface:
     if not len(ends):
         return surface
     loose = ~(surface.pinned[ends[:, 0]] & surface.pinned[ends[:, 1]])
-    point, held_by, good = _crossing(surface, ends, one, two, loose)
+    point, held_by, good = crease_points(surface, ends, one, two, loose)
 
     gap = np.linalg.norm(surface.vertices[ends] - point[:, None], axis=2)
     gap[~movable[ends]] = np.inf
@@ -269,35 +265,3 @@ def _snap(surface: Surface, ends: Ints, movable: Bools) -> Surface:
     vertices, new_held = surface.vertices.copy(), surface.held.copy()
     vertices[vertex], new_held[vertex] = point[pick], held_by[pick]
     return replace(moved(surface, vertices), held=new_held)
-
-
-def _crossing(
-    surface: Surface, ends: Ints, one: Ints, two: Ints, loose: Bools
-) -> tuple[Floats, Ints, Bools]:
-    """Where edges between two primitives cross their crease: point, primitives, found."""
-    primitives = surface.field.primitives
-    a, b = surface.vertices[ends[:, 0]], surface.vertices[ends[:, 1]]
-    first, second = primitives.take(one), primitives.take(two)
-    # The two distances are equal about here along the edge.
-    at_a = distances_and_gradients(a, second)[0]
-    at_b = distances_and_gradients(b, first)[0]
-    share = np.clip(at_a / np.maximum(at_a + at_b, 1e-300), 0.0, 1.0)
-    point = a + share[:, None] * (b - a)
-    held = np.stack([one, two, np.full(len(one), -1)], axis=1)
-    for _ in range(5):
-        step = step_to_primitives(surface, point, held, loose)
-        point = point + shortened(step, 0.5 * surface.edge)
-    field = surface.field.rows(ends[:, 0])
-    least, third = field.nearest(point)
-    tolerance = ON_SURFACE * surface.edge
-    buried = least < -tolerance
-    held[buried, 2] = third[buried]
-    for _ in range(6):
-        step = step_to_primitives(surface, point[buried], held[buried], loose[buried])
-        point[buried] += shortened(step, 0.5 * surface.edge)
-    value_one, gradient_one = distances_and_gradients(point, first)
-    value_two, gradient_two = distances_and_gradients(point, second)
-    good = np.einsum("ij,ij->i", gradient_one, gradient_two) < CREASE_COSINE
-    good &= np.maximum(np.abs(value_one), np.abs(value_two)) < tolerance
-    good &= field.values(point) > -tolerance
-    return point, held, good

@@ -6,6 +6,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from enum import Enum
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +18,7 @@ from ..util.progress import Monitor
 from ..util.types import Floats, Ints
 from . import sdf
 from .constrained_mesh import Surface
-from .isotropic_remesh import even_out
+from .isotropic_remesh import even_out, flipped
 from .octant import (
     STEPS,
     Octant,
@@ -28,18 +29,29 @@ from .octant import (
     sample_octant,
 )
 from .octant_spec import OctantSpec
+from .refinement import STRAYS, split_where_it_strays
 from .sdf import Field, Primitives
-from .surface_fit import fit
+from .surface_fit import fit, fit_facets
 from .untangle import untangled
 
 #: Samples are clamped to so many steps: farther from the surface only their sign matters.
 SEEN_STEPS = 2.0
 #: Pieces are meshed together up to about this many vertices.
 BATCH_VERTICES = 150_000
+#: So often facets are divided where they stray.
+REFINEMENTS = 3
 
 
 class FacetsCross(VolfrepError):
     """Facets of an octant run through each other, whatever is done about it."""
+
+
+class _Manner(Enum):
+    """How octants are meshed: those whose facets cross once more, in the next manner."""
+
+    REFINED = 0
+    EVEN = 1
+    GENTLE = 2
 
 
 def octant_spec(cell_size: float, struts: Struts, detail: Resolution) -> OctantSpec:
@@ -93,24 +105,45 @@ def _mesh(
         FacetsCross: there is an octant whose facets run through each other, however it is meshed.
     """
     monitor.count("kinds of octants meshed", len(primitives))
-    todo, done = list(primitives), 0
-    while done < len(todo):
-        # Octants whose facets crossed come again, after all the others.
-        gently = done >= len(primitives)
-        same = todo[done:] if gently else todo[done : len(primitives)]
-        batch = _Batch.of(spec, {key: primitives[key] for key in same})
-        remeshed, origin = even_out(batch.surface, gently)
-        fitted, crossed = untangled(fit(remeshed), batch.surface.vertices[origin])
-        bad = [batch.keys[k] for k in np.unique(fitted.piece[fitted.triangles[crossed, 0]])]
-        if bad and gently:
-            raise FacetsCross(
-                f"Where struts meet, facets of a {spec.facets}th of a cell run through each other: "
-                "choose another resolution or strut radius, or move the nodes of the cell."
-            )
-        result.update(batch.split(fitted, origin))
-        done += len(batch.keys)
-        todo += bad
-        monitor.tick(done / len(todo))
+    todo = list(primitives)
+    for manner in _Manner:
+        same, todo = todo, []
+        done = 0
+        while done < len(same):
+            batch = _Batch.of(spec, {key: primitives[key] for key in same[done:]})
+            remeshed, origin = even_out(batch.surface, manner is _Manner.GENTLE)
+            fitted, home = fit(remeshed), batch.surface.vertices[origin]
+            if manner is _Manner.REFINED:
+                fitted, home, origin = _refined(fitted, home, origin, STRAYS * spec.deviation)
+            fitted, crossed = untangled(fitted, home)
+            bad = np.unique(fitted.piece[fitted.triangles[crossed, 0]])
+            result.update(batch.split(fitted, origin))
+            todo += [batch.keys[k] for k in bad]
+            done += len(batch.keys)
+            monitor.tick(done / len(same))
+        if not todo:
+            return
+    raise FacetsCross(
+        f"Where struts meet, facets of a {spec.facets}th of a cell run through each other: "
+        "choose another resolution or strut radius, or move the nodes of the cell."
+    )
+
+
+def _refined(
+    fitted: Surface, home: Floats, origin: Ints, farthest: float
+) -> tuple[Surface, Floats, Ints]:
+    """The surface with more vertices where its facets stray by more than `farthest`, mm.
+
+    That is where struts meet. With where its vertices came from, and from which ones.
+    """
+    found: Ints | None = None
+    for _ in range(REFINEMENTS):
+        finer, parents, found = split_where_it_strays(fitted, farthest, found)
+        if finer is fitted:
+            break
+        home, origin = home[parents].mean(axis=1), origin[parents[:, 0]]
+        fitted = fit_facets(flipped(finer))
+    return fitted, home, origin
 
 
 def _alike(
@@ -195,20 +228,19 @@ class _Batch:
 
     def split(self, refined: Surface, origin: Ints) -> dict[OctantKey, Octant]:
         """The refined surface cut into the octants again."""
-        first = np.cumsum([0] + [len(piece.vertices) for piece in self.raw])
-        # Vertices stay in order, and so the pieces stay runs of vertices.
-        begin = np.searchsorted(origin, first)
-        owner = np.searchsorted(begin, refined.triangles[:, 0], side="right") - 1
-        order = np.argsort(owner, kind="stable")
-        cuts = np.searchsorted(owner[order], np.arange(len(self.raw) + 1))
+        order_there = np.concatenate([piece.order for piece in self.raw])[origin]
+        # Pieces are runs of vertices.
+        begin = np.searchsorted(refined.piece, np.arange(len(self.raw) + 1))
+        owner = refined.piece[refined.triangles[:, 0]]
+        by_piece = np.argsort(owner, kind="stable")
+        cuts = np.searchsorted(owner[by_piece], np.arange(len(self.raw) + 1))
         result = {}
-        for k, (key, piece) in enumerate(zip(self.keys, self.raw, strict=True)):
+        for k, key in enumerate(self.keys):
             part = slice(begin[k], begin[k + 1])
-            source = origin[part] - first[k]
             vertices = np.rint(refined.vertices[part] / self.step) * self.step
-            triangles = refined.triangles[order[cuts[k] : cuts[k + 1]]] - begin[k]
+            triangles = refined.triangles[by_piece[cuts[k] : cuts[k + 1]]] - begin[k]
             result[key] = ranked_octant(
-                vertices, triangles, piece.place[source], piece.order[source],
+                vertices, triangles, refined.place[part], order_there[part],
                 self.solid_corners[k],
             )  # fmt: skip
         return result

@@ -43,6 +43,11 @@ class OctantSpec:
         return self.cell_size / self.facets
 
     @property
+    def deviation(self) -> float:
+        """How far facets of the wanted edge stray from a strut to either side, mm."""
+        return self.edge**2 / (16.0 * self.strut_radius)
+
+    @property
     def influence(self) -> float:
         """Struts whose axes are farther than this from an octant do not show in it, mm."""
         joint = joint_radius(self.strut_radius, self.cell_size)

@@ -29,6 +29,8 @@ from .untangle import proper_border
 FIT_PASSES = 4
 #: How strongly the fit draws a vertex along the surface, against its hold across it.
 DRIFT = 0.03
+#: No step is longer than this part of the shortest edge of its vertex.
+STEP = 0.3
 #: The last correction of the volume moves no vertex further than this, in wanted edges.
 BALANCE_REACH = 0.05
 
@@ -38,14 +40,18 @@ QUADRATURE_WEIGHTS = np.full(3, 1.0 / 3.0)
 
 
 def fit(remeshed: Surface) -> Surface:
-    """The facets fitted to the exact surface.
+    """The facets fitted to the exact surface, and their volume put right.
 
     Args:
         remeshed: what `volfrep.octants.isotropic_remesh.even_out` made.
     """
     if not len(remeshed.triangles):
         return remeshed
-    surface = proper_border(remeshed, _offset_border(remeshed))
+    return fit_facets(proper_border(remeshed, _offset_border(remeshed)))
+
+
+def fit_facets(surface: Surface) -> Surface:
+    """The facets fitted to the exact surface, those on the border as they are, volume put right."""
     for _ in range(FIT_PASSES):
         surface = _fit(surface)
     for _ in range(2):
@@ -56,8 +62,8 @@ def fit(remeshed: Surface) -> Surface:
 def _offset_border(surface: Surface) -> Surface:
     """The border's vertices moved outwards, in their faces, by what the fit gives inside.
 
-    Even facets of edge e on a surface of curvatures k1, k2 stray inwards from their corners by
-    e2 (k1 + k2) / 16 in the mean. Inside the octant the fit finds that by itself; on a face it
+    The border of even facets, of edge e, on a surface of curvature k strays inwards from its
+    corners by e2 k / 16 in the mean. Inside the octant the fit finds that by itself; on a face it
     must not depend on the mesh, which is another one beyond the face.
     """
     index = np.flatnonzero(surface.pinned.any(axis=1))
@@ -92,12 +98,13 @@ def _offset_border(surface: Surface) -> Surface:
 
 
 def _curvature(field: Field, points: Floats, edge: float) -> Floats:
-    """k1 + k2 of the surface at points on it, 1/mm, positive where it is convex."""
+    """The curvature of the surface at points on it, 1/mm, positive where it is convex.
+
+    Of a rounded joint k1 + k2, and no more than a strut has.
+    """
     primitives = field.primitives
     if field.fillet <= 0.0:
-        nearest = primitives.take(field.nearest(points)[1])
-        # 1 / r round a strut, 2 / r on a sphere.
-        return np.where(nearest.direction.any(axis=1), 1.0, 2.0) / nearest.radius
+        return 1.0 / primitives.radius[field.nearest(points)[1]]
     step = 0.2 * edge
     total = -6.0 * field.values(points)
     for axis in range(3):
@@ -105,7 +112,7 @@ def _curvature(field: Field, points: Floats, edge: float) -> Floats:
             shifted = points.copy()
             shifted[:, axis] += sign
             total += field.values(shifted)
-    limit = 2.0 / primitives.radius.min()
+    limit = 1.0 / primitives.radius.min()
     return np.clip(total / step**2, -limit, limit)
 
 
@@ -143,7 +150,13 @@ def _fit(surface: Surface) -> Surface:
     matrix = matrix + (pull[:, None, None] + 1e-12) * np.eye(3)
     step = solved(matrix, pull[:, None] * drift - right)
     step = np.where(surface.pinned.any(axis=1)[:, None], 0.0, step)
-    return moved(surface, surface.vertices + shortened(step, 0.2 * surface.edge))
+    # No vertex passes another one where edges are short.
+    reach = np.full(count, 0.2 * surface.edge)
+    length = STEP * np.linalg.norm(
+        surface.vertices[pairs[:, 1]] - surface.vertices[pairs[:, 0]], axis=1
+    )
+    np.minimum.at(reach, pairs.ravel(), np.repeat(length, 2))
+    return moved(surface, surface.vertices + shortened(step, reach))
 
 
 def _sampled(surface: Surface) -> tuple[Floats, Floats, Floats]:

@@ -24,6 +24,8 @@ BYTES_PER_CELL = 500
 BYTES_PER_STRUT = 120
 #: The estimate of triangles is good to a third: so much of it will be there.
 CERTAIN_SHARE = 0.6
+#: Struts of larger cells have so many times more facets for their length, at most.
+MORE_BARE = 1.4
 #: Taken for free memory where the system does not tell.
 ASSUMED_MEMORY = 8e9
 
@@ -119,9 +121,10 @@ def _takes(needed: float, free: float) -> str:
 def _what_fits(spec: LatticeSpec, excess: float, count: Sequence[int] | None) -> str:
     """Settings that take so many times less.
 
-    Facets go with the square of their edge, struts in a volume with the square of the cell.
+    Facets go with the square of their edge, struts in a volume with the square of the cell, of
+    which more is bare where cells are larger.
     """
-    cells = f"cells of {rounded_up(spec.cell_size * excess**0.5):g} mm or larger"
+    cells = f"cells of {rounded_up(spec.cell_size * (MORE_BARE * excess) ** 0.5):g} mm or larger"
     if count is not None:
         cells = smaller_block(count, excess)
     facets = int(spec.facets_along_cell / excess**0.5)

@@ -49,6 +49,8 @@ def split_where_it_strays(
         return surface, same, np.zeros(0, np.int64)
     table = remesh.edges(surface.triangles, count)
     inner = np.flatnonzero(table.triangles[:, 1] >= 0)
+    if not len(inner):
+        return surface, same, np.zeros(surface.piece.max() + 1, np.int64)
     ends = table.ends[inner]
     bad = _edges_stray(surface, ends) > farthest
     # A facet that strays though its edges do not is divided at its longest inner one.

@@ -71,7 +71,7 @@ def test_a_part_is_filled_and_skinned() -> None:
 def test_what_only_cubes_have_is_refused() -> None:
     cell = honeycomb()
     box = trimesh.creation.box((40, 30, 24))
-    for more in ({"fillet": 0.2}, {"relative_density": 0.2}, {"cell_map": "cylindrical"}):
+    for more in ({"fillet": 0.2}, {"cell_map": "cylindrical"}):
         with pytest.raises(VolfrepError, match="which 'Honeycomb' is not"):
             volfrep.fill(box, cell=cell, cell_size=8, **more)
     with pytest.raises(VolfrepError, match="which 'Honeycomb' is not"):

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import FreeCAD as App
 
+from freecad_volfrep.engine import require_engine
 from freecad_volfrep.translation import figure, grouped, translate
 
 from .lattice_infill import fingerprint_of
@@ -102,6 +103,7 @@ class LivePreview:
         Raises:
             VolfrepError: they make no sense, or do not fit the solid.
         """
+        require_engine()
         from volfrep.design.forecast import forecast_fill
         from volfrep.io.solid import check_solid
         from volfrep.jobs.preview import PartDepth, preview

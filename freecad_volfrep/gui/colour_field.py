@@ -24,6 +24,7 @@ def colour_field(view: Any, changed: Callable[[], None]) -> Any:
     """
     holder, choice = QtWidgets.QWidget(), QtWidgets.QComboBox()
     choice.setObjectName("ColourBy")
+    choice.setAccessibleName(translate("VolfrepColours", "Colour by"))
     narrow(choice)
     for name in view.getEnumerationsOfProperty("ColourBy"):
         if name in PREVIEWED or name == view.ColourBy:

@@ -59,6 +59,7 @@ class PickBox(QtWidgets.QWidget):
         self._picture = _Picture(obj)
         self._what = QtWidgets.QComboBox()
         self._what.setObjectName("PickWhat")
+        self._what.setAccessibleName(translate("VolfrepTaskPanel", "What to pick"))
         self._pick = QtWidgets.QPushButton(translate("VolfrepTaskPanel", "Pick"))
         self._pick.setObjectName("Pick")
         self._pick.setCheckable(True)

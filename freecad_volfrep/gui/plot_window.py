@@ -44,9 +44,9 @@ class PlotWindow(QtWidgets.QDialog):
         column.addWidget(save, 0, QtCore.Qt.AlignRight)
 
     def _save(self) -> None:
-        path = QtWidgets.QFileDialog.getSaveFileName(
-            self, self.windowTitle(), "convergence.svg", _SVG
-        )[0]
+        path = QtWidgets.QFileDialog.getSaveFileName(self, self.windowTitle(), "convergence", _SVG)[
+            0
+        ]
         if not path:
             return
         try:

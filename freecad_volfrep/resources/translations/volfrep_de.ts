@@ -3156,6 +3156,10 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
       <translation>Zum Drucken</translation>
     </message>
     <message>
+      <source>What to pick</source>
+      <translation>Was angeklickt wird</translation>
+    </message>
+    <message>
       <source>nothing picked</source>
       <translation>nichts angeklickt</translation>
     </message>

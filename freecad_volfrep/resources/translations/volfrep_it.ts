@@ -3156,6 +3156,10 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
       <translation>Per la stampa</translation>
     </message>
     <message>
+      <source>What to pick</source>
+      <translation>Che cosa scegliere</translation>
+    </message>
+    <message>
       <source>nothing picked</source>
       <translation>niente di scelto</translation>
     </message>

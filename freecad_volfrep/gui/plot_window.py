@@ -12,7 +12,7 @@ from volfrep.util.errors import VolfrepError
 from volfrep.util.files import replacing
 
 from .messages import show_error
-from .qt import QtCore, QtGui, QtWidgets
+from .qt import QtCore, QtGui, QtSvg, QtWidgets
 
 _SVG = "SVG (*.svg)"
 
@@ -31,8 +31,13 @@ class PlotWindow(QtWidgets.QDialog):
         self.setAttribute(QtCore.Qt.WA_DeleteOnClose)
         self.setWindowTitle(title)
         self._svg = svg
-        picture = QtGui.QPixmap()
-        picture.loadFromData(svg.encode(), "SVG")
+        # By Qt's own renderer: its images' plugin for SVG is not there in every distribution.
+        drawn = QtSvg.QSvgRenderer(QtCore.QByteArray(svg.encode()))
+        picture = QtGui.QPixmap(drawn.defaultSize())
+        picture.fill(QtCore.Qt.white)
+        painter = QtGui.QPainter(picture)
+        drawn.render(painter)
+        painter.end()
         shown = QtWidgets.QLabel()
         shown.setObjectName("Plot")
         shown.setPixmap(picture)

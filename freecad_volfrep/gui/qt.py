@@ -5,7 +5,7 @@ FreeCAD's own PySide module stands for either, and its QtGui has the widgets too
 QtWidgets fails on 0.20.
 """
 
-from PySide import QtCore, QtGui
+from PySide import QtCore, QtGui, QtSvg
 
 QtWidgets = QtGui
 
@@ -19,4 +19,4 @@ OK_CANCEL = (
 
 CLOSE = int(getattr(_BUTTON.Close, "value", _BUTTON.Close))
 
-__all__ = ["CLOSE", "OK_CANCEL", "QtCore", "QtGui", "QtWidgets"]
+__all__ = ["CLOSE", "OK_CANCEL", "QtCore", "QtGui", "QtSvg", "QtWidgets"]

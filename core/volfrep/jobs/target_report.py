@@ -1,16 +1,83 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What a report says of its target."""
+"""What a mesh lacks of its target, and what a report says of it."""
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import TypeVar
 
 from ..design.spec import LatticeSpec
+from ..design.target import Target
 from ..reports.report import Report, told
 from .stiffness_target import modulus
 
+#: A mesh that misses its target by more, relative, is made again; so many are made at most.
+CLOSE = 3e-3
+MESHES = 3
 #: What is promised: a part that misses its target by more, relative, says so.
 PROMISED = 5e-3
+
+
+@dataclass(frozen=True)
+class WantedVolume:
+    """What a target of relative density or mass asks of the solid.
+
+    Attributes:
+        target: the density or the mass.
+        density: of the material, g/cm3.
+        domain: volume of the room for the lattice, mm3.
+        skin: volume of the skin, mm3.
+    """
+
+    target: Target
+    density: float
+    domain: float
+    skin: float = 0.0
+
+    @property
+    def scale(self) -> float:
+        """The volume that errors are relative to, mm3: with the skin where a mass is wanted."""
+        if self.target.aim == "mass":
+            return self.target.value * 1000.0 / self.density
+        return self.target.value * self.domain
+
+    @property
+    def lattice(self) -> float:
+        """The volume of the lattice, mm3."""
+        return self.scale - (self.skin if self.target.aim == "mass" else 0.0)
+
+    def missing(self, report: Report) -> float:
+        """The volume that a mesh lacks, mm3."""
+        if self.target.aim == "mass":
+            return self.scale - report.volume_mm3
+        return (self.target.value - report.relative_density) * self.domain
+
+
+Made = TypeVar("Made")
+
+
+def made_until_met(
+    make: Callable[[float], Made], measure: Callable[[Made], Report] | None, wanted: WantedVolume
+) -> Made:
+    """What has the wanted volume when it is measured, or the last of what was made.
+
+    Args:
+        make: makes what has a volume of the lattice, mm3, as far as is known before.
+        measure: meshes it and reports; None: the first one is taken.
+        wanted: the volume.
+    """
+    volume = wanted.lattice
+    made = make(volume)
+    for _ in range(MESHES - 1):
+        if measure is None:
+            break
+        missing = wanted.missing(measure(made))
+        if abs(missing) <= CLOSE * wanted.scale:
+            break
+        volume += missing
+        made = make(volume)
+    return made
 
 
 def judged(report: Report, spec: LatticeSpec) -> Report:

@@ -41,8 +41,9 @@ from .networks.infill import NetworkInfill
 from .networks.targets import aimed_network
 from .rough_radius import radius_range
 from .stiffness_target import ratio_of_stiffness
+from .target_report import WantedVolume, made_until_met
 from .walls.infill import WallInfill
-from .walls.targets import CLOSE, MESHES, aimed_walls, aimed_walls_block
+from .walls.targets import aimed_walls, aimed_walls_block
 
 #: The first guess is this near, relative; a radius is sought up to so much above it.
 _ROUGHLY = 1.12
@@ -123,18 +124,15 @@ def aimed(
                 frame, spec.strut_radius, spec.cell_size, points, weights, largest
             )
 
-        search = _Search(spec, target, table, domain, skin)
-    wanted = search.volume
-    for made in range(1, MESHES + 1):
-        infill = made_of(search.specification(wanted), progress=progress, monitor=monitor)
-        if not meshed:
-            return infill
-        report = infill.result.report
-        missing = search.missing(report)
-        if abs(missing) <= CLOSE * search.scale or made == MESHES:
-            break
-        wanted += missing
-    return infill
+        search = _Search(spec, WantedVolume(target, spec.density, domain, skin), table)
+
+    def make(volume: float) -> Infill:
+        return made_of(search.specification(volume), progress=progress, monitor=monitor)
+
+    def measure(made: Infill) -> Report:
+        return made.result.report
+
+    return made_until_met(make, measure if meshed else None, search.wanted)
 
 
 def filled(
@@ -197,16 +195,13 @@ def aimed_block(
             weights = weights * times.prod(axis=1)
         return volume_by_radius(frame, spec.strut_radius, size, points, weights, largest)
 
-    search = _Search(spec, target, table, block_volume(spec, count), 0.0)
-    wanted = search.volume
-    made = search.specification(wanted)
-    for _ in range(MESHES - 1 if meshed else 0):
-        missing = search.missing(measured_block(made, count, progress=progress))
-        if abs(missing) <= CLOSE * search.scale:
-            break
-        wanted += missing
-        made = search.specification(wanted)
-    return made
+    wanted = WantedVolume(target, spec.density, block_volume(spec, count))
+    search = _Search(spec, wanted, table)
+
+    def measure(made: LatticeSpec) -> Report:
+        return measured_block(made, count, progress=progress)
+
+    return made_until_met(search.specification, measure if meshed else None, wanted)
 
 
 def _stiff(spec: LatticeSpec, target: Target) -> LatticeSpec:
@@ -222,29 +217,15 @@ _Table = Callable[[int, float], VolumeByRadius]
 class _Search:
     """Radii of volumes, within what can be made."""
 
-    def __init__(
-        self, spec: LatticeSpec, target: Target, table: _Table, domain: float, skin: float
-    ) -> None:
-        self._spec, self._target = spec, target
-        self._domain, self._skin = domain, skin
+    def __init__(self, spec: LatticeSpec, wanted: WantedVolume, table: _Table) -> None:
+        self._spec, self.wanted = spec, wanted
         self._low, self._high = radius_range(spec)
-        if target.aim == "mass":
-            self.volume = target.value * 1000.0 / spec.density - skin
-            self.scale = target.value * 1000.0 / spec.density
-        else:
-            self.volume = self.scale = target.value * domain
         self._table = table(ROUGH, self._high)
         least, most = self._volume(self._low), self._volume(self._high)
-        if not least <= self.volume <= most:
+        if not least <= wanted.lattice <= most:
             raise VolfrepError(self._refusal(least, most))
-        self._high = min(self._high, _ROUGHLY * self._radius(self.volume))
+        self._high = min(self._high, _ROUGHLY * self._radius(wanted.lattice))
         self._table = table(FINE, self._high)
-
-    def missing(self, report: Report) -> float:
-        """The volume that a mesh lacks, mm3."""
-        if self._target.aim == "mass":
-            return self.scale - report.volume_mm3
-        return (self._target.value - report.relative_density) * self._domain
 
     def specification(self, volume: float) -> LatticeSpec:
         """With the radius of a volume of the lattice, mm3."""
@@ -272,17 +253,17 @@ class _Search:
         )
 
     def _refusal(self, least: float, most: float) -> str:
-        spec, target = self._spec, self._target
+        spec, target = self._spec, self.wanted.target
         if target.aim == "relative_density":
-            unit, span = "", (least / self._domain, most / self._domain)
+            unit, span = "", (least / self.wanted.domain, most / self.wanted.domain)
         else:
-            factor = spec.density / 1000.0
-            unit, span = " g", ((self._skin + least) * factor, (self._skin + most) * factor)
+            factor, skin = spec.density / 1000.0, self.wanted.skin
+            unit, span = " g", ((skin + least) * factor, (skin + most) * factor)
         text = (
             f"No strut radius gives a {target.called} of {target.value:.4g}{unit} with cells "
             f"'{spec.unit_cell().name}' of {spec.cell_size:g} mm: choose one from {span[0]:.4g} "
             f"to {span[1]:.4g}{unit}"
         )
-        if target.aim == "mass" and self._skin:
-            text += f", of which the skin is {self._skin * spec.density / 1000.0:.4g} g"
+        if target.aim == "mass" and self.wanted.skin:
+            text += f", of which the skin is {self.wanted.skin * spec.density / 1000.0:.4g} g"
         return text + "."

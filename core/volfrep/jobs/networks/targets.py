@@ -9,14 +9,13 @@ from dataclasses import replace
 from ...design.target import Target
 from ...grid.strut_graph import Wireframe
 from ...lattice.strut_volume import FINE, points_about, points_inside
+from ...reports.report import Report
 from ...util.types import Floats
 from ..infill import Infill
+from ..target_report import WantedVolume, made_until_met
 from .frame import median_length, network_struts
 from .radius import THICKEST, volumes, with_radius
 
-#: A mesh that misses its target by more, relative, is made again; so many are made at most.
-CLOSE = 3e-3
-MESHES = 3
 #: Points for the table, as a power of 2.
 POINTS = FINE - 2
 #: A joint sphere's radius over the strut's is less.
@@ -40,10 +39,7 @@ def aimed_network(
     spec, monitor = infill.spec, infill.monitor
     domain = infill.domain.mesh
     skin = abs(infill.solid.volume) - domain.volume if spec.with_skin else 0.0
-    scale = target.value * domain.volume
-    if target.aim == "mass":
-        scale = target.value * 1000.0 / spec.density
-    wanted = scale - (skin if target.aim == "mass" else 0.0)
+    wanted = WantedVolume(target, spec.density, domain.volume, skin)
 
     def room(frame: Wireframe) -> tuple[Floats, Floats]:
         if spec.is_cut:
@@ -51,19 +47,18 @@ def aimed_network(
         return points_about(frame, _REACH * THICKEST * median_length(frame), POINTS)
 
     with monitor.stage("target", 0.3, 0.4):
-        fixed = with_radius(spec, infill.placement, lambda: domain, room, wanted, skin, monitor)
+        fixed = with_radius(
+            spec, infill.placement, lambda: domain, room, wanted.lattice, skin, monitor
+        )
         frame = network_struts(fixed, infill.placement, lambda: domain, monitor)
         table = volumes(frame, fixed, room)
-    for made in range(1, MESHES + 1):
-        infill = made_of(fixed, monitor=monitor)
-        if not meshed:
-            return infill
-        report = infill.result.report
-        missing = (target.value - report.relative_density) * domain.volume
-        if target.aim == "mass":
-            missing = scale - report.volume_mm3
-        if abs(missing) <= CLOSE * scale or made == MESHES:
-            break
-        wanted += missing
-        fixed = replace(fixed, strut_radius=table.radius_of(wanted))
-    return infill
+
+    def make(volume: float) -> Infill:
+        # The first radius is the one that the struts were found for.
+        radius = fixed.strut_radius if volume == wanted.lattice else table.radius_of(volume)
+        return made_of(replace(fixed, strut_radius=radius), monitor=monitor)
+
+    def measure(made: Infill) -> Report:
+        return made.result.report
+
+    return made_until_met(make, measure if meshed else None, wanted)

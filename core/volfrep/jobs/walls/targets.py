@@ -14,16 +14,15 @@ from ...design.spec import LatticeSpec
 from ...design.target import Target
 from ...grid.coordinate_map import identity_map
 from ...lattice.strut_volume import FINE, points_inside
+from ...reports.report import Report
 from ...spatial.even_points import even_points
 from ...util.errors import VolfrepError
 from ...walls.placing import part_levels
 from ..infill import Infill
+from ..target_report import WantedVolume, made_until_met
 from .levels import level_table, with_volume
 from .making import solid_of
 
-#: A mesh that misses its target by more, relative, is made again; so many are made at most.
-CLOSE = 3e-3
-MESHES = 3
 #: Points for the table, as a power of 2.
 POINTS = FINE - 3
 
@@ -56,24 +55,15 @@ def aimed_walls(
             levels = part_levels(inside, start, solid, spec.cell_size, mapping)
         table = level_table(levels, weights)
     skin = abs(infill.solid.volume) - domain.volume if spec.with_skin else 0.0
-    wanted = target.value * domain.volume
-    scale = wanted
-    if target.aim == "mass":
-        scale = target.value * 1000.0 / spec.density
-        wanted = scale - skin
-    for made in range(1, MESHES + 1):
-        infill = made_of(with_volume(spec, target, table, wanted, domain.volume), monitor=monitor)
-        if not meshed:
-            return infill
-        report = infill.result.report
-        if target.aim == "mass":
-            missing = scale - report.volume_mm3
-        else:
-            missing = (target.value - report.relative_density) * domain.volume
-        if abs(missing) <= CLOSE * scale or made == MESHES:
-            break
-        wanted += missing
-    return infill
+    wanted = WantedVolume(target, spec.density, domain.volume, skin)
+
+    def make(volume: float) -> Infill:
+        return made_of(with_volume(spec, target, table, volume, domain.volume), monitor=monitor)
+
+    def measure(made: Infill) -> Report:
+        return made.result.report
+
+    return made_until_met(make, measure if meshed else None, wanted)
 
 
 def aimed_walls_block(spec: LatticeSpec, volume: float, target: Target) -> LatticeSpec:
@@ -95,7 +85,5 @@ def aimed_walls_block(spec: LatticeSpec, volume: float, target: Target) -> Latti
     points = even_points(3, POINTS)
     levels = solid_of(spec).levels(points) * spec.cell_size
     table = level_table(levels, np.full(len(points), volume / len(points)))
-    wanted = target.value * volume
-    if target.aim == "mass":
-        wanted = target.value * 1000.0 / spec.density
+    wanted = WantedVolume(target, spec.density, volume).lattice
     return with_volume(spec, target, table, wanted, volume)

@@ -7,7 +7,7 @@ from typing import Any
 
 import FreeCAD as App
 
-from volfrep.design.parameters import BY_NAME, PARAMETERS
+from volfrep.design.parameters import PARAMETERS
 
 #: What is picked for the kinds of parameters.
 FACES, DIRECTION, POINT = "faces", "direction", "point"
@@ -73,7 +73,7 @@ def unpick(obj: App.DocumentObject, name: str) -> None:
     if name in _SWITCHES:
         setattr(obj, _SWITCHES[name], False)
     elif PICKED[name] == DIRECTION:
-        default: Any = next(BY_NAME[p.name].default for p in PARAMETERS if p.property_name == name)
+        default: Any = next(p.default for p in PARAMETERS if p.property_name == name)
         setattr(obj, name, App.Vector(*default))
     else:
         setattr(obj, name, [])

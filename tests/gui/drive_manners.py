@@ -6,7 +6,6 @@ import re
 import sys
 from pathlib import Path
 
-import FreeCAD as App
 import FreeCADGui as Gui
 from PySide import QtCore, QtGui
 
@@ -19,8 +18,6 @@ from driving import (
     click,
     figures,
     in_sight,
-    infills,
-    look_at_all,
     middle,
     move_mouse,
     panel,
@@ -36,19 +33,9 @@ from driving import (
     window,
     xdotool,
 )
+from new_infill import boxed, cancelled, opened
 
 LONG = "an_import_with_a_label_of_a_length_that_every_unnamed_part_of_an_assembly_has"
-
-
-def boxed():
-    """A document with a box."""
-    doc = App.newDocument("Manners")
-    doc.UndoMode = 1
-    box = doc.addObject("Part::Box", "Block")
-    box.Length, box.Width, box.Height = 40, 30, 20
-    doc.recompute()
-    look_at_all()
-    return doc, box
 
 
 def filled():
@@ -61,21 +48,6 @@ def filled():
     box.Visibility = False
     settle()
     return doc, obj
-
-
-def opened(box):
-    """The panel of a new infill of the box, and the infill."""
-    select(box)
-    click(toolbar_button("Lattice Infill"))
-    wait_until(lambda: panel() is not None)
-    settle()
-    return infills(box.Document)[0]
-
-
-def cancelled():
-    """Cancel in the panel."""
-    answer_panel("Cancel")
-    wait_until(lambda: panel() is None)
 
 
 def scroll_over_fields(doc, box):

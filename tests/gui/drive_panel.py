@@ -8,20 +8,16 @@ import sys
 from itertools import pairwise
 from pathlib import Path
 
-import FreeCAD as App
 import FreeCADGui as Gui
 from PySide import QtCore, QtGui
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from driving import (
-    answer_panel,
     check,
     click,
     figures,
     fold_sections,
     in_sight,
-    infills,
-    look_at_all,
     move_mouse,
     panel,
     panel_part,
@@ -36,32 +32,7 @@ from driving import (
     window,
     xdotool,
 )
-
-
-def boxed():
-    """A document with a box."""
-    doc = App.newDocument("Panel")
-    doc.UndoMode = 1
-    box = doc.addObject("Part::Box", "Block")
-    box.Length, box.Width, box.Height = 40, 30, 20
-    doc.recompute()
-    look_at_all()
-    return doc, box
-
-
-def opened(box):
-    """The panel of a new infill of the box, and the infill."""
-    select(box)
-    click(toolbar_button("Lattice Infill"))
-    wait_until(lambda: panel() is not None)
-    settle()
-    return infills(box.Document)[0]
-
-
-def cancelled():
-    """Cancel in the panel."""
-    answer_panel("Cancel")
-    wait_until(lambda: panel() is None)
+from new_infill import boxed, cancelled, opened
 
 
 def section(name):

@@ -55,6 +55,21 @@ class Target:
         """What is aimed at, in words."""
         return self.aim.replace("_", " ")
 
+    def lattice_volume(self, density: float, domain: float, skin: float) -> float:
+        """The volume that a density or a mass asks of the lattice, mm3.
+
+        Args:
+            density: of the material, g/cm3.
+            domain: volume of the room for the lattice, mm3.
+            skin: volume of the skin, mm3, which a mass includes.
+
+        >>> Target("mass", 5.0).lattice_volume(2.5, domain=4000.0, skin=1200.0)
+        800.0
+        """
+        if self.aim == "mass":
+            return self.value * 1000.0 / density - skin
+        return self.value * domain
+
     def as_plain(self) -> dict[str, Any]:
         """The target as plain JSON values."""
         result: dict[str, Any] = {"aim": self.aim, "value": self.value}

@@ -145,9 +145,7 @@ def _aimed_network(
     assert target is not None
     points = depth.points_below(spec.shell)
     skin = abs(solid.volume) - domain if spec.with_skin else 0.0
-    wanted = target.value * domain
-    if target.aim == "mass":
-        wanted = target.value * 1000.0 / spec.density - skin
+    wanted = target.lattice_volume(spec.density, domain, skin)
     weights = np.full(len(points), domain / max(len(points), 1))
     return with_radius(
         spec, placement, lambda: depth.domain(spec.skin), lambda _: (points, weights), wanted,
@@ -162,9 +160,7 @@ def _aimed_radius(
     if target.aim == "stiffness":
         size = spec.cell_size
         return size * ratio_of_stiffness(spec.unit_cell(), target, spec.fillet / size, rough=True)
-    if target.aim == "mass":
-        return radius_of_volume(spec, bare, target.value * 1000.0 / spec.density - skin)
-    return radius_of_volume(spec, bare, target.value * domain)
+    return radius_of_volume(spec, bare, target.lattice_volume(spec.density, domain, skin))
 
 
 def _active(

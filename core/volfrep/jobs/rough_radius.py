@@ -98,10 +98,8 @@ def roughly_aimed(solid: TriangleMesh, spec: LatticeSpec) -> LatticeSpec:
     # Struts that are deformed with their cells keep their share of them.
     one = cell_volume(spec) if spec.keep_radius else size**3
     bare = float(np.pi * length * inside / one)
-    volume = target.value * inside
-    if target.aim == "mass":
-        skin = whole - inside if spec.with_skin else 0.0
-        volume = target.value * 1000.0 / spec.density - skin
+    skin = whole - inside if spec.with_skin else 0.0
+    volume = target.lattice_volume(spec.density, inside, skin)
     low, high = radius_range(spec)
     # What the skin takes is known about only: the forecast refuses nothing.
     least, most = (lattice_volume(spec, bare, radius) for radius in (low, high))

@@ -15,6 +15,8 @@ from .stiffness_target import modulus
 #: A mesh that misses its target by more, relative, is made again; so many are made at most.
 CLOSE = 3e-3
 MESHES = 3
+#: A joint sphere's radius over the strut's is less: points farther away are never solid.
+REACH = 1.5
 #: What is promised: a part that misses its target by more, relative, says so.
 PROMISED = 5e-3
 
@@ -38,14 +40,12 @@ class WantedVolume:
     @property
     def scale(self) -> float:
         """The volume that errors are relative to, mm3: with the skin where a mass is wanted."""
-        if self.target.aim == "mass":
-            return self.target.value * 1000.0 / self.density
-        return self.target.value * self.domain
+        return self.target.lattice_volume(self.density, self.domain, 0.0)
 
     @property
     def lattice(self) -> float:
         """The volume of the lattice, mm3."""
-        return self.scale - (self.skin if self.target.aim == "mass" else 0.0)
+        return self.target.lattice_volume(self.density, self.domain, self.skin)
 
     def missing(self, report: Report) -> float:
         """The volume that a mesh lacks, mm3."""

@@ -41,14 +41,12 @@ from .networks.infill import NetworkInfill
 from .networks.targets import aimed_network
 from .rough_radius import radius_range
 from .stiffness_target import ratio_of_stiffness
-from .target_report import WantedVolume, made_until_met
+from .target_report import REACH, WantedVolume, made_until_met
 from .walls.infill import WallInfill
 from .walls.targets import aimed_walls, aimed_walls_block
 
 #: The first guess is this near, relative; a radius is sought up to so much above it.
 _ROUGHLY = 1.12
-#: A joint sphere's radius over the strut's is less.
-_REACH = 1.5
 
 
 def infill_of(
@@ -119,7 +117,7 @@ def aimed(
             if spec.is_cut:
                 points, weights = points_inside(infill.domain.mesh, fineness, monitor)
             else:
-                points, weights = points_about(frame, _REACH * largest, fineness)
+                points, weights = points_about(frame, REACH * largest, fineness)
             return volume_by_radius(
                 frame, spec.strut_radius, spec.cell_size, points, weights, largest
             )
@@ -187,7 +185,7 @@ def aimed_block(
     frame = block_wireframe(spec, shape)
 
     def table(fineness: int, largest: float) -> VolumeByRadius:
-        points, weights = points_about(frame, _REACH * largest, fineness)
+        points, weights = points_about(frame, REACH * largest, fineness)
         if repeats:
             inner = points - np.array(spec.origin or (0.0, 0.0, 0.0)) - size / 2.0
             middle = (inner >= 0.0) & (inner < size)

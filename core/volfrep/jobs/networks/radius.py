@@ -66,12 +66,12 @@ def with_radius(
         low, high = (share * median for share in (THINNEST, THICKEST))
         least, most = table.at(low), table.at(high)
         if not least <= wanted <= most:
+            beside = f" beside the skin's {skin:.4g}" if skin else ""
             raise VolfrepError(
                 f"No strut radius meets the target: the network would have to have {wanted:.4g} "
                 f"mm3, and its struts, {median:.3g} mm long in the median, can have about "
-                f"{least:.3g} to {most:.3g} mm3" + (f" beside the skin's {skin:.4g}." * bool(skin)
-                                                    or ".")
-            )  # fmt: skip
+                f"{least:.3g} to {most:.3g} mm3{beside}."
+            )
         spec = replace(spec, strut_radius=float(np.clip(table.radius_of(wanted), low, high)))
     return spec
 

@@ -12,14 +12,12 @@ from ...lattice.strut_volume import FINE, points_about, points_inside
 from ...reports.report import Report
 from ...util.types import Floats
 from ..infill import Infill
-from ..target_report import WantedVolume, made_until_met
+from ..target_report import REACH, WantedVolume, made_until_met
 from .frame import median_length, network_struts
 from .radius import THICKEST, volumes, with_radius
 
 #: Points for the table, as a power of 2.
 POINTS = FINE - 2
-#: A joint sphere's radius over the strut's is less.
-_REACH = 1.5
 
 
 def aimed_network(
@@ -44,7 +42,7 @@ def aimed_network(
     def room(frame: Wireframe) -> tuple[Floats, Floats]:
         if spec.is_cut:
             return points_inside(domain, POINTS, monitor)
-        return points_about(frame, _REACH * THICKEST * median_length(frame), POINTS)
+        return points_about(frame, REACH * THICKEST * median_length(frame), POINTS)
 
     with monitor.stage("target", 0.3, 0.4):
         fixed = with_radius(

@@ -66,9 +66,7 @@ def shown_walls(
     domain = depth.volume_below(spec.shell)
     skin = abs(solid.volume) - domain if spec.output == "part" else 0.0
     if spec.target is not None:
-        volume = spec.target.value * domain
-        if spec.target.aim == "mass":
-            volume = spec.target.value * 1000.0 / spec.density - skin
+        volume = spec.target.lattice_volume(spec.density, domain, skin)
         table = level_table(sides, np.full(len(points), domain / max(len(points), 1)))
         spec = with_volume(spec, spec.target, table, volume, domain)
 

@@ -96,7 +96,7 @@ def _beams(doc: App.Document, obj: App.DocumentObject, material: Material) -> Ap
     model, said = fitted_beams(
         clipped.wireframe,
         clipped.on_wall,
-        spec.unit_cell(),
+        spec.fitted_cell,
         spec.cell_size,
         section="circle",
         elements_per_strut=ELEMENTS_PER_STRUT,

@@ -242,6 +242,9 @@ def size_lattice(
 def store_outcome(obj: App.DocumentObject, outcome: Outcome) -> None:
     """Give an infill the radii that were found, and what is to be known of them."""
     store_radii(obj, outcome.part.points, outcome.part.radii)
+    shortest = getattr(outcome.part.spec.network, "shortest", 0.0)
+    if shortest:  # other radii would draw other struts together
+        obj.NetworkShortest = shortest
     obj.SizingReport = outcome.to_json()
 
 

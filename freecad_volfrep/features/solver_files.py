@@ -151,7 +151,7 @@ def _write_beams(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
 
     clipped = axes_of(obj)
     spec = inputs_of(obj)[1]
-    model, said = fitted_beams(clipped.wireframe, clipped.on_wall, spec.unit_cell(), spec.cell_size)
+    model, said = fitted_beams(clipped.wireframe, clipped.on_wall, spec.fitted_cell, spec.cell_size)
     estimate_beams(model)
     write_beams(model, path, for_solver(obj), on_wall=clipped.on_wall)
     warn(obj, said + deformed_struts(spec.grid, spec.struts))

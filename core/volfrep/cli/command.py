@@ -114,7 +114,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     network.add_argument("file", metavar="FILE", help=BY_NAME["network_file"].help)
     add_run_options(network, "network")
-    laid = ("network_thickness", "network_layers", "network_reversed")
+    laid = ("origin", "network_thickness", "network_layers", "network_reversed")
     add_parameters(network, of_block=True, also=laid)
 
     layers.add_command(add)
@@ -227,22 +227,24 @@ def _block(options: argparse.Namespace) -> None:
 
 def _network(options: argparse.Namespace) -> None:
     from ..grid.strut_graph import BeamModel
-    from ..jobs.networks.alone import network_alone
+    from ..jobs.networks.alone import frame_alone, network_alone
 
     set_parameter(options, "network", "file")
     set_parameter(options, "network_file", options.file)
     spec = material.specified(options)
     _check_targets(options, spec)
+    start = time.perf_counter()
     if solver_options.needs_axes(options):
-        raise VolfrepError("A network alone is written as a mesh or as beams: choose such a file.")
+        solver_options.write_axes(frame_alone(spec)[0], None, spec, options, start)
+        return
     with Progress(options.quiet) as progress:
         result = network_alone(spec, progress=progress)
-        start = time.perf_counter()
         beams = None if options.threemf is None else BeamModel(result.wireframe)
         if options.threemf == "beams" and beams is not None:
             printing_options.finish_beams(beams, options, start)
             return
-        _finish(result, options, spec, {}, beams)
+        write = solver_options.writer(options, spec, None, progress)
+        _finish(result, options, spec, {}, beams, write=write)
         _picture(result, options, spec)
 
 

@@ -63,8 +63,8 @@ def _size(options: argparse.Namespace) -> None:
     if options.steps < 1:
         raise VolfrepError(f"There must be at least one step, not {options.steps}.")
 
-    from ..jobs.infill import Infill
     from ..jobs.sizing import GOALS, goal_of, size, write_radii
+    from ..jobs.targets import infill_of
     from ..loads.load_file import read_load_cases
     from ..reports.sizing_report import sizing_rows
     from ..util.cache import StageCache
@@ -87,7 +87,7 @@ def _size(options: argparse.Namespace) -> None:
                 progress=told, cache=cache, watch=_teller(options.quiet),
             )  # fmt: skip
         seconds = time.perf_counter() - start
-        result = Infill(solid, made.spec, progress=progress, cache=cache).result
+        result = infill_of(solid, made.spec, progress=progress, cache=cache).result
     write_mesh(result.mesh, out)
     if options.radii is not None:
         write_radii(made, options.radii)

@@ -82,7 +82,7 @@ def fill_axes(infill: Infill, options: argparse.Namespace, start: float) -> bool
         return False
     clipped = infill.axes
     print_warnings(clipped.warnings)
-    _write_axes(clipped.wireframe, clipped.on_wall, infill.spec, options, start)
+    write_axes(clipped.wireframe, clipped.on_wall, infill.spec, options, start)
     return True
 
 
@@ -92,7 +92,7 @@ def block_axes(spec: LatticeSpec, options: argparse.Namespace, start: float) -> 
         return False
     from ..jobs.blocks import block_wireframe
 
-    _write_axes(block_wireframe(spec, options.count), None, spec, options, start)
+    write_axes(block_wireframe(spec, options.count), None, spec, options, start)
     return True
 
 
@@ -144,13 +144,22 @@ def is_meshed(options: argparse.Namespace) -> bool:
     return options.threemf != "beams" and not needs_axes(options)
 
 
-def _write_axes(
+def write_axes(
     frame: Wireframe,
     on_wall: NDArray[np.bool_] | None,
     spec: LatticeSpec,
     options: argparse.Namespace,
     start: float,
 ) -> None:
+    """Write struts as lines or as beams, as the options ask for.
+
+    Args:
+        frame: the struts, mm.
+        on_wall: (n,) nodes at which a wall cuts them; None where none does.
+        spec: what was made.
+        options: of the command.
+        start: when the job began, of `time.perf_counter`.
+    """
     from ..fem.beam_mesh import fitted_beams
     from ..io.write.calculix import write_beams
     from ..io.write.step_wireframe import write_step_wireframe
@@ -162,7 +171,7 @@ def _write_axes(
         _announce(estimate_axes(len(frame.struts), _asked(spec, options)), options)
         write_step_wireframe(frame, options.output)
     else:
-        model, warnings = fitted_beams(frame, on_wall, spec.unit_cell(), spec.cell_size)
+        model, warnings = fitted_beams(frame, on_wall, spec.fitted_cell, spec.cell_size)
         _announce(estimate_beams(model, _asked(spec, options)), options)
         write_beams(model, options.output, _material_of(options), on_wall=on_wall)
         warnings += deformed_struts(spec.grid, spec.struts)

@@ -171,7 +171,6 @@ class LatticeSpec:
         given = {
             "size grading": self.size_grading is not None,
             "cell map": self.cell_map is not None,
-            "orientation": self.orientation is not None,
             "fillet": self.fillet > 0.0,
             "removal of dangling struts": self.remove_dangling or self.shortest_stub > 0.0,
             "target of stiffness": self.target is not None and self.target.aim == "stiffness",
@@ -185,6 +184,11 @@ class LatticeSpec:
                         f"'{self.unit_cell().name}' is not: leave it out, or choose another cell."
                     )
                 raise VolfrepError(f"A {what} is for cells and not for a network: leave it out.")
+        if isinstance(self.network, RandomNetwork) and self.orientation is not None:
+            raise VolfrepError(
+                "An orientation turns a lattice that is given, and not random points: leave it "
+                "out, or take another seed."
+            )
         own = isinstance(self.network, GivenNetwork) and len(self.network.radii)
         if own and self.target is not None:
             raise VolfrepError(
@@ -341,6 +345,15 @@ class LatticeSpec:
                 "another cell."
             )
         return self.cell
+
+    @property
+    def fitted_cell(self) -> UnitCell | None:
+        """The cell whose joints stiffen the ends of beams; None for a network, of which none is.
+
+        Raises:
+            VolfrepError: the lattice is of walls.
+        """
+        return self.unit_cell() if self.network is None else None
 
     @property
     def cell_name(self) -> str:

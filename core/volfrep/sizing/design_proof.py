@@ -10,10 +10,9 @@ from typing import Any
 import numpy as np
 
 from ..design.cells import UnitCell
-from ..fem.beam_mesh import JOINT_STIFFNESS, BeamModel, beam_model
+from ..fem.beam_mesh import JOINT_STIFFNESS, BeamModel, beam_model, ends_law
 from ..fem.wedge_mesh import wedge_mesh
 from ..grid.strut_graph import Wireframe
-from ..mechanics.catalogue import joint_law
 from ..mechanics.frame import Ends
 from ..mechanics.materials import SolidMaterial
 from ..util.progress import Monitor
@@ -55,7 +54,7 @@ def stricter_limits(limits: Limits, final: Analysis, proof: dict[str, Any] | Non
 
 def proved(
     model: SizingModel,
-    cell: UnitCell,
+    cell: UnitCell | None,
     cell_size: float,
     final: Analysis,
     material: SolidMaterial,
@@ -66,7 +65,7 @@ def proved(
 
     Args:
         model: what was solved.
-        cell: the unit cell, whose joints stiffen the beams' ends.
+        cell: the unit cell, whose joints stiffen the beams' ends; None for a network.
         cell_size: L, mm.
         final: the design.
         material: of the struts.
@@ -99,7 +98,7 @@ def proved(
     for end in (0, 1):
         np.maximum.at(joints, beams.struts[:, end], of_struts[:, end])
     frame = Wireframe(nodes, beams.struts.astype(np.int32), of_struts, joints)
-    law = joint_law(cell, cell_size, "square")
+    law = ends_law(cell, cell_size, "square")
     deck = beam_model(
         frame, None if beams.joined.all() else _free_ends(beams.joined, beams.struts, count),
         joint_law=law, elements_per_strut=8 if model.skin is None else 4, radius_tolerance=0.003,

@@ -13,11 +13,11 @@ from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from ..design.cells import UnitCell
+from ..fem.beam_mesh import ends_law
 from ..grid.strut_graph import Wireframe
 from ..loads.load_cases import LoadCase
 from ..loads.nodal_loads import ROUNDING, Body, nodal_case
 from ..loads.regions import AnyOf, Region, simple_regions
-from ..mechanics.catalogue import joint_law
 from ..mechanics.frame import SQUARE_SECTION
 from ..mechanics.materials import SolidMaterial
 from ..mesh import remesh
@@ -114,12 +114,13 @@ def feet_of(wireframe: Wireframe, clipped: Clipped, domain: TriangleMesh, radii:
 def sizing_model(
     wireframe: Wireframe,
     clipped: Clipped,
-    cell: UnitCell,
+    cell: UnitCell | None,
     cell_size: float,
     material: SolidMaterial,
     cases: Sequence[LoadCase],
     *,
     bounds: tuple[float, float],
+    borne: float = 0.0,
     skin: SkinModel | None = None,
     solid: TriangleMesh | None = None,
 ) -> SizingModel:
@@ -128,12 +129,13 @@ def sizing_model(
     Args:
         wireframe: of the active cells, whole, mm.
         clipped: the same struts, cut at the domain's wall.
-        cell: the unit cell.
-        cell_size: L, mm.
+        cell: the unit cell; None for a network.
+        cell_size: L, mm; of a network the median length of its struts.
         material: of struts and skin.
         cases: what the part carries.
         bounds: the smallest radius that a strut may have, and the largest, mm; nodes where struts
             would meet before their middles have less.
+        borne: a radius that nodes bear even there, because struts that overlap are united, mm.
         skin: its shells; None for a bare lattice.
         solid: the part, on which regions are looked up; needed with a skin.
 
@@ -154,6 +156,7 @@ def sizing_model(
 
     least, most = bounds
     largest = largest_radii(wireframe.nodes, wireframe.struts.astype(np.int64), most)
+    largest = np.maximum(largest, min(borne, most))
     if least > largest.min():
         raise VolfrepError(
             f"Struts of radius {least:.4g} mm are the thinnest allowed, and where they are "
@@ -181,7 +184,7 @@ def sizing_model(
     )
     del held
     stuff = elastic(material)
-    table = end_table(joint_law(cell, cell_size, "square"), least, float(largest.max()))
+    table = end_table(ends_law(cell, cell_size, "square"), least, float(largest.max()))
     joined = ~(clipped.on_wall & alone)[struts]
     nodes, ties, blocks = frame.nodes, NO_TIES, None
     facets = np.empty((0, 3), np.int64)

@@ -13,8 +13,8 @@
       <translation>Ein Punkt der Achse, oder der Mittelpunkt</translation>
     </message>
     <message>
-      <source>A point that is to be a corner of a cell</source>
-      <translation>Ein Punkt, der die Ecke einer Zelle sein soll</translation>
+      <source>A point that is to be a corner of a cell; of a network of a file, where its own origin is to lie</source>
+      <translation>Ein Punkt, der Ecke einer Zelle sein soll; bei einem Netz aus einer Datei: wo deren Nullpunkt liegen soll</translation>
     </message>
     <message>
       <source>Activation</source>

@@ -13,8 +13,8 @@
       <translation>Un punto dell'asse, o il centro</translation>
     </message>
     <message>
-      <source>A point that is to be a corner of a cell</source>
-      <translation>Un punto che sarà un vertice di una cella</translation>
+      <source>A point that is to be a corner of a cell; of a network of a file, where its own origin is to lie</source>
+      <translation>Un punto che deve essere un vertice di una cella; di una rete da un file: dove deve trovarsi la sua origine</translation>
     </message>
     <message>
       <source>Activation</source>

@@ -8,6 +8,8 @@ from .parameter import Need, Parameter
 #: Networks in place of cells: edges between random points, or those of a file.
 RANDOM = ("voronoi", "delaunay")
 _RANDOM = (Need(("network",), RANDOM),)
+#: What lies somewhere of its own accord, and may lie elsewhere: cells, and the network of a file.
+GIVEN = (Need(("network",), ("cells", "file")),)
 #: Cells in layers: on the quadrilaterals of a file, or upon or between faces picked in FreeCAD.
 _LAYERS = (Need(("network",), ("file", "faces")),)
 

@@ -7,7 +7,7 @@ windows: ``make translations`` reads them here.
 
 from __future__ import annotations
 
-from .network_rows import NETWORK
+from .network_rows import GIVEN, NETWORK
 from .parameter import Need, Parameter
 from .wall_rows import OF_STRUTS, SIZES, WALL
 
@@ -130,10 +130,11 @@ PARAMETERS = (
     ),
     Parameter(
         "origin", "point", "Lattice",
-        "A point that is to be a corner of a cell",
+        "A point that is to be a corner of a cell; of a network of a file, where its own origin is "
+        "to lie",
         switch="Put a corner of a cell at Origin; otherwise the cells start at the corner of the "
         "solid",
-        otherwise="the corner of the part's box", of_block=False,
+        otherwise="the corner of the part's box; of a file 0, 0, 0", of_block=False,
     ),
     *WALL,
     *NETWORK,
@@ -262,7 +263,7 @@ PARAMETERS = (
         "rotate", "rotation", "Orientation",
         "Turns the lattice, not the solid: about this axis, by this angle, counter-clockwise seen "
         "against it",
-        otherwise="not turned", freecad_name="Orientation",
+        otherwise="not turned", needs=GIVEN, freecad_name="Orientation",
     ),
     Parameter(
         "rotate_origin", "point", "Orientation",

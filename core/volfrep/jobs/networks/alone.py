@@ -10,7 +10,7 @@ from ...design.networks import GivenNetwork, laid_along
 from ...design.spec import LatticeSpec
 from ...design.spec_parts import DEFAULT_RELATIVE_DEVIATION
 from ...grid.cell_grid import CellGrid
-from ...grid.placement import Placement, node_radii
+from ...grid.placement import Placement, node_radii, part_map
 from ...grid.strut_graph import Wireframe
 from ...mesh.edge_table import plural
 from ...mesh.float32_repair import shortest_edge
@@ -49,8 +49,13 @@ def network_frame(
     return Wireframe(placement.nudged(nodes), rows, np.array(radii), joints)
 
 
+def shifted(network: GivenNetwork, spec: LatticeSpec) -> Floats:
+    """(n, 3) the nodes of a given network, its own origin at the specification's, mm."""
+    return network.nodes if spec.origin is None else network.nodes + np.array(spec.origin)
+
+
 def cells_about(bounds: Floats, spec: LatticeSpec) -> GivenNetwork:
-    """Cells of any box side by side, as many as cover the bounds of a domain.
+    """Cells of any box side by side, as many as cover the bounds of a domain in lattice space.
 
     The first one's corner lies at the specification's origin, or where the bounds begin.
     """
@@ -110,14 +115,13 @@ def uncut(made: NetworkSurface, smallest: float, monitor: Monitor) -> Cleared:
     return clear(surface, smallest, monitor)
 
 
-def network_alone(spec: LatticeSpec, *, progress: ProgressCallback | None = None) -> Result:
-    """A given network as it is, in free space.
+def frame_alone(spec: LatticeSpec) -> tuple[Wireframe, Placement]:
+    """The nodes and struts of a given network as it is in free space, and where that is.
 
     Raises:
-        VolfrepError: the specification has no given network, or it cannot be meshed.
-        Cancelled: the callback said so.
+        VolfrepError: the specification has no given network, or something that needs a part.
     """
-    wanted, monitor = spec.network, Monitor(progress)
+    wanted = spec.network
     if not isinstance(wanted, GivenNetwork):
         raise VolfrepError("A network in free space is one of a file: give its nodes and struts.")
     if spec.target is not None:
@@ -131,9 +135,23 @@ def network_alone(spec: LatticeSpec, *, progress: ProgressCallback | None = None
             "direction or by a field."
         )
 
-    bounds = np.stack([wanted.nodes.min(axis=0), wanted.nodes.max(axis=0)])
-    placement = Placement(spec.cell_size, None, bounds, depth)
-    frame = network_frame(wanted.nodes, wanted, wanted.struts, spec, placement)
+    first = shifted(wanted, spec)
+    mapping = part_map(spec.grid, np.stack([first.min(axis=0), first.max(axis=0)]))
+    nodes = first if mapping is None else mapping.to_part(first)
+    bounds = np.stack([nodes.min(axis=0), nodes.max(axis=0)])
+    placement = Placement(spec.cell_size, mapping, bounds, depth)
+    return network_frame(nodes, wanted, wanted.struts, spec, placement), placement
+
+
+def network_alone(spec: LatticeSpec, *, progress: ProgressCallback | None = None) -> Result:
+    """A given network as it is, in free space.
+
+    Raises:
+        VolfrepError: the specification has no given network, or it cannot be meshed.
+        Cancelled: the callback said so.
+    """
+    monitor = Monitor(progress)
+    frame, placement = frame_alone(spec)
     with monitor.stage("lattice", 0.0, 0.8):
         made = meshed(frame, spec, monitor)
     smallest = float((0.2 * np.median(frame.radii)) ** 3)

@@ -4,11 +4,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
 from ...design.networks import CellNetwork, RandomNetwork
 from ...design.spec import LatticeSpec
+from ...grid.coordinate_map import mapped_box
 from ...grid.placement import Placement
 from ...grid.strut_graph import Wireframe
 from ...lattice.strut_volume import volume_by_radius
@@ -18,7 +20,7 @@ from ...spatial.proximity import closest_points
 from ...spatial.rays import inside_points
 from ...util.progress import Monitor
 from ...util.types import Floats
-from .alone import cells_about, network_frame
+from .alone import cells_about, network_frame, shifted
 
 #: Struts of a random network are drawn together where they are shorter than so many radii.
 SHORTEST = 4.0
@@ -54,10 +56,28 @@ def network_struts(
         shortest = SHORTEST * spec.struts.extremes[1]
         nodes, struts = random_graph(wanted, domain, spec.cell_size, shortest, depth, monitor)
         return network_frame(nodes, None, struts, spec, placement)
+    mapping = placement.mapping
     if isinstance(wanted, CellNetwork):
-        wanted = cells_about(domain_of().bounds, spec)
-    assert wanted is not None
-    return network_frame(wanted.nodes, wanted, wanted.struts, spec, placement)
+        bounds = domain_of().bounds
+        if mapping is not None:
+            bounds = mapped_box(mapping.to_lattice, bounds)
+        wanted = cells_about(bounds, spec)
+        nodes = wanted.nodes
+    else:
+        assert wanted is not None
+        nodes = shifted(wanted, spec)
+    if mapping is not None:
+        nodes = mapping.to_part(nodes)
+    return network_frame(nodes, wanted, wanted.struts, spec, placement)
+
+
+def fixed_graph(spec: LatticeSpec) -> LatticeSpec:
+    """The specification whose random network stays the same graph whatever radii it is given."""
+    network = spec.network
+    if not isinstance(network, RandomNetwork) or network.shortest:
+        return spec
+    shortest = SHORTEST * spec.struts.extremes[1]
+    return replace(spec, network=replace(network, shortest=shortest))
 
 
 def median_length(frame: Wireframe) -> float:

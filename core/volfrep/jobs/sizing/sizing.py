@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from ...design.grading import RadiusGrading
+from ...design.networks import CellNetwork
 from ...design.parameters.specification import values_of
 from ...design.profile import Profile
 from ...design.scattered_field import PointField
@@ -35,12 +36,17 @@ from ...util.files import replacing
 from ...util.progress import Monitor, ProgressCallback
 from ...util.types import Floats
 from ..infill import Infill
-from ..targets import aimed
+from ..networks.frame import fixed_graph, median_length
+from ..networks.radius import THICKEST
+from ..targets import aimed, infill_of
 from .goal import Goal
 from .notes import not_held, stressed_skin
 
 #: Edges of the skin's triangles over the cell size, and over its thickness at least.
 SKIN_EDGE, SKIN_EDGE_LEAST = 0.5, 1.5
+#: Struts of a network are made so many times as thick as they are at most, where nothing else is
+#: said: those that share no joint run into each other then.
+TIMES_THICKER = 2.0
 #: So many times a design is made thicker because of what CalculiX finds.
 CORRECTIONS = 2
 #: Radii are stored in steps of this, mm, as files keep them.
@@ -122,7 +128,8 @@ def size(
     cache = cache or StageCache()
     notes: list[str] = []
     spec = _without_target(solid, spec, goal, cache, progress, notes)
-    infill = Infill(solid, spec, monitor=monitor, cache=cache)
+    spec = fixed_graph(spec)
+    infill = infill_of(solid, spec, monitor=monitor, cache=cache)
     model = _model(infill, loads, goal, cache)
     problem = model.problem
     shape = problem.radii
@@ -147,8 +154,8 @@ def size(
     final = _stored(problem, sized.analysis.radii, goal.limits)
 
     def solve_again(design: Analysis) -> dict[str, Any] | None:
-        cell, size = spec.unit_cell(), spec.cell_size
-        return proved(model, cell, size, design, loads.material, notes, monitor)
+        cell, length = spec.fitted_cell, _length(infill)
+        return proved(model, cell, length, design, loads.material, notes, monitor)
 
     proof = None
     if prove_it and sized.stopped != "cancelled":
@@ -217,7 +224,7 @@ def solved(
     """
     cache = cache or StageCache()
     spec = _without_target(solid, spec, Goal(), cache, progress, [])
-    infill = Infill(solid, spec, monitor=Monitor(progress), cache=cache)
+    infill = infill_of(solid, spec, monitor=Monitor(progress), cache=cache)
     frame = infill.struts
     radii = np.zeros(len(frame.nodes))
     radii[frame.struts] = frame.radii
@@ -289,19 +296,34 @@ def _model(infill: Infill, loads: LoadCases, goal: Goal, cache: StageCache) -> S
         raise VolfrepError("The output 'domain' holds no lattice to size: choose part or lattice.")
     if spec.fillet:
         raise VolfrepError("Struts with fillets cannot be sized: set the fillet to 0.")
+    widths = getattr(spec.network, "widths", ())
+    if isinstance(spec.network, CellNetwork):
+        widths = spec.unit_cell().widths
+    if len(widths):
+        raise VolfrepError(
+            "Sizing gives each node one radius, and these struts have widths of their own: choose "
+            "a cell without."
+        )
     wireframe, clipped = infill.struts, infill.axes
     if spec.radius_grading is not None:
         # Which ends at a wall are too short for a beam goes by the radius: those of the
         # specification's own, so that a design is solved as it was sized.
-        plain = Infill(
+        plain = infill_of(
             infill.solid, replace(spec, radius_grading=None), monitor=infill.monitor, cache=cache
         )
         if np.array_equal(plain.struts.struts, wireframe.struts):
             clipped = plain.axes
     own = float(np.median(wireframe.radii))
     least = goal.radius_min if goal.radius_min is not None else 0.5 * own
-    bears = 0.98 * largest_radius(spec.cell_size, spec.fillet)
-    most = bears if goal.radius_max is None else min(goal.radius_max, bears)
+    length, borne = _length(infill), 0.0
+    if spec.network is None:
+        bears = 0.98 * largest_radius(spec.cell_size, spec.fillet)
+    else:
+        # Where a network's struts leave each other no room they are united.
+        bears = max(THICKEST * length, own)
+        borne = own
+    usual = bears if spec.network is None else min(bears, TIMES_THICKER * own)
+    most = usual if goal.radius_max is None else min(goal.radius_max, bears)
     if not 0.0 < least <= most:
         raise VolfrepError(
             f"Radii from {least:.4g} to {most:.4g} mm make no sense: the smallest must be above 0 "
@@ -310,7 +332,8 @@ def _model(infill: Infill, loads: LoadCases, goal: Goal, cache: StageCache) -> S
         )
     skin = None
     if spec.with_skin:
-        edge = max(SKIN_EDGE * spec.cell_size, SKIN_EDGE_LEAST * spec.shell)
+        apart = spec.cell_size if spec.network is None else 2.0 * length
+        edge = max(SKIN_EDGE * apart, SKIN_EDGE_LEAST * spec.shell)
         with infill.monitor.stage("skin", 0.3, 0.4):
             skin = skin_model(
                 infill.solid, spec.shell, edge, elastic(material), infill.domain.openings,
@@ -318,13 +341,19 @@ def _model(infill: Infill, loads: LoadCases, goal: Goal, cache: StageCache) -> S
                 infill.monitor, held=held_facets(infill.solid, loads.cases),
             )  # fmt: skip
     model = sizing_model(
-        wireframe, clipped, spec.unit_cell(), spec.cell_size, material, loads.cases,
-        bounds=(least, most), skin=skin, solid=infill.solid,
+        wireframe, clipped, spec.fitted_cell, length, material, loads.cases,
+        bounds=(least, most), borne=borne, skin=skin, solid=infill.solid,
     )  # fmt: skip
     if goal.smooth:
         smoother = smoothing(wireframe.struts.astype(np.int64), len(wireframe.nodes), goal.smooth)
         model = replace(model, problem=replace(model.problem, smoother=smoother))
     return model
+
+
+def _length(infill: Infill) -> float:
+    """L, mm: of the cells, or a network's median length of struts, which stands for it."""
+    spec = infill.spec
+    return spec.cell_size if spec.network is None else median_length(infill.struts)
 
 
 def _given_radii(wireframe: Wireframe) -> Floats:

@@ -201,7 +201,6 @@ class LatticeSpec:
         given = {
             "fillet": self.fillet > 0.0,
             "removal of dangling struts": self.remove_dangling or self.shortest_stub > 0.0,
-            "target of stiffness": self.target is not None and self.target.aim == "stiffness",
             "radius grading": self.radius_grading is not None and not self.wall.is_sheet,
         }
         for what, is_given in given.items():

@@ -11,6 +11,7 @@ from ..design.spec import LatticeSpec
 from ..design.target import Target
 from ..reports.report import Report, told
 from .stiffness_target import modulus
+from .walls.stiffness import wall_modulus
 
 #: A mesh that misses its target by more, relative, is made again; so many are made at most.
 CLOSE = 3e-3
@@ -87,7 +88,11 @@ def judged(report: Report, spec: LatticeSpec) -> Report:
         return report
     size = spec.cell_size
     if target.aim == "stiffness":
-        reached = modulus(spec.unit_cell(), spec.strut_radius / size, target, spec.fillet / size)
+        if spec.surface is not None:
+            reached = wall_modulus(spec, target)
+        else:
+            ratio, fillet = spec.strut_radius / size, spec.fillet / size
+            reached = modulus(spec.unit_cell(), ratio, target, fillet)
     else:
         reached = report.mass_g if target.aim == "mass" else report.relative_density
     found = {"strut_radius_mm": spec.strut_radius}

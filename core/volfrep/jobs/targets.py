@@ -43,6 +43,7 @@ from .rough_radius import radius_range
 from .stiffness_target import ratio_of_stiffness
 from .target_report import REACH, WantedVolume, made_until_met
 from .walls.infill import WallInfill
+from .walls.stiffness import stiff_walls
 from .walls.targets import aimed_walls, aimed_walls_block
 
 #: The first guess is this near, relative; a radius is sought up to so much above it.
@@ -203,6 +204,8 @@ def aimed_block(
 
 
 def _stiff(spec: LatticeSpec, target: Target) -> LatticeSpec:
+    if spec.surface is not None:
+        return stiff_walls(spec, target)
     size = spec.cell_size
     ratio = ratio_of_stiffness(spec.unit_cell(), target, spec.fillet / size)
     return replace(spec, strut_radius=ratio * size)

@@ -23,7 +23,8 @@ class Expectation:
 
     Attributes:
         forecast: of the job.
-        strut_radius: mm; of a target the endless lattice's, of a graded radius a mean.
+        strut_radius: mm; of a target the endless lattice's, of a graded radius a mean; half the
+            thickness of a sheet, and 0 for one side of a surface.
         relative_density: of the lattice in what it fills.
         volume_mm3: of the finished part, within a few percent.
         mass_g: the same.
@@ -57,6 +58,8 @@ def expected(solid: TriangleMesh, spec: LatticeSpec, depth: PartDepth) -> Expect
             "left to fill: reduce the shell thickness."
         )
     skin = abs(solid.volume) - inside if spec.with_skin else 0.0
+    if spec.output != "domain" and (spec.surface is not None or spec.network is not None):
+        return _expected_otherwise(solid, spec, depth)
     spec = aimed_roughly(spec, inside, skin)
     if spec.is_graded and spec.output != "domain":
         share = preview(solid, spec, depth).relative_density
@@ -69,6 +72,18 @@ def expected(solid: TriangleMesh, spec: LatticeSpec, depth: PartDepth) -> Expect
         share,
         volume,
         volume * spec.density / 1000.0,
+    )
+
+
+def _expected_otherwise(solid: TriangleMesh, spec: LatticeSpec, depth: PartDepth) -> Expectation:
+    """What walls or a network will come to: the preview's figures, with its thickness or radius."""
+    shown = preview(solid, spec, depth)
+    made = shown.spec
+    radius = made.template_radius
+    if made.surface is not None:
+        radius = 0.25 * sum(made.thicknesses)
+    return Expectation(
+        forecast_fill(solid, made), radius, shown.relative_density, shown.volume, shown.mass
     )
 
 

@@ -234,3 +234,62 @@ def test_edges_and_widths_are_saved(tmp_path: Path) -> None:
     cell = make_cell("x", [[0, 0, 0], [1, 1, 1]], [[0, 1]], edges=[1, 2, 1], widths=[0.5])
     save_cell(cell, tmp_path / "x.json")
     assert load_cell(tmp_path / "x.json") == cell
+
+
+#: As catalogues that descend from it write an entry: further lists about the bars, nodes from 0.
+DESCENDED = """----- lattice_transition -----
+Name: own_corner_p_0.0_-12
+
+Base name: own_corner
+Imperfection level: 0.0
+Nodal hash: -12
+Normalized unit cell parameters (a,b,c,alpha,beta,gamma):
+1, 1, 1, 90, 90, 90
+
+
+Compliance tensors (Mandel) start (flattened upper triangular)
+-> at relative density 0.01:
+300,-1.0184e-13,300,9.4e+04
+Compliance tensors (Mandel) end
+
+Nodal positions:
+0 0.25 0.5
+0.25 0 0.5
+0.25 0.25 0
+0.25 0.25 0.5
+0.25 0.25 1
+0.25 1 0.5
+1 0.25 0.5
+
+Bar connectivities:
+0 3
+1 3
+2 3
+3 4
+3 5
+3 6
+
+Fundamental edge adjacency
+3 3
+3 3
+3 3
+
+Fundamental tesselation vectors
+1 0 0
+0 1 0
+0 0 1
+"""
+
+
+def test_lists_of_other_things_in_a_catalogue_are_passed_over(tmp_path: Path) -> None:
+    path = tmp_path / "catalogue.lat"
+    path.write_text(DESCENDED)
+    (name,) = catalogue_names(path)
+    assert name == "own_corner_p_0.0_-12"
+    _, edges, nodes, struts = catalogue_entry(path, name)
+    assert edges == (1.0, 1.0, 1.0)
+    assert (len(nodes), struts) == (7, [[0, 3], [1, 3], [2, 3], [3, 4], [3, 5], [3, 6]])
+    cell = make_cell(name, nodes, struts)
+    # A node on a face has its image on the opposite one: bars go on into the next cell.
+    report = block(LatticeSpec(cell, 10, 0.5), (2, 2, 2)).report
+    assert (report.watertight, report.bodies) == (True, 1)

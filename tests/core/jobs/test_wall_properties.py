@@ -9,7 +9,10 @@ import pytest
 
 import command
 import volfrep
+from volfrep import LatticeSpec, VolfrepError
+from volfrep.design.target import read_stiffness
 from volfrep.design.walls import SURFACES, PeriodicSurface, Wall, find_surface
+from volfrep.jobs.walls import stiffness
 from volfrep.jobs.walls.symmetry import is_cubic, is_mirror_symmetric
 from volfrep.jobs.walls.wall_voxels import of_density, wall_density, wall_voxels
 from volfrep.mechanics.assembly import nodes_of
@@ -116,3 +119,27 @@ def test_the_command_tells_what_walls_do(tmp_path: Path, capsys):
 def test_what_makes_no_sense_is_refused(arguments, said, capsys):
     assert command.run("properties", *arguments, "--cell-size", 10) == 2
     assert said in capsys.readouterr().err
+
+
+@pytest.mark.slow
+def test_a_wall_is_made_as_stiff_as_it_is_asked_for(monkeypatch):
+    # Coarse grids, of which the fine ones here are as coarse as the usual coarse ones.
+    monkeypatch.setattr(stiffness, "_COARSE", 0.25)
+    monkeypatch.setattr(stiffness, "_FINE", 0.4)
+    target = read_stiffness("0.05:111")
+    spec = LatticeSpec("Schwarz P", 10.0, shell=0, target=target)
+    found = stiffness.stiff_walls(spec, target)
+    # Another homogenisation, as exact as the table in docs/walls.md.
+    wall = found.wall
+    made = volfrep.properties("Schwarz P", 10.0, wall_thickness=wall.thickness, along=48)
+    assert made.values["E111"] == pytest.approx(0.05, rel=0.02)
+    assert 0.4 < wall.thickness < 0.6
+    assert stiffness.wall_modulus(found, target) == pytest.approx(0.05, rel=0.01)
+
+
+def test_a_stiffness_that_no_wall_has_is_refused_with_what_can_be_had(monkeypatch):
+    monkeypatch.setattr(stiffness, "_COARSE", 0.25)
+    spec = LatticeSpec("Schwarz P", 10.0, shell=0)
+    for wanted in ("0.9:100", "1e-5:100"):
+        with pytest.raises(VolfrepError, match=r"choose one from .* of the solid's"):
+            stiffness.stiff_walls(spec, read_stiffness(wanted))

@@ -115,8 +115,7 @@ PARAMETERS = (
         "stiffness", "stiffness", "Lattice",
         "In place of the radius: Young's modulus of the lattice along 100, 110, 111 or X,Y,Z of "
         "its cell, in MPa where a material is given, else in units of the solid's",
-        needs=(OF_STRUTS,), in_freecad=False,
-        instead_of=("strut_radius", "relative_density", "mass"),
+        in_freecad=False, instead_of=("strut_radius", "relative_density", "mass", *SIZES),
     ),
     Parameter(
         "shell", "length", "Lattice",

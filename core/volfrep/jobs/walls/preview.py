@@ -21,6 +21,7 @@ from ...walls.midsurface import midsurface
 from ..part_depth import PartDepth, Preview
 from .levels import level_table, with_volume
 from .making import surface_of
+from .stiffness import stiff_walls
 
 #: Samples along a cell, of which there are never more than so many in the part's box; fewer than
 #: the least along a cell would not show what it is.
@@ -65,7 +66,9 @@ def shown_walls(
     sides = where.sided(points)
     domain = depth.volume_below(spec.shell)
     skin = abs(solid.volume) - domain if spec.output == "part" else 0.0
-    if spec.target is not None:
+    if spec.target is not None and spec.target.aim == "stiffness":
+        spec = stiff_walls(spec, spec.target, rough=True)
+    elif spec.target is not None:
         volume = spec.target.lattice_volume(spec.density, domain, skin)
         table = level_table(sides, np.full(len(points), domain / max(len(points), 1)))
         spec = with_volume(spec, spec.target, table, volume, domain)

@@ -79,11 +79,23 @@ def homogenise_wall(
         VolfrepError: the solid does not hang together.
     """
     if along is None:
-        # A sheet's half thickness is what a radius is to a strut.
-        wanted = PER_RADIUS[octant] / solid.level if solid.kind == "sheet" else _OF_SIDES
-        along = bounded(wanted, density, octant)
+        along = usual_along(solid, density, octant=octant)
 
     def voxels(size: int) -> Voxels:
         return wall_voxels(solid, size, octant=octant, density=density)
 
     return homogenised(voxels, three_sizes(along), poisson, cubic=is_cubic(solid), name=name)
+
+
+def usual_along(solid: WallSolid, density: float, *, octant: bool, fineness: float = 1.0) -> int:
+    """Voxels along L that a wall's thickness asks for.
+
+    Args:
+        solid: the wall, in units of L.
+        density: its relative density.
+        octant: whether only an octant is cut into voxels.
+        fineness: how many times as many.
+    """
+    # A sheet's half thickness is what a radius is to a strut.
+    wanted = PER_RADIUS[octant] / solid.level if solid.kind == "sheet" else _OF_SIDES
+    return bounded(fineness * min(wanted, bounded(wanted, density, octant)), density, octant)

@@ -12,6 +12,7 @@ from typing import Any
 
 from ...design.parameters.spec_file import write_values
 from ...design.spec import LatticeSpec
+from ...design.walls import Wall
 from ...io.solid import Solid
 from ...io.write import mesh_writer
 from ...jobs.infill import Infill
@@ -19,11 +20,12 @@ from ...jobs.preview import PartDepth
 from ...jobs.sizing.goal import goal_of
 from ...jobs.sizing.sizing import size, solved, values_with_radii, write_radii
 from ...jobs.targets import aimed
+from ...jobs.walls.properties import wall_properties
 from ...loads.load_cases import LoadCases
 from ...loads.load_file import read_load_cases
 from ...mechanics.catalogue import known_properties
 from ...mechanics.materials import SolidMaterial
-from ...mechanics.summary import MODULI, RATIOS, cell_properties
+from ...mechanics.summary import MODULI, RATIOS, CellProperties, cell_properties
 from ...reports.mesh_report import mesh_report
 from ...reports.passage import walls_of
 from ...reports.picture import picture
@@ -123,6 +125,11 @@ class Bench:
             return self.spec
         return dataclasses.replace(self.infill.spec, target=None)
 
+    @property
+    def wall(self) -> Wall:
+        """The walls with the thickness or the offset that meets their target, if they have one."""
+        return self.spec.wall if self.spec.target is None else self.infill.spec.wall
+
     def file(self, kind: str, suffix: str) -> Path:
         """Where a file of this design goes, in a folder of its kind."""
         folder = self.asked.folder / kind
@@ -146,6 +153,16 @@ def _properties(bench: Bench) -> dict[str, Figure]:
             "A lattice that is graded, mapped or turned has no one stiffness: leave 'properties' "
             "out, or the grading."
         )
+    if spec.network is not None:
+        raise VolfrepError(
+            "A network repeats nowhere, and so has no stiffness of its own: leave 'properties' out."
+        )
+    if spec.surface is not None:
+        wall = (spec.surface, bench.wall, spec.cell_size)
+        if wall not in bench.shared.properties:
+            found = wall_properties(spec.surface, spec.cell_size, bench.wall, material=material)
+            bench.shared.properties[wall] = _told(found, "homogenised")
+        return dict(bench.shared.properties[wall])
     cell, radius = spec.unit_cell(), bench.expectation.strut_radius
     ratio, fillet = radius / spec.cell_size, spec.fillet / spec.cell_size
     # Sizes of one shape differ in the last digits of r / L only.
@@ -162,6 +179,10 @@ def _endless(place: tuple[Any, float, float], material: SolidMaterial | None) ->
     source = "catalogue" if found is not None else "homogenised"
     if found is None:
         found = cell_properties(cell, 1.0, ratio, fillet=fillet, material=material)
+    return _told(found, source)
+
+
+def _told(found: CellProperties, source: str) -> dict[str, Figure]:
     told: dict[str, Figure] = {"relative_density": found.relative_density}
     told |= {name: found.values[name] for name in (*MODULI, *RATIOS, *LIMITS)}
     return {**told, "from": source}

@@ -156,7 +156,9 @@ def weight(design: Design, seconds: float, actions: Mapping[str, bool]) -> float
     """Expected seconds of a run with these actions, of which some need the mesh."""
     total = 0.0
     if "properties" in actions:
-        known = not design.spec.fillet and known_cell(design.spec.unit_cell()) is not None
+        spec = design.spec
+        walls = spec.surface is not None
+        known = not (walls or spec.fillet) and known_cell(spec.unit_cell()) is not None
         total += QUICK if known else HOMOGENISED
     meshed = sum(actions.values())
     if meshed:
@@ -186,7 +188,7 @@ def grouped(
             return (*wall, -weights[design.key], design.key)
         target = "" if spec.target is None else repr(spec.target)
         ratio = f"{spec.strut_radius / spec.cell_size:.9g}"
-        return (spec.unit_cell().name, ratio, target, *wall, design.key)
+        return (spec.cell_name, ratio, target, *wall, design.key)
 
     left = sum(weights.values())
     groups: list[list[Design]] = []

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import html
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -13,10 +12,11 @@ import FreeCADGui as Gui
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 from volfrep.design.cells import LIBRARY, UnitCell, load_cell
 from volfrep.design.parameters.table import CUSTOM_CELL
+from volfrep.design.walls import SURFACES, PeriodicSurface
 from volfrep.mechanics.endless import strains_held
 from volfrep.util.errors import VolfrepError
 
-from .cell_picture import cell_icon
+from .cell_entry import USES, Entry
 from .cell_properties import CellProperties
 from .command import undo_step
 from .messages import WRONG, file_name
@@ -31,35 +31,7 @@ _CONTEXT = "VolfrepCells"
 FILTER = QT_TRANSLATE_NOOP("VolfrepCells", "Unit cell (*.json)")
 _STRETCHING = QT_TRANSLATE_NOOP("VolfrepCells", "stretching")
 _BENDING = QT_TRANSLATE_NOOP("VolfrepCells", "bending")
-#: What cells are for, as `volfrep.design.cells.USES` has it.
-_USES = {
-    "stiff": QT_TRANSLATE_NOOP("VolfrepCells", "stiff in every direction"),
-    "axial": QT_TRANSLATE_NOOP("VolfrepCells", "stiff along its columns"),
-    "soft": QT_TRANSLATE_NOOP("VolfrepCells", "soft: energy, vibration"),
-    "open": QT_TRANSLATE_NOOP("VolfrepCells", "open: flow, bone, foams"),
-    "auxetic": QT_TRANSLATE_NOOP("VolfrepCells", "auxetic: wider when pulled"),
-}
 _ENTRY = QtCore.Qt.UserRole
-
-
-@dataclass(eq=False)
-class Entry:
-    """A cell of the list.
-
-    Attributes:
-        cell: with its name.
-        path: of its file; None for one of the library, and for one that is not saved yet.
-        notes: what to know about it.
-    """
-
-    cell: UnitCell
-    path: str | None = None
-    notes: tuple[str, ...] = ()
-
-    @property
-    def is_own(self) -> bool:
-        """Whether it is not one of the library's."""
-        return LIBRARY.get(self.cell.name) is not self.cell
 
 
 class CellLibrary(QtWidgets.QDialog):
@@ -117,7 +89,7 @@ class CellLibrary(QtWidgets.QDialog):
             )
         }
         self._lay_out()
-        for cell in LIBRARY.values():
+        for cell in (*LIBRARY.values(), *SURFACES.values()):
             self._add(Entry(cell))
         self._list.currentItemChanged.connect(lambda *_: self._show())
         self._list.setCurrentRow(0)
@@ -181,6 +153,7 @@ class CellLibrary(QtWidgets.QDialog):
         from volfrep.design.drawn_cell import save_cell
 
         entry = self._entry()
+        assert isinstance(entry.cell, UnitCell), "the button is off"
         try:
             refuse_inputs_of_all(path, but=("CellFile",))  # a cell may replace a cell
             save_cell(entry.cell, path)
@@ -224,7 +197,7 @@ class CellLibrary(QtWidgets.QDialog):
         chooser = QtWidgets.QComboBox()
         chooser.setObjectName("Use")
         chooser.addItem(translate(_CONTEXT, "All cells"), "")
-        for use, text in _USES.items():
+        for use, text in USES.items():
             chooser.addItem(translate(_CONTEXT, text), use)
         chooser.currentIndexChanged.connect(lambda _: self._filter())
         return chooser
@@ -235,7 +208,7 @@ class CellLibrary(QtWidgets.QDialog):
         for row in range(self._list.count()):
             item = self._list.item(row)
             entry: Entry = item.data(_ENTRY)
-            item.setHidden(bool(use) and not entry.is_own and entry.cell.use != use)
+            item.setHidden(bool(use) and not entry.is_own and entry.use != use)
         if self._list.currentItem() is not None and self._list.currentItem().isHidden():
             shown = (self._list.item(row) for row in range(self._list.count()))
             self._list.setCurrentItem(next(item for item in shown if not item.isHidden()))
@@ -270,7 +243,7 @@ class CellLibrary(QtWidgets.QDialog):
         self.resize(880, 720)
 
     def _add(self, entry: Entry, pick: bool = False) -> None:
-        item = QtWidgets.QListWidgetItem(cell_icon(entry.cell, SMALL), entry.cell.name, self._list)
+        item = QtWidgets.QListWidgetItem(entry.icon(SMALL), entry.cell.name, self._list)
         item.setData(_ENTRY, entry)
         if pick:
             self._list.setCurrentItem(item)
@@ -294,8 +267,29 @@ class CellLibrary(QtWidgets.QDialog):
     def _show(self) -> None:
         entry = self._entry()
         cell = entry.cell
-        self._picture.setPixmap(cell_icon(cell, LARGE).pixmap(LARGE, LARGE))
-        rows = (
+        self._picture.setPixmap(entry.icon(LARGE).pixmap(LARGE, LARGE))
+        lines = "".join(
+            "<tr><td>{}&nbsp;&nbsp;</td><td>{}</td></tr>".format(
+                name, html.escape(str(value)).replace("\n", "<br>")
+            )
+            for name, value in self._rows(entry)
+        )
+        self._figures.setText(f"<b>{html.escape(cell.name)}</b><table>{lines}</table>")
+        self._does.show_cell(cell)
+        self._say("\n".join(entry.notes))
+        self._enable()
+
+    def _rows(self, entry: Entry) -> tuple[tuple[str, Any], ...]:
+        """What is told of a cell at once."""
+        cell = entry.cell
+        good_for = (
+            translate(_CONTEXT, "Good for"),
+            translate(_CONTEXT, USES[entry.use]) if entry.use else "-",
+        )
+        also = (translate(_CONTEXT, "Also known as"), "\n".join(cell.also) or "-")
+        if isinstance(cell, PeriodicSurface):
+            return good_for, also
+        return (
             (translate(_CONTEXT, "Nodes"), len(cell.nodes)),
             (translate(_CONTEXT, "Struts"), len(cell.struts)),
             (translate(_CONTEXT, "Maxwell number"), cell.maxwell_number),
@@ -303,11 +297,8 @@ class CellLibrary(QtWidgets.QDialog):
                 translate(_CONTEXT, "Carries load by"),
                 translate(_CONTEXT, _STRETCHING if strains_held(cell) == 6 else _BENDING),
             ),
-            (
-                translate(_CONTEXT, "Good for"),
-                translate(_CONTEXT, _USES[cell.use]) if cell.use else "-",
-            ),
-            (translate(_CONTEXT, "Also known as"), "\n".join(cell.also) or "-"),
+            good_for,
+            also,
             (
                 translate(_CONTEXT, "File"),
                 Path(entry.path).name
@@ -315,16 +306,6 @@ class CellLibrary(QtWidgets.QDialog):
                 else translate(_CONTEXT, "not saved") * entry.is_own or "-",
             ),
         )
-        lines = "".join(
-            "<tr><td>{}&nbsp;&nbsp;</td><td>{}</td></tr>".format(
-                name, html.escape(str(value)).replace("\n", "<br>")
-            )
-            for name, value in rows
-        )
-        self._figures.setText(f"<b>{html.escape(cell.name)}</b><table>{lines}</table>")
-        self._does.show_cell(cell)
-        self._say("\n".join(entry.notes))
-        self._enable()
 
     def _say(self, text: str, wrong: bool = False) -> None:
         self._note.setStyleSheet(WRONG if wrong else "")
@@ -338,6 +319,7 @@ class CellLibrary(QtWidgets.QDialog):
             text = translate(_CONTEXT, "Apply to {label}").format(label=infill.Label)
         self._buttons["Apply"].setText(text)
         self._buttons["From Selection"].setEnabled(bool(selected_with_edges()))
+        self._buttons["Save As..."].setEnabled(not self._entry().is_wall)
 
     def _free_name(self, objects: list[Any]) -> str:
         taken = {self._list.item(row).text() for row in range(self._list.count())}

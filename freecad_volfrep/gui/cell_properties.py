@@ -13,18 +13,20 @@ from freecad_volfrep.features.progress import run_job
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 from volfrep.design.cells import UnitCell
 from volfrep.design.parameters.table import NOTHING
+from volfrep.design.walls import PeriodicSurface
 from volfrep.util.errors import Cancelled, VolfrepError
 
 from .qt import QtCore, QtWidgets
 
 _CONTEXT = "VolfrepCells"
 #: What the fields begin with, mm.
-_SIZE, _RADIUS = 10.0, 1.0
+_FIRST = {"CellSize": 10.0, "StrutRadius": 1.0, "WallThickness": 1.0}
 #: The figures follow once no value has changed for so long, ms.
 _SETTLED = 150
 _FIELDS = {
     "CellSize": QT_TRANSLATE_NOOP("VolfrepCells", "Cell size L"),
     "StrutRadius": QT_TRANSLATE_NOOP("VolfrepCells", "Strut radius r"),
+    "WallThickness": QT_TRANSLATE_NOOP("VolfrepCells", "Wall thickness"),
 }
 
 
@@ -37,11 +39,11 @@ class CellProperties(QtWidgets.QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self._cell: UnitCell | None = None
+        self._cell: UnitCell | PeriodicSurface | None = None
         self._solid: Any = None
         column = QtWidgets.QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
-        rows = QtWidgets.QFormLayout()
+        rows = self._form = QtWidgets.QFormLayout()
         column.addLayout(rows)
         self._timer = QtCore.QTimer(self)
         self._timer.setSingleShot(True)
@@ -69,32 +71,37 @@ class CellProperties(QtWidgets.QWidget):
 
     def begin_with(self, infill: Any) -> None:
         """Take size, radius and material of an infill over."""
-        self._fields["CellSize"].setProperty("rawValue", infill.CellSize.Value)
-        self._fields["StrutRadius"].setProperty("rawValue", infill.StrutRadius.Value)
+        for name, field in self._fields.items():
+            field.setProperty("rawValue", getattr(infill, name).Value)
         try:
             self._solid = material_of(infill)
         except VolfrepError:  # the infill itself says what is wrong with it
             self._solid = None
         self._offer_materials()
 
-    def show_cell(self, cell: UnitCell) -> None:
-        """Tell what this cell does."""
+    def show_cell(self, cell: UnitCell | PeriodicSurface) -> None:
+        """Tell what this cell does, of struts or of walls."""
         self._cell = cell
+        is_wall = isinstance(cell, PeriodicSurface)
+        for name, is_shown in (("StrutRadius", not is_wall), ("WallThickness", is_wall)):
+            self._fields[name].setVisible(is_shown)
+            self._form.labelForField(self._fields[name]).setVisible(is_shown)
         self._refresh()
 
     def compute(self) -> None:
         """Homogenise the cell; says here what is wrong with the values."""
         from volfrep.apart.engine_process import Call
-        from volfrep.mechanics.summary import cell_properties
+        from volfrep.jobs.figures.properties import lattice_properties
 
-        cell, (size, radius) = self._cell, self._sizes()
+        cell, size = self._cell, self._size("CellSize")
         assert cell is not None
-        material = self._material.currentData()
+        given = {"strut_radius": self._size("StrutRadius")}
+        if isinstance(cell, PeriodicSurface):
+            given = {"wall_thickness": self._size("WallThickness")}
+        given["material"] = self._material.currentData()
         title = translate(_CONTEXT, "Properties of {name}").format(name=cell.name)
         try:
-            call = Call(
-                cell_properties, (cell, size, radius), {"material": material}, has_progress=False
-            )
+            call = Call(lattice_properties, (cell, size), given, has_progress=False)
             found = run_job(title, call)
         except VolfrepError as error:
             self._figures.setText(html.escape(str(error)))
@@ -108,7 +115,7 @@ class CellProperties(QtWidgets.QWidget):
         spin.setObjectName(name)
         spin.setProperty("unit", "mm")
         spin.setProperty("minimum", 0.0)
-        spin.setProperty("rawValue", {"CellSize": _SIZE, "StrutRadius": _RADIUS}[name])
+        spin.setProperty("rawValue", _FIRST[name])
         spin.findChild(QtWidgets.QLineEdit).textChanged.connect(
             lambda _: self._timer.start(_SETTLED)
         )
@@ -130,15 +137,20 @@ class CellProperties(QtWidgets.QWidget):
             self._material.setCurrentIndex(row)
         self._material.blockSignals(False)
 
-    def _sizes(self) -> tuple[float, float]:
-        return tuple(float(field.property("rawValue")) for field in self._fields.values())  # type: ignore[return-value]
+    def _size(self, name: str) -> float:
+        return float(self._fields[name].property("rawValue"))
 
     def _refresh(self) -> None:
         from volfrep.mechanics.catalogue import known_properties
 
         if self._cell is None:
             return
-        size, radius = self._sizes()
+        if isinstance(self._cell, PeriodicSurface):
+            self._figures.setText(
+                translate(_CONTEXT, "What these walls do takes some seconds: press Compute.")
+            )
+            return
+        size, radius = self._size("CellSize"), self._size("StrutRadius")
         found = None
         if size > 0.0:
             found = known_properties(self._cell, size, radius, self._material.currentData())

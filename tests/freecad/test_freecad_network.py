@@ -9,6 +9,7 @@ import pytest
 
 from freecad_volfrep import make_lattice_infill
 from freecad_volfrep.features.live_preview import LivePreview
+from freecad_volfrep.features.solver_files import write_solver_file
 
 
 @pytest.fixture
@@ -33,6 +34,26 @@ def test_a_voronoi_network_fills_a_solid_and_follows_its_seed(doc, box):
     doc.recompute()
     assert obj.Volume.Value != before
     assert json.loads(obj.Report)["spec"]["network"]["seed"] == 2
+
+
+def test_a_network_is_written_as_beams_and_turned(doc, box, tmp_path):
+    nodes = [[0, 0, 0], [24, 24, 24], [24, 0, 0], [0, 24, 24], [12, 12, 12]]
+    file = tmp_path / "net.json"
+    file.write_text(json.dumps({"nodes": nodes, "struts": [[k, 4] for k in range(4)]}))
+    obj = make_lattice_infill(
+        doc, box, Network="File", NetworkFile=str(file), StrutRadius=1, ShellThickness=1.5
+    )
+    doc.recompute()
+    deck = tmp_path / "net.inp"
+    write_solver_file(obj, deck, "beam deck")
+    assert "*BEAM SECTION" in deck.read_text()
+    before = obj.Volume.Value
+    turn = App.Rotation(App.Vector(0, 0, 1), 45)
+    obj.Orientation = App.Placement(App.Vector(), turn)
+    doc.recompute()
+    assert obj.isValid(), obj.Status
+    # Struts to the corners end at faces now, and are shorter.
+    assert obj.Volume.Value < before - 1.0
 
 
 def test_a_network_is_shown_before_it_is_made_and_meets_a_density(doc, box):

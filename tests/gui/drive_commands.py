@@ -381,8 +381,10 @@ def use_the_cell_library(doc, obj):
     note = library.findChild(QtGui.QLabel, "Note")
     told = library.findChild(QtGui.QLabel, "Figures")
     from volfrep.design.cells import LIBRARY
+    from volfrep.design.walls import SURFACES
 
-    check("with the library's cells", cells.count() == len(LIBRARY), cells.count())
+    listed = len(LIBRARY) + len(SURFACES)
+    check("with the library's cells and walls", cells.count() == listed, cells.count())
     check("the infill's is picked", cells.currentItem().text() == "CVC")
     use = library.findChild(QtGui.QComboBox, "Use")
     use.setCurrentIndex(use.findData("auxetic"))
@@ -390,6 +392,16 @@ def use_the_cell_library(doc, obj):
     check("one use shows its cells", shown == ["Re-entrant"], shown)
     check("the first of them is picked", "Auxetic" in told.text(), told.text())
     picture("cell_library_auxetic")
+    use.setCurrentIndex(use.findData("walls"))
+    check("walls are a use of their own", cells.currentItem().text() == "Gyroid", told.text())
+    check("no file is made of them", not button_of(library, "Save As...").isEnabled())
+    thickness = library.findChild(QtGui.QWidget, "WallThickness")
+    check("they have a thickness in place of a radius", thickness.isVisible())
+    click_item(cells, cells.findItems("Schwarz P", QtCore.Qt.MatchExactly)[0])
+    click(library.findChild(QtGui.QPushButton, "ComputeProperties"))
+    does = library.findChild(QtGui.QLabel, "Properties")
+    check("what they do is computed", wait_until(lambda: "E100" in does.text()), does.text())
+    picture("cell_library_walls")
     use.setCurrentIndex(0)
     click_item(cells, cells.findItems("Octet", QtCore.Qt.MatchExactly)[0])
     check("a click shows its figures", wait_until(lambda: "stretching" in told.text()))
@@ -421,7 +433,7 @@ def use_the_cell_library(doc, obj):
     click(button_of(library, "From Selection"))
     check(
         "a drawing is a cell",
-        cells.count() == len(LIBRARY) + 1 and cells.currentItem().text() == "Cube",
+        cells.count() == listed + 1 and cells.currentItem().text() == "Cube",
     )
     check("its size is told", "L = 8 mm" in note.text(), note.text())
     check("its struts are counted", "13" in told.text(), told.text())

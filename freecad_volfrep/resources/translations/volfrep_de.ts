@@ -1540,6 +1540,14 @@
       <translation>Einheitszelle (*.json)</translation>
     </message>
     <message>
+      <source>Wall thickness</source>
+      <translation>Wanddicke</translation>
+    </message>
+    <message>
+      <source>What these walls do takes some seconds: press Compute.</source>
+      <translation>Was diese Wände leisten, dauert einige Sekunden: Berechnen drücken.</translation>
+    </message>
+    <message>
       <source>Write the picked cell to a JSON file</source>
       <translation>Schreibt die gewählte Zelle in eine JSON-Datei</translation>
     </message>
@@ -1574,6 +1582,10 @@
     <message>
       <source>stretching</source>
       <translation>Zug und Druck</translation>
+    </message>
+    <message>
+      <source>walls along a surface</source>
+      <translation>Wände entlang einer Fläche</translation>
     </message>
   </context>
   <context>

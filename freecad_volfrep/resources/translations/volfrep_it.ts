@@ -1540,6 +1540,14 @@
       <translation>Cella unitaria (*.json)</translation>
     </message>
     <message>
+      <source>Wall thickness</source>
+      <translation>Spessore della parete</translation>
+    </message>
+    <message>
+      <source>What these walls do takes some seconds: press Compute.</source>
+      <translation>Ciò che fanno queste pareti richiede alcuni secondi: premere Calcola.</translation>
+    </message>
+    <message>
       <source>Write the picked cell to a JSON file</source>
       <translation>Scrive la cella scelta in un file JSON</translation>
     </message>
@@ -1574,6 +1582,10 @@
     <message>
       <source>stretching</source>
       <translation>trazione e compressione</translation>
+    </message>
+    <message>
+      <source>walls along a surface</source>
+      <translation>pareti lungo una superficie</translation>
     </message>
   </context>
   <context>

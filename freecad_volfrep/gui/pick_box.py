@@ -37,8 +37,8 @@ from .qt import QtCore, QtWidgets
 #: Name of what is drawn of it in the view's scene.
 NODE = "VolfrepPicked"
 COLOUR = (0.98, 0.55, 0.10)
-#: Of an arrow or a point, in lengths of the solid's diagonal. An arrow's ends stick out of it.
-LONG, THICK, BALL = 0.55, 0.012, 0.015
+#: Of an arrow or a point, in lengths of the solid's diagonal.
+LONG, THICK, BALL = 0.35, 0.012, 0.015
 #: What a face's skin is first given, in thicknesses of the whole one's.
 THICKER = 2.0
 MOST_LENGTH = 1e4

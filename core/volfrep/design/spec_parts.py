@@ -16,6 +16,7 @@ import numpy as np
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.errors import VolfrepError
 from ..util.numbers import number, point, whole
+from ..util.types import Floats
 from .grading import CellMap, Orientation, RadiusGrading, SizeGrading, Vector
 from .openings import OpenFace
 from .skins.kept_bodies import KeptBody
@@ -166,11 +167,20 @@ class Skin:
             return solid.area * self.thickness
         a, b, c = solid.corners()
         area = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
+        below = float((area * self.below(solid)).sum())
+        return below + sum(body.volume for body in self.bodies)
+
+    def below(self, solid: TriangleMesh) -> Floats:
+        """(m,) mm, how thick it is below each triangle of a solid; 0 where that is open.
+
+        Raises:
+            VolfrepError: a face is not found, or all of them are open.
+        """
         lengths = self.thicknesses(solid)
-        most = np.where(lengths.usual, self.thickness, 0.0)
+        result = np.where(lengths.usual, self.thickness, 0.0)
         for faces, length in lengths.others:
-            most = np.maximum(most, np.where(faces, length, 0.0))
-        return float((area * most).sum()) + sum(body.volume for body in self.bodies)
+            result = np.maximum(result, np.where(faces, length, 0.0))
+        return result
 
     @property
     def bodies(self) -> tuple[TriangleMesh, ...]:

@@ -29,6 +29,7 @@ from ...sizing.node_radii import smoothing
 from ...sizing.optimise import Sized, Step, Watch, lightest, scaled_to_limits, stiffest, uniform
 from ...sizing.skin import skin_model
 from ...sizing.strut_state import StrutState, strut_states
+from ...spatial.proximity import closest_points
 from ...util.cache import StageCache
 from ...util.errors import Cancelled, VolfrepError
 from ...util.files import replacing
@@ -37,7 +38,7 @@ from ...util.types import Floats
 from ..infill import Infill
 from ..targets import aimed
 from .goal import Goal
-from .notes import not_held, stressed_skin
+from .notes import left_out, not_held, stressed_skin
 
 #: Edges of the skin's triangles over the cell size, and over its thickness at least.
 SKIN_EDGE, SKIN_EDGE_LEAST = 0.5, 1.5
@@ -142,6 +143,7 @@ def size(
     if not sized.holds:
         notes.append(not_held(problem, sized.analysis))
     notes += stressed_skin(model, sized.analysis, goal.limits)
+    notes += left_out(spec)
     if sized.stopped == "cancelled":
         notes.append("The search was cancelled: this is the best design so far.")
     final = _stored(problem, sized.analysis.radii, goal.limits)
@@ -313,7 +315,8 @@ def _model(infill: Infill, loads: LoadCases, goal: Goal, cache: StageCache) -> S
         edge = max(SKIN_EDGE * spec.cell_size, SKIN_EDGE_LEAST * spec.shell)
         with infill.monitor.stage("skin", 0.3, 0.4):
             skin = skin_model(
-                infill.solid, spec.shell, edge, elastic(material), infill.domain.openings,
+                infill.solid, _thickness(infill.solid, spec), edge, elastic(material),
+                infill.domain.openings,
                 feet_of(wireframe, clipped, infill.domain.mesh, _given_radii(wireframe)),
                 infill.monitor, held=held_facets(infill.solid, loads.cases),
             )  # fmt: skip
@@ -325,6 +328,16 @@ def _model(infill: Infill, loads: LoadCases, goal: Goal, cache: StageCache) -> S
         smoother = smoothing(wireframe.struts.astype(np.int64), len(wireframe.nodes), goal.smooth)
         model = replace(model, problem=replace(model.problem, smoother=smoother))
     return model
+
+
+def _thickness(solid: TriangleMesh, spec: LatticeSpec) -> float | Callable[[Floats], Floats]:
+    """A skin's thickness, mm, or at points of the part's surface where it is not even."""
+    if spec.skin is None or spec.skin.is_even:
+        return spec.shell
+    below = spec.skin.below(solid)
+    # Where a face is open there are no shells: any thickness will do.
+    below = np.where(below > 0.0, below, spec.shell)
+    return lambda points: np.asarray(below[closest_points(solid, points)[2]])
 
 
 def _given_radii(wireframe: Wireframe) -> Floats:

@@ -87,7 +87,6 @@ class PickBox(QtWidgets.QWidget):
         narrow(self._what)
         column.addWidget(self._what)
         self._length = _length_field()
-        self._length.setValue(THICKER * obj.ShellThickness.Value)
         column.addWidget(self._length)
         line = QtWidgets.QHBoxLayout()
         line.addWidget(self._pick)
@@ -149,10 +148,13 @@ class PickBox(QtWidgets.QWidget):
         """Show what was chosen to be picked."""
         name = self._what.currentData()
         self._length.setVisible(name in LENGTHS or name in DISTANCES)
+        self._length.blockSignals(True)
         if name in DISTANCES:
-            self._length.blockSignals(True)
             self._length.setValue(getattr(self._obj, DISTANCES[name]).Value)
-            self._length.blockSignals(False)
+        elif name in LENGTHS:
+            given = getattr(self._obj, LENGTHS[name])
+            self._length.setValue(given[-1] if given else THICKER * self._obj.ShellThickness.Value)
+        self._length.blockSignals(False)
         self.show_picked()
 
     def _set_length(self, value: float) -> None:

@@ -70,7 +70,7 @@ class ArrowHandle:
         places = []
         for sign in (1.0, -1.0):
             end = self._middle + self._way * (sign * self._reach)
-            places.append((sign, self._view.getPointOnViewport(self._frame.multVec(end))))
+            places.append((sign, self._view.getPointOnScreen(self._frame.multVec(end))))
         return places
 
     def _button(self, node: Any) -> None:

@@ -233,7 +233,7 @@ def _length_field() -> Any:
     field.setObjectName("PickLength")
     field.setSuffix(" mm")
     field.setRange(0.0, MOST_LENGTH)
-    field.setDecimals(3)
+    field.setDecimals(2)
     field.setSingleStep(0.5)
     field.setAccessibleName(translate("VolfrepTaskPanel", "Thickness or distance"))
     field.setToolTip(

@@ -86,8 +86,12 @@ class PickBox(QtWidgets.QWidget):
         column.setContentsMargins(0, 0, 0, 0)
         narrow(self._what)
         column.addWidget(self._what)
-        self._length = _length_field()
-        column.addWidget(self._length)
+        self._length, self._length_name = _length_field(), QtWidgets.QLabel()
+        self._length_name.setBuddy(self._length)
+        line = QtWidgets.QHBoxLayout()
+        line.addWidget(self._length_name)
+        line.addWidget(self._length, 1)
+        column.addLayout(line)
         line = QtWidgets.QHBoxLayout()
         line.addWidget(self._pick)
         line.addWidget(self._clear)
@@ -147,7 +151,13 @@ class PickBox(QtWidgets.QWidget):
     def _begin(self) -> None:
         """Show what was chosen to be picked."""
         name = self._what.currentData()
-        self._length.setVisible(name in LENGTHS or name in DISTANCES)
+        for widget in (self._length, self._length_name):
+            widget.setVisible(name in LENGTHS or name in DISTANCES)
+        self._length_name.setText(
+            translate("VolfrepTaskPanel", "Thickness")
+            if name in LENGTHS
+            else translate("VolfrepTaskPanel", "Distance")
+        )
         self._length.blockSignals(True)
         if name in DISTANCES:
             self._length.setValue(getattr(self._obj, DISTANCES[name]).Value)

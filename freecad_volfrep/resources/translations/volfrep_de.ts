@@ -3152,6 +3152,10 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
       <translation>Schneidet das Teil am Bildschirm auf, entlang einer verschiebbaren Ebene; noch einmal zeigt es ganz</translation>
     </message>
     <message>
+      <source>Distance</source>
+      <translation>Abstand</translation>
+    </message>
+    <message>
       <source>Look for a file</source>
       <translation>Datei suchen</translation>
     </message>
@@ -3186,6 +3190,10 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
     <message>
       <source>Shows the solid: click at a face, an edge, a vertex, an axis or a plane; once more ends it</source>
       <translation>Zeigt den Körper: auf eine Fläche, eine Kante, einen Punkt, eine Achse oder eine Ebene klicken; noch einmal beendet es</translation>
+    </message>
+    <message>
+      <source>Thickness</source>
+      <translation>Dicke</translation>
     </message>
     <message>
       <source>Thickness or distance</source>

@@ -3152,6 +3152,10 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
       <translation>Apre il pezzo sullo schermo lungo un piano che si può spostare; ancora una volta lo mostra intero</translation>
     </message>
     <message>
+      <source>Distance</source>
+      <translation>Distanza</translation>
+    </message>
+    <message>
       <source>Look for a file</source>
       <translation>Cerca un file</translation>
     </message>
@@ -3186,6 +3190,10 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
     <message>
       <source>Shows the solid: click at a face, an edge, a vertex, an axis or a plane; once more ends it</source>
       <translation>Mostra il solido: fare clic su una faccia, uno spigolo, un vertice, un asse o un piano; ancora una volta per finire</translation>
+    </message>
+    <message>
+      <source>Thickness</source>
+      <translation>Spessore</translation>
     </message>
     <message>
       <source>Thickness or distance</source>

@@ -78,7 +78,7 @@ class ArrowHandle:
         if event.getButton() != event.BUTTON1:
             return
         if event.getState() == event.DOWN:
-            x, y = event.getPosition().getValue()
+            x, y = _place(event)
             far = [
                 (float(np.hypot(place[0] - x, place[1] - y)), sign) for sign, place in self.ends()
             ]
@@ -97,8 +97,7 @@ class ArrowHandle:
         if not self.is_held:
             return
         node.setHandled()
-        x, y = node.getEvent().getPosition().getValue()
-        end = self._on_sphere(int(x), int(y)) - self._middle
+        end = self._on_sphere(*_place(node.getEvent())) - self._middle
         if end.Length == 0.0:
             return
         way = end * (self._end / end.Length)
@@ -113,7 +112,8 @@ class ArrowHandle:
         back = self._frame.inverse()
         through = self._view.getPoint(x, y)
         if self._view.getCameraType() == "Perspective":
-            eye = App.Vector(*self._view.getCameraNode().position.getValue().getValue())
+            eye = self._view.getCameraNode().position.getValue()
+            eye = App.Vector(eye[0], eye[1], eye[2])
             sight = through - eye
         else:
             sight = self._view.getViewDirection()
@@ -126,3 +126,12 @@ class ArrowHandle:
             return nearest
         towards = 1.0 if (self._way * self._end).dot(sight) > 0.0 else -1.0
         return nearest + sight * (towards * room**0.5)
+
+
+def _place(event: Any) -> tuple[int, int]:
+    """Where the mouse is in the view, in pixels from its lower left corner.
+
+    By its parts: some builds of pivy give a bare pointer for both.
+    """
+    position = event.getPosition()
+    return int(position[0]), int(position[1])

@@ -143,7 +143,9 @@ def walls_of(obj: App.DocumentObject, made_of: Ingredients) -> tuple[Any, Any]:
     assert made_of.domain is not None
     base = base_solid(obj.Base, obj, made_of.solid)
     inner = None
-    if base is not None:
+    skin = made_of.spec.skin
+    if base is not None and (skin is None or skin.is_even):
+        # A bush round a hole is too little of the volume for the wall's check to see.
         inner = offset_wall(base, made_of.spec.shell, made_of.domain)
     if inner is None:
         inner = plane_wall(made_of.domain)

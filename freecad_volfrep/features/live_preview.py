@@ -105,15 +105,17 @@ class LivePreview:
         """
         require_engine()
         from volfrep.design.forecast import forecast_fill
+        from volfrep.design.grading import as_plain
         from volfrep.io.solid import check_solid
         from volfrep.jobs.preview import PartDepth, preview
 
         spec, mesh = self._obj.Proxy.read(self._obj)
         key = hashlib.blake2b(mesh.vertices.tobytes() + mesh.triangles.tobytes())
-        key.update(repr(spec.as_dict()["open_faces"]).encode())
+        faces = (spec.open_faces, spec.face_skins, spec.keep_solid)
+        key.update(repr([as_plain(part) for part in faces]).encode())
         if self._key != key.digest():
             solid = check_solid(mesh, self._obj.Base.Label)
-            self._known = solid, PartDepth(solid, spec.open_faces)
+            self._known = solid, PartDepth(solid, *faces)
             self._key = key.digest()
         solid, depth = self._known
         shown = preview(solid, spec, depth)

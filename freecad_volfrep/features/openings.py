@@ -1,11 +1,17 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What is to be open in the skin of a lattice infill, from its properties."""
+"""What of an infill's skin is open or has a thickness of its own, and what is kept solid."""
 
 from __future__ import annotations
 
 from typing import Any
 
 import FreeCAD as App
+
+from volfrep.design.openings import OpenPatch
+from volfrep.design.skins.kept_bodies import KeptBody
+from volfrep.design.skins.own_faces import FaceSkin, KeptFace
+from volfrep.mesh.triangle_mesh import TriangleMesh
+from volfrep.util.errors import VolfrepError
 
 
 def openings_of(obj: App.DocumentObject) -> dict[str, Any]:
@@ -15,7 +21,6 @@ def openings_of(obj: App.DocumentObject) -> dict[str, Any]:
         VolfrepError: a property makes no sense, or a face is no more.
     """
     from freecad_volfrep.bridge.solids import face_facets, face_middle, parent_placement
-    from volfrep.design.openings import OpenPatch
 
     frame = parent_placement(obj)
     result: dict[str, Any] = {}
@@ -27,7 +32,55 @@ def openings_of(obj: App.DocumentObject) -> dict[str, Any]:
         points = [tuple(point) for point in obj.DrainPoints]
         points += [face_middle(owner, name, frame) for owner, name in _each(obj.DrainFaces)]
         result["drain_points"] = tuple(points)
+    if obj.SkinFaces:
+        result["skin_faces"] = tuple(
+            FaceSkin(OpenPatch(face_facets(owner, name, frame)), thickness)
+            for owner, name, thickness in thick_faces(obj)
+        )
+    if obj.KeepSolidAround:
+        result["keep_solid_around"] = tuple(
+            _kept(obj, owner, name, frame) for owner, name in _each(obj.KeepSolidAround)
+        )
     return result
+
+
+def thick_faces(obj: App.DocumentObject) -> list[tuple[App.DocumentObject, str, float]]:
+    """The faces of an infill with a skin of their own: objects, names and thicknesses in mm.
+
+    Raises:
+        VolfrepError: there are not as many thicknesses as faces.
+    """
+    faces, numbers = _each(obj.SkinFaces), list(obj.SkinThicknesses)
+    if len(faces) != len(numbers):
+        raise VolfrepError(
+            f"SkinFaces holds {len(faces)} faces and SkinThicknesses {len(numbers)} numbers: give "
+            "each face one."
+        )
+    return [(owner, name, number) for (owner, name), number in zip(faces, numbers, strict=True)]
+
+
+def kept_mesh(owner: App.DocumentObject, frame: App.Placement) -> TriangleMesh:
+    """The solid of an object whose room stays solid, as a mesh in the coordinates of `frame`.
+
+    Raises:
+        VolfrepError: it has none.
+    """
+    from freecad_volfrep.bridge.solids import SolidReader
+
+    return SolidReader().read(owner, frame)
+
+
+def _kept(
+    obj: App.DocumentObject, owner: App.DocumentObject, name: str, frame: App.Placement
+) -> KeptFace | KeptBody:
+    """A face that is kept solid round, or a solid whose room is."""
+    from freecad_volfrep.bridge.solids import face_facets
+    from volfrep.io.solid import check_solid
+
+    if name:
+        return KeptFace(OpenPatch(face_facets(owner, name, frame)), obj.KeepDistance.Value)
+    solid = check_solid(kept_mesh(owner, frame), owner.Label)
+    return KeptBody(solid.vertices, solid.triangles, name=owner.Label)
 
 
 def open_faces(

@@ -19,6 +19,10 @@ PICKED = {
     and parameter.in_freecad
     and not parameter.position_of
 }
+#: Of these every face has a length of its own in the property beside.
+LENGTHS = {"SkinFaces": "SkinThicknesses"}
+#: Of these all faces have one length; solids are picked as well.
+DISTANCES = {"KeepSolidAround": "KeepDistance"}
 _SWITCHES = {p.property_name: p.switch_name for p in PARAMETERS if p.switch}
 
 
@@ -27,17 +31,25 @@ def pickable(obj: App.DocumentObject) -> list[str]:
     return [name for name in PICKED if "Hidden" not in obj.getEditorMode(_SWITCHES.get(name, name))]
 
 
-def pick(obj: App.DocumentObject, name: str, owner: App.DocumentObject, element: str) -> None:
+def pick(
+    obj: App.DocumentObject,
+    name: str,
+    owner: App.DocumentObject,
+    element: str,
+    length: float | None = None,
+) -> None:
     """Set a property to what was picked.
 
-    A face is added, or taken away where it is there already; points are added; a direction and a
-    single point take the place of the last.
+    A face is added, or taken away where it is there already, with the same length if faces have
+    one; points are added; a direction and a single point take the place of the last. Where solids
+    may be picked, a face that is not one of the infill's solid stands for its own.
 
     Args:
         obj: the infill.
         name: one of `PICKED`.
         owner: the object that was picked.
         element: its face, edge or vertex, or empty.
+        length: of one of `LENGTHS`, mm.
 
     Raises:
         VolfrepError: it has no direction, no point, or is no face.
@@ -47,10 +59,16 @@ def pick(obj: App.DocumentObject, name: str, owner: App.DocumentObject, element:
     from volfrep.util.errors import VolfrepError
 
     frame = parent_placement(obj)
-    if PICKED[name] == FACES:
+    if name in DISTANCES:
+        element = _part_of(obj, owner, element, frame)
+        setattr(obj, name, _toggled(getattr(obj, name), owner, element))
+    elif PICKED[name] == FACES:
         if not element.startswith("Face"):
             raise VolfrepError(f"'{element or owner.Label}' is no face: pick faces.")
-        setattr(obj, name, _toggled(getattr(obj, name), owner, element))
+        if name in LENGTHS:
+            _toggle_thick(obj, owner, element, length or 0.0)
+        else:
+            setattr(obj, name, _toggled(getattr(obj, name), owner, element))
     elif PICKED[name] == DIRECTION:
         setattr(obj, name, direction_of(owner, element, frame))
     elif obj.getTypeIdOfProperty(name) == "App::PropertyVectorList":
@@ -77,6 +95,49 @@ def unpick(obj: App.DocumentObject, name: str) -> None:
         setattr(obj, name, App.Vector(*default))
     else:
         setattr(obj, name, [])
+        if name in LENGTHS:
+            setattr(obj, LENGTHS[name], [])
+
+
+def _part_of(
+    obj: App.DocumentObject, owner: App.DocumentObject, element: str, frame: App.Placement
+) -> str:
+    """The element of what was picked to be kept solid: a face of the part, or empty for a solid.
+
+    Raises:
+        VolfrepError: it is neither.
+    """
+    from freecad_volfrep.bridge.solids import face_facets, is_fillable, resolve_base
+    from volfrep.design.openings import OpenPatch
+    from volfrep.util.errors import VolfrepError
+
+    if element.startswith("Face"):
+        solid = obj.Proxy.read(obj)[1]
+        if OpenPatch(face_facets(owner, element, frame)).contains(solid).any():
+            return element
+    is_base = obj.Base is not None and resolve_base(owner) == resolve_base(obj.Base)
+    if not is_base and is_fillable(owner):
+        return ""
+    raise VolfrepError(
+        f"'{element or owner.Label}' is no face of the part: pick faces of it, or another solid."
+    )
+
+
+def _toggle_thick(
+    obj: App.DocumentObject, owner: App.DocumentObject, element: str, thickness: float
+) -> None:
+    """Give a face a skin of its own, another one, or, where it is the same, none."""
+    from .openings import thick_faces
+
+    before = thick_faces(obj)
+    rows = [row for row in before if row[:2] != (owner, element)]
+    if (owner, element, thickness) not in before:
+        rows.append((owner, element, thickness))
+    groups: dict[App.DocumentObject, list[tuple[str, float]]] = {}
+    for one, face, number in rows:
+        groups.setdefault(one, []).append((face, number))
+    obj.SkinFaces = [(one, tuple(face for face, _ in faces)) for one, faces in groups.items()]
+    obj.SkinThicknesses = [number for faces in groups.values() for _, number in faces]
 
 
 def _toggled(links: list[Any], owner: App.DocumentObject, element: str) -> list[Any]:

@@ -43,6 +43,7 @@ TYPES = {
     "points": "App::PropertyVectorList",
     "rotation": "App::PropertyPlacement",
     "link": "App::PropertyLinkGlobal",
+    "lengths": "App::PropertyFloatList",
     "faces": "App::PropertyLinkSubListGlobal",
 }
 

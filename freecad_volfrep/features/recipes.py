@@ -24,6 +24,8 @@ from .values import specification_of
 
 #: Of a solid and its material: no recipe's.
 _OF_A_SOLID = ("build_direction", "density")
+#: What of a specification hangs on a solid's own faces.
+_NO_PICKED: dict[str, Any] = {"open_faces": (), "face_skins": (), "keep_solid": ()}
 #: What a file calls a target, the driver of the radius that it is, and its property.
 _TARGETS = {
     "relative_density": ("Relative density", "TargetDensity"),
@@ -64,7 +66,7 @@ def save_recipe(obj: App.DocumentObject, name: str) -> Path:
     except OSError as error:
         raise VolfrepError(f"Cannot make the folder '{folder}': {error.strerror}.") from error
     file = folder / f"{name}.toml"
-    write_spec(replace(spec, open_faces=(), drains=drains, density=1.0), file)
+    write_spec(replace(spec, **_NO_PICKED, drains=drains, density=1.0), file)
     return file
 
 

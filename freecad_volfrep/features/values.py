@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from volfrep.mechanics.materials import SolidMaterial
 
 #: Kinds whose values have to be looked up in the document.
-_LOOKED_UP = ("link", "faces", "points")
+_LOOKED_UP = ("link", "faces", "points", "lengths")
 #: A rotation is read to so many decimals of a degree and of its axis: what a placement's
 #: quaternion loses when it is saved does not count as a change.
 _DECIMALS = 9

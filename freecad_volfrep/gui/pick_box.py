@@ -11,9 +11,12 @@ import FreeCADGui as Gui
 import numpy as np
 
 from freecad_volfrep.bridge.solids import face_facets, parent_placement
+from freecad_volfrep.features.openings import kept_mesh, thick_faces
 from freecad_volfrep.features.picking import (
     DIRECTION,
+    DISTANCES,
     FACES,
+    LENGTHS,
     PICKED,
     pick,
     pickable,
@@ -25,6 +28,7 @@ from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.util.errors import VolfrepError
 
 from . import drawing
+from .arrow_handle import ArrowHandle
 from .panel_manners import narrow
 from .prisms import prisms
 from .property_fields import label_of
@@ -35,6 +39,9 @@ NODE = "VolfrepPicked"
 COLOUR = (0.98, 0.55, 0.10)
 #: Of an arrow or a point, in lengths of the solid's diagonal.
 LONG, THICK, BALL = 0.35, 0.012, 0.015
+#: What a face's skin is first given, in thicknesses of the whole one's.
+THICKER = 2.0
+MOST_LENGTH = 1e4
 
 
 class PickBox(QtWidgets.QWidget):
@@ -56,7 +63,7 @@ class PickBox(QtWidgets.QWidget):
         self._obj, self._changed, self._refused = obj, changed, refused
         self._was_visible: bool | None = None
         self._is_over = False
-        self._picture = _Picture(obj)
+        self._picture = _Picture(obj, self._turn, self._let_go)
         self._what = QtWidgets.QComboBox()
         self._what.setObjectName("PickWhat")
         self._what.setAccessibleName(translate("VolfrepTaskPanel", "What to pick"))
@@ -79,20 +86,27 @@ class PickBox(QtWidgets.QWidget):
         column.setContentsMargins(0, 0, 0, 0)
         narrow(self._what)
         column.addWidget(self._what)
+        self._length, self._length_name = _length_field(), QtWidgets.QLabel()
+        self._length_name.setBuddy(self._length)
+        line = QtWidgets.QHBoxLayout()
+        line.addWidget(self._length_name)
+        line.addWidget(self._length, 1)
+        column.addLayout(line)
         line = QtWidgets.QHBoxLayout()
         line.addWidget(self._pick)
         line.addWidget(self._clear)
         column.addLayout(line)
         column.addWidget(self._said)
         self.show_applicable()
-        self._what.currentIndexChanged.connect(lambda _: self.show_picked())
+        self._what.currentIndexChanged.connect(lambda _: self._begin())
+        self._length.valueChanged.connect(self._set_length)
         self._pick.toggled.connect(self._toggle)
         self._clear.clicked.connect(lambda _=False: self._unpick())
 
     @property
     def lists(self) -> list[Any]:
         """Fields that the wheel is not to change."""
-        return [self._what]
+        return [self._what, self._length]
 
     def show_applicable(self) -> None:
         """Offer what applies now."""
@@ -106,19 +120,69 @@ class PickBox(QtWidgets.QWidget):
             self._what.addItem(label_of(name), name)
         self._what.setCurrentIndex(max(0, self._what.findData(before)))
         self._what.blockSignals(False)
-        self.show_picked()
+        self._begin()
 
     def show_picked(self) -> None:
         """Say what the chosen property is, and draw it while it is picked."""
         name = self._what.currentData()
         value = picked_of(self._obj, name)
-        if PICKED[name] == FACES:
-            text = ", ".join(f"{o.Label}: {', '.join(names)}" for o, names in value)
-        else:
-            points = value if isinstance(value, list) else [value]
-            text = "; ".join(", ".join(f"{part:.4g}" for part in point) for point in points)
-        self._said.setText(text or translate("VolfrepTaskPanel", "nothing picked"))
-        self._picture.show(name if self._pick.isChecked() else None)
+        try:
+            if name in LENGTHS:
+                text = ", ".join(f"{o.Label}: {n} {t:g} mm" for o, n, t in thick_faces(self._obj))
+            elif PICKED[name] == FACES:
+                text = ", ".join(
+                    f"{o.Label}: {', '.join(names)}" if any(names) else o.Label
+                    for o, names in value
+                )
+            else:
+                points = value if isinstance(value, list) else [value]
+                text = "; ".join(", ".join(f"{part:.4g}" for part in point) for point in points)
+            text = text or translate("VolfrepTaskPanel", "nothing picked")
+            if PICKED[name] == DIRECTION and self._pick.isChecked():
+                text += "\n" + translate(
+                    "VolfrepTaskPanel", "drag an end of the arrow in the view to turn it"
+                )
+            self._said.setText(text)
+            self._picture.show(name if self._pick.isChecked() else None)
+        except VolfrepError as error:  # a face that is there no more
+            self._picture.show(None)
+            self._said.setText(str(error))
+
+    def _begin(self) -> None:
+        """Show what was chosen to be picked."""
+        name = self._what.currentData()
+        for widget in (self._length, self._length_name):
+            widget.setVisible(name in LENGTHS or name in DISTANCES)
+        self._length_name.setText(
+            translate("VolfrepTaskPanel", "Thickness")
+            if name in LENGTHS
+            else translate("VolfrepTaskPanel", "Distance")
+        )
+        self._length.blockSignals(True)
+        if name in DISTANCES:
+            self._length.setValue(getattr(self._obj, DISTANCES[name]).Value)
+        elif name in LENGTHS:
+            given = getattr(self._obj, LENGTHS[name])
+            self._length.setValue(given[-1] if given else THICKER * self._obj.ShellThickness.Value)
+        self._length.blockSignals(False)
+        self.show_picked()
+
+    def _set_length(self, value: float) -> None:
+        """Take over the one length of all faces; that of a face counts when it is picked next."""
+        name = self._what.currentData()
+        if name in DISTANCES and value > 0.0:
+            setattr(self._obj, DISTANCES[name], value)
+            self._changed(DISTANCES[name])
+
+    def _turn(self, way: App.Vector) -> None:
+        """Take over a direction that the mouse has turned the arrow to."""
+        name = self._what.currentData()
+        setattr(self._obj, name, way)
+        self._changed(name)
+
+    def _let_go(self) -> None:
+        """What lay under the mouse when it let go of the arrow was not picked."""
+        QtCore.QTimer.singleShot(0, Gui.Selection.clearSelection)
 
     def end(self) -> None:
         """Pick no more, and leave nothing in the view; once more does nothing."""
@@ -146,7 +210,7 @@ class PickBox(QtWidgets.QWidget):
 
     def _take(self) -> None:
         """Set the property to what is selected."""
-        if not self._pick.isChecked():
+        if not self._pick.isChecked() or self._picture.is_held:
             return
         chosen = [
             (item.Object, element)
@@ -159,7 +223,7 @@ class PickBox(QtWidgets.QWidget):
         name = self._what.currentData()
         try:
             for owner, element in chosen:
-                pick(self._obj, name, owner, element)
+                pick(self._obj, name, owner, element, self._length.value())
         except VolfrepError as error:
             self._refused(str(error))
             return
@@ -173,16 +237,52 @@ class PickBox(QtWidgets.QWidget):
         self._changed(name)
 
 
-class _Picture:
-    """How what was picked lies, in the view: faces, an arrow, balls."""
+def _length_field() -> Any:
+    """A field for what faces that are picked have beside: the skin's thickness, a distance."""
+    field = QtWidgets.QDoubleSpinBox()
+    field.setObjectName("PickLength")
+    field.setSuffix(" mm")
+    field.setRange(0.0, MOST_LENGTH)
+    field.setDecimals(2)
+    field.setSingleStep(0.5)
+    field.setAccessibleName(translate("VolfrepTaskPanel", "Thickness or distance"))
+    field.setToolTip(
+        translate(
+            "VolfrepTaskPanel",
+            "Of faces with a skin of their own: the thickness of those that are picked next; a "
+            "face that has another gets it, one that has it goes back to the usual skin, and 0 "
+            "leaves it open. Of what is kept solid: the distance from all its faces",
+        )
+    )
+    return field
 
-    def __init__(self, obj: App.DocumentObject) -> None:
+
+class _Picture:
+    """How what was picked lies, in the view: faces, an arrow whose ends are dragged, balls.
+
+    Args:
+        obj: the infill.
+        turned: called with the direction that the mouse turns the arrow to.
+        released: called when it lets go.
+    """
+
+    def __init__(
+        self,
+        obj: App.DocumentObject,
+        turned: Callable[[App.Vector], None],
+        released: Callable[[], None],
+    ) -> None:
         self._obj = obj
+        self._turned, self._released = turned, released
+        self._handle: ArrowHandle | None = None
         self._scene: Any = None
         self._root: Any = None
 
     def show(self, name: str | None) -> None:
         """Draw a property in the place of what was drawn last; None: nothing."""
+        if self._handle is not None and not self._handle.is_held:
+            self._handle.remove()
+            self._handle = None
         if self._scene is not None:
             self._scene.removeChild(self._root)
             self._scene = None
@@ -208,20 +308,42 @@ class _Picture:
             self._root.addChild(part)
         self._scene = view.getSceneGraph()
         self._scene.addChild(self._root)
+        if PICKED[name] == DIRECTION and self._handle is None:
+            middle, size = self._middle()
+            way = np.array(tuple(picked_of(self._obj, name)))
+            self._handle = ArrowHandle(
+                view, parent_placement(self._obj), middle, LONG * size,
+                way / np.linalg.norm(way), self._turned, self._released,
+            )  # fmt: skip
+
+    @property
+    def is_held(self) -> bool:
+        """Whether the mouse holds the arrow."""
+        return self._handle is not None and self._handle.is_held
+
+    def _middle(self) -> tuple[Any, float]:
+        """(3,) the middle of the solid's box, and its diagonal, mm."""
+        low, high = self._obj.Proxy.read(self._obj)[1].bounds
+        return 0.5 * (low + high), float(np.linalg.norm(high - low))
 
     def _mesh(self, name: str) -> TriangleMesh | None:
         value = picked_of(self._obj, name)
         if PICKED[name] == FACES:
             frame = parent_placement(self._obj)
-            found = [face_facets(o, element, frame) for o, names in value for element in names]
+            found = [
+                face_facets(o, element, frame)
+                if element
+                else np.stack(kept_mesh(o, frame).corners(), axis=1)
+                for o, names in value
+                for element in names
+            ]
             if not found:
                 return None
             corners = np.concatenate(found).reshape(-1, 3)
             return TriangleMesh(corners, np.arange(len(corners), dtype=np.int32).reshape(-1, 3))
-        low, high = self._obj.Proxy.read(self._obj)[1].bounds
-        size = float(np.linalg.norm(high - low))
+        middle, size = self._middle()
         if PICKED[name] == DIRECTION:
-            return _arrow(0.5 * (low + high), np.array(tuple(value)), size)
+            return _arrow(middle, np.array(tuple(value)), size)
         points = value if isinstance(value, list) else [value]
         if not points:
             return None

@@ -341,6 +341,7 @@ class TaskPanel:
             self._begin_target(self._obj.RadiusDrivenBy)
         self._refusal = ""
         self._show_rows()
+        self._picking.show_picked()
         self._timer.start(SETTLED)
 
     def _show_rows(self) -> None:

@@ -559,6 +559,81 @@ def pick_in_the_panel(doc, obj):
     check("Cancel takes all of it back", obj.OpenFaces == [], obj.OpenFaces)
 
 
+def pick_a_skin_in_the_panel(doc, obj):
+    """A skin of its own, a bolt's bush and a boss by clicks; an arrow is turned by its end."""
+    look_at_all()
+    open_to_edit(obj)
+    what, button = panel_part("PickWhat"), panel_part("Pick")
+    told, length = panel_part("Picked"), panel_part("PickLength")
+    size = [getattr(obj.Base, name).Value for name in ("Length", "Width", "Height")]
+
+    def begin(name):
+        what.setCurrentIndex(what.findData(name))
+        settle()
+
+    begin("OpenFaces")
+    check("an open face has no length", not length.isVisible())
+    begin("SkinFaces")
+    check("the skin of a face has a thickness", wait_until(length.isVisible))
+    mass = panel_part("Figures").text()
+    click(button)
+    wait_until(lambda: obj.Base.Visibility)
+    type_value("PickLength", "6")
+    top = (0.5 * size[0], 0.5 * size[1], size[2])
+    click_in_view(top, lambda: obj.SkinFaces)
+    check("a click gives a face its skin", list(obj.SkinThicknesses) == [6.0], told.text())
+    check("and it is told", "Face6 6 mm" in told.text(), told.text())
+    check("the preview follows", wait_until(lambda: panel_part("Figures").text() != mass))
+    picture("12_picked_skin")
+    type_value("PickLength", "4")
+    click_in_view(top, lambda: list(obj.SkinThicknesses) == [4.0])
+    begin("KeepSolidAround")
+    click_in_view((0.5 * size[0], 0.0, 0.5 * size[2]), lambda: obj.KeepSolidAround)
+    type_value("PickLength", "7")
+    wait_until(lambda: obj.KeepDistance.Value == 7.0)
+    picture("13_picked_solid")
+    begin("BuildDirection")
+    check("the arrow says that it can be turned", "drag" in told.text(), told.text())
+    picture("14_arrow")
+    before = App.Vector(obj.BuildDirection)
+    drag_the_arrow(obj, size, "BuildDirection")
+    turned = App.Vector(obj.BuildDirection)
+    check("the arrow is turned by its end", turned.getAngle(before) > 0.2, turned)
+    check("it is of length 1", abs(turned.Length - 1.0) < 1e-3, turned.Length)
+    check("and told", f"{turned.x:.4g}" in told.text(), (told.text(), turned))
+    check("no face was picked with it", turned.getAngle(App.Vector(0, -1, 0)) > 0.01, turned)
+    picture("15_arrow_turned")
+    click(button)
+    answer_panel("OK")
+    wait_until(lambda: obj.Status == "Up to date")
+    check("the part has its skins", obj.Watertight and obj.Bodies == 1, obj.Status)
+    picture("16_skins_made")
+
+
+def drag_the_arrow(obj, size, name):
+    """Really drag the head of a direction's arrow to the right on the screen, until it has turned.
+
+    The head is where the panel draws it: 0.35 diagonals of the solid from its middle.
+    """
+    before = App.Vector(getattr(obj, name))
+    reach = 0.35 * App.Vector(*size).Length
+    head = 0.5 * App.Vector(*size) + App.Vector(before) * (reach / before.Length)
+    view = view_3d()
+    x, y = Gui.activeDocument().activeView().getPointOnScreen(head)
+    corner = view.mapToGlobal(view.rect().bottomLeft())
+    for _ in range(5):
+        move_mouse(QtCore.QPoint(corner.x() + x, corner.y() - y))
+        xdotool("mousedown", 1)
+        for step in range(1, 9):
+            move_mouse(QtCore.QPoint(corner.x() + x + 10 * step, corner.y() - y + 5 * step))
+        comes_true(lambda: getattr(obj, name) != before, 5)
+        xdotool("mouseup", 1)
+        settle()
+        if getattr(obj, name) != before:
+            return
+    fail("the arrow cannot be dragged")
+
+
 def scene_has(name):
     """Whether something of that name hangs in the view's scene."""
     scene = Gui.activeDocument().activeView().getSceneGraph()
@@ -680,6 +755,7 @@ run_checks(
         cancel_a_creation: boxed,
         open_a_face: filled,
         pick_in_the_panel: filled,
+        pick_a_skin_in_the_panel: filled,
         check_the_print: filled,
         show_coarsely: filled,
         make_a_solid: coarse,

@@ -116,7 +116,8 @@ def forecast_fill(solid: TriangleMesh, spec: LatticeSpec, *, streamed: bool = Fa
     """
     volume = abs(solid.volume)
     area = solid.area
-    inside = max(volume - area * spec.shell, LEAST_INSIDE * volume)
+    skin = 0.0 if spec.skin is None else spec.skin.rough_volume(solid)
+    inside = max(volume - skin, LEAST_INSIDE * volume)
     if spec.network is not None:
         return _forecast_network(solid, spec, inside)
     one, edge = cell_volume(spec), spec.cell_size / spec.facets_along_cell

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from ..mesh.smooth_faces import smooth_faces
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..util.content import content_of, held
 from ..util.errors import VolfrepError
@@ -22,6 +23,8 @@ Vector = tuple[float, float, float]
 #: solid's box, and a facet belongs to a patch when its corners are nearer to that than this.
 IN_PLANE = 1e-4
 NEAR_PATCH = 1e-3
+#: A point lies on a face when it is this near to it, in diagonals of the solid's box.
+ON_FACE = 5e-3
 #: Points lie in open faces when they are this near to them, in units of their size.
 ON_OPENING = 1e-7
 #: A facet lies along a plane or a patch when the cosine of the angle between them is above this.
@@ -101,7 +104,35 @@ class OpenPatch:
         return "the face near ({:.4g}, {:.4g}, {:.4g})".format(*middle)
 
 
-OpenFace = OpenPlane | OpenPatch
+@dataclass(frozen=True)
+class SmoothFace:
+    """The face of a part at a point, as far as no sharp edge ends it.
+
+    Attributes:
+        point: on the face, or near it, mm.
+    """
+
+    point: Vector
+
+    def __post_init__(self) -> None:
+        point("point of a face", self.point)
+
+    def contains(self, solid: TriangleMesh) -> Bools:
+        """(m,) which triangles of a solid belong to it; none where the point is off the surface."""
+        from ..spatial.proximity import closest_points  # slow to import, and seldom needed
+
+        _, distance, facet = closest_points(solid, np.array([self.point], float))
+        size = float(np.linalg.norm(np.ptp(solid.bounds, axis=0)))
+        if distance[0] > ON_FACE * size:
+            return np.zeros(len(solid.triangles), bool)
+        face = smooth_faces(solid)
+        return np.asarray(face == face[facet[0]])
+
+    def __str__(self) -> str:
+        return "the point ({:.4g}, {:.4g}, {:.4g})".format(*self.point)
+
+
+OpenFace = OpenPlane | OpenPatch | SmoothFace
 
 
 @dataclass(frozen=True)

@@ -12,6 +12,8 @@ from .cells import UnitCell, find_cell, joint_radius
 from .grading import CellMap, Orientation, RadiusGrading, SizeGrading, as_plain
 from .networks import CellNetwork, GivenNetwork, RandomNetwork
 from .openings import DrainHoles, OpenFace
+from .skins.kept_bodies import KeptBody
+from .skins.own_faces import FaceSkin, KeptFace
 from .spec_parts import (
     ACTIVATIONS,
     BOUNDARIES,
@@ -67,6 +69,9 @@ class LatticeSpec:
             outside still cuts).
         open_faces: faces of the part that have no skin (`volfrep.design.openings`); the cavity
             opens there, and struts are cut flush.
+        face_skins: faces with a skin thickness of their own (`FaceSkin`); 0 opens them.
+        keep_solid: faces round which the part stays solid (`KeptFace`), and bodies whose room in
+            it does (`KeptBody`).
         drains: holes through the skin (`volfrep.design.openings`); None for none.
         remove_dangling: take away struts with a free end, again and again until there are none.
         shortest_stub: struts with a free end that are shorter than this are taken away; 0 for
@@ -112,6 +117,8 @@ class LatticeSpec:
     activation: str = "touching"
     boundary: str = "trim"
     open_faces: tuple[OpenFace, ...] = ()
+    face_skins: tuple[FaceSkin, ...] = ()
+    keep_solid: tuple[KeptFace | KeptBody, ...] = ()
     drains: DrainHoles | None = None
     remove_dangling: bool = False
     shortest_stub: float = 0.0
@@ -137,7 +144,11 @@ class LatticeSpec:
             object.__setattr__(self, "network", CellNetwork())
         grid = self.grid
         object.__setattr__(self, "origin", grid.origin)
-        object.__setattr__(self, "open_faces", tuple(self.open_faces))
+        skins = tuple(self.face_skins)
+        is_open = tuple(skin.face for skin in skins if skin.thickness == 0.0)
+        object.__setattr__(self, "open_faces", (*self.open_faces, *is_open))
+        object.__setattr__(self, "face_skins", tuple(s for s in skins if s.thickness > 0.0))
+        object.__setattr__(self, "keep_solid", tuple(self.keep_solid))
         number("strut radius", self.strut_radius, "mm", positive=True)
         number("shell thickness", self.shell, "mm", positive=False)
         number("density", self.density, "g/cm3", positive=True)
@@ -162,6 +173,11 @@ class LatticeSpec:
         if self.shell == 0 and (self.open_faces or self.drains is not None):
             raise VolfrepError(
                 "Open faces and drain holes need a skin: give a shell thickness above 0."
+            )
+        if self.shell == 0 and (self.face_skins or self.keep_solid):
+            raise VolfrepError(
+                "Faces with a skin of their own, and what is kept solid, need a skin that they "
+                "belong to: give a shell thickness above 0."
             )
         if self.drains is not None and self.output == "lattice":
             raise VolfrepError("Drain holes go through the skin of a part: choose the output part.")
@@ -246,7 +262,9 @@ class LatticeSpec:
     @property
     def skin(self) -> Skin | None:
         """The part's skin; None for none."""
-        return None if self.shell == 0 else Skin(self.shell, self.open_faces)
+        if self.shell == 0:
+            return None
+        return Skin(self.shell, self.open_faces, self.face_skins, self.keep_solid)
 
     @property
     def ending(self) -> Boundary:

@@ -11,10 +11,16 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
+from ..mesh.triangle_mesh import TriangleMesh
 from ..util.errors import VolfrepError
 from ..util.numbers import number, point, whole
+from ..util.types import Floats
 from .grading import CellMap, Orientation, RadiusGrading, SizeGrading, Vector
 from .openings import OpenFace
+from .skins.kept_bodies import KeptBody
+from .skins.own_faces import FaceSkin, KeptFace, Thicknesses, thicknesses
 
 ACTIVATIONS = ("touching", "centre", "inside")
 BOUNDARIES = ("trim", "whole")
@@ -121,14 +127,65 @@ class Skin:
     Attributes:
         thickness: above 0, mm.
         open_faces: faces of the part that have none; the cavity opens there.
+        face_skins: faces that have another thickness.
+        keep_solid: faces round which the part stays solid, and bodies whose room does.
     """
 
     thickness: float
     open_faces: tuple[OpenFace, ...] = ()
+    face_skins: tuple[FaceSkin, ...] = ()
+    keep_solid: tuple[KeptFace | KeptBody, ...] = ()
 
     def __post_init__(self) -> None:
         number("shell thickness", self.thickness, "mm", positive=True)
-        object.__setattr__(self, "open_faces", tuple(self.open_faces))
+        for name in ("open_faces", "face_skins", "keep_solid"):
+            object.__setattr__(self, name, tuple(getattr(self, name)))
+
+    @property
+    def is_even(self) -> bool:
+        """Whether it is as thick everywhere as it is anywhere."""
+        return not (self.face_skins or self.keep_solid)
+
+    @property
+    def deepest(self) -> float:
+        """Its largest thickness below a face, mm."""
+        kept = (one.distance for one in self.keep_solid if isinstance(one, KeptFace))
+        return max(self.thickness, *(one.thickness for one in self.face_skins), *kept, 0.0)
+
+    def thicknesses(self, solid: TriangleMesh) -> Thicknesses:
+        """How thick it is below the triangles of a solid.
+
+        Raises:
+            VolfrepError: a face is not found, or all of them are open.
+        """
+        faces = tuple(one for one in self.keep_solid if isinstance(one, KeptFace))
+        return thicknesses(solid, self.open_faces, self.face_skins, faces)
+
+    def rough_volume(self, solid: TriangleMesh) -> float:
+        """About its volume below the faces of a solid, mm3: their area times its thickness."""
+        if self.is_even:
+            return solid.area * self.thickness
+        a, b, c = solid.corners()
+        area = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
+        below = float((area * self.below(solid)).sum())
+        return below + sum(body.volume for body in self.bodies)
+
+    def below(self, solid: TriangleMesh) -> Floats:
+        """(m,) mm, how thick it is below each triangle of a solid; 0 where that is open.
+
+        Raises:
+            VolfrepError: a face is not found, or all of them are open.
+        """
+        lengths = self.thicknesses(solid)
+        result = np.where(lengths.usual, self.thickness, 0.0)
+        for faces, length in lengths.others:
+            result = np.maximum(result, np.where(faces, length, 0.0))
+        return result
+
+    @property
+    def bodies(self) -> tuple[TriangleMesh, ...]:
+        """The bodies whose room stays solid."""
+        return tuple(one.mesh for one in self.keep_solid if isinstance(one, KeptBody))
 
 
 @dataclass(frozen=True)

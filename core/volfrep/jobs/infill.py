@@ -129,7 +129,7 @@ class Infill:
     def _domain(self) -> Kept[Domain]:
         with self.monitor.stage("shell", 0.0, 0.3):
             found = self._cache.run("shell", find_domain, self._solid, self._skin, self._watch)
-        guard.refuse_no_domain(found.value.mesh, self.spec.shell)
+        guard.refuse_no_domain(found.value.mesh, self.spec.shell, self._skin)
         return found
 
     @property

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ..design.memory_guard import cells_are_full, refuse_memory
 from ..design.networks import CellNetwork
 from ..design.spec import LatticeSpec
+from ..design.spec_parts import Skin
 from ..grid.strut_graph import Wireframe
 from ..mesh.triangle_mesh import TriangleMesh
 from ..octants.octant import Octant, OctantGrid, OctantKey
@@ -54,9 +55,14 @@ def refuse_solid_cells(octants: dict[OctantKey, Octant], spec: OctantSpec) -> No
         raise cells_are_full(spec.cell_size, spec.strut_radius)
 
 
-def refuse_no_domain(domain: TriangleMesh, shell: float) -> None:
+def refuse_no_domain(domain: TriangleMesh, shell: float, skin: Skin | None) -> None:
     """Raise a `VolfrepError` where a skin of a thickness in mm leaves nothing to fill."""
     if not len(domain.triangles):
+        if skin is not None and not skin.is_even:
+            raise VolfrepError(
+                "The skin and what is kept solid leave nothing to fill: reduce the shell "
+                "thickness, that of faces with their own, or what is kept solid."
+            )
         raise VolfrepError(
             f"The part is nowhere thicker than two walls of {shell:g} mm, so that nothing is left "
             "to fill: reduce the shell thickness."

@@ -7,7 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..design.openings import OpenFace, open_triangles
+from ..design.openings import OpenFace
+from ..design.skins.kept_bodies import KeptBody
+from ..design.skins.own_faces import FaceSkin, KeptFace
 from ..design.spec import LatticeSpec
 from ..design.spec_parts import Skin
 from ..grid.cell_grid import CellGrid
@@ -15,10 +17,10 @@ from ..mesh.quality import inspect
 from ..mesh.triangle_mesh import TriangleMesh
 from ..shell.domain import find_domain
 from ..spatial.even_points import even_points
-from ..spatial.proximity import index_surface
+from ..spatial.proximity import SurfaceIndex, closest_points, index_surface
 from ..spatial.rays import inside_points
 from ..util.progress import Monitor
-from ..util.types import Floats
+from ..util.types import Bools, Floats
 
 #: The surface is sampled this often along the diagonal of the part's box.
 SAMPLES_ALONG = 150.0
@@ -65,24 +67,40 @@ class PartDepth:
     Args:
         solid: checked closed mesh, mm.
         open_faces: faces that have no skin, as `LatticeSpec` has them.
+        face_skins: faces with a skin thickness of their own.
+        keep_solid: what the part stays solid round, and in.
 
     Attributes:
         bodies: how many the part has.
+
+    Raises:
+        VolfrepError: a face is not found, or all of them are open.
     """
 
-    def __init__(self, solid: TriangleMesh, open_faces: tuple[OpenFace, ...] = ()) -> None:
+    def __init__(
+        self,
+        solid: TriangleMesh,
+        open_faces: tuple[OpenFace, ...] = (),
+        face_skins: tuple[FaceSkin, ...] = (),
+        keep_solid: tuple[KeptFace | KeptBody, ...] = (),
+    ) -> None:
         self._solid = solid
         diagonal = float(np.linalg.norm(np.ptp(solid.bounds, axis=0)))
         self._surface = index_surface(solid, diagonal / SAMPLES_ALONG)
-        self._skinned = None
-        if open_faces:
-            self._skinned = self._surface.without(open_triangles(solid, open_faces))
+        # A skin without a thickness yet: that is asked for later.
+        skin = Skin(1.0, open_faces, face_skins, keep_solid)
+        lengths = skin.thicknesses(solid)
+        self._is_even = skin.is_even and not open_faces
+        self._usual = self._without(~lengths.usual)
+        self._others = tuple((self._without(~faces), length) for faces, length in lengths.others)
+        self._kept = skin.bodies
         low, high = solid.bounds
         points = low + even_points(3, VOLUME_POINTS) * (high - low)
         points = points[inside_points(solid, points, Monitor())]
         self.bodies = max(1, inspect(solid).quality.bodies)
         self._points = points
-        self._sampled = (self._skinned or self._surface).near(points)[1]
+        self._sampled = self._below_usual(points)
+        self._sampled[self._below_others(points) <= 0.0] = -1.0
         self._domain: tuple[Skin | None, TriangleMesh] | None = None
 
     def domain(self, skin: Skin | None) -> TriangleMesh:
@@ -95,12 +113,13 @@ class PartDepth:
         """(n,) how far below a skin (n, 3) points lie, mm; negative in the skin and outside."""
         depth = self._surface.near(points)[1]
         # On which side a point lies does not matter where it is nearer than the skin is thick.
-        far = np.flatnonzero(depth > (shell if self._skinned is None else 0.0))
+        far = np.flatnonzero(depth > (shell if self._is_even else 0.0))
         outside = far[~inside_points(self._solid, points[far], Monitor())]
         depth[outside] *= -1.0
-        if self._skinned is None:
+        if self._is_even:
             return depth - shell
-        return np.minimum(self._skinned.near(points)[1] - shell, depth)
+        below = np.minimum(self._below_usual(points) - shell, self._below_others(points))
+        return np.minimum(below, depth)
 
     def volume_below(self, shell: float) -> float:
         """Volume of what lies below a skin, mm3, within a few percent; never nothing."""
@@ -110,3 +129,27 @@ class PartDepth:
     def points_below(self, shell: float) -> Floats:
         """(n, 3) points spread evenly over what lies below a skin."""
         return np.asarray(self._points[self._sampled > shell])
+
+    def _without(self, gone: Bools) -> SurfaceIndex | None:
+        """The surface less some triangles; None where nothing is left."""
+        if gone.all():
+            return None
+        return self._surface.without(gone) if gone.any() else self._surface
+
+    def _below_usual(self, points: Floats) -> Floats:
+        """(n,) distances to the faces whose skin has no thickness of its own, mm."""
+        if self._usual is None:
+            return np.full(len(points), np.inf)
+        return self._usual.near(points)[1]
+
+    def _below_others(self, points: Floats) -> Floats:
+        """(n,) how far beyond the skin of the other faces points lie, and off kept bodies, mm."""
+        result = np.full(len(points), np.inf)
+        for index, length in self._others:
+            if index is not None:
+                result = np.minimum(result, index.near(points)[1] - length)
+        for body in self._kept:
+            distance = closest_points(body, points)[1]
+            sign = np.where(inside_points(body, points, Monitor()), -1.0, 1.0)
+            result = np.minimum(result, sign * distance)
+        return result

@@ -91,7 +91,8 @@ def roughly_aimed(solid: TriangleMesh, spec: LatticeSpec) -> LatticeSpec:
         return replace(spec, strut_radius=ratio * size)
     whole = abs(solid.volume)
     # Exact for long prisms about a circle; others measured within 2 % of the volume.
-    left = max(1.0 - 0.5 * solid.area * spec.shell / whole, 0.0) ** 2
+    skin = 0.0 if spec.skin is None else spec.skin.rough_volume(solid)
+    left = max(1.0 - 0.5 * skin / whole, 0.0) ** 2
     inside = whole * max(left, LEAST_INSIDE)
     ends = cell.nodes[cell.struts]
     length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1) @ strut_shares(cell) * size

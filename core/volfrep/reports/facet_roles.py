@@ -12,10 +12,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..design.openings import open_triangles
 from ..design.spec import LatticeSpec
+from ..design.spec_parts import Skin
 from ..mesh.triangle_mesh import TriangleMesh
-from ..spatial.proximity import SurfaceIndex, index_surface
+from ..spatial.proximity import SurfaceIndex, closest_points, index_surface
 from ..util.threads import threads
 from ..util.types import Floats
 
@@ -51,20 +51,41 @@ def kinds_of_triangles(mesh: TriangleMesh, solid: TriangleMesh, spec: LatticeSpe
     diagonal = float(np.linalg.norm(np.ptp(solid.bounds, axis=0)))
     spacing = max(min(diagonal / SAMPLES_ALONG, spec.shell), np.sqrt(solid.area / MOST_SAMPLES))
     surface = index_surface(solid, spacing)
-    most = WALL_DEPTH * spec.shell
-    below_all = _depth(surface, mesh.vertices, most)
-    below_skin = below_all
-    if spec.open_faces:
-        skinned = surface.without(open_triangles(solid, spec.open_faces))
-        below_skin = _depth(skinned, mesh.vertices, most)
+    beyond, thinnest = _beyond_skin(surface, mesh.vertices, solid, spec.skin)
     corners = mesh.triangles
-    deepest = below_skin[corners].max(axis=1)
     kinds = np.full(len(corners), LATTICE, np.uint8)
-    kinds[deepest <= most] = WALL
-    outermost = below_all[corners].max(axis=1) <= OUTSIDE_DEPTH * spec.shell
+    kinds[beyond[corners].max(axis=1) <= 0.0] = WALL
+    most = OUTSIDE_DEPTH * thinnest
+    outermost = _depth(surface, mesh.vertices, most)[corners].max(axis=1) <= most
     # Where struts end in an open face, triangles reach from their ends into the skin's rim.
-    kinds[outermost & (below_skin[corners].mean(axis=1) <= most)] = OUTSIDE
+    kinds[outermost & (beyond[corners].mean(axis=1) <= 0.0)] = OUTSIDE
     return kinds
+
+
+def _beyond_skin(
+    surface: SurfaceIndex, points: Floats, solid: TriangleMesh, skin: Skin | None
+) -> tuple[Floats, float]:
+    """(n,) how far beyond the skin's wall (n, 3) points lie, mm, and its least thickness.
+
+    Infinite for most that are farther off.
+    """
+    assert skin is not None, "without a skin all is lattice"
+    lengths = skin.thicknesses(solid)
+    groups = [(lengths.usual, skin.thickness)] if lengths.usual.any() else []
+    groups += lengths.others
+    beyond = np.full(len(points), np.inf)
+    for faces, length in groups:
+        index = surface if faces.all() else surface.without(~faces)
+        most = WALL_DEPTH * length
+        beyond = np.minimum(beyond, _depth(index, points, most) - most)
+    for body in skin.bodies:
+        low, high = body.bounds
+        reach = (WALL_DEPTH - 1.0) * skin.thickness
+        inside = ((points > low - reach) & (points < high + reach)).all(axis=1)
+        near = np.flatnonzero(inside & (beyond > 0.0))
+        if len(near):
+            beyond[near] = np.minimum(beyond[near], closest_points(body, points[near])[1] - reach)
+    return beyond, min(length for _, length in groups)
 
 
 def _depth(surface: SurfaceIndex, points: Floats, most: float) -> Floats:

@@ -3,14 +3,23 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 
 from ..design.openings import open_surface, open_triangles
+from ..design.skins.own_faces import Thicknesses
 from ..design.spec_parts import Skin
-from ..mesh.booleans import intersection
+from ..mesh.booleans import difference, intersection
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.progress import Monitor
-from .offset import TOLERANCE, inner_wall
+from ..util.types import Bools
+from .depth import Depth
+from .offset import TOLERANCE, InnerWall, inner_wall, without_small
+from .sheet_depth import sheet_depth, thinnest_of
+
+#: Rooms between a wall and bodies that are kept solid are filled where they are smaller than this,
+#: in cubes of the skin's least thickness.
+SMALLEST_ROOM = 0.2
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,9 +58,12 @@ def find_domain(solid: TriangleMesh, skin: Skin | None, monitor: Monitor) -> Dom
     """
     if skin is None:
         return Domain(solid, solid)
-    is_open = open_triangles(solid, skin.open_faces) if skin.open_faces else None
     monitor.count("walls found", 1)
-    found = inner_wall(solid, skin.thickness, monitor, is_open)
+    if skin.is_even:
+        is_open = open_triangles(solid, skin.open_faces) if skin.open_faces else None
+        found = inner_wall(solid, skin.thickness, monitor, is_open)
+    else:
+        found, is_open = _uneven(solid, skin, monitor)
     warnings: tuple[str, ...] = ()
     if found.worst > TOLERANCE:
         x, y, z = found.place
@@ -63,3 +75,29 @@ def find_domain(solid: TriangleMesh, skin: Skin | None, monitor: Monitor) -> Dom
         return Domain(found.mesh, found.mesh, warnings=warnings)
     trimmed = monitor.call(lambda: intersection(found.mesh, solid))
     return Domain(trimmed, found.mesh, open_surface(solid, is_open), warnings)
+
+
+def _uneven(solid: TriangleMesh, skin: Skin, monitor: Monitor) -> tuple[InnerWall, Bools | None]:
+    """The wall of a skin that is not alike everywhere, and which triangles are open."""
+    lengths = skin.thicknesses(solid)
+    thinnest = thinnest_of(lengths, skin.thickness)
+    found = inner_wall(
+        solid, thinnest, monitor, lengths.is_open,
+        partial(_depth, solid, lengths, skin.thickness, monitor) if lengths.others else None,
+    )  # fmt: skip
+    if skin.bodies and len(found.mesh.triangles):
+        less = partial(_less, found.mesh, skin.bodies, SMALLEST_ROOM * thinnest**3)
+        found = replace(found, mesh=monitor.call(less))
+    return found, lengths.is_open
+
+
+def _depth(
+    solid: TriangleMesh, lengths: Thicknesses, usual: float, monitor: Monitor, spacing: float
+) -> Depth:
+    return sheet_depth(solid, lengths, usual, spacing, monitor)
+
+
+def _less(cavity: TriangleMesh, bodies: tuple[TriangleMesh, ...], smallest: float) -> TriangleMesh:
+    """A cavity less bodies, without rooms of less than a volume in mm3."""
+    left = difference(cavity, *bodies)
+    return without_small(left, smallest) if len(left.triangles) else left

@@ -9,6 +9,7 @@ halves the cubes whose facets stray, `wall_decimation` takes the facets away tha
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -64,7 +65,11 @@ class InnerWall:
 
 
 def inner_wall(
-    solid: TriangleMesh, thickness: float, monitor: Monitor, is_open: Bools | None = None
+    solid: TriangleMesh,
+    thickness: float,
+    monitor: Monitor,
+    is_open: Bools | None = None,
+    uneven: Callable[[float], Depth] | None = None,
 ) -> InnerWall:
     """The closed surface at depth `thickness` below the surface of a solid.
 
@@ -73,6 +78,8 @@ def inner_wall(
         thickness: wall thickness, above 0, mm.
         monitor: for progress and cancel.
         is_open: (m,) triangles of the solid that have no skin below them; None for none.
+        uneven: of a wall that is not equally thick everywhere, and has `thickness` where it is
+            thinnest: makes its depth with samples of a spacing in mm.
 
     Returns:
         The boundary of the points of the solid that lie deeper than the thickness, strictly
@@ -94,7 +101,10 @@ def inner_wall(
     monitor.tick(0.0)
     spacing = SAMPLE_SPACING * thickness
     plain = None
-    if is_open is None:
+    if uneven is not None:
+        _refuse_too_thin(solid, thickness, solid.area / cube**2, cube)
+        depth = uneven(spacing)
+    elif is_open is None:
         grid = cube_grid(low, high, thickness, cube)
         most = MEMORY_LIMIT / BYTES_PER_CROSSED_CUBE / 2.0
         plain = find_plain(solid, grid[0], cube, grid[2], thickness, spacing, most, monitor)
@@ -111,7 +121,7 @@ def inner_wall(
     monitor.tick(0.8)
     mesh = simplified(wall, field)
     monitor.tick(0.95)
-    return _measured(_without_small(mesh, (SMALLEST_POCKET * cube) ** 3), depth)
+    return _measured(without_small(mesh, (SMALLEST_POCKET * cube) ** 3), depth)
 
 
 def _refuse_too_thin(solid: TriangleMesh, thickness: float, cubes: float, cube: float) -> None:
@@ -143,7 +153,7 @@ def _deepest(solid: TriangleMesh) -> float:
     return float(closest_points(solid, points)[1].max(initial=0.0))
 
 
-def _without_small(mesh: TriangleMesh, volume: float) -> TriangleMesh:
+def without_small(mesh: TriangleMesh, volume: float) -> TriangleMesh:
     """Without the closed surfaces that enclose less than the volume."""
     count = len(mesh.vertices)
     t = mesh.triangles

@@ -11,6 +11,7 @@ its thickness each, and the material between them holds them together.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -113,7 +114,7 @@ class SkinModel:
 
 def skin_model(
     solid: TriangleMesh,
-    thickness: float,
+    thickness: float | Callable[[Floats], Floats],
     edge: float,
     material: Elastic,
     openings: TriangleMesh | None = None,
@@ -126,7 +127,7 @@ def skin_model(
 
     Args:
         solid: the part, closed, mm.
-        thickness: of the skin, mm.
+        thickness: of the skin, mm, or at (n, 3) points of the surface.
         edge: how long the triangles' edges are to be, mm.
         material: of the skin.
         openings: the faces that have none.
@@ -143,9 +144,14 @@ def skin_model(
     used = doubled > 1e-9 * doubled.max()
     if openings is not None:
         used &= ~lie_on(openings, corners.mean(axis=1), 0.02 * edge)
-    room = _room(outside, triangles, normal, doubled, _SOLID * thickness)
+    wanted = (
+        thickness(outside.vertices)
+        if callable(thickness)
+        else np.full(len(outside.vertices), thickness)
+    )
+    room = _room(outside, triangles, normal, doubled, _SOLID * float(wanted.max()))
     # Each side has its half of what is solid.
-    local = np.minimum(thickness, 0.5 * room)
+    local = np.minimum(wanted, 0.5 * room)
     kept = triangles[used]
     walls = kept, normal[used], doubled[used]
     middle = _inwards(outside.vertices, *walls, 0.5 * local)
@@ -162,7 +168,7 @@ def skin_model(
     thick = local[kept].mean(axis=1)
     shells = shells_of(middle, kept, thick, material, clear=clear, pads=pads)
     blocks, joined = shells.blocks(), NOT_JOINED
-    solid_nodes = np.flatnonzero(room < _SOLID * thickness)
+    solid_nodes = np.flatnonzero(room < _SOLID * wanted)
     if len(solid_nodes) and len(kept):
         shares = np.repeat(shells.area / 3.0, 3)
         area = np.bincount(kept.ravel(), shares, len(middle)).astype(np.float64)

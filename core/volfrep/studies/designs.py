@@ -189,7 +189,8 @@ def command_of(design: Design, study: Study, source: str, output: str) -> str:
         if parameter.kind == "flag":
             words.append(option if value else f"--no-{option[2:]}")
         elif parameter.kind in REPEATED:
-            words += [f"{option}={_numbers(item)}" for item in value]
+            items = (item if isinstance(item, str) else _numbers(item) for item in value)
+            words += [f"{option}={item}" for item in items]
         elif parameter.kind in LENGTHS:
             words.append(f"{option}={_numbers(value)}")
         else:

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from ..design.parameters.spec_file import KEYS, is_path, nearest_key, parsed, read_values
+from ..design.parameters.spec_file import KEYS, nearest_key, parsed, read_values, with_paths
 from ..design.parameters.specification import merged
 from ..design.parameters.table import BY_NAME
 from ..design.parameters.values import SCALES, from_plain
@@ -250,7 +250,7 @@ def _value(folder: Path, name: str, value: Any) -> Any:
         result = from_plain(BY_NAME[name], value)
     except VolfrepError as error:
         raise VolfrepError(f"{name}: {error}") from error
-    return os.path.join(folder, result) if is_path(name, result) else result
+    return with_paths(name, result, lambda file: os.path.join(folder, file))
 
 
 def _variation(folder: Path, name: str, value: Any) -> tuple[Any, ...] | Range:

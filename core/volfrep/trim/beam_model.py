@@ -44,7 +44,7 @@ def part_beams(
     if drains is None:
         return BeamModel(lattice, solid, wall)
     closed = TrimmedSurface(wall)
-    drained = drain(closed, solid, cavity, lattice, skin.thickness, drains, monitor)
+    drained = drain(closed, solid, cavity, lattice, skin.deepest, drains, monitor)
     return BeamModel(lattice, solid, drained.surface.mesh, drained.warnings)
 
 

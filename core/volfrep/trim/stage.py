@@ -212,7 +212,7 @@ def drained_part(
         VolfrepError: a hole cannot be where it is wanted.
     """
     part = cleared.surface
-    drained = drain(part, solid, domain.mesh, frame, skin.thickness, drains, monitor)
+    drained = drain(part, solid, domain.mesh, frame, skin.deepest, drains, monitor)
     clean = tidied(drained.surface, shortest_edge(solid), monitor)
     quality = clean.inspected(monitor).found.quality
     return replace(cleared, surface=clean, quality=quality), replace(drained, surface=clean)

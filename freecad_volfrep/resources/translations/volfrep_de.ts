@@ -237,6 +237,10 @@
       <translation>Abstand zwischen einer Facette und dem genauen Stab, eingehalten außer in den Kehlen zwischen Stäben; 0 für ein Fünfunddreißigstel des Radius</translation>
     </message>
     <message>
+      <source>Distance from the faces of KeepSolidAround up to which the part stays solid</source>
+      <translation>Abstand von den Flächen in KeepSolidAround, bis zu dem das Teil massiv bleibt</translation>
+    </message>
+    <message>
       <source>Domain</source>
       <translation>Füllraum</translation>
     </message>
@@ -283,6 +287,14 @@
     <message>
       <source>Faces of the solid that have no skin: the cavity opens there, struts are cut flush</source>
       <translation>Flächen des Volumenkörpers ohne Haut: dort öffnet sich der Hohlraum, Streben sind bündig geschnitten</translation>
+    </message>
+    <message>
+      <source>Faces of the solid whose skin has a thickness of its own, each with its number in SkinThicknesses</source>
+      <translation>Flächen des Körpers, deren Haut eine eigene Dicke hat, jede mit ihrer Zahl in SkinThicknesses</translation>
+    </message>
+    <message>
+      <source>Faces round which the part stays solid, up to KeepDistance, and solids whose room in it does</source>
+      <translation>Flächen, um die das Teil bis KeepDistance massiv bleibt, und Körper, deren Raum darin massiv bleibt</translation>
     </message>
     <message>
       <source>Facets along the edge of a cell; 0 to choose it by the deviation</source>
@@ -373,12 +385,20 @@
       <translation>Knotenausrundung</translation>
     </message>
     <message>
+      <source>Keep Distance</source>
+      <translation>Abstand massiv</translation>
+    </message>
+    <message>
       <source>Keep Pieces</source>
       <translation>Lose Teile behalten</translation>
     </message>
     <message>
       <source>Keep Radius</source>
       <translation>Radius beibehalten</translation>
+    </message>
+    <message>
+      <source>Keep Solid Around</source>
+      <translation>Massiv lassen um</translation>
     </message>
     <message>
       <source>Keep pieces of the lattice that hang on nothing; otherwise they are left out, and told</source>
@@ -817,6 +837,14 @@
       <translation>Haut</translation>
     </message>
     <message>
+      <source>Skin Faces</source>
+      <translation>Flächen mit eigener Haut</translation>
+    </message>
+    <message>
+      <source>Skin Thicknesses</source>
+      <translation>Hautdicken</translation>
+    </message>
+    <message>
       <source>Smallest and largest strut radius, mm</source>
       <translation>Kleinster und größter Strebenradius, mm</translation>
     </message>
@@ -971,6 +999,10 @@
     <message>
       <source>Thickness of the closed skin; 0 for none: the lattice is cut at the outer surface</source>
       <translation>Dicke der geschlossenen Haut; 0 für keine: das Gitter wird an der Außenfläche geschnitten</translation>
+    </message>
+    <message>
+      <source>Thickness of the skin below each of the SkinFaces, in mm; 0 leaves the face open</source>
+      <translation>Dicke der Haut unter jeder der SkinFaces, in mm; 0 lässt die Fläche offen</translation>
     </message>
     <message>
       <source>Thinnest Strut</source>
@@ -3132,6 +3164,10 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
       <translation>Schneidet das Teil am Bildschirm auf, entlang einer verschiebbaren Ebene; noch einmal zeigt es ganz</translation>
     </message>
     <message>
+      <source>Distance</source>
+      <translation>Abstand</translation>
+    </message>
+    <message>
       <source>Look for a file</source>
       <translation>Datei suchen</translation>
     </message>
@@ -3142,6 +3178,10 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
     <message>
       <source>Material</source>
       <translation>Werkstoff</translation>
+    </message>
+    <message>
+      <source>Of faces with a skin of their own: the thickness of those that are picked next; a face that has another gets it, one that has it goes back to the usual skin, and 0 leaves it open. Of what is kept solid: the distance from all its faces</source>
+      <translation>Von Flächen mit eigener Haut: die Dicke derer, die als Nächstes gewählt werden; eine Fläche mit anderer Dicke bekommt diese, eine mit dieser Dicke wieder die übliche Haut, und 0 lässt sie offen. Von dem, was massiv bleibt: der Abstand von allen seinen Flächen</translation>
     </message>
     <message>
       <source>Pick</source>
@@ -3164,12 +3204,24 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
       <translation>Zeigt den Körper: auf eine Fläche, eine Kante, einen Punkt, eine Achse oder eine Ebene klicken; noch einmal beendet es</translation>
     </message>
     <message>
+      <source>Thickness</source>
+      <translation>Dicke</translation>
+    </message>
+    <message>
+      <source>Thickness or distance</source>
+      <translation>Dicke oder Abstand</translation>
+    </message>
+    <message>
       <source>To print</source>
       <translation>Zum Drucken</translation>
     </message>
     <message>
       <source>What to pick</source>
       <translation>Was angeklickt wird</translation>
+    </message>
+    <message>
+      <source>drag an end of the arrow in the view to turn it</source>
+      <translation>ein Ende des Pfeils in der Ansicht ziehen, um ihn zu drehen</translation>
     </message>
     <message>
       <source>nothing picked</source>

@@ -237,6 +237,10 @@
       <translation>Distanza tra una faccetta e l'asta esatta, rispettata lontano dagli spigoli in cui le aste si incontrano; 0 per un trentacinquesimo del raggio</translation>
     </message>
     <message>
+      <source>Distance from the faces of KeepSolidAround up to which the part stays solid</source>
+      <translation>Distanza dalle facce di KeepSolidAround fino alla quale il pezzo resta pieno</translation>
+    </message>
+    <message>
       <source>Domain</source>
       <translation>Dominio</translation>
     </message>
@@ -283,6 +287,14 @@
     <message>
       <source>Faces of the solid that have no skin: the cavity opens there, struts are cut flush</source>
       <translation>Facce del solido senza guscio: lì la cavità si apre e le aste sono tagliate a filo</translation>
+    </message>
+    <message>
+      <source>Faces of the solid whose skin has a thickness of its own, each with its number in SkinThicknesses</source>
+      <translation>Facce del solido la cui pelle ha uno spessore proprio, ognuna con il suo numero in SkinThicknesses</translation>
+    </message>
+    <message>
+      <source>Faces round which the part stays solid, up to KeepDistance, and solids whose room in it does</source>
+      <translation>Facce attorno alle quali il pezzo resta pieno, fino a KeepDistance, e solidi il cui spazio in esso resta pieno</translation>
     </message>
     <message>
       <source>Facets along the edge of a cell; 0 to choose it by the deviation</source>
@@ -373,12 +385,20 @@
       <translation>Raccordo dei nodi</translation>
     </message>
     <message>
+      <source>Keep Distance</source>
+      <translation>Distanza piena</translation>
+    </message>
+    <message>
       <source>Keep Pieces</source>
       <translation>Mantieni pezzi staccati</translation>
     </message>
     <message>
       <source>Keep Radius</source>
       <translation>Mantieni raggio</translation>
+    </message>
+    <message>
+      <source>Keep Solid Around</source>
+      <translation>Lascia pieno attorno a</translation>
     </message>
     <message>
       <source>Keep pieces of the lattice that hang on nothing; otherwise they are left out, and told</source>
@@ -817,6 +837,14 @@
       <translation>Guscio</translation>
     </message>
     <message>
+      <source>Skin Faces</source>
+      <translation>Facce con pelle propria</translation>
+    </message>
+    <message>
+      <source>Skin Thicknesses</source>
+      <translation>Spessori della pelle</translation>
+    </message>
+    <message>
       <source>Smallest and largest strut radius, mm</source>
       <translation>Raggio minimo e massimo delle aste, mm</translation>
     </message>
@@ -971,6 +999,10 @@
     <message>
       <source>Thickness of the closed skin; 0 for none: the lattice is cut at the outer surface</source>
       <translation>Spessore del guscio chiuso; 0 per nessuno: il reticolo è tagliato alla superficie esterna</translation>
+    </message>
+    <message>
+      <source>Thickness of the skin below each of the SkinFaces, in mm; 0 leaves the face open</source>
+      <translation>Spessore della pelle sotto ognuna delle SkinFaces, in mm; 0 lascia la faccia aperta</translation>
     </message>
     <message>
       <source>Thinnest Strut</source>
@@ -3132,6 +3164,10 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
       <translation>Apre il pezzo sullo schermo lungo un piano che si può spostare; ancora una volta lo mostra intero</translation>
     </message>
     <message>
+      <source>Distance</source>
+      <translation>Distanza</translation>
+    </message>
+    <message>
       <source>Look for a file</source>
       <translation>Cerca un file</translation>
     </message>
@@ -3142,6 +3178,10 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
     <message>
       <source>Material</source>
       <translation>Materiale</translation>
+    </message>
+    <message>
+      <source>Of faces with a skin of their own: the thickness of those that are picked next; a face that has another gets it, one that has it goes back to the usual skin, and 0 leaves it open. Of what is kept solid: the distance from all its faces</source>
+      <translation>Delle facce con pelle propria: lo spessore di quelle che si scelgono dopo; una faccia con un altro lo riceve, una che lo ha torna alla pelle solita, e 0 la lascia aperta. Di ciò che resta pieno: la distanza da tutte le sue facce</translation>
     </message>
     <message>
       <source>Pick</source>
@@ -3164,12 +3204,24 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
       <translation>Mostra il solido: fare clic su una faccia, uno spigolo, un vertice, un asse o un piano; ancora una volta per finire</translation>
     </message>
     <message>
+      <source>Thickness</source>
+      <translation>Spessore</translation>
+    </message>
+    <message>
+      <source>Thickness or distance</source>
+      <translation>Spessore o distanza</translation>
+    </message>
+    <message>
       <source>To print</source>
       <translation>Per la stampa</translation>
     </message>
     <message>
       <source>What to pick</source>
       <translation>Che cosa scegliere</translation>
+    </message>
+    <message>
+      <source>drag an end of the arrow in the view to turn it</source>
+      <translation>trascinare un'estremità della freccia nella vista per ruotarla</translation>
     </message>
     <message>
       <source>nothing picked</source>

@@ -35,6 +35,8 @@ SHAPES = {
     "rotation": lambda x: (0.0, 0.0, 1.0, x),
     "planes": lambda x: ((0.0, 0.0, x, 0.0, 0.0, 1.0),),
     "places": lambda x: ((0.0, 0.0, x),),
+    "thick_faces": lambda x: ((0.0, 0.0, 20.0, x),),
+    "solids": lambda x: ((0.0, 0.0, 20.0, x),),
     "stiffness": lambda x: f"{x}:100",
     "integer": lambda x: int(x),
 }

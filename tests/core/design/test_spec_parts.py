@@ -14,6 +14,7 @@ from volfrep.design.networks import RandomNetwork
 from volfrep.design.openings import DrainHoles, DrainPlace, OpenPatch, OpenPlane
 from volfrep.design.profile import Profile
 from volfrep.design.scattered_field import PointField
+from volfrep.design.skins.own_faces import FaceSkin, KeptFace
 from volfrep.design.spec_parts import Boundary, Grid, Resolution, Skin, Struts
 from volfrep.design.target import Target
 from volfrep.design.walls import Wall
@@ -36,7 +37,15 @@ OTHERS = [
         },
     ),
     (Struts(1.0), {"radius": BY_FIELD, "fillet": 0.5, "keep_radius": False}),
-    (Skin(2.0), {"thickness": 3.0, "open_faces": (OpenPlane((0, 0, 0), (0, 0, 1)),)}),
+    (
+        Skin(2.0),
+        {
+            "thickness": 3.0,
+            "open_faces": (OpenPlane((0, 0, 0), (0, 0, 1)),),
+            "face_skins": (FaceSkin(OpenPlane((0, 0, 0), (0, 0, 1)), 1.0),),
+            "keep_solid": (KeptFace(OpenPlane((0, 0, 0), (0, 0, 1)), 1.0),),
+        },
+    ),
     (
         Boundary(),
         {
@@ -103,6 +112,8 @@ OTHERS = [
             "activation": "inside",
             "boundary": "whole",
             "open_faces": (OpenPatch(PATCH),),
+            "face_skins": (FaceSkin(OpenPatch(PATCH), 1.0),),
+            "keep_solid": (KeptFace(OpenPatch(PATCH), 1.0),),
             "drains": None,
             "remove_dangling": True,
             "shortest_stub": 1.0,

@@ -27,17 +27,18 @@ GROUPS = {
 
 #: The unit of a kind of parameter, where it has one.
 UNITS = {"length": "mm", "angle": "degrees", "density": "g/cm3", "point": "mm", "points": "mm",
-         "mass": "g", "stress": "MPa"}  # fmt: skip
+         "mass": "g", "stress": "MPa", "lengths": "mm"}  # fmt: skip
 #: How a value of a kind is written in a command, where its unit does not say it.
 SHAPES = {
     "number": "NUMBER", "integer": "N", "text": "TEXT", "formula": "FORMULA", "file": "FILE",
     "cell": "CELL", "direction": "X,Y,Z", "point": "X,Y,Z", "rotation": "X,Y,Z,DEGREES",
     "planes": "X,Y,Z,NX,NY,NZ", "places": "X,Y,Z[,NX,NY,NZ]", "curve": "V:MM,V:MM,...",
     "length": "MM", "angle": "DEGREES", "density": "G_PER_CM3",
-    "mass": "G", "stiffness": "E:DIRECTION",
+    "mass": "G", "stiffness": "E:DIRECTION", "thick_faces": "X,Y,Z[,NX,NY,NZ],MM",
+    "solids": "FILE_OR_X,Y,Z[,NX,NY,NZ],MM",
 }  # fmt: skip
 #: Kinds that may be given several times; their value is a tuple.
-REPEATED = ("planes", "places")
+REPEATED = ("planes", "places", "thick_faces", "solids")
 
 
 @dataclass(frozen=True)
@@ -64,8 +65,9 @@ class Parameter:
         kind: ``length``, ``angle``, ``density``, ``mass``, ``stiffness``, ``number``,
             ``integer``, ``flag``, ``choice``,
             ``text``, ``formula``, ``file``, ``cell``, ``curve``, ``direction``, ``point``,
-            ``rotation`` (axis and degrees), ``planes`` or ``places`` (lists of numbers); of a
-            document only: ``link``, ``faces``, ``points``, ``stress``, ``material``, ``process``.
+            ``rotation`` (axis and degrees), ``planes``, ``places`` or ``thick_faces`` (lists of
+            numbers), ``solids`` (files or such lists); of a document only: ``link``, ``faces``,
+            ``lengths``, ``points``, ``stress``, ``material``, ``process``.
         group: one of `GROUPS`.
         help: one phrase; the same for the option, the property and the documentation.
         default: what holds where nothing is given; None where `otherwise` says what does.

@@ -6,7 +6,7 @@ from __future__ import annotations
 import difflib
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -88,8 +88,7 @@ def _written(values: Mapping[str, Any], folder: Path) -> str:
             lines += ["", f"# {GROUPS[group].capitalize()}"]
         for parameter in rows:
             value = to_plain(parameter, values[parameter.name])
-            if is_path(parameter.name, value):
-                value = _seen_from(folder, value)
+            value = with_paths(parameter.name, value, lambda file: _seen_from(folder, file))
             lines.append(f"{parameter.name} = {_toml(value)}")
     return "\n".join([*lines, ""])
 
@@ -112,14 +111,19 @@ def _value(path: Path, name: str, value: Any) -> Any:
         result = from_plain(BY_NAME[name], value)
     except VolfrepError as error:
         raise VolfrepError(f"{path}, {name}: {error}") from error
-    if is_path(name, result):
-        return os.path.join(path.parent, result)
-    return result
+    return with_paths(name, result, lambda file: os.path.join(path.parent, file))
 
 
 def nearest_key(name: str) -> str:
     """The key that is written most like a name."""
     return difflib.get_close_matches(name, KEYS, 1, 0.0)[0]
+
+
+def with_paths(name: str, value: Any, change: Callable[[str], str]) -> Any:
+    """A value of a parameter with the files that it names changed."""
+    if name == "keep_solid":
+        return type(value)(change(one) if isinstance(one, str) else one for one in value)
+    return change(value) if is_path(name, value) else value
 
 
 def is_path(name: str, value: Any) -> bool:

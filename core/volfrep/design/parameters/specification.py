@@ -10,7 +10,7 @@ from ...util.errors import VolfrepError
 from ..cells import LIBRARY, UnitCell, find_cell
 from ..grading import CellMap, Orientation, RadiusGrading, SizeGrading, read_point_field
 from ..networks import GivenNetwork, RandomNetwork, read_network
-from ..openings import DrainHoles, DrainPlace, OpenPlane
+from ..openings import DrainHoles, DrainPlace
 from ..profile import Profile
 from ..scattered_field import PointField, read_curve
 from ..spec import LatticeSpec
@@ -18,6 +18,7 @@ from ..spec_parts import first_radius
 from ..target import AIMS, Target, read_stiffness, stiffness_text
 from ..walls import FORMULA, SURFACES, PeriodicSurface, Wall, find_surface, surface_name
 from .parameter import Need, effective
+from .skin_values import skin_of, skin_values
 from .table import BY_NAME, PARAMETERS, TWO_ENDED
 from .values import field_file, is_file
 
@@ -35,8 +36,9 @@ def specification(values: Mapping[str, Any], say: Naming = in_file) -> LatticeSp
 
     Args:
         values: by the names of the table. `cell` may be a `UnitCell`, and `radius_field` a
-            `PointField`; `open_faces` are those of `LatticeSpec`, beside the planes;
-            `network_faces` is the network that is laid along them.
+            `PointField`; `open_faces`, `skin_faces` and `keep_solid_around` are as those of
+            `LatticeSpec`, beside what is named by numbers and files; `network_faces` is the
+            network that is laid along them.
         say: how to call a parameter in an error.
 
     Raises:
@@ -76,7 +78,7 @@ def specification(values: Mapping[str, Any], say: Naming = in_file) -> LatticeSp
         remove_dangling=used["remove_dangling"],
         keep_pieces=used["keep_pieces"],
         shortest_stub=used["shortest_stub"],
-        open_faces=_open_faces(used),
+        **skin_of(used),
         drains=_drains(used),
         resolution=used["resolution"] or None,
         deviation=used["deviation"] or None,
@@ -152,14 +154,7 @@ def values_of(spec: LatticeSpec) -> dict[str, Any]:
         "resolution": spec.resolution, "deviation": spec.deviation, "make": spec.output,
         "density": spec.density, "keep_radius": spec.keep_radius, **walls, **values,
     }  # fmt: skip
-    if spec.open_faces:
-        planes = [face for face in spec.open_faces if isinstance(face, OpenPlane)]
-        if len(planes) < len(spec.open_faces):
-            raise VolfrepError(
-                "Faces that were picked to be open have no place in a file: leave them out, or "
-                "give planes."
-            )
-        found["open_plane"] = tuple((*face.point, *face.normal) for face in planes)
+    found |= skin_values(spec)
     if spec.drains is not None:
         found["drain_diameter"] = spec.drains.diameter
         found["drain"] = tuple((*p.point, *(p.direction or ())) for p in spec.drains.places)
@@ -245,13 +240,6 @@ def _useless(name: str, need: Need, say: Naming) -> str:
         words = [str(value) for value in need.values]
         what += " " + " or ".join(filter(None, (", ".join(words[:-1]), words[-1])))
     return f"{say(name)} has no effect without {what}: add that or leave it."
-
-
-def _open_faces(used: Mapping[str, Any]) -> tuple[Any, ...]:
-    planes = tuple(
-        OpenPlane((x, y, z), (nx, ny, nz)) for x, y, z, nx, ny, nz in used["open_plane"] or ()
-    )
-    return tuple(used["open_faces"] or ()) + planes
 
 
 def _drains(used: Mapping[str, Any]) -> DrainHoles | None:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from .network_rows import GIVEN, NETWORK
 from .parameter import Need, Parameter
+from .skin_rows import SKIN
 from .wall_rows import OF_STRUTS, SIZES, WALL
 
 #: The entry of the property `CellType` for a cell of the user's own, read from `CellFile`.
@@ -174,6 +175,7 @@ PARAMETERS = (
         "A plane, by a point and a normal, whose faces have no skin; may be repeated",
         in_freecad=False, of_block=False,
     ),
+    *SKIN,
     Parameter(
         "drain_diameter", "length", "Openings",
         "Diameter of the holes that let powder or resin out of the skin; 0 for none",

@@ -29,6 +29,8 @@ LENGTHS: dict[str, tuple[tuple[int, ...], str]] = {
     "rotation": ((4,), "0,0,1,30"),
     "planes": ((6,), "0,0,10,0,0,1"),
     "places": ((3, 6), "0,0,10"),
+    "thick_faces": ((4, 7), "0,0,10,3"),
+    "solids": ((4, 7), "0,0,10,3"),
 }
 #: Other words for a choice.
 ALIASES = {"expression": "formula", "polynomial": "quadratic"}
@@ -44,6 +46,8 @@ def from_text(parameter: Parameter, text: str) -> Any:
         VolfrepError: it is none; the sentence says what one looks like, and names nothing.
     """
     kind = parameter.kind
+    if kind == "solids" and _is_named(text):
+        return text
     if kind in LENGTHS:
         return _numbers(parameter, text.split(","))
     if kind == "flag":
@@ -61,9 +65,10 @@ def from_plain(parameter: Parameter, value: Any) -> Any:
     """
     kind = parameter.kind
     if kind in REPEATED:
-        if not isinstance(value, list) or not all(isinstance(item, list) for item in value):
+        either = (list, str) if kind == "solids" else list
+        if not isinstance(value, list) or not all(isinstance(item, either) for item in value):
             raise VolfrepError(f"{value!r} is no list of lists such as {_example(parameter)}.")
-        return tuple(_numbers(parameter, item) for item in value)
+        return tuple(item if isinstance(item, str) else _numbers(parameter, item) for item in value)
     if kind in LENGTHS:
         if not isinstance(value, list):
             raise VolfrepError(f"{value!r} is no list such as {_example(parameter)}.")
@@ -84,7 +89,9 @@ def from_plain(parameter: Parameter, value: Any) -> Any:
 def to_plain(parameter: Parameter, value: Any) -> Any:
     """What `from_plain` makes the value of."""
     if parameter.kind in REPEATED:
-        return [[float(number) for number in item] for item in value]
+        return [
+            item if isinstance(item, str) else [float(number) for number in item] for item in value
+        ]
     if parameter.kind in LENGTHS:
         return [float(number) for number in value]
     if parameter.kind == "number" or parameter.kind in SCALES:
@@ -170,6 +177,11 @@ def _called(parameter: Parameter) -> str:
 def _example(parameter: Parameter) -> str:
     example = f"[{LENGTHS[parameter.kind][1].replace(',', ', ')}]"
     return f"[{example}]" if parameter.kind in REPEATED else example
+
+
+def _is_named(text: str) -> bool:
+    """Whether a text names a file, and no list of numbers."""
+    return any(letter.isalpha() for letter in text.replace("e", "").replace("E", ""))
 
 
 def is_file(source: str) -> bool:

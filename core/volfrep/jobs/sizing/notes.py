@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from ...design.spec import LatticeSpec
 from ...reports.sizing_report import PEAKS
 from ...sizing.analysis import Analysis, Limits, Problem
 from ...sizing.model import SizingModel
@@ -37,6 +38,16 @@ def not_held(problem: Problem, analysis: Analysis) -> str:
         f"that were allowed, {used}. What may help: thicker struts, where --thickest limits them; "
         f"larger cells, which bear thicker ones; {_REMEDIES[worst]}."
     )
+
+
+def left_out(spec: LatticeSpec) -> list[str]:
+    """A sentence where bodies are kept solid, which the model does not hold."""
+    if spec.skin is None or not spec.skin.bodies:
+        return []
+    return [
+        "Bodies that are kept solid are not in the model that was sized: look at the struts round "
+        "them with solid elements."
+    ]
 
 
 def stressed_skin(model: SizingModel, analysis: Analysis, limits: Limits) -> list[str]:

@@ -30,6 +30,7 @@ from ...sizing.node_radii import smoothing
 from ...sizing.optimise import Sized, Step, Watch, lightest, scaled_to_limits, stiffest, uniform
 from ...sizing.skin import skin_model
 from ...sizing.strut_state import StrutState, strut_states
+from ...spatial.proximity import closest_points
 from ...util.cache import StageCache
 from ...util.errors import Cancelled, VolfrepError
 from ...util.files import replacing
@@ -40,7 +41,7 @@ from ..networks.frame import fixed_graph, median_length
 from ..networks.radius import THICKEST
 from ..targets import aimed, infill_of
 from .goal import Goal
-from .notes import not_held, stressed_skin
+from .notes import left_out, not_held, stressed_skin
 
 #: Edges of the skin's triangles over the cell size, and over its thickness at least.
 SKIN_EDGE, SKIN_EDGE_LEAST = 0.5, 1.5
@@ -149,6 +150,7 @@ def size(
     if not sized.holds:
         notes.append(not_held(problem, sized.analysis))
     notes += stressed_skin(model, sized.analysis, goal.limits)
+    notes += left_out(spec)
     if sized.stopped == "cancelled":
         notes.append("The search was cancelled: this is the best design so far.")
     final = _stored(problem, sized.analysis.radii, goal.limits)
@@ -336,7 +338,8 @@ def _model(infill: Infill, loads: LoadCases, goal: Goal, cache: StageCache) -> S
         edge = max(SKIN_EDGE * apart, SKIN_EDGE_LEAST * spec.shell)
         with infill.monitor.stage("skin", 0.3, 0.4):
             skin = skin_model(
-                infill.solid, spec.shell, edge, elastic(material), infill.domain.openings,
+                infill.solid, _thickness(infill.solid, spec), edge, elastic(material),
+                infill.domain.openings,
                 feet_of(wireframe, clipped, infill.domain.mesh, _given_radii(wireframe)),
                 infill.monitor, held=held_facets(infill.solid, loads.cases),
             )  # fmt: skip
@@ -354,6 +357,16 @@ def _length(infill: Infill) -> float:
     """L, mm: of the cells, or a network's median length of struts, which stands for it."""
     spec = infill.spec
     return spec.cell_size if spec.network is None else median_length(infill.struts)
+
+
+def _thickness(solid: TriangleMesh, spec: LatticeSpec) -> float | Callable[[Floats], Floats]:
+    """A skin's thickness, mm, or at points of the part's surface where it is not even."""
+    if spec.skin is None or spec.skin.is_even:
+        return spec.shell
+    below = spec.skin.below(solid)
+    # Where a face is open there are no shells: any thickness will do.
+    below = np.where(below > 0.0, below, spec.shell)
+    return lambda points: np.asarray(below[closest_points(solid, points)[2]])
 
 
 def _given_radii(wireframe: Wireframe) -> Floats:

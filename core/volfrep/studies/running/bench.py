@@ -87,10 +87,11 @@ class Bench:
     @cached_property
     def expectation(self) -> Expectation:
         """What it will come to."""
-        faces = self.spec.open_faces
+        spec = self.spec
+        faces = (spec.open_faces, spec.face_skins, spec.keep_solid)
         place = (id(self.solid), faces)
         if place not in self.shared.depths:
-            self.shared.depths[place] = PartDepth(self.solid, faces)
+            self.shared.depths[place] = PartDepth(self.solid, *faces)
         return expected(self.solid, self.spec, self.shared.depths[place])
 
     @cached_property

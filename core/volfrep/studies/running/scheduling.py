@@ -183,7 +183,7 @@ def grouped(
 
     def order(design: Design) -> tuple[str | float, ...]:
         spec = design.spec
-        wall = (design.part.content, f"{spec.shell!r}", repr(spec.open_faces))
+        wall = (design.part.content, f"{spec.shell!r}", repr(spec.skin))
         if meshed:
             return (*wall, -weights[design.key], design.key)
         target = "" if spec.target is None else repr(spec.target)

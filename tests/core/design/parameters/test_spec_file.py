@@ -172,3 +172,43 @@ def test_a_target_takes_the_radius_place_in_a_file(tmp_path: Path, text: str) ->
     path.write_text(f'radius_grading = "skin"\nradius_end = 2.0\n{text}\n')
     with pytest.raises(VolfrepError, match=r"one radius for all struts.*radius_grading skin"):
         read_spec(path)
+
+
+def test_faces_and_bodies_with_their_lengths_go_into_a_file_and_back(tmp_path) -> None:
+    """Bodies by where their files are seen from the specification."""
+    import trimesh
+
+    trimesh.creation.box((4, 4, 4)).export(tmp_path / "boss.stl")
+    file = tmp_path / "lattice.toml"
+    file.write_text(
+        "skin_face = [[0, 0, 10, 3], [0, 0, 0, 0, 0, 1, 0.5], [9, 9, 9, 0]]\n"
+        'keep_solid = ["boss.stl", [5, 0, 0, 2.5]]\n'
+    )
+    spec = read_spec(file)
+    assert [skin.thickness for skin in spec.face_skins] == [3.0, 0.5]
+    assert len(spec.open_faces) == 1
+    assert len(spec.keep_solid) == 2
+    again = tmp_path / "again.toml"
+    write_spec(spec, again)
+    assert '"boss.stl"' in again.read_text()
+    back = read_spec(again)
+    assert set(back.face_skins) == set(spec.face_skins)
+    assert back.keep_solid == spec.keep_solid
+    assert back.open_faces == spec.open_faces
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ('keep_solid = ["gone.stl"]', "no file"),
+        ('keep_solid = ["boss.step"]', "no file of a body"),
+        ("keep_solid = [[0, 0, 1]]", "4 or 7 numbers"),
+        ("keep_solid = [[0, 0, 1, -2]]", "distance to keep solid"),
+        ("skin_face = [[0, 0, 1, -2]]", "thickness of a face's skin"),
+    ],
+)
+def test_a_body_or_a_length_that_makes_no_sense_is_told(tmp_path, text, said) -> None:
+    file = tmp_path / "lattice.toml"
+    file.write_text(text)
+    with pytest.raises(VolfrepError, match=said):
+        read_spec(file)

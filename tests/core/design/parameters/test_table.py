@@ -22,7 +22,7 @@ def test_every_row_has_its_own_name_and_property() -> None:
 @pytest.mark.parametrize("parameter", PARAMETERS, ids=lambda p: p.name)
 def test_a_row_makes_sense(parameter) -> None:
     assert parameter.group in GROUPS
-    documents = {"link", "faces", "points", "stress", "material", "process"}
+    documents = {"link", "faces", "lengths", "points", "stress", "material", "process"}
     assert parameter.kind in {*SHAPES, "flag", "choice"} | documents
     assert parameter.kind not in documents or not parameter.in_command
     assert bool(parameter.choices) == (parameter.kind == "choice")
@@ -58,7 +58,8 @@ def test_every_field_of_the_specification_can_be_asked_for() -> None:
         "cell": "BCC", "cell_size": 8.0, "strut_radius": 0.5, "shell": 1.0, "fillet": 0.1,
         "origin": (1.0, 2.0, 3.0), "activation": "centre", "boundary": "whole",
         "remove_dangling": True, "shortest_stub": 0.5, "keep_pieces": True,
-        "open_plane": ((0, 0, 1, 0, 0, 1),),
+        "open_plane": ((0, 0, 1, 0, 0, 1),), "skin_face": ((0, 0, 2, 3),),
+        "keep_solid": ((0, 0, 2, 0, 0, 1, 4),),
         "drain_diameter": 2.0, "drain_count": 1, "deviation": 0.1, "density": 2.0,
         "size_grading": "linear", "lambda_end": 1.5, "keep_radius": False,
         "radius_grading": "skin", "radius_end": 0.7, "cell_map": "spherical",

@@ -17,6 +17,7 @@ from scipy.sparse.csgraph import connected_components
 from ..mesh.precision import decimal_step, rounded
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..util.progress import Monitor
+from ..util.threads import in_threads
 from ..util.types import Bools, Floats, Ints
 from .piercing import pairs_at_planes, piercing_among
 
@@ -29,6 +30,10 @@ STICKS_OUT = -0.2
 #: share after the other.
 SHARES = (1e-4, 1e-3, 1e-3, 1e-3, 0.01, 0.01, 0.03, 0.03, 0.1, 0.1, 0.2, 0.2, 0.3, 0.3, 0.5, 0.1,
           0.5, 0.3, 0.5, 0.3)  # fmt: skip
+#: By how much a vertex' rough normals may be wrong, each.
+ROUGHNESS = 1e-6
+#: Triangles whose rough normals are found at a time: they should stay in the processor's cache.
+BLOCK_TRIANGLES = 1 << 15
 #: Places that cross are looked at with what lies nearer than so many of their triangles' edges;
 #: more places than these with everything.
 REACH, MOST_PLACES = 4.0, 200
@@ -114,20 +119,26 @@ def turning_back(mesh: TriangleMesh, deformed: bool = False) -> Bools:
     """
     size = len(mesh.vertices)
     corners = np.ascontiguousarray(mesh.triangles.T)
-    normal = _unit_normals(mesh.vertices, corners)
+    columns = np.ascontiguousarray(mesh.vertices.T)
     # At both ends of such an edge two of the normals nearly cancel out, and so their sum is short.
-    length = np.zeros(size)
-    for along in normal:
-        length += sum(np.bincount(corner, along, size) for corner in corners) ** 2
-    count = sum(np.bincount(corner, minlength=size) for corner in corners)
+    # For that they need not be known well, and half as long numbers take half the memory.
+    length, count = np.zeros(size), np.zeros(size, np.int64)
+    for along in _rough_normals(columns, corners):
+        total = np.zeros(size)
+        for corner in corners:
+            total += np.bincount(corner, along, size)
+        length += np.square(total, out=total)
+    for corner in corners:
+        count += np.bincount(corner, minlength=size)
     least = STICKS_OUT if deformed else TURNS_BACK
-    sharp = np.sqrt(length) <= count - 2.0 + np.sqrt(2.0 + 2.0 * least) + 1e-6
-    rows = np.flatnonzero(sum(sharp[corner].astype(np.int8) for corner in corners) > 1)
+    sharp = np.sqrt(length) <= count - 2.0 + np.sqrt(2.0 + 2.0 * least) + ROUGHNESS * count
+    rows = np.flatnonzero(sum(sharp[corner].view(np.int8) for corner in corners) > 1)
+    normal = _unit_normals(columns, corners[:, rows])
     start = mesh.triangles[rows].astype(np.int64)
     end = np.roll(start, -1, axis=1)
     side = np.flatnonzero((sharp[start] & sharp[end]).ravel())
     apex = np.roll(start, -2, axis=1).ravel()[side]
-    start, end, owner = start.ravel()[side], end.ravel()[side], rows[side // 3]
+    start, end, owner = start.ravel()[side], end.ravel()[side], side // 3
     edge = np.minimum(start, end) * np.int64(size) + np.maximum(start, end)
     order = np.argsort(edge)
     same = edge[order[1:]] == edge[order[:-1]]
@@ -140,14 +151,26 @@ def turning_back(mesh: TriangleMesh, deformed: bool = False) -> Bools:
         sticks_out = sum(along[one] * beyond[:, k] for k, along in enumerate(normal)) < 0.0
         turned |= (cosine < STICKS_OUT) & sticks_out
     near = np.zeros(size, bool)
-    near[mesh.triangles[one[turned]]] = True
-    near[mesh.triangles[two[turned]]] = True
+    near[mesh.triangles[rows[one[turned]]]] = True
+    near[mesh.triangles[rows[two[turned]]]] = True
     return _touching(near, corners)
 
 
-def _unit_normals(vertices: Floats, corners: NDArray[np.int32]) -> list[Floats]:
+def _rough_normals(columns: Floats, corners: NDArray[np.int32]) -> NDArray[np.float32]:
+    """(3, m) the unit normals of triangles, (3, m), of vertices (3, n), to single precision."""
+    normal = np.empty(corners.shape, np.float32)
+
+    def block(start: int) -> None:
+        part = slice(start, start + BLOCK_TRIANGLES)
+        normal[:, part] = _unit_normals(columns, corners[:, part])
+
+    for _ in in_threads(block, range(0, corners.shape[1], BLOCK_TRIANGLES)):
+        pass
+    return normal
+
+
+def _unit_normals(columns: Floats, corners: NDArray[np.int32]) -> list[Floats]:
     """Three of (m,): the normals of triangles, (3, m), of length 1, axis by axis."""
-    columns = np.ascontiguousarray(vertices.T)
     a, b, c = ([column[corner] for column in columns] for corner in corners)
     e, f = ([q[k] - a[k] for k in range(3)] for q in (b, c))
     normal = [e[i] * f[j] - e[j] * f[i] for i, j in ((1, 2), (2, 0), (0, 1))]

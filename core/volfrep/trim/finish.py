@@ -20,7 +20,7 @@ from ..mesh.float32_repair import (
 )
 from ..mesh.quality import Quality
 from ..mesh.triangle_mesh import TriangleMesh
-from ..spatial.self_intersection import crossing_near
+from ..spatial.self_intersection import about, crossing_triangles
 from ..spatial.uncrossing import uncrossed
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
@@ -48,14 +48,18 @@ def tidied(surface: TrimmedSurface, precision: float, monitor: Monitor) -> Trimm
     """
     smooth, new = without_slivers(surface.mesh, precision)
     result = replace(surface, mesh=smooth)
-    about = smooth
-    if surface.octants is not None and new.any():
+    if not new.any():
+        return result
+    # What lies about the new triangles is little, and is all that is looked at.
+    rows = np.flatnonzero(new | about(smooth, new))
+    part, among = TriangleMesh(smooth.vertices, smooth.triangles[rows]), new[rows]
+    if surface.octants is not None:
         near = surface.octants.reached(smooth.vertices[smooth.triangles[new]])
         if result.has_inner_edges(new):  # that octants may have, too
             return tidied(surface.with_octants(near, monitor), precision, monitor)
-        about = result.with_octants(near, monitor).mesh
-        new = np.pad(new, (0, len(about.triangles) - len(new)))
-    if monitor.call(lambda: crossing_near(about, new, precision)).any():
+        part = replace(result, mesh=part).with_octants(near, monitor).mesh
+        among = np.pad(among, (0, len(part.triangles) - len(among)))
+    if monitor.call(lambda: crossing_triangles(part, among, precision)).any():
         return surface  # a sliver is better than facets that cross
     return result
 

@@ -32,6 +32,8 @@ from ..util.ragged import spread
 from ..util.types import Bools, Floats, Ints
 from .laid import Laid
 
+#: Points are first told apart by what is left of their hashes by this.
+ASKED = 1 << 22
 #: A triangle reaches into an octant where it does by more than this, in units of L.
 REACH = 1e-9
 
@@ -366,8 +368,14 @@ def _repeats(triangles: NDArray[np.int32]) -> bool:
 def equal_rows(points: Floats, among: Floats) -> Ints:
     """(k,) the row of `among` (n, 3) with the very same numbers as each of `points`; -1: none."""
     ours, theirs = _hashed(points), _hashed(among)
-    order = np.argsort(theirs)
-    row = order[np.minimum(np.searchsorted(theirs, ours, sorter=order), len(order) - 1)]
+    # Most rows end otherwise than all that are looked for, and need no place in an order.
+    asked = np.zeros(ASKED, bool)
+    asked[ours % ASKED] = True
+    some = np.flatnonzero(asked[theirs % ASKED])
+    if not len(some):
+        return np.full(len(ours), -1, np.int64)
+    some = some[np.argsort(theirs[some])]
+    row = some[np.minimum(np.searchsorted(theirs[some], ours), len(some) - 1)]
     result: Ints = np.where((among[row] == points).all(axis=1), row, -1)
     return result
 

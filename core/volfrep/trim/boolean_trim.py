@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ..mesh.booleans import to_library
 from ..mesh.edge_table import pieces_of
 from ..mesh.float32_repair import shortest_edge
-from ..mesh.triangle_mesh import TriangleMesh, compact, concatenate
+from ..mesh.triangle_mesh import TriangleMesh, compact, concatenate, corners_among
 from ..spatial.rays import inside_points
 from ..util.errors import VolfrepError
 from ..util.progress import POLL_SECONDS, Monitor
@@ -309,7 +309,7 @@ def _open(
     """The triangles with an edge that does not run once each way and is not at the rim."""
     at_seam = np.zeros(len(number), bool)
     at_seam[number[seam]] = True
-    some = np.flatnonzero(at_seam[triangles].sum(axis=1, dtype=np.int8) >= 2)
+    some = np.flatnonzero(corners_among(at_seam, triangles) >= 2)
     start = triangles[some].astype(np.int64)
     end = np.roll(start, -1, axis=1)
     here = at_seam[start] & at_seam[end]

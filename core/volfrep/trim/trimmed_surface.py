@@ -26,7 +26,7 @@ from ..lattice.assembly import (
 from ..lattice.certificate import CertifiedPieces, certify_pieces
 from ..mesh.edge_table import pieces_of
 from ..mesh.quality import Inspection, Quality, inspect
-from ..mesh.triangle_mesh import TriangleMesh, box_of
+from ..mesh.triangle_mesh import TriangleMesh, box_of, corners_among
 from ..util.progress import Monitor
 from ..util.ragged import spread
 from ..util.types import Bools, Floats, Ints
@@ -327,7 +327,7 @@ class TrimmedSurface:
         row = np.full(len(self.mesh.vertices), -1, np.int64)
         row[self._rim_rows] = np.arange(len(self._inner.rim))
         # Twice among candidates: only triangles with two corners at the rim have an edge there.
-        some = np.flatnonzero((row >= 0)[self.mesh.triangles].sum(axis=1, dtype=np.int8) >= 2)
+        some = np.flatnonzero(corners_among(row >= 0, self.mesh.triangles) >= 2)
         corners = row[self.mesh.triangles[some]]
         start, end = corners.ravel(), np.roll(corners, -1, axis=1).ravel()
         here = (start >= 0) & (end >= 0)

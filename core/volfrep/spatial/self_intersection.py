@@ -117,33 +117,36 @@ def close_pairs(corners: Floats, among: Bools, margin: float = 0.0) -> Iterator[
     level = np.ceil(np.log2(np.maximum(extent / size, 1.0))).astype(np.int64)
     origin = low.min(axis=0)
     for grid in np.unique(level):
-        waiting = np.flatnonzero(level == grid)
-        visiting = np.flatnonzero(level <= grid)
-        if not among[waiting].any():
-            visiting = visiting[among[visiting]]
+        waiting, smaller = np.flatnonzero(level == grid), np.flatnonzero(level < grid)
         cell = size * 2.0**grid
-        waits, its_bin = boxes_in_bins(low[waiting], high[waiting], origin, cell)
-        order = np.argsort(its_bin, kind="stable")
-        waits, its_bin = waiting[waits[order]], its_bin[order]
-        visits, bins = boxes_in_bins(low[visiting], high[visiting], origin, cell)
-        visits = visiting[visits]
-        first = np.searchsorted(its_bin, bins)
-        count = np.searchsorted(its_bin, bins, "right") - first
-        if not count.any():
-            continue
-        total = np.cumsum(count)
-        steps = np.searchsorted(total, np.arange(0, int(count.sum()), PAIRS_PER_STEP))
-        for begin, end in zip(steps, [*steps[1:], len(count)], strict=True):
-            row, place = spread(count[begin:end])
-            a, b = visits[begin + row], waits[first[begin + row] + place]
-            # Of two of a size both may visit: once is enough.
-            keep = (among[a] | among[b]) & ((a < b) | (level[a] < grid) | ~among[b])
-            a, b = a[keep], b[keep]
-            for axis in range(3):
-                lo, hi = low[:, axis], high[:, axis]
-                keep = (lo[a] <= hi[b]) & (lo[b] <= hi[a])
+        # Chosen ones visit all others; these visit the chosen ones that are larger than they.
+        chosen = np.concatenate([waiting[among[waiting]], smaller[among[smaller]]])
+        for visiting, visited in ((np.sort(chosen), waiting),
+                                  (smaller[~among[smaller]], waiting[among[waiting]])):  # fmt: skip
+            if not (len(visiting) and len(visited)):
+                continue
+            waits, its_bin = boxes_in_bins(low[visited], high[visited], origin, cell)
+            order = np.argsort(its_bin, kind="stable")
+            waits, its_bin = visited[waits[order]], its_bin[order]
+            visits, bins = boxes_in_bins(low[visiting], high[visiting], origin, cell)
+            visits = visiting[visits]
+            first = np.searchsorted(its_bin, bins)
+            count = np.searchsorted(its_bin, bins, "right") - first
+            if not count.any():
+                continue
+            total = np.cumsum(count)
+            steps = np.searchsorted(total, np.arange(0, int(count.sum()), PAIRS_PER_STEP))
+            for begin, end in zip(steps, [*steps[1:], len(count)], strict=True):
+                row, place = spread(count[begin:end])
+                a, b = visits[begin + row], waits[first[begin + row] + place]
+                # Of two chosen ones of a size both visit: once is enough.
+                keep = (a < b) | (level[a] < grid) | ~among[b]
                 a, b = a[keep], b[keep]
-            yield a, b
+                for axis in range(3):
+                    lo, hi = low[:, axis], high[:, axis]
+                    keep = (lo[a] <= hi[b]) & (lo[b] <= hi[a])
+                    a, b = a[keep], b[keep]
+                yield a, b
 
 
 def _together(pairs: Iterator[tuple[Ints, Ints]]) -> Iterator[tuple[Ints, Ints]]:

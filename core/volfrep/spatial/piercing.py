@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.progress import Monitor
 from ..util.threads import in_threads
-from ..util.types import Floats, Ints
+from ..util.types import Bools, Floats, Ints
 from .self_intersection import close_pairs
 
 Signs = NDArray[np.int8]
@@ -51,7 +51,12 @@ def piercing_pairs(mesh: TriangleMesh, monitor: Monitor | None = None) -> Ints:
     return piercing_among(mesh, pairs_at_planes(mesh, 0.0, monitor))
 
 
-def pairs_at_planes(mesh: TriangleMesh, moves: float, monitor: Monitor | None = None) -> Ints:
+def pairs_at_planes(
+    mesh: TriangleMesh,
+    moves: float,
+    monitor: Monitor | None = None,
+    among: Bools | None = None,
+) -> Ints:
     """(k, 2) pairs of triangles that may pierce each other, once vertices have moved a little.
 
     What is left out does not: their boxes are apart, or one lies in front of or behind the plane
@@ -62,6 +67,7 @@ def pairs_at_planes(mesh: TriangleMesh, moves: float, monitor: Monitor | None = 
         mesh: any mesh, mm.
         moves: no coordinate of a vertex changes by more, mm.
         monitor: asked for a cancel.
+        among: (m,) bool, triangles of which each pair has at least one; None: all.
     """
     monitor = monitor or Monitor()
     corners = mesh.vertices[mesh.triangles]
@@ -76,7 +82,8 @@ def pairs_at_planes(mesh: TriangleMesh, moves: float, monitor: Monitor | None = 
         return np.stack([a[meets], b[meets]], axis=1)
 
     found = [np.empty((0, 2), np.int64)]
-    close = close_pairs(corners, np.ones(len(corners), bool), moves)
+    among = np.ones(len(corners), bool) if among is None else among
+    close = close_pairs(corners, among, moves)
     for pairs in in_threads(near, close):
         monitor.tick()
         found.append(pairs)

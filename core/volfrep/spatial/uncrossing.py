@@ -114,9 +114,9 @@ def uncrossed(
         elif not turn % 2:
             rings = min(rings + 1, MOST_RINGS)
     if among is not everywhere:  # what moved may have met what lies farther away
-        moved = np.zeros(len(mesh.vertices), bool)
-        moved[np.flatnonzero((mesh.vertices != before.vertices).ravel()) // 3] = True
-        farther = _crossing(mesh, everywhere | among, monitor, moved)
+        elsewhere = np.zeros(len(mesh.vertices), bool)
+        elsewhere[np.flatnonzero((mesh.vertices != before.vertices).ravel()) // 3] = True
+        farther = _crossing(mesh, everywhere | among, monitor, elsewhere)
         pairs = np.unique(np.concatenate([pairs, farther]), axis=0)
     if not len(pairs):
         return mesh, None

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -77,6 +78,16 @@ class Groups:
         )  # fmt: skip
         return groups, number
 
+    @cached_property
+    def _by_triangle(self) -> tuple[Ints, Ints]:
+        """What touches, by the triangle's group."""
+        return _sorted(self.triangle[self.touch[:, 1]], self.count)
+
+    @cached_property
+    def _by_octant(self) -> tuple[Ints, Ints]:
+        """What touches, by the octant's group."""
+        return _sorted(self.octant[self.touch[:, 0]], self.count)
+
     @property
     def untouched(self) -> Piece:
         """The triangles of the wall that no octant reaches, seen from the material."""
@@ -121,7 +132,7 @@ class Groups:
         As many more as it takes for no two of them to touch along an edge or a corner only.
         """
         chosen = self.octant == group
-        chosen[self.touch[self.triangle[self.touch[:, 1]] == group, 0]] = True
+        chosen[self.touch[_of(self._by_triangle, group), 0]] = True
         border, periodic = self.laid.kept.border, self.laid.layout.grid.periodic
         if self.count > 1:
             low, high = self.places[chosen].min(axis=0), self.places[chosen].max(axis=0) + 1
@@ -139,13 +150,24 @@ class Groups:
 
     def _box(self, group: int, octants: Ints, triangles: Ints) -> Floats:
         """(2, 3) about a group's octants, its part of the wall and what cuts its own octants."""
-        cutting = self.touch[self.octant[self.touch[:, 0]] == group, 1]
+        cutting = self.touch[_of(self._by_octant, group), 1]
         every = self.wall.triangles[np.concatenate([triangles, cutting])]
         corners = self.wall.vertices[every].reshape(-1, 3)
         beyond = BEYOND * _edge(self.low, self.high)
         low = np.concatenate([self.low[octants], corners]).min(axis=0)
         high = np.concatenate([self.high[octants], corners]).max(axis=0)
         return np.array([low - beyond, high + beyond])
+
+
+def _sorted(group: Ints, count: int) -> tuple[Ints, Ints]:
+    """The rows of groups one after the other, and where each group's begin, (count + 1,)."""
+    order = np.argsort(group, kind="stable")
+    return order, np.searchsorted(group[order], np.arange(count + 1))
+
+
+def _of(rows: tuple[Ints, Ints], group: int) -> Ints:
+    order, first = rows
+    return order[first[group] : first[group + 1]]
 
 
 def grouped(laid: Laid, wall: TriangleMesh, monitor: Monitor, precision: float = 0.0) -> Groups:

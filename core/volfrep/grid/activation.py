@@ -224,21 +224,26 @@ def _overlap_unit_box(corners: Floats) -> NDArray[np.bool_]:
     2001): the triangle's plane and the cross products of its edges with the box's; the box's own
     axes were tested when the pair was chosen.
     """
-    edges = np.roll(corners, -1, axis=1) - corners
-    normal = np.cross(edges[:, 0], edges[:, 1])
-    overlap: NDArray[np.bool_] = np.abs(np.einsum("ij,ij->i", normal, corners[:, 0])) < np.abs(
-        normal
-    ).sum(axis=1)
-    flat = ~normal.any(axis=1)
-    overlap[flat] = True  # no plane of its own: a segment, told apart by the other axes
-    for e in range(3):
+    # A column for every coordinate of every corner: numpy takes rows of three slowly.
+    at = [[np.ascontiguousarray(corners[:, k, axis]) for axis in range(3)] for k in range(3)]
+    edges = [[q - p for p, q in zip(at[k], at[(k + 1) % 3], strict=True)] for k in range(3)]
+    e, f = edges[:2]
+    normal = [e[i] * f[j] - e[j] * f[i] for i, j in ((1, 2), (2, 0), (0, 1))]
+    away = np.abs(sum(along * x for along, x in zip(normal, at[0], strict=True)))
+    reached = sum(np.abs(along) for along in normal)
+    # One without a plane of its own is a segment, told apart by the other axes.
+    overlap: NDArray[np.bool_] = (away < reached) | (reached == 0.0)
+    rows = np.flatnonzero(overlap)
+    at = [[column[rows] for column in corner] for corner in at]
+    left = np.ones(len(rows), bool)
+    for edge in edges:
+        edge = [column[rows] for column in edge]
         for axis in range(3):
             b, c = (axis + 1) % 3, (axis + 2) % 3
-            direction_b, direction_c = -edges[:, e, c], edges[:, e, b]
-            reach = (
-                corners[:, :, b] * direction_b[:, None] + corners[:, :, c] * direction_c[:, None]
-            )
-            radius = np.abs(direction_b) + np.abs(direction_c)
-            apart = (reach.min(axis=1) >= radius) | (reach.max(axis=1) <= -radius)
-            overlap &= ~(apart & (radius > 0))
+            reach = [corner[c] * edge[b] - corner[b] * edge[c] for corner in at]
+            radius = np.abs(edge[b]) + np.abs(edge[c])
+            least = np.minimum(np.minimum(reach[0], reach[1]), reach[2])
+            most = np.maximum(np.maximum(reach[0], reach[1]), reach[2])
+            left &= ~(((least >= radius) | (most <= -radius)) & (radius > 0))
+    overlap[rows] = left
     return overlap

@@ -13,7 +13,16 @@ from ..mesh.triangle_mesh import TriangleMesh
 from ..octants.octant import used_kinds
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
-from .assembly import Layout, coordinates_of, facets, lay_out, numbers, placed_octants
+from .assembly import (
+    Layout,
+    coordinates_of,
+    facets,
+    in_steps,
+    lay_out,
+    numbers,
+    placed,
+    placed_octants,
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,10 +79,22 @@ class Placed:
         """
         some = [place[where[tuple(place.T)]] for place in self.layout.places]
         low, high = [np.zeros((0, 3))], [np.zeros((0, 3))]
-        for number, points in placed_octants(self.layout, where, monitor):
-            own = self.motion(points) if self.points is None else self.points[number]
-            low.append(own.min(axis=1))
-            high.append(own.max(axis=1))
+        if self.points is None and self.motion.frame is None:
+            # An octant's box is its kind's, mirrored and moved.
+            for key, place in zip(self.layout.grid.keys, some, strict=True):
+                octant = self.layout.octants[key]
+                if not len(octant.vertices):
+                    continue
+                steps = in_steps(self.layout.grid, octant)
+                corner, sign = self.layout.frames(place)
+                ends = sign * steps.min(axis=0), sign * steps.max(axis=0)
+                for every, end in ((low, np.minimum(*ends)), (high, np.maximum(*ends))):
+                    every.append(self.motion(placed(self.layout.grid, corner, end)))
+        else:
+            for number, points in placed_octants(self.layout, where, monitor):
+                own = self.motion(points) if self.points is None else self.points[number]
+                low.append(own.min(axis=1))
+                high.append(own.max(axis=1))
         pairs = zip(self.layout.grid.keys, some, strict=True)
         places = [place for key, place in pairs if len(self.layout.octants[key].vertices)]
         return np.concatenate([np.zeros((0, 3), np.int64), *places]), *map(

@@ -92,7 +92,8 @@ def _rebuilt(mesh: TriangleMesh, thin: Ints, tolerance: float) -> tuple[Triangle
     new = np.zeros(len(triangles), bool)
     stayed = np.delete(np.arange(len(mesh.triangles)), old)
     rebuilt = triangles[len(stayed) :]
-    moved = (points != mesh.vertices).any(axis=1)
+    moved = np.zeros(len(points), bool)
+    moved[np.flatnonzero((points != mesh.vertices).ravel()) // 3] = True
     is_old = np.isin(_names(rebuilt), _names(mesh.triangles[old])) & ~_touching(moved, rebuilt)
     new[len(stayed) :] = ~is_old
     return TriangleMesh(points, triangles), new, stayed
@@ -140,18 +141,24 @@ def _without(
     thin: Ints,
     tolerance: float,
     passes: int,
+    changed: Bools | None = None,
 ) -> tuple[NDArray[np.float64], NDArray[np.int32], Ints]:
     """Points, some of them no longer in use, triangles, and which of the old ones went.
 
     The new triangles are the last ones.
 
-    A pass leaves few slivers: the next one looks at their neighbourhoods only.
+    A pass leaves few slivers: the next one looks at their neighbourhoods only, and only where the
+    last one has `changed` something, (n,) bool: it would leave all else as it is once more.
     """
     # Two rings of triangles about the slivers; the outer ring's border stays as it is.
+    if changed is not None:
+        thin = thin[_touching(changed, triangles[thin])]
+        if not len(thin):
+            return points, triangles, thin
     near = np.zeros(len(points), bool)
     near[triangles[thin]] = True
     near[triangles[_touching(near, triangles)]] = True
-    part = _touching(near, triangles)
+    part = np.flatnonzero(_touching(near, triangles))
     used, local = np.unique(triangles[part], return_inverse=True)
     moved, kept, inner = _collapse(points[used], local.reshape(-1, 3).astype(np.int64), tolerance)
     inner, flipped = _flip_slivers(moved, inner, tolerance)
@@ -160,11 +167,19 @@ def _without(
     if passes > 1 and (flipped or len(stay) < len(used)):
         left = _slivers(moved, piece, tolerance)
         if len(left):
-            moved, piece, _ = _without(moved, piece, left, tolerance, passes - 1)
+            fresh = ~np.isin(_names(stay[piece]), _names(triangles[part]))
+            fresh |= _touching((moved != points[stay]).any(axis=1), piece)
+            near = np.zeros(len(stay), bool)
+            near[piece[fresh]] = True
+            for _ in range(2):  # rings within which it may have kept back something else
+                near[piece[_touching(near, piece)]] = True
+            moved, piece, _ = _without(moved, piece, left, tolerance, passes - 1, near)
     points = points.copy()
     points[stay] = moved
-    joined = np.concatenate([triangles[~part], stay[piece].astype(np.int32)])
-    return points, joined, np.flatnonzero(part)
+    untouched = np.ones(len(triangles), bool)
+    untouched[part] = False
+    joined = np.concatenate([triangles[untouched], stay[piece].astype(np.int32)])
+    return points, joined, part
 
 
 def _touching(near: Bools, triangles: NDArray[np.int32]) -> Bools:

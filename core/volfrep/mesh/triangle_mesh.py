@@ -87,6 +87,14 @@ def concatenate(*meshes: TriangleMesh) -> TriangleMesh:
     )
 
 
+def corners_among(chosen: NDArray[np.bool_], triangles: NDArray[np.int32]) -> NDArray[np.int8]:
+    """(m,) how many corners of each triangle are among the chosen vertices, (n,) bool."""
+    # A column at a time: numpy is slow at reducing many short rows.
+    a, b, c = (chosen[triangles[:, k]].view(np.int8) for k in range(3))
+    result: NDArray[np.int8] = a + b + c
+    return result
+
+
 def compact(mesh: TriangleMesh) -> TriangleMesh:
     """The mesh without the vertices that no triangle uses."""
     used = np.zeros(len(mesh.vertices), bool)

@@ -15,10 +15,14 @@ from numpy.typing import NDArray
 
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.progress import Monitor
-from ..util.types import Floats, Ints
+from ..util.threads import in_threads
+from ..util.types import Bools, Floats, Ints
 from .self_intersection import close_pairs
 
 Signs = NDArray[np.int8]
+
+#: Pairs of triangles that are looked at together: what is gathered of them fits the cache.
+BLOCK_PAIRS = 1 << 14
 
 #: A determinant of 3 x 3 differences errs by no more than this times its terms without signs.
 ROUNDING = 8.0 * np.finfo(np.float64).eps
@@ -47,7 +51,12 @@ def piercing_pairs(mesh: TriangleMesh, monitor: Monitor | None = None) -> Ints:
     return piercing_among(mesh, pairs_at_planes(mesh, 0.0, monitor))
 
 
-def pairs_at_planes(mesh: TriangleMesh, moves: float, monitor: Monitor | None = None) -> Ints:
+def pairs_at_planes(
+    mesh: TriangleMesh,
+    moves: float,
+    monitor: Monitor | None = None,
+    among: Bools | None = None,
+) -> Ints:
     """(k, 2) pairs of triangles that may pierce each other, once vertices have moved a little.
 
     What is left out does not: their boxes are apart, or one lies in front of or behind the plane
@@ -58,19 +67,26 @@ def pairs_at_planes(mesh: TriangleMesh, moves: float, monitor: Monitor | None = 
         mesh: any mesh, mm.
         moves: no coordinate of a vertex changes by more, mm.
         monitor: asked for a cancel.
+        among: (m,) bool, triangles of which each pair has at least one; None: all.
     """
     monitor = monitor or Monitor()
     corners = mesh.vertices[mesh.triangles]
     planes = _Planes(mesh, moves)
-    found = [np.empty((0, 2), np.int64)]
-    for a, b in close_pairs(corners, np.ones(len(corners), bool), moves):
-        monitor.tick()
+
+    def near(pairs: tuple[Ints, Ints]) -> Ints:
+        a, b = pairs
         for _ in range(2):
-            near = planes.reached(a, b)
-            a, b = b[near], a[near]
-        near = ~planes.divided(a, b)
-        a, b = a[near], b[near]
-        found.append(np.stack([a, b], axis=1))
+            meets = planes.reached(a, b)
+            a, b = b[meets], a[meets]
+        meets = ~planes.divided(a, b)
+        return np.stack([a[meets], b[meets]], axis=1)
+
+    found = [np.empty((0, 2), np.int64)]
+    among = np.ones(len(corners), bool) if among is None else among
+    close = close_pairs(corners, among, moves)
+    for pairs in in_threads(near, close):
+        monitor.tick()
+        found.append(pairs)
     return np.concatenate(found)
 
 
@@ -162,6 +178,13 @@ def _among(corner: NDArray[np.int32], others: list[NDArray[np.int32]]) -> NDArra
 
 def piercing_among(mesh: TriangleMesh, pairs: Ints) -> Ints:
     """As `piercing_pairs`, of (k, 2) pairs of triangles only, in either order."""
+    blocks = (pairs[k : k + BLOCK_PAIRS] for k in range(0, len(pairs), BLOCK_PAIRS))
+    found = [np.empty((0, 2), np.int64), *in_threads(lambda some: _piercing(mesh, some), blocks)]
+    result: Ints = np.unique(np.concatenate(found), axis=0)
+    return result
+
+
+def _piercing(mesh: TriangleMesh, pairs: Ints) -> Ints:
     a, b = pairs.T
     one, two = mesh.triangles[a], mesh.triangles[b]
     for _ in range(2):
@@ -171,8 +194,7 @@ def piercing_among(mesh: TriangleMesh, pairs: Ints) -> Ints:
     for first, second, edges, faces in ((a, b, one, two), (b, a, two, one)):
         pierced = _edges_pierce(mesh.vertices, edges, faces)
         found.append(np.stack([first[pierced], second[pierced]], axis=1))
-    result: Ints = np.unique(np.concatenate(found), axis=0)
-    return result
+    return np.concatenate(found)
 
 
 def _on_both_sides(

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.ragged import spread
@@ -116,33 +117,36 @@ def close_pairs(corners: Floats, among: Bools, margin: float = 0.0) -> Iterator[
     level = np.ceil(np.log2(np.maximum(extent / size, 1.0))).astype(np.int64)
     origin = low.min(axis=0)
     for grid in np.unique(level):
-        waiting = np.flatnonzero(level == grid)
-        visiting = np.flatnonzero(level <= grid)
-        if not among[waiting].any():
-            visiting = visiting[among[visiting]]
+        waiting, smaller = np.flatnonzero(level == grid), np.flatnonzero(level < grid)
         cell = size * 2.0**grid
-        waits, its_bin = boxes_in_bins(low[waiting], high[waiting], origin, cell)
-        order = np.argsort(its_bin, kind="stable")
-        waits, its_bin = waiting[waits[order]], its_bin[order]
-        visits, bins = boxes_in_bins(low[visiting], high[visiting], origin, cell)
-        visits = visiting[visits]
-        first = np.searchsorted(its_bin, bins)
-        count = np.searchsorted(its_bin, bins, "right") - first
-        if not count.any():
-            continue
-        total = np.cumsum(count)
-        steps = np.searchsorted(total, np.arange(0, int(count.sum()), PAIRS_PER_STEP))
-        for begin, end in zip(steps, [*steps[1:], len(count)], strict=True):
-            row, place = spread(count[begin:end])
-            a, b = visits[begin + row], waits[first[begin + row] + place]
-            # Of two of a size both may visit: once is enough.
-            keep = (among[a] | among[b]) & ((a < b) | (level[a] < grid) | ~among[b])
-            a, b = a[keep], b[keep]
-            for axis in range(3):
-                lo, hi = low[:, axis], high[:, axis]
-                keep = (lo[a] <= hi[b]) & (lo[b] <= hi[a])
+        # Chosen ones visit all others; these visit the chosen ones that are larger than they.
+        chosen = np.concatenate([waiting[among[waiting]], smaller[among[smaller]]])
+        for visiting, visited in ((np.sort(chosen), waiting),
+                                  (smaller[~among[smaller]], waiting[among[waiting]])):  # fmt: skip
+            if not (len(visiting) and len(visited)):
+                continue
+            waits, its_bin = boxes_in_bins(low[visited], high[visited], origin, cell)
+            order = np.argsort(its_bin, kind="stable")
+            waits, its_bin = visited[waits[order]], its_bin[order]
+            visits, bins = boxes_in_bins(low[visiting], high[visiting], origin, cell)
+            visits = visiting[visits]
+            first = np.searchsorted(its_bin, bins)
+            count = np.searchsorted(its_bin, bins, "right") - first
+            if not count.any():
+                continue
+            total = np.cumsum(count)
+            steps = np.searchsorted(total, np.arange(0, int(count.sum()), PAIRS_PER_STEP))
+            for begin, end in zip(steps, [*steps[1:], len(count)], strict=True):
+                row, place = spread(count[begin:end])
+                a, b = visits[begin + row], waits[first[begin + row] + place]
+                # Of two chosen ones of a size both visit: once is enough.
+                keep = (a < b) | (level[a] < grid) | ~among[b]
                 a, b = a[keep], b[keep]
-            yield a, b
+                for axis in range(3):
+                    lo, hi = low[:, axis], high[:, axis]
+                    keep = (lo[a] <= hi[b]) & (lo[b] <= hi[a])
+                    a, b = a[keep], b[keep]
+                yield a, b
 
 
 def _together(pairs: Iterator[tuple[Ints, Ints]]) -> Iterator[tuple[Ints, Ints]]:
@@ -236,13 +240,13 @@ def crossing_near(mesh: TriangleMesh, among: Bools, depth: float) -> Bools:
     result = np.zeros(len(mesh.triangles), bool)
     if not among.any():
         return result
-    rows = np.flatnonzero(among | _about(mesh, among))
+    rows = np.flatnonzero(among | about(mesh, among))
     part = TriangleMesh(mesh.vertices, mesh.triangles[rows])
     result[rows] = crossing_triangles(part, among[rows], depth)
     return result
 
 
-def _about(mesh: TriangleMesh, among: Bools) -> Bools:
+def about(mesh: TriangleMesh, among: Bools) -> Bools:
     """(m,) which triangles' boxes reach into the cells of a grid that the chosen ones' boxes do."""
     columns = [np.ascontiguousarray(mesh.vertices[:, k]) for k in range(3)]
     corners = np.ascontiguousarray(mesh.triangles.T)
@@ -251,25 +255,32 @@ def _about(mesh: TriangleMesh, among: Bools) -> Bools:
     size = max(float(max(np.ptp(column) for column in columns)) / cells_along, 1e-300)
     # Cells of every vertex first: there are half as many of them as of triangles.
     cells = [((c - low) / size).astype(np.int16) for c, low in zip(columns, least, strict=True)]
-    low, high = [], []
-    for cell in cells:
-        a, b, c = (cell[row] for row in corners)
-        low.append(np.minimum(np.minimum(a, b), c))
-        high.append(np.maximum(np.maximum(a, b), c))
     shape = [int(cell.max()) + 2 for cell in cells]
     # How many boxes begin less end at each cell, summed up: how many cover it.
     cover = np.zeros(shape, np.int32)
-    chosen = np.flatnonzero(among)
-    ends = [(one[chosen], two[chosen] + 1) for one, two in zip(low, high, strict=True)]
+    low, high = _boxes(cells, corners[:, among])
+    ends = [(one, two + 1) for one, two in zip(low, high, strict=True)]
     for i, j, k in np.ndindex(2, 2, 2):
         np.add.at(cover, (ends[0][i], ends[1][j], ends[2][k]), 1 - 2 * ((i + j + k) % 2))
     for axis in range(3):
         np.cumsum(cover, axis=axis, out=cover)
-    # And again, to count the covered cells in any box.
+    # A triangle with a corner in a covered cell reaches into one; with all of them in one cell
+    # that tells all.
+    steps = [shape[1] * shape[2], shape[2], 1]
+    where = np.zeros(len(mesh.vertices), np.int32)
+    for cell, step in zip(cells, steps, strict=True):
+        where += cell.astype(np.int32) * np.int32(step)
+    is_covered = (cover > 0).ravel()[where]
+    a, b, c = (is_covered[row] for row in corners)
+    result: Bools = a | b | c
+    a, b, c = (where[row] for row in corners)
+    rows = np.flatnonzero(~result & ((a != b) | (a != c)))
+    # Of the others the covered cells in their boxes are counted, by sums over all lower cells.
     taken = np.pad((cover > 0).astype(np.int32), ((1, 0),) * 3)
     for axis in range(3):
         np.cumsum(taken, axis=axis, out=taken)
-    flat, total = taken.ravel(), np.zeros(len(mesh.triangles), np.int32)
+    flat, total = taken.ravel(), np.zeros(len(rows), np.int32)
+    low, high = _boxes(cells, corners[:, rows])
     steps = [taken.shape[1] * taken.shape[2], taken.shape[2], 1]
     low_at = [one.astype(np.int32) * step for one, step in zip(low, steps, strict=True)]
     high_at = [(two.astype(np.int32) + 1) * step for two, step in zip(high, steps, strict=True)]
@@ -277,4 +288,17 @@ def _about(mesh: TriangleMesh, among: Bools) -> Bools:
     for i, j, k in np.ndindex(2, 2, 2):
         part = flat[sides[0][i] + sides[1][j] + sides[2][k]]
         total += part if (i + j + k) % 2 else -part
-    return np.asarray(total != 0, np.bool_)
+    result[rows] = total != 0
+    return result
+
+
+def _boxes(
+    cells: list[NDArray[np.int16]], corners: NDArray[np.int32]
+) -> tuple[list[NDArray[np.int16]], list[NDArray[np.int16]]]:
+    """The first and the last cells along each axis of triangles, (3, m)."""
+    low, high = [], []
+    for cell in cells:
+        a, b, c = (cell[row] for row in corners)
+        low.append(np.minimum(np.minimum(a, b), c))
+        high.append(np.maximum(np.maximum(a, b), c))
+    return low, high

@@ -9,6 +9,8 @@ the triangles next to it, is looked.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import coo_matrix
@@ -17,6 +19,7 @@ from scipy.sparse.csgraph import connected_components
 from ..mesh.precision import decimal_step, rounded
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..util.progress import Monitor
+from ..util.threads import in_threads
 from ..util.types import Bools, Floats, Ints
 from .piercing import pairs_at_planes, piercing_among
 
@@ -29,6 +32,10 @@ STICKS_OUT = -0.2
 #: share after the other.
 SHARES = (1e-4, 1e-3, 1e-3, 1e-3, 0.01, 0.01, 0.03, 0.03, 0.1, 0.1, 0.2, 0.2, 0.3, 0.3, 0.5, 0.1,
           0.5, 0.3, 0.5, 0.3)  # fmt: skip
+#: By how much a vertex' rough normals may be wrong, each.
+ROUGHNESS = 1e-6
+#: Triangles whose rough normals are found at a time: they should stay in the processor's cache.
+BLOCK_TRIANGLES = 1 << 15
 #: Places that cross are looked at with what lies nearer than so many of their triangles' edges;
 #: more places than these with everything.
 REACH, MOST_PLACES = 4.0, 200
@@ -36,8 +43,31 @@ REACH, MOST_PLACES = 4.0, 200
 MOST_RINGS = 3
 
 
+@dataclass(frozen=True, eq=False)
+class Turns:
+    """Where a surface turns back on itself.
+
+    Attributes:
+        among: (m,) bool, triangles that have a corner at such an edge.
+        pairs: (k, 2) triangles, among these or beside them, that cross in a file.
+    """
+
+    among: Bools
+    pairs: Ints
+
+    def followed_by(self, more: int) -> Turns:
+        """The same, of a mesh to which so many triangles were added."""
+        return Turns(np.pad(self.among, (0, more)), self.pairs)
+
+
+def turns_of(mesh: TriangleMesh, monitor: Monitor, deformed: bool = False) -> Turns:
+    """Where a mesh turns back, and crosses itself there; as of `uncrossed`."""
+    among = turning_back(mesh, deformed)
+    return Turns(among, _crossing(mesh, among, monitor))
+
+
 def uncrossed(
-    mesh: TriangleMesh, monitor: Monitor, deformed: bool = False
+    mesh: TriangleMesh, monitor: Monitor, deformed: bool = False, turns: Turns | None = None
 ) -> tuple[TriangleMesh, Floats | None]:
     """The mesh with no triangles that cross where its surface turns back, as far as that goes.
 
@@ -48,13 +78,14 @@ def uncrossed(
         mesh: closed, or open where nothing turns back.
         monitor: asked for a cancel.
         deformed: whether vertices are elsewhere than they were meshed, so that facets may fold.
+        turns: of the mesh, where they are known.
 
     Returns:
         The mesh, the same one where nothing crosses; and (3,) where triangles still do, mm.
     """
-    among = turning_back(mesh, deformed)
-    pairs, rings = _crossing(mesh, among, monitor), 0
-    everywhere, among = among, _about(mesh, pairs, among)
+    turns = turns or turns_of(mesh, monitor, deformed)
+    everywhere, pairs, rings = turns.among, turns.pairs, 0
+    among, before = _about(mesh, pairs, everywhere), mesh
     random = np.random.default_rng(0)
     for turn, share in enumerate(SHARES):
         if not len(pairs):
@@ -83,7 +114,10 @@ def uncrossed(
         elif not turn % 2:
             rings = min(rings + 1, MOST_RINGS)
     if among is not everywhere:  # what moved may have met what lies farther away
-        pairs = _crossing(mesh, everywhere | among, monitor)
+        elsewhere = np.zeros(len(mesh.vertices), bool)
+        elsewhere[np.flatnonzero((mesh.vertices != before.vertices).ravel()) // 3] = True
+        farther = _crossing(mesh, everywhere | among, monitor, elsewhere)
+        pairs = np.unique(np.concatenate([pairs, farther]), axis=0)
     if not len(pairs):
         return mesh, None
     return mesh, mesh.vertices[mesh.triangles[pairs[0, 0]]].mean(axis=0)
@@ -93,18 +127,28 @@ def _about(mesh: TriangleMesh, pairs: Ints, among: Bools) -> Bools:
     """(m,) of some triangles those about pairs that cross; all of them where there are many."""
     if not 0 < len(pairs) <= MOST_PLACES:
         return among
-    corners = np.stack(mesh.corners(), axis=1)
-    low, high = corners.min(axis=1), corners.max(axis=1)
-    first, second = pairs.T
-    from_, to = np.minimum(low[first], low[second]), np.maximum(high[first], high[second])
-    reach = REACH * (to - from_).max(axis=1)[:, None]
     rows = np.flatnonzero(among)
+    low, high = _ends(mesh, pairs.ravel())
+    low, high = low.reshape(-1, 2, 3), high.reshape(-1, 2, 3)
+    from_, to = low.min(axis=1), high.max(axis=1)
+    reach = REACH * (to - from_).max(axis=1)[:, None]
+    # Axis by axis, which numpy takes in faster than rows of three.
+    least, most = (np.ascontiguousarray(ends.T) for ends in _ends(mesh, rows))
     meets = np.zeros(len(rows), bool)
     for lowest, highest in zip(from_ - reach, to + reach, strict=True):
-        meets |= ((low[rows] <= highest) & (high[rows] >= lowest)).all(axis=1)
+        near = np.ones(len(rows), bool)
+        for axis in range(3):
+            near &= (least[axis] <= highest[axis]) & (most[axis] >= lowest[axis])
+        meets |= near
     found = np.zeros(len(among), bool)
     found[rows[meets]] = True
     return found
+
+
+def _ends(mesh: TriangleMesh, rows: Ints) -> tuple[Floats, Floats]:
+    """(k, 3) lowest and highest corners of some triangles."""
+    corners = mesh.vertices[mesh.triangles[rows]]
+    return corners.min(axis=1), corners.max(axis=1)
 
 
 def turning_back(mesh: TriangleMesh, deformed: bool = False) -> Bools:
@@ -114,20 +158,26 @@ def turning_back(mesh: TriangleMesh, deformed: bool = False) -> Bools:
     """
     size = len(mesh.vertices)
     corners = np.ascontiguousarray(mesh.triangles.T)
-    normal = _unit_normals(mesh.vertices, corners)
+    columns = np.ascontiguousarray(mesh.vertices.T)
     # At both ends of such an edge two of the normals nearly cancel out, and so their sum is short.
-    length = np.zeros(size)
-    for along in normal:
-        length += sum(np.bincount(corner, along, size) for corner in corners) ** 2
-    count = sum(np.bincount(corner, minlength=size) for corner in corners)
+    # For that they need not be known well, and half as long numbers take half the memory.
+    length, count = np.zeros(size), np.zeros(size, np.int64)
+    for along in _rough_normals(columns, corners):
+        total = np.zeros(size)
+        for corner in corners:
+            total += np.bincount(corner, along, size)
+        length += np.square(total, out=total)
+    for corner in corners:
+        count += np.bincount(corner, minlength=size)
     least = STICKS_OUT if deformed else TURNS_BACK
-    sharp = np.sqrt(length) <= count - 2.0 + np.sqrt(2.0 + 2.0 * least) + 1e-6
-    rows = np.flatnonzero(sum(sharp[corner].astype(np.int8) for corner in corners) > 1)
+    sharp = np.sqrt(length) <= count - 2.0 + np.sqrt(2.0 + 2.0 * least) + ROUGHNESS * count
+    rows = np.flatnonzero(sum(sharp[corner].view(np.int8) for corner in corners) > 1)
+    normal = _unit_normals(columns, corners[:, rows])
     start = mesh.triangles[rows].astype(np.int64)
     end = np.roll(start, -1, axis=1)
     side = np.flatnonzero((sharp[start] & sharp[end]).ravel())
     apex = np.roll(start, -2, axis=1).ravel()[side]
-    start, end, owner = start.ravel()[side], end.ravel()[side], rows[side // 3]
+    start, end, owner = start.ravel()[side], end.ravel()[side], side // 3
     edge = np.minimum(start, end) * np.int64(size) + np.maximum(start, end)
     order = np.argsort(edge)
     same = edge[order[1:]] == edge[order[:-1]]
@@ -140,14 +190,26 @@ def turning_back(mesh: TriangleMesh, deformed: bool = False) -> Bools:
         sticks_out = sum(along[one] * beyond[:, k] for k, along in enumerate(normal)) < 0.0
         turned |= (cosine < STICKS_OUT) & sticks_out
     near = np.zeros(size, bool)
-    near[mesh.triangles[one[turned]]] = True
-    near[mesh.triangles[two[turned]]] = True
+    near[mesh.triangles[rows[one[turned]]]] = True
+    near[mesh.triangles[rows[two[turned]]]] = True
     return _touching(near, corners)
 
 
-def _unit_normals(vertices: Floats, corners: NDArray[np.int32]) -> list[Floats]:
+def _rough_normals(columns: Floats, corners: NDArray[np.int32]) -> NDArray[np.float32]:
+    """(3, m) the unit normals of triangles, (3, m), of vertices (3, n), to single precision."""
+    normal = np.empty(corners.shape, np.float32)
+
+    def block(start: int) -> None:
+        part = slice(start, start + BLOCK_TRIANGLES)
+        normal[:, part] = _unit_normals(columns, corners[:, part])
+
+    for _ in in_threads(block, range(0, corners.shape[1], BLOCK_TRIANGLES)):
+        pass
+    return normal
+
+
+def _unit_normals(columns: Floats, corners: NDArray[np.int32]) -> list[Floats]:
     """Three of (m,): the normals of triangles, (3, m), of length 1, axis by axis."""
-    columns = np.ascontiguousarray(vertices.T)
     a, b, c = ([column[corner] for column in columns] for corner in corners)
     e, f = ([q[k] - a[k] for k in range(3)] for q in (b, c))
     normal = [e[i] * f[j] - e[j] * f[i] for i, j in ((1, 2), (2, 0), (0, 1))]
@@ -161,8 +223,13 @@ def _touching(near: Bools, corners: NDArray[np.int32]) -> Bools:
     return np.asarray(a | b | c, np.bool_)
 
 
-def _crossing(mesh: TriangleMesh, among: Bools, monitor: Monitor) -> Ints:
-    """(k, 2) triangles, chosen or beside such, that cross in a binary file or in one of text."""
+def _crossing(
+    mesh: TriangleMesh, among: Bools, monitor: Monitor, moved: Bools | None = None
+) -> Ints:
+    """(k, 2) triangles, chosen or beside such, that cross in a binary file or in one of text.
+
+    At least one of each two has a vertex that was moved, (n,) bool, where these are given.
+    """
     near = np.zeros(len(mesh.vertices), bool)
     near[mesh.triangles[among]] = True
     rows = np.flatnonzero(_touching(near, mesh.triangles.T))
@@ -171,7 +238,8 @@ def _crossing(mesh: TriangleMesh, among: Bools, monitor: Monitor) -> Ints:
     step = decimal_step(mesh.vertices)
     part = compact(TriangleMesh(mesh.vertices, mesh.triangles[rows]))
     # Neither rounding moves a coordinate by more than a step: few pairs need an exact look, twice.
-    close = pairs_at_planes(part, step, monitor)
+    wanted = None if moved is None else _touching(moved, mesh.triangles[rows].T)
+    close = pairs_at_planes(part, step, monitor, wanted)
     found = [
         piercing_among(TriangleMesh(vertices, part.triangles), close)
         for vertices in (_single(part.vertices), _single(rounded(part.vertices, step)))

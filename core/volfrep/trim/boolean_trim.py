@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor, Future, wait
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ..mesh.booleans import to_library
 from ..mesh.edge_table import pieces_of
 from ..mesh.float32_repair import shortest_edge
-from ..mesh.triangle_mesh import TriangleMesh, compact, concatenate
+from ..mesh.triangle_mesh import TriangleMesh, compact, concatenate, corners_among
 from ..spatial.rays import inside_points
 from ..util.errors import VolfrepError
 from ..util.progress import POLL_SECONDS, Monitor
@@ -99,8 +99,7 @@ def _joined(
     while True:
         missing = np.array([k for k in range(groups.count) if k not in pieces], np.int64)
         given = groups.each(missing, cavity, monitor)
-        made = _cut(given, len(missing), executor, monitor)
-        pieces.update(zip(missing.tolist(), made, strict=True))
+        pieces.update(_cut(given, len(missing), executor, monitor))
         wrong = np.array([k for k, piece in pieces.items() if piece.defect], np.int64)
         if groups.count == 1:
             piece = pieces[0]
@@ -122,36 +121,35 @@ def _joined(
 
 
 def _cut(
-    groups: Iterable[Group], count: int, executor: Executor | None, monitor: Monitor
-) -> Iterator[Piece]:
-    """What the Boolean leaves of groups, in their order."""
-    waiting = iter(groups)
-    ahead: deque[tuple[Group, Future[Piece] | None]] = deque()
+    groups: Iterator[tuple[int, Group]], count: int, executor: Executor | None, monitor: Monitor
+) -> Iterator[tuple[int, Piece]]:
+    """What the Boolean leaves of numbered groups, in their order."""
+    ahead: deque[tuple[int, Group, Future[Piece] | None]] = deque()
     if count == 1:
         executor = None  # to start a worker takes longer than the group
     for done in range(count):
         piece = None
         # Some groups ahead, so that no worker waits; not all, so that they take no memory.
         while executor is not None and len(ahead) < 2 * at_once(executor):
-            group = next(waiting, None)
-            if group is None:
+            following = next(groups, None)
+            if following is None:
                 break
             try:
-                ahead.append((group, executor.submit(cut, group)))
+                ahead.append((*following, executor.submit(cut, following[1])))
             except RuntimeError:  # it takes nothing more, as when a process of it was killed
                 executor = None
-                ahead.append((group, None))
+                ahead.append((*following, None))
         if ahead:
-            group, future = ahead.popleft()
+            number, group, future = ahead.popleft()
             piece = None if future is None else _finished(future, monitor)
         else:
-            group = next(waiting)
+            number, group = next(groups)
         if piece is None:
             piece = cut(group, monitor)
         for name, amount in piece.work.items():
             monitor.count(name, amount)
         monitor.tick(0.1 + 0.8 * (done + 1) / count)
-        yield piece
+        yield number, piece
 
 
 def _finished(future: Future[Piece], monitor: Monitor) -> Piece | None:
@@ -311,7 +309,7 @@ def _open(
     """The triangles with an edge that does not run once each way and is not at the rim."""
     at_seam = np.zeros(len(number), bool)
     at_seam[number[seam]] = True
-    some = np.flatnonzero(at_seam[triangles].sum(axis=1, dtype=np.int8) >= 2)
+    some = np.flatnonzero(corners_among(at_seam, triangles) >= 2)
     start = triangles[some].astype(np.int64)
     end = np.roll(start, -1, axis=1)
     here = at_seam[start] & at_seam[end]

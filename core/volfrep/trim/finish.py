@@ -20,13 +20,16 @@ from ..mesh.float32_repair import (
 )
 from ..mesh.quality import Quality
 from ..mesh.triangle_mesh import TriangleMesh
-from ..spatial.self_intersection import crossing_near
-from ..spatial.uncrossing import uncrossed
+from ..spatial.self_intersection import about, crossing_triangles
+from ..spatial.uncrossing import turns_of, uncrossed
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
-from ..util.types import Floats
+from ..util.types import Floats, Ints
 from .trimmed_surface import TrimmedSurface
 
+#: Octants that are nearer to triangles that cross than this may have to go along where these are
+#: drawn apart, in units of L.
+ABOUT = 0.25
 #: Lines see no crossing where less than this part of the volume is not enclosed once: rounding.
 ROUNDING = 1e-9
 #: A solid of which more than this part is not enclosed once is refused; less is told.
@@ -48,14 +51,18 @@ def tidied(surface: TrimmedSurface, precision: float, monitor: Monitor) -> Trimm
     """
     smooth, new = without_slivers(surface.mesh, precision)
     result = replace(surface, mesh=smooth)
-    about = smooth
-    if surface.octants is not None and new.any():
+    if not new.any():
+        return result
+    # What lies about the new triangles is little, and is all that is looked at.
+    rows = np.flatnonzero(new | about(smooth, new))
+    part, among = TriangleMesh(smooth.vertices, smooth.triangles[rows]), new[rows]
+    if surface.octants is not None:
         near = surface.octants.reached(smooth.vertices[smooth.triangles[new]])
         if result.has_inner_edges(new):  # that octants may have, too
             return tidied(surface.with_octants(near, monitor), precision, monitor)
-        about = result.with_octants(near, monitor).mesh
-        new = np.pad(new, (0, len(about.triangles) - len(new)))
-    if monitor.call(lambda: crossing_near(about, new, precision)).any():
+        part = replace(result, mesh=part).with_octants(near, monitor).mesh
+        among = np.pad(among, (0, len(part.triangles) - len(among)))
+    if monitor.call(lambda: crossing_triangles(part, among, precision)).any():
         return surface  # a sliver is better than facets that cross
     return result
 
@@ -89,7 +96,12 @@ def finished(
         quality = again
     straight, place = surface.mesh, None
     if moved or cut:
-        straight, place = uncrossed(surface.mesh, monitor, moved)
+        turns = turns_of(surface.mesh, monitor, moved)
+        if len(turns.pairs) and surface.octants is not None:  # which may have to go along
+            beside = len(surface.mesh.triangles)
+            surface = _with_octants_about(surface, turns.pairs, monitor)
+            turns = turns.followed_by(len(surface.mesh.triangles) - beside)
+        straight, place = uncrossed(surface.mesh, monitor, moved, turns)
     if straight is not surface.mesh:
         if _reaches_octants(surface, straight):
             return finished(TrimmedSurface(surface.whole(monitor)), quality, monitor, moved, cut)
@@ -114,6 +126,17 @@ def finished(
     if share > MOST_CROSSED:
         raise VolfrepError(f"{where}, {advice}.")
     return surface, quality, (*told, f"{where}; {advice} if that matters.")
+
+
+def _with_octants_about(surface: TrimmedSurface, pairs: Ints, monitor: Monitor) -> TrimmedSurface:
+    """The surface with the octants in its mesh that lie about some of its triangles."""
+    if surface.octants is None:
+        return surface
+    corners = surface.mesh.vertices[surface.mesh.triangles[np.unique(pairs)]]
+    far = ABOUT * surface.octants.laid.layout.grid.cell_size
+    low, high = corners.min(axis=1) - far, corners.max(axis=1) + far
+    near = surface.octants.reached(np.stack([low, high, low], axis=1))
+    return surface.with_octants(near, monitor)
 
 
 def _reaches_octants(surface: TrimmedSurface, mesh: TriangleMesh) -> bool:

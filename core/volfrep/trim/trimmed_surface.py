@@ -26,12 +26,14 @@ from ..lattice.assembly import (
 from ..lattice.certificate import CertifiedPieces, certify_pieces
 from ..mesh.edge_table import pieces_of
 from ..mesh.quality import Inspection, Quality, inspect
-from ..mesh.triangle_mesh import TriangleMesh, box_of
+from ..mesh.triangle_mesh import TriangleMesh, box_of, corners_among
 from ..util.progress import Monitor
 from ..util.ragged import spread
 from ..util.types import Bools, Floats, Ints
 from .laid import Laid
 
+#: Points are first told apart by what is left of their hashes by this.
+ASKED = 1 << 22
 #: A triangle reaches into an octant where it does by more than this, in units of L.
 REACH = 1e-9
 
@@ -325,7 +327,7 @@ class TrimmedSurface:
         row = np.full(len(self.mesh.vertices), -1, np.int64)
         row[self._rim_rows] = np.arange(len(self._inner.rim))
         # Twice among candidates: only triangles with two corners at the rim have an edge there.
-        some = np.flatnonzero((row >= 0)[self.mesh.triangles].sum(axis=1, dtype=np.int8) >= 2)
+        some = np.flatnonzero(corners_among(row >= 0, self.mesh.triangles) >= 2)
         corners = row[self.mesh.triangles[some]]
         start, end = corners.ravel(), np.roll(corners, -1, axis=1).ravel()
         here = (start >= 0) & (end >= 0)
@@ -366,8 +368,14 @@ def _repeats(triangles: NDArray[np.int32]) -> bool:
 def equal_rows(points: Floats, among: Floats) -> Ints:
     """(k,) the row of `among` (n, 3) with the very same numbers as each of `points`; -1: none."""
     ours, theirs = _hashed(points), _hashed(among)
-    order = np.argsort(theirs)
-    row = order[np.minimum(np.searchsorted(theirs, ours, sorter=order), len(order) - 1)]
+    # Most rows end otherwise than all that are looked for, and need no place in an order.
+    asked = np.zeros(ASKED, bool)
+    asked[ours % ASKED] = True
+    some = np.flatnonzero(asked[theirs % ASKED])
+    if not len(some):
+        return np.full(len(ours), -1, np.int64)
+    some = some[np.argsort(theirs[some])]
+    row = some[np.minimum(np.searchsorted(theirs[some], ours), len(some) - 1)]
     result: Ints = np.where((among[row] == points).all(axis=1), row, -1)
     return result
 

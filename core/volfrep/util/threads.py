@@ -4,8 +4,15 @@
 from __future__ import annotations
 
 import os
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
+from typing import TypeVar
 
 from .errors import VolfrepError
+
+S = TypeVar("S")
+T = TypeVar("T")
 
 _told = 0
 
@@ -30,6 +37,26 @@ def use_threads(count: int) -> None:
 def threads() -> int:
     """How many threads a parallel loop is to use."""
     return _told or _cores()
+
+
+def in_threads(work: Callable[[S], T], items: Iterable[S]) -> Iterator[T]:
+    """`work(item)` for each item, in their order, on `threads` threads and a few items ahead.
+
+    Numpy lets go of the interpreter while it computes: portions of 10,000 numbers and more gain.
+    """
+    count = threads()
+    waiting: deque[Future[T]] = deque()
+    with ThreadPoolExecutor(max_workers=count) as pool:
+        try:
+            for item in items:
+                waiting.append(pool.submit(work, item))
+                if len(waiting) > 2 * count:
+                    yield waiting.popleft().result()
+            while waiting:
+                yield waiting.popleft().result()
+        finally:
+            for future in waiting:
+                future.cancel()
 
 
 def _cores() -> int:

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 import numpy as np
+import pytest
 
 import samples
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
-from volfrep.spatial.self_intersection import crossing_triangles
+from volfrep.spatial.self_intersection import about, close_pairs, crossing_triangles
 
 
 def everywhere(mesh):
@@ -40,3 +41,37 @@ def test_a_spike_through_the_other_side_is_found_from_its_own_triangles():
     assert crossing[~spike].any()
     np.testing.assert_array_equal(crossing, crossing_triangles(bent, everywhere(bent), 1e-6))
     assert not crossing_triangles(bent, ~everywhere(bent), 1e-6).any()
+
+
+def scattered(count):
+    """Triangles of very different sizes all over a cube, and which of them have boxes that meet."""
+    random = np.random.default_rng(0)
+    size = np.exp(1.2 * random.normal(size=(count, 1, 1)) - 3.0)
+    corners = random.random((count, 1, 3)) + size * random.normal(size=(count, 3, 3))
+    low, high = corners.min(axis=1), corners.max(axis=1)
+    meets = ((low[:, None] <= high[None]) & (low[None] <= high[:, None])).all(axis=2)
+    return corners, meets & ~np.eye(count, dtype=bool)
+
+
+@pytest.mark.parametrize("share", [0.02, 0.4, 1.0])
+def test_pairs_are_those_whose_boxes_meet_and_that_have_a_chosen_triangle(share):
+    corners, meets = scattered(400)
+    chosen = np.random.default_rng(1).random(len(corners)) < share
+    found = np.zeros_like(meets)
+    for one, other in close_pairs(corners, chosen):
+        found[one, other] = found[other, one] = True
+    np.fill_diagonal(found, False)
+    assert chosen.any()
+    np.testing.assert_array_equal(found, meets & (chosen[:, None] | chosen[None]))
+
+
+def test_what_lies_about_a_few_triangles_holds_all_whose_boxes_meet_theirs():
+    corners, meets = scattered(400)
+    mesh = TriangleMesh(corners.reshape(-1, 3), np.arange(1200, dtype=np.int32).reshape(-1, 3))
+    # The chosen ones are small.
+    chosen = np.zeros(len(corners), bool)
+    chosen[np.ptp(corners, axis=1).max(axis=1).argsort()[:5]] = True
+    near = about(mesh, chosen)
+    assert near[chosen].all()
+    assert near[meets[chosen].any(axis=0)].all()
+    assert not near.all()

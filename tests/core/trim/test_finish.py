@@ -16,7 +16,9 @@ from volfrep.mesh.float32_repair import without_slivers
 from volfrep.mesh.quality import measure
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
 from volfrep.spatial.self_intersection import crossing_near, crossing_triangles
+from volfrep.spatial.uncrossing import Turns
 from volfrep.trim.finish import finished, refuse_merging, tidied
+from volfrep.trim.group_cut import open_vertices
 from volfrep.trim.loose_pieces import clear
 from volfrep.trim.trimmed_surface import TrimmedSurface
 from volfrep.util.errors import VolfrepError
@@ -140,7 +142,7 @@ def test_graded_struts_that_run_through_each_other_are_told_with_their_place(mon
     assert not crossing_triangles(apart.mesh, every, 1e-2).any()
     assert not any("run through" in sentence for sentence in apart.report.warnings)
     # As they come out of the grading:
-    monkeypatch.setattr("volfrep.trim.finish.uncrossed", lambda mesh, monitor, moved: (mesh, None))
+    monkeypatch.setattr("volfrep.trim.finish.uncrossed", lambda mesh, *_: (mesh, None))
     result = block(spec, (6, 5, 1))
     assert crossing_triangles(result.mesh, every, 1e-2).any()
     assert "run through each other there" in result.report.warnings[-1]
@@ -197,10 +199,8 @@ def test_vertices_at_the_rim_of_octants_beside_the_mesh_take_these_along(monkeyp
     """Drawn apart alone they would leave the octants, which have them where they were."""
     moved = []
 
-    def nudged(mesh, monitor, deformed):
-        edges = np.sort(mesh.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-        edges, count = np.unique(edges, axis=0, return_counts=True)
-        rim = edges[count == 1].ravel()
+    def nudged(mesh, *_):
+        rim = open_vertices(mesh)
         vertices = mesh.vertices.copy()
         vertices[rim[:1]] += 1e-4
         moved.append(len(rim))
@@ -211,3 +211,26 @@ def test_vertices_at_the_rim_of_octants_beside_the_mesh_take_these_along(monkeyp
     assert moved[0]
     assert result.report.watertight
     assert result.report.bodies == 1
+
+
+def test_octants_about_facets_that_cross_go_along_and_the_others_stay_beside(monkeypatch):
+    at_rim = []
+
+    def crossing(mesh, *_):
+        at_rim.append(open_vertices(mesh)[0])
+        pair = np.flatnonzero((mesh.triangles == at_rim[0]).any(axis=1))[:2]
+        return Turns(np.zeros(len(mesh.triangles), bool), pair[None])
+
+    def nudged(mesh, monitor, deformed, turns):
+        assert len(turns.among) == len(mesh.triangles)
+        vertices = mesh.vertices.copy()
+        vertices[at_rim[0]] += 1e-4
+        return TriangleMesh(vertices, mesh.triangles), None
+
+    monkeypatch.setattr("volfrep.trim.finish.turns_of", crossing)
+    monkeypatch.setattr("volfrep.trim.finish.uncrossed", nudged)
+    result = fill(samples.box((36.0, 36.0, 36.0)), LatticeSpec("Box", 6.0, 0.5, shell=1.0))
+    assert result.surface.octants is not None
+    assert result.surface.is_joined
+    assert result.report.watertight
+    assert len(at_rim) == 1

@@ -16,7 +16,7 @@ from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.spatial import proximity
 from volfrep.util import threads
 from volfrep.util.errors import VolfrepError
-from volfrep.util.threads import use_threads
+from volfrep.util.threads import in_threads, use_threads
 
 
 @pytest.fixture(autouse=True)
@@ -86,3 +86,26 @@ def test_the_file_is_the_same_with_any_number(mesh, tmp_path):
         stl.write_stl(mesh, path)
         written.append(path.read_bytes())
     assert written[0] == written[1]
+
+
+@pytest.mark.parametrize("count", [1, 3])
+def test_portions_come_in_their_order_and_only_a_few_are_made_ahead(count):
+    use_threads(count)
+    asked = []
+
+    def portions():
+        for k in range(100):
+            asked.append(k)
+            yield k
+
+    given = in_threads(lambda k: k * k, portions())
+    assert next(given) == 0
+    assert len(asked) <= 2 * count + 1
+    assert list(given) == [k * k for k in range(1, 100)]
+
+
+def test_what_goes_wrong_in_a_thread_is_raised_where_it_is_asked_for():
+    given = in_threads(lambda k: 1 // (k - 2), range(5))
+    assert [next(given), next(given)] == [-1, -1]
+    with pytest.raises(ZeroDivisionError):
+        next(given)

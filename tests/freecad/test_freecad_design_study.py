@@ -134,6 +134,7 @@ def test_a_study_varies_what_drives_the_radius(doc, infill):
     assert infill.RelativeDensity == pytest.approx(0.25, rel=0.005)
 
 
+@pytest.mark.slow
 def test_runs_are_done_in_processes_beside_freecad(doc, infill, monkeypatch):
     from volfrep.studies.running import apart, scheduling
 

@@ -39,6 +39,7 @@ from driving import (
     settle,
     shades,
     show_model,
+    slow,
     toolbar_button,
     type_value,
     wait_until,
@@ -619,6 +620,7 @@ def read_the_help():
     window("VolfrepHelp").close()
 
 
+@slow
 def open_the_bracket():
     """Its entry of Examples opens it, computed."""
     opened_example("Bracket")

@@ -26,6 +26,7 @@ from driving import (
     section_docks,
     seen,
     settle,
+    slow,
     toolbar_button,
     view_3d,
     wait_until,
@@ -344,6 +345,7 @@ def colours(obj):
     check("none is none", legends() == 0, legends())
 
 
+@slow
 def frames():
     """What a frame of a mesh of half a million triangles costs, and of its struts."""
     from freecad_volfrep import make_lattice_infill

@@ -20,6 +20,7 @@ from driving import (
     run_checks,
     select,
     settle,
+    slow,
     turn_to,
     wait_until,
     window,
@@ -209,11 +210,13 @@ def italian():
     in_language("Italian")
 
 
+@slow
 def german():
     """The whole window in German, and the tables."""
     in_language("German")
 
 
+@slow
 def english():
     """Back to the texts of the sources."""
     Gui.setLocale("German")

@@ -41,6 +41,7 @@ from driving import (
     select,
     settle,
     shoot,
+    slow,
     toolbar_button,
     tree_items,
     type_value,
@@ -270,6 +271,7 @@ def choose(name, text):
     settle()
 
 
+@slow
 def drive_the_radius(doc, obj):
     """Density, mass and stiffness in place of the radius: the preview shows the one found."""
     from freecad_volfrep.features.quantities import is_driven, number_of
@@ -565,6 +567,7 @@ def scene_has(name):
     return name in [scene.getChild(k).getName().getString() for k in range(scene.getNumChildren())]
 
 
+@slow
 def make_a_solid(doc, obj):
     """Lattice To Solid asks, with figures, and makes a Part solid."""
     asked = []

@@ -31,6 +31,7 @@ from driving import (
     seen,
     select,
     settle,
+    slow,
     toolbar_button,
     view_3d,
     wait_until,
@@ -269,6 +270,7 @@ def show_large_ones_alike(doc, obj):
     looks_good("look_8_simplified")
 
 
+@slow
 def show_a_graded_part(doc, obj):
     """Struts that thicken along the part; then one without a skin."""
     obj.RadiusGrading = "Direction"
@@ -283,6 +285,7 @@ def show_a_graded_part(doc, obj):
     looks_good("look_9_lattice", with_skin=False)
 
 
+@slow
 def look_alike_undone_and_reopened(doc, obj):
     """A step back, and a file that is opened, look like what was computed."""
     doc.openTransaction("smaller cells")
@@ -304,6 +307,7 @@ def look_alike_undone_and_reopened(doc, obj):
     looks_good("look_a_reopened")
 
 
+@slow
 def show_the_bracket():
     """The shipped example, in both of our modes."""
     from freecad_volfrep.examples.filled import open_example

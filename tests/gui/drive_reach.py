@@ -30,6 +30,7 @@ from driving import (
     section_docks,
     select,
     settle,
+    slow,
     toolbar_button,
     view_3d,
     wait_until,
@@ -145,6 +146,7 @@ def revive_what_windows_have_saved(obj):
     revive_what_was_saved_elsewhere(obj, True)
 
 
+@slow
 def revive_what_no_window_has_saved(obj):
     """The same of a FreeCAD without windows, in which views are lost."""
     revive_what_was_saved_elsewhere(obj, False)

@@ -34,6 +34,7 @@ from driving import (
     select,
     settle,
     shoot,
+    slow,
     start_by_click,
     toolbar_button,
     tree_items,
@@ -355,6 +356,7 @@ def fill_two_at_once(doc, boxes):
     check("and shows them", not any(box.Visibility for box in boxes))
 
 
+@slow
 def answers_meanwhile(doc, obj):
     """Figures: the longest time that Qt's loop stood still while a mesh was made and taken over.
 

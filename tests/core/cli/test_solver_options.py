@@ -130,6 +130,7 @@ def test_exact_surfaces_of_a_block(tmp_path: Path, capsys: pytest.CaptureFixture
     assert text.count("MANIFOLD_SOLID_BREP(") == 1
 
 
+@pytest.mark.slow
 @needs_freecad
 def test_an_exact_part_is_cut_at_its_inner_wall(
     tmp_path: Path, part: Path, capsys: pytest.CaptureFixture[str]

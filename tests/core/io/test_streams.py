@@ -107,6 +107,7 @@ def test_a_lattice_that_is_turned(suffix: str, tmp_path: Path) -> None:
     assert seen.volume == pytest.approx(whole.volume, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_a_lattice_that_is_turned_is_what_its_mesh_would_have_been(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

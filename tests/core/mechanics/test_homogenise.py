@@ -125,6 +125,7 @@ def test_stiffness_falls_towards_its_limit_as_voxels_become_smaller():
         assert gap <= found.error_of(modulus) + finer.error_of(modulus)
 
 
+@pytest.mark.slow
 def test_voxels_hold_the_exact_density_and_forty_of_them_stay_few():
     """Work is counted: what a solution at 40^3 costs goes with its unknowns."""
     cell = LIBRARY["Octet"]

@@ -29,6 +29,7 @@ def test_the_octets_window_is_narrower_than_its_struts_are_apart():
     assert 10.0 * largest_ball(find_cell("Octet"), 0.16) == pytest.approx(0.88, abs=0.01)
 
 
+@pytest.mark.slow
 def test_nothing_passes_a_wall_of_struts():
     places = np.linspace(0.0, 1.0, 6)
     nodes = [(x, y, 0.5) for x in places for y in places]

@@ -11,6 +11,7 @@ import numpy as np
 from PySide import QtCore, QtGui
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
+import new_infill
 from driving import (
     OUT,
     answer_panel,
@@ -66,15 +67,7 @@ def primitives_drawn(obj):
 
 def made():
     """An infill of a box, shown from a corner."""
-    from freecad_volfrep import make_lattice_infill
-
-    doc = App.newDocument("Drive")
-    doc.UndoMode = 1
-    box = doc.addObject("Part::Box", "Block")
-    box.Length, box.Width, box.Height = 40, 30, 20
-    obj = make_lattice_infill(doc, box, CellSize=10, StrutRadius=1, ShellThickness=1)
-    doc.recompute()
-    box.Visibility = False
+    _, _, obj = new_infill.filled()
     Gui.activeDocument().activeView().viewIsometric()
     Gui.SendMsgToActiveView("ViewFit")
     settle()

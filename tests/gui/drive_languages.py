@@ -9,6 +9,7 @@ import FreeCADGui as Gui
 from PySide import QtGui
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
+import new_infill
 from driving import (
     answer_panel,
     check,
@@ -184,11 +185,7 @@ def look_at_the_dark():
 
 def boxed():
     """A document with a box."""
-    doc = App.newDocument("Drive")
-    doc.UndoMode = 1
-    box = doc.addObject("Part::Box", "Block")
-    box.Length, box.Width, box.Height = 40, 30, 20
-    doc.recompute()
+    new_infill.boxed("Drive")
     Gui.activeDocument().activeView().viewIsometric()
     Gui.SendMsgToActiveView("ViewFit")
     settle()

@@ -15,6 +15,7 @@ import FreeCADGui as Gui
 from PySide import QtCore, QtGui
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
+import new_infill
 from driving import (
     OUT,
     Watch,
@@ -54,26 +55,12 @@ from driving import (
 
 def boxed():
     """A document with a box, and the button of the command that fills it."""
-    doc = App.newDocument("Drive")
-    doc.UndoMode = 1
-    box = doc.addObject("Part::Box", "Block")
-    box.Length, box.Width, box.Height = 40, 30, 20
-    doc.recompute()
-    look_at_all()
-    return doc, box, toolbar_button("Lattice Infill")
+    return *new_infill.boxed("Drive"), toolbar_button("Lattice Infill")
 
 
 def filled():
     """A document with a box that has a lattice."""
-    from freecad_volfrep import make_lattice_infill
-
-    doc, box, _ = boxed()
-    doc.openTransaction("Fill")
-    obj = make_lattice_infill(doc, box, CellSize=10, StrutRadius=1, ShellThickness=1)
-    doc.recompute()
-    doc.commitTransaction()
-    box.Visibility = False
-    settle()
+    doc, _, obj = new_infill.filled("Drive")
     return doc, obj
 
 

@@ -14,6 +14,7 @@ import numpy as np
 from PySide import QtGui
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
+import new_infill
 from driving import (
     OUT,
     answer_panel,
@@ -151,26 +152,13 @@ def button(name):
 def boxed():
     """A document with a box, before white."""
     even_background()
-    doc = App.newDocument("Look")
-    doc.UndoMode = 1
-    box = doc.addObject("Part::Box", "Block")
-    box.Length, box.Width, box.Height = 40, 30, 20
-    doc.recompute()
-    look_at_all()
-    return doc, box
+    return new_infill.boxed("Look")
 
 
 def filled():
     """The same with a lattice."""
-    from freecad_volfrep import make_lattice_infill
-
-    doc, box = boxed()
-    obj = make_lattice_infill(
-        doc, box, CellSize=10, StrutRadius=1, ShellThickness=1.5, Deviation=0.01
-    )
-    doc.recompute()
-    box.Visibility = False
-    look_at_all()
+    even_background()
+    doc, _, obj = new_infill.filled("Look", ShellThickness=1.5, Deviation=0.01)
     return doc, obj
 
 

@@ -68,6 +68,7 @@ def test_a_block_of_the_cell_with_most_struts(tmp_path):
     check(exact_lattice(made.wireframe), write_exact(made.wireframe, tmp_path / "block.step"))
 
 
+@pytest.mark.slow
 def test_the_volume_of_the_papers_sample(tmp_path):
     """9500.11 mm3 by OpenCASCADE's fuse of everything at once; 9497 and 9501 by counting points."""
     spec = LatticeSpec(cell="CVC", cell_size=20, strut_radius=2, resolution=10)

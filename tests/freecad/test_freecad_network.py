@@ -35,6 +35,7 @@ def test_a_voronoi_network_fills_a_solid_and_follows_its_seed(doc, box):
     assert json.loads(obj.Report)["spec"]["network"]["seed"] == 2
 
 
+@pytest.mark.slow
 def test_a_network_is_shown_before_it_is_made_and_meets_a_density(doc, box):
     obj = make_lattice_infill(
         doc, box, Network="Voronoi", NetworkPoints=15, ShellThickness=1.5,

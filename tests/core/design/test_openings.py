@@ -100,6 +100,7 @@ def test_a_plate_may_be_open_on_both_sides():
     assert report.relative_density == pytest.approx(lattice / report.domain_volume_mm3, rel=0.02)
 
 
+@pytest.mark.slow
 def test_the_outputs_of_an_open_part_add_up():
     solid, cache = samples.box(), StageCache()
     part, lattice, domain = (

@@ -131,6 +131,7 @@ def test_a_job_is_forecast_with_about_the_radius_of_its_target() -> None:
         assert told.triangles == pytest.approx(known.triangles, rel=0.3)
 
 
+@pytest.mark.slow
 def test_the_volume_inside_whole_cells_is_that_of_the_endless_lattice() -> None:
     """Cells that fill a box to its faces are cut there as the endless lattice's cells are."""
     solid = check_solid(samples.box((16.0, 16.0, 8.0)), "box")

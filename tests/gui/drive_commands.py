@@ -119,6 +119,7 @@ def the_commands_without_a_document():
         check(f"{name} without a document", toolbar_button(name).isEnabled() == active)
 
 
+@slow
 def fill_a_box():
     """The tutorial's first steps: select a box, fill it by way of the panel."""
     doc, box = new_infill.boxed("Tutorial")
@@ -199,6 +200,7 @@ def row_of(editor, name):
     return search(QtCore.QModelIndex())
 
 
+@slow
 def type_a_radius(doc, obj):
     """A radius that is typed into the property editor makes a new mesh, once."""
     from freecad_volfrep.gui import progress
@@ -610,6 +612,7 @@ def open_the_bracket():
     opened_example("Bracket")
 
 
+@slow
 def open_the_piston_rod():
     """So does its entry."""
     opened_example("Piston Rod")

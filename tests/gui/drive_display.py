@@ -102,6 +102,7 @@ def display_modes(obj):
     check("what is not shown is dropped", node_of(obj, "Simplified").getNumChildren() == 0)
 
 
+@slow
 def many_struts(obj):
     """Above the preference struts are lines, and a large mesh that is simplified stays so."""
     group = App.ParamGet(GROUP)

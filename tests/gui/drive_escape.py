@@ -206,6 +206,7 @@ def leave_the_print_check(obj):
     escape(lambda: select(obj), lambda: click(toolbar_button("Print Check")), take_away(obj, kept))
 
 
+@slow
 def leave_the_panel(obj):
     """The panel's OK, which closes it at once."""
     radius = new_radii(obj)

@@ -458,6 +458,7 @@ def check_the_print(doc, obj):
     doc.removeObject(made.Name)
 
 
+@slow
 def open_a_face(doc, obj):
     """Open Faces leaves a picked face of the solid without a skin, in one undo step."""
     obj.Visibility, obj.Base.Visibility = False, True  # to pick a face

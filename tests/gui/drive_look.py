@@ -162,6 +162,7 @@ def filled():
     return doc, obj
 
 
+@slow
 def fill_a_box(doc, box):
     """From a box by clicks to a part that is computed, cutting it open on the way."""
     select(box)
@@ -243,6 +244,7 @@ def show_the_colours_chosen(doc, obj):
     check("and is all there is", found["skin"] > 0.9, found)
 
 
+@slow
 def show_large_ones_alike(doc, obj):
     """A mesh above the preference is drawn coarsely, in the same colours."""
     group = App.ParamGet(GROUP)

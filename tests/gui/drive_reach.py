@@ -135,6 +135,7 @@ def open_sections(obj):
     one_opens("by the context menu elsewhere")
 
 
+@slow
 def revive_what_windows_have_saved(obj):
     """A FreeCAD without the workbench saves it, with windows: it lives here again."""
     revive_what_was_saved_elsewhere(obj, True)

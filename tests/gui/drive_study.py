@@ -24,6 +24,7 @@ from driving import (
     run_checks,
     select,
     settle,
+    slow,
     toolbar_button,
     wait_until,
     xdotool,
@@ -117,6 +118,7 @@ def study_an_infill(doc, infill):
     check("undo takes it back", infill.CellType == "CVC" and infill.StrutRadius.Value == 1.0)
 
 
+@slow
 def open_it_again(doc, infill):
     """A double click opens the study with its designs; so does the context menu."""
     from freecad_volfrep import make_design_study, run_study

@@ -322,6 +322,7 @@ def close_the_document_while_it_is_made(doc, obj):
     settle()
 
 
+@slow
 def fill_two_at_once(doc, boxes):
     """Two solids are filled after a question, one after the other."""
     asked = []

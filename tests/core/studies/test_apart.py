@@ -69,6 +69,7 @@ def test_a_run_over_its_limits_is_ended_and_told(tmp_path: Path) -> None:
         volfrep.sweep(SLOW, tmp_path, limit_hours=0.0)
 
 
+@pytest.mark.slow
 def test_limits_that_are_kept_change_nothing(here: Path, tmp_path: Path) -> None:
     volfrep.sweep(FILLED, tmp_path, workers=1, limit_hours=1.0, limit_memory=8.0)
     assert timeless(tmp_path) == timeless(here)

@@ -275,6 +275,7 @@ def test_the_table_reads_as_parquet_where_pandas_is_there(tmp_path: Path) -> Non
     assert np.array_equal(frame["forecast.mass_g"], made.table.numbers("forecast.mass_g"))
 
 
+@pytest.mark.slow
 def test_a_range_is_bounds_for_an_optimiser(tmp_path: Path) -> None:
     from scipy.optimize import differential_evolution
 

@@ -6,6 +6,8 @@ SHELL := /bin/bash
 PYTHON := .venv/bin/python
 # FreeCAD with a profile of its own, on a virtual screen where it needs one.
 export FREECAD_USER_HOME := $(CURDIR)/.cache/fchome
+# Tests start Python some hundred times: it keeps what it has compiled, whatever the shell says.
+unexport PYTHONDONTWRITEBYTECODE
 SCREEN := xvfb-run -a -s "-screen 0 1600x1200x24 -dpi 96"
 
 .NOTPARALLEL:

@@ -188,7 +188,7 @@ def use_the_panel(doc, box, fill):
     picture("panel_3_refused")
     share = drawn_share("panel_3_refused")
     check("and the solid stays to be seen", share > 0.1, share)
-    for name, length in (("ShellThickness", "1"), ("CellSize", "5"), ("StrutRadius", "0.5")):
+    for name, length in (("ShellThickness", "1"), ("CellSize", "8"), ("StrutRadius", "0.8")):
         type_value(name, f"{length} mm")
     click(panel_part("Compute"))
     check("Compute makes the mesh", wait_until(lambda: obj.Mesh.CountFacets > 0))

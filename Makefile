@@ -45,7 +45,8 @@ test-slow: setup ## what test-all has beyond test
 # Windows wait more than they compute: they have two lanes, each run a screen and a profile of its
 # own, and the processor first. The lanes take about as long as each other.
 GUI_SCRIPTS := $(sort $(wildcard tests/gui/drive_*.py))
-GUI_FIRST := $(patsubst %,tests/gui/drive_%.py,commands display escape languages preferences tree)
+GUI_FIRST := $(patsubst %,tests/gui/drive_%.py,commands display escape languages manners \
+	preferences tree window)
 SIDE_BY_SIDE = $(PYTHON) tools/side_by_side.py
 lane = $(foreach script,$(1),\
 	"window-$(patsubst drive_%.py,%,$(notdir $(script)))=tools/run_gui.sh $(script)")

@@ -118,6 +118,7 @@ def test_a_study_without_its_infill_says_so(doc, study):
     assert study.Designs == 6, "the last table stays"
 
 
+@pytest.mark.slow
 def test_a_study_varies_what_drives_the_radius(doc, infill):
     infill.RadiusDrivenBy = "Relative density"
     infill.TargetDensity = 0.2

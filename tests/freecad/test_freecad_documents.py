@@ -175,6 +175,7 @@ def test_expressions_follow_the_names(earlier):
     assert doc.Sheet.B2.Value == pytest.approx(1.5), "and of a spreadsheet's cell"
 
 
+@pytest.mark.slow
 def test_a_migrated_document_is_saved_and_opened_as_it_is(earlier, reopened, runs):
     doc = earlier["Plain"].Document
     for obj in earlier.values():

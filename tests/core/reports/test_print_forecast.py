@@ -58,6 +58,7 @@ def test_two_cells_a_side_have_every_gap_of_an_endless_lattice(cell):
     )
 
 
+@pytest.mark.slow
 def test_what_is_open_holds_nothing():
     lattice = {"cell": "CVC", "cell_size": 10.0, "strut_radius": 1.0}
     assert told(LatticeSpec(**lattice, shell=2.0)).void_mm3 > 0.0

@@ -212,6 +212,11 @@ MACHINE = {
 }  # fmt: skip
 
 
+def test_a_machine_without_git_has_no_commit(monkeypatch):
+    monkeypatch.setenv("PATH", "")
+    assert measuring.machine()["commit"] == "not in a repository"
+
+
 def test_the_readme_gets_its_table_between_its_marks(tmp_path):
     row = {"cell": "CVC", "kind": "ours", "seconds": 1.12, "volume_error": -5e-4}
     big = {"setting": "default, L / 15", "cells": 26**3, "seconds": 4.42, "triangles": 33_400_000,

@@ -6,12 +6,14 @@ SHELL := /bin/bash
 PYTHON := .venv/bin/python
 # FreeCAD with a profile of its own, on a virtual screen where it needs one.
 export FREECAD_USER_HOME := $(CURDIR)/.cache/fchome
+# Tests start Python some hundred times: it keeps what it has compiled, whatever the shell says.
+unexport PYTHONDONTWRITEBYTECODE
 SCREEN := xvfb-run -a -s "-screen 0 1600x1200x24 -dpi 96"
 
 .NOTPARALLEL:
-.PHONY: help setup demo test test-all lint format test-core test-random test-alone test-freecad \
+.PHONY: help setup demo test test-all test-slow lint format test-core test-random test-alone test-freecad \
 	test-gui test-in-freecad test-freecad-1 translations test-newest docs-pictures docs-tables \
-	test-escape torture fuzz bench bench-quick catalogue clean
+	test-escape torture fuzz bench bench-quick bench-readme catalogue clean
 
 help: ## show this list
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 25
@@ -28,17 +30,23 @@ demo: setup ## model a bracket, fill it, and leave files and a picture in build/
 	@$(SCREEN) $(PYTHON) demo/render.py graded build/demo/graded.png
 	@ls -l build/demo
 
-test: lint ## style, types, and every test but the slow ones
-	@$(SIDE_BY_SIDE) $(WINDOWS) , $(IN_FREECAD) , \
+test: setup ## style, types, and every test but the slow ones
+	@$(SIDE_BY_SIDE) $(WINDOWS) , "lint=make --no-print-directory lint" $(IN_FREECAD) , \
 		"core=make --no-print-directory test-core"
 
-test-all: QUICK :=
+test-all: MARK :=
 test-all: test ## the same with the slow tests
+
+test-slow: MARK := slow
+test-slow: setup ## what test-all has beyond test
+	@$(SIDE_BY_SIDE) $(WINDOWS) , $(IN_FREECAD) , \
+		"core=make --no-print-directory test-core"
 
 # Windows wait more than they compute: they have two lanes, each run a screen and a profile of its
 # own, and the processor first. The lanes take about as long as each other.
 GUI_SCRIPTS := $(sort $(wildcard tests/gui/drive_*.py))
-GUI_FIRST := $(patsubst %,tests/gui/drive_%.py,commands display escape languages preferences tree)
+GUI_FIRST := $(patsubst %,tests/gui/drive_%.py,commands display escape languages manners \
+	preferences tree window)
 SIDE_BY_SIDE = $(PYTHON) tools/side_by_side.py
 lane = $(foreach script,$(1),\
 	"window-$(patsubst drive_%.py,%,$(notdir $(script)))=tools/run_gui.sh $(script)")
@@ -55,10 +63,11 @@ format: setup ## let ruff rewrite the sources
 	@.venv/bin/ruff format .
 	@.venv/bin/ruff check --fix .
 
-# By way of the environment, so that test-all's parts see that it is empty.
-export QUICK ?= -m "not slow"
+# Which tests: pytest's word for it, that the windows' scripts know, too (tools/run_gui.sh). By way
+# of the environment, so that the parts of test-all and test-slow see it.
+export MARK ?= not slow
 test-core: setup ## the engine's tests on plain Python
-	@$(PYTHON) -m pytest tests/core $(QUICK) -n auto --dist loadfile --durations=10
+	@$(PYTHON) -m pytest tests/core -m "$(MARK)" -n auto --dist loadfile --durations=10
 
 test-random: setup ## searches by chance, with other seeds every time, in the engine's tests
 	@$(PYTHON) -m pytest tests/core -m "hypothesis and not slow" --hypothesis-profile=random \
@@ -76,12 +85,13 @@ test-alone: setup ## the tests and jobs that take real parts, as in a checkout w
 	@$(PYTHON) -m bench --quick --only rod
 
 test-freecad: setup ## the workbench's tests in the real freecadcmd
-	@PYTEST_ARGS='tests/freecad $(QUICK) --durations=10' freecadcmd tools/run_in_freecad.py < /dev/null
+	@PYTEST_ARGS='tests/freecad -m "$(MARK)" --durations=10' freecadcmd tools/run_in_freecad.py < /dev/null
 
 test-in-freecad: setup ## both of these side by side
 	@$(SIDE_BY_SIDE) $(WINDOWS) , $(IN_FREECAD)
 
-test-gui: setup ## the real FreeCAD window on a virtual screen
+test-gui: MARK :=
+test-gui: setup ## every check of the real FreeCAD window, on a virtual screen
 	@$(SIDE_BY_SIDE) $(WINDOWS)
 
 test-escape: setup ## Escape at ten random times in every long command of the window, a quarter of an hour
@@ -112,9 +122,12 @@ test-freecad-1: ## the workbench's tests in FreeCAD 1.0 and 1.1, each in a Debia
 test-newest: ## the engine's tests on the newest numpy, scipy and scikit-image
 	@tools/newest.sh
 
-bench: setup ## the paper's evaluation beside it and other tools, into docs/benchmarks.md (30 min)
+bench: setup ## the paper's evaluation beside it and other tools, into docs/benchmarks.md and README (30 min)
 	@tools/bench_tools.sh
 	@$(PYTHON) -m bench $(BENCH_ARGS)
+
+bench-readme: BENCH_ARGS := --readme
+bench-readme: bench ## only what the README's table tells of, into it (6 min)
 
 bench-quick: BENCH_ARGS := --quick
 bench-quick: bench ## a small part of it, into build/bench-quick (5 min)

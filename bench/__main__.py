@@ -18,6 +18,7 @@ from typing import Any
 from .document import document
 from .experiments import EXPERIMENTS
 from .measuring import ROOT, Context, machine
+from .readme import NEEDED, figures_table, write_into
 
 #: Seconds that one job of another tool may take.
 PEER_LIMIT, QUICK_PEER_LIMIT = 90.0, 60.0
@@ -69,9 +70,14 @@ def failures(result: Any) -> list[str]:
 def main() -> int:
     """Do what the arguments say."""
     parser = argparse.ArgumentParser(prog="bench", description="The benchmark of VOLFREP.")
-    parser.add_argument("--quick", action="store_true", help="a small part, into build/bench-quick")
+    part = parser.add_mutually_exclusive_group()
+    part.add_argument("--quick", action="store_true", help="a small part, into build/bench-quick")
+    part.add_argument(
+        "--readme", action="store_true",
+        help="only what the README's table tells of, without other tools; nothing else is written",
+    )  # fmt: skip
     parser.add_argument(
-        "--only", nargs="+", choices=EXPERIMENTS, default=list(EXPERIMENTS), metavar="NAME",
+        "--only", nargs="+", choices=EXPERIMENTS, metavar="NAME",
         help=f"some of {', '.join(EXPERIMENTS)}; the others' last results are kept",
     )  # fmt: skip
     parser.add_argument(
@@ -82,13 +88,15 @@ def main() -> int:
         "--render-only", action="store_true", help="write the document from the last results"
     )
     options = parser.parse_args()
-    results = ROOT / "build" / ("bench-quick" if options.quick else "bench")
-    out = results / "benchmarks.md" if options.quick else ROOT / "docs" / "benchmarks.md"
+    kind = "-quick" if options.quick else "-readme" if options.readme else ""
+    results = ROOT / "build" / f"bench{kind}"
+    out = ROOT / "docs" / "benchmarks.md" if not kind else results / "benchmarks.md"
     if not options.render_only:
-        minutes = QUICK_PEER_MINUTES if options.quick else PEER_MINUTES
+        minutes = {"": PEER_MINUTES, "-quick": QUICK_PEER_MINUTES, "-readme": 0.0}[kind]
         if options.peer_minutes is not None:
             minutes = options.peer_minutes
-        measure(options.only, options.quick, results, minutes)
+        names = options.only or (NEEDED if options.readme else EXPERIMENTS)
+        measure(list(names), options.quick, results, minutes)
     found = {
         name: json.loads((results / f"{name}.json").read_text(encoding="utf-8"))
         for name in EXPERIMENTS
@@ -97,6 +105,9 @@ def main() -> int:
     text, broken = document(found, EXPERIMENTS, out.parent / "images" / "benchmarks")
     out.write_text(text, encoding="utf-8")
     print(f"written to {out}")
+    if not options.quick and set(NEEDED) <= found.keys():
+        write_into(ROOT / "README.md", figures_table(found))
+        print("and its table into README.md")
     bad = {name: failures(result) for name, result in found.items() if failures(result)}
     for name, reasons in bad.items():
         print(f"{name}: {'; '.join(reasons)}", file=sys.stderr)

@@ -7,6 +7,7 @@ import json
 import math
 import os
 import platform
+import shutil
 import signal
 import statistics
 import subprocess
@@ -354,9 +355,6 @@ def machine() -> Row:
     for line in Path("/proc/meminfo").read_text().splitlines():
         if line.startswith("MemTotal"):
             memory = round(int(line.split()[1]) / 1024**2)
-    commit = subprocess.run(
-        ["git", "describe", "--always", "--dirty"], cwd=ROOT, capture_output=True, text=True
-    ).stdout.strip()
     packages = ("volfrep", "numpy", "scipy", "scikit-image", "trimesh", "manifold3d")
     return {
         "processor": model,
@@ -366,11 +364,20 @@ def machine() -> Row:
         "python": platform.python_version(),
         "packages": {name: version(name) for name in packages},
         "peer_packages": peer_versions(),
-        "commit": commit or "not in a repository",
+        "commit": _commit() or "not in a repository",
         "stand_ins": [path.stem for path in (bracket(), rod()) if path.parent != PARTS],
         "date": time.strftime("%Y-%m-%d %H:%M"),
         "load": round(os.getloadavg()[0], 2),
     }
+
+
+def _commit() -> str:
+    """What git calls this state of the code; empty where it is not there, or no repository is."""
+    if shutil.which("git") is None:
+        return ""
+    return subprocess.run(
+        ["git", "describe", "--always", "--dirty"], cwd=ROOT, capture_output=True, text=True
+    ).stdout.strip()
 
 
 def peer_versions() -> dict[str, str]:

@@ -4,6 +4,7 @@
 #     tools/run_gui.sh tests/gui/drive_lattice_infill.py              # all its checks
 #     tools/run_gui.sh tests/gui/drive_lattice_infill.py open_a_face  # one, or some
 #     tools/run_gui.sh --list tests/gui/drive_lattice_infill.py       # their names
+# MARK="not slow" leaves out the checks that are marked as slow, MARK=slow the others, as pytest's -m.
 # The exit code is the one that the script leaves with (by os._exit), or 124 after GUI_TIMEOUT
 # seconds. Real clicks can go astray on a busy machine, so a check that fails has a second try on
 # its own (GUI_TRIES=1: none): what held only then is told in lines that begin with AGAIN. Pictures and figures go to GUI_OUT (default: build/gui). Every run has a screen and a
@@ -17,6 +18,10 @@ fi
 script=$1
 shift
 export GUI_CHECKS="$*"
+if [ "${MARK:-}" = slow ] && [ -z "$GUI_CHECKS" ] && ! grep -q '^@slow$' "$script"; then
+  echo "$script: no check is slow"
+  exit
+fi
 export GUI_OUT=${GUI_OUT:-$PWD/build/gui}
 mkdir -p "$GUI_OUT"
 

@@ -20,6 +20,7 @@ from bench import measuring, plots, published, published_method  # noqa: E402
 from bench.document import document  # noqa: E402
 from bench.exact import block_volume  # noqa: E402
 from bench.experiments import EXPERIMENTS  # noqa: E402
+from bench.readme import figures_table, write_into  # noqa: E402
 from bench.tables import Column, bar, bars_table, power_law, table  # noqa: E402
 
 pytestmark = pytest.mark.skipif(
@@ -209,3 +210,40 @@ MACHINE = {
     "processor": "a", "cores": 2, "memory_gb": 4, "system": "b", "python": "3", "packages": {},
     "peer_packages": {}, "commit": "c", "date": "2026-01-01 00:00", "load": 0.0,
 }  # fmt: skip
+
+
+def test_a_machine_without_git_has_no_commit(monkeypatch):
+    monkeypatch.setenv("PATH", "")
+    assert measuring.machine()["commit"] == "not in a repository"
+
+
+def test_the_readme_gets_its_table_between_its_marks(tmp_path):
+    row = {"cell": "CVC", "kind": "ours", "seconds": 1.12, "volume_error": -5e-4}
+    big = {"setting": "default, L / 15", "cells": 26**3, "seconds": 4.42, "triangles": 33_400_000,
+           "peak_mb": 61.0}  # fmt: skip
+    made = figures_table({
+        "blocks": {"rows": [row, {**row, "kind": "fine", "seconds": 9.0}]},
+        "bracket": {"rows": [{"cell": "CVC", "seconds": 5.78, "change": 2.64}]},
+        "rod": {"rows": [{"cell": "CVC", "job": "piston rod", "note": "exit code 2"}]},
+        "scale": {"rows": [big]},
+    })  # fmt: skip
+    assert made.splitlines()[2:] == [
+        "| 10 x 10 x 10 cells, L = 10, r = 1 |  |  | 1.1 s (12 s) |",
+        "| their volume, against the exact one |  |  | -0.05 % |",
+        "| GE bracket, skin 3 mm, skin and lattice in one body |  |  | 5.8 s (248 s) |",
+        "| the same when only r changes |  |  | 2.6 s |",
+        "| piston rod, skin 1 mm, L = 2, cells graded along it |  |  |  |",
+        "| 26 x 26 x 26 cells, 33 million triangles, 0.1 GB of memory |  |  | 4.4 s (1 h) |",
+    ]
+    readme = tmp_path / "README.md"
+    readme.write_text((ROOT / "README.md").read_text(encoding="utf-8"), encoding="utf-8")
+    before = readme.read_text(encoding="utf-8").splitlines()
+    write_into(readme, made)
+    after = readme.read_text(encoding="utf-8").splitlines()
+    assert set(made.splitlines()) <= set(after)
+    assert [line for line in before if line[:1] != "|"] == [
+        line for line in after if line[:1] != "|"
+    ]
+    readme.write_text("# No table", encoding="utf-8")
+    with pytest.raises(ValueError, match="has no"):
+        write_into(readme, made)

@@ -118,6 +118,7 @@ def test_a_study_without_its_infill_says_so(doc, study):
     assert study.Designs == 6, "the last table stays"
 
 
+@pytest.mark.slow
 def test_a_study_varies_what_drives_the_radius(doc, infill):
     infill.RadiusDrivenBy = "Relative density"
     infill.TargetDensity = 0.2
@@ -134,6 +135,7 @@ def test_a_study_varies_what_drives_the_radius(doc, infill):
     assert infill.RelativeDensity == pytest.approx(0.25, rel=0.005)
 
 
+@pytest.mark.slow
 def test_runs_are_done_in_processes_beside_freecad(doc, infill, monkeypatch):
     from volfrep.studies.running import apart, scheduling
 

@@ -112,6 +112,7 @@ def test_properties_with_other_names_keep_their_values(earlier):
         assert {name: obj.getGroupOfProperty(name) for name in groups} == groups
 
 
+@pytest.mark.slow
 def test_the_same_lattice_is_computed_again(earlier):
     """Where fewer facets were asked for than struts need, they had lost some of their volume."""
     for label, obj in earlier.items():
@@ -174,6 +175,7 @@ def test_expressions_follow_the_names(earlier):
     assert doc.Sheet.B2.Value == pytest.approx(1.5), "and of a spreadsheet's cell"
 
 
+@pytest.mark.slow
 def test_a_migrated_document_is_saved_and_opened_as_it_is(earlier, reopened, runs):
     doc = earlier["Plain"].Document
     for obj in earlier.values():
@@ -210,8 +212,8 @@ def test_a_copy_in_another_document_brings_its_solid(infill):
         App.closeDocument(other.Name)
 
 
-def test_ten_edits_undone_and_redone(doc, infill, runs):
-    radii = [0.62 + 0.07 * k for k in range(10)]
+def test_edits_undone_and_redone(doc, infill, runs):
+    radii = [0.62, 0.69, 0.76, 0.83]
     seen = [digest(infill)]
     for radius in radii:
         doc.openTransaction("Radius")
@@ -220,7 +222,7 @@ def test_ten_edits_undone_and_redone(doc, infill, runs):
         doc.commitTransaction()
         assert infill.isValid(), infill.getStatusString()
         seen.append(digest(infill))
-    assert len(set(seen)) == 11
+    assert len(set(seen)) == 1 + len(radii)
     count = len(runs)
     for expected in reversed(seen[:-1]):
         doc.undo()

@@ -52,7 +52,9 @@ def test_result_is_one_closed_light_solid(infill, box):
         assert getattr(infill.Mesh.BoundBox, face) == pytest.approx(outer, abs=1e-4)
 
 
-@pytest.mark.parametrize("cell", PAPERS)
+@pytest.mark.parametrize(
+    "cell", ["CVC", *(pytest.param(c, marks=pytest.mark.slow) for c in PAPERS if c != "CVC")]
+)
 def test_every_cell_of_the_library(doc, box, cell):
     obj = make_lattice_infill(doc, box, CellType=cell, **SMALL)
     doc.recompute()

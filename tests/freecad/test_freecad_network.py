@@ -56,6 +56,7 @@ def test_a_network_is_written_as_beams_and_turned(doc, box, tmp_path):
     assert obj.Volume.Value < before - 1.0
 
 
+@pytest.mark.slow
 def test_a_network_is_shown_before_it_is_made_and_meets_a_density(doc, box):
     obj = make_lattice_infill(
         doc, box, Network="Voronoi", NetworkPoints=15, ShellThickness=1.5,

@@ -61,6 +61,7 @@ def test_a_step_part_becomes_one_printable_body(doc, name):
     assert 0 < infill.Volume.Value < base.Shape.Volume
 
 
+@pytest.mark.slow
 def test_a_part_that_is_thin_everywhere_is_refused_with_a_sentence(doc):
     """The bent tray's sheet is thinner than two skins."""
     infill = make_lattice_infill(

@@ -67,6 +67,7 @@ def test_statistics_tell_what_the_lattice_does(doc, infill):
     assert does.rows == ()
 
 
+@pytest.mark.slow
 def test_statistics_tell_what_walls_do(doc, infill, monkeypatch):
     """On coarse grids: how fine they are is the engine's matter."""
     asked = []

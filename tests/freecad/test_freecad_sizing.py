@@ -148,6 +148,7 @@ def test_a_script_sizes_in_one_call(infill):
         size_lattice(infill, safty=2)
 
 
+@pytest.mark.slow
 def test_a_target_gives_the_mass_that_is_distributed(infill):
     loaded(infill)
     infill.RadiusDrivenBy, infill.TargetDensity = "Relative density", 0.05

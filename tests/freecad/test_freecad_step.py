@@ -33,7 +33,7 @@ def cube(size, at=(0.0, 0.0, 0.0)):
 
 
 def test_a_faceted_lattice(tmp_path):
-    mesh = block(LatticeSpec(cell="CVC", cell_size=10, strut_radius=1), (1, 1, 1)).mesh
+    mesh = block(LatticeSpec("CVC", 10, 1, resolution=8), (1, 1, 1)).mesh
     write_step_faceted(mesh, tmp_path / "cell.step")
     shape = read(tmp_path / "cell.step")
     assert shape.ShapeType == "Solid"

@@ -186,7 +186,7 @@ def test_only_what_drives_the_radius_is_shown(doc, box):
     ("by", "settings"),
     [
         ("Relative density", {"TargetDensity": 0.2}),
-        ("Mass", {"TargetMass": 7.0}),
+        pytest.param("Mass", {"TargetMass": 7.0}, marks=pytest.mark.slow),
         ("Stiffness", {"TargetStiffness": 40.0, "PrintMaterial": "PA12"}),
     ],
 )

@@ -76,6 +76,7 @@ def test_a_formula_of_ones_own_is_made_and_a_wrong_one_refused(box) -> None:
     assert infill.Triangles == made
 
 
+@pytest.mark.slow
 def test_the_preview_and_the_print_check_know_walls(box) -> None:
     doc = box.Document
     infill = make_lattice_infill(

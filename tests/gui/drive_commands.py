@@ -15,6 +15,7 @@ import FreeCADGui as Gui
 from PySide import QtCore, QtGui
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
+import new_infill
 from driving import (
     OUT,
     answer_file_dialog,
@@ -27,7 +28,6 @@ from driving import (
     drawn_share,
     figures,
     infills,
-    look_at_all,
     move_mouse,
     panel,
     picture,
@@ -39,6 +39,7 @@ from driving import (
     settle,
     shades,
     show_model,
+    slow,
     toolbar_button,
     type_value,
     wait_until,
@@ -58,20 +59,9 @@ FOLDER.mkdir()
 
 def filled():
     """A document with a box that has a lattice, and an empty report view."""
-    from freecad_volfrep import make_lattice_infill
-
-    doc = App.newDocument("Tutorial")
-    doc.UndoMode = 1
-    box = doc.addObject("Part::Box", "Block")
-    box.Length, box.Width, box.Height = 40, 30, 20
-    doc.openTransaction("Fill")
-    obj = make_lattice_infill(doc, box, CellSize=10, StrutRadius=1, ShellThickness=1)
-    doc.recompute()
-    doc.commitTransaction()
-    box.Visibility = False
+    made = new_infill.filled("Tutorial")
     show_report_view()
-    look_at_all()
-    return doc, box, obj
+    return made
 
 
 def filled_but_the_box():
@@ -129,14 +119,10 @@ def the_commands_without_a_document():
         check(f"{name} without a document", toolbar_button(name).isEnabled() == active)
 
 
+@slow
 def fill_a_box():
     """The tutorial's first steps: select a box, fill it by way of the panel."""
-    doc = App.newDocument("Tutorial")
-    doc.UndoMode = 1
-    box = doc.addObject("Part::Box", "Block")
-    box.Length, box.Width, box.Height = 40, 30, 20
-    doc.recompute()
-    look_at_all()
+    doc, box = new_infill.boxed("Tutorial")
     select(box)
     picture("tutorial_1_select")
     click(toolbar_button("Lattice Infill"))
@@ -214,6 +200,7 @@ def row_of(editor, name):
     return search(QtCore.QModelIndex())
 
 
+@slow
 def type_a_radius(doc, obj):
     """A radius that is typed into the property editor makes a new mesh, once."""
     from freecad_volfrep.gui import progress
@@ -631,11 +618,13 @@ def read_the_help():
     window("VolfrepHelp").close()
 
 
+@slow
 def open_the_bracket():
     """Its entry of Examples opens it, computed."""
     opened_example("Bracket")
 
 
+@slow
 def open_the_piston_rod():
     """So does its entry."""
     opened_example("Piston Rod")

@@ -11,6 +11,7 @@ import numpy as np
 from PySide import QtCore, QtGui
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
+import new_infill
 from driving import (
     OUT,
     answer_panel,
@@ -26,6 +27,7 @@ from driving import (
     section_docks,
     seen,
     settle,
+    slow,
     toolbar_button,
     view_3d,
     wait_until,
@@ -65,15 +67,7 @@ def primitives_drawn(obj):
 
 def made():
     """An infill of a box, shown from a corner."""
-    from freecad_volfrep import make_lattice_infill
-
-    doc = App.newDocument("Drive")
-    doc.UndoMode = 1
-    box = doc.addObject("Part::Box", "Block")
-    box.Length, box.Width, box.Height = 40, 30, 20
-    obj = make_lattice_infill(doc, box, CellSize=10, StrutRadius=1, ShellThickness=1)
-    doc.recompute()
-    box.Visibility = False
+    _, _, obj = new_infill.filled()
     Gui.activeDocument().activeView().viewIsometric()
     Gui.SendMsgToActiveView("ViewFit")
     settle()
@@ -108,6 +102,7 @@ def display_modes(obj):
     check("what is not shown is dropped", node_of(obj, "Simplified").getNumChildren() == 0)
 
 
+@slow
 def many_struts(obj):
     """Above the preference struts are lines, and a large mesh that is simplified stays so."""
     group = App.ParamGet(GROUP)
@@ -344,6 +339,7 @@ def colours(obj):
     check("none is none", legends() == 0, legends())
 
 
+@slow
 def frames():
     """What a frame of a mesh of half a million triangles costs, and of its struts."""
     from freecad_volfrep import make_lattice_infill

@@ -35,6 +35,7 @@ from driving import (
     select,
     settle,
     shoot,
+    slow,
     toolbar_button,
     wait_until,
     window,
@@ -180,6 +181,7 @@ def new_radii(obj):
     return prepare
 
 
+@slow
 def leave_check_mesh(obj):
     """Check Mesh."""
     escape(lambda: select(obj), lambda: click(toolbar_button("Check Mesh")))
@@ -191,6 +193,7 @@ def leave_an_update(obj):
     escape(new_radii(obj), lambda: click(toolbar_button("Update Lattice Infill")))
 
 
+@slow
 def leave_a_refresh(obj):
     """FreeCAD's own recompute."""
     text = Gui.Command.get("Std_Refresh").getInfo()["menuText"].replace("&", "")
@@ -203,6 +206,7 @@ def leave_the_print_check(obj):
     escape(lambda: select(obj), lambda: click(toolbar_button("Print Check")), take_away(obj, kept))
 
 
+@slow
 def leave_the_panel(obj):
     """The panel's OK, which closes it at once."""
     radius = new_radii(obj)
@@ -227,16 +231,19 @@ def leave_the_exact_solid(obj):
     escape(lambda: select(obj), lambda: choose_after("Lattice To Solid", "exact"), take_away(obj))
 
 
+@slow
 def leave_the_instances(obj):
     """Lattice To Solid, the one of links."""
     escape(lambda: select(obj), lambda: choose_after("Lattice To Solid", "link"), take_away(obj))
 
 
+@slow
 def leave_the_tetrahedra(obj):
     """FEM Analysis, the one of tetrahedra."""
     escape(lambda: select(obj), lambda: choose_after("FEM Analysis", "tetrahedra"), take_away(obj))
 
 
+@slow
 def leave_an_example():
     """An example, which fills a new document."""
 

@@ -9,6 +9,7 @@ import FreeCADGui as Gui
 from PySide import QtGui
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
+import new_infill
 from driving import (
     answer_panel,
     check,
@@ -20,6 +21,7 @@ from driving import (
     run_checks,
     select,
     settle,
+    slow,
     turn_to,
     wait_until,
     window,
@@ -183,11 +185,7 @@ def look_at_the_dark():
 
 def boxed():
     """A document with a box."""
-    doc = App.newDocument("Drive")
-    doc.UndoMode = 1
-    box = doc.addObject("Part::Box", "Block")
-    box.Length, box.Width, box.Height = 40, 30, 20
-    doc.recompute()
+    new_infill.boxed("Drive")
     Gui.activeDocument().activeView().viewIsometric()
     Gui.SendMsgToActiveView("ViewFit")
     settle()
@@ -209,11 +207,13 @@ def italian():
     in_language("Italian")
 
 
+@slow
 def german():
     """The whole window in German, and the tables."""
     in_language("German")
 
 
+@slow
 def english():
     """Back to the texts of the sources."""
     Gui.setLocale("German")

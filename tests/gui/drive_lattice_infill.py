@@ -15,6 +15,7 @@ import FreeCADGui as Gui
 from PySide import QtCore, QtGui
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
+import new_infill
 from driving import (
     OUT,
     Watch,
@@ -41,6 +42,7 @@ from driving import (
     select,
     settle,
     shoot,
+    slow,
     toolbar_button,
     tree_items,
     type_value,
@@ -53,26 +55,12 @@ from driving import (
 
 def boxed():
     """A document with a box, and the button of the command that fills it."""
-    doc = App.newDocument("Drive")
-    doc.UndoMode = 1
-    box = doc.addObject("Part::Box", "Block")
-    box.Length, box.Width, box.Height = 40, 30, 20
-    doc.recompute()
-    look_at_all()
-    return doc, box, toolbar_button("Lattice Infill")
+    return *new_infill.boxed("Drive"), toolbar_button("Lattice Infill")
 
 
 def filled():
     """A document with a box that has a lattice."""
-    from freecad_volfrep import make_lattice_infill
-
-    doc, box, _ = boxed()
-    doc.openTransaction("Fill")
-    obj = make_lattice_infill(doc, box, CellSize=10, StrutRadius=1, ShellThickness=1)
-    doc.recompute()
-    doc.commitTransaction()
-    box.Visibility = False
-    settle()
+    doc, _, obj = new_infill.filled("Drive")
     return doc, obj
 
 
@@ -200,7 +188,7 @@ def use_the_panel(doc, box, fill):
     picture("panel_3_refused")
     share = drawn_share("panel_3_refused")
     check("and the solid stays to be seen", share > 0.1, share)
-    for name, length in (("ShellThickness", "1"), ("CellSize", "5"), ("StrutRadius", "0.5")):
+    for name, length in (("ShellThickness", "1"), ("CellSize", "8"), ("StrutRadius", "0.8")):
         type_value(name, f"{length} mm")
     click(panel_part("Compute"))
     check("Compute makes the mesh", wait_until(lambda: obj.Mesh.CountFacets > 0))
@@ -270,6 +258,7 @@ def choose(name, text):
     settle()
 
 
+@slow
 def drive_the_radius(doc, obj):
     """Density, mass and stiffness in place of the radius: the preview shows the one found."""
     from freecad_volfrep.features.quantities import is_driven, number_of
@@ -469,6 +458,7 @@ def check_the_print(doc, obj):
     doc.removeObject(made.Name)
 
 
+@slow
 def open_a_face(doc, obj):
     """Open Faces leaves a picked face of the solid without a skin, in one undo step."""
     obj.Visibility, obj.Base.Visibility = False, True  # to pick a face
@@ -640,6 +630,7 @@ def scene_has(name):
     return name in [scene.getChild(k).getName().getString() for k in range(scene.getNumChildren())]
 
 
+@slow
 def make_a_solid(doc, obj):
     """Lattice To Solid asks, with figures, and makes a Part solid."""
     asked = []

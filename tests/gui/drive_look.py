@@ -14,6 +14,7 @@ import numpy as np
 from PySide import QtGui
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
+import new_infill
 from driving import (
     OUT,
     answer_panel,
@@ -31,6 +32,7 @@ from driving import (
     seen,
     select,
     settle,
+    slow,
     toolbar_button,
     view_3d,
     wait_until,
@@ -150,29 +152,17 @@ def button(name):
 def boxed():
     """A document with a box, before white."""
     even_background()
-    doc = App.newDocument("Look")
-    doc.UndoMode = 1
-    box = doc.addObject("Part::Box", "Block")
-    box.Length, box.Width, box.Height = 40, 30, 20
-    doc.recompute()
-    look_at_all()
-    return doc, box
+    return new_infill.boxed("Look")
 
 
 def filled():
     """The same with a lattice."""
-    from freecad_volfrep import make_lattice_infill
-
-    doc, box = boxed()
-    obj = make_lattice_infill(
-        doc, box, CellSize=10, StrutRadius=1, ShellThickness=1.5, Deviation=0.01
-    )
-    doc.recompute()
-    box.Visibility = False
-    look_at_all()
+    even_background()
+    doc, _, obj = new_infill.filled("Look", ShellThickness=1.5, Deviation=0.01)
     return doc, obj
 
 
+@slow
 def fill_a_box(doc, box):
     """From a box by clicks to a part that is computed, cutting it open on the way."""
     select(box)
@@ -254,6 +244,7 @@ def show_the_colours_chosen(doc, obj):
     check("and is all there is", found["skin"] > 0.9, found)
 
 
+@slow
 def show_large_ones_alike(doc, obj):
     """A mesh above the preference is drawn coarsely, in the same colours."""
     group = App.ParamGet(GROUP)
@@ -269,6 +260,7 @@ def show_large_ones_alike(doc, obj):
     looks_good("look_8_simplified")
 
 
+@slow
 def show_a_graded_part(doc, obj):
     """Struts that thicken along the part; then one without a skin."""
     obj.RadiusGrading = "Direction"
@@ -283,6 +275,7 @@ def show_a_graded_part(doc, obj):
     looks_good("look_9_lattice", with_skin=False)
 
 
+@slow
 def look_alike_undone_and_reopened(doc, obj):
     """A step back, and a file that is opened, look like what was computed."""
     doc.openTransaction("smaller cells")
@@ -304,6 +297,7 @@ def look_alike_undone_and_reopened(doc, obj):
     looks_good("look_a_reopened")
 
 
+@slow
 def show_the_bracket():
     """The shipped example, in both of our modes."""
     from freecad_volfrep.examples.filled import open_example

@@ -10,6 +10,7 @@ import FreeCADGui as Gui
 from PySide import QtCore, QtGui
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
+import new_infill
 from driving import (
     OUT,
     answer_file_dialog,
@@ -40,13 +41,7 @@ LONG = "an_import_with_a_label_of_a_length_that_every_unnamed_part_of_an_assembl
 
 def filled():
     """A document with a box that has a lattice."""
-    from freecad_volfrep import make_lattice_infill
-
-    doc, box = boxed()
-    obj = make_lattice_infill(doc, box, CellSize=10, StrutRadius=1, ShellThickness=1)
-    doc.recompute()
-    box.Visibility = False
-    settle()
+    doc, _, obj = new_infill.filled()
     return doc, obj
 
 

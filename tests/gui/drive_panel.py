@@ -25,6 +25,7 @@ from driving import (
     run_checks,
     select,
     settle,
+    slow,
     toolbar_button,
     type_value,
     wait_until,
@@ -209,6 +210,7 @@ def start_from_a_recipe(doc, box):
     cancelled()
 
 
+@slow
 def see_what_the_printer_minds(doc, box):
     """Figures against the process, red where it does not take them; the mesh's once computed."""
     obj = opened(box)

@@ -15,6 +15,7 @@ import FreeCADGui as Gui
 from PySide import QtCore
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
+import new_infill
 from driving import (
     PATIENCE,
     check,
@@ -30,6 +31,7 @@ from driving import (
     section_docks,
     select,
     settle,
+    slow,
     toolbar_button,
     view_3d,
     wait_until,
@@ -94,14 +96,7 @@ def every_command_can_be_reached():
 
 def filled():
     """An infill to work with."""
-    from freecad_volfrep import make_lattice_infill
-
-    doc = App.newDocument("Reach")
-    box = doc.addObject("Part::Box", "Block")
-    box.Length, box.Width, box.Height = 40, 30, 20
-    obj = make_lattice_infill(doc, box, CellSize=10, StrutRadius=1, ShellThickness=2, Resolution=8)
-    doc.recompute()
-    box.Visibility = False
+    _, _, obj = new_infill.filled("Reach", ShellThickness=2, Resolution=8)
     Gui.activeDocument().activeView().viewIsometric()
     Gui.SendMsgToActiveView("ViewFit")
     settle()
@@ -140,11 +135,13 @@ def open_sections(obj):
     one_opens("by the context menu elsewhere")
 
 
+@slow
 def revive_what_windows_have_saved(obj):
     """A FreeCAD without the workbench saves it, with windows: it lives here again."""
     revive_what_was_saved_elsewhere(obj, True)
 
 
+@slow
 def revive_what_no_window_has_saved(obj):
     """The same of a FreeCAD without windows, in which views are lost."""
     revive_what_was_saved_elsewhere(obj, False)

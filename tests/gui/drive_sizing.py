@@ -21,6 +21,7 @@ from driving import (
     select,
     settle,
     shades,
+    slow,
     toolbar_button,
     view_3d,
     wait_until,
@@ -175,6 +176,7 @@ def cancel_the_panel(doc, obj):
     check("the infill is shown", obj.ViewObject.Visibility)
 
 
+@slow
 def escape_keeps_the_best(doc, obj):
     """Escape ends a long search, and the best design so far can be taken."""
     open_panel(obj)

@@ -7,24 +7,24 @@ Writes pictures and ``study.json`` to GUI_OUT and leaves with 0 when every check
 import sys
 from pathlib import Path
 
-import FreeCAD as App
 import FreeCADGui as Gui
 from PySide import QtGui
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
+import new_infill
 from driving import (
     answer_panel,
     check,
     choose_in_context_menu,
     click,
     click_in_tree,
-    look_at_all,
     move_mouse,
     picture,
     press_button,
     run_checks,
     select,
     settle,
+    slow,
     toolbar_button,
     wait_until,
     xdotool,
@@ -33,18 +33,7 @@ from driving import (
 
 def filled():
     """A document with a box that has a lattice."""
-    from freecad_volfrep import make_lattice_infill
-
-    doc = App.newDocument("Study")
-    doc.UndoMode = 1
-    box = doc.addObject("Part::Box", "Block")
-    box.Length, box.Width, box.Height = 40, 30, 20
-    infill = make_lattice_infill(
-        doc, box, CellType="CVC", CellSize=10, StrutRadius=1, ShellThickness=2
-    )
-    doc.recompute()
-    box.Visibility = False
-    look_at_all()
+    doc, _, infill = new_infill.filled("Study", CellType="CVC", ShellThickness=2)
     return doc, infill
 
 
@@ -129,6 +118,7 @@ def study_an_infill(doc, infill):
     check("undo takes it back", infill.CellType == "CVC" and infill.StrutRadius.Value == 1.0)
 
 
+@slow
 def open_it_again(doc, infill):
     """A double click opens the study with its designs; so does the context menu."""
     from freecad_volfrep import make_design_study, run_study

@@ -14,6 +14,7 @@ import FreeCADGui as Gui
 from PySide import QtCore, QtGui
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
+import new_infill
 from driving import (
     PATIENCE,
     Watch,
@@ -34,6 +35,7 @@ from driving import (
     select,
     settle,
     shoot,
+    slow,
     start_by_click,
     toolbar_button,
     tree_items,
@@ -47,17 +49,8 @@ from driving import (
 
 def filled():
     """A document with a box that has a lattice, which waits for the command."""
-    from freecad_volfrep import make_lattice_infill
-
-    doc = App.newDocument("Window")
-    doc.UndoMode = 1
-    box = doc.addObject("Part::Box", "Block")
-    box.Length, box.Width, box.Height = 40, 30, 20
-    obj = make_lattice_infill(doc, box, CellSize=10, StrutRadius=1, ShellThickness=1)
-    doc.recompute()
+    doc, _, obj = new_infill.filled("Window")
     obj.AutoUpdate = False
-    box.Visibility = False
-    look_at_all()
     select(obj)
     return doc, obj
 
@@ -329,6 +322,7 @@ def close_the_document_while_it_is_made(doc, obj):
     settle()
 
 
+@slow
 def fill_two_at_once(doc, boxes):
     """Two solids are filled after a question, one after the other."""
     asked = []
@@ -355,6 +349,7 @@ def fill_two_at_once(doc, boxes):
     check("and shows them", not any(box.Visibility for box in boxes))
 
 
+@slow
 def answers_meanwhile(doc, obj):
     """Figures: the longest time that Qt's loop stood still while a mesh was made and taken over.
 

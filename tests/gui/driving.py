@@ -697,8 +697,27 @@ def fold_sections(as_usual=True):
         keep_folded(section, as_usual, usually=True)
 
 
+_slow = []
+
+
+def slow(function):
+    """Mark a check that waits for `make test-slow`, because others show the same sooner."""
+    _slow.append(function)
+    return function
+
+
+def is_wanted(function):
+    """Whether a check is one of those that GUI_CHECKS names or, without names, that MARK means."""
+    wanted = os.environ.get("GUI_CHECKS", "").split()
+    if wanted:
+        return function.__name__ in wanted
+    return {"": True, "slow": function in _slow, "not slow": function not in _slow}[
+        os.environ.get("MARK", "")
+    ]
+
+
 def run_checks(name, checks):
-    """Run checks, or those of them that GUI_CHECKS names, each in a window that was cleared.
+    """Run those of the checks that are wanted, each in a window that was cleared.
 
     Args:
         name: of the file of figures.
@@ -712,14 +731,14 @@ def run_checks(name, checks):
         for one in set(wanted) - set(known):
             fail(f"there is no check '{one}': {', '.join(known)}")
         for one, (function, make) in known.items():
-            if wanted and one not in wanted:
+            if not is_wanted(function):
                 continue
             _running = one
             print(f"check: {one}", file=sys.__stdout__, flush=True)
             hangs = threading.Timer(LONGEST, _give_up, (name,))
             hangs.daemon = True
             hangs.start()
-            start = time.monotonic()
+            start, used = time.monotonic(), processor_seconds()
             try:
                 clear()
                 function(*(make() if make is not None else ()))
@@ -730,10 +749,24 @@ def run_checks(name, checks):
             Watch.end_all()
             check("nothing is raised in the window", "Traceback" not in said(), said()[-2000:])
             figures[f"seconds: {one}"] = round(time.monotonic() - start, 1)
+            figures[f"processor: {one}"] = round(processor_seconds() - used, 1)
         _running = ""
         clear()
 
     _run(drive, name)
+
+
+def processor_seconds():
+    """Of this process, of those that it has started, and of those that are over, in s."""
+    ticks = 0
+    for stat in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            fields = stat.read_text().rpartition(")")[2].split()
+        except OSError:  # it has ended meanwhile
+            continue
+        if int(fields[1]) == os.getpid():
+            ticks += sum(map(int, fields[11:15]))
+    return sum(os.times()[:4]) + ticks / os.sysconf("SC_CLK_TCK")
 
 
 def _give_up(name):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A box, and the panel of a new infill of it: what several scripts begin with."""
+"""A box, a lattice in it, and the panel of a new infill: what most scripts begin with."""
 
 import FreeCAD as App
 from driving import (
@@ -15,15 +15,35 @@ from driving import (
 )
 
 
-def boxed():
-    """A document with a box."""
-    doc = App.newDocument("Boxed")
+def boxed(name="Boxed"):
+    """A document with a box, of 40 x 30 x 20 mm."""
+    doc = App.newDocument(name)
     doc.UndoMode = 1
     box = doc.addObject("Part::Box", "Block")
     box.Length, box.Width, box.Height = 40, 30, 20
     doc.recompute()
     look_at_all()
     return doc, box
+
+
+def filled(name="Boxed", **values):
+    """The same with a lattice in the box, which is hidden: document, box and infill.
+
+    Args:
+        name: of the document.
+        values: of the infill's properties, other than those of all scripts.
+    """
+    from freecad_volfrep import make_lattice_infill
+
+    doc, box = boxed(name)
+    doc.openTransaction("Fill")
+    lattice = {"CellSize": 10, "StrutRadius": 1, "ShellThickness": 1, **values}
+    obj = make_lattice_infill(doc, box, **lattice)
+    doc.recompute()
+    doc.commitTransaction()
+    box.Visibility = False
+    look_at_all()
+    return doc, box, obj
 
 
 def opened(box):

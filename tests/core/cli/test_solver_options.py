@@ -108,7 +108,8 @@ def test_a_deck_of_beams_is_ready_for_a_step(tmp_path: Path, part: Path) -> None
 @needs_gmsh
 def test_a_deck_of_tetrahedra(tmp_path: Path, part: Path) -> None:
     out = tmp_path / "part.inp"
-    assert fill(part, out, "--inp", "tetrahedra", "--density", 7.85, "--quiet") == 0
+    coarse = ("--resolution", 8)
+    assert fill(part, out, "--inp", "tetrahedra", "--density", 7.85, "--quiet", *coarse) == 0
     text = out.read_text()
     assert "*ELEMENT,TYPE=C3D10" in text
     assert "*DENSITY\n7.85e-09\n" in text
@@ -130,6 +131,7 @@ def test_exact_surfaces_of_a_block(tmp_path: Path, capsys: pytest.CaptureFixture
     assert text.count("MANIFOLD_SOLID_BREP(") == 1
 
 
+@pytest.mark.slow
 @needs_freecad
 def test_an_exact_part_is_cut_at_its_inner_wall(
     tmp_path: Path, part: Path, capsys: pytest.CaptureFixture[str]

@@ -50,10 +50,10 @@ def part(tmp_path: Path) -> Path:
 
 
 def test_the_file_is_the_same_with_any_number_of_workers(tmp_path: Path, part: Path) -> None:
-    for count in (1, 2, 3):
+    for count in (1, 3):
         assert fill(part, tmp_path / f"{count}.stl", "--workers", count, "--quiet") == 0
-    one, two, three = ((tmp_path / f"{count}.stl").read_bytes() for count in (1, 2, 3))
-    assert one == two == three
+    one, three = ((tmp_path / f"{count}.stl").read_bytes() for count in (1, 3))
+    assert one == three
 
 
 def test_others_help_where_the_job_is_worth_it_or_they_are_asked_for(

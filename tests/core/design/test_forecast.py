@@ -97,6 +97,7 @@ def test_a_thin_skin_of_a_flat_sheet_is_no_long_job():
     assert 0.55 < expected.memory_gb < 2.2
 
 
+@pytest.mark.slow
 def test_cells_that_grow_are_fewer():
     spec = LatticeSpec(
         cell="CVC", cell_size=5.0, strut_radius=0.5, shell=0.0,

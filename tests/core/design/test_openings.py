@@ -68,6 +68,7 @@ def test_an_open_part_is_where_skin_or_lattice_is():
     assert area == pytest.approx(1200.0 * share, abs=0.02 * 1200.0 * share + 3 * deviation)
 
 
+@pytest.mark.slow
 def test_the_skin_keeps_its_thickness_up_to_the_open_face():
     solid = samples.plate()
     is_open = open_triangles(solid, (OpenPlane((0.0, 0.0, 12.0), (0.0, 0.0, 1.0)),))
@@ -99,6 +100,7 @@ def test_a_plate_may_be_open_on_both_sides():
     assert report.relative_density == pytest.approx(lattice / report.domain_volume_mm3, rel=0.02)
 
 
+@pytest.mark.slow
 def test_the_outputs_of_an_open_part_add_up():
     solid, cache = samples.box(), StageCache()
     part, lattice, domain = (

@@ -124,6 +124,7 @@ def test_the_sides_of_a_decks_tetrahedra_hold_whole_joints(sample, tmp_path: Pat
     assert moved.mean() == pytest.approx(1.53, rel=0.03)
 
 
+@pytest.mark.slow
 def test_the_sides_of_a_decks_tetrahedra_are_balls_and_not_points(sample):
     """Nodes spread evenly over the sample's box: as many on a side as its joints' balls hold."""
     frame, fixed, loaded = sample

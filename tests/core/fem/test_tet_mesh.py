@@ -84,6 +84,7 @@ def test_what_gmsh_cannot_fill():
         tetrahedra(crossing)
 
 
+@pytest.mark.slow
 @needs_gmsh
 def test_a_part_has_its_cavity_and_knows_its_outside():
     """Also where the wall's Boolean left needles, which are mended."""

@@ -107,6 +107,7 @@ def test_a_lattice_that_is_turned(suffix: str, tmp_path: Path) -> None:
     assert seen.volume == pytest.approx(whole.volume, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_a_lattice_that_is_turned_is_what_its_mesh_would_have_been(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
@@ -118,6 +119,7 @@ def test_a_lattice_that_is_turned_is_what_its_mesh_would_have_been(
     assert (one.triangles, one.genus, one.bodies) == (two.triangles, two.genus, two.bodies)
 
 
+@pytest.mark.slow
 def test_beams_and_triangles_in_one_file(tmp_path: Path, unmeshed: TrimmedSurface) -> None:
     path = tmp_path / "both.3mf"
     write_3mf_beams(part().part_beams, path, unmeshed)

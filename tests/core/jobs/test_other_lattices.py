@@ -64,6 +64,7 @@ def test_a_preview_has_the_figures_of_what_is_made(more: dict[str, object]) -> N
     assert 0.7 * lattice < found.volume < 1.6 * lattice  # thin sheets are drawn thicker
 
 
+@pytest.mark.slow
 def test_walls_that_are_too_many_are_not_shown() -> None:
     with pytest.raises(VolfrepError, match="too much to be shown"):
         preview(BOX, LatticeSpec("Gyroid", 0.3, wall=Wall("sheet", 0.1)), DEPTH)

@@ -76,6 +76,7 @@ def test_the_outputs_add_up():
     assert part.report.relative_density == pytest.approx(lattice.report.relative_density, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_the_papers_rule_takes_fewer_cells():
     solid = samples.sphere(24.0)
     touching, centre = (

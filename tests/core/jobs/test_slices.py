@@ -101,6 +101,7 @@ def test_the_common_layer_interface_tells_every_outline(tmp_path):
     assert area == pytest.approx(made.area, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_an_open_face_is_open_in_the_layers(tmp_path):
     solid = samples.box((20.0, 20.0, 10.0))
     spec = replace(
@@ -126,6 +127,7 @@ def test_a_lattice_in_slabs_has_the_same_layers(tmp_path, monkeypatch):
         assert "layer by layer" in slabs.warnings[-1]
 
 
+@pytest.mark.slow
 def test_a_target_is_met_in_layers(tmp_path):
     spec = replace(SPEC, target=Target("relative_density", 0.2))
     # The skin is six layers thick.

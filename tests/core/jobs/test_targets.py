@@ -72,6 +72,7 @@ def test_the_mass_is_that_of_the_finished_part_with_its_skin_and_holes() -> None
     assert part.report.mass_g == pytest.approx(45.0, rel=NEAR)
 
 
+@pytest.mark.slow
 def test_the_first_mesh_is_already_right_and_the_wall_is_found_once() -> None:
     spec = LatticeSpec(cell_size=8.0, strut_radius=0.5, target=density(0.2))
     solid = check_solid(samples.bracket(33.0), "part")
@@ -88,6 +89,7 @@ def test_a_block_has_the_relative_density_asked_for(cell, count) -> None:
     assert made.mesh.volume / (np.prod(count) * 125.0) == pytest.approx(0.25, rel=NEAR)
 
 
+@pytest.mark.slow
 def test_a_graded_block_has_the_mass_asked_for() -> None:
     grading = SizeGrading(Profile("linear", 1.0, 1.6))
     made = volfrep.block((2, 1, 2), cell="BCC", cell_size=6, size_grading=grading, mass=0.5)
@@ -119,6 +121,7 @@ def test_a_lattice_that_is_pruned_or_deformed_has_the_density_asked_for(settings
     assert rough == pytest.approx(infill.spec.strut_radius, rel=0.12)
 
 
+@pytest.mark.slow
 def test_a_job_is_forecast_with_about_the_radius_of_its_target() -> None:
     solid = check_solid(samples.bracket(33.0), "part")
     for target in (Target("mass", 48.0), Target("stiffness", 0.01, (1.0, 1.0, 1.0))):
@@ -131,6 +134,7 @@ def test_a_job_is_forecast_with_about_the_radius_of_its_target() -> None:
         assert told.triangles == pytest.approx(known.triangles, rel=0.3)
 
 
+@pytest.mark.slow
 def test_the_volume_inside_whole_cells_is_that_of_the_endless_lattice() -> None:
     """Cells that fill a box to its faces are cut there as the endless lattice's cells are."""
     solid = check_solid(samples.box((16.0, 16.0, 8.0)), "box")

@@ -37,6 +37,7 @@ def test_which_walls_equal_their_mirror_images_and_which_are_cubic():
     assert is_cubic(half), "its sides need not be exchanged"
 
 
+@pytest.mark.slow
 def test_the_density_is_that_of_counted_points():
     for name, kind in (("Gyroid", "sheet"), ("IWP", "skeleton"), ("Schwarz D", "complement")):
         solid = WallSolid.of(find_surface(name), Wall(kind, 0.08, 0.02), 1.0)

@@ -40,6 +40,7 @@ def test_a_file_is_written_once(tmp_path):
     assert report.work["triangles laid"] == report.triangles
 
 
+@pytest.mark.slow
 def test_the_boolean_grows_with_the_surface():
     """Twice the size: four times the triangles laid and cut, eight times those of the lattice."""
     small, large = cube(7), cube(14)

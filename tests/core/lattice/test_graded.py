@@ -251,6 +251,7 @@ def test_a_field_sets_the_radius_through_its_curve():
     assert radius[on_line] == pytest.approx(expected[on_line], abs=0.06)
 
 
+@pytest.mark.slow
 def test_cells_about_an_axis_leave_room_for_their_struts():
     """None is squeezed to less than what its struts need: the lattice is hollow about the axis."""
     spec = LatticeSpec(

@@ -23,6 +23,11 @@ def trimmed(request):
     return fill(solid, spec).mesh
 
 
+@pytest.fixture(scope="module")
+def better(trimmed):
+    return well_shaped(trimmed, TOLERANCE, 0.1)
+
+
 def corners(mesh):
     return mesh.vertices[mesh.triangles]
 
@@ -37,16 +42,13 @@ def test_angles_are_those_of_triangles_that_are_known():
     assert is_bad(flat).tolist() == [False, False, True]
 
 
-def test_few_needles_of_a_trimmed_part_are_left(trimmed):
-    before, after = (
-        is_bad(corners(mesh)).sum() for mesh in (trimmed, well_shaped(trimmed, TOLERANCE, 0.1))
-    )
+def test_few_needles_of_a_trimmed_part_are_left(trimmed, better):
+    before, after = (is_bad(corners(mesh)).sum() for mesh in (trimmed, better))
     assert before > 100
     assert after < 0.02 * before
 
 
-def test_its_surface_stays(trimmed):
-    better = well_shaped(trimmed, TOLERANCE, 0.1)
+def test_its_surface_stays(trimmed, better):
     was, now = measure(trimmed), measure(better)
     assert now.watertight
     assert (now.genus, now.bodies, now.voids) == (was.genus, was.bodies, was.voids)
@@ -58,8 +60,8 @@ def test_its_surface_stays(trimmed):
     assert not crossing_triangles(better, np.ones(len(better.triangles), bool), 1e-9).any()
 
 
-def test_it_does_not_grow_out_of_hand(trimmed):
-    assert len(well_shaped(trimmed, TOLERANCE, 0.1).triangles) < 2 * len(trimmed.triangles)
+def test_it_does_not_grow_out_of_hand(trimmed, better):
+    assert len(better.triangles) < 2 * len(trimmed.triangles)
 
 
 def test_a_mesh_without_needles_is_left_alone():

@@ -154,7 +154,7 @@ def test_two_thousand_points_in_a_part_with_a_skin_are_one_body():
 
 
 def test_the_same_seed_gives_the_same_network():
-    solid = samples.bracket(17.0)
+    solid = samples.box()
 
     def nodes(**more):
         return infill_of(solid, random_spec(**more), cache=_stages).struts.nodes

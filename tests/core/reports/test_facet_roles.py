@@ -59,6 +59,7 @@ def test_the_outside_of_a_box_is_its_faces_and_the_wall_a_smaller_box(grading):
     assert middles.min() > SHELL * (1 - 1e-5)
 
 
+@pytest.mark.slow
 def test_wall_and_outside_of_a_ball_are_two_spheres():
     solid = samples.sphere(20.0, 4)
     mesh, kinds = told(solid)

@@ -24,11 +24,13 @@ def test_a_window_lets_its_inscribed_circle_through(name, ratio):
     assert largest_ball(find_cell(name), ratio) == pytest.approx(expected, abs=2e-3)
 
 
+@pytest.mark.slow
 def test_the_octets_window_is_narrower_than_its_struts_are_apart():
     """L = 10, r = 1.6: 0.88 mm between struts that meet, where those that do not leave 1.8."""
     assert 10.0 * largest_ball(find_cell("Octet"), 0.16) == pytest.approx(0.88, abs=0.01)
 
 
+@pytest.mark.slow
 def test_nothing_passes_a_wall_of_struts():
     places = np.linspace(0.0, 1.0, 6)
     nodes = [(x, y, 0.5) for x in places for y in places]

@@ -58,6 +58,7 @@ def test_two_cells_a_side_have_every_gap_of_an_endless_lattice(cell):
     )
 
 
+@pytest.mark.slow
 def test_what_is_open_holds_nothing():
     lattice = {"cell": "CVC", "cell_size": 10.0, "strut_radius": 1.0}
     assert told(LatticeSpec(**lattice, shell=2.0)).void_mm3 > 0.0
@@ -68,6 +69,7 @@ def test_what_is_open_holds_nothing():
     assert told(LatticeSpec(**lattice, shell=2.0, drains=drains)).void_mm3 == 0.0
 
 
+@pytest.mark.slow
 def test_gaps_that_differ_are_not_told():
     even = LatticeSpec(cell="Cross", cell_size=10.0, strut_radius=1.0)
     assert told(even).narrowest_gap_mm == pytest.approx(2.8)

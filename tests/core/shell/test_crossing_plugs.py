@@ -32,6 +32,7 @@ def overlapping_spheres():
     )
 
 
+@pytest.mark.slow
 def test_a_housing_whose_walls_are_hardly_thicker_than_two_skins():
     solid, thickness = samples.housing(), 5.0
     monitor = Monitor()

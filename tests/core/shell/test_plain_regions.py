@@ -36,6 +36,7 @@ def test_a_sheet_needs_few_cubes_and_few_samples():
     assert distance.max() < 1e-4  # needles of the triangulation cost digits
 
 
+@pytest.mark.slow
 def test_the_distance_to_a_surface_with_fewer_samples_is_right_where_the_wall_is():
     solid = samples.sheet((28.0, 28.0, 3.0))
     plain, _ = found(solid)

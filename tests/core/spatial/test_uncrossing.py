@@ -58,6 +58,7 @@ GRADED = LatticeSpec(
 )  # fmt: skip
 
 
+@pytest.mark.slow
 def test_struts_without_room_about_an_axis_do_not_run_through_each_other():
     """140 pairs of facets crossed here before."""
     result = Infill(samples.box((30.0, 24.0, 20.0)), GRADED).result

@@ -52,6 +52,7 @@ def here(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+@pytest.mark.slow
 def test_two_processes_make_the_same_table_as_this_one(here: Path, tmp_path: Path) -> None:
     volfrep.sweep(FILLED, tmp_path, workers=2)
     assert timeless(tmp_path) == timeless(here)
@@ -68,6 +69,7 @@ def test_a_run_over_its_limits_is_ended_and_told(tmp_path: Path) -> None:
         volfrep.sweep(SLOW, tmp_path, limit_hours=0.0)
 
 
+@pytest.mark.slow
 def test_limits_that_are_kept_change_nothing(here: Path, tmp_path: Path) -> None:
     volfrep.sweep(FILLED, tmp_path, workers=1, limit_hours=1.0, limit_memory=8.0)
     assert timeless(tmp_path) == timeless(here)
@@ -113,6 +115,7 @@ def test_an_interpreter_is_asked_whether_it_runs_the_engine(tmp_path: Path) -> N
     assert not apart.runs_engine(Interpreter(sys.executable, (str(tmp_path),)))
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="a shell script stands for the interpreter")
 def test_runs_are_done_by_the_interpreter_that_is_named(tmp_path: Path) -> None:
     named = tmp_path / "python"

@@ -124,6 +124,7 @@ def test_only_figures_that_are_there_are_plotted(tmp_path: Path) -> None:
     assert plotted(volfrep.sweep(study, tmp_path).table, study) == []
 
 
+@pytest.mark.slow
 def test_a_picture_of_the_chosen_is_in_the_page(tmp_path: Path) -> None:
     pytest.importorskip("pyvista", reason="pictures need the optional package pyvista")
     front = Front({"forecast.mass_g": "least"}, ("picture",), 1)

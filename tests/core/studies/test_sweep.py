@@ -67,6 +67,7 @@ def test_what_is_done_is_not_done_again(tmp_path: Path, monkeypatch: pytest.Monk
     assert timeless(tmp_path) == before
 
 
+@pytest.mark.slow
 def test_what_hangs_on_the_material_is_done_anew_with_another(tmp_path: Path) -> None:
     import dataclasses
 
@@ -79,6 +80,7 @@ def test_what_hangs_on_the_material_is_done_anew_with_another(tmp_path: Path) ->
     assert ratio == pytest.approx(find_material("316L").young / find_material("PA12").young)
 
 
+@pytest.mark.slow
 def test_the_forecast_of_the_mass_is_near_what_a_fill_makes(tmp_path: Path) -> None:
     study = Study(
         parts=(BOX,),
@@ -275,6 +277,7 @@ def test_the_table_reads_as_parquet_where_pandas_is_there(tmp_path: Path) -> Non
     assert np.array_equal(frame["forecast.mass_g"], made.table.numbers("forecast.mass_g"))
 
 
+@pytest.mark.slow
 def test_a_range_is_bounds_for_an_optimiser(tmp_path: Path) -> None:
     from scipy.optimize import differential_evolution
 

@@ -201,6 +201,7 @@ def test_groups_give_the_surface_that_one_boolean_gives(
         assert getattr(some, figure) == getattr(one, figure)
 
 
+@pytest.mark.slow
 def test_the_surface_is_the_same_whoever_cuts_the_groups(small_groups):
     domain = tilted_box()
     alone = mesh_of(trimmed(domain))

@@ -60,6 +60,7 @@ def test_every_further_hole_is_one_more_handle():
     assert len(three.drain_holes) == 3
 
 
+@pytest.mark.slow
 def test_a_hole_may_slant():
     solid = samples.box()
     closed = fill(solid, SPEC).report

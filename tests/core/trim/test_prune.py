@@ -214,6 +214,7 @@ def test_cells_that_never_lie_wholly_inside_are_refused():
         fill(samples.box((40.0, 16.0, 16.0)), spec)
 
 
+@pytest.mark.slow
 def test_graded_lattices_lose_free_ends_too():
     solid = samples.sphere(16.0)
     profile = Profile("linear", 1.0, 1.6)

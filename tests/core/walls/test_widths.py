@@ -24,6 +24,7 @@ def test_flat_walls_are_as_thick_and_as_far_apart_as_they_are_made() -> None:
     assert found.gap == pytest.approx(0.38, rel=0.01)
 
 
+@pytest.mark.slow
 def test_a_skeletons_neck_is_the_ball_that_just_fits_through_it() -> None:
     # In the plane x = 0 the Schwarz P is cos y + cos z = -1 about (pi, pi): nearest to that along
     # the diagonal, at 2 pi / 3.

@@ -54,6 +54,7 @@ class Wish:
         smallest: radius, mm.
         largest: radius, mm.
         prove: let CalculiX solve the design, where it is installed.
+        remove: take away struts that end as thin as they may be and carry little.
     """
 
     goal: str
@@ -65,6 +66,7 @@ class Wish:
     smallest: float
     largest: float
     prove: bool = True
+    remove: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -242,6 +244,8 @@ def size_lattice(
 def store_outcome(obj: App.DocumentObject, outcome: Outcome) -> None:
     """Give an infill the radii that were found, and what is to be known of them."""
     store_radii(obj, outcome.part.points, outcome.part.radii)
+    spec = outcome.part.spec
+    obj.RemoveBelow, obj.RemoveDangling = spec.remove_below, spec.remove_dangling
     obj.SizingReport = outcome.to_json()
 
 
@@ -328,7 +332,8 @@ def _goal(wish: Wish, loads: LoadCases) -> Any:
             f"The smallest radius must be above 0 and below the largest, not {wish.smallest:g} and "
             f"{wish.largest:g} mm."
         )
-    radii = {"radius_min": wish.smallest, "radius_max": wish.largest}
+    radii: dict[str, Any] = {"radius_min": wish.smallest, "radius_max": wish.largest}
+    radii["remove_thin"] = wish.remove
     if wish.goal == "stiffness":
         volume = 1000.0 * wish.mass / loads.material.density if wish.mass else None
         return Goal(volume=volume, **radii)

@@ -119,12 +119,14 @@ class Outcome:
         """What was found, in a sentence."""
         sized, before, even = self.part.sized.analysis, self.part.before, self.part.even
         if not self.holds:
-            worst = max(sized.uses, key=lambda name: sized.uses[name])
+            there = (self.part.report["calculix"] or {}).get("uses", {})
+            uses = {name: max(use, there.get(name, 0.0)) for name, use in sized.uses.items()}
+            worst = max(uses, key=lambda name: uses[name])
             return translate(
                 "VolfrepSizePanel",
                 "The limit of {limit} cannot be held between these radii: {use:.0%} of it is used. "
                 "Allow thicker struts, or larger cells.",
-            ).format(limit=translate("VolfrepSizePanel", worst), use=sized.uses[worst])
+            ).format(limit=translate("VolfrepSizePanel", worst), use=uses[worst])
         if even is None:
             return translate(
                 "VolfrepSizePanel",

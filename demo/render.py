@@ -5,12 +5,14 @@
     xvfb-run python demo/render.py cells PICTURE.png
     xvfb-run python demo/render.py graded PICTURE.png
     xvfb-run python demo/render.py deformed PICTURE.png
-    xvfb-run python demo/render.py loads PICTURE.png
+    PYTHONPATH=.cache/plot xvfb-run -a python demo/render.py loads PICTURE.png
+    PYTHONPATH=.cache/plot xvfb-run -a python demo/render.py sized FOLDER
 
 The first cuts a corner out of a filled part so that its skin, its lattice and the cut faces are
 seen, each in a colour of its own; the second shows the library's unit cells with their names; the
 third blocks whose cells or struts vary; the fourth the paper's sample, pulled (see docs/solver.md);
-the fifth the load cases of a bracket (see docs/loads.md).
+the fifth the load cases of a bracket (see docs/loads.md); the sixth sizes that bracket's struts for
+them, which takes half a minute, and makes the pictures of it (see docs/sizing.md).
 """
 
 from __future__ import annotations
@@ -353,6 +355,49 @@ def loads(picture: str) -> None:
     sheet.resize(size, Image.LANCZOS).save(picture, optimize=True)
 
 
+def sized(folder: str) -> None:
+    """Pictures of the bracket of docs/sizing.md: radii, stress before and after, the steps."""
+    root = Path(__file__).resolve().parents[1]
+    sys.path[:0] = [str(root), str(root / ".cache" / "plot")]
+    from bench.parts import lug_bracket
+    from volfrep.jobs.sizing import Goal, size
+    from volfrep.loads.load_file import read_load_cases
+    from volfrep.reports.sizing_picture import sizing_picture
+    from volfrep.reports.sizing_plot import write_sizing_plot
+    from volfrep.sizing.analysis import Limits
+
+    bracket, wide = lug_bracket(), (1400, 900)
+    loads = read_load_cases(Path(__file__).with_name("bracket_loads.toml"), bracket)
+    spec = LatticeSpec("CVC", cell_size=15, strut_radius=1.5, shell=3)
+    assert loads.material.yield_stress is not None
+    goal = Goal(Limits(stress=loads.material.yield_stress / 1.5), radius_min=0.75)
+    made = size(bracket, spec, loads, goal, prove_it=False)
+    for name, value in made.report.items():
+        if name != "steps":
+            print(name, value)
+    out = Path(folder)
+    write_sizing_plot(made.report, out / "sized_bracket_steps.svg")
+    one, most = made.sized.analysis, float(made.sized.analysis.stress[:, :, 0].max())
+    file = out / "sized_bracket.png"
+    sizing_picture(made.model, one, file, size=wide, y_up=True)
+    _smaller(Image.open(file), 2).save(file, optimize=True)
+    sheet = Image.new("RGB", (wide[0], 2 * wide[1]), "white")
+    for row, design in enumerate((made.before, one)):
+        sizing_picture(
+            made.model, design, file.with_name("part.png"), colour="stress", case=0, size=wide,
+            y_up=True, deformed=20.0, scale=(0.0, most),
+        )  # fmt: skip
+        sheet.paste(Image.open(file.with_name("part.png")), (0, row * wide[1]))
+    file.with_name("part.png").unlink()
+    _smaller(sheet, 2).save(out / "sized_bracket_stress.png", optimize=True)
+
+
+def _smaller(picture: Image.Image, times: int) -> Image.Image:
+    return picture.convert("RGB").resize(
+        (picture.width // times, picture.height // times), Image.LANCZOS
+    )
+
+
 def _turn(about_y: float, about_x: float) -> NDArray[np.float64]:
     """Rotation about Y, then about X, in degrees."""
     a, b = np.radians([about_y, about_x])
@@ -362,7 +407,7 @@ def _turn(about_y: float, about_x: float) -> NDArray[np.float64]:
     return rotation
 
 
-PICTURES = {"cells": cells, "graded": graded, "deformed": deformed, "loads": loads}
+PICTURES = {"cells": cells, "graded": graded, "deformed": deformed, "loads": loads, "sized": sized}
 
 
 def main(arguments: list[str]) -> None:

@@ -11,14 +11,24 @@ from typing import Any
 import FreeCAD as App
 
 from freecad_volfrep.compat import gravity_of, in_unit, prescribed, prescribed_turn
-from volfrep.loads.load_cases import Force, Load, LoadCase, LoadCases, Pressure, Support
+from volfrep.loads.load_cases import (
+    Force,
+    Load,
+    LoadCase,
+    LoadCases,
+    Moment,
+    Pressure,
+    Support,
+)
 from volfrep.loads.regions import AnyOf, NearPoint, OnFacets, OnLine, Region, Vector
 from volfrep.mechanics.materials import SolidMaterial
 from volfrep.util.errors import VolfrepError
 
 from .solids import edge_points, face_facets, vertex_point
 
-READ = "fixed, displacement, force, pressure and self-weight"
+READ = "fixed, displacement, force, pressure, self-weight and rigid body"
+#: What a constraint may be: an acceleration is a vector.
+Read = Support | Load | App.Vector
 
 
 def is_analysis(obj: App.DocumentObject) -> bool:
@@ -71,13 +81,13 @@ def _case(analysis: App.DocumentObject, frame: App.Placement) -> LoadCase:
             raise VolfrepError(
                 f"'{constraint.Label}' changes in time or by a formula: give it a plain value."
             )
-        made = read(constraint, frame)
-        if isinstance(made, Support):
-            supports.append(made)
-        elif isinstance(made, App.Vector):
-            pull += made
-        else:
-            loads.append(made)
+        for made in read(constraint, frame):
+            if isinstance(made, Support):
+                supports.append(made)
+            elif isinstance(made, App.Vector):
+                pull += made
+            else:
+                loads.append(made)
     return LoadCase(analysis.Label, tuple(supports), tuple(loads), _tuple(pull))
 
 
@@ -96,11 +106,11 @@ def _kind_of(constraint: App.DocumentObject) -> str:
     return str(getattr(constraint.Proxy, "Type", ""))
 
 
-def _fixed(constraint: App.DocumentObject, frame: App.Placement) -> Support:
-    return Support(_region(constraint, frame), name=constraint.Label)
+def _fixed(constraint: App.DocumentObject, frame: App.Placement) -> list[Read]:
+    return [Support(_region(constraint, frame), name=constraint.Label)]
 
 
-def _displacement(constraint: App.DocumentObject, frame: App.Placement) -> Support:
+def _displacement(constraint: App.DocumentObject, frame: App.Placement) -> list[Read]:
     """A constraint of displacement, whose axes are the document's.
 
     Raises:
@@ -115,12 +125,13 @@ def _displacement(constraint: App.DocumentObject, frame: App.Placement) -> Suppo
         )
     if not frame.Rotation.isIdentity():
         moved = _moved_in(constraint, moved, frame)
-    return Support(
+    support = Support(
         _region(constraint, frame),
         (moved[0], moved[1], moved[2]),
         (turned[0] is None, turned[1] is None, turned[2] is None),
         constraint.Label,
     )
+    return [support]
 
 
 def _moved_in(
@@ -136,29 +147,69 @@ def _moved_in(
     return list(_tuple(frame.Rotation.inverted().multVec(App.Vector(*moved))))
 
 
-def _force(constraint: App.DocumentObject, frame: App.Placement) -> Force:
+def _force(constraint: App.DocumentObject, frame: App.Placement) -> list[Read]:
     size = in_unit(constraint.Force, "N")
     along = frame.Rotation.inverted().multVec(constraint.DirectionVector)
-    return Force(
-        _region(constraint, frame, alike=True), _tuple(along * size), name=constraint.Label
-    )
+    region = _region(constraint, frame, alike=True)
+    return [Force(region, _tuple(along * size), name=constraint.Label)]
 
 
-def _pressure(constraint: App.DocumentObject, frame: App.Placement) -> Pressure:
+def _pressure(constraint: App.DocumentObject, frame: App.Placement) -> list[Read]:
     size = in_unit(constraint.Pressure, "MPa") * (-1.0 if constraint.Reversed else 1.0)
-    return Pressure(_region(constraint, frame), size, constraint.Label)
+    return [Pressure(_region(constraint, frame), size, constraint.Label)]
 
 
-def _self_weight(constraint: App.DocumentObject, frame: App.Placement) -> App.Vector:
-    return frame.Rotation.inverted().multVec(gravity_of(constraint))
+def _self_weight(constraint: App.DocumentObject, frame: App.Placement) -> list[Read]:
+    return [frame.Rotation.inverted().multVec(gravity_of(constraint))]
 
 
-_READERS: dict[str, Callable[[App.DocumentObject, App.Placement], Support | Load | App.Vector]] = {
+def _rigid_body(constraint: App.DocumentObject, frame: App.Placement) -> list[Read]:
+    """The force through its reference node and the moment; or a support, where it holds all.
+
+    Raises:
+        VolfrepError: it holds some of its six freedoms, moves, or neither holds nor loads.
+    """
+    shifts, turns = (
+        [getattr(constraint, f"{kind}Mode{axis}") for axis in "XYZ"]
+        for kind in ("Translational", "Rotational")
+    )
+    if "Constraint" in shifts + turns:
+        moves = constraint.Displacement.Length > 0.0 or constraint.Rotation.Angle != 0.0
+        if moves or {*shifts, *turns} != {"Constraint"}:
+            raise VolfrepError(
+                f"'{constraint.Label}' holds a part of its freedoms or moves, which is not read of "
+                "a rigid body: hold all six at 0, or give it forces and moments only."
+            )
+        return [Support(_region(constraint, frame), name=constraint.Label)]
+    force, moment = (
+        App.Vector(*(
+            in_unit(getattr(constraint, f"{name}{axis}"), unit) if mode == "Load" else 0.0
+            for axis, mode in zip("XYZ", modes, strict=True)
+        ))
+        for name, unit, modes in (("Force", "N", shifts), ("Moment", "N*mm", turns))
+    )  # fmt: skip
+    region, turned = _region(constraint, frame, alike=True), frame.Rotation.inverted()
+    through = _tuple(frame.inverse().multVec(constraint.ReferenceNode))
+    result: list[Read] = []
+    if force.Length > 0.0:
+        result.append(Force(region, _tuple(turned.multVec(force)), through, constraint.Label))
+    if moment.Length > 0.0:
+        result.append(Moment(region, _tuple(turned.multVec(moment)), constraint.Label))
+    if not result:
+        raise VolfrepError(
+            f"'{constraint.Label}' neither holds nor loads anything: set its modes to Load and "
+            "give a force or a moment, or to Constraint."
+        )
+    return result
+
+
+_READERS: dict[str, Callable[[App.DocumentObject, App.Placement], list[Read]]] = {
     "Fem::ConstraintFixed": _fixed,
     "Fem::ConstraintDisplacement": _displacement,
     "Fem::ConstraintForce": _force,
     "Fem::ConstraintPressure": _pressure,
     "Fem::ConstraintSelfWeight": _self_weight,
+    "Fem::ConstraintRigidBody": _rigid_body,
 }
 
 

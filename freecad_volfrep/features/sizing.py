@@ -54,6 +54,7 @@ class Wish:
         smallest: radius, mm.
         largest: radius, mm.
         prove: let CalculiX solve the design, where it is installed.
+        remove: take away struts that end as thin as they may be and carry little.
     """
 
     goal: str
@@ -65,6 +66,7 @@ class Wish:
     smallest: float
     largest: float
     prove: bool = True
+    remove: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,12 +119,14 @@ class Outcome:
         """What was found, in a sentence."""
         sized, before, even = self.part.sized.analysis, self.part.before, self.part.even
         if not self.holds:
-            worst = max(sized.uses, key=lambda name: sized.uses[name])
+            there = (self.part.report["calculix"] or {}).get("uses", {})
+            uses = {name: max(use, there.get(name, 0.0)) for name, use in sized.uses.items()}
+            worst = max(uses, key=lambda name: uses[name])
             return translate(
                 "VolfrepSizePanel",
                 "The limit of {limit} cannot be held between these radii: {use:.0%} of it is used. "
                 "Allow thicker struts, or larger cells.",
-            ).format(limit=translate("VolfrepSizePanel", worst), use=sized.uses[worst])
+            ).format(limit=translate("VolfrepSizePanel", worst), use=uses[worst])
         if even is None:
             return translate(
                 "VolfrepSizePanel",
@@ -242,9 +246,11 @@ def size_lattice(
 def store_outcome(obj: App.DocumentObject, outcome: Outcome) -> None:
     """Give an infill the radii that were found, and what is to be known of them."""
     store_radii(obj, outcome.part.points, outcome.part.radii)
-    shortest = getattr(outcome.part.spec.network, "shortest", 0.0)
+    spec = outcome.part.spec
+    shortest = getattr(spec.network, "shortest", 0.0)
     if shortest:  # other radii would draw other struts together
         obj.NetworkShortest = shortest
+    obj.RemoveBelow, obj.RemoveDangling = spec.remove_below, spec.remove_dangling
     obj.SizingReport = outcome.to_json()
 
 
@@ -331,7 +337,8 @@ def _goal(wish: Wish, loads: LoadCases) -> Any:
             f"The smallest radius must be above 0 and below the largest, not {wish.smallest:g} and "
             f"{wish.largest:g} mm."
         )
-    radii = {"radius_min": wish.smallest, "radius_max": wish.largest}
+    radii: dict[str, Any] = {"radius_min": wish.smallest, "radius_max": wish.largest}
+    radii["remove_thin"] = wish.remove
     if wish.goal == "stiffness":
         volume = 1000.0 * wish.mass / loads.material.density if wish.mass else None
         return Goal(volume=volume, **radii)

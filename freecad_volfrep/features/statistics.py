@@ -47,6 +47,7 @@ _FIGURES: tuple[tuple[str, str], ...] = (
     ("watertight", "watertight"),
     ("struts removed, free end", "struts_dangling_removed"),
     ("short stubs removed", "stubs_removed"),
+    ("thin struts removed", "thin_struts_removed"),
     ("loose pieces removed", "pieces_removed"),
 )
 

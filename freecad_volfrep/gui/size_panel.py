@@ -288,7 +288,20 @@ class SizePanel:
             label = QtWidgets.QLabel(translate("VolfrepSizePanel", text))
             rows.addRow(label, spin)
             self._fields[name] = label, spin
-        rows.addRow(self._prove)
+        self._remove = QtWidgets.QCheckBox(
+            translate("VolfrepSizePanel", "Remove thin struts that carry little")
+        )
+        self._remove.setObjectName("Remove")
+        self._remove.setChecked(wish.remove)
+        self._remove.setToolTip(
+            translate(
+                "VolfrepSizePanel",
+                "Take away struts that end as thin as the smallest radius and size the rest again; "
+                "kept if that is lighter, or stiffer at the same mass",
+            )
+        )
+        for row in (self._prove, self._remove):
+            rows.addRow(row)
         return box
 
     def _show_fields(self) -> None:
@@ -309,7 +322,12 @@ class SizePanel:
         numbers = {
             name: float(spin.property("rawValue")) for name, (_, spin) in self._fields.items()
         }
-        return Wish(goal=self._goal.currentData(), **numbers, prove=self._prove.isChecked())
+        return Wish(
+            goal=self._goal.currentData(),
+            **numbers,
+            prove=self._prove.isChecked(),
+            remove=self._remove.isChecked(),
+        )
 
     def _show_steps(self) -> None:
         """Bring the table up to the steps that were made."""

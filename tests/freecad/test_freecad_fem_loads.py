@@ -221,6 +221,27 @@ def test_what_cannot_be_read_is_told_by_its_label(doc, box, case_of):
             case_of(analysis)
 
 
+@pytest.mark.skipif(
+    not hasattr(ObjectsFem, "makeConstraintRigidBody"), reason="rigid bodies are FreeCAD 1.0's"
+)
+def test_a_rigid_body_carries_a_force_through_a_point_and_a_moment(doc, box, case_of):
+    analysis = analysis_of(doc)
+    add(analysis, "Fixed", [(box, "Face1")])
+    made = add(analysis, "RigidBody", [(box, face_at(box, (30, 10, 10)))])
+    with pytest.raises(VolfrepError, match="neither holds nor loads"):
+        case_of(analysis)
+    made.ReferenceNode = App.Vector(50, 4, 10)
+    made.TranslationalModeY = made.RotationalModeZ = "Load"
+    made.ForceY, made.MomentZ, made.MomentX = "20 N", "0.5 N*m", "9 N*m"  # about x it is free
+    body = body_of(box)
+    felt, turned = resultant(body.nodes, nodal_case(body, case_of(analysis)).loads, [50, 4, 10])
+    assert felt == pytest.approx([0, 20, 0], abs=1e-9)
+    assert turned == pytest.approx([0, 0, 500], abs=1e-6)
+    made.RotationalModeX = "Constraint"
+    with pytest.raises(VolfrepError, match="holds a part of its freedoms"):
+        case_of(analysis)
+
+
 @needs_gmsh
 def test_the_loads_are_those_that_freecad_writes_for_calculix(doc, box, case_of, tmp_path):
     """A force along an edge on two faces, one on two vertices, and a pressure that pulls."""

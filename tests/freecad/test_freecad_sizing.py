@@ -64,6 +64,26 @@ def wish(**values):
     return Wish(**{**vars(Wish("mass", 2.0, 0, 0, 0, 0, 0.3, 1.6, prove=False)), **values})
 
 
+def test_thin_struts_are_removed_and_stay_so_in_the_document(infill):
+    doc, box = infill.Document, infill.Base
+    analysis = analysis_of(doc, "one end")  # nothing is done to the other
+    add(analysis, "Fixed", [(box, face_at(box, (20, 10, 0)))])
+    add(analysis, "Force", [(box, face_at(box, (0, 10, 10)))], Force=600.0)
+    wished = {"safety": 4, "smallest": 0.4, "largest": 1.6, "prove": False}
+    outcome = size_lattice(infill, [analysis], **wished, remove=True)
+    assert outcome.holds
+    assert infill.RemoveBelow.Value > 0.4
+    assert infill.RemoveDangling
+    infill.AutoUpdate = True
+    doc.recompute()
+    assert infill.Struts == len(outcome.part.model.wireframe.struts)
+    assert json.loads(infill.Report)["thin_struts_removed"] > 0
+    assert infill.Bodies == 1
+    infill.AutoUpdate = False
+    size_lattice(infill, [analysis], **wished)
+    assert infill.RemoveBelow.Value == 0
+
+
 def test_struts_are_sized_stored_and_stay_within_their_limits(infill):
     analyses = [loaded(infill)]
     assert analyses_of(infill) == analyses

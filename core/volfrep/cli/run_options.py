@@ -226,6 +226,10 @@ RUN_OPTIONS = (
         "smooth", ("size",), "share of its neighbours in each node's radius, 0 to 0.9 (default 0)",
         "S", GOAL_GROUP, float, 0.0,
     ),
+    RunOption(
+        "remove-thin", ("size",),
+        "take away struts that end as thin as allowed, and size the rest again", group=GOAL_GROUP,
+    ),
     RunOption("steps", ("size",), "of the search, at most (default 60)", "N", GOAL_GROUP, int, 60),
     RunOption(
         "no-proof", ("size",), "do not let CalculiX solve the final design", group=GOAL_GROUP,

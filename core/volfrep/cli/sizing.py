@@ -14,6 +14,7 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from types import FrameType
 from typing import TYPE_CHECKING, Any
@@ -73,11 +74,10 @@ def _size(options: argparse.Namespace) -> None:
     solid = read_part(options, spec.cell_size)
     loads = read_load_cases(options.loads, solid)
     if spec.density != loads.material.density:
-        from dataclasses import replace
-
         spec = replace(spec, density=loads.material.density)
     asked = {name: getattr(options, name) for name in GOALS}
     goal = goal_of(loads.material, asked, lambda name: f"--{name.replace('_', '-')}")
+    goal = replace(goal, remove_thin=options.remove_thin)
     cache = StageCache()
     start = time.perf_counter()
     with Progress(options.quiet) as progress:

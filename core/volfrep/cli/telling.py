@@ -130,6 +130,7 @@ def _removed(report: Report) -> list[tuple[str, str]]:
     counts = (
         (report.struts_dangling_removed, "dangling struts"),
         (report.stubs_removed, "stubs"),
+        (report.thin_struts_removed, "thin struts"),
         (report.pieces_removed, "loose pieces"),
     )
     text = ", ".join(f"{count:,} {what}" for count, what in counts if count)

@@ -76,6 +76,8 @@ class LatticeSpec:
         remove_dangling: take away struts with a free end, again and again until there are none.
         shortest_stub: struts with a free end that are shorter than this are taken away; 0 for
             none, mm.
+        remove_below: struts that are nowhere thicker than this radius are taken away; 0 for
+            none, mm.
         keep_pieces: keep pieces of the lattice that hang on nothing.
         output: ``part`` (skin and lattice), ``lattice`` (trimmed) or ``domain`` (what it fills).
         fillet: radius of the round between struts at a joint; 0 for none.
@@ -122,6 +124,7 @@ class LatticeSpec:
     drains: DrainHoles | None = None
     remove_dangling: bool = False
     shortest_stub: float = 0.0
+    remove_below: float = 0.0
     keep_pieces: bool = False
     output: str = "part"
     fillet: float = 0.0
@@ -188,7 +191,7 @@ class LatticeSpec:
             "size grading": self.size_grading is not None,
             "cell map": self.cell_map is not None,
             "fillet": self.fillet > 0.0,
-            "removal of dangling struts": self.remove_dangling or self.shortest_stub > 0.0,
+            "removal of struts": self.ending.removes_struts,
             "target of stiffness": self.target is not None and self.target.aim == "stiffness",
             "wall": self.surface is not None,
         }
@@ -216,7 +219,7 @@ class LatticeSpec:
         """Refuse what is about struts, of which walls have none."""
         given = {
             "fillet": self.fillet > 0.0,
-            "removal of dangling struts": self.remove_dangling or self.shortest_stub > 0.0,
+            "removal of struts": self.ending.removes_struts,
             "radius grading": self.radius_grading is not None and not self.wall.is_sheet,
         }
         for what, is_given in given.items():
@@ -271,7 +274,7 @@ class LatticeSpec:
         """Where the lattice ends."""
         return Boundary(
             self.activation, self.boundary, self.remove_dangling, self.shortest_stub,
-            self.keep_pieces,
+            self.keep_pieces, self.remove_below,
         )  # fmt: skip
 
     @property

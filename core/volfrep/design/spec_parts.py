@@ -197,6 +197,8 @@ class Boundary:
         cut: ``trim`` (at the wall of the lattice's domain) or ``whole`` (active cells stay whole).
         remove_dangling: take away struts with a free end, until there are none.
         shortest_stub: struts with a free end that are shorter than this go; 0 for none, mm.
+        keep_pieces: pieces of the lattice that hang on nothing stay.
+        remove_below: struts that are nowhere thicker than this radius go; 0 for none, mm.
     """
 
     activation: str = "touching"
@@ -204,6 +206,7 @@ class Boundary:
     remove_dangling: bool = False
     shortest_stub: float = 0.0
     keep_pieces: bool = False
+    remove_below: float = 0.0
 
     def __post_init__(self) -> None:
         if self.activation not in ACTIVATIONS:
@@ -216,6 +219,7 @@ class Boundary:
                 f"There is no boundary '{self.cut}': choose {' or '.join(BOUNDARIES)}."
             )
         number("shortest stub", self.shortest_stub, "mm", positive=False)
+        number("radius to remove below", self.remove_below, "mm", positive=False)
 
     @property
     def is_trimmed(self) -> bool:
@@ -237,8 +241,8 @@ class Boundary:
 
     @property
     def removes_struts(self) -> bool:
-        """Whether struts with a free end are looked for."""
-        return self.remove_dangling or self.shortest_stub > 0
+        """Whether struts go that are thin or have a free end."""
+        return self.remove_dangling or self.shortest_stub > 0 or self.remove_below > 0
 
 
 @dataclass(frozen=True)

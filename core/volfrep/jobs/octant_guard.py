@@ -83,8 +83,8 @@ def refuse_no_struts(frame: Wireframe) -> None:
     """Raise a `VolfrepError` where every strut was taken away."""
     if not len(frame.struts):
         raise VolfrepError(
-            "Every strut has a free end, so that none is left: keep dangling struts, reduce the "
-            "cell size or choose the activation 'touching'."
+            "Every strut has a free end or is too thin, so that none is left: keep dangling and "
+            "thin struts, reduce the cell size or choose the activation 'touching'."
         )
 
 

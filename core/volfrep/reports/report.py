@@ -32,6 +32,7 @@ class Report:
         watertight: every edge shared by exactly two triangles, oriented oppositely.
         struts_dangling_removed: struts that were taken away because they had a free end.
         stubs_removed: struts that were taken away because they were short and had a free end.
+        thin_struts_removed: struts that were taken away because they were nowhere thick enough.
         pieces_removed: lattice fragments that hung on nothing and were dropped.
         specks_removed: shells smaller than a facet that were dropped.
         drain_holes: where holes go through the skin, on the part's surface, mm.
@@ -74,6 +75,7 @@ class Report:
     watertight: bool
     struts_dangling_removed: int
     stubs_removed: int
+    thin_struts_removed: int
     pieces_removed: int
     specks_removed: int
     drain_holes: tuple[tuple[float, float, float], ...]

@@ -35,6 +35,7 @@ def sizing_picture(
     deformed: float = 0.0,
     size: tuple[int, int] = SIZE,
     y_up: bool = False,
+    scale: tuple[float, float] | None = None,
 ) -> None:
     """Draw the struts of a design into a PNG, or show them in a window; a skin is transparent.
 
@@ -47,6 +48,8 @@ def sizing_picture(
         deformed: how many times as large displacements are drawn; 0 for none.
         size: of the picture, pixels.
         y_up: whether y is up in it, and not z.
+        scale: the values at the ends of the colours, so that pictures compare; None for the
+            least and the largest that there are.
 
     Raises:
         VolfrepError: pyvista is missing, or the file cannot be written.
@@ -63,8 +66,8 @@ def sizing_picture(
     surface = pyvista.PolyData.from_regular_faces(points, facets)
     surface.point_data[COLOURS[colour]] = shades
     stage.add_mesh(
-        surface, scalars=COLOURS[colour], cmap=_COLOURS, smooth_shading=True, ambient=0.35,
-        diffuse=0.65,
+        surface, scalars=COLOURS[colour], cmap=_COLOURS, clim=scale, smooth_shading=True,
+        ambient=0.35, diffuse=0.65,
         scalar_bar_args={
             "title": COLOURS[colour], "color": "black", "vertical": True, "n_labels": 5,
             "position_x": 0.88, "position_y": 0.25, "height": 0.5, "fmt": "%.3g",

@@ -28,6 +28,7 @@ def sizing_report(
     *,
     seconds: Mapping[str, float],
     notes: tuple[str, ...] = (),
+    unthinned: tuple[Analysis, int] | None = None,
 ) -> dict[str, Any]:
     """The figures as plain JSON values.
 
@@ -40,6 +41,8 @@ def sizing_report(
         proof: how far another solver agrees; None where none was asked.
         seconds: by stage.
         notes: sentences for the user.
+        unthinned: the design with the struts that were taken away, and how many these are; None
+            where none was.
     """
     problem, final, density = model.problem, sized.analysis, loads.material.density
     skin_volume = 0.0
@@ -73,6 +76,18 @@ def sizing_report(
     }
     if not np.isnan(final.frequency):
         result["lowest_frequency_hz"] = final.frequency
+    if unthinned is not None:
+        whole, gone = unthinned
+        result["removed"] = {
+            "struts": gone,
+            "with_them": {
+                "strut_volume_mm3": whole.volume,
+                "strut_mass_g": whole.volume * density / 1000.0,
+                "compliance_nmm": whole.compliance.tolist(),
+                "displacement_mm": whole.largest.tolist(),
+                "uses": whole.uses,
+            },
+        }
     if even is not None:
         uniform, holds = even
         result["same_limits"] = {
@@ -105,8 +120,10 @@ def sizing_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
     ]
     if report["skin_mass_g"]:
         rows.append(("skin mass", f"{report['skin_mass_g']:.4g} g"))
+    there = (report["calculix"] or {}).get("uses", {})
     for name, use in report["uses"].items():
-        rows.append((f"{name} limit", f"{use:.1%} used"))
+        said = f", {there[name]:.1%} in CalculiX" if name in there else ""
+        rows.append((f"{name} limit", f"{use:.1%} used{said}"))
     rows += [
         (
             f"case {case['name']}",
@@ -116,6 +133,15 @@ def sizing_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
         )
         for case in report["cases"]
     ]
+    if "removed" in report:
+        whole = report["removed"]["with_them"]
+        rows.append(
+            (
+                "removed",
+                f"{report['removed']['struts']:,} thin struts; with them "
+                f"{whole['strut_mass_g']:.4g} g and {max(whole['displacement_mm']):.4g} mm",
+            )
+        )
     same = report["same_mass"]
     rows.append(
         (

@@ -60,6 +60,8 @@ class Problem:
         watched: (nodes,) bool, where displacements are limited.
         smoother: (n, n) by which each step's radii are evened out with their neighbours'; None for
             not at all.
+        felt: (m,) how many times as stressed struts are as their beams say, where another solver
+            has found more; None for as they say.
     """
 
     structure: Structure
@@ -69,6 +71,7 @@ class Problem:
     high: Floats
     watched: Bools
     smoother: csr_matrix | None = None
+    felt: Floats | None = None
 
     def smoothed(self, radii: Floats) -> Floats:
         """The radii, evened out."""
@@ -151,6 +154,8 @@ def analysed(
     loads = structure.all_loads(of_struts, problem.cases)
     compliance = np.einsum("nik,nik->k", loads, moved)
     stress = stresses(beams, of_struts, forces).mises
+    if problem.felt is not None:
+        stress = stress * problem.felt[:, None, None]
     critical = buckling_loads(beams, of_struts, len(structure.nodes))
     buckling = np.maximum(-forces[:, 0], 0.0) / critical[:, None]
     size = np.where(problem.watched[:, None], np.linalg.norm(moved[:, :3], axis=1), 0.0)

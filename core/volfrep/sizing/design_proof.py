@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import shutil
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -17,7 +17,7 @@ from ..mechanics.frame import Ends
 from ..mechanics.materials import SolidMaterial
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
-from .analysis import Analysis, Limits
+from .analysis import Analysis, Limits, Problem
 from .model import SizingModel
 from .proof import SolidSkin, end_stresses, prove
 from .skin import SkinModel
@@ -31,25 +31,67 @@ MOST_PROVED = 6_000
 _THIN = 0.1
 #: Both sides of what is solid are held together by so many times their thickness' stiffness.
 HELD_TOGETHER = 100.0
+#: Struts count as more stressed in CalculiX where they have this share of the largest stress there.
+TELLING = 0.5
 #: A limit that CalculiX finds used more than this makes the design a little thicker.
 PROVED = 1.003
 
 
-def stricter_limits(limits: Limits, final: Analysis, proof: dict[str, Any] | None) -> Limits:
-    """Limits with which a design holds the given ones when CalculiX solves it."""
-    if proof is None:
-        return limits
-    wanted = limits
-    if limits.stress is not None and final.uses["stress"] * proof["largest_stress"] > PROVED:
-        wanted = replace(wanted, stress=limits.stress / proof["largest_stress"])
-    moved = max(proof["largest_displacement"])
-    if limits.displacement is not None and final.uses["displacement"] * moved > PROVED:
-        wanted = replace(wanted, displacement=limits.displacement / moved)
-    if limits.frequency is not None:
-        ratio = proof["lowest_frequency"]
-        if final.uses["frequency"] / ratio > PROVED:
-            wanted = replace(wanted, frequency=limits.frequency / ratio)
-    return wanted
+@dataclass(frozen=True, eq=False)
+class Proved:
+    """What CalculiX says of a design.
+
+    Attributes:
+        figures: how far the two agree, as plain JSON values.
+        felt: (m,) how many times as stressed as their beams say the struts are there, 1 or more:
+            of those that are stressed most.
+    """
+
+    figures: dict[str, Any]
+    felt: Floats
+
+    def uses(self, limits: Limits, final: Analysis) -> dict[str, float]:
+        """By the name of each limit that CalculiX has a figure for, the share of it used there."""
+        result = {}
+        if limits.stress is not None:
+            result["stress"] = final.uses["stress"] * self.figures["largest_stress"]
+        if limits.displacement is not None:
+            there = final.largest * np.array(self.figures["largest_displacement"])
+            result["displacement"] = float(there.max()) / limits.displacement
+        if limits.frequency is not None:
+            result["frequency"] = final.uses["frequency"] / self.figures["lowest_frequency"]
+        return result
+
+    def holds(self, limits: Limits, final: Analysis) -> bool:
+        """Whether the design holds the limits in CalculiX, too."""
+        return max(self.uses(limits, final).values(), default=0.0) <= PROVED
+
+
+def corrected(
+    problem: Problem, limits: Limits, final: Analysis, proof: Proved
+) -> tuple[Problem, Limits]:
+    """A problem and limits with which a design holds the given ones when CalculiX solves it.
+
+    Stress is a strut's own: each counts as stressed as CalculiX finds it. Displacement and
+    frequency are all struts', and their limits become that much stricter.
+
+    Args:
+        problem: as `final` solved it.
+        limits: that are to be held.
+        final: the design.
+        proof: what CalculiX says of it.
+    """
+    used, wanted = proof.uses(limits, final), limits
+    if used.get("stress", 0.0) > PROVED:
+        before = 1.0 if problem.felt is None else problem.felt
+        problem = replace(problem, felt=np.maximum(before, proof.felt))
+    if limits.displacement is not None and used["displacement"] > PROVED:
+        ratio = used["displacement"] / final.uses["displacement"]
+        wanted = replace(wanted, displacement=limits.displacement / ratio)
+    if limits.frequency is not None and used["frequency"] > PROVED:
+        ratio = used["frequency"] / final.uses["frequency"]
+        wanted = replace(wanted, frequency=limits.frequency * ratio)
+    return problem, wanted
 
 
 def proved(
@@ -60,7 +102,7 @@ def proved(
     material: SolidMaterial,
     notes: list[str],
     monitor: Monitor,
-) -> dict[str, Any] | None:
+) -> Proved | None:
     """How far CalculiX agrees on the final design, with its skin.
 
     Args:
@@ -73,10 +115,10 @@ def proved(
         monitor: asked for a cancel while CalculiX runs.
 
     Returns:
-        The figures as plain JSON values: how far displacements are off in each case, and over the
-        design's own the largest displacements, stress and lowest frequency; of how many struts'
-        ends the stress is known there, and whether of the most stressed one (else its own stands
-        for it). None where CalculiX is not installed, or there are more than `MOST_PROVED` struts.
+        How far displacements are off in each case, and over the design's own the largest
+        displacements, stress and lowest frequency; of how many struts' ends the stress is known
+        there, and whether of the most stressed one (else its own stands for it). None where
+        CalculiX is not installed, or there are more than `MOST_PROVED` struts.
 
     Raises:
         VolfrepError: CalculiX does not solve it.
@@ -135,9 +177,13 @@ def proved(
     theirs = found.displacements[place[there]]
     off = np.linalg.norm(theirs - mine, axis=(0, 1)) / np.linalg.norm(theirs, axis=(0, 1))
     own = stresses(beams, of_struts, final.forces)
-    summed = np.abs(own.axial) + own.bending
+    alone = np.abs(own.axial) + own.bending
+    summed = alone if problem.felt is None else alone * problem.felt[:, None, None]
     felt = end_stresses(found, deck, beams, of_struts)
     known = np.isfinite(felt)
+    there_most = np.where(known, felt, 0.0).max(axis=(1, 2))
+    more = there_most / np.maximum(alone.max(axis=(1, 2)), 1e-300)
+    more = np.where(there_most > TELLING * there_most.max(initial=0.0), np.maximum(more, 1.0), 1.0)
     worst = float(np.where(known, felt, summed).max() / summed.max())
     compared = bool(known.ravel()[int(summed.argmax())])
     result: dict[str, Any] = {
@@ -153,7 +199,7 @@ def proved(
     if modes:
         result["frequencies_hz"] = found.frequencies.tolist()
         result["lowest_frequency"] = float(found.frequencies[0] / final.frequency)
-    return result
+    return Proved(result, more)
 
 
 def with_arms(model: BeamModel, nodes: Ints, length: float) -> BeamModel:

@@ -11,7 +11,7 @@ and the lightest that holds them is kept.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.optimize import minimize
@@ -36,6 +36,8 @@ HOLDS = 1.0 + 1e-3
 _PATIENCE, _BETTER, _FEWEST = 8, 2e-3, 15
 #: So many of the lightest designs are brought to their limits in the end.
 _KEPT = 3
+#: Steps in which single struts become thicker.
+_THICKENINGS = 5
 #: Steps towards the limits by one factor.
 _SCALINGS = 14
 
@@ -254,6 +256,24 @@ def scaled_to_limits(problem: Problem, limits: Limits, radii: Floats) -> tuple[A
     if heavy is not None:
         return heavy[1], True
     return found, found.most_used <= HOLDS
+
+
+def thickened(problem: Problem, limits: Limits, radii: Floats) -> tuple[Analysis, bool]:
+    """A design whose struts become thicker where limits ask for it, and whether it holds them.
+
+    Where that is not enough, all become thicker by one factor; none becomes thinner. What cannot
+    be held so is left as thick as it could be made there, and not everywhere.
+    """
+    low = replace(problem, low=np.maximum(problem.low, radii))
+    found = analysed(low, radii, limits)[0]
+    for _ in range(_THICKENINGS):
+        if found.most_used <= 1.0:
+            return found, True
+        found, changes = analysed(low, found.radii, limits, with_changes=True)
+        assert changes is not None
+        found = analysed(low, low.smoothed(_lighter(low, found, changes, limits)), limits)[0]
+    scaled, holds = scaled_to_limits(low, limits, found.radii)
+    return (scaled, True) if holds else (found, False)
 
 
 def _factor(found: Analysis) -> float:

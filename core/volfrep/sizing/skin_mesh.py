@@ -18,9 +18,13 @@ from ..util.types import Bools, Floats, Ints
 SHARP = 30.0
 #: A triangle may turn by no more than this when a neighbour goes: so round holes stay round enough.
 _TURN = np.cos(np.radians(28.0))
-_PASSES = 10
+_PASSES, _FLIPS = 10, 3
 #: Edges longer and shorter than so many times the wanted length are split and taken out.
 _LONG, _SHORT = 1.4, 0.75
+#: A step of this part of the wanted length may lead off a crease: strips so narrow are closed.
+_TINY = 0.1
+#: Triangles of less quality face nowhere; so many of them may lie behind one another.
+_NEEDLE, _NEEDLES_DEEP = 0.01, 4
 #: Vertices are put at given places, no two of them nearer than a part of the wanted length, in this
 #: pass, when the triangles are even already.
 _PINNED_AT, _APART = 4, 0.3
@@ -31,14 +35,29 @@ _AT_VERTEX, _AT_EDGE = 0.2, 0.25
 class _Creases:
     """Sharp edges of a mesh, and how far each vertex is held by them (`rank`)."""
 
-    def __init__(self, vertices: Floats, triangles: Ints, pinned: Floats) -> None:
-        self.count = len(vertices)
+    def __init__(self, vertices: Floats, triangles: Ints, pinned: Floats, tiny: float) -> None:
+        self.count, self.vertices, self.tiny = len(vertices), vertices, tiny
         table = remesh.edges(triangles, self.count)
         normal = remesh.normals(vertices[triangles])
         normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
         one, two = table.triangles.T
+        # A needle faces nowhere: it counts with its neighbour beyond its longest edge, which so
+        # can be flipped, and a crease that it lies on runs along its other two.
+        length = np.linalg.norm(vertices[table.ends[:, 0]] - vertices[table.ends[:, 1]], axis=1)
+        longest = np.zeros(len(triangles))
+        for side in (one, two[two >= 0]):
+            np.maximum.at(longest, side, length if side is one else length[two >= 0])
+        beyond = np.arange(len(triangles))
+        for side, other in ((one, two), (two, one)):
+            at = (two >= 0) & (length == longest[side])
+            beyond[side[at]] = other[at]
+        is_needle = remesh.qualities(vertices[triangles]) < _NEEDLE
+        needles = np.flatnonzero(is_needle)
+        for _ in range(_NEEDLES_DEEP):
+            normal[needles] = normal[beyond[needles]]
         cosine = np.einsum("ij,ij->i", normal[one], normal[two])
-        sharp = (cosine < np.cos(np.radians(SHARP))) | (two < 0)
+        sharp = (cosine < np.cos(np.radians(SHARP))) & ~(is_needle[one] & is_needle[two])
+        sharp |= two < 0
         ends = table.ends[sharp]
         self.keys = np.sort(self._key(ends[:, 0], ends[:, 1]))
         number = np.bincount(ends.ravel(), minlength=self.count)
@@ -67,6 +86,8 @@ class _Creases:
     def may_slide(self, gone: Ints, kept: Ints) -> Bools:
         """Whether a vertex may be merged into another without leaving its crease."""
         free = self.rank[gone] == 0
+        step = np.linalg.norm(self.vertices[gone] - self.vertices[kept], axis=1)
+        free |= (self.rank[gone] <= self.rank[kept]) & (self.rank[gone] == 1) & (step < self.tiny)
         return np.asarray(free | ((self.rank[gone] == 1) & self.are_sharp(gone, kept)))
 
 
@@ -103,16 +124,20 @@ def even_surface(
         if number == _PINNED_AT and len(wanted):
             vertices, triangles, pinned = _with_vertices(vertices, triangles, wanted, edge)
         for _ in range(3):
-            creases = _Creases(vertices, triangles, pinned)
-            rules = remesh.Rules(creases.rank, creases.may_slide, _nothing, _stays_good)
+            creases = _Creases(vertices, triangles, pinned, _TINY * edge)
+            rules = remesh.Rules(
+                creases.rank, creases.may_slide, _nothing, _keeps_shape(_TINY * edge)
+            )
             before = len(vertices)
             vertices, triangles, _ = remesh.collapse(
                 vertices, triangles, rules, _SHORT * edge, _LONG * edge
             )
             if len(vertices) == before:
                 break
-        creases = _Creases(vertices, triangles, pinned)
-        triangles, _ = remesh.flip(vertices, triangles, _rounder(vertices, creases), _nothing)
+        creases = _Creases(vertices, triangles, pinned, _TINY * edge)
+        for _ in range(_FLIPS):
+            triangles, _ = remesh.flip(vertices, triangles, _rounder(vertices, creases), _nothing)
+            creases = _Creases(vertices, triangles, pinned, _TINY * edge)
         if number < _PASSES - 1:
             vertices = _relaxed(vertices, triangles, creases, mesh)
     return TriangleMesh(vertices, triangles.astype(np.int32))
@@ -172,6 +197,17 @@ def _with_vertices(
 def _nothing(one: Ints, two: Ints) -> Bools:
     del two
     return np.zeros(len(one), bool)
+
+
+def _keeps_shape(tiny: float) -> Callable[[Floats, Floats], Bools]:
+    """Which triangles may change as they would; of those lower than `tiny` nothing is asked."""
+
+    def allowed(before: Floats, after: Floats) -> Bools:
+        side = np.linalg.norm(before - np.roll(before, 1, axis=1), axis=2).max(axis=1)
+        low = np.linalg.norm(remesh.normals(before), axis=1) < tiny * side
+        return np.asarray(_stays_good(before, after) | low)
+
+    return allowed
 
 
 def _stays_good(before: Floats, after: Floats) -> Bools:

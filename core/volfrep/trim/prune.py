@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Pruning of dangling struts: those with a free end carry nothing and are to be taken away.
+"""Pruning of struts: those with a free end carry nothing, thin ones next to nothing.
 
 It is told on the struts' axes, before anything is meshed. A strut that the wall cuts ends there:
 a skin holds that end, without a skin it is free. So is the end of a strut at a node without other
-struts. Where a strut goes, its neighbours may get a free end: the search is repeated.
+struts. Where a strut goes, its neighbours may get a free end: the search is repeated. Struts that
+are too thin go first.
 """
 
 from __future__ import annotations
@@ -37,11 +38,13 @@ class Remaining:
         kept: (m,) bool, the struts that stay.
         stubs: struts taken away because they were short and had a free end.
         dangling: struts taken away because they had a free end, whatever their length.
+        thin: struts taken away because they were nowhere thick enough.
     """
 
     kept: Bools
     stubs: int
     dangling: int
+    thin: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,6 +98,7 @@ def prune(
         openings=domain.openings,
         shortest=boundary.shortest_stub,
         dangling=boundary.remove_dangling,
+        thickest=boundary.remove_below,
     )
     inner = graph.row[tuple(slice(n, -n or None) for n in graph.first.tolist())]
     own = struts_of(graph, cell, inner[active])
@@ -108,9 +112,10 @@ def remaining(
     held: bool,
     shortest: float,
     dangling: bool,
+    thickest: float = 0.0,
     openings: TriangleMesh | None = None,
 ) -> Remaining:
-    """The struts that stay when those with free ends go.
+    """The struts that stay when thin ones and those with free ends go.
 
     A strut of which the wall leaves several pieces stays as long as one of them is held at both
     ends. Struts that lie outside the wall altogether stay, and hold nothing.
@@ -121,6 +126,7 @@ def remaining(
         held: whether there is a skin behind the wall, which holds what it cuts.
         shortest: struts with a free end that are shorter than this go, mm.
         dangling: all struts with a free end go.
+        thickest: struts whose radius is nowhere above it go, mm; 0 for none.
         openings: faces of the wall that have no skin; None for none.
     """
     count = len(lattice.struts)
@@ -133,19 +139,21 @@ def remaining(
             pieces = _to_near_nodes(pieces, lattice, wall)
     length = pieces.lengths(lattice)
     ends, fixed = _ends(pieces, lattice, held, openings)
-    alive = np.ones(len(ends), bool)
+    thin = lattice.radii.max(axis=1) <= thickest
+    alive = ~thin[pieces.owner]
     owners = np.bincount(pieces.owner, minlength=count) > 0
 
     def gone() -> Bools:
         left = np.bincount(pieces.owner[alive], minlength=count)
         return np.asarray(owners & (left == 0))
 
+    are_thin = int(gone().sum())
     alive = _without_free(ends, fixed, alive, length < shortest)
-    stubs = int(gone().sum())
+    stubs = int(gone().sum()) - are_thin
     if dangling:
         alive = _without_free(ends, fixed, alive, alive)
     lost = gone()
-    return Remaining(~lost, stubs, int(lost.sum()) - stubs)
+    return Remaining(~lost, stubs, int(lost.sum()) - stubs - are_thin, are_thin)
 
 
 def _to_near_nodes(pieces: Pieces, lattice: Wireframe, wall: TriangleMesh) -> Pieces:

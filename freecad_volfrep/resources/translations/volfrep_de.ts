@@ -769,6 +769,10 @@
       <translation>Relative Dichte</translation>
     </message>
     <message>
+      <source>Remove Below</source>
+      <translation>Entfernen unterhalb</translation>
+    </message>
+    <message>
       <source>Remove Dangling</source>
       <translation>Lose Streben weg</translation>
     </message>
@@ -927,6 +931,10 @@
     <message>
       <source>Table</source>
       <translation>Tabelle</translation>
+    </message>
+    <message>
+      <source>Take away struts that are nowhere thicker than this radius; 0 for none</source>
+      <translation>Streben wegnehmen, die nirgends dicker als dieser Radius sind; 0 für keine</translation>
     </message>
     <message>
       <source>Take away struts with a free end that are shorter than this; 0 for none</source>
@@ -2956,6 +2964,10 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
       <translation>Diagramm</translation>
     </message>
     <message>
+      <source>Remove thin struts that carry little</source>
+      <translation>Dünne Streben entfernen, die wenig tragen</translation>
+    </message>
+    <message>
       <source>Size</source>
       <translation>Dimensionieren</translation>
     </message>
@@ -2986,6 +2998,10 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
     <message>
       <source>Struts of {mass:.4g} g, {gain:.3g} times as stiff as struts of one radius and the same mass.</source>
       <translation>Streben von {mass:.4g} g, {gain:.3g}-mal so steif wie Streben eines einheitlichen Radius mit derselben Masse.</translation>
+    </message>
+    <message>
+      <source>Take away struts that end as thin as the smallest radius and size the rest again; kept if that is lighter, or stiffer at the same mass</source>
+      <translation>Streben wegnehmen, die so dünn wie der kleinste Radius enden, und den Rest neu auslegen; behalten, wenn das leichter ist, oder steifer bei gleicher Masse</translation>
     </message>
     <message>
       <source>The largest of any point under any case; 0 for no limit</source>

@@ -769,6 +769,10 @@
       <translation>Densità relativa</translation>
     </message>
     <message>
+      <source>Remove Below</source>
+      <translation>Rimuovi sotto</translation>
+    </message>
+    <message>
       <source>Remove Dangling</source>
       <translation>Togli aste pendenti</translation>
     </message>
@@ -927,6 +931,10 @@
     <message>
       <source>Table</source>
       <translation>Tabella</translation>
+    </message>
+    <message>
+      <source>Take away struts that are nowhere thicker than this radius; 0 for none</source>
+      <translation>Toglie le aste che in nessun punto sono più spesse di questo raggio; 0 per nessuna</translation>
     </message>
     <message>
       <source>Take away struts with a free end that are shorter than this; 0 for none</source>
@@ -2956,6 +2964,10 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
       <translation>Grafico</translation>
     </message>
     <message>
+      <source>Remove thin struts that carry little</source>
+      <translation>Rimuovi le aste sottili che portano poco</translation>
+    </message>
+    <message>
       <source>Size</source>
       <translation>Dimensiona</translation>
     </message>
@@ -2986,6 +2998,10 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
     <message>
       <source>Struts of {mass:.4g} g, {gain:.3g} times as stiff as struts of one radius and the same mass.</source>
       <translation>Aste di {mass:.4g} g, {gain:.3g} volte più rigide di aste di raggio unico e della stessa massa.</translation>
+    </message>
+    <message>
+      <source>Take away struts that end as thin as the smallest radius and size the rest again; kept if that is lighter, or stiffer at the same mass</source>
+      <translation>Toglie le aste che finiscono sottili come il raggio minimo e dimensiona di nuovo le altre; si tiene se è più leggero, o più rigido a parità di massa</translation>
     </message>
     <message>
       <source>The largest of any point under any case; 0 for no limit</source>

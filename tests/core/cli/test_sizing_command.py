@@ -77,6 +77,28 @@ def test_the_sized_part_is_an_ordinary_graded_one(part: Path, tmp_path: Path) ->
     assert figures["strut_volume_mm3"] == pytest.approx(told["part"]["volume_mm3"], rel=0.01)
 
 
+def test_thin_struts_that_carry_little_are_taken_away(part: Path, tmp_path: Path) -> None:
+    radii, spec, report = (tmp_path / name for name in ("r.csv", "s.toml", "report.json"))
+    more = ("--radii", radii, "--write-spec", spec, "--report", report, "--no-proof")
+    # What lies beyond the load carries nothing.
+    half = LOADS.replace("[40, 0, 0]", "[20, 0, 0]")
+    part.with_name("loads.toml").write_text(half, encoding="utf-8")
+    bcc = (*WHOLE, "--cell", "BCC")
+    assert size(part, *bcc, "--safety", "4", "--thinnest", "0.4", "--remove-thin", *more) == 0
+    again = tmp_path / "again.stl"
+    assert run("fill", part, "-o", again, "--spec", spec, "--quiet") == 0
+    assert again.read_bytes() == (tmp_path / "out.stl").read_bytes()
+    told = json.loads(report.read_text(encoding="utf-8"))
+    gone, whole = told["sizing"]["removed"]["struts"], told["sizing"]["removed"]["with_them"]
+    made = told["part"]
+    assert gone == made["thin_struts_removed"] + made["struts_dangling_removed"]
+    assert made["thin_struts_removed"] > 0
+    assert made["struts"] == told["sizing"]["struts"]
+    assert (made["bodies"], made["watertight"]) == (1, True)
+    assert told["sizing"]["holds"]
+    assert told["sizing"]["strut_volume_mm3"] < whole["strut_volume_mm3"]
+
+
 def test_with_a_skin_the_struts_end_in_it_and_both_are_told(
     part: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -263,7 +263,7 @@ def test_networks_are_values_of_a_specification(tmp_path):
     [
         ({"size_grading": SizeGrading(Profile("linear", 1.0, 2.0))}, "A size grading is for cells"),
         ({"fillet": 0.2}, "A fillet is for cells"),
-        ({"remove_dangling": True}, "removal of dangling struts is for cells"),
+        ({"remove_dangling": True}, "removal of struts is for cells"),
     ],
 )
 def test_what_is_about_cells_is_refused(change, message):

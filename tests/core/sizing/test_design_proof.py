@@ -15,7 +15,6 @@ from volfrep.loads.regions import InPlane
 from volfrep.mechanics.materials import find_material
 from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.sizing.analysis import Limits
-from volfrep.sizing.design_proof import stricter_limits
 
 needs_calculix = pytest.mark.skipif(
     shutil.which("ccx") is None, reason="CalculiX (ccx) is not installed"
@@ -61,16 +60,3 @@ def test_a_skin_of_wedges_moves_as_shells_do():
     assert proof["with_the_skin"]
     assert max(proof["displacements_off"]) < 0.1
     assert proof["largest_stress"] == pytest.approx(1.0, abs=0.1)
-
-
-def test_limits_are_stricter_where_calculix_finds_more():
-    class Design:
-        uses = {"stress": 1.0, "displacement": 0.9, "frequency": 1.0}  # noqa: RUF012
-
-    limits = Limits(stress=100.0, displacement=2.0, frequency=50.0)
-    proof = {
-        "largest_stress": 1.25, "largest_displacement": [0.9, 1.05],
-        "lowest_frequency": 0.8,
-    }  # fmt: skip
-    assert stricter_limits(limits, Design(), proof) == Limits(80.0, 2.0, None, 62.5)
-    assert stricter_limits(limits, Design(), None) == limits

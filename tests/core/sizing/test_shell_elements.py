@@ -9,6 +9,8 @@ from volfrep.fem.wedge_mesh import upright
 from volfrep.loads.load_cases import Force, LoadCase, Support
 from volfrep.loads.nodal_loads import Body, nodal_case
 from volfrep.loads.regions import InPlane
+from volfrep.mesh import remesh
+from volfrep.mesh.booleans import as_manifold, as_mesh
 from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.sizing.shell_elements import shells_of
 from volfrep.sizing.skin import Feet, skin_model, ties_to
@@ -97,6 +99,17 @@ def test_an_even_surface_keeps_edges_and_volume():
     lengths = np.linalg.norm(np.concatenate([b - a, c - b, a - c]), axis=1)
     assert lengths.max() < 9.0
     assert np.median(lengths) == pytest.approx(5.0, rel=0.3)
+
+
+def test_a_narrow_ledge_leaves_few_needles():
+    """A block on a plate, 0.2 mm in from three of its sides: strips that no triangle fits."""
+    parts = (box(40, 40, 10), box(39.6, 30, 20))
+    for part, corner in zip(parts, ((0, 0, 0), (0.2, 0.2, 5)), strict=True):
+        part.vertices[:] += np.array(corner) - part.bounds[0]
+    whole = as_mesh(as_manifold(parts[0]) + as_manifold(parts[1]))
+    even = even_surface(whole, 5.0)
+    assert (remesh.qualities(np.stack(even.corners(), axis=1)) < 0.1).sum() < 30  # 73 with strips
+    assert even.volume == pytest.approx(whole.volume, rel=1e-3)
 
 
 def test_the_middle_of_a_boxs_skin_is_a_smaller_box():

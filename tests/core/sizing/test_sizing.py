@@ -13,6 +13,7 @@ from volfrep.jobs.sizing import radius_field
 from volfrep.mechanics.catalogue import joint_law
 from volfrep.mechanics.frame import SQUARE_SECTION
 from volfrep.sizing.analysis import Limits, Problem, analysed
+from volfrep.sizing.design_proof import Proved, corrected
 from volfrep.sizing.node_radii import (
     NodeRadii,
     joint_overlap,
@@ -20,7 +21,7 @@ from volfrep.sizing.node_radii import (
     smoothing,
     whole_struts,
 )
-from volfrep.sizing.optimise import HOLDS, cheapest, lightest, stiffest, uniform
+from volfrep.sizing.optimise import HOLDS, cheapest, lightest, stiffest, thickened, uniform
 from volfrep.sizing.structure import Case, Structure
 from volfrep.sizing.tapered_beams import Elastic, beams_of, end_table
 from volfrep.util.errors import VolfrepError
@@ -199,3 +200,34 @@ def test_prices_of_shared_limits_give_the_least_cost():
     low, high = 0.3 * radii, 3.0 * radii
     found = cheapest(radii, np.ones(2), uses, changes, low, high)
     assert found == pytest.approx([2 ** (1 / 3)] * 2, rel=1e-3)
+
+
+def test_a_design_is_corrected_where_calculix_finds_more():
+    problem, radii = cantilever(count=(2, 1, 1))
+    asked = Limits(stress=100.0, displacement=2.0, frequency=50.0)
+    own = analysed(problem, radii, asked)[0]
+    limits = Limits(own.stress.max(), own.largest[0] / 0.9, frequency=own.frequency)
+    final = analysed(problem, radii, limits)[0]
+    felt = np.ones(len(own.stress))
+    felt[own.worst["stress"][1]] = 1.25
+    proof = Proved(
+        {"largest_stress": 1.25, "largest_displacement": [1.05], "lowest_frequency": 0.8}, felt
+    )
+    assert proof.uses(limits, final) == pytest.approx(
+        {"stress": 1.25, "displacement": 0.945, "frequency": 1.25}
+    )
+    assert not proof.holds(limits, final)
+    there, stricter = corrected(problem, limits, final, proof)
+    assert stricter.frequency == pytest.approx(1.25 * limits.frequency)
+    assert (stricter.stress, stricter.displacement) == (limits.stress, limits.displacement)
+    assert analysed(there, radii, limits)[0].uses["stress"] == pytest.approx(1.25)
+    # No strut becomes thinner, and the limits are held by struts as stressed as CalculiX says.
+    thicker, holds = thickened(there, Limits(stress=limits.stress), radii)
+    assert holds
+    assert (thicker.radii >= radii).all()
+    assert thicker.radii.max() > radii.max()
+    assert thicker.uses["stress"] <= 1.0
+    # What cannot be held is left as it is, but for the struts that are asked for.
+    most, holds = thickened(there, Limits(stress=1e-3 * limits.stress), radii)
+    assert not holds
+    assert (most.radii <= problem.high).all()

@@ -55,6 +55,18 @@ def test_free_ends_go_from_the_tip_on(shortest, dangling, kept, counts):
     assert (left.stubs, left.dangling) == counts
 
 
+def test_thin_struts_go_and_those_that_then_have_a_free_end():
+    radii = np.array([[0.1, 0.1], [0.1, 0.3], [0.3, 0.3], [0.3, 0.1], [0.1, 0.1]])
+    lattice = replace(TAILED, radii=radii)
+    free = {"held": False, "shortest": 0.0, "thickest": 0.1}
+    left = remaining(lattice, None, dangling=False, **free)
+    assert left.kept.tolist() == [False, True, True, True, False]
+    assert (left.thin, left.stubs, left.dangling) == (2, 0, 0)
+    left = remaining(lattice, None, dangling=True, **free)
+    assert not left.kept.any()  # an open chain is left, which goes from both ends
+    assert (left.thin, left.dangling) == (2, 3)
+
+
 def test_a_skin_holds_what_it_cuts_and_an_open_wall_does_not():
     wall = samples.box((4.0, 10.0, 2.0), (-0.7, -5.0, -1.1))  # through the tail's first strut
     held = remaining(TAILED, wall, held=True, shortest=0.0, dangling=True)

@@ -291,7 +291,7 @@ def test_a_formula_that_is_no_surface_is_refused(formula, said) -> None:
     [
         ({"wall": Wall("sheet", 10.0)}, "too thick for a cell"),
         ({"fillet": 0.5}, "fillet is not for walls"),
-        ({"remove_dangling": True}, "dangling struts is not for walls"),
+        ({"remove_dangling": True}, "removal of struts is not for walls"),
         ({"wall": Wall("sheet", 0.02)}, "limit is 400"),
         ({"boundary": "whole"}, "cut at the wall"),
         ({"activation": "inside"}, "cut at the wall"),

@@ -79,6 +79,7 @@ def specification(values: Mapping[str, Any], say: Naming = in_file) -> LatticeSp
         keep_pieces=used["keep_pieces"],
         shortest_stub=used["shortest_stub"],
         **skin_of(used),
+        remove_below=used["remove_below"],
         drains=_drains(used),
         resolution=used["resolution"] or None,
         deviation=used["deviation"] or None,
@@ -150,7 +151,7 @@ def values_of(spec: LatticeSpec) -> dict[str, Any]:
         "shell": spec.shell, "fillet": spec.fillet, "origin": spec.origin,
         "activation": spec.activation, "boundary": spec.boundary,
         "remove_dangling": spec.remove_dangling, "shortest_stub": spec.shortest_stub,
-        "keep_pieces": spec.keep_pieces,
+        "remove_below": spec.remove_below, "keep_pieces": spec.keep_pieces,
         "resolution": spec.resolution, "deviation": spec.deviation, "make": spec.output,
         "density": spec.density, "keep_radius": spec.keep_radius, **walls, **values,
     }  # fmt: skip

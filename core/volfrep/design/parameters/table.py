@@ -333,6 +333,11 @@ PARAMETERS = (
         default=5.0, needs=(Need(("radius_grading",), BY_DEPTH),), in_panel=True,
     ),
     Parameter(
+        "remove_below", "length", "Strut radius",
+        "Take away struts that are nowhere thicker than this radius; 0 for none",
+        default=0.0, needs=(OF_STRUTS, Need(("radius_grading",))), of_block=False, in_panel=True,
+    ),
+    Parameter(
         "resolution", "integer", "Mesh",
         "Facets along the edge of a cell; 0 to choose it by the deviation",
         default=0, instead_of=("deviation",),

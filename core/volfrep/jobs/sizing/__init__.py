@@ -2,9 +2,9 @@
 """Radii that follow what a part carries: what is wanted, and the job that finds them."""
 
 from .goal import GOALS, Goal, goal_of
+from .removal import radius_field
 from .sizing import (
     SizedPart,
-    radius_field,
     size,
     solved,
     values_with_radii,

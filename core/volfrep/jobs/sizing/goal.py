@@ -27,6 +27,7 @@ class Goal:
         radius_min: mm, the thinnest strut that may be; None for half the specification's radius.
         radius_max: mm, the thickest; None for what the cell bears.
         smooth: share that a node's neighbours have in its radius, from 0 to 0.9.
+        remove_thin: take away struts that end as thin as they may be, and size the rest again.
         weights: of the load cases, for stiffness; None for all alike.
     """
 
@@ -36,6 +37,7 @@ class Goal:
     radius_max: float | None = None
     smooth: float = 0.0
     weights: tuple[float, ...] | None = None
+    remove_thin: bool = False
 
 
 def goal_of(

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from ...design.spec import LatticeSpec
 from ...reports.sizing_report import PEAKS
 from ...sizing.analysis import Analysis, Limits, Problem
@@ -21,17 +23,7 @@ def not_held(problem: Problem, analysis: Analysis) -> str:
     """Which limit cannot be held, where, and what to do: of a design as thick as it can be."""
     uses = analysis.uses
     worst = max(uses, key=lambda name: uses[name])
-    case, row = analysis.worst[worst]
-    structure = problem.structure
-    where = ""
-    if case >= 0:
-        is_node = worst == "displacement"
-        place = structure.nodes[row if is_node else structure.beams.struts[row]].reshape(-1, 3)
-        x, y, z = place.mean(axis=0).tolist()
-        where = (
-            f", by the {'node' if is_node else 'strut'} at ({x:.4g}, {y:.4g}, {z:.4g}) in case "
-            f"'{problem.cases[case].name}'"
-        )
+    where = _place(problem, analysis, worst)
     used = f"{uses[worst]:.1%} of it is used{where}"
     return (
         f"The limit of {worst} cannot be held: with the thickest struts that the cells bear and "
@@ -48,6 +40,31 @@ def left_out(spec: LatticeSpec) -> list[str]:
         "Bodies that are kept solid are not in the model that was sized: look at the struts round "
         "them with solid elements."
     ]
+
+
+def unproved(problem: Problem, used: Mapping[str, float], analysis: Analysis) -> str:
+    """Which limit a design does not hold when CalculiX solves it."""
+    worst = max(used, key=lambda name: used[name])
+    where = _place(problem, analysis, worst)
+    return (
+        f"The limit of {worst} is not held in CalculiX, which finds {used[worst]:.1%} of it used, "
+        f"even in a thicker design; in the design's own solution it is used most{where}. What may "
+        f"help: {_REMEDIES[worst]}."
+    )
+
+
+def _place(problem: Problem, analysis: Analysis, limit: str) -> str:
+    """Where and in which case a limit is used most; nothing where that is no one place."""
+    case, row = analysis.worst[limit]
+    if case < 0:
+        return ""
+    structure, is_node = problem.structure, limit == "displacement"
+    place = structure.nodes[row if is_node else structure.beams.struts[row]].reshape(-1, 3)
+    x, y, z = place.mean(axis=0).tolist()
+    return (
+        f", by the {'node' if is_node else 'strut'} at ({x:.4g}, {y:.4g}, {z:.4g}) in case "
+        f"'{problem.cases[case].name}'"
+    )
 
 
 def stressed_skin(model: SizingModel, analysis: Analysis, limits: Limits) -> list[str]:

@@ -11,47 +11,31 @@ from typing import Any
 
 import numpy as np
 
-from ...design.grading import RadiusGrading
-from ...design.networks import CellNetwork
 from ...design.parameters.specification import values_of
-from ...design.profile import Profile
-from ...design.scattered_field import PointField
 from ...design.spec import LatticeSpec
-from ...design.spec_parts import largest_radius
-from ...grid.placement import NUDGE
-from ...grid.strut_graph import Wireframe
 from ...loads.load_cases import LoadCases
 from ...mesh.triangle_mesh import TriangleMesh
 from ...reports.sizing_report import sizing_report
 from ...sizing.analysis import Analysis, Limits, Problem, analysed
-from ...sizing.design_proof import proved, stricter_limits
-from ...sizing.model import SizingModel, elastic, feet_of, held_facets, sizing_model
-from ...sizing.node_radii import smoothing
-from ...sizing.optimise import Sized, Step, Watch, lightest, scaled_to_limits, stiffest, uniform
-from ...sizing.skin import skin_model
+from ...sizing.design_proof import Proved, corrected, proved
+from ...sizing.model import SizingModel
+from ...sizing.optimise import Sized, Step, Watch, lightest, stiffest, thickened, uniform
 from ...sizing.strut_state import StrutState, strut_states
-from ...spatial.proximity import closest_points
 from ...util.cache import StageCache
 from ...util.errors import Cancelled, VolfrepError
 from ...util.files import replacing
 from ...util.progress import Monitor, ProgressCallback
 from ...util.types import Floats
 from ..infill import Infill
-from ..networks.frame import fixed_graph, median_length
-from ..networks.radius import THICKEST
+from ..networks.frame import fixed_graph
 from ..targets import aimed, infill_of
 from .goal import Goal
-from .notes import left_out, not_held, stressed_skin
+from .notes import left_out, not_held, stressed_skin, unproved
+from .part_model import given_radii, part_model, spacing
+from .removal import RADIUS_STEP, SLACK, Thinned, field_points, radius_field, thinned
 
-#: Edges of the skin's triangles over the cell size, and over its thickness at least.
-SKIN_EDGE, SKIN_EDGE_LEAST = 0.5, 1.5
-#: Struts of a network are made so many times as thick as they are at most, where nothing else is
-#: said: those that share no joint run into each other then.
-TIMES_THICKER = 2.0
 #: So many times a design is made thicker because of what CalculiX finds.
-CORRECTIONS = 2
-#: Radii are stored in steps of this, mm, as files keep them.
-RADIUS_STEP = 1e-6
+CORRECTIONS = 3
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,24 +113,33 @@ def size(
     cache = cache or StageCache()
     notes: list[str] = []
     spec = _without_target(solid, spec, goal, cache, progress, notes)
-    spec = fixed_graph(spec)
+    spec = replace(fixed_graph(spec), remove_below=0.0)  # all are sized; which go is decided anew
     infill = infill_of(solid, spec, monitor=monitor, cache=cache)
-    model = _model(infill, loads, goal, cache)
+    model = part_model(infill, loads, goal, cache)
     problem = model.problem
     shape = problem.radii
-    first = np.clip(_given_radii(model.wireframe), problem.low, problem.high)
+    first = np.clip(given_radii(model.wireframe), problem.low, problem.high)
     seconds = {"model": time.perf_counter() - start}
     start = time.perf_counter()
 
     def told(number: int, step: Step) -> bool:
         try:
-            monitor.tick((number + 1) / most_steps)
+            monitor.tick((number + 1) / most_steps / (2 if goal.remove_thin else 1))
         except Cancelled:
             return False  # there is a design: the best so far is kept
         return watch is None or watch(number, step)
 
+    taken: Thinned | None = None
     with monitor.stage("sizing", 0.4, 0.95):
-        sized, even = _designed(problem, goal, first, most_steps, told)
+        sized = whole = _designed(problem, goal, first, most_steps, told)
+        even = uniform(problem, goal.limits) if goal.limits.any else None
+        if goal.remove_thin and sized.stopped != "cancelled":
+            taken, sized = _without_thin(
+                infill, loads, goal, model, sized, first, most_steps, told, cache, notes
+            )
+    unthinned = model
+    if taken is not None:
+        model, problem = taken.model, taken.model.problem
     if not sized.holds:
         notes.append(not_held(problem, sized.analysis))
     notes += stressed_skin(model, sized.analysis, goal.limits)
@@ -155,9 +148,10 @@ def size(
         notes.append("The search was cancelled: this is the best design so far.")
     final = _stored(problem, sized.analysis.radii, goal.limits)
 
-    def solve_again(design: Analysis) -> dict[str, Any] | None:
-        cell, length = spec.fitted_cell, _length(infill)
-        return proved(model, cell, length, design, loads.material, notes, monitor)
+    def solve_again(design: Analysis) -> Proved | None:
+        cell, length = spec.fitted_cell, spacing(infill)
+        solved_one = replace(model, problem=problem)
+        return proved(solved_one, cell, length, design, loads.material, notes, monitor)
 
     proof = None
     if prove_it and sized.stopped != "cancelled":
@@ -165,18 +159,18 @@ def size(
             with monitor.stage("proof", 0.95, 1.0):
                 proof = solve_again(final)
                 for _ in range(CORRECTIONS):
-                    stricter = stricter_limits(goal.limits, final, proof)
-                    if proof is None or stricter == goal.limits or not sized.holds:
+                    if proof is None or proof.holds(goal.limits, final) or not sized.holds:
                         break
-                    # Where CalculiX finds more than is allowed, the limits are that much stricter.
-                    found, _ = scaled_to_limits(problem, stricter, final.radii)
-                    final = _stored(problem, found.radii, goal.limits)
+                    # Where CalculiX finds more than is allowed, struts become that much thicker.
+                    problem, stricter = corrected(problem, goal.limits, final, proof)
+                    found, holds = thickened(problem, stricter, final.radii)
+                    final, proof = _stored(problem, found.radii, goal.limits), None
                     proof = solve_again(final)
-                if stricter_limits(goal.limits, final, proof) != goal.limits and sized.holds:
-                    notes.append(
-                        "CalculiX finds more of a limit used than is allowed, even in a thicker "
-                        "design: see how far the two are apart."
-                    )
+                    if not holds:
+                        break
+                if proof is not None and sized.holds and not proof.holds(goal.limits, final):
+                    sized = replace(sized, holds=False)
+                    notes.append(unproved(problem, proof.uses(goal.limits, final), final))
         except Cancelled:
             proof = None
             notes.append("CalculiX was cancelled: no other solver has proved this design.")
@@ -185,21 +179,27 @@ def size(
             notes.append(f"{error} No other solver has proved this design.")
     radii = final.radii
     sized = replace(sized, analysis=final)
+    full = unthinned.problem
     same = shape.scaled_to(
-        np.full(len(radii), float(first.mean())),
-        final.volume, np.full(len(radii), 1e-3 * float(first.min())), problem.high,
+        np.full(len(first), float(first.mean())),
+        final.volume, np.full(len(first), 1e-3 * float(first.min())), full.high,
     )  # fmt: skip
-    before, _ = analysed(problem, same, goal.limits)
+    before, _ = analysed(full, same, goal.limits)
     seconds["sizing"] = time.perf_counter() - start
-    points = model.wireframe.nodes
-    if infill.placement.is_cut:
-        points = points - NUDGE * spec.cell_size
+    if taken is not None:
+        spec, radii = taken.spec, taken.of_all(radii)
+    points = field_points(infill, unthinned)
     graded = replace(
         spec, strut_radius=float(np.median(radii)), radius_grading=radius_field(points, radii)
     )  # fmt: skip
+    figures = None
+    if proof is not None:
+        figures = {**proof.figures, "uses": proof.uses(goal.limits, final)}
     report = sizing_report(
-        loads, model, sized, before, even, proof, seconds=seconds, notes=tuple(notes)
-    )
+        loads, model, sized, before, even, figures,
+        seconds=seconds, notes=tuple(notes),
+        unthinned=None if taken is None else (whole.analysis, taken.struts),
+    )  # fmt: skip
     return SizedPart(graded, points, radii, model, sized, before, even, report)
 
 
@@ -232,7 +232,7 @@ def solved(
     radii[frame.struts] = frame.radii
     used = radii[radii > 0.0]
     goal = Goal(radius_min=0.999 * float(used.min()), radius_max=1.001 * float(used.max()))
-    model = _model(infill, loads, goal, cache)
+    model = part_model(infill, loads, goal, cache)
     return model, analysed(model.problem, np.maximum(radii, goal.radius_min or 0.0), Limits())[0]
 
 
@@ -240,17 +240,6 @@ def _stored(problem: Problem, radii: Floats, limits: Limits) -> Analysis:
     """A design as files keep it: radii in whole steps, not thinner than they were."""
     steps = np.ceil(radii / RADIUS_STEP - 1e-6) * RADIUS_STEP
     return analysed(problem, steps, limits)[0]
-
-
-def radius_field(points: Floats, radii: Floats) -> RadiusGrading:
-    """Radii at nodes as a grading: a field of mm, each value its own radius."""
-    low, high = float(radii.min()), float(radii.max())
-    if high - low < RADIUS_STEP:
-        high = low + RADIUS_STEP
-    return RadiusGrading(
-        "field", Profile("linear", low, high), field=PointField(points, radii, "sizing"),
-        curve=((low, low), (high, high)),
-    )  # fmt: skip
 
 
 def write_radii(part: SizedPart, path: str | os.PathLike[str]) -> None:
@@ -291,98 +280,10 @@ def _without_target(
     return replace(found, target=None)
 
 
-def _model(infill: Infill, loads: LoadCases, goal: Goal, cache: StageCache) -> SizingModel:
-    """The part as it is solved."""
-    spec, material = infill.spec, loads.material
-    if spec.output == "domain":
-        raise VolfrepError("The output 'domain' holds no lattice to size: choose part or lattice.")
-    if spec.fillet:
-        raise VolfrepError("Struts with fillets cannot be sized: set the fillet to 0.")
-    widths = getattr(spec.network, "widths", ())
-    if isinstance(spec.network, CellNetwork):
-        widths = spec.unit_cell().widths
-    if len(widths):
-        raise VolfrepError(
-            "Sizing gives each node one radius, and these struts have widths of their own: choose "
-            "a cell without."
-        )
-    wireframe, clipped = infill.struts, infill.axes
-    if spec.radius_grading is not None:
-        # Which ends at a wall are too short for a beam goes by the radius: those of the
-        # specification's own, so that a design is solved as it was sized.
-        plain = infill_of(
-            infill.solid, replace(spec, radius_grading=None), monitor=infill.monitor, cache=cache
-        )
-        if np.array_equal(plain.struts.struts, wireframe.struts):
-            clipped = plain.axes
-    own = float(np.median(wireframe.radii))
-    least = goal.radius_min if goal.radius_min is not None else 0.5 * own
-    length, borne = _length(infill), 0.0
-    if spec.network is None:
-        bears = 0.98 * largest_radius(spec.cell_size, spec.fillet)
-    else:
-        # Where a network's struts leave each other no room they are united.
-        bears = max(THICKEST * length, own)
-        borne = own
-    usual = bears if spec.network is None else min(bears, TIMES_THICKER * own)
-    most = usual if goal.radius_max is None else min(goal.radius_max, bears)
-    if not 0.0 < least <= most:
-        raise VolfrepError(
-            f"Radii from {least:.4g} to {most:.4g} mm make no sense: the smallest must be above 0 "
-            "and below the largest, which the cells do not bear beyond "
-            f"{bears:.4g} mm."
-        )
-    skin = None
-    if spec.with_skin:
-        apart = spec.cell_size if spec.network is None else 2.0 * length
-        edge = max(SKIN_EDGE * apart, SKIN_EDGE_LEAST * spec.shell)
-        with infill.monitor.stage("skin", 0.3, 0.4):
-            skin = skin_model(
-                infill.solid, _thickness(infill.solid, spec), edge, elastic(material),
-                infill.domain.openings,
-                feet_of(wireframe, clipped, infill.domain.mesh, _given_radii(wireframe)),
-                infill.monitor, held=held_facets(infill.solid, loads.cases),
-            )  # fmt: skip
-    model = sizing_model(
-        wireframe, clipped, spec.fitted_cell, length, material, loads.cases,
-        bounds=(least, most), borne=borne, skin=skin, solid=infill.solid,
-    )  # fmt: skip
-    if goal.smooth:
-        smoother = smoothing(wireframe.struts.astype(np.int64), len(wireframe.nodes), goal.smooth)
-        model = replace(model, problem=replace(model.problem, smoother=smoother))
-    return model
-
-
-def _length(infill: Infill) -> float:
-    """L, mm: of the cells, or a network's median length of struts, which stands for it."""
-    spec = infill.spec
-    return spec.cell_size if spec.network is None else median_length(infill.struts)
-
-
-def _thickness(solid: TriangleMesh, spec: LatticeSpec) -> float | Callable[[Floats], Floats]:
-    """A skin's thickness, mm, or at points of the part's surface where it is not even."""
-    if spec.skin is None or spec.skin.is_even:
-        return spec.shell
-    below = spec.skin.below(solid)
-    # Where a face is open there are no shells: any thickness will do.
-    below = np.where(below > 0.0, below, spec.shell)
-    return lambda points: np.asarray(below[closest_points(solid, points)[2]])
-
-
-def _given_radii(wireframe: Wireframe) -> Floats:
-    """(n,) mm, the radii at the nodes that the specification says."""
-    result = np.zeros(len(wireframe.nodes))
-    result[wireframe.struts] = wireframe.radii
-    return result
-
-
-def _designed(
-    problem: Problem, goal: Goal, first: Floats, most_steps: int, watch: Watch
-) -> tuple[Sized, tuple[Analysis, bool] | None]:
-    """The design, and with limits the lattice of one radius that holds them."""
+def _designed(problem: Problem, goal: Goal, first: Floats, most_steps: int, watch: Watch) -> Sized:
+    """The design."""
     if goal.limits.any:
-        sized = lightest(problem, goal.limits, first, most_steps=most_steps, watch=watch)
-        return sized, uniform(problem, goal.limits)
+        return lightest(problem, goal.limits, first, most_steps=most_steps, watch=watch)
     volume = problem.radii.volume(first) if goal.volume is None else goal.volume
     weights = None if goal.weights is None else np.array(goal.weights, float)
     if weights is not None and len(weights) != len(problem.cases):
@@ -390,5 +291,45 @@ def _designed(
             f"There are {len(problem.cases)} load cases and {len(weights)} weights: give one for "
             "each."
         )
-    made = stiffest(problem, volume, first, weights=weights, most_steps=most_steps, watch=watch)
-    return made, None
+    return stiffest(problem, volume, first, weights=weights, most_steps=most_steps, watch=watch)
+
+
+def _without_thin(
+    infill: Infill,
+    loads: LoadCases,
+    goal: Goal,
+    model: SizingModel,
+    sized: Sized,
+    first: Floats,
+    most_steps: int,
+    watch: Watch,
+    cache: StageCache,
+    notes: list[str],
+) -> tuple[Thinned | None, Sized]:
+    """The design without its thin struts, where it is better; else the design as it is."""
+    whole, before = sized.analysis, len(sized.steps)
+    wanted = goal if goal.limits.any else replace(goal, volume=whole.volume)
+    reason = "none is as thin as allowed and carries little"
+    for slack in SLACK:
+        try:
+            taken = thinned(infill, loads, goal, model, whole, slack, first, cache)
+            if taken is None:
+                continue
+            found = _designed(
+                taken.model.problem, wanted, taken.radii[taken.rows], most_steps,
+                lambda number, step: watch(before + number, step),
+            )  # fmt: skip
+        except VolfrepError as error:
+            reason = str(error).rstrip(".")
+            continue
+        if goal.limits.any:
+            is_better = found.holds and found.analysis.volume < whole.volume
+        else:
+            is_better = found.analysis.compliance.sum() < whole.compliance.sum()
+        if is_better:
+            return taken, replace(found, steps=sized.steps + found.steps)
+        reason = "the lattice would be no better without them"
+        if found.stopped == "cancelled":
+            break
+    notes.append(f"No struts were taken away: {reason}.")
+    return None, sized

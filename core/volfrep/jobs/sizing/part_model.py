@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A part whose struts are to be sized as the structure that is solved."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from ...design.networks import CellNetwork
+from ...design.spec import LatticeSpec
+from ...design.spec_parts import largest_radius
+from ...grid.strut_graph import Wireframe
+from ...loads.load_cases import LoadCases
+from ...mesh.triangle_mesh import TriangleMesh
+from ...sizing.model import SizingModel, elastic, feet_of, held_facets, sizing_model
+from ...sizing.node_radii import smoothing
+from ...sizing.skin import skin_model
+from ...spatial.proximity import closest_points
+from ...util.cache import StageCache
+from ...util.errors import VolfrepError
+from ...util.types import Floats
+from ..infill import Infill
+from ..networks.frame import median_length
+from ..networks.radius import THICKEST
+from ..targets import infill_of
+from .goal import Goal
+
+#: Edges of the skin's triangles over the cell size, and over its thickness at least.
+SKIN_EDGE, SKIN_EDGE_LEAST = 0.5, 1.5
+#: Struts of a network are made so many times as thick as they are at most, where nothing else is
+#: said: those that share no joint run into each other then.
+TIMES_THICKER = 2.0
+
+
+def part_model(
+    infill: Infill, loads: LoadCases, goal: Goal, cache: StageCache, reach: Floats | None = None
+) -> SizingModel:
+    """The part as it is solved.
+
+    Args:
+        infill: the part.
+        loads: the material, and what the part carries.
+        goal: between which radii, how even.
+        cache: keeps the costly stages of the part.
+        reach: (n,) mm, radii at the nodes by which struts hold the skin; None for the
+            specification's.
+
+    Raises:
+        VolfrepError: there are no struts that could be sized, or the radii make no sense.
+    """
+    spec, material = infill.spec, loads.material
+    if spec.output == "domain":
+        raise VolfrepError("The output 'domain' holds no lattice to size: choose part or lattice.")
+    if spec.fillet:
+        raise VolfrepError("Struts with fillets cannot be sized: set the fillet to 0.")
+    widths = getattr(spec.network, "widths", ())
+    if isinstance(spec.network, CellNetwork):
+        widths = spec.unit_cell().widths
+    if len(widths):
+        raise VolfrepError(
+            "Sizing gives each node one radius, and these struts have widths of their own: choose "
+            "a cell without."
+        )
+    wireframe, clipped = infill.struts, infill.axes
+    if spec.radius_grading is not None:
+        # Which ends at a wall are too short for a beam goes by the radius: those of the
+        # specification's own, so that a design is solved as it was sized.
+        plain = infill_of(
+            infill.solid, replace(spec, radius_grading=None, remove_below=0.0),
+            monitor=infill.monitor, cache=cache,
+        )  # fmt: skip
+        if np.array_equal(plain.struts.struts, wireframe.struts):
+            clipped = plain.axes
+    own = float(np.median(wireframe.radii))
+    least = goal.radius_min if goal.radius_min is not None else 0.5 * own
+    length, borne = spacing(infill), 0.0
+    if spec.network is None:
+        usual = bears = 0.98 * largest_radius(spec.cell_size, spec.fillet)
+    else:
+        # Where a network's struts leave each other no room they are united.
+        bears = max(THICKEST * length, own)
+        usual, borne = min(bears, TIMES_THICKER * own), own
+    most = usual if goal.radius_max is None else min(goal.radius_max, bears)
+    if not 0.0 < least <= most:
+        raise VolfrepError(
+            f"Radii from {least:.4g} to {most:.4g} mm make no sense: the smallest must be above 0 "
+            "and below the largest, which the cells do not bear beyond "
+            f"{bears:.4g} mm."
+        )
+    skin = None
+    if spec.with_skin:
+        apart = spec.cell_size if spec.network is None else 2.0 * length
+        edge = max(SKIN_EDGE * apart, SKIN_EDGE_LEAST * spec.shell)
+        with infill.monitor.stage("skin", 0.3, 0.4):
+            skin = skin_model(
+                infill.solid, _thickness(infill.solid, spec), edge, elastic(material),
+                infill.domain.openings,
+                feet_of(
+                    wireframe, clipped, infill.domain.mesh,
+                    given_radii(wireframe) if reach is None else reach,
+                ),
+                infill.monitor, held=held_facets(infill.solid, loads.cases),
+            )  # fmt: skip
+    model = sizing_model(
+        wireframe, clipped, spec.fitted_cell, length, material, loads.cases,
+        bounds=(least, most), borne=borne, skin=skin, solid=infill.solid,
+    )  # fmt: skip
+    if goal.smooth:
+        smoother = smoothing(wireframe.struts.astype(np.int64), len(wireframe.nodes), goal.smooth)
+        model = replace(model, problem=replace(model.problem, smoother=smoother))
+    return model
+
+
+def given_radii(wireframe: Wireframe) -> Floats:
+    """(n,) mm, the radii at the nodes that the specification says."""
+    result = np.zeros(len(wireframe.nodes))
+    result[wireframe.struts] = wireframe.radii
+    return result
+
+
+def spacing(infill: Infill) -> float:
+    """L, mm: of the cells, or a network's median length of struts, which stands for it."""
+    spec = infill.spec
+    return spec.cell_size if spec.network is None else median_length(infill.struts)
+
+
+def _thickness(solid: TriangleMesh, spec: LatticeSpec) -> float | Callable[[Floats], Floats]:
+    """A skin's thickness, mm, or at points of the part's surface where it is not even."""
+    if spec.skin is None or spec.skin.is_even:
+        return spec.shell
+    below = spec.skin.below(solid)
+    # Where a face is open there are no shells: any thickness will do.
+    below = np.where(below > 0.0, below, spec.shell)
+    return lambda points: np.asarray(below[closest_points(solid, points)[2]])

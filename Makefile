@@ -97,8 +97,8 @@ test-gui: setup ## every check of the real FreeCAD window, on a virtual screen
 test-escape: setup ## Escape at ten random times in every long command of the window, a quarter of an hour
 	@ESCAPES=10 GUI_LONGEST=900 GUI_TIMEOUT=3600 tools/run_gui.sh tests/gui/drive_escape.py < /dev/null
 
-docs-pictures: ## the tutorial's pictures anew, from those of the last make test-gui
-	@tools/docs_pictures.sh
+docs-pictures: setup ## the pictures of the tutorial and the help pages anew
+	@tools/docs_pictures.sh $(FROM)
 
 fuzz: setup ## random solids and options, judged without the engine (MINUTES=5, SEED=...)
 	@$(PYTHON) tools/fuzz.py --minutes $(or $(MINUTES),5) $(if $(SEED),--seed $(SEED))

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 _WARM = ("volfrep.jobs.pipeline",)
 _CONSOLES = ("freecadcmd", "FreeCADCmd")
 _running: dict[int, Engines] = {}
+_freecads: list[Engines] = []
 
 
 def engines() -> Engines:
@@ -39,6 +40,16 @@ def engines() -> Engines:
     return _running[threads]
 
 
+def freecads() -> Engines:
+    """The processes for jobs that need OpenCASCADE: FreeCAD without windows."""
+    from volfrep.apart.engines import Engines
+
+    if not _freecads:
+        console = _freecad(read(THREADS))
+        _freecads.append(Engines([] if console is None else [console], _missed))
+    return _freecads[0]
+
+
 def programs(threads: int) -> list[Program]:
     """What can run the engine beside this FreeCAD, the best first."""
     from volfrep.apart.engine_process import Program
@@ -47,12 +58,23 @@ def programs(threads: int) -> list[Program]:
     front = str(ROOT / "core")
     python = Program((python_executable(),), (front,), _package_folders(), use, _WARM)
     found = [python]
+    console = _freecad(threads)
+    return found if console is None else [*found, console]
+
+
+def _freecad(threads: int) -> Program | None:
+    """FreeCAD without windows as a program that runs the engine and the workbench."""
+    from volfrep.apart.engine_process import Program
+
     console = _console()
-    if console is not None:
-        # It has its own folders; of the workbench it needs what mends them.
-        whole = f"from freecad_volfrep.engine import require_engine; require_engine(); {use}"
-        found.append(Program((console,), (str(ROOT),), tuple(sys.path), whole, _WARM))
-    return found
+    if console is None:
+        return None
+    # It has its own folders; of the workbench it needs what mends them.
+    whole = (
+        "from freecad_volfrep.engine import require_engine; require_engine(); "
+        f"from volfrep.util.threads import use_threads; use_threads({threads})"
+    )
+    return Program((console,), (str(ROOT),), tuple(sys.path), whole, _WARM)
 
 
 def _package_folders() -> tuple[str, ...]:

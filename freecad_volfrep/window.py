@@ -16,19 +16,19 @@ def register() -> None:
     What shows them is imported when it is used first.
     """
     if App.GuiUp:
-        register_screen(Screen(_wait_for, _progress_bar, _attach_view, _revive_view))
+        register_screen(Screen(_update, _wait_for, _attach_view, _revive_view))
 
 
-def _wait_for(title: str, call: Any) -> Any:
+def _update(obj: App.DocumentObject, asked: Any) -> None:
+    from .gui.updating import Update
+
+    Update(obj, asked)
+
+
+def _wait_for(title: str, call: Any, in_freecad: bool) -> Any:
     from .gui.progress import wait_for
 
-    return wait_for(title, call)
-
-
-def _progress_bar(title: str) -> Any:
-    from .gui.progress import progress_bar
-
-    return progress_bar(title)
+    return wait_for(title, call, in_freecad)
 
 
 def _attach_view(obj: App.DocumentObject) -> None:

@@ -9,7 +9,7 @@ root=$PWD
 system_python=/usr/bin/python3
 debian_packages=(
   freecad python3 python3-venv python3-pip python3-numpy python3-scipy python3-vtk9
-  xvfb xauth xdotool imagemagick libgl1-mesa-dri ca-certificates
+  xvfb xauth xdotool imagemagick libgl1-mesa-dri ca-certificates git
 )
 # Programs that only tests open our files with: without them those tests are skipped and say so.
 tools=(admesh prusa-slicer cura-engine gmsh)

@@ -32,20 +32,22 @@ _OFFSET_TOLERANCE = 1e-4
 _SKIN, _INTERSECTION = 0, 2
 
 
-def base_solid(
-    base: App.DocumentObject, infill: App.DocumentObject, mesh: TriangleMesh
-) -> Part.Shape | None:
-    """The one solid that was filled, in the infill's coordinates; None where it is not one.
-
-    `mesh` is what was filled, against which its volume is held.
-    """
+def base_shape(base: App.DocumentObject, infill: App.DocumentObject) -> Part.Shape | None:
+    """The shape that was filled, in the infill's coordinates; None where there is none."""
     base = resolve_base(base)
     shape = Part.getShape(base)
-    if shape.isNull() or len(shape.Solids) != 1:
+    if shape.isNull():
+        return None
+    to_frame = parent_placement(infill).inverse().multiply(parent_placement(base))
+    shape.Placement = to_frame.multiply(shape.Placement)
+    return shape
+
+
+def one_solid(shape: Part.Shape, mesh: TriangleMesh) -> Part.Shape | None:
+    """The one solid of a shape; None where it is not one, or not what `mesh` is made of."""
+    if len(shape.Solids) != 1:
         return None
     solid = shape.Solids[0].copy()
-    to_frame = parent_placement(infill).inverse().multiply(parent_placement(base))
-    solid.Placement = to_frame.multiply(solid.Placement)
     return solid if abs(solid.Volume / mesh.volume - 1.0) < VOLUME_TOLERANCE else None
 
 

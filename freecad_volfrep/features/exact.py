@@ -12,9 +12,10 @@ from freecad_volfrep.engine import require_engine
 from volfrep.util.errors import VolfrepError
 
 from .lattice_infill import LatticeInfill
-from .progress import job_title, progress_of
+from .progress import job_title, run_job
 
 if TYPE_CHECKING:
+    from freecad_volfrep.bridge.apart import ExactJob
     from volfrep.design.spec import LatticeSpec
     from volfrep.grid.strut_graph import Wireframe
     from volfrep.mesh.triangle_mesh import TriangleMesh
@@ -66,7 +67,7 @@ def inputs_of(obj: App.DocumentObject) -> tuple[TriangleMesh, LatticeSpec, Stage
     return solid, spec, cache
 
 
-def ingredients_of(obj: App.DocumentObject, progress: Any = None) -> Ingredients:
+def ingredients_of(obj: App.DocumentObject) -> Ingredients:
     """What an infill with exact surfaces is made of.
 
     Raises:
@@ -74,12 +75,13 @@ def ingredients_of(obj: App.DocumentObject, progress: Any = None) -> Ingredients
         Cancelled: in the window, by the user.
     """
     solid, spec, cache = inputs_of(obj)
-    from volfrep.jobs.targets import infill_of
+    from volfrep.apart.engine_process import Call
+    from volfrep.jobs.beam_part import exact_struts
     from volfrep.trim.beam_model import deformed_struts
 
-    infill = infill_of(solid, spec, progress=progress, cache=cache)
-    lattice = infill.lattice_beams.lattice
-    domain = infill.cavity if spec.is_cut else None
+    lattice, domain = run_job(
+        job_title("Struts of {label}", obj), Call(exact_struts, (solid, spec), {"cache": cache})
+    )
     warnings = deformed_struts(spec.grid, spec.struts, "Exact struts")
     return Ingredients(spec, lattice, solid, domain, warnings)
 
@@ -103,8 +105,7 @@ def checked_ingredients(obj: App.DocumentObject) -> Ingredients:
         VolfrepError: as `inputs_of` and `estimate_of`.
         Cancelled: in the window, by the user.
     """
-    with progress_of(job_title("Struts of {label}", obj)) as progress:
-        made_of = ingredients_of(obj, progress)
+    made_of = ingredients_of(obj)
     estimate_of(made_of)
     return made_of
 
@@ -117,13 +118,45 @@ def exact_shape(obj: App.DocumentObject, made_of: Ingredients) -> Any:
             the mesh's.
         Cancelled: in the window, by the user.
     """
+    from freecad_volfrep.bridge.apart import packed_exact, unpacked
     from freecad_volfrep.bridge.beams import place_in_document
+    from volfrep.apart.engine_process import Call
 
-    with progress_of(job_title("Exact surfaces of {label}", obj)) as progress:
-        shape = _shape(obj, made_of, progress)
+    call = Call(packed_exact, (exact_job(obj, made_of),))
+    shape = unpacked(run_job(exact_title(obj), call, in_freecad=True))
     warn(obj, made_of.warnings)
     shape.Placement = place_in_document(obj).multiply(shape.Placement)
     return shape
+
+
+def exact_title(obj: App.DocumentObject) -> str:
+    """What making exact surfaces is called in the window."""
+    return job_title("Exact surfaces of {label}", obj)
+
+
+def exact_job(obj: App.DocumentObject, made_of: Ingredients) -> ExactJob:
+    """The infill as FreeCAD is given it in a process of its own.
+
+    Raises:
+        VolfrepError: its struts are not what exact ones would be.
+    """
+    from freecad_volfrep.bridge.apart import ExactJob, packed
+    from freecad_volfrep.bridge.trimmed import base_shape
+    from volfrep.reports.estimate import refuse_inexact
+
+    refuse_inexact(made_of.spec)
+    base = None if made_of.domain is None else base_shape(obj.Base, obj)
+    skin = made_of.spec.skin
+    return ExactJob(
+        made_of.lattice,
+        made_of.solid,
+        made_of.domain,
+        None if base is None else packed(base),
+        # A bush round a hole is too little of the volume for the wall's check to see.
+        made_of.spec.shell if skin is None or skin.is_even else None,
+        made_of.with_skin,
+        expected_volume(obj, made_of),
+    )
 
 
 def expected_volume(obj: App.DocumentObject, made_of: Ingredients) -> float | None:
@@ -131,47 +164,7 @@ def expected_volume(obj: App.DocumentObject, made_of: Ingredients) -> float | No
     return None if made_of.warnings else float(obj.Volume.Value)
 
 
-def walls_of(obj: App.DocumentObject, made_of: Ingredients) -> tuple[Any, Any]:
-    """The inner and the outer wall as solids; None for the outer one where there is no skin.
-
-    Raises:
-        VolfrepError: OpenCASCADE's offset does not agree with the mesh's wall, and that has too
-            many triangles.
-    """
-    from freecad_volfrep.bridge.trimmed import base_solid, offset_wall, plane_wall
-
-    assert made_of.domain is not None
-    base = base_solid(obj.Base, obj, made_of.solid)
-    inner = None
-    skin = made_of.spec.skin
-    if base is not None and (skin is None or skin.is_even):
-        # A bush round a hole is too little of the volume for the wall's check to see.
-        inner = offset_wall(base, made_of.spec.shell, made_of.domain)
-    if inner is None:
-        inner = plane_wall(made_of.domain)
-    if not made_of.with_skin:
-        return inner, None
-    return inner, plane_wall(made_of.solid) if base is None else base
-
-
 def warn(obj: App.DocumentObject, sentences: tuple[str, ...]) -> None:
     """Say something about an object in the report view."""
     for sentence in sentences:
         App.Console.PrintWarning(f"VOLFREP, {obj.Label}: {sentence}\n")
-
-
-def _shape(obj: App.DocumentObject, made_of: Ingredients, progress: Any) -> Any:
-    from freecad_volfrep.bridge.exact import exact_lattice
-    from freecad_volfrep.bridge.trimmed import check_volume, exact_part
-    from volfrep.reports.estimate import refuse_inexact
-    from volfrep.util.progress import Monitor
-
-    refuse_inexact(made_of.spec)
-    expected = expected_volume(obj, made_of)
-    monitor = Monitor(progress)
-    if made_of.domain is not None:
-        return exact_part(made_of.lattice, *walls_of(obj, made_of), expected, monitor)
-    shape = exact_lattice(made_of.lattice, monitor)
-    if expected is not None:
-        check_volume(shape.Volume, expected)
-    return shape

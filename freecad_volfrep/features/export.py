@@ -113,14 +113,21 @@ def export_mesh(
     """
     require_engine()
     from freecad_volfrep.bridge.solids import mesh_in_document
+    from volfrep.apart.engine_process import Call
     from volfrep.io.write import write_mesh
     from volfrep.io.write.threemf import BEAMS_ONLY, write_3mf_beams
+    from volfrep.util.files import beside
 
     if not obj.isDerivedFrom("Mesh::Feature") or not obj.Mesh.CountFacets:
         raise VolfrepError(f"'{obj.Label}' has no mesh to export: update it first.")
     refuse_inputs(path, obj)
     if content == "mesh":
-        write_mesh(mesh_in_document(obj), path, figures=_figures(obj))
+        mesh, figures = mesh_in_document(obj), _figures(obj)
+        with beside(path) as unfinished:
+            call = Call(
+                write_mesh, (mesh, str(unfinished)), {"figures": figures}, has_progress=False
+            )
+            run_job(job_title("Writing {label}", obj), call)
         return
     if content in CONTENTS:
         write_solver_file(obj, path, content)
@@ -128,7 +135,6 @@ def export_mesh(
     if Path(path).suffix.lower() != ".3mf" or content not in ("beams", "both"):
         raise VolfrepError(f"'{path}' cannot hold {content}: only a 3MF file holds beams or both.")
     from freecad_volfrep.bridge.beams import place_in_document, placed_beams
-    from volfrep.apart.engine_process import Call
     from volfrep.jobs.beam_part import beam_model
 
     if not isinstance(getattr(obj, "Proxy", None), LatticeInfill):

@@ -13,6 +13,7 @@ from freecad_volfrep.engine import require_engine
 from volfrep.util.errors import VolfrepError
 
 from .input_files import refuse_inputs
+from .progress import job_title, run_job
 
 #: More triangles than this are refused unless the caller raises the limit.
 DEFAULT_LIMIT = 100_000
@@ -92,11 +93,14 @@ def make_solid(
         VolfrepError: no mesh, more triangles than the limit, or a mesh that is not closed.
     """
     require_engine()
-    from freecad_volfrep.bridge.faceted import faceted_solid
+    from freecad_volfrep.bridge.apart import packed_facets, unpacked
     from freecad_volfrep.bridge.solids import mesh_in_document
+    from volfrep.apart.engine_process import Call
 
     acceptable_solid(obj, limit)
-    shape = faceted_solid(mesh_in_document(obj))
+    call = Call(packed_facets, (mesh_in_document(obj),), has_progress=False)
+    title = job_title("Plane faces of {label}", obj)
+    shape = unpacked(run_job(title, call, in_freecad=True))
     solid = doc.addObject("Part::Feature", f"{obj.Name}Solid")
     solid.Label = f"{obj.Label} solid"
     solid.Shape = shape

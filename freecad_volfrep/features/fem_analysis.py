@@ -17,8 +17,7 @@ from volfrep.util.errors import VolfrepError
 
 from .exact import inputs_of, warn
 from .materials import for_solver
-from .progress import job_title, progress_of
-from .solver_files import axes_of
+from .solver_files import beams_of, tetrahedra_of
 
 if TYPE_CHECKING:
     from volfrep.mechanics.materials import Material
@@ -87,20 +86,9 @@ def vertices(shape: App.DocumentObject) -> tuple[App.DocumentObject, list[str]]:
 
 def _beams(doc: App.Document, obj: App.DocumentObject, material: Material) -> App.DocumentObject:
     from freecad_volfrep.bridge.fem_meshes import beam_mesh, points_shape, runs_of
-    from volfrep.fem.beam_mesh import fitted_beams
     from volfrep.io.write.calculix import sides, stiff_materials, width_of_ends
-    from volfrep.trim.beam_model import deformed_struts
 
-    clipped = axes_of(obj)
-    spec = inputs_of(obj)[1]
-    model, said = fitted_beams(
-        clipped.wireframe,
-        clipped.on_wall,
-        spec.fitted_cell,
-        spec.cell_size,
-        section="circle",
-        elements_per_strut=ELEMENTS_PER_STRUT,
-    )
+    model, on_wall = beams_of(obj, section="circle", elements_per_strut=ELEMENTS_PER_STRUT)
     runs = runs_of(model)
     if len(runs.section) > MOST_EDGES:
         raise VolfrepError(
@@ -109,9 +97,8 @@ def _beams(doc: App.Document, obj: App.DocumentObject, material: Material) -> Ap
             "lattice as beams for CalculiX."
         )
     joints = model.nodes[: model.joints]
-    on_skin = np.flatnonzero(clipped.on_wall)
+    on_skin = np.flatnonzero(on_wall)
     mesh = beam_mesh(model, {"SKIN": on_skin, "JOINTS": np.arange(len(joints)), **sides(joints)})
-    warn(obj, said + deformed_struts(spec.grid, spec.struts))
 
     analysis = _analysis(doc, obj)
     axes = _shape(doc, obj, "Axes", runs.shape)
@@ -143,19 +130,16 @@ def _tetrahedra(
     from freecad_volfrep.bridge.beams import place_in_document
     from freecad_volfrep.bridge.fem_meshes import tetrahedral_mesh
     from freecad_volfrep.bridge.solids import (
-        mesh_in_document,
         parent_placement,
         placed,
         resolve_base,
     )
-    from volfrep.fem.tet_mesh import nodes_on, tetrahedra
+    from volfrep.fem.tet_mesh import nodes_on
     from volfrep.io.write.calculix import sides
-    from volfrep.util.progress import Monitor
 
     solid, spec, _ = inputs_of(obj)
     solid = placed(solid, place_in_document(obj))
-    with progress_of(job_title("Tetrahedra of {label}", obj)) as progress:
-        filled = tetrahedra(mesh_in_document(obj), Monitor(progress))
+    filled = tetrahedra_of(obj)
     mesh = tetrahedral_mesh(filled, {"SKIN": nodes_on(filled, solid), **sides(filled.nodes)})
     base = resolve_base(obj.Base)
     shape = Part.getShape(base)

@@ -23,7 +23,7 @@ from .properties import (
     wrong_types,
 )
 from .quantities import set_value
-from .screen import attach_view, revive_view
+from .screen import attach_view, is_asked_by_user, revive_view, screen
 from .values import specification_of
 
 if TYPE_CHECKING:
@@ -33,6 +33,8 @@ if TYPE_CHECKING:
     from volfrep.jobs.pipeline import FilledMesh
     from volfrep.mesh.triangle_mesh import TriangleMesh
     from volfrep.util.cache import StageCache
+
+    from .screen import Screen
 
 UP_TO_DATE = "Up to date"
 OUT_OF_DATE = "Out of date: AutoUpdate is off, use Update Lattice Infill"
@@ -64,6 +66,7 @@ class LatticeInfill:
     _is_to_begin = False
     _arrived: Any = None
     being_made: Asked | None = None
+    _beside: Asked | None = None
     was_cancelled = False
 
     def __init__(self, obj: App.DocumentObject) -> None:
@@ -74,7 +77,9 @@ class LatticeInfill:
     def execute(self, obj: App.DocumentObject) -> None:
         """Bring the mesh up to date; called by FreeCAD's recompute.
 
-        A cancelled job is no error: the last mesh stays, and `Status` says so.
+        In the window a recompute of the user's returns at once, and the mesh comes later; a
+        script's waits for it. A cancelled job is no error: the last mesh stays, and `Status` says
+        so.
 
         Raises:
             VolfrepError: one sentence; the object turns Invalid and its last mesh stays.
@@ -85,9 +90,10 @@ class LatticeInfill:
             ensure_properties(obj)
         forced, self._forced = self._forced, False
         self.was_cancelled = False
+        beside = screen() if is_asked_by_user() else None
         obj.Status = FAILED  # what stays if something fails that is not the input's fault
         try:
-            self._run(obj, forced)
+            self._run(obj, forced, beside)
         except VolfrepError as error:
             message = str(error)
         except Cancelled:
@@ -228,28 +234,38 @@ class LatticeInfill:
         self._reader: Any = None
         self._cache: Any = None
         self.made: Any = None
-        self._is_to_begin, self._arrived, self.being_made = False, None, None
+        self._is_to_begin, self._arrived = False, None
+        self.being_made, self._beside = None, None
         self.was_cancelled = False
 
-    def _run(self, obj: App.DocumentObject, forced: bool) -> None:
+    def _run(self, obj: App.DocumentObject, forced: bool, beside: Screen | None) -> None:
         if self._arrived is not None:
             asked, come, error = self._arrived
             if error is not None:
                 raise error
-        elif self.being_made is not None:
+        elif self.being_made is not None and not (beside and self._is_stale(obj)):
             obj.Status = BEING_MADE
             return
         else:
+            self.being_made = None
             asked = self._asked(obj, forced)
             if asked is None:
                 return
-            if self._is_to_begin:
+            if self._is_to_begin or beside is not None:
                 self.being_made, obj.Status = asked, BEING_MADE
+                if beside is not None:
+                    self._beside = asked
+                    beside.update(obj, asked)
                 return
             filled = run_job(asked.title, asked.call)
             come = filled, loaded(filled)
         install(obj, asked, *come)
         obj.Status = UP_TO_DATE
+
+    def _is_stale(self, obj: App.DocumentObject) -> bool:
+        """Whether a recompute has asked for what is being made, for values that have changed."""
+        known = self.being_made
+        return known is not None and known is self._beside and self.differs(obj, known)
 
     def _asked(self, obj: App.DocumentObject, forced: bool) -> Asked | None:
         """What is to be made now; None for nothing, and `Status` says why."""

@@ -3,14 +3,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 import FreeCAD as App
 
 from freecad_volfrep.translation import translate
-from volfrep.util.progress import ProgressCallback
 
 from .screen import screen
 
@@ -26,25 +23,19 @@ def job_title(text: str, obj: App.DocumentObject) -> str:
     return str(translate("VolfrepJobs", text)).format(label=obj.Label)
 
 
-def run_job(title: str, call: Call) -> Any:
+def run_job(title: str, call: Call, *, in_freecad: bool = False) -> Any:
     """What a call of the engine returns or raises.
 
     With a window it is made in a process of its own, and the window lives meanwhile. Without a
     screen it is simply made, here.
 
+    Args:
+        title: in the window.
+        call: of the engine, or of the workbench.
+        in_freecad: whether it needs FreeCAD in that process, for OpenCASCADE.
+
     Raises:
         Cancelled: in the window, by the user.
     """
     window = screen()
-    return call.here() if window is None else window.wait_for(title, call)
-
-
-@contextmanager
-def progress_of(title: str) -> Iterator[ProgressCallback | None]:
-    """A callback for a job that touches FreeCAD, and stays on its thread; None without a screen."""
-    window = screen()
-    if window is None:
-        yield None
-        return
-    with window.progress_bar(title) as callback:
-        yield callback
+    return call.here() if window is None else window.wait_for(title, call, in_freecad)

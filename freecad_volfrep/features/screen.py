@@ -7,14 +7,12 @@ Objects know nothing of windows: whoever has one says here how it shows jobs and
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable
-from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import FreeCAD as App
-
-from volfrep.util.progress import ProgressCallback
 
 if TYPE_CHECKING:
     from volfrep.apart.engine_process import Call
@@ -25,19 +23,22 @@ class Screen:
     """How a window shows things.
 
     Attributes:
-        wait_for: makes a call of the engine under a title, in a process of its own, and returns
-            what it does; nothing but turning the view can be done meanwhile.
-        progress_bar: gives the callback of a job under a title that stays on its thread.
+        update: has an infill's mesh made that its recompute has asked for, beside what is done.
+        wait_for: makes a call of the engine under a title, in a process of its own, which is
+            FreeCAD's where that is wanted, and returns what it does; nothing but turning the view
+            can be done meanwhile.
         attach_view: gives an object of ours its view provider.
         revive_view: does so where FreeCAD has lost it.
     """
 
-    wait_for: Callable[[str, Call], Any]
-    progress_bar: Callable[[str], AbstractContextManager[ProgressCallback]]
+    update: Callable[[Any, Any], None]
+    wait_for: Callable[[str, Call, bool], Any]
     attach_view: Callable[[Any], None]
     revive_view: Callable[[Any], None]
 
 
+#: What Python calls the source of a line that one of FreeCAD's own commands runs.
+_COMMAND = "<string>"
 _screens: list[Screen] = []
 
 
@@ -49,6 +50,16 @@ def register_screen(screen: Screen) -> None:
 def screen() -> Screen | None:
     """The window, or None where there is none."""
     return _screens[0] if _screens and App.GuiUp else None
+
+
+def is_asked_by_user() -> bool:
+    """Whether a recompute, whose `execute` calls this, is the user's and no script's.
+
+    FreeCAD's Refresh runs a line of Python, its property editor none at all; a script that
+    recomputes stands behind `execute`, and wants the mesh before it goes on.
+    """
+    caller = sys._getframe(1).f_back
+    return caller is None or caller.f_code.co_filename == _COMMAND
 
 
 def attach_view(obj: App.DocumentObject) -> None:

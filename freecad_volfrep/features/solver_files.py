@@ -7,17 +7,18 @@ import os
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import FreeCAD as App
 
 from volfrep.util.errors import VolfrepError
+from volfrep.util.files import beside
 
 from .exact import (
     checked_ingredients,
     estimate_of,
-    exact_shape,
-    expected_volume,
+    exact_job,
+    exact_title,
     ingredients_of,
     inputs_of,
     warn,
@@ -25,9 +26,13 @@ from .exact import (
 from .input_files import refuse_inputs
 from .instances import estimate_instances, write_instances
 from .materials import for_solver
-from .progress import job_title, progress_of, run_job
+from .progress import job_title, run_job
 
 if TYPE_CHECKING:
+    import numpy as np
+
+    from volfrep.fem.beam_mesh import BeamModel
+    from volfrep.fem.tet_mesh import TetrahedralMesh
     from volfrep.trim.clip_struts import Clipped
 
 STEP_SUFFIXES = (".step", ".stp")
@@ -73,8 +78,7 @@ def estimate_file(obj: App.DocumentObject, content: str) -> str:
     if content == "instances":
         return str(estimate_instances(obj))
     if content == "exact":
-        with progress_of(job_title("Struts of {label}", obj)) as progress:
-            return str(estimate_of(ingredients_of(obj, progress)))
+        return str(estimate_of(ingredients_of(obj)))
     clipped = axes_of(obj)
     if content == "wireframe":
         return str(estimate_axes(len(clipped.wireframe.struts), asked))
@@ -105,36 +109,38 @@ def write_solver_file(obj: App.DocumentObject, path: str | os.PathLike[str], con
 
 
 def _write_exact(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
+    from freecad_volfrep.bridge.apart import write_exact_lattice, write_exact_part
     from freecad_volfrep.bridge.beams import place_in_document, placed_lattice
-    from freecad_volfrep.bridge.exact import write_exact
     from freecad_volfrep.bridge.solids import mesh_in_document
-    from freecad_volfrep.bridge.trimmed import check_volume, write_shape
+    from freecad_volfrep.bridge.trimmed import check_volume
+    from volfrep.apart.engine_process import Call
     from volfrep.io.write.step_faceted import write_step_faceted
     from volfrep.reports.estimate import estimate_faceted
-    from volfrep.util.files import check_writable
-    from volfrep.util.progress import Monitor
 
-    check_writable(path)
     made_of = checked_ingredients(obj)
-    expected = expected_volume(obj, made_of)
+    place, title = place_in_document(obj), exact_title(obj)
     try:
-        if made_of.domain is None:
-            # Never built as a shape: its text is laid at every place.
-            lattice = placed_lattice(made_of.lattice, place_in_document(obj))
-            with progress_of(job_title("Exact surfaces of {label}", obj)) as progress:
-                volume = write_exact(lattice, path, Monitor(progress))
-            if expected is not None:
-                check_volume(volume, expected)
-            warn(obj, made_of.warnings)
-            return
-        shape = exact_shape(obj, made_of)
+        with beside(path) as unfinished:
+            job = exact_job(obj, made_of)
+            if made_of.domain is None:
+                # Never built as a shape: its text is laid at every place.
+                lattice = placed_lattice(made_of.lattice, place)
+                call = Call(write_exact_lattice, (lattice, str(unfinished)))
+                volume = run_job(title, call, in_freecad=True)
+                if job.expected is not None:
+                    check_volume(volume, job.expected)
+            else:
+                move = tuple(place.toMatrix().A)
+                call = Call(write_exact_part, (job, str(unfinished), move))
+                run_job(title, call, in_freecad=True)
+        warn(obj, made_of.warnings)
     except VolfrepError as error:
         mesh = mesh_in_document(obj)
         estimate_faceted(len(mesh.triangles))
-        write_step_faceted(mesh, path)
+        with beside(path) as unfinished:
+            call = Call(write_step_faceted, (mesh, str(unfinished)), has_progress=False)
+            run_job(job_title("Plane faces of {label}", obj), call)
         warn(obj, (f"{error} The file holds plane faces instead of exact surfaces.",))
-        return
-    write_shape(shape, path)
 
 
 def _write_axes(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
@@ -144,31 +150,74 @@ def _write_axes(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
 
 
 def _write_beams(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
-    from volfrep.fem.beam_mesh import fitted_beams
     from volfrep.io.write.calculix import write_beams
     from volfrep.reports.estimate import estimate_beams
+
+    model, on_wall = beams_of(obj)
+    estimate_beams(model)
+    write_beams(model, path, for_solver(obj), on_wall=on_wall)
+
+
+def beams_of(obj: App.DocumentObject, **options: Any) -> tuple[BeamModel, np.ndarray]:
+    """The infill as beams with fitted ends, in the document's coordinates, and what is on the wall.
+
+    Args:
+        obj: the infill.
+        options: of `volfrep.fem.beam_mesh.fitted_beams`.
+
+    Raises:
+        VolfrepError: as `axes_of`.
+        Cancelled: in the window, by the user.
+    """
+    from volfrep.apart.engine_process import Call
+    from volfrep.fem.beam_mesh import fitted_beams
     from volfrep.trim.beam_model import deformed_struts
 
     clipped = axes_of(obj)
     spec = inputs_of(obj)[1]
-    model, said = fitted_beams(clipped.wireframe, clipped.on_wall, spec.fitted_cell, spec.cell_size)
-    estimate_beams(model)
-    write_beams(model, path, for_solver(obj), on_wall=clipped.on_wall)
+    call = Call(
+        fitted_beams,
+        (clipped.wireframe, clipped.on_wall, spec.fitted_cell, spec.cell_size),
+        options,
+        has_progress=False,
+    )
+    model, said = run_job(job_title("Beams of {label}", obj), call)
     warn(obj, said + deformed_struts(spec.grid, spec.struts))
+    return model, clipped.on_wall
 
 
 def _write_tetrahedra(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
     from freecad_volfrep.bridge.beams import place_in_document
-    from freecad_volfrep.bridge.solids import mesh_in_document, placed
-    from volfrep.fem.tet_mesh import nodes_on, tetrahedra
+    from freecad_volfrep.bridge.solids import placed
+    from volfrep.apart.engine_process import Call
+    from volfrep.fem.tet_mesh import nodes_on
     from volfrep.io.write.calculix import write_tetrahedra
-    from volfrep.util.progress import Monitor
 
     solid = placed(inputs_of(obj)[0], place_in_document(obj))
-    with progress_of(job_title("Tetrahedra of {label}", obj)) as progress:
-        filled = tetrahedra(mesh_in_document(obj), Monitor(progress))
+    filled = tetrahedra_of(obj)
     sets = {"SKIN": nodes_on(filled, solid)}
-    write_tetrahedra(filled, path, for_solver(obj), sets=sets)
+    with beside(path) as unfinished:
+        call = Call(
+            write_tetrahedra, (filled, str(unfinished), for_solver(obj)), {"sets": sets},
+            has_progress=False,
+        )  # fmt: skip
+        run_job(job_title("Tetrahedra of {label}", obj), call)
+
+
+def tetrahedra_of(obj: App.DocumentObject) -> TetrahedralMesh:
+    """The infill filled with tetrahedra, in the document's coordinates.
+
+    Raises:
+        VolfrepError: Gmsh is missing, or does not manage it.
+        Cancelled: in the window, by the user.
+    """
+    from freecad_volfrep.bridge.solids import mesh_in_document
+    from volfrep.apart.engine_process import Call
+    from volfrep.jobs.beam_part import tetrahedra_of as made
+
+    title = job_title("Tetrahedra of {label}", obj)
+    filled: TetrahedralMesh = run_job(title, Call(made, (mesh_in_document(obj),)))
+    return filled
 
 
 #: By content: the extensions that can hold it, and what writes it.

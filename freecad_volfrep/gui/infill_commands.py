@@ -13,7 +13,7 @@ from freecad_volfrep.translation import translate
 
 from .command import undo_step
 from .messages import ask, errors_shown, tell
-from .selection import selected_solids
+from .selection import only_solid, selected_solids
 from .updating import begin_update, show_mesh
 
 #: How the camera is turned about Z and then tilted in the isometric view, degrees.
@@ -21,13 +21,13 @@ ISOMETRIC = (45.0, 54.7356)
 
 
 def fillable_selection() -> list[App.DocumentObject] | None:
-    """The selected solids; anything that is selected where packages are missing.
+    """The selected solids, or the only one there is; where packages are missing anything selected.
 
     So a click says what to install.
     """
     if missing_packages():
         return Gui.Selection.getSelection() or None
-    return selected_solids() or None
+    return selected_solids() or only_solid() or None
 
 
 def fill_solids(bases: list[App.DocumentObject]) -> None:

@@ -12,15 +12,12 @@ recompute holds it already.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 import FreeCADGui as Gui
 
-from freecad_volfrep.engines import engines
+from freecad_volfrep.engines import engines, freecads
 from freecad_volfrep.translation import marked, translate
-from volfrep.util.progress import ProgressCallback
 
 from .qt import QtCore, QtGui, QtWidgets
 
@@ -30,7 +27,7 @@ if TYPE_CHECKING:
 
 #: Quicker jobs show nothing, in ms.
 SHOW_AFTER = 700
-#: How often the window lives while a job runs on its thread, in s.
+#: How often the window lives while a job is waited for, in s.
 BREATH = 0.02
 _STEPS = 1000
 #: The engine's names of its stages, marked for translation.
@@ -208,11 +205,6 @@ class _Progress:
         self._bar.leave()
 
     @property
-    def is_cancelled(self) -> bool:
-        """Whether the user has cancelled it."""
-        return self._guard.cancels > 0
-
-    @property
     def cancels(self) -> int:
         """How often the user has."""
         return self._guard.cancels
@@ -226,26 +218,19 @@ class _Progress:
         QtWidgets.QApplication.processEvents()
 
 
-@contextmanager
-def progress_bar(title: str) -> Iterator[ProgressCallback]:
-    """A callback for a job on Qt's thread; returns False once the user has cancelled."""
-    with _Progress(title) as progress:
-
-        def report(fraction: float, stage: str) -> bool:
-            progress.refresh(fraction, stage)
-            return not progress.is_cancelled
-
-        yield report
-
-
-def wait_for(title: str, call: Call) -> Any:
+def wait_for(title: str, call: Call, in_freecad: bool = False) -> Any:
     """What a call of the engine returns or raises; the window lives meanwhile.
+
+    Args:
+        title: in the status bar.
+        call: of the engine, or of the workbench.
+        in_freecad: whether it needs FreeCAD in its process.
 
     Raises:
         Cancelled: by the user, be it while the work came to its end: what it made is dropped.
         VolfrepError: as the call says, or its process has died.
     """
-    running: Running = engines().begin(call)
+    running: Running = (freecads() if in_freecad else engines()).begin(call)
     cancels = 0
     try:
         with _Progress(title) as progress:

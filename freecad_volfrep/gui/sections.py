@@ -28,6 +28,8 @@ GROUPS = {
 #: Groups that are folded away until they are wanted, and the formulas that are drawn.
 FOLDED = ("Network", "Boundary", "Cell size", "Strut radius")
 CURVES = ("LambdaFormula", "RadiusFormula")
+#: Between rows, pixels.
+SPACE = 6
 
 
 class Section(QtWidgets.QWidget):
@@ -66,6 +68,37 @@ class Section(QtWidgets.QWidget):
         self.title.setArrowType(QtCore.Qt.DownArrow if is_open else QtCore.Qt.RightArrow)
         self._body.setVisible(is_open)
         keep_folded(self._name, not is_open, self._usually)
+
+
+class Rows(QtWidgets.QWidget):
+    """Labels with their fields, of which some are hidden.
+
+    Qt 5 keeps the space between hidden rows: here there is none, and labels are higher by it.
+    """
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._form = QtWidgets.QFormLayout(self)
+        self._form.setContentsMargins(6, 4, 6, 4)
+        self._form.setVerticalSpacing(0)
+        self._form.setRowWrapPolicy(QtWidgets.QFormLayout.WrapLongRows)
+        self._rows: list[tuple[str, tuple[Any, ...]]] = []
+
+    def add(self, name: str, *widgets: Any) -> None:
+        """A row, or where there is one widget only a line of its own; more than one to a name."""
+        *labels, field = widgets
+        for label in labels:
+            label.setMinimumHeight(field.sizeHint().height() + SPACE)
+            label.setContentsMargins(0, 0, 0, SPACE)
+        self._form.addRow(*widgets)
+        self._rows.append((name, widgets))
+
+    def show_only(self, names: Iterable[str]) -> None:
+        """Show the rows of these names, and hide the others."""
+        shown = set(names)
+        for name, widgets in self._rows:
+            for widget in widgets:
+                widget.setVisible(name in shown)
 
 
 def give_accelerators(buttons: Iterable[Any]) -> None:

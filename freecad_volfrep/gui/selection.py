@@ -44,6 +44,23 @@ def selected_solids() -> list[App.DocumentObject]:
     return list(dict.fromkeys(selected))
 
 
+def only_solid() -> list[App.DocumentObject]:
+    """The one solid that is shown, where nothing is selected and there is no other; else none."""
+    from freecad_volfrep.bridge.solids import is_fillable, resolve_base
+    from freecad_volfrep.features import LatticeInfill
+
+    if App.ActiveDocument is None or Gui.Selection.getSelection():
+        return []
+    found: dict[App.DocumentObject, None] = {}
+    for obj in App.ActiveDocument.Objects:
+        is_ours = isinstance(getattr(obj, "Proxy", None), LatticeInfill)
+        if obj.Visibility and not is_ours and is_fillable(obj):
+            found[resolve_base(obj)] = None
+            if len(found) > 1:
+                return []
+    return list(found)
+
+
 def selected_mesh() -> App.DocumentObject | None:
     """The selected mesh object, if it is the only selection and not empty."""
     selected = Gui.Selection.getSelection()

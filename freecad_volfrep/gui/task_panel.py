@@ -27,11 +27,12 @@ from .property_fields import PropertyFields, direction_text, is_read_only, label
 from .qt import OK_CANCEL, QtCore, QtWidgets
 from .recipe_row import RecipeRow
 from .section_view import close_section, open_section
-from .sections import CURVES, FOLDED, GROUPS, Section, give_accelerators
+from .sections import CURVES, FOLDED, GROUPS, Rows, Section, give_accelerators
 from .updating import Update, begin_update, show_mesh
 
-#: The preview waits until no value has changed for so long, ms.
-SETTLED = 120
+#: The preview waits until no value has changed for so long, ms: less where the last one was made
+#: within `PROMPT`, so that it keeps up with what is typed.
+SETTLED, SOON, PROMPT = 120, 20, 60
 #: The switches of what is shown in the view.
 PREVIEW = QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Preview")
 CELLS = QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Cells")
@@ -73,11 +74,12 @@ class TaskPanel:
         self._fields = PropertyFields(obj, self._value_changed, self._refuse)
         self._refusal = ""
         self._rows: dict[str, tuple[Any, Any]] = {}
-        self._boxes: list[tuple[Any, tuple[str, ...]]] = []
+        self._boxes: list[tuple[Section, Rows, tuple[str, ...]]] = []
         self._shown: Shown | None = None
         self._update: Update | None = None
         self._is_open = True
         self.form = self._build()
+        self._pause = SETTLED
         self._timer = QtCore.QTimer(self.form)
         self._timer.setSingleShot(True)
         self._timer.timeout.connect(self.refresh)
@@ -169,6 +171,12 @@ class TaskPanel:
 
     def refresh(self) -> None:
         """Bring the preview and the figures up to the present values."""
+        clock = QtCore.QElapsedTimer()
+        clock.start()
+        self._show_present()
+        self._pause = SOON if clock.elapsed() < PROMPT else SETTLED
+
+    def _show_present(self) -> None:
         try:
             follow_expressions(self._obj)
             shown = self._live.show()
@@ -262,10 +270,7 @@ class TaskPanel:
 
     def _section(self, title: str, names: tuple[str, ...]) -> Section:
         """The fields of a group."""
-        body = QtWidgets.QWidget()
-        rows = QtWidgets.QFormLayout(body)
-        rows.setContentsMargins(6, 4, 6, 4)
-        rows.setRowWrapPolicy(QtWidgets.QFormLayout.WrapLongRows)
+        rows = Rows()
         for name in names:
             label, widget = QtWidgets.QLabel(label_of(name)), self._fields.field(name)
             widget.setObjectName(name)
@@ -273,12 +278,12 @@ class TaskPanel:
             widget.setToolTip(said_property(self._obj.getDocumentationOfProperty(name)))
             widget.setAccessibleName(label_of(name))
             label.setBuddy(widget)
-            rows.addRow(label, widget)
+            rows.add(name, label, widget)
             self._rows[name] = label, widget
             if name in CURVES:
-                rows.addRow(self._fields.curve_of(name, widget))
-        section = Section(title, said_property(title), body, title in FOLDED)
-        self._boxes.append((section, names))
+                rows.add(name, self._fields.curve_of(name, widget))
+        section = Section(title, said_property(title), rows, title in FOLDED)
+        self._boxes.append((section, rows, names))
         return section
 
     def _add_figures(self, column: Any) -> None:
@@ -342,18 +347,14 @@ class TaskPanel:
         self._refusal = ""
         self._show_rows()
         self._picking.show_picked()
-        self._timer.start(SETTLED)
+        self._timer.start(self._pause)
 
     def _show_rows(self) -> None:
         """Hide what does not apply, as the property editor does."""
-        for name, row in self._rows.items():
-            for widget in row:
-                widget.setVisible(_HIDDEN not in self._obj.getEditorMode(name))
-            if name in self._fields.curves:
-                is_shown = _HIDDEN not in self._obj.getEditorMode(name)
-                self._fields.curves[name].setVisible(is_shown)
-        for box, names in self._boxes:
-            box.setVisible(any(_HIDDEN not in self._obj.getEditorMode(name) for name in names))
+        for box, rows, names in self._boxes:
+            shown = [name for name in names if _HIDDEN not in self._obj.getEditorMode(name)]
+            rows.show_only(shown)
+            box.setVisible(bool(shown))
         self._picking.show_applicable()
         self._rows["StrutRadius"][1].setEnabled(not is_read_only(self._obj, "StrutRadius"))
 

@@ -23,9 +23,9 @@ if TYPE_CHECKING:
     from freecad_volfrep.features.infill_results import Asked
     from volfrep.jobs.pipeline import FilledMesh
 
-#: FreeCAD takes a mesh of more triangles while the user does nothing: it needs a tenth of a second
-#: for each million.
-LARGE = 1_000_000
+#: FreeCAD takes a mesh of more triangles while the user does nothing: it does so in one call, of
+#: 0.2 s for each million, and the window is to answer within 0.1 s.
+LARGE = 400_000
 #: That is for so long; and what is waited for at most, ms.
 STILL, LONGEST = 700, 10_000
 
@@ -42,7 +42,13 @@ class Update:
         ended: what is done at the end.
     """
 
-    def __init__(self, obj: App.DocumentObject, asked: Asked, is_in_panel: bool, ended: Ended):
+    def __init__(
+        self,
+        obj: App.DocumentObject,
+        asked: Asked,
+        is_in_panel: bool = False,
+        ended: Ended = lambda _: None,
+    ) -> None:
         self._obj, self._doc, self._asked = obj, obj.Document, asked
         self.is_in_panel, self.ended = is_in_panel, ended
         self._likeness: Likeness | None = None

@@ -2,10 +2,13 @@
 """What FreeCAD and the Addon Manager find in this folder."""
 
 import ast
+import os
 import re
 import shlex
+import shutil
 import subprocess
 import sys
+import zipfile
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -199,17 +202,185 @@ def test_nothing_without_windows_imports_the_gui_at_its_top():
             assert ".gui" not in module
 
 
-def test_the_addon_manager_reads_what_it_is_and_needs(monkeypatch):
-    """FreeCAD's own Add-on Manager, where it can be driven without its window."""
+@pytest.fixture(scope="module")
+def addon_manager():
+    """The folder of FreeCAD's own Add-on Manager, where it can be driven without its window."""
     homes = (App.getHomePath(), App.getResourceDir())
     folders = [Path(home) / "Mod" / "AddonManager" for home in homes]
     folder = next((f for f in folders if (f / "addonmanager_installer.py").is_file()), None)
     if folder is None:
         pytest.skip("the Add-on Manager of this FreeCAD has its window only")
-    monkeypatch.syspath_prepend(str(folder))
+    return folder
+
+
+def test_the_addon_manager_reads_what_it_is_and_needs(addon_manager, monkeypatch):
+    monkeypatch.syspath_prepend(str(addon_manager))
     from Addon import Addon
 
     addon = Addon("VOLFREP", str(ROOT), Addon.Status.NOT_INSTALLED, "main")
     addon.load_metadata_file(str(ROOT / "package.xml"))
     assert addon.contains_workbench()
     assert addon.python_requires == set(deps.PACKAGES.values())
+
+
+def test_the_addon_manager_puts_packages_where_this_freecad_looks(addon_manager, monkeypatch):
+    monkeypatch.syspath_prepend(str(addon_manager))
+    import addonmanager_utilities as utilities
+
+    theirs = os.path.normpath(utilities.get_pip_target_directory())
+    assert theirs == os.path.normpath(compat.package_folder())
+
+
+#: Runs in a FreeCAD of its own, whose profile has no add-on.
+INSTALL = """
+import os, sys
+sys.path.insert(0, {manager!r})
+from Addon import Addon, MissingDependencies
+from addonmanager_dependency_installer import DependencyInstaller
+from addonmanager_installer import AddonInstaller, InstallationMethod
+import addonmanager_freecad_interface as fci
+
+class Console:  # it says why only in the log, which freecadcmd does not show
+    def __getattr__(self, name):
+        return lambda said, *_: print("SAID", said.rstrip())
+
+fci.Console = Console()
+# FreeCAD 1.1 uses git for the add-ons that are named, and asks a server for versions of packages.
+preferences = fci.ParamGet("User parameter:BaseApp/Preferences/Addons")
+preferences.SetString("force_git_in_repos", "VOLFREP")
+preferences.SetString("pip_constraints_path", {constraints!r})
+addon = Addon("VOLFREP", {url!r}, Addon.Status.NOT_INSTALLED, "main")
+known = Addon("VOLFREP", {url!r}, Addon.Status.NOT_INSTALLED, "main")
+known.load_metadata_file({metadata!r})  # which gives it the address in there
+if hasattr(MissingDependencies, "import_from_addon"):
+    wanted = MissingDependencies()
+    wanted.import_from_addon(known, [])
+else:  # FreeCAD 1.0
+    wanted = MissingDependencies(known, [])
+print("LACKS", sorted(wanted.python_requires))
+packages = DependencyInstaller([], {packages!r}, [])
+packages.failure.connect(lambda *said: print("PACKAGES", said))
+packages.run()
+installer = AddonInstaller(addon, allow_list=[])
+installer.failure.connect(lambda _, said: print("SAID", said))
+print("INSTALLED", installer.run(InstallationMethod[{method!r}]))
+sys.stdout.flush()
+os._exit(0)
+"""
+
+#: The next start of FreeCAD, with its window.
+NEXT_START = """
+import os, sys
+import FreeCAD as App, FreeCADGui as Gui
+said = []
+try:
+    Gui.activateWorkbench("VolfrepWorkbench")
+    said.append("WORKBENCH " + Gui.activeWorkbench().MenuText)
+    import freecad_volfrep, probe_package
+    from freecad_volfrep import make_lattice_infill
+    said.append("FROM " + freecad_volfrep.__file__)
+    said.append("PACKAGE " + probe_package.__file__)
+    doc = App.newDocument("A")
+    infill = make_lattice_infill(doc, doc.addObject("Part::Box", "B"), CellSize=5, ShellThickness=0)
+    doc.recompute()
+    said.append("STATUS " + infill.Status)
+finally:
+    open({answer!r}, "w").write("\\n".join(said))
+    os._exit(0)
+"""
+
+
+@pytest.mark.parametrize("method", ["COPY", "GIT"])
+def test_the_addon_manager_installs_it_from_this_machine(addon_manager, method, tmp_path):
+    """A folder is copied, a bare repository cloned, a package installed; the next FreeCAD has it.
+
+    The checkout itself cannot be copied: its profile in .cache holds a link to the checkout.
+    """
+    if method == "GIT" and shutil.which("git") is None:
+        pytest.skip("git is not installed")
+    url = tmp_path / "VOLFREP"
+    if method == "COPY":
+        copy_of_the_sources(url)
+    else:
+        copy_of_the_sources(tmp_path / "sources")
+        made_bare(tmp_path / "sources", url)
+    home = tmp_path / "home"
+    (home / "Mod").mkdir(parents=True)
+    there = home / compat.package_folder().relative_to(App.getUserAppDataDir())
+    there.mkdir(parents=True)
+    for package in Path(App.getUserAppDataDir(), "AdditionalPythonPackages").iterdir():
+        (there / package.name).symlink_to(package.resolve())
+    wheel = probe_wheel(tmp_path)
+    constraints = tmp_path / "constraints" / f"3.{sys.version_info.minor}" / "constraints.txt"
+    constraints.parent.mkdir(parents=True)
+    constraints.write_text("")
+    code = INSTALL.format(
+        manager=str(addon_manager),
+        url=str(url),
+        method=method,
+        metadata=str(ROOT / "package.xml"),
+        constraints=str(tmp_path / "constraints"),
+        packages=[str(wheel)],
+    )
+    environment = dict(
+        os.environ, FREECAD_USER_HOME=str(home), PYTHONPATH="", PIP_NO_INDEX="1", LC_ALL="C.UTF-8"
+    )
+    script = tmp_path / "script.py"
+    script.write_text(code, encoding="utf-8")
+    done = subprocess.run(
+        [sys.executable, str(script)], env=environment, capture_output=True, text=True, timeout=600
+    )
+    assert "INSTALLED True" in done.stdout, done.stdout + done.stderr
+    # FreeCAD 1.0 looks for a module of the package's name.
+    assert "LACKS []" in done.stdout or "LACKS ['scikit-image']" in done.stdout, done.stdout
+    assert "PACKAGES" not in done.stdout, done.stdout
+    installed = home / "Mod" / "VOLFREP"
+    assert (installed / "package.xml").is_file()
+    assert (installed / ".git").exists() == (method == "GIT")
+
+    answer = tmp_path / "answer"
+    script.write_text(NEXT_START.format(answer=str(answer)), encoding="utf-8")
+    environment |= {"LIBGL_ALWAYS_SOFTWARE": "1", "QTWEBENGINE_DISABLE_SANDBOX": "1"}
+    window = Path(sys.executable).with_name(Path(sys.executable).name.lower().replace("cmd", ""))
+    done = subprocess.run(
+        ["xvfb-run", "-a", str(window), str(script)], env=environment, capture_output=True,
+        text=True, timeout=600,
+    )  # fmt: skip
+    assert answer.is_file(), done.stdout + done.stderr
+    said = dict(line.split(" ", 1) for line in answer.read_text(encoding="utf-8").splitlines())
+    assert said.get("WORKBENCH") == "VOLFREP", done.stdout + done.stderr
+    assert Path(said["FROM"]).is_relative_to(installed)
+    assert Path(said["PACKAGE"]).is_relative_to(there)
+    assert said["STATUS"] == "Up to date"
+
+
+def copy_of_the_sources(target):
+    """What a clone of the repository holds, but for the tests and pictures."""
+    left_out = shutil.ignore_patterns(".*", "build", "tests", "images", "__pycache__", "*.egg-info")
+    shutil.copytree(ROOT, target, ignore=left_out)
+
+
+def made_bare(sources, target):
+    """A bare repository of those files, on the branch main."""
+    author = ("-c", "user.name=Test", "-c", "user.email=test@example.org")
+    for words in (
+        ("init", "-q", "-b", "main"), ("add", "-A"), (*author, "commit", "-q", "-m", "All"),
+        ("clone", "-q", "--bare", ".", str(target)),
+    ):  # fmt: skip
+        subprocess.run(["git", *words], cwd=sources, check=True)
+
+
+def probe_wheel(folder):
+    """A package of one empty module, for pip, which needs no index for it."""
+    path = folder / "probe_package-1.0-py3-none-any.whl"
+    info = "probe_package-1.0.dist-info"
+    files = {
+        "probe_package.py": "",
+        f"{info}/METADATA": "Metadata-Version: 2.1\nName: probe_package\nVersion: 1.0\n",
+        f"{info}/WHEEL": "Wheel-Version: 1.0\nRoot-Is-Purelib: true\nTag: py3-none-any\n",
+    }
+    files[f"{info}/RECORD"] = "".join(f"{name},,\n" for name in [*files, f"{info}/RECORD"])
+    with zipfile.ZipFile(path, "w") as wheel:
+        for name, text in files.items():
+            wheel.writestr(name, text)
+    return path

@@ -5,12 +5,15 @@ import os
 import threading
 
 import FreeCAD as App
+import Part
 import pytest
 
-from freecad_volfrep.engines import programs
-from freecad_volfrep.features.progress import progress_of, run_job
+from freecad_volfrep.engines import freecads, programs
+from freecad_volfrep.features.progress import run_job
+from freecad_volfrep.features.screen import is_asked_by_user
 from volfrep.apart.engine_process import Call
 from volfrep.apart.engines import Engines
+from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.util.errors import VolfrepError
 from volfrep.util.threads import threads
 
@@ -48,6 +51,32 @@ def test_the_processes_of_the_window_find_the_engine():
         assert threads_there == 1
 
 
-def test_without_a_screen_there_is_no_progress():
-    with progress_of("A job") as progress:
-        assert progress is None
+def test_a_shape_is_made_in_a_freecad_of_its_own():
+    """Without a word of ours on the way, and the same as here; an error arrives as it is."""
+    from freecad_volfrep.bridge.apart import packed_facets, unpacked
+    from freecad_volfrep.bridge.faceted import faceted_solid
+    from freecad_volfrep.bridge.solids import mesh_of_shape
+
+    mesh = mesh_of_shape(Part.makeBox(1, 2, 3), "Box")
+    there = freecads().begin(Call(packed_facets, (mesh,), has_progress=False))
+    open_mesh = TriangleMesh(mesh.vertices, mesh.triangles[1:])
+    failed = freecads().begin(Call(packed_facets, (open_mesh,), has_progress=False))
+    shape = unpacked(there.result())
+    assert shape.isValid()
+    assert shape.Volume == faceted_solid(mesh).Volume
+    with pytest.raises(VolfrepError, match="closed"):
+        failed.result()
+
+
+def test_a_recompute_of_the_users_is_told_from_a_scripts():
+    """A command of FreeCAD's window is a line of text; a script stands in a file."""
+    asked = []
+
+    class Proxy:
+        def execute(self, _):
+            asked.append(is_asked_by_user())
+
+    proxy = Proxy()
+    proxy.execute(None)
+    exec(compile("proxy.execute(None)", "<string>", "exec"), {"proxy": proxy})
+    assert asked == [False, True]

@@ -28,8 +28,10 @@ from driving import (
     drawn_share,
     figures,
     infills,
+    mark,
     move_mouse,
     panel,
+    panel_part,
     picture,
     press_button,
     previews,
@@ -125,11 +127,15 @@ def fill_a_box():
     doc, box = new_infill.boxed("Tutorial")
     select(box)
     picture("tutorial_1_select")
+    mark("tutorial_1_select", toolbar_button("Lattice Infill"))
     click(toolbar_button("Lattice Infill"))
     check("the panel opens", wait_until(lambda: panel() is not None))
     type_value("CellSize", "10 mm")
     type_value("StrutRadius", "1 mm")
     picture("tutorial_2_panel")
+    buttons = Gui.getMainWindow().findChildren(QtGui.QPushButton)
+    fields = [panel_part("CellSize"), panel_part("StrutRadius")]
+    mark("tutorial_2_panel", *fields, *(b for b in buttons if b.isVisible() and "OK" in b.text()))
     check("the panel's preview is in the picture", drawn_share("tutorial_2_panel") > 0.1)
     answer_panel("OK")
     check("the panel closes", wait_until(lambda: panel() is None))
@@ -261,6 +267,7 @@ def check_the_mesh(doc, obj):
     ):
         check(f"the report tells: {figure}", figure in text, text)
     picture("check_mesh")
+    mark("check_mesh", toolbar_button("Check Mesh"))
     check(
         "the picture shows the window: check_mesh",
         shades("check_mesh", report) > 20,
@@ -467,6 +474,7 @@ def export_by_typing_a_name(doc, obj):
     """A name typed into the dialog is the file's."""
     path = FOLDER / "typed.stl"
     select(obj)
+    mark("export", toolbar_button("Export Lattice"))
     answer_file_dialog(path.with_suffix(""), "export")
     click(toolbar_button("Export Lattice"))
     check("the file is written", wait_until(path.is_file), list(FOLDER.iterdir()))

@@ -294,8 +294,6 @@ def answer_freecads_own_box():
     """While a job of ours is on FreeCAD asks whether to abort: the answer reaches it."""
     import Mesh
 
-    from freecad_volfrep.features.progress import progress_of
-
     mesh = Mesh.createSphere(10.0, 300)
     boxes = []
 
@@ -314,7 +312,7 @@ def answer_freecads_own_box():
 
     Watch(answer, "FreeCAD's question")
     end = time.monotonic() + PATIENCE
-    with progress_of("A job"):
+    with _Progress("A job"):
         xdotool("key", "Escape")
         while not boxes and time.monotonic() < end:
             try:

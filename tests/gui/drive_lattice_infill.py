@@ -73,12 +73,16 @@ def coarse():
 
 
 def find_the_workbench(doc, box, fill):
-    """It has a menu, and its button can be used when a solid is selected."""
+    """It has a menu, and its button can be used when it is clear which solid is meant."""
     check("workbench", Gui.activeWorkbench().name() == "VolfrepWorkbench")
     menus = [action.text() for action in Gui.getMainWindow().menuBar().actions()]
     check("menu", "&VOLFREP" in menus, menus)
     select()
-    check("inactive without a selection", not fill.isEnabled())
+    check("the only solid needs no selection", wait_until(fill.isEnabled))
+    doc.addObject("Part::Box", "Other")
+    doc.recompute()
+    settle()
+    check("of two one has to be selected", not fill.isEnabled())
     select(box)
     check("active with a solid selected", fill.isEnabled())
     check("tooltip", "lattice" in fill.toolTip().lower(), fill.toolTip())

@@ -170,6 +170,37 @@ def change_it_while_it_is_made(doc, obj):
     check("and up to date", obj.Status == "Up to date" and "Touched" not in obj.State)
 
 
+def refresh_button():
+    """FreeCAD's own, once it can be used: FreeCAD looks from time to time what is touched."""
+    name = Gui.Command.get("Std_Refresh").getInfo()["menuText"]
+    bars = [bar for bar in Gui.getMainWindow().findChildren(QtGui.QToolBar) if bar.isVisible()]
+    found = [bar.widgetForAction(a) for bar in bars for a in bar.actions() if a.text() == name]
+    wait_until(found[0].isEnabled)
+    return found[0]
+
+
+def go_on_after_a_refresh(doc, obj):
+    """FreeCAD's Refresh returns at once; the next one asks for the values of then."""
+    obj.AutoUpdate = True
+    obj.StrutRadius = 0.9
+    before = obj.Mesh.CountFacets
+    with jobs_that_never_end():
+        start_by_click(refresh_button())
+        check("the mesh is on its way", wait_until(lambda: is_being_made(obj)))
+        check("the last one is there", obj.Mesh.CountFacets == before)
+        check("the view turns", turn_the_view())
+        first, obj.StrutRadius = obj.Proxy.being_made, 1.2
+        start_by_click(refresh_button())
+        check("another takes its place", wait_until(lambda: obj.Proxy.being_made is not first))
+        check("it is on its way", is_being_made(obj) and "not there yet" in obj.Status, obj.Status)
+        wait_until(lambda: progress_bar() is not None)
+        start_by_click(progress_bar().button)
+        wait_until(lambda: not is_being_made(obj))
+    obj.StrutRadius = 0.8
+    click(refresh_button())
+    check("it comes", obj.Status == "Up to date" and obj.StrutRadii[0] == 0.8, obj.Status)
+
+
 def lose_the_engine(doc, obj):
     """A process that is killed costs a sentence; the next mesh is made by another one."""
     from freecad_volfrep.engines import engines
@@ -362,7 +393,7 @@ def answers_meanwhile(doc, obj):
     timer = QtCore.QTimer(Gui.getMainWindow())
     timer.timeout.connect(lambda: beats.append(time.monotonic()))
     timer.start(10)
-    for name, large in (("of", updating.LARGE), ("of a likeness and", 200_000)):
+    for name, large in (("of", 10**9), ("of a likeness and", 200_000)):
         largest, updating.LARGE = updating.LARGE, large
         waits = updating.STILL, updating.LONGEST
         updating.STILL = updating.LONGEST = 1000 * PATIENCE  # until its likeness was seen
@@ -428,6 +459,7 @@ run_checks(
     {
         go_on_while_it_is_made: filled,
         change_it_while_it_is_made: filled,
+        go_on_after_a_refresh: filled,
         lose_the_engine: filled,
         turn_while_a_check_is_waited_for: filled,
         zoom_while_a_recompute_waits: filled,

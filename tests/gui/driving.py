@@ -350,6 +350,13 @@ def shoot(name):
     subprocess.run(["import", "-window", "root", str(OUT / f"{name}.png")], check=True)
 
 
+def mark(name, *widgets):
+    """Note where the user clicks in a picture; tools/docs_pictures.sh rings it."""
+    corners = [(widget, widget.mapToGlobal(QtCore.QPoint(0, 0))) for widget in widgets]
+    places = [f"{c.x()},{c.y()} {c.x() + w.width()},{c.y() + w.height()}" for w, c in corners]
+    (OUT / f"{name}.marks").write_text("".join(f"{place}\n" for place in places))
+
+
 def look_at_all(from_below=False):
     """All of the document from above (or below) and the side.
 

@@ -7,12 +7,15 @@ What its calls keep in a `StageCache` stays there for the next one with the same
 
 from __future__ import annotations
 
+import os
 import shutil
+import signal
 import subprocess
 import tempfile
 import threading
 import weakref
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -24,8 +27,12 @@ from ..util.subprocesses import NO_WINDOW
 from .server import GREETING, UNKNOWN
 from .wire import receive, send
 
+#: Whether a process can be ended with those it has started.
+_HAS_GROUPS = hasattr(os, "killpg")
 #: What the process runs: where the engine lies goes first, packages that it needs last.
-_PROGRAM = """import sys
+#: Temporary files go when the process does, however it ends.
+_PROGRAM = """import sys, tempfile
+tempfile.tempdir = {folder!r}
 sys.path[:0] = {front!r}
 sys.path += {back!r}
 {prelude}
@@ -115,6 +122,7 @@ class EngineProcess:
                     stdout=subprocess.PIPE,
                     stderr=said,
                     creationflags=NO_WINDOW,
+                    start_new_session=_HAS_GROUPS,
                 )
         except OSError:
             self._gone()
@@ -183,7 +191,7 @@ class EngineProcess:
     def kill(self) -> None:
         """End the process; whoever waits for a call's answer sees to the rest."""
         self._asked_to_end = True
-        self._child.kill()
+        self._kill_all()
 
     def end(self, patience: float = 0.0) -> str:
         """End the process, whatever it does, and its files; a sentence on how it has ended.
@@ -196,7 +204,7 @@ class EngineProcess:
             code = self._child.wait(patience)
         except subprocess.TimeoutExpired:
             ended_itself = False
-            self._child.kill()
+            self._kill_all()
             code = self._child.wait()
         last = self._last_words() if ended_itself else ""
         self._gone()
@@ -205,6 +213,14 @@ class EngineProcess:
             f"The engine's process has ended {how}{last}: if there was not enough memory, choose "
             "larger cells or a coarser deviation; the document is as it was."
         )
+
+    def _kill_all(self) -> None:
+        """The process and the programs that it runs, such as Gmsh, where the system has groups."""
+        if not _HAS_GROUPS:
+            self._child.kill()
+        elif self._child.poll() is None:
+            with suppress(ProcessLookupError):
+                os.killpg(self._child.pid, signal.SIGKILL)
 
     def _send(self, message: object) -> bool:
         """Whether there is still somebody who was told."""

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import hashlib
 from dataclasses import dataclass
 
 import numpy as np
@@ -26,6 +27,8 @@ from ..util.types import Bools, Floats
 SAMPLES_ALONG = 150.0
 #: Points by which the volume within a skin is measured (a power of 2).
 VOLUME_POINTS = 14
+#: Depths of so many sets of points are kept: a preview asks for four.
+KEPT = 4
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,6 +105,7 @@ class PartDepth:
         self._sampled = self._below_usual(points)
         self._sampled[self._below_others(points) <= 0.0] = -1.0
         self._domain: tuple[Skin | None, TriangleMesh] | None = None
+        self._known: dict[tuple[bytes, float], Floats] = {}
 
     def domain(self, skin: Skin | None) -> TriangleMesh:
         """What lies below a skin, as the part's own stages find it; the last one is kept."""
@@ -110,7 +114,18 @@ class PartDepth:
         return self._domain[1]
 
     def below_skin(self, points: Floats, shell: float) -> Floats:
-        """(n,) how far below a skin (n, 3) points lie, mm; negative in the skin and outside."""
+        """(n,) how far below a skin (n, 3) points lie, mm; negative in the skin and outside.
+
+        The last `KEPT` answers are kept: another radius asks about the same points.
+        """
+        key = hashlib.blake2b(points.tobytes()).digest(), shell
+        if key not in self._known:
+            if len(self._known) == KEPT:
+                del self._known[next(iter(self._known))]
+            self._known[key] = self._found_below(points, shell)
+        return self._known[key].copy()
+
+    def _found_below(self, points: Floats, shell: float) -> Floats:
         depth = self._surface.near(points)[1]
         # On which side a point lies does not matter where it is nearer than the skin is thick.
         far = np.flatnonzero(depth > (shell if self._is_even else 0.0))

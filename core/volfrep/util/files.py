@@ -6,6 +6,7 @@ from __future__ import annotations
 import os
 import secrets
 import shutil
+import tempfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -104,6 +105,33 @@ def replacing(path: str | os.PathLike[str], size: int = 0) -> Iterator[BinaryIO]
             os.replace(part, real)
         finally:
             part.unlink(missing_ok=True)
+    except OSError as error:
+        raise not_written(target, error) from error
+
+
+@contextmanager
+def beside(path: str | os.PathLike[str]) -> Iterator[Path]:
+    """A path of the same name in a new folder beside the target, for whoever may be ended at work.
+
+    What is there when the block succeeds takes the target's place; the folder goes in any case.
+    Errors that name the path name the target then.
+
+    Raises:
+        VolfrepError: naming the target and why it cannot be written.
+    """
+    target = check_writable(path)
+    real = target.resolve()
+    try:
+        with tempfile.TemporaryDirectory(prefix=".volfrep-", dir=real.parent) as folder:
+            unfinished = Path(folder) / real.name
+            try:
+                yield unfinished
+            except VolfrepError as error:
+                error.args = (str(error).replace(str(unfinished), str(target)),)
+                raise
+            if real.exists():
+                shutil.copymode(real, unfinished)
+            os.replace(unfinished, real)
     except OSError as error:
         raise not_written(target, error) from error
 

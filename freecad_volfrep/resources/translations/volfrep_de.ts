@@ -2060,6 +2060,10 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
       <translation>Instanzen von {label}</translation>
     </message>
     <message>
+      <source>Plane faces of {label}</source>
+      <translation>Ebene Flächen von {label}</translation>
+    </message>
+    <message>
       <source>Print check of {label}</source>
       <translation>Druckprüfung von {label}</translation>
     </message>
@@ -2082,6 +2086,10 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
     <message>
       <source>Tetrahedra of {label}</source>
       <translation>Tetraeder von {label}</translation>
+    </message>
+    <message>
+      <source>Writing {label}</source>
+      <translation>{label} wird geschrieben</translation>
     </message>
   </context>
   <context>

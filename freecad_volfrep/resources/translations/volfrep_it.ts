@@ -2060,6 +2060,10 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
       <translation>Istanze di {label}</translation>
     </message>
     <message>
+      <source>Plane faces of {label}</source>
+      <translation>Facce piane di {label}</translation>
+    </message>
+    <message>
       <source>Print check of {label}</source>
       <translation>Controllo di stampa di {label}</translation>
     </message>
@@ -2082,6 +2086,10 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
     <message>
       <source>Tetrahedra of {label}</source>
       <translation>Tetraedri di {label}</translation>
+    </message>
+    <message>
+      <source>Writing {label}</source>
+      <translation>Scrittura di {label}</translation>
     </message>
   </context>
   <context>

@@ -5,12 +5,15 @@ from __future__ import annotations
 
 import os
 import sys
+import tempfile
 import time
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 from volfrep.util.cache import StageCache
 from volfrep.util.errors import Cancelled, VolfrepError
+from volfrep.util.subprocesses import run_program
 
 #: After so long nobody is there any more, s.
 AT_MOST = 600.0
@@ -71,3 +74,12 @@ def _until_cancelled(progress: Callable[[float, str], bool]) -> None:
     end = time.monotonic() + AT_MOST
     while progress(0.0, "begun") and time.monotonic() < end:
         time.sleep(0.01)
+
+
+def run_a_program(told: str) -> None:
+    """Run a program that never ends, and leave its number and a temporary folder in a file."""
+    folder = tempfile.mkdtemp()
+    code = (
+        f"import os, time; open({told!r}, 'w').write(f'{{os.getpid()}} {folder}.'); time.sleep(600)"
+    )
+    run_program([sys.executable, "-c", code], Path(folder))

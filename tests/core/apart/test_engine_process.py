@@ -149,6 +149,32 @@ def test_a_call_that_does_not_listen_is_ended_with_its_process(engine):
     assert made(engine, operator.add, 1, 1) == 2, "another one serves"
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="asks /proc")
+def test_programs_and_files_of_a_call_end_with_its_process(engine, tmp_path):
+    told = tmp_path / "told"
+    process = idle(engine)
+    running = engine.begin(Call(calls.run_a_program, (str(told),), has_progress=False))
+    while not told.is_file() or not told.read_text().endswith("."):
+        time.sleep(0.01)
+    number, folder = told.read_text().rstrip(".").split(" ", 1)
+    assert Path(folder).is_relative_to(process._folder)
+    running.cancel()
+    with pytest.raises(Cancelled):
+        running.result()
+    while runs(number):  # the system takes a moment
+        time.sleep(0.01)
+    assert not Path(folder).exists()
+
+
+def runs(number: str) -> bool:
+    """Whether there is a process of that number that has not ended."""
+    try:
+        text = Path("/proc", number, "stat").read_text()
+    except OSError:
+        return False
+    return text.rpartition(")")[2].split()[0] != "Z"
+
+
 def test_one_that_keeps_its_best_is_asked_once_and_ended_when_asked_twice(engine):
     running = engine.begin(Call(calls.best_so_far, keeps_best=True))
     begun(running)

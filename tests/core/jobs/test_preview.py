@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The lattice as lines against the lattice that is made."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -104,3 +106,16 @@ def test_a_part_too_thin_for_its_skin_is_refused():
     spec = LatticeSpec(cell="CVC", cell_size=4.0, strut_radius=0.4, shell=5.0)
     with pytest.raises(VolfrepError, match="inside the skin"):
         preview(solid, spec, PartDepth(solid, spec.open_faces))
+
+
+def test_another_radius_asks_for_no_depth_again(monkeypatch):
+    solid = samples.sphere(20.0)
+    depth = PartDepth(solid)
+    spec = LatticeSpec(cell="BCC", cell_size=8.0, strut_radius=0.8, shell=2.0)
+    preview(solid, spec, depth)
+    thicker = replace(spec, strut_radius=1.1)
+    fresh = preview(solid, thicker, PartDepth(solid))
+    monkeypatch.setattr(PartDepth, "_found_below", None)
+    again = preview(solid, thicker, depth)
+    assert again.mass == fresh.mass
+    assert np.array_equal(again.start, fresh.start)

@@ -53,15 +53,15 @@ def test_each_group_stands_together_and_is_short_enough_to_read():
         ({"SizeGrading": "Formula"}, {"LambdaFormula", "GradingDirection", "KeepRadius"}),
         (
             {"RadiusGrading": "Direction"},
-            {"RadiusProfile", "RadiusStart", "RadiusEnd", "RadiusDirection"},
+            {"RadiusProfile", "RadiusStart", "RadiusEnd", "RadiusDirection", "RemoveBelow"},
         ),
         (
             {"RadiusGrading": "Core", "RadiusProfile": "Formula"},
-            {"RadiusProfile", "RadiusFormula", "RadiusReach"},
+            {"RadiusProfile", "RadiusFormula", "RadiusReach", "RemoveBelow"},
         ),
         (
             {"RadiusGrading": "Field", "RadiusCurve": "0:1, 1:2"},
-            {"RadiusField", "RadiusResult", "RadiusColumn", "RadiusCurve"},
+            {"RadiusField", "RadiusResult", "RadiusColumn", "RadiusCurve", "RemoveBelow"},
         ),
         (
             {"CellMap": "Spherical", "UseMapCentre": True},

@@ -2802,6 +2802,10 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
       <translation>entfernte Streben, freies Ende</translation>
     </message>
     <message>
+      <source>thin struts removed</source>
+      <translation>dünne Stäbe entfernt</translation>
+    </message>
+    <message>
       <source>through-holes</source>
       <translation>Durchgangslöcher</translation>
     </message>

@@ -2802,6 +2802,10 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
       <translation>aste rimosse, estremità libera</translation>
     </message>
     <message>
+      <source>thin struts removed</source>
+      <translation>aste sottili rimosse</translation>
+    </message>
+    <message>
       <source>through-holes</source>
       <translation>fori passanti</translation>
     </message>

@@ -24,7 +24,6 @@ from ...util.types import Floats
 from ..infill import Infill
 from ..networks.frame import median_length
 from ..networks.radius import THICKEST
-from ..targets import infill_of
 from .goal import Goal
 
 #: Edges of the skin's triangles over the cell size, and over its thickness at least.
@@ -67,7 +66,7 @@ def part_model(
     if spec.radius_grading is not None:
         # Which ends at a wall are too short for a beam goes by the radius: those of the
         # specification's own, so that a design is solved as it was sized.
-        plain = infill_of(
+        plain = type(infill)(
             infill.solid, replace(spec, radius_grading=None, remove_below=0.0),
             monitor=infill.monitor, cache=cache,
         )  # fmt: skip
@@ -95,7 +94,7 @@ def part_model(
         edge = max(SKIN_EDGE * apart, SKIN_EDGE_LEAST * spec.shell)
         with infill.monitor.stage("skin", 0.3, 0.4):
             skin = skin_model(
-                infill.solid, _thickness(infill.solid, spec), edge, elastic(material),
+                infill.solid, thickness_of_skin(infill.solid, spec), edge, elastic(material),
                 infill.domain.openings,
                 feet_of(
                     wireframe, clipped, infill.domain.mesh,
@@ -126,7 +125,7 @@ def spacing(infill: Infill) -> float:
     return spec.cell_size if spec.network is None else median_length(infill.struts)
 
 
-def _thickness(solid: TriangleMesh, spec: LatticeSpec) -> float | Callable[[Floats], Floats]:
+def thickness_of_skin(solid: TriangleMesh, spec: LatticeSpec) -> float | Callable[[Floats], Floats]:
     """A skin's thickness, mm, or at points of the part's surface where it is not even."""
     if spec.skin is None or spec.skin.is_even:
         return spec.shell

@@ -134,7 +134,8 @@ def random_cell(rng: np.random.Generator) -> str | UnitCell:
     nodes = np.concatenate([corners, inner])
     struts = {(int(rng.integers(8)), 8 + k) for k in range(len(inner)) for _ in range(3)}
     struts |= {(0, 1), (0, 2), (0, 4)}
-    return UnitCell("Random", nodes.tolist(), sorted(struts))
+    used, rows = np.unique(sorted(struts), return_inverse=True)
+    return UnitCell("Random", nodes[used], rows.reshape(-1, 2))
 
 
 def random_spec(rng: np.random.Generator, solid: TriangleMesh) -> LatticeSpec:

@@ -38,6 +38,8 @@ NODE_TOLERANCE = 1e-6
 class UnitCell:
     """A strut-and-node cell on the unit cube; equal to any other of the same name and content.
 
+    `make_cell` tells what is wrong with numbers that somebody wrote.
+
     Attributes:
         name: what a user picks it by.
         nodes: N, (n, 3) float64, in units of the cell size L, each coordinate in [0, 1].
@@ -52,6 +54,9 @@ class UnitCell:
         also: names that others know it by.
         parameters: that its file leaves to be chosen.
         values: the chosen ones that differ from the usual, as ``t = 0.3, angle = 60``.
+
+    Raises:
+        VolfrepError: a node has no strut: its joint would be a ball that hangs on nothing.
 
     >>> cell = find_cell("BCC")
     >>> len(cell.nodes), len(cell.struts), cell.maxwell_number
@@ -76,6 +81,7 @@ class UnitCell:
         object.__setattr__(self, "struts", held(self.struts, np.int64))
         object.__setattr__(self, "widths", held(self.widths, np.float64))
         object.__setattr__(self, "_content", content_of(self.nodes, self.struts, self.widths))
+        _refuse_loose(self.nodes, self.struts, f"unit cell '{self.name}'")
 
     @property
     def is_plain(self) -> bool:
@@ -294,12 +300,17 @@ def make_cell(
         if frozenset((a, b)) in seen:
             raise VolfrepError(f"In the {where}, strut {k} repeats an earlier strut.")
         seen.add(frozenset((a, b)))
-    loose = np.setdiff1d(np.arange(len(points)), pairs)
-    if len(loose):
-        raise VolfrepError(f"In the {where}, node {loose[0]} has no strut: remove it or join it.")
+    _refuse_loose(points, pairs, where)
     x, y, z = _numbers(edges, 3, "edges", where)
     factors = [] if widths == () else _numbers(widths, len(pairs), "widths", where)
     return UnitCell(name, points, pairs, (x, y, z), np.array(factors))
+
+
+def _refuse_loose(nodes: Floats, struts: NDArray[np.int64], where: str) -> None:
+    """Raise a `VolfrepError` where a node has no strut."""
+    loose = np.setdiff1d(np.arange(len(nodes)), struts)
+    if len(loose):
+        raise VolfrepError(f"In the {where}, node {loose[0]} has no strut: remove it or join it.")
 
 
 def _numbers(values: object, count: int, name: str, where: str) -> list[float]:

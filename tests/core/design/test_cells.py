@@ -13,6 +13,7 @@ from volfrep.design.cells import (
     MAX_FILE_BYTES,
     MAX_NODES,
     PAPERS,
+    UnitCell,
     find_cell,
     load_cell,
     make_cell,
@@ -118,6 +119,12 @@ def test_a_cell_from_a_file(tmp_path: Path) -> None:
 def test_what_is_wrong_with_a_cell(tmp_path: Path, change: dict[str, object], message: str) -> None:
     with pytest.raises(VolfrepError, match=message):
         load_cell(write(tmp_path / "cell.json", GOOD | change))
+
+
+def test_no_cell_has_a_ball_that_hangs_on_nothing() -> None:
+    corners = [[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+    with pytest.raises(VolfrepError, match="unit cell 'brace', node 1 has no strut"):
+        UnitCell("brace", np.array(corners, float), np.array([[0, 7], [2, 5], [3, 4]]))
 
 
 @pytest.mark.parametrize(

@@ -266,15 +266,15 @@ class SizePanel:
         self._goal.setCurrentIndex(self._goal.findData(wish.goal))
         self._goal.currentIndexChanged.connect(lambda _: self._show_fields())
         rows.addRow(QtWidgets.QLabel(translate("VolfrepSizePanel", "Goal")), self._goal)
-        self._prove = QtWidgets.QCheckBox(translate("VolfrepSizePanel", "Check with CalculiX"))
-        self._prove.setObjectName("Prove")
-        self._prove.setChecked(wish.prove)
-        self._prove.setToolTip(
+        self._prove = _switch(
+            "Prove",
+            wish.prove,
+            translate("VolfrepSizePanel", "Check with CalculiX"),
             translate(
                 "VolfrepSizePanel",
                 "Let CalculiX solve the design, where it is installed, and say how far it agrees; "
                 "where it finds more than a limit allows, the struts are made thicker",
-            )
+            ),
         )
         self._fields: dict[str, tuple[Any, Any]] = {}
         for name, text, unit, tip in FIELDS:
@@ -288,17 +288,15 @@ class SizePanel:
             label = QtWidgets.QLabel(translate("VolfrepSizePanel", text))
             rows.addRow(label, spin)
             self._fields[name] = label, spin
-        self._remove = QtWidgets.QCheckBox(
-            translate("VolfrepSizePanel", "Remove thin struts that carry little")
-        )
-        self._remove.setObjectName("Remove")
-        self._remove.setChecked(wish.remove)
-        self._remove.setToolTip(
+        self._remove = _switch(
+            "Remove",
+            wish.remove,
+            translate("VolfrepSizePanel", "Remove thin struts that carry little"),
             translate(
                 "VolfrepSizePanel",
                 "Take away struts that end as thin as the smallest radius and size the rest again; "
                 "kept if that is lighter, or stiffer at the same mass",
-            )
+            ),
         )
         for row in (self._prove, self._remove):
             rows.addRow(row)
@@ -349,3 +347,12 @@ class SizePanel:
         Gui.Control.closeDialog()
         if Gui.ActiveDocument is not None:
             Gui.ActiveDocument.resetEdit()
+
+
+def _switch(name: str, is_on: bool, text: str, tip: str) -> Any:
+    """A box to tick, by its object's name."""
+    result = QtWidgets.QCheckBox(text)
+    result.setObjectName(name)
+    result.setChecked(is_on)
+    result.setToolTip(tip)
+    return result

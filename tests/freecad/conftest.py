@@ -17,6 +17,12 @@ ROOT = Path(__file__).resolve().parents[2]
 SMALL = {"CellSize": 10, "StrutRadius": 1, "ShellThickness": 2, "Resolution": 10}
 
 
+def top_of(box):
+    """The name of the highest face."""
+    faces = box.Shape.Faces
+    return f"Face{1 + max(range(len(faces)), key=lambda k: faces[k].CenterOfMass.z)}"
+
+
 def said_without_packages(folder, body):
     """The lines that a script prints, by their first words, in a FreeCAD without our packages.
 

@@ -4,7 +4,7 @@
 import FreeCAD as App
 import pytest
 
-from conftest import SMALL
+from conftest import SMALL, top_of
 from freecad_volfrep import make_lattice_infill
 from freecad_volfrep.features.openings import open_faces
 
@@ -16,12 +16,6 @@ def infill(doc, box):
     doc.recompute()
     assert obj.isValid(), obj.getStatusString()
     return obj
-
-
-def top_of(box):
-    """The name of the highest face."""
-    faces = box.Shape.Faces
-    return f"Face{1 + max(range(len(faces)), key=lambda k: faces[k].CenterOfMass.z)}"
 
 
 def test_a_picked_face_is_left_open(doc, box, infill):

@@ -7,6 +7,7 @@ coarse grids until one is met, then on fine ones for what the coarse are off.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from functools import lru_cache
 
@@ -81,9 +82,10 @@ def wall_modulus(spec: LatticeSpec, target: Target) -> float:
     return _along(tensor, target)
 
 
-def _met(places: list[float], moduli: list[float], wanted: float, find: object) -> float:
+def _met(
+    places: list[float], moduli: list[float], wanted: float, find: Callable[[float], float]
+) -> float:
     """The density of a modulus, between those that are known; what is found on the way is added."""
-    assert callable(find)
     for _ in range(_STEPS):
         order = np.argsort(places)
         x, y = np.log(np.array(places)[order]), np.log(np.array(moduli)[order])

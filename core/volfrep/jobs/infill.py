@@ -41,7 +41,7 @@ from ..trim.drains import Drained, trapped
 from ..trim.finish import finished, pieces_told, tidied
 from ..trim.held_struts import Held, axes_of, held
 from ..trim.laid import FIRST_MARGIN, Laid, in_place, lay
-from ..trim.loose_pieces import Cleared
+from ..trim.loose_pieces import Cleared, smallest_shell
 from ..trim.prune import Pruned, prune
 from ..trim.stage import chosen_octants, cut_lattice, drained_part, uncut_lattice
 from ..trim.trimmed_surface import TrimmedSurface
@@ -230,7 +230,7 @@ class Infill:
             if self.spec.drains is not None:
                 cleared, drained = drained_part(
                     cleared, self.solid, self.domain, frame, self._skin, self.spec.drains,
-                    self.monitor,
+                    smallest_shell(self._meshing), self.monitor,
                 )  # fmt: skip
         return self._reported("part", cleared, drained)
 

@@ -204,9 +204,12 @@ def drained_part(
     frame: Wireframe,
     skin: Skin,
     drains: DrainHoles,
+    smallest: float,
     monitor: Monitor,
 ) -> tuple[Cleared, Drained]:
     """A part with drain holes through its skin, and these.
+
+    Shells below the `smallest` volume, mm3, are splinters of a drill, and go.
 
     Raises:
         VolfrepError: a hole cannot be where it is wanted.
@@ -214,8 +217,10 @@ def drained_part(
     part = cleared.surface
     drained = drain(part, solid, domain.mesh, frame, skin.deepest, drains, monitor)
     clean = tidied(drained.surface, shortest_edge(solid), monitor)
-    quality = clean.inspected(monitor).found.quality
-    return replace(cleared, surface=clean, quality=quality), replace(drained, surface=clean)
+    rest = clear(clean, smallest, monitor)
+    specks = cleared.specks_removed + rest.specks_removed
+    found = replace(cleared, surface=rest.surface, quality=rest.quality, specks_removed=specks)
+    return found, replace(drained, surface=rest.surface)
 
 
 def _opened(

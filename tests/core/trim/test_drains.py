@@ -14,8 +14,10 @@ from volfrep.io.write.stl import as_read
 from volfrep.jobs.beam_part import beam_model
 from volfrep.jobs.pipeline import fill
 from volfrep.mesh import quality
-from volfrep.mesh.triangle_mesh import TriangleMesh
+from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
 from volfrep.spatial.rays import inside_points
+from volfrep.trim.drains import drain
+from volfrep.trim.trimmed_surface import TrimmedSurface
 from volfrep.util.progress import Monitor
 
 SPEC = LatticeSpec(cell="CVC", cell_size=8, strut_radius=0.8, shell=2, resolution=10)
@@ -61,6 +63,21 @@ def test_every_further_hole_is_one_more_handle():
 
 
 @pytest.mark.slow
+def test_a_splinter_that_the_drill_leaves_is_no_body(monkeypatch):
+    corners = np.array([[0.0, 0, 0], [0, 0.01, 0], [0.01, 0, 0], [0, 0, 0.01]]) + 15.0
+    faces = np.array([[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]], np.int32)
+
+    def splintered(*given):
+        found = drain(*given)
+        mesh = concatenate(found.surface.whole(Monitor()), TriangleMesh(corners, faces))
+        return replace(found, surface=TrimmedSurface(mesh))
+
+    monkeypatch.setattr("volfrep.trim.stage.drain", splintered)
+    result = drained(samples.box((30.0, 30.0, 30.0)), diameter=3.0, count=1)
+    assert (result.report.bodies, result.report.specks_removed) == (1, 1)
+    assert quality.measure(result.mesh).bodies == 1
+
+
 def test_a_hole_may_slant():
     solid = samples.box()
     closed = fill(solid, SPEC).report

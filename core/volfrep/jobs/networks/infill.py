@@ -72,7 +72,7 @@ class NetworkInfill(Infill):
             if self.spec.drains is not None:
                 cleared, drained = drained_part(
                     cleared, self.solid, self.domain, self.struts, skin, self.spec.drains,
-                    self.monitor,
+                    self._smallest, self.monitor,
                 )  # fmt: skip
         return self._reported("part", cleared, drained)
 

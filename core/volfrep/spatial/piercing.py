@@ -24,6 +24,9 @@ Signs = NDArray[np.int8]
 #: Pairs of triangles that are looked at together: what is gathered of them fits the cache.
 BLOCK_PAIRS = 1 << 14
 
+#: And so many that are looked at roughly.
+BLOCK_CLOSE = 1 << 17
+
 #: A determinant of 3 x 3 differences errs by no more than this times its terms without signs.
 ROUNDING = 8.0 * np.finfo(np.float64).eps
 #: And one of a corner and a plane by no more than this times the lengths of the three differences.
@@ -72,21 +75,28 @@ def pairs_at_planes(
     monitor = monitor or Monitor()
     corners = mesh.vertices[mesh.triangles]
     planes = _Planes(mesh, moves)
-
-    def near(pairs: tuple[Ints, Ints]) -> Ints:
-        a, b = pairs
-        for _ in range(2):
-            meets = planes.reached(a, b)
-            a, b = b[meets], a[meets]
-        meets = ~planes.divided(a, b)
-        return np.stack([a[meets], b[meets]], axis=1)
-
     found = [np.empty((0, 2), np.int64)]
     among = np.ones(len(corners), bool) if among is None else among
     close = close_pairs(corners, among, moves)
-    for pairs in in_threads(near, close):
+    for pairs in in_threads(lambda some: planes.met(*some), close):
         monitor.tick()
         found.append(pairs)
+    return np.concatenate(found)
+
+
+def pairs_among(mesh: TriangleMesh, moves: float, pairs: Ints) -> Ints:
+    """As `pairs_at_planes`, of (k, 2) pairs of triangles only."""
+    corners = [mesh.vertices[mesh.triangles[:, k]] for k in range(3)]
+    low, high = np.minimum(*corners[:2]), np.maximum(*corners[:2])
+    low, high = np.minimum(low, corners[2]) - moves, np.maximum(high, corners[2]) + moves
+    a, b = pairs.T
+    for lowest, highest in zip(low.T.copy(), high.T.copy(), strict=True):
+        meets = (lowest[a] <= highest[b]) & (lowest[b] <= highest[a])
+        a, b = a[meets], b[meets]
+    pairs = np.stack([a, b], axis=1)
+    planes = _Planes(mesh, moves)
+    blocks = (pairs[k : k + BLOCK_CLOSE].T for k in range(0, len(pairs), BLOCK_CLOSE))
+    found = [np.empty((0, 2), np.int64), *in_threads(lambda some: planes.met(*some), blocks)]
     return np.concatenate(found)
 
 
@@ -107,6 +117,14 @@ class _Planes:
         long, wide = (np.sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) for d in (e, f))
         self._both = (long + self._far) * (wide + self._far)
         self._less = self._both - long * wide
+
+    def met(self, a: Ints, b: Ints) -> Ints:
+        """(k, 2) those of pairs of triangles a and b that may pierce each other."""
+        for _ in range(2):
+            meets = self.reached(a, b)
+            a, b = b[meets], a[meets]
+        meets = ~self.divided(a, b)
+        return np.stack([a[meets], b[meets]], axis=1)
 
     def reached(self, a: Ints, b: Ints) -> NDArray[np.bool_]:
         """(n,) whether triangles a may have corners on both sides of triangles b.

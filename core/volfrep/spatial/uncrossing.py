@@ -21,6 +21,7 @@ from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..util.progress import Monitor
 from ..util.threads import in_threads
 from ..util.types import Bools, Floats, Ints
+from .crossing_watch import CrossingWatch
 from .piercing import pairs_at_planes, piercing_among
 
 #: The surface turns back at an edge where the cosine between its normals is below this.
@@ -29,9 +30,11 @@ TURNS_BACK = -0.9
 #: turn by 60 degrees at most, and where struts meet is a valley.
 STICKS_OUT = -0.2
 #: Vertices of crossing triangles move by so much of the way to the middle of their neighbours, one
-#: share after the other.
-SHARES = (1e-4, 1e-3, 1e-3, 1e-3, 0.01, 0.01, 0.03, 0.03, 0.1, 0.1, 0.2, 0.2, 0.3, 0.3, 0.5, 0.1,
-          0.5, 0.3, 0.5, 0.3)  # fmt: skip
+#: share after the other; below 0 that far anywhere.
+SHARES = (1e-4, -1e-3, 1e-3, -1e-3, 0.01, -0.01, 0.03, -0.03, 0.1, -0.1, 0.2, -0.2, 0.3, -0.3,
+          0.5, -0.1, 0.5, -0.3, 0.5, -0.3)  # fmt: skip
+#: Facets that fold overlap by more than a hair.
+FOLDED_SHARES = (0.1, 0.3, 0.5, 0.5, 0.5, 0.5, -0.1, 0.5)
 #: By how much a vertex' rough normals may be wrong, each.
 ROUGHNESS = 1e-6
 #: Triangles whose rough normals are found at a time: they should stay in the processor's cache.
@@ -39,8 +42,14 @@ BLOCK_TRIANGLES = 1 << 15
 #: Places that cross are looked at with what lies nearer than so many of their triangles' edges;
 #: more places than these with everything.
 REACH, MOST_PLACES = 4.0, 200
+#: From this share on each place that is left gets a ring more every second time.
+DEEP = 0.1
 #: So many rings of triangles round those that cross move, at most.
 MOST_RINGS = 3
+#: With so many times fewer places that cross than at first only what is about them is watched.
+FEWER = 0.1
+#: Of many places a round that leaves more than this part of them as they are is the last one.
+STUCK = 0.95
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,43 +93,138 @@ def uncrossed(
         The mesh, the same one where nothing crosses; and (3,) where triangles still do, mm.
     """
     turns = turns or turns_of(mesh, monitor, deformed)
-    everywhere, pairs, rings = turns.among, turns.pairs, 0
+    everywhere, pairs = turns.among, turns.pairs
+    if not len(pairs):
+        return mesh, None
     among, before = _about(mesh, pairs, everywhere), mesh
-    random = np.random.default_rng(0)
-    for turn, share in enumerate(SHARES):
-        if not len(pairs):
+    places = _Places.around(mesh, pairs, among, monitor)
+    for share in FOLDED_SHARES if deformed else SHARES:
+        if not len(places.pairs):
             break
-        monitor.tick()
-        chosen = np.zeros(len(mesh.vertices), bool)
-        chosen[mesh.triangles[pairs]] = True
-        for _ in range(rings):
-            chosen[mesh.triangles[chosen[mesh.triangles].any(axis=1)]] = True
-        near = chosen[mesh.triangles].any(axis=1)
-        rows = np.flatnonzero(chosen)
-        way = _to_neighbours(mesh, rows, mesh.triangles[near])
-        if turn % 2:
-            way = random.normal(size=way.shape) * np.linalg.norm(way, axis=1)[:, None]
-        vertices = mesh.vertices.copy()
-        vertices[rows] += share * way
-        moved = TriangleMesh(vertices, mesh.triangles)
-        left = _crossing(moved, among | near, monitor)
-        if len(left):  # each place by itself: what got worse there goes back
-            worse = _got_worse(mesh, chosen, pairs, left)[rows]
-            vertices[rows[worse]] = mesh.vertices[rows[worse]]
-            moved = TriangleMesh(vertices, mesh.triangles)
-            left = _crossing(moved, among | near, monitor)
-        if len(left) <= len(pairs):
-            mesh, pairs, among = moved, left, among | near
-        elif not turn % 2:
-            rings = min(rings + 1, MOST_RINGS)
+        crossed = len(places.pairs)
+        places.move(share)
+        if deformed and crossed > MOST_PLACES and len(places.pairs) > STUCK * crossed:
+            break
+    mesh, pairs = places.mesh, places.found
     if among is not everywhere:  # what moved may have met what lies farther away
-        elsewhere = np.zeros(len(mesh.vertices), bool)
-        elsewhere[np.flatnonzero((mesh.vertices != before.vertices).ravel()) // 3] = True
-        farther = _crossing(mesh, everywhere | among, monitor, elsewhere)
+        elsewhere = (mesh.vertices != before.vertices).any(axis=1)
+        went = _touching(elsewhere, mesh.triangles.T)
+        farther = _crossing(mesh, everywhere | went, monitor, elsewhere)
         pairs = np.unique(np.concatenate([pairs, farther]), axis=0)
     if not len(pairs):
         return mesh, None
     return mesh, mesh.vertices[mesh.triangles[pairs[0, 0]]].mean(axis=0)
+
+
+class _Places:
+    """Where triangles of a mesh cross, with what lies about there; vertices that move.
+
+    Attributes:
+        pairs: (k, 2) of the part's triangles that cross now.
+    """
+
+    def __init__(
+        self, mesh: TriangleMesh, rows: Ints, pairs: Ints, free: Bools, monitor: Monitor
+    ) -> None:
+        """Triangles `rows` of a mesh, some of which cross; `free` vertices may move."""
+        self._whole, self._rows = mesh, rows
+        self._used = np.unique(mesh.triangles[rows])
+        number = np.zeros(len(mesh.vertices), np.int32)
+        number[self._used] = np.arange(len(self._used))
+        self._triangles = number[mesh.triangles[rows]]
+        self._corners = np.ascontiguousarray(self._triangles.T)
+        self._vertices = mesh.vertices[self._used]
+        self._free = free[self._used]
+        self.pairs = np.searchsorted(rows, pairs)
+        own = self._vertices[self._triangles[np.unique(self.pairs)]]
+        self._farthest = float(np.median((own.max(axis=1) - own.min(axis=1)).max(axis=1)))
+        # How many rings of vertices move about each that crosses.
+        self._rings = np.ones(len(self._used), np.int8)
+        self._deep = 0
+        self._random = np.random.default_rng(0)
+        self._monitor = monitor
+        self._watch = self._watched()
+
+    @classmethod
+    def around(cls, mesh: TriangleMesh, pairs: Ints, among: Bools, monitor: Monitor) -> _Places:
+        """With triangles among the chosen or beside them, and all that may move."""
+        near, corners = np.zeros(len(mesh.vertices), bool), np.ascontiguousarray(mesh.triangles.T)
+        near[mesh.triangles[pairs]] = True
+        for _ in range(MOST_RINGS):
+            near[mesh.triangles[_touching(near, corners)]] = True
+        near[mesh.triangles[among]] = True
+        inside = _touching(near, corners)
+        free = np.ones(len(mesh.vertices), bool)
+        free[mesh.triangles[~inside]] = False
+        return cls(mesh, np.flatnonzero(inside), pairs, free, monitor)
+
+    @property
+    def mesh(self) -> TriangleMesh:
+        """The whole mesh as it is now; the same one if nothing has moved."""
+        vertices = self._whole.vertices
+        if np.array_equal(vertices[self._used], self._vertices):
+            return self._whole
+        vertices = vertices.copy()
+        vertices[self._used] = self._vertices
+        return TriangleMesh(vertices, self._whole.triangles)
+
+    @property
+    def found(self) -> Ints:
+        """(k, 2) of the whole mesh's triangles that cross now."""
+        result: Ints = self._rows[self.pairs]
+        return result
+
+    def move(self, share: float) -> None:
+        """Vertices go so much of their way, or a random one below 0, where that helps."""
+        if len(self.pairs) < FEWER * self._watched_pairs:
+            self._watch = self._watched()
+        chosen = self._grown(MOST_RINGS) & self._free
+        rows = np.flatnonzero(chosen)
+        here = self._mesh_of(self._vertices)
+        way = _to_neighbours(here, rows, self._triangles[self._touching(chosen)])
+        long = np.linalg.norm(way, axis=1)
+        way *= np.minimum(1.0, self._farthest / np.maximum(long, 1e-300))[:, None]
+        if share < 0.0:
+            long = np.minimum(long, self._farthest)
+            way = self._random.normal(size=way.shape) * long[:, None]
+        vertices = self._vertices.copy()
+        vertices[rows] += abs(share) * way
+        left = self._watch.crossing(vertices, chosen)
+        worse = _got_worse(here, chosen, self.pairs, left)
+        if worse.any():  # each place by itself: what got worse there goes back
+            vertices[worse] = self._vertices[worse]
+            chosen &= ~worse
+            stays = ~self._touching(chosen)[self.pairs].any(axis=1)
+            left = np.concatenate([self.pairs[stays], self._watch.crossing(vertices, chosen)])
+        if len(left) <= len(self.pairs):
+            self._vertices, self.pairs = vertices, np.unique(left, axis=0)
+        self._deep += share >= DEEP
+        if share >= DEEP and not self._deep % 2:  # places that are left need more room
+            still = np.unique(self._triangles[self.pairs])
+            self._rings[still] = np.minimum(self._rings[still] + 1, MOST_RINGS + 1)
+
+    def _watched(self) -> CrossingWatch:
+        self._watched_pairs = len(self.pairs)
+        near = self._touching(self._grown(MOST_RINGS))
+        return CrossingWatch(self._mesh_of(self._vertices), near, self._monitor)
+
+    def _grown(self, most: int) -> Bools:
+        """(n,) the vertices of triangles that cross, and their rings, at most so many."""
+        level = np.zeros(len(self._used), np.int8)
+        some = np.unique(self._triangles[self.pairs])
+        level[some] = self._rings[some]
+        for _ in range(most):
+            if not (level > 1).any():
+                break
+            rows = self._triangles[self._touching(level > 1)]
+            np.maximum.at(level, rows.ravel(), np.repeat(level[rows].max(axis=1) - 1, 3))
+        return np.asarray(level > 0, np.bool_)
+
+    def _touching(self, near: Bools) -> Bools:
+        return _touching(near, self._corners)
+
+    def _mesh_of(self, vertices: Floats) -> TriangleMesh:
+        return TriangleMesh(vertices, self._triangles)
 
 
 def _about(mesh: TriangleMesh, pairs: Ints, among: Bools) -> Bools:

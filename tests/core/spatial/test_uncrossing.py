@@ -77,7 +77,7 @@ def test_struts_that_fold_without_turning_back_wholly_are_drawn_apart():
 
 
 def test_what_cannot_be_drawn_apart_is_told_with_its_place(monkeypatch):
-    monkeypatch.setattr(uncrossing, "SHARES", ())
+    monkeypatch.setattr(uncrossing, "FOLDED_SHARES", ())
     told = " ".join(Infill(samples.box((30.0, 24.0, 20.0)), GRADED).result.report.warnings)
     assert "Near (" in told
     assert "facets run through each other" in told

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..util.errors import VolfrepError
-from .forecast import expected_triangles
+from .forecast import BYTES_PER_PLACED_TRIANGLE, expected_triangles
 from .spec import LatticeSpec
 
 #: Bytes that a triangle takes at the peak: laid out and checked, or in the Boolean as well.
@@ -94,15 +94,19 @@ def refuse_memory(
     triangles: float,
     in_boolean: float = 0.0,
     count: Sequence[int] | None = None,
+    placed: float = 0.0,
 ) -> None:
     """Refuse a job of so many triangles, some of them in the Boolean.
 
-    `count` is of the cells of a block along x, y, z.
+    `count` is of the cells of a block along x, y, z; `placed` are triangles beside a mesh whose
+    vertices are kept.
 
     Raises:
         VolfrepError: it needs more memory than is free; with the nearest settings that would fit.
     """
     needed = triangles * BYTES_PER_TRIANGLE + in_boolean * BYTES_PER_BOOLEAN_TRIANGLE
+    needed += placed * BYTES_PER_PLACED_TRIANGLE
+    triangles += placed
     free = free_memory()
     most = np.iinfo(np.int32).max // 3
     if needed <= free and triangles <= most:

@@ -304,10 +304,19 @@ class LatticeSpec:
         return any(part is not None for part in parts)
 
     @property
+    def varies(self) -> bool:
+        """Whether octants differ from place to place."""
+        parts = (self.size_grading, self.radius_grading, self.cell_map)
+        return any(part is not None for part in parts)
+
+    @property
     def streams(self) -> bool:
-        """Whether a file of its result needs no mesh of what the wall does not cut: equal cells."""
-        varied = (self.size_grading, self.radius_grading, self.cell_map)
-        return self.is_cut and self.network is None and all(part is None for part in varied)
+        """Whether a file of its result needs no mesh of what the wall does not cut.
+
+        Where struts vary, faces that are open and drain holes do.
+        """
+        is_cut_again = bool(self.open_faces) or self.drains is not None
+        return self.is_cut and self.network is None and not (self.varies and is_cut_again)
 
     @property
     def template_radius(self) -> float:

@@ -46,7 +46,8 @@ def refuse_too_large(
     present = grid.kind >= 0
     triangles = int(per_kind[grid.kind[present]].sum())
     in_boolean = 0 if border is None else int(per_kind[grid.kind[present & border]].sum())
-    refuse_memory(spec, 0 if streamed else triangles, in_boolean, count)
+    placed = triangles if streamed and spec.varies else 0
+    refuse_memory(spec, 0 if streamed else triangles, in_boolean, count, placed)
 
 
 def refuse_solid_cells(octants: dict[OctantKey, Octant], spec: OctantSpec) -> None:

@@ -25,40 +25,11 @@ from ..octants.octant import Octant, OctantGrid
 from ..util.linalg import along
 from ..util.types import Floats, Ints
 from .assembly import Layout, box, numbers_at
+from .octant_kinds import GENERIC, MovedOctants, OctantKind, look_at
 
 _NONE = np.zeros(0, np.int64)
 #: Facets whose heights are all above so many steps of single precision keep their corners in it.
 SAFE_STEPS = 4.0
-#: A direction, of length 1, in which few vertices of a regular mesh share a place.
-GENERIC = np.array([0.26740, 0.53480, 0.80153])
-
-
-@dataclass(frozen=True, eq=False)
-class _Kind:
-    """One kind of octant, looked at once.
-
-    Attributes:
-        pieces: connected pieces of its surface.
-        piece: (n,) which of them each vertex belongs to.
-        volume: (pieces,) flux of the position through each, over 3, in the octant's frame, mm3.
-        normal: (pieces, 3) integral of the normal over each, mm2.
-        area: of all, mm2.
-        open: by (axis, side): sorted (k, 4) open edges as entity and rank of start and end.
-        open_piece: by (axis, side): (k,) the piece of each.
-        degenerate: triangles without an area, as specks have that no sample could follow.
-        sound: every other edge is shared by two triangles, none of them joins two vertices of a
-            face.
-    """
-
-    pieces: int
-    piece: Ints
-    volume: Floats
-    normal: Floats
-    area: float
-    open: dict[tuple[int, int], Ints]
-    open_piece: dict[tuple[int, int], Ints]
-    degenerate: int
-    sound: bool
 
 
 def certify(layout: Layout) -> Quality:
@@ -126,18 +97,21 @@ class CertifiedPieces:
         return result
 
 
-def certify_pieces(layout: Layout, centre: Floats) -> CertifiedPieces:
+def certify_pieces(
+    layout: Layout, centre: Floats, moved: MovedOctants | None = None
+) -> CertifiedPieces:
     """The certificate of the octants of a layout whose surface may go on where octants are missing.
 
     Args:
         layout: the numbered octants.
         centre: (3,) that positions are measured from, in lattice space, mm.
+        moved: measures of all of them, in the part, where their vertices were moved.
 
     Raises:
         RuntimeError: the octants do not fit together.
     """
     grid = layout.grid
-    kinds = [_look_at(layout.octants[key]) for key in grid.keys]
+    kinds = [look_at(layout.octants[key]) for key in grid.keys]
     first = np.full(grid.kind.shape, -1, np.int64)
     counts = np.array([kind.pieces for kind in kinds], np.int64)
     present = grid.kind >= 0
@@ -152,65 +126,28 @@ def certify_pieces(layout: Layout, centre: Floats) -> CertifiedPieces:
     pieces, label = connected_components(graph, directed=False) if total else (0, _NONE)
     volume, normal = np.zeros(pieces), np.zeros((pieces, 3))
     triangles, degenerate, area = 0, 0, 0.0
-    for kind, key, place in zip(kinds, grid.keys, layout.places, strict=True):
-        corner, sign = layout.frames(place)
-        offset = corner * grid.cell_size + grid.origin - centre
-        own = kind.volume + np.einsum("ki,pi->kp", offset * sign, kind.normal) / 3.0
+    for number, (kind, place) in enumerate(zip(kinds, layout.places, strict=True)):
         index = first[tuple(place.T)][:, None] + np.arange(kind.pieces)
         index = label[index.ravel()]
+        if moved is None:
+            corner, sign = layout.frames(place)
+            offset = corner * grid.cell_size + grid.origin - centre
+            own = kind.volume + np.einsum("ki,pi->kp", offset * sign, kind.normal) / 3.0
+            across = sign[:, None, :] * kind.normal
+            degenerate += len(place) * kind.degenerate
+            area += len(place) * kind.area
+        else:
+            own, across, its_area, its_degenerate = moved.of(number, place, centre)
+            degenerate += its_degenerate
+            area += its_area
         volume += np.bincount(index, own.ravel(), minlength=pieces)
         for k in range(3):
-            across = sign[:, k, None] * kind.normal[:, k]
-            normal[:, k] += np.bincount(index, across.ravel(), minlength=pieces)
-        triangles += len(place) * len(layout.octants[key].triangles)
-        degenerate += len(place) * kind.degenerate
-        area += len(place) * kind.area
+            normal[:, k] += np.bincount(index, across[:, :, k].ravel(), minlength=pieces)
+        triangles += len(place) * len(layout.octants[grid.keys[number]].triangles)
     return CertifiedPieces(
         centre, volume, normal, area, triangles, degenerate, rim,
         label[owner].astype(np.int64),
     )  # fmt: skip
-
-
-def _look_at(octant: Octant) -> _Kind:
-    triangles, count = octant.triangles.astype(np.int64), len(octant.vertices)
-    place = octant.places
-    start, end = triangles.ravel(), triangles[:, [1, 2, 0]].ravel()
-    forward, backward = start * count + end, end * count + start
-    is_open = ~np.isin(forward, backward)
-    on_one_face = ((place[start] == place[end]) & (place[start] != 1)).sum(axis=1)
-    corners = octant.vertices[triangles]
-    twice = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    # An open edge lies on exactly one face, every other one on none.
-    sound = len(np.unique(forward)) == len(forward) and bool((on_one_face == is_open).all())
-    sound &= len(np.unique(triangles)) == count
-    graph = coo_matrix((np.ones(len(start), bool), (start, end)), shape=(count, count))
-    pieces, piece = connected_components(graph, directed=False) if count else (0, np.zeros(0, int))
-    open_edges, open_piece = {}, {}
-    name = np.stack([octant.entity.astype(np.int64), octant.rank.astype(np.int64)], axis=1)
-    for axis in range(3):
-        for side in (0, 2):
-            here = is_open & (place[start, axis] == side) & (place[end, axis] == side)
-            edges = np.concatenate([name[start[here]], name[end[here]]], axis=1)
-            order = np.lexsort(edges.T)
-            open_edges[axis, side] = edges[order]
-            open_piece[axis, side] = piece[start[here]][order].astype(np.int64)
-
-    owner = piece[triangles[:, 0]]
-    normal = np.stack(
-        [np.bincount(owner, 0.5 * twice[:, k], minlength=pieces) for k in range(3)], axis=1
-    )
-    flux = np.einsum("ij,ij->i", corners[:, 0], twice) / 6.0
-    return _Kind(
-        int(pieces),
-        piece.astype(np.int64),
-        np.bincount(owner, flux, minlength=pieces).astype(np.float64),
-        normal.astype(np.float64),
-        float(0.5 * np.linalg.norm(twice, axis=1).sum()),
-        open_edges,
-        open_piece,
-        int((~twice.any(axis=1)).sum()),
-        sound,
-    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -263,7 +200,7 @@ def _meetings(grid: OctantGrid) -> Iterator[_Meeting]:
             yield _Meeting(axis, face, (pair // count - 1, pair % count - 1), code == value)
 
 
-def _fit_together(layout: Layout, kinds: list[_Kind], first: Ints) -> tuple[Ints, Ints, Ints]:
+def _fit_together(layout: Layout, kinds: list[OctantKind], first: Ints) -> tuple[Ints, Ints, Ints]:
     """How the pieces of neighbouring octants are joined, after a look at every pair.
 
     Returns:

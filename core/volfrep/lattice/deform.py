@@ -10,17 +10,20 @@ refused.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..design.cells import UnitCell
 from ..grid.coordinate_map import CoordinateMap
 from ..grid.node_frames import NodeFrames, shortest
-from ..octants.octant import OctantKey, frames
+from ..octants.octant import Octant, OctantKey, frames
 from ..octants.sdf import Field, join, spheres, struts
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
+from ..util.threads import in_threads
 from ..util.types import Floats, Ints
 from .assembly import Layout, numbers
 from .strut_binding import (
@@ -91,45 +94,62 @@ def deform(
     excess, done = 0.0, 0
     total = sum(len(place) for place in layout.places)
     rounding = _Rounding.of(nodes, fillet) if fillet > 0.0 else None
-    for key, place in zip(grid.keys, layout.places, strict=True):
-        if not len(place) or not len(layout.octants[key].vertices):
-            continue
-        octant, own = layout.octants[key], bindings[key]
-        size = max(1, CHUNK_VERTICES // len(own.kind))
-        lookup = NodeLookup.of(cell, key, own.copy, own.place)
-        is_corner = own.kind == SPACE
-        on_face = octant.places != 1
-        for begin in range(0, len(place), size):
-            part = place[begin : begin + size]
-            corner, sign = frames(part)
-            base = corner * grid.cell_size + grid.origin
-            rows = lookup.rows(nodes.graph, part, grid.periodic)
-            found = _place(own, rows, sign, nodes, monitor)
-            if rounding is not None:
-                found = rounding.project(found, own, rows)
-            before = base[:, None] + sign[:, None] * octant.vertices
-            inside = before[:, is_corner]
-            if in_part:
-                inside = mapping.to_part(inside.reshape(-1, 3)).reshape(inside.shape)
-            found = found.reshape(before.shape)
-            found[:, is_corner] = inside
-            there = found.reshape(-1, 3)
-            back = (mapping.to_lattice(there) if in_part else there).reshape(found.shape)
-            middle = (base + sign * (0.25 * grid.cell_size))[:, None]
-            seen = mapping.unwrapped(np.concatenate([middle, back], axis=1))[:, 1:]
-            # What was on a face shared with another octant must stay near it on both sides.
-            left = np.abs(seen - before)[:, on_face].max(initial=0.0)
-            beyond = np.abs(seen - middle).max() - 0.25 * grid.cell_size
-            excess = max(excess, float(max(left, beyond)) / (0.5 * grid.cell_size))
-            vertices[numbers(layout, octant, part)] = found
-            done += len(part)
-            monitor.tick(done / total)
+
+    def parts() -> Iterator[_Part]:
+        for key, place in zip(grid.keys, layout.places, strict=True):
+            octant = layout.octants[key]
+            if not len(place) or not len(octant.vertices):
+                continue
+            own = bindings[key]
+            lookup = NodeLookup.of(cell, key, own.copy, own.place)
+            size = max(1, CHUNK_VERTICES // len(own.kind))
+            for begin in range(0, len(place), size):
+                yield _Part(octant, own, lookup, place[begin : begin + size])
+
+    def moved(part: _Part) -> tuple[NDArray[np.int32], Floats, float]:
+        own, octant = part.own, part.octant
+        is_corner, on_face = own.kind == SPACE, octant.places != 1
+        corner, sign = frames(part.place)
+        base = corner * grid.cell_size + grid.origin
+        rows = part.lookup.rows(nodes.graph, part.place, grid.periodic)
+        found = _place(own, rows, sign, nodes)
+        if rounding is not None:
+            found = rounding.project(found, own, rows)
+        before = base[:, None] + sign[:, None] * octant.vertices
+        inside = before[:, is_corner]
+        if in_part:
+            inside = mapping.to_part(inside.reshape(-1, 3)).reshape(inside.shape)
+        found = found.reshape(before.shape)
+        found[:, is_corner] = inside
+        there = found.reshape(-1, 3)
+        back = (mapping.to_lattice(there) if in_part else there).reshape(found.shape)
+        middle = (base + sign * (0.25 * grid.cell_size))[:, None]
+        seen = mapping.unwrapped(np.concatenate([middle, back], axis=1))[:, 1:]
+        # What was on a face shared with another octant must stay near it on both sides.
+        left = np.abs(seen - before)[:, on_face].max(initial=0.0)
+        beyond = np.abs(seen - middle).max() - 0.25 * grid.cell_size
+        return numbers(layout, octant, part.place), found, float(max(left, beyond))
+
+    # One after the other into their places: octants that share a vertex differ by rounding.
+    for number, found, left in in_threads(moved, parts()):
+        vertices[number] = found
+        excess = max(excess, left / (0.5 * grid.cell_size))
+        done += len(number)
+        monitor.tick(done / total)
     return Deformed(vertices if in_part else mapping.to_part(vertices), excess)
 
 
-def _place(
-    own: StrutBinding, rows: Ints, sign: Ints, nodes: NodeFrames, monitor: Monitor
-) -> Floats:
+@dataclass(frozen=True, eq=False)
+class _Part:
+    """Some octants of one kind: it, the binding of its vertices, its nodes, (p, 3) places."""
+
+    octant: Octant
+    own: StrutBinding
+    lookup: NodeLookup
+    place: Ints
+
+
+def _place(own: StrutBinding, rows: Ints, sign: Ints, nodes: NodeFrames) -> Floats:
     """(p n, 3) places of the vertices of some octants of one kind; corners are left out."""
     count = len(rows)
     near, far = rows[:, own.near], rows[:, own.far]
@@ -158,7 +178,6 @@ def _place(
             np.tile(own.scale[is_sphere], count),
             nodes,
         ).reshape(count, -1, 3)
-    monitor.tick()
     return found.reshape(-1, 3)
 
 

@@ -291,8 +291,11 @@ def merging_vertices(mesh: TriangleMesh) -> Ints:
 
     A binary file holds the nearest float32 of every coordinate, a text the nearest decimal.
     """
-    vertices = mesh.vertices
-    step = decimal_step(vertices)
+    return merging(mesh.vertices, decimal_step(mesh.vertices))
+
+
+def merging(vertices: NDArray[np.float64], step: float) -> Ints:
+    """`merging_vertices` among points (n, 3), where the decimals of a text resolve a step in mm."""
 
     def binary(part: slice | Ints) -> NDArray[np.float32]:
         return vertices[part].astype(np.float32)

@@ -9,13 +9,17 @@ on how the mesh is connected, which makes it a judge of repairs.
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.linalg import frame_about, times
 from ..util.ragged import spread
+from ..util.threads import in_threads
 from ..util.types import Bools, Floats, Ints
 
 #: Lines on each side of the square grid of lines.
@@ -70,18 +74,106 @@ def windings(mesh: TriangleMesh, box: Floats | None = None) -> Windings:
         box: (2, 3) a box over which the lines stand, its own for None. In the same box they are
             the same lines: what two meshes enclose can be compared without a sampling error.
     """
-    vertices = times(mesh.vertices, FRAME)
-    ends = mesh.bounds if box is None else box
-    shadow = times(np.stack(np.meshgrid(*ends.T), axis=-1).reshape(-1, 3), FRAME)[:, :2]
-    low, high = shadow.min(axis=0), shadow.max(axis=0)
-    step = np.maximum(high - low, 1e-300) / LINES
-    jitter = np.random.default_rng(1).uniform(0.0, 1.0, (LINES, LINES, 2))
-    grid = np.stack(np.meshgrid(np.arange(LINES), np.arange(LINES), indexing="ij"), axis=2)
-    points = (low + (grid + jitter) * step).reshape(-1, 2)
-    met = []
+    lines = Lines(mesh.bounds if box is None else box)
+    return lines.windings(lines.near(mesh.vertices, mesh_blocks(mesh)))
+
+
+def mesh_blocks(mesh: TriangleMesh) -> Iterator[NDArray[np.int32]]:
+    """The triangles of a mesh, some at a time."""
     for begin in range(0, len(mesh.triangles), TRIANGLES_PER_STEP):
-        corners = vertices[mesh.triangles[begin : begin + TRIANGLES_PER_STEP]]
-        met.append(crossings(corners, points))
+        yield mesh.triangles[begin : begin + TRIANGLES_PER_STEP]
+
+
+class Lines:
+    """A jittered grid of parallel lines over a box.
+
+    Args:
+        box: (2, 3) corners, mm.
+    """
+
+    def __init__(self, box: Floats) -> None:
+        shadow = times(np.stack(np.meshgrid(*box.T), axis=-1).reshape(-1, 3), FRAME)[:, :2]
+        low, high = shadow.min(axis=0), shadow.max(axis=0)
+        self._low, self._step = low, np.maximum(high - low, 1e-300) / LINES
+        jitter = np.random.default_rng(1).uniform(0.0, 1.0, (LINES, LINES, 2))
+        grid = np.stack(np.meshgrid(np.arange(LINES), np.arange(LINES), indexing="ij"), axis=2)
+        self._points = (low + (grid + jitter) * self._step).reshape(-1, 2)
+
+    def bins(self, points: Floats) -> NDArray[np.int16]:
+        """(2, n) the bins over which (n, 3) points lie, for `may_meet`."""
+        count = LINES * FINER
+        result = np.empty((2, len(points)), np.int16)
+
+        def block(start: int) -> None:
+            part = slice(start, start + TRIANGLES_PER_STEP)
+            seen = (times(points[part], FRAME[:, :2]) - self._low) / (self._step / FINER)
+            result[:, part] = np.clip(seen, 0, count - 1).T
+
+        for _ in in_threads(block, range(0, len(points), TRIANGLES_PER_STEP)):
+            pass
+        return result
+
+    def may_meet(self, bins: NDArray[np.int16], triangles: NDArray[np.int32]) -> Bools:
+        """(m,) which triangles of points in bins a line may meet: few of small ones."""
+        found = []
+        for own in bins:
+            a, b, c = (own[triangles[:, k]] for k in range(3))
+            found += [np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c) + 1]
+        x, right, y, top = found
+        below = self._below
+        held: Bools = below[right, top] - below[x, top] - below[right, y] + below[x, y] > 0
+        return held
+
+    @cached_property
+    def _below(self) -> NDArray[np.int32]:
+        """How many lines stand over the bins before each one, along both sides of the grid."""
+        x, y = self._bins_of_lines
+        count = np.zeros((LINES * FINER + 1,) * 2, np.int32)
+        np.add.at(count, (x + 1, y + 1), 1)
+        below: NDArray[np.int32] = count.cumsum(axis=0).cumsum(axis=1).astype(np.int32)
+        return below
+
+    @property
+    def _bins_of_lines(self) -> Ints:
+        """(2, k) the bin of every line."""
+        seen = (self._points - self._low) / (self._step / FINER)
+        bins: Ints = np.clip(seen, 0, LINES * FINER - 1).astype(np.int64).T
+        return bins
+
+    def near(self, points: Floats, blocks: Iterable[NDArray[np.int32]]) -> Iterator[Floats]:
+        """(k, 3, 3) the corners of those triangles that a line may meet, some at a time, mm.
+
+        Args:
+            points: (n, 3), mm.
+            blocks: (m, 3) triangles of them, some at a time.
+        """
+        bins = self.bins(points)
+        waiting: list[NDArray[np.int32]] = []
+        for each in blocks:
+            waiting.append(each[self.may_meet(bins, each)])
+            if sum(map(len, waiting)) > TRIANGLES_PER_STEP:
+                yield points[np.concatenate(waiting)]
+                waiting = []
+        if waiting:
+            yield points[np.concatenate(waiting)]
+
+    def windings(self, blocks: Iterable[Floats]) -> Windings:
+        """The winding numbers along them of a closed surface.
+
+        Args:
+            blocks: (k, 3, 3) corners of triangles, some at a time, mm; equal ones to the last bit
+                where triangles share a vertex.
+        """
+
+        def met_by(corners: Floats) -> tuple[Ints, Ints, Floats, Ints]:
+            return crossings(times(corners.reshape(-1, 3), FRAME).reshape(-1, 3, 3), self._points)
+
+        met = list(in_threads(met_by, blocks))
+        return _found(met, self._points, self._step)
+
+
+def _found(met: list[tuple[Ints, Ints, Floats, Ints]], points: Floats, step: Floats) -> Windings:
+    """What lines at (k, 2) points, so far apart, have met."""
     line, height, sign = (np.concatenate([found[k] for found in met]) for k in (0, 2, 3))
     # A line through an edge, as far as rounding tells, may have met one of its triangles only.
     whole = np.bincount(line, weights=sign, minlength=len(points)) == 0

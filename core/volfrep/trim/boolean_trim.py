@@ -23,8 +23,8 @@ from ..util.types import Bools, Floats, Ints
 from ..util.workers import at_once
 from .culling import KeptOctants, without_pinches
 from .group_cut import Group, Piece, cut, read_runs
-from .laid import Laid
-from .trimmed_surface import InnerOctants, TrimmedSurface, concatenated_at, equal_rows
+from .laid import InnerOctants, Laid
+from .trimmed_surface import TrimmedSurface, concatenated_at, equal_rows
 from .wall_groups import Groups, grouped
 
 if TYPE_CHECKING:
@@ -192,6 +192,8 @@ def cut_again(
     """
     import manifold3d
 
+    if surface.octants is not None and surface.octants.laid.points is not None:
+        surface = TrimmedSurface(surface.whole(monitor))  # a middle of theirs is not known
     if surface.octants is not None:
         surface = surface.with_octants(_met(surface.octants, by, keeps, monitor), monitor)
     mesh, inner = surface.mesh, surface.octants

@@ -22,6 +22,7 @@ from ..mesh.quality import Quality
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.self_intersection import about, crossing_triangles
 from ..spatial.uncrossing import turns_of, uncrossed
+from ..spatial.winding import Lines
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 from ..util.types import Floats, Ints
@@ -86,8 +87,9 @@ def finished(
     mesh = surface.mesh
     apart = separate_vertices(mesh, edge_within(quality.bounds))
     if apart is not mesh:
-        if _reaches_octants(surface, apart):
-            return finished(TrimmedSurface(surface.whole(monitor)), quality, monitor, moved, cut)
+        wider = _with_reached(surface, apart, monitor)
+        if wider is not surface:
+            return finished(wider, quality, monitor, moved, cut)
         surface = replace(surface, mesh=apart)
         again = surface.inspected(monitor).found.quality
         if abs(again.volume - quality.volume) > MOST_MOVED * abs(quality.volume):
@@ -103,17 +105,16 @@ def finished(
             turns = turns.followed_by(len(surface.mesh.triangles) - beside)
         straight, place = uncrossed(surface.mesh, monitor, moved, turns)
     if straight is not surface.mesh:
-        if _reaches_octants(surface, straight):
-            return finished(TrimmedSurface(surface.whole(monitor)), quality, monitor, moved, cut)
+        wider = _with_reached(surface, straight, monitor)
+        if wider is not surface:
+            return finished(wider, quality, monitor, moved, cut)
         surface = replace(surface, mesh=straight)
         quality = surface.inspected(monitor).found.quality
     refuse_no_solid(quality)
     told = () if place is None else (_touching(place),)
     if not moved:
         return surface, quality, told
-    from ..spatial.winding import windings  # of no use to most lattices
-
-    met = monitor.call(lambda: windings(surface.whole(monitor)))
+    met = monitor.call(lambda: surface.met_by(Lines(surface.bounds)))
     share = met.odd / quality.volume
     if met.place is None or share <= ROUNDING:
         return surface, quality, told
@@ -139,15 +140,24 @@ def _with_octants_about(surface: TrimmedSurface, pairs: Ints, monitor: Monitor) 
     return surface.with_octants(near, monitor)
 
 
-def _reaches_octants(surface: TrimmedSurface, mesh: TriangleMesh) -> bool:
-    """Whether vertices that were moved in its mesh belong to the octants beside it, or reach in."""
+def _with_reached(surface: TrimmedSurface, mesh: TriangleMesh, monitor: Monitor) -> TrimmedSurface:
+    """The surface with the octants in its mesh that belong to vertices which another mesh moves.
+
+    Args:
+        surface: with its mesh as it was.
+        mesh: as it is to be.
+        monitor: for cancel.
+
+    Returns:
+        The same surface where no octants beside it are touched or reached into.
+    """
     if surface.octants is None:
-        return False
+        return surface
     if not replace(surface, mesh=mesh).is_joined:
-        return True
+        return TrimmedSurface(surface.whole(monitor))
     moved = (mesh.vertices != surface.mesh.vertices).any(axis=1)
     about = mesh.triangles[moved[mesh.triangles].any(axis=1)]
-    return bool(surface.octants.reached(mesh.vertices[about]).any())
+    return surface.with_octants(surface.octants.reached(mesh.vertices[about]), monitor)
 
 
 def pieces_told(

@@ -26,6 +26,7 @@ from ..shell.domain import Domain
 from ..spatial.proximity import closest_points
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
+from ..util.types import Bools
 from .boolean_trim import Trimmed, cut_again, trim
 from .culling import KeptOctants, OctantRoles, cull, keep_all
 from .drains import Drained, drain
@@ -102,9 +103,12 @@ def cut_lattice(
             domain.wall, laid, cavity=with_skin, monitor=monitor, executor=executor,
             precision=shortest_edge(solid),
         )  # fmt: skip
-        if _needs_no_look(laid, domain.wall):
+        unproved = _to_look_at(laid, domain.wall)
+        if not unproved.any():
             return found
-        return replace(found, surface=TrimmedSurface(found.surface.whole(monitor)))
+        surface = found.surface.with_octants(unproved, monitor)
+        more = len(surface.mesh.triangles) - len(found.on_wall)
+        return Trimmed(surface, np.pad(found.on_wall, (0, more)))
 
     full = cells_are_full(octant_spec.cell_size, octant_spec.strut_radius)
     return cleared_cut(
@@ -184,17 +188,21 @@ def cleared_cut(
     return replace(cleared, surface=both, quality=combined(measure(solid), cleared.quality))
 
 
-def _needs_no_look(laid: Laid, wall: TriangleMesh) -> bool:
-    """Whether octants that the wall does not cross are right without a look at their triangles.
+def _to_look_at(laid: Laid, wall: TriangleMesh) -> Bools:
+    """(nx, ny, nz) bool, octants inside that are not right without a look at their triangles.
 
-    Files keep their vertices apart, and from what is new on the wall.
+    Of the others files keep the vertices apart, and from what is new on the wall, and the surface
+    turns back nowhere.
     """
-    bounds = wall.bounds
-    return (
-        laid.is_proved_by_kind
-        and laid.clearance > edge_within(bounds)
-        and keeps_corners(laid.octants.values(), 0.5 * laid.layout.grid.cell_size, bounds)
-    )
+    inside, bounds = laid.kept.inside, wall.bounds
+    if not laid.clearance > edge_within(bounds):
+        return inside
+    if laid.moved is not None:
+        return np.asarray(laid.unsound & inside, np.bool_)
+    half = 0.5 * laid.layout.grid.cell_size
+    if laid.is_proved_by_kind and keeps_corners(laid.octants.values(), half, bounds):
+        return np.zeros_like(inside)
+    return inside
 
 
 def drained_part(

@@ -7,35 +7,24 @@ joined to the mesh where both are open, by the vertices that they share.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..lattice.assembly import (
-    Layout,
-    box,
-    facets,
-    in_steps,
-    lay_out,
-    neighbour_missing,
-    numbers,
-    placed,
-)
-from ..lattice.certificate import CertifiedPieces, certify_pieces
+from ..lattice.assembly import facet_blocks
 from ..mesh.edge_table import pieces_of
 from ..mesh.quality import Inspection, Quality, inspect
 from ..mesh.triangle_mesh import TriangleMesh, box_of, corners_among
+from ..spatial.winding import Lines, Windings, mesh_blocks
 from ..util.progress import Monitor
-from ..util.ragged import spread
 from ..util.types import Bools, Floats, Ints
-from .laid import Laid
+from .laid import Caps, InnerOctants
 
 #: Points are first told apart by what is left of their hashes by this.
 ASKED = 1 << 22
-#: A triangle reaches into an octant where it does by more than this, in units of L.
-REACH = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,139 +38,6 @@ class JoinedInspection:
 
     found: Inspection
     beyond: Bools
-
-
-@dataclass(frozen=True, eq=False)
-class Caps:
-    """Flat faces where octants follow on a solid.
-
-    Attributes:
-        mesh: the faces, mm.
-        at_rim: (n,) which of the vertices at the octants' rim each of its vertices is; -1 for none.
-    """
-
-    mesh: TriangleMesh
-    at_rim: Ints
-
-
-@dataclass(frozen=True, eq=False)
-class InnerOctants:
-    """Octants that belong to a surface without being in its mesh.
-
-    Attributes:
-        laid: all the octants.
-        where: (nx, ny, nz) bool, these.
-    """
-
-    laid: Laid
-    where: Bools
-
-    @cached_property
-    def layout(self) -> Layout:
-        """They alone, numbered as among all."""
-        return self.laid.alone(self.where)
-
-    @cached_property
-    def pieces(self) -> CertifiedPieces:
-        """What is proved of them by their kinds."""
-        return certify_pieces(self.layout, box(self.layout).mean(axis=0))
-
-    @cached_property
-    def rim(self) -> Ints:
-        """The vertices, by their numbers, at which octants are open; ascending."""
-        return np.unique(self.pieces.rim)
-
-    @cached_property
-    def rim_points(self) -> Floats:
-        """(k, 3) where they are, mm."""
-        return self.laid.coordinates(self.rim.astype(np.int32), self._at_rim, Monitor())
-
-    @cached_property
-    def _at_rim(self) -> Bools:
-        """(nx, ny, nz) bool, octants that have all the vertices at the rim."""
-        inner = np.pad(self.where, 1)
-        for axis in range(3):
-            inner &= np.roll(inner, 1, axis) & np.roll(inner, -1, axis)
-        result: Bools = self.where & ~inner[1:-1, 1:-1, 1:-1]
-        return result
-
-    @property
-    def numbered_alone(self) -> tuple[Layout, Ints]:
-        """They alone with numbers of their own, and those of the vertices at the rim."""
-        layout, alone = self.layout, lay_out(self.layout.grid, self.layout.octants)
-        result = np.full(len(self.rim), -1, np.int64)
-        for key, place in zip(layout.grid.keys, layout.places, strict=True):
-            octant = layout.octants[key]
-            some = place[self._at_rim[tuple(place.T)]]
-            number = numbers(layout, octant, some).ravel()
-            row = np.minimum(np.searchsorted(self.rim, number), len(self.rim) - 1)
-            at_rim = self.rim[row] == number
-            result[row[at_rim]] = numbers(alone, octant, some).ravel()[at_rim]
-        return alone, result
-
-    @property
-    def bounds(self) -> Floats:
-        """(2, 3) of their vertices, mm."""
-        motion = self.laid.motion
-        if motion.frame is None:
-            return motion(box(self.layout))
-        farthest = []
-        for key, place in zip(self.layout.grid.keys, self.layout.places, strict=True):
-            octant = self.layout.octants[key]
-            if not len(octant.vertices) or not len(place):
-                continue
-            steps = in_steps(self.layout.grid, octant)
-            corner, sign = self.layout.frames(place)
-            for frame in np.unique(sign, axis=0):
-                # What is farthest has the farthest place and the farthest vertex of an octant.
-                own, points = corner[(sign == frame).all(axis=1)], frame * steps
-                where, what = motion.turned(1.0 * own), motion.turned(points)
-                for end in (np.argmin, np.argmax):
-                    at, of = end(where, axis=0), end(what, axis=0)
-                    farthest.append(motion(placed(self.layout.grid, own[at], points[of])))
-        return box_of(np.concatenate(farthest))
-
-    def middle(self, places: Ints) -> Floats:
-        """(k, 3) the middles of octants at some places, mm."""
-        grid = self.laid.layout.grid
-        return self.laid.motion(grid.origin + 0.5 * grid.cell_size * (places - 0.5))
-
-    def caps(self, monitor: Monitor) -> Caps:
-        """What closes the solid that follows on them, seen from there."""
-        layout, others = self.laid.layout, (self.laid.layout.grid.kind >= 0) & ~self.where
-        every, at = [], np.zeros_like(others)
-        for axis in range(3):
-            for high in (False, True):
-                missing = neighbour_missing(layout.grid, others, axis, high)
-                missing &= ~neighbour_missing(layout.grid, others | self.where, axis, high)
-                every.append(facets(layout, monitor, missing, (axis, high)))
-                at |= missing
-        mesh, number = self.laid.mesh(np.concatenate(every), at, monitor)
-        row = np.minimum(np.searchsorted(self.rim, number), len(self.rim) - 1)
-        return Caps(mesh, np.where(self.rim[row] == number, row, -1))
-
-    def reached(self, corners: Floats) -> Bools:
-        """(nx, ny, nz) bool, those of them that (k, 3, 3) triangles reach into."""
-        grid = self.laid.layout.grid
-        # Octant 0 lies on the low side of the grid's corner.
-        places = (self.laid.motion.back(corners) - grid.origin) / (0.5 * grid.cell_size) + 1.0
-        limit = np.array(self.where.shape)
-        low = np.clip(np.floor(places.min(axis=1) + REACH).astype(np.int64), 0, limit)
-        high = np.clip(np.ceil(places.max(axis=1) - REACH).astype(np.int64), 0, limit)
-        span = np.maximum(high - low, 0)
-        row, place = spread(span.prod(axis=1))
-        place, z = np.divmod(place, span[row, 2])
-        x, y = np.divmod(place, span[row, 1])
-        index = low[row] + np.stack([x, y, z], axis=1)
-        some = self.where[tuple(index.T)]
-        index, row = index[some], row[some]
-        # A large triangle is near few of the octants that its box is near.
-        normal = np.cross(places[:, 1] - places[:, 0], places[:, 2] - places[:, 0])[row]
-        above = np.einsum("ij,ij->i", index + 0.5 - places[row, 0], normal)
-        meets = np.abs(above) <= (0.5 - REACH) * np.abs(normal).sum(axis=1)
-        result = np.zeros(self.where.shape, bool)
-        result[tuple(index[meets].T)] = True
-        return result
 
 
 @dataclass(frozen=True, eq=False)
@@ -233,6 +89,19 @@ class TrimmedSurface:
         )
         rest = inner.where & ~where
         return TrimmedSurface(mesh, InnerOctants(inner.laid, rest) if rest.any() else None)
+
+    def met_by(self, lines: Lines) -> Windings:
+        """What lines meet of it."""
+        return lines.windings(self._near(lines))
+
+    def _near(self, lines: Lines) -> Iterator[Floats]:
+        """(k, 3, 3) the corners of triangles, some at a time, without many that no line meets."""
+        inner = self.octants
+        points = None if inner is None else inner.laid.points
+        mesh = self.mesh if points is not None else self.whole(Monitor())
+        yield from lines.near(mesh.vertices, mesh_blocks(mesh))
+        if inner is not None and points is not None:
+            yield from lines.near(points, facet_blocks(inner.layout))
 
     @property
     def is_joined(self) -> bool:

@@ -111,7 +111,7 @@ def test_a_lattice_that_is_turned(suffix: str, tmp_path: Path) -> None:
 def test_a_lattice_that_is_turned_is_what_its_mesh_would_have_been(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(stage, "_needs_no_look", lambda *_: False)
+    monkeypatch.setattr(stage, "_to_look_at", lambda laid, _: laid.kept.inside)
     meshed = Infill(samples.box((40.0, 40.0, 40.0)), TURNED).part
     assert meshed.surface.octants is None
     one, two = turned().part.report, meshed.report

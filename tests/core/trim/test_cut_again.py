@@ -46,7 +46,7 @@ def test_it_is_what_the_whole_mesh_would_have_become(
 ) -> None:
     some = made(name)
     assert some.surface.octants is not None, "octants that nothing cuts stay out of the mesh"
-    monkeypatch.setattr(stage, "_needs_no_look", lambda *_: False)
+    monkeypatch.setattr(stage, "_to_look_at", lambda laid, _: laid.kept.inside)
     every = made(name)
     assert every.surface.octants is None
     one, two = (quality.measure(result.mesh) for result in (some, every))

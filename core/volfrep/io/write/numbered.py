@@ -21,9 +21,9 @@ from ...mesh.precision import BLOCK_ROWS, decimal_step, refuse_lost_corners, rou
 from ...mesh.precision import single_precision as in_single
 from ...mesh.triangle_mesh import TriangleMesh
 from ...trim.trimmed_surface import TrimmedSurface
-from ...util.types import Floats
+from ...util.types import Floats, Ints
 
-Number = TypeVar("Number", np.float64, np.int32)
+Number = TypeVar("Number", np.float64, np.int32, np.int64)
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,6 +34,8 @@ class Numbered:
         mesh: a part of it, its vertices after those of the octants, its triangles of all.
         octants: laid, with a number for each vertex; None for none.
         motion: of the octants.
+        moved: where the vertices of octants are that do not keep their places: points (n, 3), mm,
+            and which of them theirs are; None where they keep them but for the motion.
         bounds: (2, 3) of the whole, mm.
     """
 
@@ -41,6 +43,7 @@ class Numbered:
     octants: Layout | None
     motion: Motion
     bounds: Floats
+    moved: tuple[Floats, Ints] | None = None
 
     @property
     def vertices(self) -> int:
@@ -55,7 +58,11 @@ class Numbered:
 
     def points(self) -> Iterator[Floats]:
         """(k, 3) vertices in their order, mm."""
-        if self.octants is not None:
+        if self.moved is not None:
+            points, rows = self.moved
+            for some in _blocks(rows):
+                yield points[some]
+        elif self.octants is not None:
             for block in coordinate_blocks(self.octants):
                 yield self.motion(block)
         yield from _blocks(self.mesh.vertices)
@@ -102,7 +109,7 @@ def numbered(
     fresh = number < 0
     number[fresh] = layout.count + np.arange(int(fresh.sum()))
     rest = TriangleMesh(mesh.vertices[fresh], number.astype(np.int32)[mesh.triangles])
-    return Numbered(rest, layout, inner.laid.motion, given.bounds)
+    return Numbered(rest, layout, inner.laid.motion, given.bounds, inner.moved_vertices)
 
 
 def _blocks(rows: NDArray[Number]) -> Iterator[NDArray[Number]]:

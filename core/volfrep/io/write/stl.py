@@ -19,6 +19,7 @@ from ...util.errors import VolfrepError
 from ...util.files import replacing
 from ...util.progress import Monitor
 from ...util.threads import threads
+from ...util.types import Floats
 
 HEADER_BYTES = 80
 #: One facet as it lies in the file.
@@ -57,7 +58,7 @@ def mesh_blocks(mesh: TriangleMesh, path: str | os.PathLike[str]) -> Iterator[Ca
     """
     vertices = single_precision(mesh, path)
     for start in range(0, len(mesh.triangles), BLOCK_FACETS):
-        yield partial(_facets, vertices, mesh.triangles[start : start + BLOCK_FACETS], path)
+        yield partial(facets_at, vertices, mesh.triangles[start : start + BLOCK_FACETS], path)
 
 
 def write_facets(
@@ -127,17 +128,30 @@ def as_read(mesh: TriangleMesh) -> TriangleMesh:
     return merge_corners(used.vertices.astype(np.float32)[used.triangles].reshape(-1, 3))
 
 
-def _facets(
-    vertices: NDArray[np.float32], triangles: NDArray[np.int32], path: str | os.PathLike[str]
+def facets_at(
+    vertices: NDArray[np.float32] | Floats,
+    triangles: NDArray[np.int32],
+    path: str | os.PathLike[str],
 ) -> Facets:
-    facets = np.zeros(len(triangles), FACET)
-    corners = vertices[triangles]
+    """`facets_of` triangles of numbered vertices, (n, 3) mm."""
+    return facets_of(vertices[triangles].astype(np.float32, copy=False), path)
+
+
+def facets_of(corners: NDArray[np.float32], path: str | os.PathLike[str]) -> Facets:
+    """Triangles by their corners, (m, 3, 3), as they lie in the file at the path.
+
+    Raises:
+        VolfrepError: single precision took a corner of one.
+    """
+    facets = np.zeros(len(corners), FACET)
     facets["corners"] = corners
     e, f = (np.ascontiguousarray((corners[:, k] - corners[:, 0]).T) for k in (1, 2))
     normal = np.stack([e[i] * f[j] - e[j] * f[i] for i, j in ((1, 2), (2, 0), (0, 1))])
     length = np.sqrt((normal * normal).sum(axis=0))
     flat = np.flatnonzero(length == 0.0)
-    refuse_lost_corners(vertices, triangles[flat], path)
+    refuse_lost_corners(
+        corners[flat].reshape(-1, 3), np.arange(3 * len(flat), dtype=np.int32).reshape(-1, 3), path
+    )
     length[flat] = 1.0
     facets["normal"] = (normal / length).T
     return facets

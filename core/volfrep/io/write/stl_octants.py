@@ -17,12 +17,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...grid.motion import Motion
-from ...lattice.assembly import Layout, in_steps, placed
+from ...lattice.assembly import Layout, facet_blocks, in_steps, placed
 from ...octants.octant import OctantGrid
 from ...trim.trimmed_surface import TrimmedSurface
 from ...util.progress import Monitor
 from ...util.types import Floats
-from .stl import BLOCK_FACETS, FACET, Facets, mesh_blocks, write_facets
+from .stl import BLOCK_FACETS, FACET, Facets, facets_at, mesh_blocks, write_facets
 
 #: A facet of the file whose numbers are moved at once.
 _RECORD = np.dtype([("numbers", "V48"), ("attribute", "<u2")])
@@ -62,7 +62,13 @@ def write_surface_stl(
     """
     blocks = mesh_blocks(surface.mesh, path)
     if surface.octants is not None:
-        blocks = chain(blocks, _blocks(surface.octants.layout, surface.octants.laid.motion))
+        beside, points = surface.octants, surface.octants.laid.points
+        blocks = chain(
+            blocks,
+            _blocks(beside.layout, beside.laid.motion)
+            if points is None
+            else _moved_blocks(beside.layout, points, path),
+        )
     write_facets(path, surface.triangles, blocks, monitor)
 
 
@@ -84,6 +90,15 @@ def _blocks(layout: Layout, motion: Motion) -> Iterator[Callable[[], Facets]]:
             size = max(1, BLOCK_FACETS // len(order))
             for begin in range(0, len(own), size):
                 yield partial(_facets, grid, own[begin : begin + size], pattern)
+
+
+def _moved_blocks(
+    layout: Layout, points: Floats, path: str | os.PathLike[str]
+) -> Iterator[Callable[[], Facets]]:
+    """Octants whose numbered vertices were moved to (n, 3) points, mm."""
+    for corners in facet_blocks(layout):
+        for begin in range(0, len(corners), BLOCK_FACETS):
+            yield partial(facets_at, points, corners[begin : begin + BLOCK_FACETS], path)
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,7 +16,7 @@ def register() -> None:
     What shows them is imported when it is used first.
     """
     if App.GuiUp:
-        register_screen(Screen(_update, _wait_for, _attach_view, _revive_view))
+        register_screen(Screen(_update, _wait_for, _go_through, _attach_view, _revive_view))
 
 
 def _update(obj: App.DocumentObject, asked: Any) -> None:
@@ -29,6 +29,12 @@ def _wait_for(title: str, call: Any, in_freecad: bool) -> Any:
     from .gui.progress import wait_for
 
     return wait_for(title, call, in_freecad)
+
+
+def _go_through(title: str, steps: Any) -> Any:
+    from .gui.progress import go_through
+
+    return go_through(title, steps)
 
 
 def _attach_view(obj: App.DocumentObject) -> None:

@@ -2,11 +2,16 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # The pictures of the tutorial and the help pages anew: runs the checks of tests/gui that take them,
 # rings what they mark, where the user clicks, and makes them smaller, with few colours, so that
-# each has less than 150 kB. With an argument it takes those that are in that folder already
-# (build/gui, or build/forky/gui of FreeCAD 1.1).
+# each has less than 150 kB. With an argument it takes those that are in that folder already, and of
+# build/forky/gui, which are FreeCAD 1.1's, those that show what looks different there.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 OUT=docs/images/tutorial
+only=.
+if [[ ${1:-} = *forky* ]]; then
+  OUT=$OUT/1.1
+  only='[^_](1_select|2_panel|4_computed|5_radius|6_check)$'
+fi
 # The script of tests/gui, its check, the picture that it takes, and what that is called here.
 PICTURES="
 commands        fill_a_box              tutorial_1_select    1_select
@@ -27,7 +32,7 @@ sizing          size_and_take           sizing_2_plot        sizing_plot
 sizing          size_and_take           sizing_2_sized       size_lattice
 sizing          show_results            results_deformed     strut_results
 "
-rows() { grep . <<<"$PICTURES"; }
+rows() { grep -E "$only" <<<"$PICTURES"; }
 # One of them shows the folder.
 from=${1:-/tmp/volfrep}
 export GUI_OUT=$from

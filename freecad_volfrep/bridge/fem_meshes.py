@@ -6,7 +6,7 @@ FreeCAD takes nodes and elements one by one only, a few microseconds each.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Generator, Mapping
 from dataclasses import dataclass
 
 import Fem
@@ -20,6 +20,8 @@ from volfrep.fem.tet_mesh import TetrahedralMesh
 
 Ints = NDArray[np.int64]
 
+#: Nodes or elements between two looks at the window.
+AT_ONCE = 200
 #: FreeCAD's order of a tetrahedron's nodes (SMESH's), from that of the solver.
 _TETRAHEDRON = [1, 0, 2, 3, 4, 6, 5, 8, 7, 9]
 
@@ -39,32 +41,45 @@ class Runs:
     section: Ints
 
 
-def beam_mesh(model: BeamModel, sets: Mapping[str, Ints]) -> Fem.FemMesh:
+def beam_mesh(model: BeamModel, sets: Mapping[str, Ints]) -> Generator[float, None, Fem.FemMesh]:
     """Three-noded edges, the model's own nodes first and numbered from 1.
 
     Args:
         model: the beams.
         sets: node groups by name, rows of the model's nodes.
+
+    Yields:
+        The share that is done, from time to time.
     """
     middles = model.nodes[model.elements].mean(axis=1)
-    mesh = _with_nodes(np.concatenate([model.nodes, middles]))
-    first = len(model.nodes) + 1
+    mesh = yield from _with_nodes(np.concatenate([model.nodes, middles]))
+    first, count = len(model.nodes) + 1, len(model.elements)
     for number, (a, b) in enumerate((model.elements + 1).tolist(), 1):
         mesh.addEdge([a, b, first + number - 1], number)
+        if number % AT_ONCE == 0:
+            yield 0.5 + 0.5 * number / count
     _add_groups(mesh, sets)
     return mesh
 
 
-def tetrahedral_mesh(filled: TetrahedralMesh, sets: Mapping[str, Ints]) -> Fem.FemMesh:
+def tetrahedral_mesh(
+    filled: TetrahedralMesh, sets: Mapping[str, Ints]
+) -> Generator[float, None, Fem.FemMesh]:
     """Ten-noded volumes.
 
     Args:
         filled: the tetrahedra.
         sets: node groups by name, rows of the nodes.
+
+    Yields:
+        The share that is done, from time to time.
     """
-    mesh = _with_nodes(filled.nodes)
+    mesh = yield from _with_nodes(filled.nodes)
+    count = len(filled.elements)
     for number, nodes in enumerate((filled.elements[:, _TETRAHEDRON] + 1).tolist(), 1):
         mesh.addVolume(nodes, number)
+        if number % AT_ONCE == 0:
+            yield 0.5 + 0.5 * number / count
     _add_groups(mesh, sets)
     return mesh
 
@@ -85,10 +100,12 @@ def points_shape(points: NDArray[np.float64]) -> Part.Shape:
     return Part.makeCompound([Part.Vertex(*point) for point in points.tolist()])
 
 
-def _with_nodes(places: NDArray[np.float64]) -> Fem.FemMesh:
+def _with_nodes(places: NDArray[np.float64]) -> Generator[float, None, Fem.FemMesh]:
     mesh = Fem.FemMesh()
     for number, place in enumerate(places.tolist(), 1):
         mesh.addNode(*place, number)
+        if number % AT_ONCE == 0:
+            yield 0.5 * number / len(places)
     return mesh
 
 

@@ -6,6 +6,7 @@ from __future__ import annotations
 import os
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import FreeCAD as App
 
@@ -23,6 +24,10 @@ _BUILD_SECONDS = 3e-5
 _STEP_SECONDS = 1.6e-4
 _STEP_MEGABYTES = 1.05e-3
 _MEMORY_GIGABYTES = 1.6e-5
+#: What FreeCAD 0.20 takes to draw a plane face, and one of a cylinder or a sphere, s.
+PLANE, CURVED = 6e-5, 4e-4
+#: Shapes that take longer are hidden at first, s: the window is to answer.
+LONGEST_DRAWING = 0.15
 
 
 @dataclass(frozen=True)
@@ -101,9 +106,34 @@ def make_solid(
     call = Call(packed_facets, (mesh_in_document(obj),), has_progress=False)
     title = job_title("Plane faces of {label}", obj)
     shape = unpacked(run_job(title, call, in_freecad=True))
+    return shape_object(doc, obj, shape, PLANE)
+
+
+def shape_object(
+    doc: App.Document, obj: App.DocumentObject, shape: Any, seconds: float
+) -> App.DocumentObject:
+    """Add a ``Part::Feature`` of what an object was made into, hidden if it has many faces.
+
+    FreeCAD's window stands still while it draws them, twice where a new object is recomputed.
+
+    Args:
+        doc: the document to add it to.
+        obj: the object.
+        shape: what it was made into.
+        seconds: that FreeCAD takes to draw one of its faces.
+    """
+    faces = shape.countElement("Face")
     solid = doc.addObject("Part::Feature", f"{obj.Name}Solid")
     solid.Label = f"{obj.Label} solid"
+    if faces * seconds > LONGEST_DRAWING:
+        solid.Visibility = False  # before it has anything to draw
+        App.Console.PrintWarning(
+            f"VOLFREP, {solid.Label}: it is there, and hidden behind '{obj.Label}', because "
+            f"FreeCAD's window would stand still for about {faces * seconds:.1f} s while it draws "
+            f"{faces:,} faces. The space bar shows it.\n"
+        )
     solid.Shape = shape
+    solid.purgeTouched()
     return solid
 
 

@@ -8,18 +8,23 @@ the base's faces, whose tolerance is raised to the mesh's deviation.
 
 from __future__ import annotations
 
+from collections.abc import Generator
 from typing import TYPE_CHECKING, Any
 
 import FreeCAD as App
 import numpy as np
+from numpy.typing import NDArray
 
 from volfrep.util.errors import VolfrepError
 
 from .exact import inputs_of, warn
 from .materials import for_solver
+from .progress import all_or_nothing, go_through, job_title
 from .solver_files import beams_of, tetrahedra_of
 
 if TYPE_CHECKING:
+    from volfrep.fem.beam_mesh import BeamModel
+    from volfrep.fem.tet_mesh import TetrahedralMesh
     from volfrep.mechanics.materials import Material
 
 MODELS = ("beams", "tetrahedra")
@@ -84,11 +89,23 @@ def vertices(shape: App.DocumentObject) -> tuple[App.DocumentObject, list[str]]:
     return shape, [f"Vertex{k + 1}" for k in range(len(shape.Shape.Vertexes))]
 
 
-def _beams(doc: App.Document, obj: App.DocumentObject, material: Material) -> App.DocumentObject:
+def _beams(doc: App.Document, obj: App.DocumentObject, material: Material) -> Any:
+    model, on_wall = beams_of(obj, section="circle", elements_per_strut=ELEMENTS_PER_STRUT)
+    with all_or_nothing(doc):
+        return go_through(_title(obj), _beam_steps(doc, obj, material, model, on_wall))
+
+
+def _beam_steps(
+    doc: App.Document,
+    obj: App.DocumentObject,
+    material: Material,
+    model: BeamModel,
+    on_wall: NDArray[np.bool_],
+) -> Generator[float, None, Any]:
+    """The analysis of beams: the share that is done after each step, and the analysis."""
     from freecad_volfrep.bridge.fem_meshes import beam_mesh, points_shape, runs_of
     from volfrep.io.write.calculix import sides, stiff_materials, width_of_ends
 
-    model, on_wall = beams_of(obj, section="circle", elements_per_strut=ELEMENTS_PER_STRUT)
     runs = runs_of(model)
     if len(runs.section) > MOST_EDGES:
         raise VolfrepError(
@@ -98,13 +115,18 @@ def _beams(doc: App.Document, obj: App.DocumentObject, material: Material) -> Ap
         )
     joints = model.nodes[: model.joints]
     on_skin = np.flatnonzero(on_wall)
-    mesh = beam_mesh(model, {"SKIN": on_skin, "JOINTS": np.arange(len(joints)), **sides(joints)})
+    sets = {"SKIN": on_skin, "JOINTS": np.arange(len(joints)), **sides(joints)}
+    mesh = yield from beam_mesh(model, sets)
 
     analysis = _analysis(doc, obj)
+    yield 1.0
     axes = _shape(doc, obj, "Axes", runs.shape)
+    yield 1.0
     _shape(doc, obj, "Joints", points_shape(joints))
+    yield 1.0
     if len(on_skin):
         _shape(doc, obj, "SkinJoints", points_shape(joints[on_skin]))
+        yield 1.0
     _material(analysis, material, 1.0, material.name, [])
     stiffened = stiff_materials(model, material.name)
     used = np.array([name for name, _ in stiffened])[runs.section]
@@ -112,19 +134,29 @@ def _beams(doc: App.Document, obj: App.DocumentObject, material: Material) -> Ap
         chosen = runs.is_joint & (used == name)
         if chosen.any():
             _material(analysis, material, factor, name, [(axes, _edges(chosen))])
+            yield 1.0
     wide = np.array([width_of_ends(ends) for ends in model.ends])
     radius = model.radii[runs.section] * np.where(runs.is_joint, wide[runs.section], 1.0)
     for value in np.unique(radius).tolist():
         chosen = radius == value
         _section(analysis, value, [] if chosen.all() else [(axes, _edges(chosen))])
+        yield 1.0
     _mesh(analysis, mesh, axes)
+    yield 1.0
     doc.recompute()
     return analysis
 
 
-def _tetrahedra(
-    doc: App.Document, obj: App.DocumentObject, material: Material
-) -> App.DocumentObject:
+def _tetrahedra(doc: App.Document, obj: App.DocumentObject, material: Material) -> Any:
+    filled = tetrahedra_of(obj)
+    with all_or_nothing(doc):
+        return go_through(_title(obj), _tetrahedral_steps(doc, obj, material, filled))
+
+
+def _tetrahedral_steps(
+    doc: App.Document, obj: App.DocumentObject, material: Material, filled: TetrahedralMesh
+) -> Generator[float, None, Any]:
+    """The analysis of tetrahedra: the share that is done after each step, and the analysis."""
     import Part
 
     from freecad_volfrep.bridge.beams import place_in_document
@@ -139,11 +171,12 @@ def _tetrahedra(
 
     solid, spec, _ = inputs_of(obj)
     solid = placed(solid, place_in_document(obj))
-    filled = tetrahedra_of(obj)
-    mesh = tetrahedral_mesh(filled, {"SKIN": nodes_on(filled, solid), **sides(filled.nodes)})
+    sets = {"SKIN": nodes_on(filled, solid), **sides(filled.nodes)}
+    mesh = yield from tetrahedral_mesh(filled, sets)
     base = resolve_base(obj.Base)
     shape = Part.getShape(base)
     analysis = _analysis(doc, obj)
+    yield 1.0
     boundary = None
     if not shape.isNull() and shape.Faces:
         shape = shape.copy()
@@ -154,10 +187,16 @@ def _tetrahedra(
         boundary = _shape(doc, obj, "Boundary", shape)
         if spec.output == "lattice" or spec.shell == 0:
             warn(obj, (CUT_FACES,))
+        yield 1.0
     _material(analysis, material, 1.0, material.name, [])
     _mesh(analysis, mesh, boundary)
+    yield 1.0
     doc.recompute()
     return analysis
+
+
+def _title(obj: App.DocumentObject) -> str:
+    return job_title("FEM analysis of {label}", obj)
 
 
 def _analysis(doc: App.Document, obj: App.DocumentObject) -> App.DocumentObject:

@@ -4,8 +4,9 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Generator
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import FreeCAD as App
 import numpy as np
@@ -13,9 +14,10 @@ import numpy as np
 from volfrep.util.errors import VolfrepError
 
 from .exact import Ingredients, exact_job, ingredients_of, warn
-from .progress import job_title, run_job
+from .progress import all_or_nothing, go_through, job_title, run_job
 
 if TYPE_CHECKING:
+    from freecad_volfrep.bridge.apart import PackedJoints
     from volfrep.reports.estimate import Estimate
 
 #: Joints that a wall cuts are solids of their own: no more of them than this.
@@ -46,7 +48,6 @@ def make_instances(doc: App.Document, obj: App.DocumentObject) -> App.DocumentOb
         Cancelled: in the window, by the user; nothing is added.
     """
     from freecad_volfrep.bridge.apart import packed_joints, unpacked
-    from freecad_volfrep.bridge.beams import place_in_document
     from freecad_volfrep.bridge.trimmed import check_volume
     from volfrep.apart.engine_process import Call
 
@@ -57,23 +58,42 @@ def make_instances(doc: App.Document, obj: App.DocumentObject) -> App.DocumentOb
     if job.expected is not None:
         check_volume(joints.volume, job.expected)
     warn(obj, made_of.warnings)
-    shapes = unpacked(joints.shapes).childShapes()
+    with all_or_nothing(doc):
+        return go_through(
+            job_title("Instances of {label}", obj),
+            _group_steps(doc, obj, joints, unpacked(joints.shapes).childShapes()),
+        )
+
+
+def _group_steps(
+    doc: App.Document, obj: App.DocumentObject, joints: PackedJoints, shapes: list[Any]
+) -> Generator[float, None, App.DocumentObject]:
+    """The assembly: the share that is done after each part, and its group."""
+    from freecad_volfrep.bridge.beams import place_in_document
+
     kinds = len(joints.places)
     group = doc.addObject("App::Part", f"{obj.Name}Instances")
     group.Label = f"{obj.Label} instances"
     group.Placement = place_in_document(obj)
+    group.Visibility = False  # else the view would be drawn anew with every part
     for number, (shape, places) in enumerate(zip(shapes, joints.places, strict=False), 1):
         kind = doc.addObject("Part::Feature", "Joint")
-        kind.Label, kind.Shape, kind.Visibility = f"Joint {number}", shape, False
+        kind.Label, kind.Visibility, kind.Shape = f"Joint {number}", False, shape
         link = doc.addObject("App::Link", "Joints")
         link.Label, link.LinkedObject, link.ShowElement = f"Joints {number}", kind, False
         link.ElementCount = len(places)
         link.PlacementList = [App.Placement(App.Vector(*at), App.Rotation()) for at in places]
         group.addObject(link)
-    for label, shape in zip(joints.labels, shapes[kinds:], strict=True):
+        yield number / len(shapes)
+    for number, (label, shape) in enumerate(
+        zip(joints.labels, shapes[kinds:], strict=True), kinds + 1
+    ):
         feature = doc.addObject("Part::Feature", "Single")
         feature.Label, feature.Shape = label, shape
         group.addObject(feature)
+        feature.purgeTouched()
+        yield number / len(shapes)
+    group.Visibility = True
     return group
 
 

@@ -42,6 +42,7 @@ class Shown:
         stiffness: Young's modulus along the chosen direction, MPa; None without a material, or
             for a cell or radius that the catalogue does not have.
         is_made: whether the infill's mesh is of these values.
+        is_sized: whether what struts carry is kept of these values.
     """
 
     solid: TriangleMesh
@@ -50,6 +51,7 @@ class Shown:
     advice: tuple[str, ...] = ()
     stiffness: float | None = None
     is_made: bool = False
+    is_sized: bool = False
 
     @property
     def text(self) -> str:
@@ -119,13 +121,15 @@ class LivePreview:
             self._key = key.digest()
         solid, depth = self._known
         shown = preview(solid, spec, depth)
+        fingerprint = fingerprint_of(spec, mesh)
         return Shown(
             solid,
             shown,
             forecast_fill(solid, shown.spec),
             advice(self._obj, shown.spec.struts.extremes[0]),
             _stiffness(self._obj, shown.spec),
-            self._obj.Fingerprint == fingerprint_of(spec, mesh),
+            self._obj.Fingerprint == fingerprint,
+            self._obj.SizedFor == fingerprint,
         )
 
 

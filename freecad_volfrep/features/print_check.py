@@ -111,9 +111,7 @@ class PrintCheck:
         from freecad_volfrep.bridge.solids import mesh_in_document, placed
         from volfrep.apart.engine_process import Call
         from volfrep.jobs.beam_part import struts_and_cavity
-        from volfrep.mesh.triangle_mesh import TriangleMesh, compact
-        from volfrep.reports.passage import ball_of, walls_of
-        from volfrep.reports.printability import overhanging_facets, print_report, unit_direction
+        from volfrep.jobs.figures.print_check import print_check
         from volfrep.reports.processes import find_process
 
         solid, spec, cache = infill.Proxy.inputs(infill)
@@ -123,21 +121,20 @@ class PrintCheck:
         title = job_title("Print check of {label}", infill)
         struts, cavity = run_job(title, Call(struts_and_cavity, (solid, spec), {"cache": cache}))
         place = place_in_document(infill)
-        mesh = mesh_in_document(infill)
-        process = find_process(obj.Process)
-        direction = tuple(obj.BuildDirection)
-        report = print_report(
-            mesh,
-            placed_lattice(struts, place),
-            process,
-            build_direction=direction,
-            density=spec.density,
-            domain=placed(cavity, place),
-            ball_mm=ball_of(spec),
-            walls_mm=walls_of(spec),
+        call = Call(
+            print_check,
+            (
+                mesh_in_document(infill),
+                placed_lattice(struts, place),
+                placed(cavity, place),
+                spec,
+                find_process(obj.Process),
+                tuple(obj.BuildDirection),
+            ),
+            has_progress=False,
         )
-        hanging = overhanging_facets(mesh, unit_direction(direction), process.inclination)
-        obj.Mesh = to_freecad(compact(TriangleMesh(mesh.vertices, mesh.triangles[hanging])))
+        report, hanging = run_job(title, call)
+        obj.Mesh = to_freecad(hanging)
         _write_results(obj, report)
 
 

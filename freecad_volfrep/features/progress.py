@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Generator, Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import FreeCAD as App
 
@@ -13,6 +15,8 @@ from .screen import screen
 
 if TYPE_CHECKING:
     from volfrep.apart.engine_process import Call
+
+T = TypeVar("T")
 
 
 def job_title(text: str, obj: App.DocumentObject) -> str:
@@ -39,3 +43,40 @@ def run_job(title: str, call: Call, *, in_freecad: bool = False) -> Any:
     """
     window = screen()
     return call.here() if window is None else window.wait_for(title, call, in_freecad)
+
+
+def go_through(title: str, steps: Generator[float, None, T]) -> T:
+    """Do work that only this FreeCAD can do; what the generator returns.
+
+    With a window the view can be turned between its steps, and a cancel is thrown into it.
+
+    Args:
+        title: in the window.
+        steps: yields after every step the share that is done, from 0 to 1.
+
+    Raises:
+        Cancelled: in the window, by the user.
+    """
+    window = screen()
+    if window is not None:
+        result: T = window.go_through(title, steps)
+        return result
+    while True:
+        try:
+            next(steps)
+        except StopIteration as end:
+            result = end.value
+            return result
+
+
+@contextmanager
+def all_or_nothing(doc: App.Document) -> Iterator[None]:
+    """Take away what was added to a document inside, where that fails or is cancelled."""
+    before = {obj.Name for obj in doc.Objects}
+    try:
+        yield
+    except BaseException:
+        for name in [obj.Name for obj in doc.Objects if obj.Name not in before]:
+            if doc.getObject(name) is not None:  # gone with another one
+                doc.removeObject(name)
+        raise

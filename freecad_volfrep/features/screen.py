@@ -8,7 +8,7 @@ Objects know nothing of windows: whoever has one says here how it shows jobs and
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -27,12 +27,15 @@ class Screen:
         wait_for: makes a call of the engine under a title, in a process of its own, which is
             FreeCAD's where that is wanted, and returns what it does; nothing but turning the view
             can be done meanwhile.
+        go_through: does work under a title that only this FreeCAD can do, a step at a time, and
+            lets the view be turned between the steps.
         attach_view: gives an object of ours its view provider.
         revive_view: does so where FreeCAD has lost it.
     """
 
     update: Callable[[Any, Any], None]
     wait_for: Callable[[str, Call, bool], Any]
+    go_through: Callable[[str, Iterator[float]], Any]
     attach_view: Callable[[Any], None]
     revive_view: Callable[[Any], None]
 

@@ -17,6 +17,7 @@ from volfrep.util.errors import VolfrepError
 
 from .progress import job_title, run_job
 from .sized_radii import store_radii
+from .sized_states import store_states
 from .tables import Table
 
 if TYPE_CHECKING:
@@ -252,6 +253,7 @@ def store_outcome(obj: App.DocumentObject, outcome: Outcome) -> None:
         obj.NetworkShortest = shortest
     obj.RemoveBelow, obj.RemoveDangling = spec.remove_below, spec.remove_dangling
     obj.SizingReport = outcome.to_json()
+    store_states(obj, outcome.states)
 
 
 def first_wish(obj: App.DocumentObject) -> Wish:

@@ -11,7 +11,7 @@ import FreeCAD as App
 from volfrep.util.errors import VolfrepError
 
 from .exact import checked_ingredients, exact_shape, warn
-from .faceted_solid import acceptable_solid, make_solid
+from .faceted_solid import CURVED, acceptable_solid, make_solid, shape_object
 from .instances import make_instances
 from .lattice_infill import LatticeInfill
 from .solver_files import axes_of, estimate_file
@@ -53,10 +53,7 @@ def make_exact_solid(doc: App.Document, obj: App.DocumentObject) -> App.Document
         solid = make_solid(doc, obj)
         warn(obj, (f"{error} The solid has plane faces instead of exact surfaces.",))
         return solid
-    solid = doc.addObject("Part::Feature", f"{obj.Name}Solid")
-    solid.Label = f"{obj.Label} solid"
-    solid.Shape = shape
-    return solid
+    return shape_object(doc, obj, shape, CURVED)
 
 
 def make_axes(doc: App.Document, obj: App.DocumentObject) -> App.DocumentObject:
@@ -73,6 +70,7 @@ def make_axes(doc: App.Document, obj: App.DocumentObject) -> App.DocumentObject:
     axes = doc.addObject("Part::Feature", f"{obj.Name}Axes")
     axes.Label = f"{obj.Label} axes"
     axes.Shape = Part.makeCompound([Part.makeLine(App.Vector(*a), App.Vector(*b)) for a, b in ends])
+    axes.purgeTouched()
     return axes
 
 

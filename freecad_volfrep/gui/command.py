@@ -85,9 +85,11 @@ class Command:
 
 @contextmanager
 def undo_step(doc: App.Document, name: str) -> Iterator[None]:
-    """What is changed inside is one step of the document's undo."""
+    """What is changed inside is one step of the document's undo; no step where that fails."""
     doc.openTransaction(name)
     try:
         yield
-    finally:
-        doc.commitTransaction()
+    except BaseException:
+        doc.abortTransaction()
+        raise
+    doc.commitTransaction()

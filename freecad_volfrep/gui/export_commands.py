@@ -65,9 +65,9 @@ def make_solid_of(obj: App.DocumentObject) -> None:
     chosen = _chosen(question, kinds)
     if chosen is None:
         return
-    with undo_step(doc, translate("VOLFREP_ToSolid", "Lattice To Solid")), errors_shown():
-        make_kind(doc, obj, chosen)
-        obj.Visibility = False
+    with errors_shown(), undo_step(doc, translate("VOLFREP_ToSolid", "Lattice To Solid")):
+        made = make_kind(doc, obj, chosen)
+        obj.Visibility = not made.Visibility
     doc.recompute()
 
 
@@ -88,7 +88,7 @@ def analyse(infill: App.DocumentObject) -> None:
     if chosen is None:
         return
     step = translate("VOLFREP_FemAnalysis", "FEM Analysis")
-    with undo_step(infill.Document, step), errors_shown():
+    with errors_shown(), undo_step(infill.Document, step):
         make_fem_analysis(infill.Document, infill, chosen)
 
 

@@ -75,6 +75,8 @@ class PreviewView:
 
     def _coloured(self, shown: Shown) -> ColouredStruts | None:
         """The struts in the colours of what the view is coloured by, if that is known of them."""
+        from volfrep.jobs.figures.point_values import OF_LOADS
+
         quantity = self._view.ColourBy
         values = preview_values(self._obj, shown, quantity)
         if values is None or not values.size:
@@ -82,6 +84,8 @@ class PreviewView:
         low, high = float(values.min()), float(values.max())
         if quantity == "Overhang":
             low, high = 0.0, 90.0
+        elif quantity in OF_LOADS:
+            low = 0.0
         if self._view.ColourFrom != self._view.ColourTo:
             low, high = self._view.ColourFrom, self._view.ColourTo
         self._legend.show(self._obj, quantity, low, high)
@@ -182,7 +186,8 @@ class ColouredStruts:
 
 def preview_values(obj: App.DocumentObject, shown: Shown, quantity: str) -> np.ndarray | None:
     """(k, 2) a quantity at the ends of a preview's struts; None where it is not known of them."""
-    from volfrep.jobs.figures.point_values import values_in_space
+    from freecad_volfrep.features.sized_states import sized_states
+    from volfrep.jobs.figures.point_values import OF_LOADS, values_in_space, values_on_struts
     from volfrep.util.errors import VolfrepError
 
     struts = shown.preview
@@ -195,6 +200,9 @@ def preview_values(obj: App.DocumentObject, shown: Shown, quantity: str) -> np.n
             np.linalg.norm(along, axis=1) * np.linalg.norm(up), 1e-12
         )
         return np.repeat(np.degrees(np.arcsin(np.minimum(rise, 1.0)))[:, None], 2, axis=1)
+    if quantity in OF_LOADS and shown.is_sized:
+        ends, states = sized_states(obj)
+        return values_on_struts(struts.start, struts.end, ends, states[quantity])
     if quantity not in ("Cell size", "Field"):
         return None
     points = np.concatenate([struts.start, struts.end])

@@ -12,12 +12,14 @@ recompute holds it already.
 
 from __future__ import annotations
 
+from collections.abc import Generator
 from typing import TYPE_CHECKING, Any
 
 import FreeCADGui as Gui
 
 from freecad_volfrep.engines import engines, freecads
 from freecad_volfrep.translation import marked, translate
+from volfrep.util.errors import Cancelled
 
 from .qt import QtCore, QtGui, QtWidgets
 
@@ -243,3 +245,24 @@ def wait_for(title: str, call: Call, in_freecad: bool = False) -> Any:
         running.cancel()
         raise
     return running.result()
+
+
+def go_through(title: str, steps: Generator[float, None, Any]) -> Any:
+    """Work on Qt's thread in steps, between which the view can be turned.
+
+    Args:
+        title: in the status bar.
+        steps: yields the share that is done; what it returns is returned. A cancel is raised where
+            it stands.
+    """
+    lived = QtCore.QElapsedTimer()
+    lived.start()
+    with _Progress(title) as progress:
+        while True:
+            try:
+                done = steps.throw(Cancelled()) if progress.cancels else next(steps)
+            except StopIteration as end:
+                return end.value
+            if lived.elapsed() >= 1000 * BREATH:
+                progress.refresh(done, "")
+                lived.restart()

@@ -139,10 +139,15 @@ def test_every_link_leads_to_a_file(page: Path) -> None:
 
 
 def test_the_tutorials_pictures_are_small_and_used() -> None:
-    pictures = sorted((DOCS / "images" / "tutorial").glob("*.png"))
+    folder = DOCS / "images" / "tutorial"
+    pictures = sorted(folder.rglob("*.png"))
     texts = "".join(path.read_text(encoding="utf-8") for path in DOCS.rglob("*.md"))
     assert [path.name for path in pictures if path.stat().st_size >= 150_000] == []
-    assert [path.name for path in pictures if f"tutorial/{path.name}" not in texts] == []
+    assert [
+        path.name
+        for path in pictures
+        if f"tutorial/{path.relative_to(folder).as_posix()}" not in texts
+    ] == []
 
 
 def parameter_tables():

@@ -11,7 +11,7 @@ from conftest import SMALL
 from freecad_volfrep import make_fem_analysis, make_lattice_infill
 from freecad_volfrep.features.fem_analysis import vertices
 from freecad_volfrep.features.solver_files import axes_of
-from volfrep.util.errors import VolfrepError
+from volfrep.util.errors import Cancelled, VolfrepError
 
 needs_calculix = pytest.mark.skipif(
     shutil.which("ccx") is None, reason="CalculiX (ccx) is not installed"
@@ -100,6 +100,22 @@ def test_an_analysis_of_beams_is_complete_but_for_its_constraints(doc, infill):
     (stiff,) = [o for o in analysis.Group if o.Name.endswith("_END")]
     edges = len(named(doc, "Axes").Shape.Edges)
     assert 0 < len(stiff.References[0][1]) < edges
+
+
+@pytest.mark.parametrize("last", [False, True], ids=["at the first step", "at the last one"])
+def test_a_cancel_leaves_nothing_behind(doc, infill, monkeypatch, last):
+    def cancelled(_, steps):
+        steps = iter(steps)
+        next(steps)
+        while last and not any(obj.isDerivedFrom("Fem::FemMeshObject") for obj in doc.Objects):
+            next(steps)
+        steps.throw(Cancelled())
+
+    monkeypatch.setattr("freecad_volfrep.features.fem_analysis.go_through", cancelled)
+    before = [obj.Name for obj in doc.Objects]
+    with pytest.raises(Cancelled):
+        make_fem_analysis(doc, infill)
+    assert [obj.Name for obj in doc.Objects] == before
 
 
 def test_struts_of_several_radii_have_several_sections(doc, box):

@@ -5,11 +5,13 @@ import json
 import shutil
 from dataclasses import replace
 
+import FreeCAD as App
 import pytest
 from test_freecad_fem_loads import add, analysis_of, face_at
 
 from freecad_volfrep import make_lattice_infill, size_lattice
-from freecad_volfrep.features.sized_radii import store_radii
+from freecad_volfrep.features.live_preview import LivePreview
+from freecad_volfrep.features.sized_states import sized_states, why_no_states
 from freecad_volfrep.features.sizing import (
     GOALS,
     Wish,
@@ -17,7 +19,9 @@ from freecad_volfrep.features.sizing import (
     first_wish,
     size_struts,
     solve_struts,
+    store_outcome,
 )
+from volfrep.jobs.figures.point_values import values_on_struts
 from volfrep.util.errors import VolfrepError
 
 BEAM = {
@@ -107,7 +111,8 @@ def test_struts_are_sized_stored_and_stay_within_their_limits(infill):
         assert "no other solver has proved this design" in outcome.summary()
     assert json.loads(outcome.to_json())["struts"] == len(outcome.states[0].radii)
 
-    store_radii(infill, outcome.part.points, outcome.part.radii)
+    assert "no stresses are kept" in why_no_states(infill).lower()
+    store_outcome(infill, outcome)
     assert infill.Proxy.update(infill), infill.Status
     assert infill.StrutRadii == pytest.approx(
         [outcome.part.radii.min(), outcome.part.radii.max()], abs=1e-4
@@ -116,6 +121,33 @@ def test_struts_are_sized_stored_and_stay_within_their_limits(infill):
     (state,) = solve_struts(infill)
     assert state.stress.max() == pytest.approx(stress, rel=1e-3)
     assert state.displacement.max() == pytest.approx(moved, rel=1e-3)
+
+
+def test_what_struts_carry_is_kept_with_the_document(infill, tmp_path):
+    analysis = loaded(infill)
+    outcome = size_struts(infill, [analysis], wish())
+    store_outcome(infill, outcome)
+    name, path = infill.Name, str(tmp_path / "sized.FCStd")
+    infill.Document.saveCopy(path)
+    doc = App.openDocument(path)
+    try:
+        again = doc.getObject(name)
+        assert why_no_states(again) == ""
+        ends, kept = sized_states(again)
+        (state,) = outcome.states
+        assert ends == pytest.approx(state.ends, abs=1e-4)
+        assert kept["Stress"] == pytest.approx(state.stress, rel=1e-6)
+        assert kept["Displacement"] == pytest.approx(state.displacement, rel=1e-6)
+        shown = LivePreview(again).show()
+        assert shown.is_sized
+        struts = shown.preview
+        drawn = values_on_struts(struts.start, struts.end, ends, kept["Stress"])
+        assert drawn.max() == pytest.approx(state.stress.max(), rel=1e-5)
+        again.CellSize = 5
+        assert "size it again" in why_no_states(again)
+        assert not LivePreview(again).show().is_sized
+    finally:
+        App.closeDocument(doc.Name)
 
 
 def test_the_stiffest_struts_of_a_mass_beat_one_radius(infill):

@@ -4,7 +4,9 @@
 Each command is clicked once to the end and then ESCAPES times more (an environment variable; once
 by default, ten times by ``make test-escape``, then on a larger part; the seed is SEED), with a real
 Escape after a random part of its job's time. FreeCAD has to be itself afterwards: nothing waits, no
-box is open, and the next click is followed.
+box is open, the next click is followed, and the document is as it was, or as the command leaves it
+where Escape came too late. How long an Escape takes that meets a job is told, in seconds and in the
+processor time of FreeCAD and its processes.
 """
 
 import os
@@ -17,12 +19,14 @@ from pathlib import Path
 
 import FreeCAD as App
 import FreeCADGui as Gui
-from PySide import QtGui
+from PySide import QtCore, QtGui
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from driving import (
+    OUT,
     PATIENCE,
     Watch,
+    answer_file_dialog,
     answer_panel,
     check,
     click,
@@ -30,28 +34,32 @@ from driving import (
     comes_true,
     figures,
     panel,
+    panel_part,
+    processor_seconds,
     run_checks,
     said,
     select,
     settle,
     shoot,
     slow,
+    start_by_click,
     toolbar_button,
     wait_until,
     window,
     xdotool,
 )
+from new_analysis import loaded
 
 from freecad_volfrep.gui.background import are_there_jobs
-from freecad_volfrep.gui.progress import _Progress
+from freecad_volfrep.gui.progress import _Progress, is_waited_for
 
 ESCAPES = int(os.environ.get("ESCAPES", "1"))
 SEED = int(os.environ.get("SEED", "19"))
 
 
 @contextmanager
-def when_a_job_begins(act):
-    """Call `act` once, when the first job of what is done meanwhile begins."""
+def when_a_job_begins(act, each=lambda: None):
+    """Call `act` when the first job of what is done meanwhile begins, `each` after every one."""
     from volfrep.apart.engines import Engines
 
     enter, begin, begun = _Progress.__enter__, Engines.begin, []
@@ -59,12 +67,16 @@ def when_a_job_begins(act):
     def entered(progress):
         if not begun:
             begun.append(act())
-        return enter(progress)
+        entering = enter(progress)
+        each()
+        return entering
 
     def began(engines, call):
         if not begun:
             begun.append(act())
-        return begin(engines, call)
+        running = begin(engines, call)
+        each()
+        return running
 
     _Progress.__enter__, Engines.begin = entered, began
     try:
@@ -104,6 +116,11 @@ def coarse():
     return (obj,)
 
 
+def carrying():
+    """One that carries loads, which takes seconds to size."""
+    return loaded((120, 40, 40) if ESCAPES > 1 else (60, 20, 20))
+
+
 def is_itself():
     """Whether nothing of a job is left."""
     return (
@@ -125,6 +142,59 @@ def answers_a_click():
         wait_until(lambda: window("VolfrepCellLibrary") is None)
 
 
+class Met(QtCore.QObject):
+    """Notes when an Escape reaches the window while a job is there, and when that is over."""
+
+    def __init__(self):
+        super().__init__()
+        self._start = None
+        self.seconds = self.processor = None
+        self._timer = QtCore.QTimer(self)
+        self._timer.timeout.connect(self.has_ended)  # at once, whatever loop is running
+        self._timer.start(10)
+
+    def come_first(self):
+        """Before what swallows it: the filter that was installed last is asked first."""
+        QtGui.QApplication.instance().installEventFilter(self)
+
+    def eventFilter(self, target, event):  # noqa: N802
+        """Note it and let it pass."""
+        pressed = event.type() in (QtCore.QEvent.KeyPress, QtCore.QEvent.ShortcutOverride)
+        escape = pressed and event.key() == QtCore.Qt.Key_Escape and self._start is None
+        if escape and (is_waited_for() or are_there_jobs()):
+            self._start = time.monotonic(), processor_seconds()
+        return False
+
+    def has_ended(self):
+        """Whether FreeCAD is itself again."""
+        if not is_itself():
+            return False
+        if self._start is not None and self.seconds is None:
+            start, used = self._start
+            self.seconds = time.monotonic() - start
+            self.processor = processor_seconds() - used
+        return True
+
+    def end(self):
+        """Look no more."""
+        self._timer.stop()
+        QtGui.QApplication.instance().removeEventFilter(self)
+
+
+def document():
+    """What a document holds, by names and figures; times of undoing are not looked at."""
+    doc = App.ActiveDocument
+    if doc is None:
+        return None
+    meshes = {o.Name: o.Mesh.CountFacets for o in doc.Objects if o.isDerivedFrom("Mesh::Feature")}
+    return sorted(o.Name for o in doc.Objects), meshes
+
+
+def kinds_of(state):
+    """A state without the numbers that FreeCAD gives names, and without the triangles' number."""
+    return state and sorted(name.rstrip("0123456789") for name in state[0])
+
+
 def escape(prepare, act, tidy=lambda: None):
     """Run a command once, and then with Escape at random parts of its time."""
 
@@ -142,30 +212,48 @@ def escape(prepare, act, tidy=lambda: None):
         wait_until(is_itself)
     check("a job begins", begun)
     whole = max(time.monotonic() - begun[0], 0.5)
+    settle()
+    done = kinds_of(document())
     leave()
-    moments, last = [], 0.0
+    moments, last, met, used = [], 0.0, [], []
     for _ in range(ESCAPES):
         prepare()
+        before = document()
         moment = chance.uniform(0.0, 1.1) * whole
         moments.append(round(moment, 2))
         keys = ["sh", "-c", f"sleep {moment:.3f}; exec xdotool key Escape"]
+        meeting = Met()
         with when_a_job_begins(
-            lambda keys=keys: (time.monotonic(), subprocess.Popen(keys))
+            lambda keys=keys: (time.monotonic(), subprocess.Popen(keys)), meeting.come_first
         ) as begun:
             act()
-            ended = comes_true(is_itself, PATIENCE)
+            ended = comes_true(meeting.has_ended, PATIENCE)
         if begun:
             start, key = begun[0]
             last = max(last, time.monotonic() - start - moment)
             key.wait()
         settle()
-        check(f"it ends after Escape at {moment:.2f} s", begun and ended and is_itself())
+        meeting.end()
+        if meeting.seconds is not None:
+            met.append(round(meeting.seconds, 2))
+            used.append(round(meeting.processor, 2))
+        # An Escape after the job may close a panel, whose values are drawn anew.
+        ended = ended and comes_true(is_itself, PATIENCE)
+        check(f"it ends after Escape at {moment:.2f} s", begun and ended)
         if not ended:
             shoot(f"escape_{name}")
+        after = document()
+        check(
+            f"after Escape at {moment:.2f} s the document is as before, or as it is when done",
+            after == before or kinds_of(after) == done,
+            (before, after),
+        )
         leave()
     figures[f"{name}: seconds without Escape"] = round(whole, 1)
     figures[f"{name}: Escape after seconds"] = moments
     figures[f"{name}: longest wait after Escape, s"] = round(last, 1)
+    figures[f"{name}: Escapes that met a job took s"] = met
+    figures[f"{name}: and of the processor, s"] = used
     answers_a_click()
     check("no failed recompute", "ecompute failed" not in said(), said()[-2000:])
 
@@ -226,6 +314,62 @@ def leave_the_panel(obj):
     escape(prepare, lambda: answer_panel("OK"), tidy)
 
 
+@slow
+def leave_compute(obj):
+    """Compute in the panel: Escape closes it, as it does any panel of FreeCAD."""
+    radius = new_radii(obj)
+
+    def prepare():
+        select(obj)
+        click(toolbar_button("Edit Lattice Infill"))
+        wait_until(lambda: panel() is not None)
+        settle()
+        radius()
+        panel().setFocus()
+
+    def act():
+        start_by_click(panel_part("Compute"))
+
+    def tidy():
+        if panel() is not None:
+            answer_panel("Cancel")
+            wait_until(lambda: panel() is None)
+
+    escape(prepare, act, tidy)
+
+
+@slow
+def leave_an_export(obj):
+    """Export Lattice as STEP with exact surfaces, by a typed name."""
+    path = OUT / "escaped.step"
+
+    def act():
+        answer_file_dialog(path, "escape_export")
+        watch = Watch(answer_yes, "the question of Export Lattice")
+        click(toolbar_button("Export Lattice"))
+        wait_until(is_itself)
+        watch.stop()  # Escape has met the job that tells what the file takes
+
+    def tidy():
+        check("no file is left behind", not list(OUT.glob(".escaped*")), list(OUT.glob(".esc*")))
+        path.unlink(missing_ok=True)
+
+    escape(lambda: select(obj), act, tidy)
+
+
+def answer_yes():
+    """Really click Yes in a box, once it is there; whether it was."""
+    box = QtGui.QApplication.activeModalWidget()
+    if not isinstance(box, QtGui.QMessageBox) or not box.isVisible():
+        return False
+    button = box.button(QtGui.QMessageBox.Yes)
+    if button is None or not button.isVisible():
+        return False
+    place = button.mapToGlobal(button.rect().center())
+    xdotool("mousemove", place.x(), place.y(), "click", 1)
+    return True
+
+
 def leave_the_exact_solid(obj):
     """Lattice To Solid, the one with exact joints."""
     escape(lambda: select(obj), lambda: choose_after("Lattice To Solid", "exact"), take_away(obj))
@@ -241,6 +385,66 @@ def leave_the_instances(obj):
 def leave_the_tetrahedra(obj):
     """FEM Analysis, the one of tetrahedra."""
     escape(lambda: select(obj), lambda: choose_after("FEM Analysis", "tetrahedra"), take_away(obj))
+
+
+@slow
+def leave_the_plane_faces(obj):
+    """Lattice To Solid, the one of plane faces."""
+    escape(lambda: select(obj), lambda: choose_after("Lattice To Solid", "plane"), take_away(obj))
+
+
+@slow
+def leave_the_beams(obj):
+    """FEM Analysis, the one of beams."""
+    escape(lambda: select(obj), lambda: choose_after("FEM Analysis", "beams"), take_away(obj))
+
+
+@slow
+def leave_the_sizing(doc, obj):
+    """Size in the panel of Size Lattice: a cancel keeps the best design so far, in the panel."""
+
+    def prepare():
+        select(obj)
+        click(toolbar_button("Size Lattice"))
+        wait_until(lambda: part_of("VolfrepSizePanel", "Size") is not None)
+        settle()
+
+    def tidy():
+        if part_of("VolfrepSizePanel", "Size") is not None:  # Escape after the end closes it
+            answer_panel("Cancel")
+            wait_until(lambda: part_of("VolfrepSizePanel", "Size") is None)
+
+    escape(prepare, lambda: click(part_of("VolfrepSizePanel", "Size")), tidy)
+
+
+@slow
+def leave_a_study(obj):
+    """Start in the panel of Design Study: what was done stays on record."""
+    from freecad_volfrep import make_design_study
+
+    study = make_design_study(obj.Document, obj)
+    values = iter(f"0.5 to {1 + 0.01 * k:.2f} in 12" for k in range(10_000))
+
+    def prepare():
+        select(study)
+        click(toolbar_button("Design Study"))
+        wait_until(lambda: part_of("VolfrepStudyPanel", "Start") is not None)
+        part_of("VolfrepStudyPanel", "Values2").setText(next(values))
+        settle()
+
+    def tidy():
+        if part_of("VolfrepStudyPanel", "Start") is not None:
+            answer_panel("Close")
+            wait_until(lambda: part_of("VolfrepStudyPanel", "Start") is None)
+
+    escape(prepare, lambda: click(part_of("VolfrepStudyPanel", "Start")), tidy)
+
+
+def part_of(form, name):
+    """A widget of an open panel, or None."""
+    found = Gui.getMainWindow().findChildren(QtGui.QWidget, form)
+    open_one = next((widget for widget in found if widget.isVisible()), None)
+    return None if open_one is None else open_one.findChild(QtGui.QWidget, name)
 
 
 @slow
@@ -333,9 +537,15 @@ run_checks(
         leave_a_refresh: filled,
         leave_the_print_check: filled,
         leave_the_panel: filled,
+        leave_compute: filled,
+        leave_an_export: coarse,
         leave_the_exact_solid: coarse,
         leave_the_instances: coarse,
+        leave_the_plane_faces: coarse,
         leave_the_tetrahedra: coarse,
+        leave_the_beams: coarse,
+        leave_the_sizing: carrying,
+        leave_a_study: coarse,
         leave_an_example: None,
     },
 )

@@ -6,7 +6,6 @@ Run it with tools/run_gui.sh.
 
 import FreeCAD as App
 import FreeCADGui as Gui
-import ObjectsFem
 from driving import (
     answer_panel,
     check,
@@ -14,8 +13,9 @@ from driving import (
     click_menu,
     comes_true,
     figures,
-    look_at_all,
     move_mouse,
+    panel,
+    panel_part,
     picture,
     run_checks,
     select,
@@ -23,60 +23,14 @@ from driving import (
     shades,
     slow,
     toolbar_button,
+    type_value,
     view_3d,
     wait_until,
     window,
     xdotool,
 )
+from new_analysis import loaded
 from PySide import QtCore, QtGui
-
-OLD = App.Version()[0] == "0" and App.Version()[1] == "20"
-TITANIUM = {
-    "Name": "Ti-6Al-4V",
-    "YoungsModulus": "110 GPa",
-    "PoissonRatio": "0.34",
-    "Density": "4410 kg/m^3",
-    "YieldStrength": "903 MPa",
-}
-
-
-def loaded(size=(60, 20, 20), cell=10, shell=0.0):
-    """A document with a lattice beam, held at one end, and two analyses of it."""
-    from freecad_volfrep import make_lattice_infill
-
-    doc = App.newDocument("Sizing")
-    doc.UndoMode = 1
-    box = doc.addObject("Part::Box", "Beam")
-    box.Length, box.Width, box.Height = size
-    doc.recompute()
-    obj = make_lattice_infill(
-        doc, box, CellType="BCC", CellSize=cell, StrutRadius=0.08 * cell, ShellThickness=shell
-    )
-    doc.recompute()
-    faces = {face.CenterOfMass.x: k + 1 for k, face in enumerate(box.Shape.Faces)}
-    edges = enumerate(box.Shape.Edges, 1)
-    along_z = next(k for k, edge in edges if abs(edge.tangentAt(0).z) > 0.99)
-    for name, force in (("bend", 200.0), ("light", 80.0)):
-        analysis = ObjectsFem.makeAnalysis(doc, name)
-        material = ObjectsFem.makeMaterialSolid(doc, "Material")
-        material.Material = TITANIUM
-        held = ObjectsFem.makeConstraintFixed(doc, "Fixed")
-        held.References = [(box, f"Face{faces[0.0]}")]
-        push = ObjectsFem.makeConstraintForce(doc, "Force")
-        push.References = [(box, f"Face{faces[float(size[0])]}")]
-        push.Force = force if OLD else f"{force} N"
-        push.Direction = (box, [f"Edge{along_z}"])
-        for member in (material, held, push):
-            analysis.addObject(member)
-        doc.recompute()
-        push.Reversed = push.DirectionVector.z > 0
-        doc.recompute()
-    box.Visibility = False
-    for member in doc.Objects:
-        if member.isDerivedFrom("Fem::Constraint"):
-            member.ViewObject.Visibility = False
-    look_at_all()
-    return doc, obj
 
 
 def sizing_panel():
@@ -145,10 +99,44 @@ def size_and_take(doc, obj):
     check("a report opens", len(reports()) == 1)
     picture("sizing_3_taken")
     check("radii and mesh are a step each", doc.UndoCount == steps + 2, (doc.UndoCount, steps))
+    reports()[0].close()
+    colour_the_preview(obj)
     doc.undo()
     doc.undo()
     doc.recompute()
     check("which is taken back", (obj.Mesh.CountFacets, obj.Volume.Value) == before)
+
+
+def colour_the_preview(obj):
+    """The infill's panel shows what its struts carry, and greys that once they are others."""
+    select(obj)
+    click(toolbar_button("Edit Lattice Infill"))
+    wait_until(lambda: panel() is not None)
+    settle()
+    choice = panel_part("ColourBy", QtGui.QComboBox)
+    item = choice.model().item(choice.findData("Stress"))
+    check("the preview may be coloured by stress", item.isEnabled(), item.toolTip())
+    choice.setCurrentIndex(item.row())
+    settle()
+    check("a legend says what colours mean", wait_until(lambda: "VolfrepLegend" in scene_names()))
+    picture("sizing_5_preview")
+    figures["shades of the preview"] = shades("sizing_5_preview", view_3d())
+    check("it is in colours", figures["shades of the preview"] > 200)
+    type_value("CellSize", "8 mm")
+    choice.look()
+    check("of another lattice it is not known", not item.isEnabled() and "size it again" in
+          item.toolTip(), item.toolTip())  # fmt: skip
+    check("and not shown", wait_until(lambda: "VolfrepLegend" not in scene_names()))
+    answer_panel("Cancel")
+    wait_until(lambda: panel() is None)
+    obj.ViewObject.ColourBy = "None"
+    settle()
+
+
+def scene_names():
+    """Names of what hangs in the view's scene."""
+    scene = Gui.activeDocument().activeView().getSceneGraph()
+    return [scene.getChild(k).getName().getString() for k in range(scene.getNumChildren())]
 
 
 def cancel_the_panel(doc, obj):
@@ -254,18 +242,14 @@ def show_results(doc, obj):
     settle()
     check("closing shows the infill again", obj.ViewObject.Visibility)
     colour_the_mesh(doc, obj)
-    scene = Gui.activeDocument().activeView().getSceneGraph()
-    names = [scene.getChild(k).getName().getString() for k in range(scene.getNumChildren())]
-    check("and leaves nothing in the view", "VolfrepStrutResults" not in names, names)
+    check("and leaves nothing in the view", "VolfrepStrutResults" not in scene_names())
 
 
 def colour_the_mesh(doc, obj):
     """Colour By shows the stress of the document's cases on the mesh itself."""
     obj.ViewObject.ColourBy = "Stress"
     settle()
-    scene = Gui.activeDocument().activeView().getSceneGraph()
-    names = [scene.getChild(k).getName().getString() for k in range(scene.getNumChildren())]
-    check("with a legend", "VolfrepLegend" in names, names)
+    check("with a legend", "VolfrepLegend" in scene_names(), scene_names())
     picture("results_on_the_mesh")
     figures["shades on the mesh"] = shades("results_on_the_mesh", view_3d())
     check("in colours", figures["shades on the mesh"] > 400, figures["shades on the mesh"])

@@ -1675,6 +1675,10 @@
       <translation>Vom kleinsten bis zum größten der Werte</translation>
     </message>
     <message>
+      <source>No stresses are kept in the document: Size Lattice puts them there.</source>
+      <translation>In diesem Dokument sind keine Spannungen gespeichert: Gitter dimensionieren legt sie dort ab.</translation>
+    </message>
+    <message>
       <source>None</source>
       <translation>Keine</translation>
     </message>
@@ -1709,6 +1713,10 @@
     <message>
       <source>Strut radius, mm</source>
       <translation>Stabradius, mm</translation>
+    </message>
+    <message>
+      <source>The lattice is not the one that was sized any more: size it again.</source>
+      <translation>Das Gitter ist nicht mehr das, das dimensioniert wurde: dimensionieren Sie es noch einmal.</translation>
     </message>
     <message>
       <source>from</source>
@@ -2050,6 +2058,10 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
     <message>
       <source>Exact surfaces of {label}</source>
       <translation>Exakte Flächen von {label}</translation>
+    </message>
+    <message>
+      <source>FEM analysis of {label}</source>
+      <translation>FEM-Analyse von {label}</translation>
     </message>
     <message>
       <source>Filling {label}</source>

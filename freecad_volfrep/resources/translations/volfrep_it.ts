@@ -1675,6 +1675,10 @@
       <translation>Dal più piccolo al più grande dei valori</translation>
     </message>
     <message>
+      <source>No stresses are kept in the document: Size Lattice puts them there.</source>
+      <translation>Nel documento non ci sono tensioni: le salva Dimensiona reticolo.</translation>
+    </message>
+    <message>
       <source>None</source>
       <translation>Nessuno</translation>
     </message>
@@ -1709,6 +1713,10 @@
     <message>
       <source>Strut radius, mm</source>
       <translation>Raggio delle aste, mm</translation>
+    </message>
+    <message>
+      <source>The lattice is not the one that was sized any more: size it again.</source>
+      <translation>Il reticolo non è più quello dimensionato: dimensionarlo di nuovo.</translation>
     </message>
     <message>
       <source>from</source>
@@ -2050,6 +2058,10 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
     <message>
       <source>Exact surfaces of {label}</source>
       <translation>Superfici esatte di {label}</translation>
+    </message>
+    <message>
+      <source>FEM analysis of {label}</source>
+      <translation>Analisi FEM di {label}</translation>
     </message>
     <message>
       <source>Filling {label}</source>

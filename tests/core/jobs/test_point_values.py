@@ -7,7 +7,12 @@ import pytest
 import samples
 from volfrep import LatticeSpec, VolfrepError
 from volfrep.design.grading import CellMap
-from volfrep.jobs.figures.point_values import overhang, point_values, values_in_space
+from volfrep.jobs.figures.point_values import (
+    overhang,
+    point_values,
+    values_in_space,
+    values_on_struts,
+)
 from volfrep.jobs.infill import Infill
 from volfrep.jobs.pipeline import fill
 from volfrep.spatial.nearest_struts import NearestStrut
@@ -71,6 +76,18 @@ def test_overhangs_are_angles_to_the_plate():
     assert overhang(-down, (0, 0, 2)) == pytest.approx(90.0)
     found = point_values(SOLID, LatticeSpec(), "Overhang", down, down)
     assert (found.low, found.high) == (0.0, 90.0)
+
+
+def test_what_is_known_of_struts_is_known_along_them():
+    ends = np.array([[[0.0, 0, 0], [10, 0, 0]], [[0, 0, 0], [0, 10, 0]]])
+    values = np.array([[1.0, 3.0], [50.0, 70.0]])
+    start, end = np.array([[10.0, 0, 0], [0, 2, 0]]), np.array([[4.0, 0, 0], [0, 12, 0]])
+    found = values_on_struts(start, end, ends, values)
+    assert found == pytest.approx(np.array([[3.0, 1.8], [54.0, 70.0]]))
+    points = np.array([[5.0, 0.5, 0.0], [0.3, 5.0, 0.0]])
+    told = point_values(SOLID, LatticeSpec(), "Stress", points, points, carried=(ends, values))
+    assert told.values == pytest.approx([2.0, 60.0])
+    assert (told.low, told.high) == (0.0, 70.0)
 
 
 def test_what_there_is_not_is_said():

@@ -59,6 +59,7 @@ def point_values(
     *,
     up: tuple[float, float, float] = (0.0, 0.0, 1.0),
     loads: LoadCases | None = None,
+    carried: tuple[Floats, Floats] | None = None,
     progress: ProgressCallback | None = None,
     cache: StageCache | None = None,
 ) -> PointValues:
@@ -74,6 +75,8 @@ def point_values(
         normals: (n, 3) of the surface, of length 1, outwards; only overhangs need them.
         up: from the build plate, for overhangs.
         loads: for those of `OF_LOADS`.
+        carried: in place of loads, what is known of struts: their ends, (m, 2, 3) mm, and the
+            values there, (m, 2).
         progress: called with the fraction done and the stage; returning False cancels.
         cache: keeps the costly stages of the part.
 
@@ -97,6 +100,8 @@ def point_values(
     if quantity == "Radius":
         frame = infill_of(solid, spec, progress=progress, cache=cache).struts
         ends, values, lowest = frame.nodes[frame.struts], frame.radii, None
+    elif carried is not None:
+        (ends, values), lowest = carried, 0.0
     else:
         if loads is None:
             raise VolfrepError(f"'{quantity}' needs loads: there are none.")
@@ -108,6 +113,26 @@ def point_values(
     found = (1.0 - share) * values[strut, 0] + share * values[strut, 1]
     low = float(values.min()) if lowest is None else lowest
     return PointValues(found.astype(np.float32), low, float(values.max()))
+
+
+def values_on_struts(start: Floats, end: Floats, ends: Floats, values: Floats) -> Floats:
+    """(k, 2) at both ends of struts, of values that are known at the ends of others on their lines.
+
+    Args:
+        start: (k, 3) where they begin, mm.
+        end: (k, 3) where they end.
+        ends: (m, 2, 3) of the others, mm.
+        values: (m, 2) there.
+    """
+    strut, _ = NearestStrut(ends).of(0.5 * (start + end))
+    origin, along = ends[strut, 0], ends[strut, 1] - ends[strut, 0]
+    length = np.maximum((along**2).sum(axis=1), 1e-300)
+    low, high = values[strut, 0], values[strut, 1]
+    found = [
+        low + np.clip(((place - origin) * along).sum(axis=1) / length, 0.0, 1.0) * (high - low)
+        for place in (start, end)
+    ]
+    return np.stack(found, axis=1)
 
 
 def values_in_space(

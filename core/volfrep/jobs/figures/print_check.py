@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A filled part held against a printing process, and what of it hangs over."""
+
+from __future__ import annotations
+
+from ...design.spec import LatticeSpec
+from ...grid.strut_graph import Wireframe
+from ...mesh.triangle_mesh import TriangleMesh, compact
+from ...reports.passage import ball_of, walls_of
+from ...reports.printability import PrintReport, overhanging_facets, print_report, unit_direction
+from ...reports.processes import Process
+
+
+def print_check(
+    mesh: TriangleMesh,
+    lattice: Wireframe,
+    domain: TriangleMesh,
+    spec: LatticeSpec,
+    process: Process,
+    build_direction: tuple[float, float, float],
+) -> tuple[PrintReport, TriangleMesh]:
+    """The report, and the triangles that face down too flat.
+
+    Args:
+        mesh: the part as it will be printed, closed, mm.
+        lattice: its nodes and struts.
+        domain: closed mesh of what the lattice fills.
+        spec: what it was made by.
+        process: the limits.
+        build_direction: from the build plate up, of any length.
+
+    Raises:
+        VolfrepError: the build direction is no direction.
+    """
+    report = print_report(
+        mesh,
+        lattice,
+        process,
+        build_direction=build_direction,
+        density=spec.density,
+        domain=domain,
+        ball_mm=ball_of(spec),
+        walls_mm=walls_of(spec),
+    )
+    hanging = overhanging_facets(mesh, unit_direction(build_direction), process.inclination)
+    return report, compact(TriangleMesh(mesh.vertices, mesh.triangles[hanging]))

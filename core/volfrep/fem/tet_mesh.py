@@ -12,7 +12,7 @@ import numpy as np
 
 from ..mesh.brep import FacetedBrep, faceted_brep
 from ..mesh.triangle_mesh import TriangleMesh, compact
-from ..mesh.well_shaped import angles_of, well_shaped
+from ..mesh.well_shaped import Tolerance, angles_of, well_shaped
 from ..spatial.proximity import closest_points
 from ..spatial.self_intersection import crossing_triangles
 from ..util.errors import VolfrepError
@@ -29,8 +29,13 @@ WALL_TOLERANCE = 1e-6
 #: Gmsh copes with facets that have no angle below this, degrees.
 NEEDLE = 2.0
 #: Needles and caps are mended where no move takes the surface farther than this part of the mesh's
-#: median edge; the second one where facets would cross otherwise.
-MENDING = (0.05, 0.0125)
+#: median edge. About places where facets would cross it may be less in the next try (so many
+#: median edges about them), and they are mended so many times.
+MENDING = 0.05
+NEAR = 1.0
+#: Facets that run through each other by less (median edges) touch: they lie in one plane.
+TOUCHING = 1e-7
+TRIES = 6
 #: No edge is split into pieces shorter than this part of it.
 SHORTEST = 0.25
 #: Seconds, nodes, elements and bytes of the deck per triangle; measured on blocks and filled parts
@@ -129,11 +134,15 @@ def mended(mesh: TriangleMesh, monitor: Monitor) -> tuple[TriangleMesh, float]:
     if angles_of(corners).min(initial=180.0) >= NEEDLE:
         return mesh, 0.0
     edge = float(np.median(np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)))
-    for share in MENDING:
-        better = monitor.call(lambda: well_shaped(mesh, share * edge, SHORTEST * edge))  # noqa: B023
+    tolerance = Tolerance(MENDING * edge, (), NEAR * edge)
+    for _ in range(TRIES):
+        better = monitor.call(lambda: well_shaped(mesh, tolerance, SHORTEST * edge))  # noqa: B023
         every = np.ones(len(better.triangles), bool)
-        if not monitor.call(lambda: crossing_triangles(better, every, 0.0)).any():  # noqa: B023
-            return better, share * edge
+        crossed = monitor.call(lambda: crossing_triangles(better, every, TOUCHING * edge))  # noqa: B023
+        if not crossed.any():
+            return better, tolerance.usual
+        place = better.vertices[np.unique(better.triangles[crossed])]
+        tolerance = replace(tolerance, places=(*tolerance.places, place))
     return mesh, 0.0
 
 

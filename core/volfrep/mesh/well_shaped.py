@@ -10,7 +10,10 @@ M. C. Rivara, Int. J. Numer. Meth. Engng. 40, 1997.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
+from scipy.spatial import cKDTree
 
 from ..util.ragged import rows_of
 from ..util.types import Bools, Floats, Ints
@@ -22,12 +25,41 @@ LEAST_ANGLE = 10.0
 MOST_ANGLE = 150.0
 #: What is changed may have no angle below this, unless it was worse before.
 WANTED_ANGLE = 15.0
+#: A collapse may take this part of a smaller angle: what it removes is worse than what it leaves.
+LOSS = 0.8
 #: Facets may not turn by more than this (cosine) when they change.
 TURN = 0.7
+#: But those lower than this part of the tolerance have no side that would matter.
+THIN = 0.2
 #: Rounds of all three moves.
 ROUNDS = 24
 #: Rings of facets about bad ones that may change.
 RINGS = 3
+#: The tolerance about a place that asks for less of it, in parts of the usual one.
+LESS = 0.25
+
+
+@dataclass(frozen=True, eq=False)
+class Tolerance:
+    """How far a move may take the surface: less about some places.
+
+    Attributes:
+        usual: mm.
+        places: arrays (k, 3) of places, mm: about one of each it is `LESS` times as much.
+        reach: how far about them, mm.
+    """
+
+    usual: float
+    places: tuple[Floats, ...] = ()
+    reach: float = 0.0
+
+    def at(self, points: Floats) -> Floats:
+        """(n,) the tolerance at points (n, 3), mm."""
+        result = np.full(len(points), self.usual)
+        for places in self.places:
+            apart = cKDTree(places).query(points, distance_upper_bound=self.reach)[0]
+            result[apart < np.inf] *= LESS
+        return result
 
 
 def angles_of(corners: Floats) -> Floats:
@@ -48,16 +80,16 @@ def is_bad(corners: Floats) -> Bools:
     return result
 
 
-def well_shaped(mesh: TriangleMesh, tolerance: float, shortest: float) -> TriangleMesh:
+def well_shaped(mesh: TriangleMesh, tolerance: Tolerance, shortest: float) -> TriangleMesh:
     """The closed mesh without needles and caps, as far as that goes.
 
     Args:
         mesh: closed, every edge of two facets.
-        tolerance: how far a move may take the surface, mm.
+        tolerance: how far a move may take the surface.
         shortest: no edge is split into pieces shorter than that, mm.
     """
     points, triangles = mesh.vertices, mesh.triangles.astype(np.int64)
-    for _ in range(ROUNDS):
+    for done in range(ROUNDS):
         bad = is_bad(points[triangles])
         if not bad.any():
             break
@@ -67,7 +99,9 @@ def well_shaped(mesh: TriangleMesh, tolerance: float, shortest: float) -> Triang
             part = near[triangles].any(axis=1)
             near[triangles[part]] = True
         used, local = np.unique(triangles[part], return_inverse=True)
-        moved, piece, kept = _mended(points[used], local.reshape(-1, 3), tolerance, shortest)
+        moved, piece, kept = _mended(
+            points[used], local.reshape(-1, 3), tolerance, shortest, done % 2 == 1
+        )
         # Points that went are no longer in use, new ones follow all the others.
         row = np.concatenate([used[kept], len(points) + np.arange(len(moved) - len(kept))])
         points = np.concatenate([points, moved[len(kept) :]])
@@ -77,11 +111,12 @@ def well_shaped(mesh: TriangleMesh, tolerance: float, shortest: float) -> Triang
 
 
 def _mended(
-    points: Floats, triangles: Ints, tolerance: float, shortest: float
+    points: Floats, triangles: Ints, tolerance: Tolerance, shortest: float, dearer: bool
 ) -> tuple[Floats, Ints, Ints]:
     """An open piece after one round: points, facets, and which points the first ones were."""
-    kept = np.arange(len(points))
-    points, triangles, renumber = _collapsed(points, triangles, tolerance)
+    kept, triangles = np.unique(_without_threes(points, triangles, tolerance), return_inverse=True)
+    points, triangles = points[kept], triangles.reshape(-1, 3)
+    points, triangles, renumber = _collapsed(points, triangles, tolerance, dearer)
     kept = kept[np.flatnonzero(renumber >= 0)]
     for _ in range(3):
         triangles, flipped = _flipped(points, triangles, tolerance)
@@ -103,8 +138,55 @@ def _fixed(triangles: Ints, count: int) -> Bools:
     return fixed
 
 
-def _collapsed(points: Floats, triangles: Ints, tolerance: float) -> tuple[Floats, Ints, Ints]:
-    """Shortest edges of bad facets collapsed: points, facets, the new number of each point."""
+def _without_threes(points: Floats, triangles: Ints, tolerance: Tolerance) -> Ints:
+    """The facets, one in place of three that meet in a point, where it is good or one was bad.
+
+    No edge opposite to such a point can be collapsed. The points stay, without facets.
+    """
+    bad = is_bad(points[triangles])
+    count = np.bincount(triangles.ravel(), minlength=len(points))
+    near = np.bincount(triangles[bad].ravel(), minlength=len(points)) > 0
+    chosen = (count == 3) & ~_fixed(triangles, len(points))
+    # Of points that are neighbours only the first goes.
+    several = chosen[triangles].sum(axis=1) > 1
+    chosen[triangles[several].max(axis=1)] = False
+    chosen[np.sort(triangles[several], axis=1)[:, 1]] = False
+    rows, corner = np.nonzero(chosen[triangles])
+    point = triangles[rows, corner]
+    begin, end = triangles[rows, (corner + 1) % 3], triangles[rows, (corner + 2) % 3]
+    order = np.argsort(point, kind="stable")
+    rows, point, begin, end = (part[order].reshape(-1, 3) for part in (rows, point, begin, end))
+    # Round the point: what the first facet ends with, another begins with.
+    third = np.where(begin[:, 1] == end[:, 0], end[:, 1], end[:, 2])
+    facet = np.stack([begin[:, 0], end[:, 0], third], axis=1)
+    normal = remesh.normals(points[facet])
+    size = np.maximum(np.linalg.norm(normal, axis=1), 1e-300)
+    corners = points[triangles]
+    is_thin = _height(corners) < THIN * tolerance.at(corners.mean(axis=1))
+    away = np.abs(np.einsum("ij,ij->i", normal, points[point[:, 0]] - points[facet[:, 0]])) / size
+    sides = remesh.normals(points[triangles[rows.ravel()]]).reshape(-1, 3, 3)
+    along = np.einsum("ikj,ij->ik", sides, normal)
+    # What is that thin has no side that would matter.
+    same = along > TURN * size[:, None] * np.linalg.norm(sides, axis=2)
+    same |= is_thin[rows]
+    goes = (away <= tolerance.at(points[point[:, 0]])) & same.all(axis=1)
+    goes &= near[point[:, 0]] | ~is_bad(points[facet])
+    # Of a tetrahedron the fourth facet would be left with its own back.
+    shape = np.array([len(points) ** 2, len(points), 1])
+    names = [(np.sort(part, axis=1) * shape).sum(axis=1) for part in (facet, triangles)]
+    goes &= ~np.isin(*names)
+    stays = np.ones(len(triangles), bool)
+    stays[rows[goes].ravel()] = False
+    return np.concatenate([triangles[stays], facet[goes]])
+
+
+def _collapsed(
+    points: Floats, triangles: Ints, tolerance: Tolerance, dearer: bool
+) -> tuple[Floats, Ints, Ints]:
+    """Shortest edges of bad facets collapsed: points, facets, the new number of each point.
+
+    Onto the end where that moves the surface less, or else the `dearer` way.
+    """
     count = len(points)
     fixed = _fixed(triangles, count)
     corners = points[triangles]
@@ -131,11 +213,14 @@ def _collapsed(points: Floats, triangles: Ints, tolerance: float) -> tuple[Float
         low, high = np.minimum(gone, kept), np.maximum(gone, kept)
         asked = np.isin(low * np.int64(count) + high, wanted)
         one, two = away(gone, points[kept]), away(kept, points[gone])
-        # Where both would do, the one that moves the surface less.
-        cost = np.minimum(one, two)
-        target = np.where((one <= two)[:, None], points[kept], points[gone])
+        allowed = np.minimum(tolerance.at(points[gone]), tolerance.at(points[kept]))
+        # Where both would do, the one that moves the surface less, or the other.
+        onto = one <= two
+        onto ^= dearer & (np.maximum(one, two) <= allowed)
+        cost = np.where(onto, one, two)
+        target = np.where(onto[:, None], points[kept], points[gone])
         length = np.linalg.norm(points[gone] - points[kept], axis=1)
-        return np.where(asked & (cost <= tolerance), length, np.inf), target
+        return np.where(asked & (cost <= allowed), length, np.inf), target
 
     def improves(before: Floats, after: Floats) -> Bools:
         return _improves(before, after, tolerance)
@@ -148,17 +233,28 @@ def _collapsed(points: Floats, triangles: Ints, tolerance: float) -> tuple[Float
     return remesh.collapse(points, triangles, rules, max(longest, 1e-300), np.inf)
 
 
-def _improves(before: Floats, after: Floats, tolerance: float) -> Bools:
+def _improves(before: Floats, after: Floats, tolerance: Tolerance) -> Bools:
     """Whether facets keep their side, and become no worse where they are bad."""
-    old, new = remesh.normals(before), remesh.normals(after)
-    one, two = np.linalg.norm(old, axis=1), np.linalg.norm(new, axis=1)
-    cosine = np.einsum("ij,ij->i", old, new)
-    # What is thinner than the tolerance has no side that would matter.
-    thin = np.maximum(one / _longest(before), two / _longest(after)) < tolerance
+    thin = THIN * tolerance.at(before.mean(axis=1))
     least, was = angles_of(after).min(axis=1), angles_of(before).min(axis=1)
-    good = (least > WANTED_ANGLE) | (least >= was)
-    result: Bools = thin | (good & (cosine > TURN * one * two))
+    good = (least > WANTED_ANGLE) | (least >= LOSS * was)
+    low = np.maximum(_height(before), _height(after)) < thin
+    result: Bools = low | (good & _same_side(before, after, thin))
     return result
+
+
+def _same_side(before: Floats, after: Floats, thin: Floats) -> Bools:
+    """Whether facets (m, 3, 3) look the same way; those lower than `thin` before look nowhere."""
+    old, new = remesh.normals(before), remesh.normals(after)
+    size = np.linalg.norm(old, axis=1) * np.linalg.norm(new, axis=1)
+    result: Bools = (np.einsum("ij,ij->i", old, new) > TURN * size) | (_height(before) < thin)
+    return result
+
+
+def _height(corners: Floats) -> Floats:
+    """(m,) the least height of facets, mm."""
+    area: Floats = np.linalg.norm(remesh.normals(corners), axis=1)
+    return area / _longest(corners)
 
 
 def _longest(corners: Floats) -> Floats:
@@ -167,7 +263,7 @@ def _longest(corners: Floats) -> Floats:
     return np.maximum(length, 1e-300)
 
 
-def _flipped(points: Floats, triangles: Ints, tolerance: float) -> tuple[Ints, int]:
+def _flipped(points: Floats, triangles: Ints, tolerance: Tolerance) -> tuple[Ints, int]:
     """Facets with their edges flipped where that makes the least angle larger; how many were."""
 
     def gain(ends: Ints, corners: Ints) -> Floats:
@@ -182,7 +278,16 @@ def _flipped(points: Floats, triangles: Ints, tolerance: float) -> tuple[Ints, i
         across = np.cross(p, q)
         apart = np.abs(np.einsum("ij,ij->i", across, points[a] - points[u]))
         apart /= np.maximum(np.linalg.norm(across, axis=1), 1e-300)
-        allowed = (apart <= tolerance) & (was < WANTED_ANGLE)
+        allowed = (apart <= tolerance.usual) & (was < WANTED_ANGLE) & (then > was)
+        rows = np.flatnonzero(allowed)
+        most = tolerance.at(0.5 * (points[u[rows]] + points[v[rows]]))
+        allowed[rows] = apart[rows] <= most
+        # A crease stays where it is, however small.
+        pairs = [part.reshape(-1, 2, 3)[rows] for part in (old, new)]
+        for k in (0, 1):
+            before = points[pairs[0][:, k]]
+            for n in (0, 1):
+                allowed[rows] &= _same_side(before, points[pairs[1][:, n]], THIN * most)
         return np.where(allowed, then - was - 0.1, -1.0)
 
     return remesh.flip(points, triangles, gain, _never)

@@ -148,4 +148,5 @@ def test_a_real_part_has_the_skin_that_was_asked_for(name, size, radius, shell):
     errors = np.abs(wall_errors(solid, domain, shell, 20_000))
     assert np.mean(errors > 0.05) <= SHEETS.get(name, 0.0)
     # What is more than that off is said.
-    assert (errors.max() <= 0.05) or "off its thickness" in result.report.warnings[0]
+    said = any("off its thickness" in warning for warning in result.report.warnings)
+    assert errors.max() <= 0.05 or said

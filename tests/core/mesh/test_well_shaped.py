@@ -9,7 +9,7 @@ from volfrep.jobs.blocks import block
 from volfrep.jobs.pipeline import fill
 from volfrep.mesh.quality import measure
 from volfrep.mesh.triangle_mesh import TriangleMesh
-from volfrep.mesh.well_shaped import angles_of, is_bad, well_shaped
+from volfrep.mesh.well_shaped import Tolerance, angles_of, is_bad, well_shaped
 from volfrep.spatial.proximity import closest_points
 from volfrep.spatial.self_intersection import crossing_triangles
 
@@ -25,7 +25,7 @@ def trimmed(request):
 
 @pytest.fixture(scope="module")
 def better(trimmed):
-    return well_shaped(trimmed, TOLERANCE, 0.1)
+    return well_shaped(trimmed, Tolerance(TOLERANCE), 0.1)
 
 
 def corners(mesh):
@@ -52,7 +52,7 @@ def test_its_surface_stays(trimmed, better):
     was, now = measure(trimmed), measure(better)
     assert now.watertight
     assert (now.genus, now.bodies, now.voids) == (was.genus, was.bodies, was.voids)
-    assert now.volume == pytest.approx(was.volume, rel=1e-4)
+    assert now.volume == pytest.approx(was.volume, rel=3e-4)
     assert now.area == pytest.approx(was.area, rel=1e-3)
     for one, two in ((better, trimmed), (trimmed, better)):
         points = np.concatenate([one.vertices, corners(one).mean(axis=1)])
@@ -67,8 +67,27 @@ def test_it_does_not_grow_out_of_hand(trimmed, better):
 def test_a_mesh_without_needles_is_left_alone():
     mesh = block(LatticeSpec("CVC", cell_size=10, strut_radius=1), (1, 1, 1)).mesh
     assert not is_bad(corners(mesh)).any()
-    same = well_shaped(mesh, TOLERANCE, 0.1)
+    same = well_shaped(mesh, Tolerance(TOLERANCE), 0.1)
     assert np.array_equal(corners(same), corners(mesh))
+
+
+@pytest.mark.parametrize("cell", ["Box", "BCC", "FCC"])
+def test_a_wall_along_struts_leaves_no_needles(cell):
+    """Its faces run through the middles of struts, a hair beside facets' corners."""
+    spec = LatticeSpec(cell, cell_size=10, strut_radius=1, shell=0, deviation=0.05)
+    mesh = fill(samples.box((10.0, 10.0, 10.0)), spec).mesh
+    assert is_bad(corners(mesh)).sum() > 100
+    better = well_shaped(mesh, Tolerance(TOLERANCE), 0.1)
+    assert not is_bad(corners(better)).any()
+    assert better.volume == pytest.approx(mesh.volume, rel=1e-3)
+    assert not crossing_triangles(better, np.ones(len(better.triangles), bool), 1e-9).any()
+
+
+def test_about_places_the_tolerance_is_less():
+    points = np.array([[0.0, 0, 0], [1, 0, 0], [3, 0, 0]])
+    places = np.zeros((1, 3)), np.array([[0.5, 0, 0]])
+    assert Tolerance(0.16).at(points) == pytest.approx([0.16, 0.16, 0.16])
+    assert Tolerance(0.16, places, 0.75).at(points) == pytest.approx([0.01, 0.04, 0.16])
 
 
 def test_a_sharp_edge_stays_sharp():
@@ -86,7 +105,7 @@ def test_a_sharp_edge_stays_sharp():
     bottoms = [[0, k + 1, k] for k in range(1, size - 1)]
     mesh = TriangleMesh(points, np.array([*sides.tolist(), *lids, *bottoms], np.int32))
     assert measure(mesh).watertight
-    better = well_shaped(mesh, TOLERANCE, 0.1)
+    better = well_shaped(mesh, Tolerance(TOLERANCE), 0.1)
     assert measure(better).watertight
     assert better.volume == pytest.approx(1000.0, rel=1e-9)
     assert is_bad(corners(better)).sum() < 0.05 * is_bad(corners(mesh)).sum()

@@ -6,7 +6,7 @@ import pytest
 import trimesh
 from manifold3d import CrossSection, Manifold
 
-from volfrep.fem.wedge_mesh import upright
+from volfrep.fem.wedge_mesh import corner_angles, upright, vertex_planes
 from volfrep.loads.load_cases import Force, LoadCase, Support
 from volfrep.loads.nodal_loads import Body, nodal_case
 from volfrep.loads.regions import InPlane
@@ -127,6 +127,20 @@ def test_no_triangle_of_an_even_surface_lies_on_its_face():
     own = remesh.normals(corners)
     assert (np.einsum("ij,ij->i", own, outwards) > 0.0).all()
     assert 0.5 * np.linalg.norm(own, axis=1).sum() == pytest.approx(whole.area, rel=5e-3)
+
+
+def test_a_vertex_on_an_edge_lies_in_both_faces_though_one_of_them_is_a_needle_there():
+    """All that it has of the upper face is 10 mm long and 0.01 mm high."""
+    vertices = np.array([[0, 0, 0], [-5, 0.01, 0], [5, 0.01, 0], [0, 0, -5]], float)
+    triangles = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2]])
+    corners = vertices[triangles]
+    normal = remesh.normals(corners)
+    normal /= np.linalg.norm(normal, axis=1)[:, None]
+    angles = corner_angles(corners)
+    assert angles.sum(axis=1) == pytest.approx(np.pi)
+    values, _, held = vertex_planes(vertices, triangles, normal, angles)
+    assert held[0].sum() == 2
+    assert values[0, 1:] == pytest.approx(np.pi, rel=2e-3)
 
 
 def test_the_middle_of_a_boxs_skin_is_a_smaller_box():

@@ -18,9 +18,8 @@ from driving import (
     check,
     click,
     figures,
+    hover,
     in_sight,
-    middle,
-    move_mouse,
     panel,
     panel_part,
     picture,
@@ -64,7 +63,7 @@ def scroll_over_fields(doc, box):
             in_sight(field)
             if field.hasFocus():
                 field.clearFocus()
-            move_mouse(middle(field))
+            hover(field)
             wheels.clear()
             xdotool("click", 5)
             wait_until(lambda: wheels)
@@ -73,7 +72,7 @@ def scroll_over_fields(doc, box):
         field, before = panel_part("CellSize"), obj.CellSize.Value
         click(field)
         wait_until(field.hasFocus)
-        move_mouse(middle(field))
+        hover(field)
         xdotool("click", 5)
         check("one that was clicked into follows it", wait_until(
             lambda: obj.CellSize.Value != before))  # fmt: skip

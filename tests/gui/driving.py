@@ -215,7 +215,8 @@ def move_mouse(point):
     if point.x() < 0 or point.y() < 0:
         raise ValueError(f"{point.toTuple()} is not on the screen")
     xdotool("mousemove", point.x(), point.y())
-    wait_until(lambda: QtGui.QCursor.pos() == point)
+    if not comes_true(lambda: QtGui.QCursor.pos() == point, PATIENCE):
+        fail(f"the mouse is at {QtGui.QCursor.pos().toTuple()} instead of {point.toTuple()}")
 
 
 def press_button(*options, button=1, on=None):
@@ -238,25 +239,28 @@ def click(widget):
 
 def start_by_click(widget):
     """The same, without waiting for what comes of it."""
-
-    def is_on_top():
-        over = QtGui.QApplication.widgetAt(middle(widget))
-        return over is not None and (over is widget or widget.isAncestorOf(over))
-
-    def can_be_clicked():
-        _scroll_to(widget)  # again: what is above it may grow
-        return widget.isVisible() and is_on_top()
-
-    _scroll_to(widget)
     for _ in range(TRIES):
-        wait_until(can_be_clicked)
-        move_mouse(middle(widget))
+        hover(widget)
         # What is laid out between the look and the click may move it away: a user clicks again.
         if press_button(on=widget):
             break
         print(f"a click misses {type(widget).__name__} '{widget.objectName()}'", flush=True)
     else:
         fail(f"{TRIES} clicks miss {type(widget).__name__} '{widget.objectName()}'")
+
+
+def hover(widget):
+    """Scroll to a widget and move the mouse over its middle, once nothing lies on top of it."""
+
+    def is_on_top():
+        _scroll_to(widget)  # again: what is above it may grow
+        over = QtGui.QApplication.widgetAt(middle(widget))
+        hit = over is widget or (over is not None and widget.isAncestorOf(over))
+        return widget.isVisible() and hit
+
+    _scroll_to(widget)
+    wait_until(is_on_top)
+    move_mouse(middle(widget))
 
 
 def in_sight(widget):

@@ -108,6 +108,17 @@ def pad_shares(length: Floats, first: Floats, second: Floats) -> tuple[Floats, F
     return first * allowed, second * allowed
 
 
+def corner_angles(corners: Floats) -> Floats:
+    """(t, 3) radians, of (t, 3, 3) triangles.
+
+    By angles what faces a vertex counts as much however it is cut into triangles (G. Thuermer,
+    C. Wuethrich, J. Graphics Tools 3, 1998): all of what is on one side of an edge may be needles.
+    """
+    one, two = np.roll(corners, -1, axis=1) - corners, np.roll(corners, 1, axis=1) - corners
+    across = np.linalg.norm(np.cross(one, two), axis=2)
+    return np.asarray(np.arctan2(across, np.einsum("tci,tci->tc", one, two)))
+
+
 def vertex_planes(
     vertices: Floats, triangles: Ints, normal: Floats, weight: Floats
 ) -> tuple[Floats, Floats, Bools]:
@@ -117,16 +128,16 @@ def vertex_planes(
         vertices: (n, 3) mm.
         triangles: (t, 3) rows of them.
         normal: (t, 3) of unit length.
-        weight: (t,) of each triangle.
+        weight: (t, 3) of each triangle at its corners.
 
     Returns:
         (n, 3) values; (n, 3, 3) axes as columns; (n, 3) bool, along which the planes hold the
         vertex: one on a face, two on an edge, three in a corner.
     """
     square = np.zeros((len(vertices), 3, 3))
-    outer = normal[:, :, None] * normal[:, None, :] * weight[:, None, None]
+    outer = normal[:, :, None] * normal[:, None, :]
     for corner in range(3):
-        np.add.at(square, triangles[:, corner], outer)
+        np.add.at(square, triangles[:, corner], outer * weight[:, corner, None, None])
     values, axes = np.linalg.eigh(square)
     return values, axes, values > _FLAT * np.maximum(values[:, -1:], 1e-300)
 
@@ -242,7 +253,8 @@ def upright(outer: Floats, inner: Floats, triangles: Ints) -> Floats:
     if turned(_WANTED).any():
         size = np.linalg.norm(way, axis=1)
         normal = way / np.maximum(size, 1e-300)[:, None]
-        _, axes, held = vertex_planes(outer, triangles, normal, size)
+        angles = corner_angles(outer[triangles])
+        _, axes, held = vertex_planes(outer, triangles, normal, angles)
         along = np.einsum("nik,nk,njk->nij", axes, (~held).astype(float), axes)
         pairs = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
         near = csr_matrix((np.ones(len(pairs)), tuple(pairs.T)), (len(outer),) * 2)

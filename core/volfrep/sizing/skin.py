@@ -19,7 +19,7 @@ from scipy.sparse import csr_matrix
 from scipy.spatial import cKDTree
 
 from ..design.openings import lie_on
-from ..fem.wedge_mesh import barycentric, vertex_planes
+from ..fem.wedge_mesh import barycentric, corner_angles, vertex_planes
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.proximity import closest_points
 from ..spatial.rays import segment_crossings
@@ -153,7 +153,7 @@ def skin_model(
     # Each side has its half of what is solid.
     local = np.minimum(wanted, 0.5 * room)
     kept = triangles[used]
-    walls = kept, normal[used], doubled[used]
+    walls = kept, normal[used], corner_angles(corners[used])
     middle = _inwards(outside.vertices, *walls, 0.5 * local)
     inside = 2.0 * middle - outside.vertices
     if held is not None and held.any():
@@ -261,9 +261,9 @@ def _inwards(
     Planes of triangles that stay (t,) lie no deeper.
     """
     right = np.zeros_like(vertices)
-    moves = weight if stays is None else np.where(stays, 0.0, weight)
+    moves = weight if stays is None else np.where(stays[:, None], 0.0, weight)
     for corner in range(3):
-        np.add.at(right, triangles[:, corner], normal * moves[:, None])
+        np.add.at(right, triangles[:, corner], normal * moves[:, corner, None])
     values, axes, known = vertex_planes(vertices, triangles, normal, weight)
     along = np.einsum("nji,nj->ni", axes, right)
     step = np.where(known, along / np.where(known, values, 1.0), 0.0)

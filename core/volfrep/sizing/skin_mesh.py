@@ -126,7 +126,7 @@ def even_surface(
         for _ in range(3):
             creases = _Creases(vertices, triangles, pinned, _TINY * edge)
             rules = remesh.Rules(
-                creases.rank, creases.may_slide, _nothing, _keeps_shape(_TINY * edge)
+                creases.rank, creases.may_slide, _nothing, _keeps_shape(mesh, _TINY * edge)
             )
             before = len(vertices)
             vertices, triangles, _ = remesh.collapse(
@@ -199,26 +199,30 @@ def _nothing(one: Ints, two: Ints) -> Bools:
     return np.zeros(len(one), bool)
 
 
-def _keeps_shape(tiny: float) -> Callable[[Floats, Floats], Bools]:
-    """Which triangles may change as they would; of those lower than `tiny` nothing is asked."""
+def _keeps_shape(mesh: TriangleMesh, tiny: float) -> Callable[[Floats, Floats], Bools]:
+    """Which triangles may change as they would.
+
+    Of needles, and of those lower than `tiny`, which close strips, it is only asked that they do
+    not lie on the surface with their back outside: their own direction may be any.
+    """
+    outwards = remesh.normals(mesh.vertices[mesh.triangles])
 
     def allowed(before: Floats, after: Floats) -> Bools:
+        old, new = remesh.normals(before), remesh.normals(after)
+        cosine = np.einsum("ij,ij->i", old, new)
+        size, now = np.linalg.norm(old, axis=1), np.linalg.norm(new, axis=1)
+        first, quality = remesh.qualities(before), remesh.qualities(after)
+        shape = (quality > 0.1) | (quality > first)
+        good = (cosine > _TURN * size * now) & (now > 0) & shape
         side = np.linalg.norm(before - np.roll(before, 1, axis=1), axis=2).max(axis=1)
-        low = np.linalg.norm(remesh.normals(before), axis=1) < tiny * side
-        return np.asarray(_stays_good(before, after) | low)
+        low = size < tiny * side
+        rest = np.flatnonzero(~good & (low | ((first < _NEEDLE) & (now > 0) & shape)))
+        if len(rest):
+            below = outwards[closest_points(mesh, after[rest].mean(axis=1))[2]]
+            good[rest] = np.einsum("ij,ij->i", new[rest], below) >= 0.0
+        return np.asarray(good)
 
     return allowed
-
-
-def _stays_good(before: Floats, after: Floats) -> Bools:
-    old, new = remesh.normals(before), remesh.normals(after)
-    cosine = np.einsum("ij,ij->i", old, new)
-    size = np.linalg.norm(old, axis=1) * np.linalg.norm(new, axis=1)
-    quality = remesh.qualities(after)
-    shape = (quality > 0.1) | (quality > remesh.qualities(before))
-    # A needle has no direction worth keeping.
-    needle = remesh.qualities(before) < 0.01
-    return np.asarray(((cosine > _TURN * size) | needle) & (size > 0) & shape)
 
 
 def _rounder(vertices: Floats, creases: _Creases) -> Callable[[Ints, Ints], Floats]:
@@ -254,11 +258,15 @@ def _relaxed(vertices: Floats, triangles: Ints, creases: _Creases, mesh: Triangl
     moved = 0.5 * (vertices + total / number[:, None])
     result = vertices.copy()
     result[free] = closest_points(mesh, moved[free])[0]
-    # A triangle that would turn over keeps its corners where they were.
-    old, new = remesh.normals(vertices[triangles]), remesh.normals(result[triangles])
-    turned = np.einsum("ij,ij->i", old, new) <= 0.5 * np.linalg.norm(old, axis=1) * np.linalg.norm(
-        new, axis=1
-    )
-    back = np.unique(triangles[turned])
-    result[back] = vertices[back]
-    return result
+    # A triangle that would turn over keeps its corners where they were, which may turn those
+    # about it over, whose other corners have moved: these go back, too.
+    old = remesh.normals(vertices[triangles])
+    size = np.linalg.norm(old, axis=1)
+    while True:
+        new = remesh.normals(result[triangles])
+        turned = np.einsum("ij,ij->i", old, new) <= 0.5 * size * np.linalg.norm(new, axis=1)
+        turned &= (result[triangles] != vertices[triangles]).any(axis=(1, 2))
+        if not turned.any():
+            return result
+        back = np.unique(triangles[turned])
+        result[back] = vertices[back]

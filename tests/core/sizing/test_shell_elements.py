@@ -4,8 +4,9 @@
 import numpy as np
 import pytest
 import trimesh
+from manifold3d import CrossSection, Manifold
 
-from volfrep.fem.wedge_mesh import upright
+from volfrep.fem.wedge_mesh import corner_angles, upright, vertex_planes
 from volfrep.loads.load_cases import Force, LoadCase, Support
 from volfrep.loads.nodal_loads import Body, nodal_case
 from volfrep.loads.regions import InPlane
@@ -17,6 +18,7 @@ from volfrep.sizing.skin import Feet, skin_model, ties_to
 from volfrep.sizing.skin_mesh import even_surface
 from volfrep.sizing.structure import Case, Structure
 from volfrep.sizing.tapered_beams import Elastic, beams_of
+from volfrep.spatial.proximity import closest_points
 
 STEEL = Elastic(210_000.0, 0.3, 7.85e-9)
 NO_STRUTS = beams_of(np.eye(3), np.empty((0, 2), np.int64), STEEL)
@@ -110,6 +112,35 @@ def test_a_narrow_ledge_leaves_few_needles():
     even = even_surface(whole, 5.0)
     assert (remesh.qualities(np.stack(even.corners(), axis=1)) < 0.1).sum() < 30  # 73 with strips
     assert even.volume == pytest.approx(whole.volume, rel=1e-3)
+
+
+def test_no_triangle_of_an_even_surface_lies_on_its_face():
+    """A plate with two round holes: long needles fan out from the holes and are made even."""
+    plate = CrossSection.square((40.0, 40.0))
+    for middle in (10.0, 30.0):
+        plate -= CrossSection.circle(4.0, 64).translate((middle, middle))
+    whole = as_mesh(Manifold.extrude(plate, 6.0))
+    even = even_surface(whole, 5.0)
+    corners = np.stack(even.corners(), axis=1)
+    below = closest_points(whole, corners.mean(axis=1))[2]
+    outwards = remesh.normals(np.stack(whole.corners(), axis=1))[below]
+    own = remesh.normals(corners)
+    assert (np.einsum("ij,ij->i", own, outwards) > 0.0).all()
+    assert 0.5 * np.linalg.norm(own, axis=1).sum() == pytest.approx(whole.area, rel=5e-3)
+
+
+def test_a_vertex_on_an_edge_lies_in_both_faces_though_one_of_them_is_a_needle_there():
+    """All that it has of the upper face is 10 mm long and 0.01 mm high."""
+    vertices = np.array([[0, 0, 0], [-5, 0.01, 0], [5, 0.01, 0], [0, 0, -5]], float)
+    triangles = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2]])
+    corners = vertices[triangles]
+    normal = remesh.normals(corners)
+    normal /= np.linalg.norm(normal, axis=1)[:, None]
+    angles = corner_angles(corners)
+    assert angles.sum(axis=1) == pytest.approx(np.pi)
+    values, _, held = vertex_planes(vertices, triangles, normal, angles)
+    assert held[0].sum() == 2
+    assert values[0, 1:] == pytest.approx(np.pi, rel=2e-3)
 
 
 def test_the_middle_of_a_boxs_skin_is_a_smaller_box():

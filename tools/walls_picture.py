@@ -36,18 +36,18 @@ def drawn(corners: Floats) -> Floats:
     area = np.linalg.norm(normal, axis=1)
     facing = normal @ forward < 0.0
     corners, normal, area = corners[facing], (normal / area[:, None])[facing], area[facing]
-    middle = corners.reshape(-1, 3).mean(axis=0)
     size = PIXELS * FINER
-    scale = size / np.ptp(corners.reshape(-1, 3) @ np.stack([right, up], axis=1), axis=0).max()
-    scale *= 0.96
+    seen = corners.reshape(-1, 3) @ np.stack([right, up], axis=1)
+    across, high = 0.5 * (seen.min(axis=0) + seen.max(axis=0))
+    scale = 0.96 * size / np.ptp(seen, axis=0).max()
     count = np.maximum(1, (FACET_POINTS * 0.5 * area * scale**2).astype(int))
     row = np.repeat(np.arange(len(corners)), count)
     u, v = even_points(2, int(np.ceil(np.log2(len(row)))))[: len(row)].T
     u, v = np.where(u + v > 1.0, 1.0 - u, u), np.where(u + v > 1.0, 1.0 - v, v)
     a, b, c = (corners[row, k] for k in range(3))
-    points = a + u[:, None] * (b - a) + v[:, None] * (c - a) - middle
-    x = np.clip(points @ right * scale + size / 2, 0, size - 1).astype(int)
-    y = np.clip(size / 2 - points @ up * scale, 0, size - 1).astype(int)
+    points = a + u[:, None] * (b - a) + v[:, None] * (c - a)
+    x = np.clip((points @ right - across) * scale + size / 2, 0, size - 1).astype(int)
+    y = np.clip(size / 2 - (points @ up - high) * scale, 0, size - 1).astype(int)
     depth = points @ forward
     order = np.argsort(-depth, kind="stable")  # the nearest is written last
     light = np.clip(normal @ (LIGHT / np.linalg.norm(LIGHT)), 0.0, 1.0)

@@ -7,6 +7,8 @@ The engine is imported where it is needed only, so that ``--help`` answers at on
 from __future__ import annotations
 
 import argparse
+from collections.abc import Mapping
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..design.parameters import BY_NAME, GROUPS, PARAMETERS, Parameter
@@ -17,6 +19,8 @@ from ..util.errors import VolfrepError
 if TYPE_CHECKING:
     from ..design.spec import LatticeSpec
 
+#: Files of networks that hold nodes and struts and nothing to lay cells into.
+STRUTS_ALONE = (".json", ".csv", ".3mf")
 #: Where an option's value is kept, so that no other option has the same place.
 _PLACE = "parameter_"
 
@@ -72,6 +76,7 @@ def specification(options: argparse.Namespace) -> LatticeSpec:
             raise VolfrepError(f"{options.spec}: {error}") from error
         values = made.merged(given, file)
     spec = made.specification(values, option_named)
+    _refuse_idle_cell(given, spec)
     direction = BY_NAME["build_direction"]
     options.build_direction = values.get(direction.name, direction.default)
     options.density = values.get("density")
@@ -79,6 +84,32 @@ def specification(options: argparse.Namespace) -> LatticeSpec:
     options.network_file = values.get("network_file")
     options.network_field = values.get("network_field")
     return spec
+
+
+def _refuse_idle_cell(given: Mapping[str, object], spec: LatticeSpec) -> None:
+    """Refuse the option of a cell, or of its size, that the network has no use for.
+
+    Files of specifications always hold both, and may keep them.
+    """
+    from ..design.networks import GivenNetwork, RandomNetwork
+
+    if isinstance(spec.network, GivenNetwork) and "cell" in given:
+        file = spec.network.source
+        if Path(file).suffix.lower() in STRUTS_ALONE:
+            raise VolfrepError(
+                f"--cell has no effect with '{file}', which holds struts: leave it out."
+            )
+    if not isinstance(spec.network, RandomNetwork):
+        return
+    if "cell" in given:
+        raise VolfrepError(
+            f"--cell has no effect with --network {spec.network.kind}: leave one of them out."
+        )
+    if "cell_size" in given and spec.network.points and not spec.resolution:
+        raise VolfrepError(
+            "--cell-size has no effect with --network-points: each says how many points there are; "
+            "leave one of them out."
+        )
 
 
 def write_specification(options: argparse.Namespace, spec: LatticeSpec) -> None:

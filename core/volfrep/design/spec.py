@@ -194,6 +194,10 @@ class LatticeSpec:
             "removal of struts": self.ending.removes_struts,
             "target of stiffness": self.target is not None and self.target.aim == "stiffness",
             "wall": self.surface is not None,
+            "choice of active cells": self.activation != "touching",
+            "boundary of whole cells": self.boundary == "whole"
+            and self.shell > 0.0
+            and self.output == "part",
         }
         for what, is_given in given.items():
             if is_given:
@@ -203,11 +207,15 @@ class LatticeSpec:
                         f"'{self.unit_cell().name}' is not: leave it out, or choose another cell."
                     )
                 raise VolfrepError(f"A {what} is for cells and not for a network: leave it out.")
-        if isinstance(self.network, RandomNetwork) and self.orientation is not None:
-            raise VolfrepError(
-                "An orientation turns a lattice that is given, and not random points: leave it "
-                "out, or take another seed."
-            )
+        if isinstance(self.network, RandomNetwork):
+            for what, moves, value in (
+                ("An orientation", "turns", self.orientation), ("An origin", "moves", self.origin),
+            ):  # fmt: skip
+                if value is not None:
+                    raise VolfrepError(
+                        f"{what} {moves} a lattice that is given, and not random points: leave it "
+                        "out, or take another seed."
+                    )
         own = isinstance(self.network, GivenNetwork) and len(self.network.radii)
         if own and self.target is not None:
             raise VolfrepError(

@@ -50,13 +50,15 @@ def look_at(octant: Octant) -> OctantKind:
     place = octant.places
     start, end = triangles.ravel(), triangles[:, [1, 2, 0]].ravel()
     forward, backward = start * count + end, end * count + start
-    is_open = ~np.isin(forward, backward)
+    known = np.sort(forward)
+    position = np.minimum(np.searchsorted(known, backward), max(len(known) - 1, 0))
+    is_open = known[position] != backward
     on_one_face = ((place[start] == place[end]) & (place[start] != 1)).sum(axis=1)
     corners = octant.vertices[triangles]
     twice = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     # An open edge lies on exactly one face, every other one on none.
-    sound = len(np.unique(forward)) == len(forward) and bool((on_one_face == is_open).all())
-    sound &= len(np.unique(triangles)) == count
+    sound = bool((known[1:] > known[:-1]).all()) and bool((on_one_face == is_open).all())
+    sound &= bool((np.bincount(start, minlength=count) > 0).all())
     graph = coo_matrix((np.ones(len(start), bool), (start, end)), shape=(count, count))
     pieces, piece = connected_components(graph, directed=False) if count else (0, np.zeros(0, int))
     open_edges, open_piece = {}, {}

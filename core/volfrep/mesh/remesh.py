@@ -252,15 +252,15 @@ def flip(
     # flipped pair is (a, b, v) and (b, a, u).
     first = np.stack([corners[:, 0], corners[:, 1], ends[:, 1]], axis=1)
     second = np.stack([corners[:, 1], corners[:, 0], ends[:, 0]], axis=1)
-    old_normal = normals(vertices[triangles[pair[:, 0]]]) + normals(vertices[triangles[pair[:, 1]]])
+    each = normals(vertices[triangles])
+    old_normal = each[pair[:, 0]] + each[pair[:, 1]]
     size = np.linalg.norm(old_normal, axis=1)
-    allowed = ~exists & ~forbidden(corners[:, 0], corners[:, 1])
+    select = np.flatnonzero(~exists & ~forbidden(corners[:, 0], corners[:, 1]))
     for new in (first, second):
-        points = vertices[new]
-        normal = normals(points)
-        cosine = np.einsum("ij,ij->i", normal, old_normal)
-        allowed &= cosine > MIN_TURN_COSINE * size * np.linalg.norm(normal, axis=1)
-    select = np.flatnonzero(allowed)
+        normal = normals(vertices[new[select]])
+        cosine = np.einsum("ij,ij->i", normal, old_normal[select])
+        longest = size[select] * np.linalg.norm(normal, axis=1)
+        select = select[cosine > MIN_TURN_COSINE * longest]
     value = gain(ends[select], corners[select])
     select, value = select[value > 0], value[value > 0]
     if not len(select):

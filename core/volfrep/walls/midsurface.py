@@ -2,8 +2,9 @@
 """The surface that walls follow: true distances to it, its foot points and normals.
 
 A formula says on which side a point lies, but not how far off: thickness in mm needs the distance.
-A cloud of points on the surface tells the nearest place (with a periodic KD-tree, so that no other
-part of the surface is overlooked), and a few steps settle on the foot of the perpendicular there.
+A cloud of points on the surface tells the nearest place (with the copies about a period, so that no
+other part of the surface is overlooked), and a few steps settle on the foot of the perpendicular
+there.
 All lengths are in units of L.
 """
 
@@ -11,6 +12,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -19,12 +21,20 @@ from ..design.walls import PeriodicSurface
 from ..util.errors import VolfrepError
 from ..util.types import Floats
 
+if TYPE_CHECKING:
+    from scipy.spatial import cKDTree
+
 #: What formulas of surfaces are formulas of.
 VARIABLES = ("x", "y", "z")
 #: Step of the difference quotients that make the gradient.
 DIFFERENCE = 1e-5
 #: Samples along a cell for the cloud of points.
 CLOUD = 48
+#: So far beyond a period the cloud's copies are looked through first: all near places are there,
+#: and a tree that does not repeat answers twice as fast.
+COPIES_WITHIN = 0.25
+#: Points of the cloud in one leaf of that tree.
+LEAF = 32
 #: Steps to a foot point, and the longest of them: the cloud's points are nearer than that.
 FOOT_STEPS = 6
 LONGEST_STEP = 0.05
@@ -62,7 +72,9 @@ class Midsurface:
     expression: Expression
     cloud: Floats
     spacing: float
-    _tree: object
+    _near: cKDTree
+    _copies: Floats
+    _anywhere: cKDTree
 
     def values(self, points: Floats) -> Floats:
         """(n,) values of the formula."""
@@ -72,8 +84,12 @@ class Midsurface:
         """(n, 3) the nearest points of the cloud, and (n,) how far; infinite beyond `within`."""
         folded = points - np.floor(points)
         folded[folded >= 1.0] = 0.0
-        away, row = self._tree.query(folded, distance_upper_bound=within)  # type: ignore[attr-defined]
-        found = self.cloud[np.minimum(row, len(self.cloud) - 1)]
+        away, row = self._near.query(folded, distance_upper_bound=within)
+        found = self._copies[np.minimum(row, len(self._copies) - 1)]
+        far = np.flatnonzero(away > COPIES_WITHIN) if within > COPIES_WITHIN else ()
+        if len(far):
+            away[far], row = self._anywhere.query(folded[far], distance_upper_bound=within)
+            found[far] = self.cloud[np.minimum(row, len(self.cloud) - 1)]
         return found + np.round(points - found), away
 
     def feet(self, points: Floats, start: Floats | None = None, steps: int = FOOT_STEPS) -> Feet:
@@ -151,7 +167,18 @@ def midsurface(surface: PeriodicSurface) -> Midsurface:
         )
     cloud = found[near] % 1.0
     cloud[cloud >= 1.0] = 0.0
-    return Midsurface(expression, cloud, 1.0 / CLOUD, cKDTree(cloud, boxsize=1.0))
+    copies = _with_copies(cloud)
+    near_tree, anywhere = cKDTree(copies, LEAF), cKDTree(cloud, boxsize=1.0)
+    return Midsurface(expression, cloud, 1.0 / CLOUD, near_tree, copies, anywhere)
+
+
+def _with_copies(cloud: Floats) -> Floats:
+    """Points of the period from 0 to 1 and their copies that lie near to it."""
+    for axis in np.eye(3):
+        along = (cloud * axis).sum(axis=1)
+        low, high = cloud[along < COPIES_WITHIN], cloud[along > 1.0 - COPIES_WITHIN]
+        cloud = np.concatenate([cloud, low + axis, high - axis])
+    return cloud
 
 
 def values_and_gradients(expression: Expression, points: Floats) -> tuple[Floats, Floats]:

@@ -137,6 +137,15 @@ def test_cells_of_any_box_are_turned_and_still_cover_the_part():
     assert infill.part.report.watertight
 
 
-def test_random_points_are_not_turned():
-    with pytest.raises(VolfrepError, match="random points"):
-        LatticeSpec(network=RandomNetwork(), orientation=Orientation((0, 0, 1), 30.0))
+def test_random_points_are_neither_turned_nor_moved():
+    for where in ({"orientation": Orientation((0, 0, 1), 30.0)}, {"origin": (1, 2, 3)}):
+        with pytest.raises(VolfrepError, match="random points"):
+            LatticeSpec(network=RandomNetwork(), **where)
+
+
+def test_what_is_about_whole_cells_is_refused_beside_a_network():
+    for what in ({"activation": "inside"}, {"boundary": "whole", "shell": 1.0}):
+        with pytest.raises(VolfrepError, match="for cells and not for a network"):
+            LatticeSpec(network=RandomNetwork(), **what)
+    # Without a skin a whole network is one that nothing cuts.
+    assert LatticeSpec(network=RandomNetwork(), boundary="whole", shell=0).network

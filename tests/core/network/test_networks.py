@@ -286,6 +286,25 @@ def test_what_is_wrong_with_a_random_network(change, message):
         RandomNetwork(**change)
 
 
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ("voronoi --origin 1,2,3", "--origin has no effect without --network cells or file"),
+        ("voronoi --cell Octet", "--cell has no effect with --network voronoi"),
+        ("voronoi --network-points 9 --cell-size 4", "--cell-size has no effect"),
+        ("voronoi --activation inside", "choice of active cells is for cells"),
+        ("voronoi --boundary whole", "boundary of whole cells is for cells"),
+        ("file --network-file {} --cell Octet", "which holds struts"),
+        ("file --network-file {} --network-thickness 3", "--network-thickness is for layers"),
+        ("file --network-file {} --network-layers 3", "--network-layers is for layers"),
+    ],
+)
+def test_an_option_without_effect_on_a_network_is_refused(options, said, tmp_path, capsys):
+    words = options.format(written(tmp_path)[1]).split()
+    assert cli.run(["fill", "no.stl", "-o", str(tmp_path / "x.stl"), "--network", *words]) == 2
+    assert said in capsys.readouterr().err
+
+
 def test_on_the_command_line(tmp_path, capsys):
     box, out = tmp_path / "box.stl", tmp_path / "out.stl"
     samples_box = samples.box((20.0, 20.0, 20.0))

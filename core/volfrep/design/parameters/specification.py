@@ -182,7 +182,7 @@ def values_of(spec: LatticeSpec) -> dict[str, Any]:
             )
         found["network"], found["network_file"] = "file", spec.network.source
         found["network_thickness"] = abs(spec.network.thickness)
-        found["network_layers"] = spec.network.layers
+        found["network_layers"] = spec.network.layers if spec.network.thickness else 0
         found["network_reversed"] = spec.network.thickness < 0.0
     elif isinstance(spec.network, RandomNetwork):
         found |= {
@@ -354,12 +354,19 @@ def _network(used: Mapping[str, Any], say: Naming) -> GivenNetwork | RandomNetwo
             raise VolfrepError(f"{say('network')} file needs {say('network_file')}: give it.")
         thickness, layers = used["network_thickness"], used["network_layers"]
         cell = used["cell"]
-        return read_network(
+        made = read_network(
             used["network_file"],
             find_cell(cell, used["cell_values"]) if isinstance(cell, str) else cell,
             -thickness if used["network_reversed"] else thickness,
             layers or max(1, round(thickness / used["cell_size"])),
         )
+        for name in ("network_thickness", "network_layers", "network_reversed"):
+            if used[name] and not made.thickness:
+                raise VolfrepError(
+                    f"{say(name)} is for layers of cells upon quadrilaterals, of which none are "
+                    f"made of '{used['network_file']}': leave it out."
+                )
+        return made
     if used["network"] == "faces":
         if used["network_faces"] is None:
             raise VolfrepError(

@@ -128,16 +128,16 @@ PARAMETERS = (
         "Radius of the round between struts where they meet; 0 for none",
         default=0.0, needs=(OF_STRUTS,), freecad_name="JointFillet", in_panel=True,
     ),
+    *WALL,
+    *NETWORK,
     Parameter(
         "origin", "point", "Lattice",
         "A point that is to be a corner of a cell; of a network of a file, where its own origin is "
         "to lie",
         switch="Put a corner of a cell at Origin; otherwise the cells start at the corner of the "
         "solid",
-        otherwise="the corner of the part's box; of a file 0, 0, 0", of_block=False,
+        otherwise="the corner of the part's box; of a file 0, 0, 0", needs=GIVEN, of_block=False,
     ),
-    *WALL,
-    *NETWORK,
     Parameter(
         "activation", "choice", "Boundary",
         "Which cells hold a lattice: those that touch the inside, whose centre lies inside, or "

@@ -24,8 +24,9 @@ from ...util.progress import Monitor
 from ...util.types import Floats
 from .stl import BLOCK_FACETS, FACET, Facets, facets_at, mesh_blocks, write_facets
 
-#: A facet of the file whose numbers are moved at once.
-_RECORD = np.dtype([("numbers", "V48"), ("attribute", "<u2")])
+#: A facet of the file whose numbers are moved some at once: numpy is slow at filling records number
+#: by number.
+_RECORD = np.dtype([("normal", "V12"), ("corners", "V36"), ("attribute", "<u2")])
 
 
 def write_octants_stl(
@@ -122,13 +123,10 @@ def _facets(grid: OctantGrid, corner: NDArray[np.int64], pattern: _Pattern) -> F
     copies, facets = len(corner), len(pattern.normals)
     places = placed(grid, corner[:, None, :], pattern.steps)
     vertices = pattern.motion(places).astype(np.float32)
-    numbers = np.empty((copies, facets, 12), np.float32)
-    numbers[:, :, :3] = pattern.normals
-    taken = np.take(vertices, pattern.corners, axis=1, mode="clip")
-    numbers[:, :, 3:] = taken.reshape(copies, facets, 9)
-    # As one item a facet: numpy is slow at filling records number by number.
+    taken = np.take(vertices, pattern.corners, axis=1, mode="clip").reshape(copies, facets, 9)
     records = np.zeros((copies, facets), _RECORD)
-    records["numbers"] = numbers.view(_RECORD["numbers"])[:, :, 0]
+    records["normal"] = pattern.normals.view(_RECORD["normal"])[:, 0]
+    records["corners"] = taken.view(_RECORD["corners"])[:, :, 0]
     return records.view(FACET).ravel()
 
 

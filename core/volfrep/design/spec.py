@@ -173,14 +173,11 @@ class LatticeSpec:
             raise VolfrepError(
                 f"There is no output '{self.output}': choose one of {', '.join(OUTPUTS)}."
             )
-        if self.shell == 0 and (self.open_faces or self.drains is not None):
+        of_skin = self.open_faces or self.face_skins or self.keep_solid or self.drains is not None
+        if self.shell == 0 and of_skin:
             raise VolfrepError(
-                "Open faces and drain holes need a skin: give a shell thickness above 0."
-            )
-        if self.shell == 0 and (self.face_skins or self.keep_solid):
-            raise VolfrepError(
-                "Faces with a skin of their own, and what is kept solid, need a skin that they "
-                "belong to: give a shell thickness above 0."
+                "Open faces, drain holes, faces with a skin of their own, and what is kept solid, "
+                "need a skin that they belong to: give a shell thickness above 0."
             )
         if self.drains is not None and self.output == "lattice":
             raise VolfrepError("Drain holes go through the skin of a part: choose the output part.")
@@ -195,9 +192,7 @@ class LatticeSpec:
             "target of stiffness": self.target is not None and self.target.aim == "stiffness",
             "wall": self.surface is not None,
             "choice of active cells": self.activation != "touching",
-            "boundary of whole cells": self.boundary == "whole"
-            and self.shell > 0.0
-            and self.output == "part",
+            "boundary of whole cells": self.boundary == "whole" and self.with_skin,
         }
         for what, is_given in given.items():
             if is_given:
@@ -208,12 +203,10 @@ class LatticeSpec:
                     )
                 raise VolfrepError(f"A {what} is for cells and not for a network: leave it out.")
         if isinstance(self.network, RandomNetwork):
-            for what, moves, value in (
-                ("An orientation", "turns", self.orientation), ("An origin", "moves", self.origin),
-            ):  # fmt: skip
+            for what, value in (("orientation", self.orientation), ("origin", self.origin)):
                 if value is not None:
                     raise VolfrepError(
-                        f"{what} {moves} a lattice that is given, and not random points: leave it "
+                        f"An {what} moves a lattice that is given, and not random points: leave it "
                         "out, or take another seed."
                     )
         own = isinstance(self.network, GivenNetwork) and len(self.network.radii)
@@ -308,8 +301,7 @@ class LatticeSpec:
     @property
     def is_graded(self) -> bool:
         """Whether the lattice is anything but equal cells along x, y, z."""
-        parts = (self.size_grading, self.radius_grading, self.cell_map, self.orientation)
-        return any(part is not None for part in parts)
+        return self.varies or self.orientation is not None
 
     @property
     def varies(self) -> bool:

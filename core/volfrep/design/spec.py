@@ -58,9 +58,9 @@ class LatticeSpec:
         strut_radius: r, of every strut.
         shell: thickness of the closed skin; 0 trims the lattice at the outer surface.
         resolution: facets along L, and never fewer than struts need (`coarsest_resolution`); or
-        deviation: distance in mm between a facet and the exact strut, kept within 1.5 times on
-            99 % of the surface, and within 3.5 times where struts meet. With neither,
-            the deviation is `DEFAULT_RELATIVE_DEVIATION` r.
+        deviation: largest distance in mm between a facet and the exact struts and joints, kept
+            within 1.5 times but for cells that docs/limits.md names. With neither, the
+            deviation is `DEFAULT_RELATIVE_DEVIATION` r.
         activation: ``touching`` (every cell that touches the domain), ``centre`` (cells whose
             centre lies inside it: the rule of the paper) or ``inside`` (cells that lie wholly
             inside it).

@@ -250,8 +250,8 @@ class Resolution:
 
     Attributes:
         facets: along L, and never fewer than struts need (`coarsest`); or
-        deviation: distance in mm between a facet and the exact strut, kept within 1.5 times on
-            99 % of the surface, and within 3.5 times where struts meet. With neither, the
+        deviation: largest distance in mm between a facet and the exact struts and joints, kept
+            within 1.5 times but for cells that docs/limits.md names. With neither, the
             deviation is `DEFAULT_RELATIVE_DEVIATION` r.
     """
 

@@ -34,8 +34,9 @@ from .untangle import proper_border
 
 #: Edges shorter than this, in units of the wanted edge, are collapsed.
 COLLAPSE_BELOW = 0.7
-#: No collapse makes an edge longer than this, in units of the wanted edge.
-COLLAPSE_UP_TO = 1.5
+#: No collapse makes an edge longer than this, in units of the wanted edge: how far an edge strays
+#: from a strut grows with the square of its length.
+COLLAPSE_UP_TO = 1.3
 #: Passes of flips at a time.
 FLIP_PASSES = 2
 #: A vertex may move this far, in units of the wanted edge, to reach a crease.
@@ -85,7 +86,7 @@ def _relax(surface: Surface, *, border: bool = False, passes: int = 1) -> Surfac
     pins = surface.pinned.sum(axis=1)
     open_pairs = table.ends[table.triangles[:, 1] < 0]
     rank = surface.rank
-    crease_pairs = table.ends[_same_crease(surface, table.ends)]
+    crease_pairs = table.ends[same_crease(surface, table.ends)]
     for _ in range(passes):
         vertices = surface.vertices
         if border:
@@ -103,7 +104,7 @@ def _relax(surface: Surface, *, border: bool = False, passes: int = 1) -> Surfac
     return surface
 
 
-def _same_crease(surface: Surface, ends: Ints) -> Bools:
+def same_crease(surface: Surface, ends: Ints) -> Bools:
     """Whether an edge runs along a crease: its ends are held by two common primitives."""
     one, two = surface.held[ends[:, 0]], surface.held[ends[:, 1]]
     common = (one[:, :, None] == two[:, None, :]) & (one[:, :, None] >= 0)
@@ -116,7 +117,7 @@ def _collapse(surface: Surface) -> tuple[Surface, Ints]:
 
     def may_slide(gone: Ints, kept: Ints) -> Bools:
         free = rank[gone] == 0
-        along = (rank[gone] == 1) & _same_crease(surface, np.stack([gone, kept], axis=1))
+        along = (rank[gone] == 1) & same_crease(surface, np.stack([gone, kept], axis=1))
         twins = (rank[gone] == 2) & (surface.held[gone] == surface.held[kept]).all(axis=1)
         result: Bools = free | along | twins
         return result

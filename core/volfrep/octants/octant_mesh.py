@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 
 import numpy as np
@@ -17,8 +17,9 @@ from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 from ..util.types import Floats, Ints
 from . import sdf
+from .border_refinement import ROUNDS, finer_border
 from .constrained_mesh import Surface
-from .isotropic_remesh import even_out, flipped
+from .isotropic_remesh import even_out
 from .octant import (
     STEPS,
     Octant,
@@ -29,17 +30,30 @@ from .octant import (
     sample_octant,
 )
 from .octant_spec import OctantSpec
-from .refinement import STRAYS, split_where_it_strays
+from .pieces import Meshed
+from .refinement import all_stray, coarser, flipped_nearer, split_where_it_strays
 from .sdf import Field, Primitives
-from .surface_fit import fit, fit_facets
-from .untangle import untangled
+from .surface_fit import fit_border, fit_facets
+from .untangle import crossing_facets, untangled
 
 #: Samples are clamped to so many steps: farther from the surface only their sign matters.
 SEEN_STEPS = 2.0
 #: Pieces are meshed together up to about this many vertices.
 BATCH_VERTICES = 150_000
-#: So often facets are divided where they stray.
-REFINEMENTS = 3
+#: How far facets may stray, in deviations, after vertices that are not needed are merged, and after
+#: facets that stray are divided: 1.5 is what is promised.
+MERGED_TO = 1.15
+DIVIDED_TO = 1.45
+#: Facets that stray by more than this part of it are looked at closely.
+LOOKED_AT = 0.8
+#: So often, at most, facets are divided.
+REFINEMENTS = 16
+#: Steps of the fit after vertices are merged, and after facets are divided.
+REFITS = (2, 4)
+#: Of a piece no more facets are divided when it has so many times those that it began with.
+GROWTH = 2.0
+#: Nor when in so many rounds its worst facet has come nearer by less than this.
+STALLED, NEARER = 8, 0.95
 
 
 class FacetsCross(VolfrepError):
@@ -49,9 +63,10 @@ class FacetsCross(VolfrepError):
 class _Manner(Enum):
     """How octants are meshed: those whose facets cross once more, in the next manner."""
 
-    REFINED = 0
-    EVEN = 1
-    GENTLE = 2
+    COARSE_AND_FINE = 0
+    FINE = 1
+    EVEN = 2
+    GENTLE = 3
 
 
 def octant_spec(cell_size: float, struts: Struts, detail: Resolution) -> OctantSpec:
@@ -112,12 +127,18 @@ def _mesh(
         while done < len(same):
             batch = _Batch.of(spec, {key: primitives[key] for key in same[done:]})
             remeshed, origin = even_out(batch.surface, manner is _Manner.GENTLE)
-            fitted, home = fit(remeshed), batch.surface.vertices[origin]
-            if manner is _Manner.REFINED:
-                fitted, home, origin = _refined(fitted, home, origin, STRAYS * spec.deviation)
-            fitted, crossed = untangled(fitted, home)
+            meshed = _bordered(remeshed, batch, origin, DIVIDED_TO * spec.deviation)
+            if manner is _Manner.COARSE_AND_FINE:
+                fine = _refined(_coarsened(meshed, spec.deviation), spec.deviation)
+                # To draw facets apart moves them off the surface, and smaller ones less.
+                fitted, order, crossed = fine.surface, fine.order, crossing_facets(fine.surface)
+            else:
+                if manner is _Manner.FINE:
+                    meshed = _refined(meshed, spec.deviation)
+                fitted, crossed = untangled(meshed.surface, meshed.home)
+                order = meshed.order
             bad = np.unique(fitted.piece[fitted.triangles[crossed, 0]])
-            result.update(batch.split(fitted, origin))
+            result.update(batch.split(fitted, order))
             todo += [batch.keys[k] for k in bad]
             done += len(batch.keys)
             monitor.tick(done / len(same))
@@ -129,21 +150,59 @@ def _mesh(
     )
 
 
-def _refined(
-    fitted: Surface, home: Floats, origin: Ints, farthest: float
-) -> tuple[Surface, Floats, Ints]:
-    """The surface with more vertices where its facets stray by more than `farthest`, mm.
+def _bordered(remeshed: Surface, batch: _Batch, origin: Ints, farthest: float) -> Meshed:
+    """The surface fitted, with more vertices where its border strays by more than that, mm.
 
-    That is where struts meet. With where its vertices came from, and from which ones.
+    Every octant that shares a face has the same there, however it is meshed inside.
     """
-    found: Ints | None = None
-    for _ in range(REFINEMENTS):
-        finer, parents, found = split_where_it_strays(fitted, farthest, found)
-        if finer is fitted:
+    order = np.concatenate([piece.order for piece in batch.raw])[origin]
+    found = Meshed(fit_border(remeshed), batch.surface.vertices[origin], order)
+    for _ in range(ROUNDS):
+        finer, parents = finer_border(found.surface, farthest)
+        if finer is found.surface:
             break
-        home, origin = home[parents].mean(axis=1), origin[parents[:, 0]]
-        fitted = fit_facets(flipped(finer))
-    return fitted, home, origin
+        found = found.of(finer, parents)
+    return replace(found, surface=fit_facets(found.surface))
+
+
+def _coarsened(meshed: Meshed, deviation: float) -> Meshed:
+    """With vertices merged that facets within a deviation in mm do without."""
+    farthest = MERGED_TO * deviation
+    fewer, stay = coarser(meshed.surface, farthest)
+    if len(stay) == len(meshed.home):
+        return meshed
+    fewer = fit_facets(flipped_nearer(fewer, farthest), farthest, REFITS[0])
+    return meshed.of(fewer, stay)
+
+
+def _refined(meshed: Meshed, deviation: float) -> Meshed:
+    """With more vertices where facets stray, which is where struts meet, until none does."""
+    farthest = DIVIDED_TO * deviation
+    done: Meshed | None = None
+    worst: list[Floats] = []
+    most = GROWTH * np.bincount(meshed.surface.piece[meshed.surface.triangles[:, 0]])
+    for _ in range(REFINEMENTS):
+        surface = meshed.surface
+        if not len(surface.triangles):
+            break
+        owner = surface.piece[surface.triangles[:, 0]]
+        stray = all_stray(surface, LOOKED_AT * farthest)
+        worst.append(np.zeros(len(most)))
+        np.maximum.at(worst[-1], owner, stray)
+        far = worst[-1] > farthest
+        far &= np.bincount(owner, minlength=len(most)) < most
+        if len(worst) > STALLED:
+            far &= worst[-1] < NEARER * worst[-1 - STALLED]
+        rest = meshed.where(~far[surface.piece])
+        done = rest if done is None else done.joined(rest)
+        meshed = meshed.where(far[surface.piece])
+        stray = stray[far[owner]]
+        finer, parents = split_where_it_strays(meshed.surface, stray, farthest)
+        if finer is meshed.surface:
+            break
+        finer = fit_facets(flipped_nearer(finer, farthest), farthest, REFITS[1])
+        meshed = meshed.of(finer, parents)
+    return meshed if done is None else done.joined(meshed)
 
 
 def _alike(
@@ -226,9 +285,8 @@ class _Batch:
         )
         return _Batch(used, raw, solid, whole, 0.5 * spec.cell_size / STEPS)
 
-    def split(self, refined: Surface, origin: Ints) -> dict[OctantKey, Octant]:
+    def split(self, refined: Surface, order: Ints) -> dict[OctantKey, Octant]:
         """The refined surface cut into the octants again."""
-        order_there = np.concatenate([piece.order for piece in self.raw])[origin]
         # Pieces are runs of vertices.
         begin = np.searchsorted(refined.piece, np.arange(len(self.raw) + 1))
         owner = refined.piece[refined.triangles[:, 0]]
@@ -240,7 +298,7 @@ class _Batch:
             vertices = np.rint(refined.vertices[part] / self.step) * self.step
             triangles = refined.triangles[by_piece[cuts[k] : cuts[k + 1]]] - begin[k]
             result[key] = ranked_octant(
-                vertices, triangles, refined.place[part], order_there[part],
+                vertices, triangles, refined.place[part], order[part],
                 self.solid_corners[k],
             )  # fmt: skip
         return result

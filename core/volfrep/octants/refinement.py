@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Facets divided where they stray from the exact surface: in the crotches where struts meet.
+"""Facets as large as the deviation allows, and no larger: fewer along struts, more in crotches.
 
-Even facets that are right along a strut bridge the creases between struts, where the surface bends
-within less than their edges. There they get more vertices, and the struts between keep theirs.
+Even facets are finer than needed along a strut, which is straight, and bridge the creases where
+struts meet, where the surface bends within less than their edges. Vertices that nothing needs are
+merged into their neighbours; edges are flipped to where both their facets are nearer; facets that
+stray are divided.
 """
 
 from __future__ import annotations
@@ -10,55 +12,199 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..mesh import remesh
+from ..util.ragged import rows_of
 from ..util.types import Bools, Floats, Ints
 from .constrained_mesh import Surface, crease_points, moved, shortened
+from .isotropic_remesh import same_crease
 
-#: Facets may stray by so many times the deviation that was asked for.
-STRAYS = 1.5
-#: Where edges are looked at, in shares of their length.
-LOOK_AT = (0.25, 0.5, 0.75)
+#: Where facets are looked at, in barycentric coordinates: at ten points inside, and the middles of
+#: their sides.
+LOOK_AT = np.array(
+    [(i, j, 6 - i - j) for i in range(7) for j in range(7 - i) if i * j * (6 - i - j)]
+    + [(3, 3, 0), (0, 3, 3), (3, 0, 3)]
+) / 6.0  # fmt: skip
+#: Where those are that need a close look: between several struts some one point strays most.
+LOOK_CLOSELY = np.array([(i, j, 12 - i - j) for i in range(13) for j in range(13 - i)]) / 12.0
+#: And edges, in shares of their length.
+LOOK_ALONG = tuple(k / 12.0 for k in range(1, 12))
 #: Edges shorter than this, in wanted edges, are not divided.
-SHORTEST = 0.25
+SHORTEST = 0.05
 #: A crease nearer to an end of an edge than this, in shares of its length, does not divide it.
 NEAR_END = 0.25
+#: Merging makes no edge longer than this, in wanted edges, no facet of a worse shape (2 inradius /
+#: circumradius), and turns none by more than this cosine.
+LONGEST = 1.5
+SHAPE = 0.5
+TURN = 0.7
+#: A flip makes no facet of a worse shape than this.
+FLIPPED_SHAPE = 0.05
+#: By so much of the deviation a flip has to bring facets nearer, and by so much improve their shape
+#: where they are near enough.
+GAIN = 0.02
+BETTER = 1e-3
+FLIP_PASSES = 3
 
 
-def split_where_it_strays(
-    surface: Surface, farthest: float, before: Ints | None = None
-) -> tuple[Surface, Ints, Ints]:
+def strays(surface: Surface, corners: Ints, looks: Floats = LOOK_AT) -> Floats:
+    """(k,) how far facets of (k, 3) vertices stray from the exact surface, mm.
+
+    Looked at in the (q, 3) barycentric coordinates `looks`.
+    """
+    if not len(corners):
+        return np.zeros(0)
+    points = np.einsum("qi,mik->mqk", looks, surface.vertices[corners])
+    values = surface.field.rows(corners[:, 0]).values_of_groups(points)
+    result: Floats = np.abs(values).max(axis=1)
+    return result
+
+
+def all_stray(surface: Surface, closely: float = np.inf) -> Floats:
+    """(m,) how far the facets stray from the exact surface, mm.
+
+    Looked at closely between several struts, and where that is more than `closely`, mm.
+    """
+    result = strays(surface, surface.triangles)
+    nearest = surface.field.nearest(surface.vertices)[1][surface.triangles]
+    look = np.flatnonzero((nearest != nearest[:, :1]).any(axis=1) | (result > closely))
+    result[look] = strays(surface, surface.triangles[look], LOOK_CLOSELY)
+    return result
+
+
+def edges_stray(surface: Surface, ends: Ints) -> Floats:
+    """(k,) how far edges of (k, 2) vertices stray from the exact surface, mm."""
+    a, b = surface.vertices[ends[:, 0]], surface.vertices[ends[:, 1]]
+    field = surface.field.rows(ends[:, 0])
+    result: Floats = np.zeros(len(ends))
+    for share in LOOK_ALONG:
+        result = np.maximum(result, np.abs(field.values(a + share * (b - a))))
+    return result
+
+
+def coarser(surface: Surface, farthest: float) -> tuple[Surface, Ints]:
+    """The surface without vertices inside that its facets do without.
+
+    Args:
+        surface: fitted.
+        farthest: facets that are made by merging stray no farther, mm.
+
+    Returns:
+        The surface; which of its vertices before each one was.
+    """
+    vertices, triangles, rank = surface.vertices, surface.triangles, surface.rank
+    start, around = remesh.grouped(
+        triangles.ravel(), np.repeat(np.arange(len(triangles)), 3), len(vertices)
+    )
+
+    def may_slide(gone: Ints, kept: Ints) -> Bools:
+        on_crease = (rank[gone] == 1) & same_crease(surface, np.stack([gone, kept], axis=1))
+        result: Bools = (rank[gone] == 0) | on_crease
+        return result
+
+    def merge(gone: Ints, kept: Ints) -> tuple[Floats, Floats]:
+        rows, owner = rows_of(start, gone)
+        corners = triangles[around[rows]]
+        stays = ~(corners == kept[owner][:, None]).any(axis=1)
+        corners, owner = corners[stays], owner[stays]
+        after = np.where(corners == gone[owner][:, None], kept[owner][:, None], corners)
+        cost = np.zeros(len(gone))
+        # How far facets stray costs most to find: only of those whose shape is good.
+        cost[owner[~stays_good(vertices[corners], vertices[after])]] = np.inf
+        good = cost[owner] < np.inf
+        np.maximum.at(cost, owner[good], strays(surface, after[good]))
+        cost[cost > farthest] = np.inf
+        return cost, vertices[kept]
+
+    def stays_good(before: Floats, after: Floats) -> Bools:
+        old, new = remesh.normals(before), remesh.normals(after)
+        cosine = np.einsum("ij,ij->i", old, new)
+        size = np.linalg.norm(old, axis=1) * np.linalg.norm(new, axis=1)
+        shape = remesh.qualities(after)
+        good = (shape > SHAPE) | (shape > remesh.qualities(before))
+        result: Bools = good & (cosine > TURN * size) & (size > 0)
+        return result
+
+    longest = LONGEST * surface.edge
+    rules = remesh.Rules(rank, may_slide, surface.share_face, stays_good, merge)
+    left, merged, renumber = remesh.collapse(vertices, triangles, rules, longest, longest)
+    stay = np.flatnonzero(renumber >= 0)
+    smaller = replace(
+        surface, vertices=left, triangles=merged, place=surface.place[stay],
+        held=surface.held[stay], field=surface.field.rows(stay), piece=surface.piece[stay],
+    )  # fmt: skip
+    return smaller, stay
+
+
+def flipped_nearer(surface: Surface, farthest: float) -> Surface:
+    """Edges flipped where that brings their facets nearer, or makes those near enough more even."""
+    vertices, triangles, count = surface.vertices, surface.triangles, len(surface.vertices)
+    stray = strays(surface, triangles)
+
+    def gain(ends: Ints, corners: Ints) -> Floats:
+        (a, b), (c, d) = ends.T, corners.T
+        shape = remesh.worse_quality(vertices[c], vertices[d], vertices[b], vertices[a])
+        better = shape - BETTER
+        better -= remesh.worse_quality(vertices[a], vertices[b], vertices[c], vertices[d])
+        before = stray[_facets_beside(triangles, ends, count)].max(axis=1)
+        look = np.flatnonzero(((better > 0.0) | (before > farthest)) & (shape > FLIPPED_SHAPE))
+        (a, b), (c, d) = ends[look].T, corners[look].T
+        after = np.full(len(ends), np.inf)
+        after[look] = np.maximum(
+            strays(surface, np.stack([c, d, b], axis=1)),
+            strays(surface, np.stack([d, c, a], axis=1)),
+        )
+        nearer = (before - after) / farthest - GAIN
+        return np.where(np.maximum(before, after) > farthest, nearer, better)
+
+    for _ in range(FLIP_PASSES):
+        before = triangles
+        triangles, flips = remesh.flip(vertices, triangles, gain, surface.share_face)
+        if not flips:
+            break
+        new = (triangles != before).any(axis=1)
+        stray[new] = strays(surface, triangles[new])
+    return replace(surface, triangles=triangles)
+
+
+def _facets_beside(triangles: Ints, ends: Ints, count: int) -> Ints:
+    """(k, 2) the facets on both sides of inner edges with (k, 2) ends."""
+    key = (triangles * np.int64(count) + triangles[:, [1, 2, 0]]).ravel()
+    order = np.argsort(key)
+    wanted = ends * np.int64(count) + ends[:, ::-1]
+    result: Ints = order[np.searchsorted(key[order], wanted)] // 3
+    return result
+
+
+def split_where_it_strays(surface: Surface, stray: Floats, farthest: float) -> tuple[Surface, Ints]:
     """The surface with its inner edges divided where these, or facets beside them, stray.
 
     The border stays, since the octant beyond has the same.
 
     Args:
         surface: fitted.
+        stray: (m,) how far its facets do, mm.
         farthest: facets may stray so far from the exact surface, mm.
-        before: (pieces,) how many edges of each piece were found the last time: where it is no
-            less now, what strays is not for want of vertices, and the piece stays.
 
     Returns:
-        The surface, the same one where nothing strays, its vertices still piece by piece; (n, 2)
-        which ones of before each of its vertices is, or lies between; and (pieces,) how many edges
-        were found.
+        The surface, the same one where nothing strays that can be divided, its vertices still piece
+        by piece; (n, 2) which ones of before each of its vertices is, or lies between.
     """
     count = len(surface.vertices)
     same = np.repeat(np.arange(count)[:, None], 2, axis=1)
-    if not count:
-        return surface, same, np.zeros(0, np.int64)
     table = remesh.edges(surface.triangles, count)
     inner = np.flatnonzero(table.triangles[:, 1] >= 0)
     if not len(inner):
-        return surface, same, np.zeros(surface.piece.max() + 1, np.int64)
+        return surface, same
     ends = table.ends[inner]
-    bad = _edges_stray(surface, ends) > farthest
+    bad = edges_stray(surface, ends) > farthest
     # A facet that strays though its edges do not is divided at its longest inner one.
     a, b = surface.vertices[ends[:, 0]], surface.vertices[ends[:, 1]]
     length = np.linalg.norm(b - a, axis=1)
     touched = np.zeros(len(surface.triangles), bool)
     touched[table.triangles[inner[bad]]] = True
-    strays = np.flatnonzero(~touched & (_middles_stray(surface) > farthest))
+    far = np.flatnonzero(~touched & (stray > farthest))
     longest = np.full(len(touched), -1)
     by_length = np.argsort(length, kind="stable")
     for side in (0, 1):
@@ -67,15 +213,11 @@ def split_where_it_strays(
         better[here] = by_length  # the last one, and so the longest, stays
         take = (better >= 0) & ((longest < 0) | (length[better] > length[longest]))
         longest[take] = better[take]
-    chosen = longest[strays]
+    chosen = longest[far]
     bad[chosen[chosen >= 0]] = True
     bad &= length > SHORTEST * surface.edge
-    piece = surface.piece[ends[:, 0]]
-    found = np.bincount(piece[bad], minlength=surface.piece.max() + 1)
-    if before is not None:
-        bad &= (found < before)[piece]
     if not bad.any():
-        return surface, same, found
+        return surface, same
     low, high = ends[bad].min(axis=1), ends[bad].max(axis=1)
     wanted = np.unique(low * np.int64(count) + high)
     parents: list[Ints] = []
@@ -87,29 +229,40 @@ def split_where_it_strays(
         return result
 
     _, triangles = remesh.split(surface.vertices, surface.triangles, is_wanted)
-    return *_with_vertices(surface, triangles, parents[0]), found
+    inside = np.ones((len(parents[0]), 3), np.int8)
+    points = _between(surface, parents[0])
+    return with_vertices(surface, triangles, parents[0], points, inside)
 
 
-def _with_vertices(surface: Surface, triangles: Ints, ends: Ints) -> tuple[Surface, Ints]:
-    """The surface with vertices between ends, on the exact surface, put to their pieces."""
+def with_vertices(
+    surface: Surface, triangles: Ints, ends: Ints, points: Floats, place: NDArray[np.int8]
+) -> tuple[Surface, Ints]:
+    """The surface with vertices between others, all put to their pieces.
+
+    Args:
+        surface: before.
+        triangles: (m, 3) whose numbers beyond those of its vertices are the new ones.
+        ends: (k, 2) vertices that the new ones are between.
+        points: (k, 3) where these lie, mm.
+        place: (k, 3) their places, as in `Surface`.
+
+    Returns:
+        The surface; (n, 2) which ones of before each of its vertices is, or lies between.
+    """
     count = len(surface.vertices)
     parents = np.concatenate([np.repeat(np.arange(count)[:, None], 2, axis=1), ends])
     order = np.argsort(surface.piece[parents[:, 0]], kind="stable")
     rank = np.empty(len(order), np.int64)
     rank[order] = np.arange(len(order))
     parents = parents[order]
-    fresh = np.concatenate([np.zeros(count, bool), np.ones(len(ends), bool)])[order]
-    vertices = surface.vertices[parents].mean(axis=1)
-    vertices[rank[count:]] = _between(surface, ends)
-    place = surface.place[parents[:, 0]].copy()
-    place[fresh] = 1
-    held = surface.held[parents[:, 0]].copy()
-    held[fresh] = -1
+    held = np.concatenate([surface.held, np.full((len(ends), 3), -1)])
     finer = replace(
-        surface, vertices=surface.vertices[parents[:, 0]], triangles=rank[triangles], place=place,
-        held=held, field=surface.field.rows(parents[:, 0]), piece=surface.piece[parents[:, 0]],
+        surface, vertices=np.concatenate([surface.vertices, points])[order],
+        triangles=rank[triangles], place=np.concatenate([surface.place, place])[order],
+        held=held[order], field=surface.field.rows(parents[:, 0]),
+        piece=surface.piece[parents[:, 0]],
     )  # fmt: skip
-    return moved(finer, vertices), parents
+    return moved(finer, finer.vertices), parents
 
 
 def _between(surface: Surface, ends: Ints) -> Floats:
@@ -134,20 +287,3 @@ def _between(surface: Surface, ends: Ints) -> Floats:
         good &= (off > NEAR_END * length[across]) & (off < length[across])
     points[across[good]] = crease[good]
     return points
-
-
-def _edges_stray(surface: Surface, ends: Ints) -> Floats:
-    """(k,) how far edges stray from the exact surface, mm."""
-    a, b = surface.vertices[ends[:, 0]], surface.vertices[ends[:, 1]]
-    field = surface.field.rows(ends[:, 0])
-    result: Floats = np.zeros(len(ends))
-    for share in LOOK_AT:
-        result = np.maximum(result, np.abs(field.values(a + share * (b - a))))
-    return result
-
-
-def _middles_stray(surface: Surface) -> Floats:
-    """(m,) how far the middles of facets stray from the exact surface, mm."""
-    middles = surface.vertices[surface.triangles].mean(axis=1)
-    result: Floats = np.abs(surface.field.rows(surface.triangles[:, 0]).values(middles))
-    return result

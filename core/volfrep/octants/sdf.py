@@ -223,6 +223,30 @@ class Field:
         rounded = self.fillet - np.sqrt(np.add.reduceat(reach**2, self.start[:-1]))
         return np.where(least < self.fillet, rounded, least)
 
+    def values_of_groups(self, points: Floats) -> Floats:
+        """(n, q) signed distances in mm of (n, q, 3) points, those of a row near each other.
+
+        Primitives that are farther than others from a whole row are left out.
+        """
+        middle = points.mean(axis=1)
+        offset = points - middle[:, None]
+        radius = np.sqrt(np.einsum("nqi,nqi->nq", offset, offset).max(axis=1))
+        # How much faster than its argument the distance of a cone's cap may change.
+        radius = radius * (np.sqrt(2.0) if self.primitives.slope.any() else 1.0) * (1.0 + 1e-9)
+        owner, repeated = self._pairs(middle)
+        values = distances(repeated, self.primitives.take(self.near))
+        least = np.minimum.reduceat(values, self.start[:-1])
+        seen = values <= np.maximum(least + 2.0 * radius, self.fillet + radius)[owner]
+        owner, near = owner[seen], self.near[seen]
+        start = np.searchsorted(owner, np.arange(len(points)))
+        values = distances(points[owner], self.primitives.take(near[:, None]))
+        nearest: Floats = np.minimum.reduceat(values, start, axis=0)
+        if self.fillet <= 0.0:
+            return nearest
+        reach = np.maximum(self.fillet - values, 0.0)
+        rounded = self.fillet - np.sqrt(np.add.reduceat(reach**2, start, axis=0))
+        return np.where(nearest < self.fillet, rounded, nearest)
+
     def values_and_gradients(self, points: Floats) -> tuple[Floats, Floats]:
         """(n,) signed distances in mm and their (n, 3) gradients."""
         if self.fillet <= 0.0:

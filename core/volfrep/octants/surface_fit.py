@@ -31,6 +31,8 @@ FIT_PASSES = 4
 DRIFT = 0.03
 #: No step is longer than this part of the shortest edge of its vertex.
 STEP = 0.3
+#: Facets that stray weigh more in the fit: by this, and the square of how far they stray.
+STRAYING = 20.0
 #: The last correction of the volume moves no vertex further than this, in wanted edges.
 BALANCE_REACH = 0.05
 
@@ -39,21 +41,32 @@ QUADRATURE = np.array([[4, 1, 1], [1, 4, 1], [1, 1, 4]]) / 6.0
 QUADRATURE_WEIGHTS = np.full(3, 1.0 / 3.0)
 
 
-def fit(remeshed: Surface) -> Surface:
-    """The facets fitted to the exact surface, and their volume put right.
+def fit_border(remeshed: Surface) -> Surface:
+    """The border fitted, each vertex in its face, as the octant beyond does it.
 
     Args:
         remeshed: what `volfrep.octants.isotropic_remesh.even_out` made.
     """
     if not len(remeshed.triangles):
         return remeshed
-    return fit_facets(proper_border(remeshed, _offset_border(remeshed)))
+    return proper_border(remeshed, _offset_border(remeshed))
 
 
-def fit_facets(surface: Surface) -> Surface:
-    """The facets fitted to the exact surface, those on the border as they are, volume put right."""
-    for _ in range(FIT_PASSES):
-        surface = _fit(surface)
+def fit_facets(
+    surface: Surface, farthest: float | None = None, passes: int = FIT_PASSES
+) -> Surface:
+    """The facets fitted to the exact surface, those on the border as they are, volume put right.
+
+    Args:
+        surface: its vertices near the exact surface.
+        farthest: how far facets should stray at most, mm: those that stray farther weigh more.
+            None for least squares.
+        passes: steps of the fit.
+    """
+    if not len(surface.triangles):
+        return surface
+    for _ in range(passes):
+        surface = _fit(surface, farthest)
     for _ in range(2):
         surface = _balance(surface)
     return surface
@@ -116,7 +129,7 @@ def _curvature(field: Field, points: Floats, edge: float) -> Floats:
     return np.clip(total / step**2, -limit, limit)
 
 
-def _fit(surface: Surface) -> Surface:
+def _fit(surface: Surface, farthest: float | None) -> Surface:
     """One step of the least squares fit of the facets to the exact surface.
 
     A facet's point x = sum b_i v_i moves by sum b_i d_i and its distance f by grad f . that. Each
@@ -126,6 +139,8 @@ def _fit(surface: Surface) -> Surface:
     """
     triangles, count = surface.triangles, len(surface.vertices)
     area, value, gradient = _sampled(surface)
+    if farthest is not None:
+        area = area * (1.0 + STRAYING * (value / farthest) ** 2).max(axis=1)
     products = np.concatenate(
         [
             np.einsum("mqi,mqj->mqij", gradient, gradient).reshape(*value.shape, 9),

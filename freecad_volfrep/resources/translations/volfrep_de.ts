@@ -233,10 +233,6 @@
       <translation>Richtung</translation>
     </message>
     <message>
-      <source>Distance between a facet and the exact strut, kept away from the creases where struts meet; 0 for a thirty-fifth of the radius</source>
-      <translation>Abstand zwischen einer Facette und dem genauen Stab, eingehalten außer in den Kehlen zwischen Stäben; 0 für ein Fünfunddreißigstel des Radius</translation>
-    </message>
-    <message>
       <source>Distance from the faces of KeepSolidAround up to which the part stays solid</source>
       <translation>Abstand von den Flächen in KeepSolidAround, bis zu dem das Teil massiv bleibt</translation>
     </message>
@@ -423,6 +419,10 @@
     <message>
       <source>Largest Ball</source>
       <translation>Größte Kugel</translation>
+    </message>
+    <message>
+      <source>Largest distance between a facet and the exact struts and joints, kept within 1.5 times; 0 for a thirty-fifth of the radius</source>
+      <translation>Größter Abstand zwischen einer Facette und den genauen Stäben und Knoten, auf das 1,5-fache eingehalten; 0 für ein Fünfunddreißigstel des Radius</translation>
     </message>
     <message>
       <source>Lattice</source>

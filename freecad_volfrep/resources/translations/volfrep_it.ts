@@ -233,10 +233,6 @@
       <translation>Direzione</translation>
     </message>
     <message>
-      <source>Distance between a facet and the exact strut, kept away from the creases where struts meet; 0 for a thirty-fifth of the radius</source>
-      <translation>Distanza tra una faccetta e l'asta esatta, rispettata lontano dagli spigoli in cui le aste si incontrano; 0 per un trentacinquesimo del raggio</translation>
-    </message>
-    <message>
       <source>Distance from the faces of KeepSolidAround up to which the part stays solid</source>
       <translation>Distanza dalle facce di KeepSolidAround fino alla quale il pezzo resta pieno</translation>
     </message>
@@ -423,6 +419,10 @@
     <message>
       <source>Largest Ball</source>
       <translation>Sfera più grande</translation>
+    </message>
+    <message>
+      <source>Largest distance between a facet and the exact struts and joints, kept within 1.5 times; 0 for a thirty-fifth of the radius</source>
+      <translation>Distanza massima tra una faccetta e le aste e i giunti esatti, rispettata entro 1,5 volte; 0 per un trentacinquesimo del raggio</translation>
     </message>
     <message>
       <source>Lattice</source>

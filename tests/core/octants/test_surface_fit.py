@@ -42,7 +42,7 @@ def missed(surface):
 def pair(request):
     """The even surface of an octant, and the fitted one."""
     found, _ = isotropic_remesh.even_out(octant_surface(request.param))
-    return found, surface_fit.fit(found)
+    return found, surface_fit.fit_facets(surface_fit.fit_border(found))
 
 
 def test_the_missed_volume_is_put_right(pair):
@@ -101,7 +101,7 @@ def test_each_piece_is_right_by_itself():
         piece,
         one.size,
     )
-    found = surface_fit.fit(both)
+    found = surface_fit.fit_facets(surface_fit.fit_border(both))
     area, values = distances_of_facets(found)
     for number in (0, 1):
         own = piece[found.triangles[:, 0]] == number

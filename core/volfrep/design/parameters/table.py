@@ -344,8 +344,8 @@ PARAMETERS = (
     ),
     Parameter(
         "deviation", "length", "Mesh",
-        "Distance between a facet and the exact strut, kept away from the creases where struts "
-        "meet; 0 for a thirty-fifth of the radius",
+        "Largest distance between a facet and the exact struts and joints, kept within 1.5 times; "
+        "0 for a thirty-fifth of the radius",
         default=0.0, instead_of=("resolution",),
     ),
     Parameter(

@@ -64,7 +64,7 @@ BYTES_PER_NETWORK_TRIANGLE = 900.0
 BYTES_GRADED = 1.2e8
 #: So many times as many facets as even ones there are, for those in the creases where struts meet;
 #: and so much of a short strut's length has facets of its own, at least.
-IN_CREASES, SHORTEST_BARE = 1.15, 0.6
+IN_CREASES, SHORTEST_BARE = 1.2, 0.6
 #: How thick the layer of octants at the wall is, in units of L; bytes for each of its triangles,
 #: where the others go straight into the file.
 CUT_LAYER = 0.85

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ..design.cells import UnitCell
 from ..design.spec_parts import Resolution, Struts
+from ..mesh import remesh
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 from ..util.types import Floats, Ints
@@ -54,6 +55,11 @@ REFITS = (2, 4)
 GROWTH = 2.0
 #: Nor when in so many rounds its worst facet has come nearer by less than this.
 STALLED, NEARER = 8, 0.95
+#: Sine of the smallest angle that facets may be left with: what strays however it is divided, as
+#: where a crease runs out, would end in needles.
+SHARPEST = 0.088
+#: They are left all the same where without them a piece strays so many times as far.
+FARTHER = 2.0
 
 
 class FacetsCross(VolfrepError):
@@ -176,33 +182,58 @@ def _coarsened(meshed: Meshed, deviation: float) -> Meshed:
 
 
 def _refined(meshed: Meshed, deviation: float) -> Meshed:
-    """With more vertices where facets stray, which is where struts meet, until none does."""
+    """With more vertices where facets stray, which is where struts meet, until none does.
+
+    A piece that strays however it is divided, as where a crease runs out, stays as it was before
+    that made needles of facets.
+    """
     farthest = DIVIDED_TO * deviation
-    done: Meshed | None = None
-    worst: list[Floats] = []
-    most = GROWTH * np.bincount(meshed.surface.piece[meshed.surface.triangles[:, 0]])
-    for _ in range(REFINEMENTS):
+    rounds: list[Meshed] = []
+    reached: list[Floats] = []
+    pieces = int(meshed.surface.piece[-1]) + 1 if len(meshed.surface.piece) else 0
+    most = GROWTH * np.bincount(meshed.surface.piece[meshed.surface.triangles[:, 0]], None, pieces)
+    while True:
         surface = meshed.surface
-        if not len(surface.triangles):
-            break
         owner = surface.piece[surface.triangles[:, 0]]
         stray = all_stray(surface, LOOKED_AT * farthest)
-        worst.append(np.zeros(len(most)))
-        np.maximum.at(worst[-1], owner, stray)
-        far = worst[-1] > farthest
-        far &= np.bincount(owner, minlength=len(most)) < most
-        if len(worst) > STALLED:
-            far &= worst[-1] < NEARER * worst[-1 - STALLED]
-        rest = meshed.where(~far[surface.piece])
-        done = rest if done is None else done.joined(rest)
+        reached.append(np.where(np.isin(np.arange(pieces), surface.piece), 0.0, np.inf))
+        np.maximum.at(reached[-1], owner, stray)
+        rounds.append(meshed)
+        if len(rounds) > REFINEMENTS:
+            break
+        far = (reached[-1] > farthest) & (np.bincount(owner, minlength=pieces) < most)
+        if len(rounds) > STALLED:
+            far &= reached[-1] < NEARER * reached[-1 - STALLED]
         meshed = meshed.where(far[surface.piece])
-        stray = stray[far[owner]]
-        finer, parents = split_where_it_strays(meshed.surface, stray, farthest)
+        finer, parents = split_where_it_strays(meshed.surface, stray[far[owner]], farthest)
         if finer is meshed.surface:
             break
         finer = fit_facets(flipped_nearer(finer, farthest), farthest, REFITS[1])
         meshed = meshed.of(finer, parents)
-    return meshed if done is None else done.joined(meshed)
+    # The last round of each piece that is nearly as near as any, of those without needles, if these
+    # are not much farther than the others.
+    sharp = np.array([_sines(part.surface, pieces) for part in rounds]) < SHARPEST
+    value = np.array(reached)
+    blunt = np.where(sharp, np.inf, value)
+    value = np.where(blunt.min(axis=0) < FARTHER * value.min(axis=0).clip(farthest), blunt, value)
+    enough = np.maximum(value.min(axis=0) / NEARER, farthest)
+    chosen = len(rounds) - 1 - np.argmax((value <= enough)[::-1], axis=0)
+    parts = [part.where((chosen == k)[part.surface.piece]) for k, part in enumerate(rounds)]
+    result = parts[0]
+    for part in parts[1:]:
+        result = result.joined(part)
+    return result
+
+
+def _sines(surface: Surface, pieces: int) -> Floats:
+    """(pieces,) the sine of the smallest angle of the facets of each piece."""
+    corners = surface.vertices[surface.triangles]
+    sides = np.sort(np.linalg.norm(corners - corners[:, [1, 2, 0]], axis=2), axis=1)
+    twice = np.linalg.norm(remesh.normals(corners), axis=1)
+    result = np.ones(pieces)
+    sine = twice / np.maximum(sides[:, 1] * sides[:, 2], 1e-300)
+    np.minimum.at(result, surface.piece[surface.triangles[:, 0]], sine)
+    return result
 
 
 def _alike(

@@ -66,18 +66,20 @@ def test_struts_without_room_about_an_axis_do_not_run_through_each_other():
     assert not any("run through each other" in sentence for sentence in result.report.warnings)
 
 
+FOLDED = LatticeSpec(
+    "Box", 10.0, 1.16, shell=0.0, boundary="whole", resolution=12,
+    size_grading=SizeGrading(Profile("linear", 1.0, 0.65), (0.6, 0.6, 1.3)),
+)  # fmt: skip
+
+
 def test_struts_that_fold_without_turning_back_wholly_are_drawn_apart():
     """25 pairs of facets crossed here, at edges that turn by 110 to 150 degrees."""
-    folded = LatticeSpec(
-        "Box", 10.0, 1.16, shell=0.0, boundary="whole", resolution=12,
-        size_grading=SizeGrading(Profile("linear", 1.0, 0.65), (0.6, 0.6, 1.3)),
-    )  # fmt: skip
-    result = Infill(samples.box((24.0, 20.0, 14.0)), folded).result
+    result = Infill(samples.box((24.0, 20.0, 14.0)), FOLDED).result
     assert not len(piercing_pairs(as_read(result.mesh)))
 
 
 def test_what_cannot_be_drawn_apart_is_told_with_its_place(monkeypatch):
     monkeypatch.setattr(uncrossing, "FOLDED_SHARES", ())
-    told = " ".join(Infill(samples.box((30.0, 24.0, 20.0)), GRADED).result.report.warnings)
+    told = " ".join(Infill(samples.box((24.0, 20.0, 14.0)), FOLDED).result.report.warnings)
     assert "Near (" in told
     assert "facets run through each other" in told

@@ -190,6 +190,7 @@ def _refined(meshed: Meshed, deviation: float) -> Meshed:
     farthest = DIVIDED_TO * deviation
     rounds: list[Meshed] = []
     reached: list[Floats] = []
+    beyond: list[Ints] = []
     pieces = int(meshed.surface.piece[-1]) + 1 if len(meshed.surface.piece) else 0
     most = GROWTH * np.bincount(meshed.surface.piece[meshed.surface.triangles[:, 0]], None, pieces)
     while True:
@@ -198,10 +199,16 @@ def _refined(meshed: Meshed, deviation: float) -> Meshed:
         stray = all_stray(surface, LOOKED_AT * farthest)
         reached.append(np.where(np.isin(np.arange(pieces), surface.piece), 0.0, np.inf))
         np.maximum.at(reached[-1], owner, stray)
+        beyond.append(np.bincount(owner[stray > farthest], minlength=pieces))
         rounds.append(meshed)
         if len(rounds) > REFINEMENTS:
             break
         far = (reached[-1] > farthest) & (np.bincount(owner, minlength=pieces) < most)
+        if surface.field.fillet > 0.0 and len(rounds) > 1:
+            # Where fillets' field bends faster than facets can, it is not for want of vertices.
+            idle = (beyond[-1] >= beyond[-2]) & (reached[-1] >= NEARER * reached[-2])
+            reached[-1][idle] = np.inf
+            far &= ~idle
         if len(rounds) > STALLED:
             far &= reached[-1] < NEARER * reached[-1 - STALLED]
         meshed = meshed.where(far[surface.piece])

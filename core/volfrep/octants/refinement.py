@@ -67,6 +67,8 @@ def all_stray(surface: Surface, closely: float = np.inf) -> Floats:
     Looked at closely between several struts, and where that is more than `closely`, mm.
     """
     result = strays(surface, surface.triangles)
+    if surface.field.fillet > 0.0:  # without creases
+        return result
     nearest = surface.field.nearest(surface.vertices)[1][surface.triangles]
     look = np.flatnonzero((nearest != nearest[:, :1]).any(axis=1) | (result > closely))
     result[look] = strays(surface, surface.triangles[look], LOOK_CLOSELY)

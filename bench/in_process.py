@@ -68,12 +68,14 @@ def unvoxelised(part: str, cell: str, out: str) -> dict[str, Any]:
     """The same part without looking for active cells: every cell of its box is meshed and cut.
 
     The whole box's mesh goes through the Boolean, solid - (cavity - lattice). Nothing is cleaned
-    or proved afterwards, which favours this way.
+    or proved afterwards, which favours this way; nor would the engine write what comes of it, where
+    vertices merge in the file.
     """
+    import trimesh
+
     from volfrep import LatticeSpec, read_solid
     from volfrep.grid.activation import make_grid
     from volfrep.grid.placement import NUDGE
-    from volfrep.io.write import write_mesh
     from volfrep.jobs.blocks import block
     from volfrep.jobs.infill import Infill
     from volfrep.mesh.booleans import difference
@@ -100,7 +102,7 @@ def unvoxelised(part: str, cell: str, out: str) -> dict[str, Any]:
     lap("replication")
     whole = difference(solid, difference(cavity, lattice))
     lap("Boolean")
-    write_mesh(whole, out)
+    trimesh.Trimesh(whole.vertices, whole.triangles, process=False).export(out)
     lap("write")
     return {"stages": stages, "cells": grid.cells, "lattice_triangles": len(lattice.triangles)}
 

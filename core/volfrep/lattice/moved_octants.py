@@ -13,6 +13,7 @@ from functools import partial
 
 import numpy as np
 
+from ..mesh import remesh
 from ..mesh.float32_repair import merging
 from ..mesh.precision import decimal_step
 from ..mesh.triangle_mesh import TriangleMesh
@@ -189,8 +190,7 @@ def _dot(one: list[Floats], two: list[Floats]) -> Floats:
 
 def _normals(octant: Octant) -> Floats:
     """(m, 3) the unit normals of an octant's facets in its frame."""
-    a, b, c = (octant.vertices[octant.triangles[:, k]] for k in range(3))
-    twice = np.cross(b - a, c - a)
+    twice = remesh.normals(octant.vertices[octant.triangles])
     normals: Floats = twice / np.maximum(np.linalg.norm(twice, axis=1), 1e-300)[:, None]
     return normals
 

@@ -201,14 +201,20 @@ def collapse(
     return moved[stay], renumber[merged[~degenerate]], renumber
 
 
-def stays_good(before: Floats, after: Floats) -> Bools:
-    """Whether (m, 3, 3) triangles keep their side and a usable shape."""
+def stays_good(
+    before: Floats, after: Floats, turn: float = MIN_TURN_COSINE, worst: float = MIN_QUALITY
+) -> Bools:
+    """Whether (m, 3, 3) triangles keep their side and a usable shape.
+
+    They turn by no more than the cosine `turn`, and have a quality above `worst` or a better one
+    than before.
+    """
     old, new = normals(before), normals(after)
     cosine = np.einsum("ij,ij->i", old, new)
     size = np.linalg.norm(old, axis=1) * np.linalg.norm(new, axis=1)
     quality = qualities(after)
-    shape = (quality > MIN_QUALITY) | (quality > qualities(before))
-    result: Bools = (cosine > MIN_TURN_COSINE * size) & (size > 0) & shape
+    shape = (quality > worst) | (quality > qualities(before))
+    result: Bools = (cosine > turn * size) & (size > 0) & shape
     return result
 
 

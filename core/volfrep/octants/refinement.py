@@ -10,6 +10,7 @@ stray are divided.
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -105,6 +106,8 @@ def coarser(surface: Surface, farthest: float) -> tuple[Surface, Ints]:
         result: Bools = (rank[gone] == 0) | on_crease
         return result
 
+    stays_good = partial(remesh.stays_good, turn=TURN, worst=SHAPE)
+
     def merge(gone: Ints, kept: Ints) -> tuple[Floats, Floats]:
         rows, owner = rows_of(start, gone)
         corners = triangles[around[rows]]
@@ -118,15 +121,6 @@ def coarser(surface: Surface, farthest: float) -> tuple[Surface, Ints]:
         np.maximum.at(cost, owner[good], strays(surface, after[good]))
         cost[cost > farthest] = np.inf
         return cost, vertices[kept]
-
-    def stays_good(before: Floats, after: Floats) -> Bools:
-        old, new = remesh.normals(before), remesh.normals(after)
-        cosine = np.einsum("ij,ij->i", old, new)
-        size = np.linalg.norm(old, axis=1) * np.linalg.norm(new, axis=1)
-        shape = remesh.qualities(after)
-        good = (shape > SHAPE) | (shape > remesh.qualities(before))
-        result: Bools = good & (cosine > TURN * size) & (size > 0)
-        return result
 
     longest = LONGEST * surface.edge
     rules = remesh.Rules(rank, may_slide, surface.share_face, stays_good, merge)

@@ -27,8 +27,8 @@ class Format:
     Attributes:
         title: for the file dialog.
         suffix: of the file.
-        content: ``mesh``; ``beams`` or ``both``, which
-            are for lattice infills, as are those of `solver_files.CONTENTS`.
+        content: ``mesh``; ``beams``, ``both`` or ``layers``, which are for lattice infills, as are
+            those of `solver_files.CONTENTS`. Layers are a folder of that name.
     """
 
     title: str
@@ -57,6 +57,9 @@ FORMATS = (
     Format("STEP, instances of joints", ".step", "instances"),
     Format("CalculiX, beams", ".inp", "beam deck"),
     Format("CalculiX, tetrahedra", ".inp", "tetrahedra"),
+    Format("Layers, pictures for resin printers", ".png", "layers"),
+    Format("Layers, drawings", ".svg", "layers"),
+    Format("Layers, common layer interface", ".cli", "layers"),
 )
 
 

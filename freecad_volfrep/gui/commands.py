@@ -182,7 +182,7 @@ _TABLE = (
         "export.svg",
         "Export Lattice",
         "Write the selected lattice infill for the printer (STL, 3MF with or without beams, "
-        "PLY, OBJ), for CAD (STEP) or for CalculiX",
+        "PLY, OBJ, layers), for CAD (STEP) or for CalculiX",
         "L, X",
         selected_mesh,
         export,

@@ -13,7 +13,7 @@ from freecad_volfrep.translation import marked, translate
 from volfrep.util.errors import VolfrepError
 
 from .command import undo_step
-from .messages import ask, choose, errors_shown, file_name, tell_error, tell_written
+from .messages import ask, ask_lengths, choose, errors_shown, file_name, tell_error, tell_written
 from .qt import QtWidgets
 
 #: Names of FEM models, marked for translation.
@@ -40,6 +40,9 @@ def export(obj: App.DocumentObject) -> None:
     if not path:
         return
     path, form = chosen_format(path, formats[chosen], list(formats.values()))
+    if form.content == "layers":
+        _export_layers(obj, path, form.suffix[1:])
+        return
     with errors_shown(box=True):
         estimate = estimate_export(obj, form)
         if estimate and not ask(
@@ -50,6 +53,32 @@ def export(obj: App.DocumentObject) -> None:
             return
         export_mesh(obj, path, form.content)
         tell_written(path)
+
+
+def _export_layers(obj: App.DocumentObject, path: str, form: str) -> None:
+    """Ask how high the layers are to be, and write them into a folder of that name."""
+    from freecad_volfrep.features.layer_export import (
+        LAYER,
+        PIXEL,
+        estimate_layers,
+        export_layers,
+        layers_folder,
+    )
+
+    folder = layers_folder(path)
+    wanted = {translate("VolfrepCommands", "Height of a layer"): LAYER}
+    if form == "png":
+        wanted[translate("VolfrepCommands", "Edge of a pixel")] = PIXEL
+
+    def estimate(lengths: list[float]) -> str:
+        return f"{folder.name}: {estimate_layers(obj, *lengths, *[None] * (2 - len(lengths)))}"
+
+    lengths = ask_lengths(translate("VolfrepCommands", "Export Layers"), wanted, estimate)
+    if lengths is None:
+        return
+    with errors_shown(box=True):
+        export_layers(obj, folder, *lengths, form=form)
+        tell_written(str(folder))
 
 
 def make_solid_of(obj: App.DocumentObject) -> None:

@@ -7,7 +7,7 @@ that a file that was asked for is not there. Everything else is told without sto
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 import FreeCAD as App
@@ -20,6 +20,8 @@ from .qt import QtWidgets
 
 #: Style of a sentence about what is wrong: a red that light and dark themes leave readable.
 WRONG = "color: #e04838"
+#: Lengths that a box asks for are no shorter, mm.
+SHORTEST = 1e-3
 
 
 def tell(sentence: str) -> None:
@@ -60,6 +62,59 @@ def choose(label: str, items: list[str], refused: list[str]) -> str | None:
         Gui.getMainWindow(), "VOLFREP", text, items, 0, False
     )
     return str(item) if taken else None
+
+
+class LengthsBox(QtWidgets.QDialog):  # type: ignore[misc]
+    """Asks for lengths, and says what those that stand there come to."""
+
+
+def ask_lengths(
+    title: str, wanted: dict[str, float], estimate: Callable[[list[float]], str]
+) -> list[float] | None:
+    """Lengths in mm that the user types in a box; None where she leaves it.
+
+    Args:
+        title: of the box.
+        wanted: what each length is, and what it begins with.
+        estimate: a sentence on what the lengths that stand there come to.
+    """
+    box = LengthsBox(Gui.getMainWindow())
+    box.setWindowTitle(title)
+    rows = QtWidgets.QFormLayout(box)
+    fields = []
+    for text, length in wanted.items():
+        spin = Gui.UiLoader().createWidget("Gui::QuantitySpinBox")
+        spin.setProperty("unit", "mm")
+        spin.setProperty("minimum", SHORTEST)
+        spin.setProperty("rawValue", length)
+        spin.setAccessibleName(text)
+        rows.addRow(QtWidgets.QLabel(text), spin)
+        fields.append(spin)
+    note = QtWidgets.QLabel()
+    rows.addRow(note)
+    buttons = QtWidgets.QDialogButtonBox(
+        QtWidgets.QDialogButtonBox.Ok | QtWidgets.QDialogButtonBox.Cancel
+    )
+    rows.addRow(buttons)
+    buttons.accepted.connect(box.accept)
+    buttons.rejected.connect(box.reject)
+
+    def typed() -> list[float]:
+        return [float(field.property("rawValue")) for field in fields]
+
+    def told() -> None:
+        is_sound = min(typed()) >= SHORTEST
+        buttons.button(QtWidgets.QDialogButtonBox.Ok).setEnabled(is_sound)
+        note.setText(estimate(typed()) if is_sound else "")
+
+    for field in fields:
+        # Its own signal has a type that Python's Qt does not know.
+        field.findChild(QtWidgets.QLineEdit).textChanged.connect(told)
+    told()
+    done = box.exec_() == QtWidgets.QDialog.Accepted
+    lengths = typed()
+    box.deleteLater()
+    return lengths if done else None
 
 
 def file_name(label: str) -> str:

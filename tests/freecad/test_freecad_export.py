@@ -16,8 +16,10 @@ from freecad_volfrep.bridge.meshes import from_freecad, to_freecad, with_neighbo
 from freecad_volfrep.features.export import FORMATS, chosen_format, estimate_export, formats_of
 from freecad_volfrep.features.faceted_solid import export_step, predict_solid
 from freecad_volfrep.features.input_files import refuse_inputs_of_all
+from freecad_volfrep.features.layer_export import estimate_layers, export_layers, layers_folder
 from freecad_volfrep.features.solver_files import CONTENTS
 from volfrep.io.write import MESH_WRITERS
+from volfrep.jobs.slices import FORMATS as FORMS_OF_LAYERS
 from volfrep.mesh.drawn import facets_with_neighbours
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
 from volfrep.util.errors import VolfrepError
@@ -149,9 +151,10 @@ def test_the_formats_on_offer(doc, box, infill):
     ]  # fmt: skip
     offered = formats_of(infill)
     assert {form.content for form in offered} == {
-        "mesh", "beams", "both", *CONTENTS,
+        "mesh", "beams", "both", "layers", *CONTENTS,
     }  # fmt: skip
-    assert {form.suffix for form in offered} == MESH_WRITERS.keys() - {".stp"} | {".inp"}
+    layers = {f".{form}" for form in FORMS_OF_LAYERS}
+    assert {form.suffix for form in offered} == MESH_WRITERS.keys() - {".stp"} | {".inp"} | layers
     assert len({form.filter for form in offered}) == len(offered)
 
 
@@ -311,8 +314,38 @@ def test_an_extension_that_is_typed_says_more_than_the_kind_that_the_dialog_stan
     assert chosen_format("/a/part.STEP", stl, forms)[1].title == "STEP, plane faces"
     assert chosen_format("/a/part.stp.stl", beams, forms) == ("/a/part.stp.3mf", beams)
     assert chosen_format("/a/part", axes, forms) == ("/a/part.step", axes)
+    assert chosen_format("/a/part.cli", stl, forms)[1].content == "layers"
     assert chosen_format("/a/part.step", axes, forms) == ("/a/part.step", axes)
     assert chosen_format("/a/part.xyz", stl, forms) == ("/a/part.xyz", stl)
+
+
+@pytest.mark.parametrize("form", FORMS_OF_LAYERS)
+def test_layers_hold_the_volume_of_the_mesh(infill, tmp_path, form):
+    folder = layers_folder(tmp_path / f"part.{form}")
+    pixel = 0.25 if form == "png" else None
+    made = export_layers(infill, folder, 0.5, pixel, form)
+    assert made.volume == pytest.approx(infill.Mesh.Volume, rel=0.01)
+    assert estimate_layers(infill, 0.5, pixel).startswith(f"{made.count} layers of 0.5 mm")
+    if form == "png":
+        columns, rows = made.pixels
+        assert f"{columns} x {rows} pixels" in estimate_layers(infill, 0.5, pixel)
+    names = {path.name for path in folder.iterdir()} - {"layers.json"}
+    assert len(names) == (1 if form == "cli" else made.count)
+    assert {name.rsplit(".")[-1] for name in names} == {form}
+
+
+def test_layers_are_refused_before_anything_is_written(doc, infill, tmp_path):
+    (tmp_path / "mine.txt").write_text("kept", encoding="utf-8")
+    with pytest.raises(VolfrepError, match="holds other files"):
+        export_layers(infill, tmp_path, 0.5)
+    infill.Placement = App.Placement(App.Vector(), App.Rotation(App.Vector(1, 0, 0), 90))
+    with pytest.raises(VolfrepError, match="turn the base instead"):
+        export_layers(infill, tmp_path / "part", 0.5)
+    copy = doc.addObject("Mesh::Feature", "Copy")
+    copy.Mesh = infill.Mesh
+    with pytest.raises(VolfrepError, match="mesh without struts"):
+        export_layers(copy, tmp_path / "part", 0.5)
+    assert [path.name for path in tmp_path.iterdir()] == ["mine.txt"]
 
 
 def test_large_files_are_estimated_and_meshes_for_the_printer_are_not(infill):

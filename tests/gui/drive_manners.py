@@ -3,6 +3,7 @@
 tools/run_gui.sh."""
 
 import re
+import shutil
 import sys
 from pathlib import Path
 
@@ -165,6 +166,36 @@ def type_another_extension(doc, obj):
         figures[f"asked for {what}"] = asked
 
 
+def export_layers(doc, obj):
+    """A name with a picture's extension is a folder of layers, whose height is asked for."""
+    from freecad_volfrep.gui.messages import LengthsBox
+
+    folder = OUT / "typed_layers"
+    shutil.rmtree(folder, ignore_errors=True)
+    select(obj)
+    asked = []
+
+    def answer(box):
+        spin = box.findChildren(QtGui.QLineEdit)[0]
+        spin.setFocus()
+        wait_until(spin.hasFocus)
+        xdotool("key", "ctrl+a")
+        xdotool("type", "0.5 mm")
+        note = box.findChildren(QtGui.QLabel)[-1]
+        wait_until(lambda: "of 0.5 mm" in note.text())
+        asked.append(note.text())
+        picture("manners_export_layers")
+        click(box.findChild(QtGui.QDialogButtonBox).button(QtGui.QDialogButtonBox.Ok))
+
+    answer_file_dialog(folder.with_suffix(".svg"), "manners_export.svg")
+    when_dialog(LengthsBox, answer)
+    click(toolbar_button("Export Lattice"))
+    check("layers are written", wait_until((folder / "layers.json").exists), asked)
+    settle()
+    check("as many as was said", asked and asked[0].split(": ")[1].startswith(
+        f"{len(list(folder.glob('*.svg')))} layers"), asked)  # fmt: skip
+
+
 def read_many_notes(doc, obj):
     """Many sentences on a cell lie on nothing else in the Cell Library."""
     click(toolbar_button("Cell Library"))
@@ -192,6 +223,7 @@ run_checks(
         bind_a_radius: boxed,
         type_what_makes_no_sense: boxed,
         type_another_extension: filled,
+        export_layers: filled,
         read_many_notes: filled,
     },
 )

@@ -1325,8 +1325,8 @@
       <translation>Gitter exportieren</translation>
     </message>
     <message>
-      <source>Write the selected lattice infill for the printer (STL, 3MF with or without beams, PLY, OBJ), for CAD (STEP) or for CalculiX</source>
-      <translation>Schreibt die gewählte Gitterfüllung für den Drucker (STL, 3MF mit oder ohne Balken, PLY, OBJ), für CAD (STEP) oder für CalculiX</translation>
+      <source>Write the selected lattice infill for the printer (STL, 3MF with or without beams, PLY, OBJ, layers), for CAD (STEP) or for CalculiX</source>
+      <translation>Schreibt die gewählte Gitterfüllung für den Drucker (STL, 3MF mit oder ohne Balken, PLY, OBJ, Schichten), für CAD (STEP) oder für CalculiX</translation>
     </message>
   </context>
   <context>
@@ -1746,8 +1746,20 @@
       <translation>Netz prüfen: {label}</translation>
     </message>
     <message>
+      <source>Edge of a pixel</source>
+      <translation>Kante eines Bildpunkts</translation>
+    </message>
+    <message>
+      <source>Export Layers</source>
+      <translation>Schichten exportieren</translation>
+    </message>
+    <message>
       <source>Fill {count} solids, each with cells that suit its size? A single one opens the panel.</source>
       <translation>{count} Körper füllen, jeden mit Zellen, die zu seiner Größe passen? Ein einzelner öffnet das Panel.</translation>
+    </message>
+    <message>
+      <source>Height of a layer</source>
+      <translation>Höhe einer Schicht</translation>
     </message>
     <message>
       <source>Make of '{label}':</source>
@@ -1955,6 +1967,18 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
       <translation>GLB, für Betrachter</translation>
     </message>
     <message>
+      <source>Layers, common layer interface</source>
+      <translation>Schichten, Common Layer Interface</translation>
+    </message>
+    <message>
+      <source>Layers, drawings</source>
+      <translation>Schichten, Zeichnungen</translation>
+    </message>
+    <message>
+      <source>Layers, pictures for resin printers</source>
+      <translation>Schichten, Bilder für Harzdrucker</translation>
+    </message>
+    <message>
       <source>OBJ</source>
       <translation>OBJ</translation>
     </message>
@@ -2070,6 +2094,10 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
     <message>
       <source>Instances of {label}</source>
       <translation>Instanzen von {label}</translation>
+    </message>
+    <message>
+      <source>Layers of {label}</source>
+      <translation>Schichten von {label}</translation>
     </message>
     <message>
       <source>Plane faces of {label}</source>

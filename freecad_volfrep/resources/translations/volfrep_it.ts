@@ -1325,8 +1325,8 @@
       <translation>Esporta reticolo</translation>
     </message>
     <message>
-      <source>Write the selected lattice infill for the printer (STL, 3MF with or without beams, PLY, OBJ), for CAD (STEP) or for CalculiX</source>
-      <translation>Scrive il riempimento reticolare selezionato per la stampante (STL, 3MF con o senza travi, PLY, OBJ), per il CAD (STEP) o per CalculiX</translation>
+      <source>Write the selected lattice infill for the printer (STL, 3MF with or without beams, PLY, OBJ, layers), for CAD (STEP) or for CalculiX</source>
+      <translation>Scrive il riempimento reticolare selezionato per la stampante (STL, 3MF con o senza travi, PLY, OBJ, strati), per il CAD (STEP) o per CalculiX</translation>
     </message>
   </context>
   <context>
@@ -1746,8 +1746,20 @@
       <translation>Controlla mesh: {label}</translation>
     </message>
     <message>
+      <source>Edge of a pixel</source>
+      <translation>Lato di un pixel</translation>
+    </message>
+    <message>
+      <source>Export Layers</source>
+      <translation>Esporta strati</translation>
+    </message>
+    <message>
       <source>Fill {count} solids, each with cells that suit its size? A single one opens the panel.</source>
       <translation>Riempire {count} solidi, ognuno con celle adatte alla sua misura? Uno solo apre il pannello.</translation>
+    </message>
+    <message>
+      <source>Height of a layer</source>
+      <translation>Altezza di uno strato</translation>
     </message>
     <message>
       <source>Make of '{label}':</source>
@@ -1955,6 +1967,18 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
       <translation>GLB, per i visualizzatori</translation>
     </message>
     <message>
+      <source>Layers, common layer interface</source>
+      <translation>Strati, Common Layer Interface</translation>
+    </message>
+    <message>
+      <source>Layers, drawings</source>
+      <translation>Strati, disegni</translation>
+    </message>
+    <message>
+      <source>Layers, pictures for resin printers</source>
+      <translation>Strati, immagini per stampanti a resina</translation>
+    </message>
+    <message>
       <source>OBJ</source>
       <translation>OBJ</translation>
     </message>
@@ -2070,6 +2094,10 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
     <message>
       <source>Instances of {label}</source>
       <translation>Istanze di {label}</translation>
+    </message>
+    <message>
+      <source>Layers of {label}</source>
+      <translation>Strati di {label}</translation>
     </message>
     <message>
       <source>Plane faces of {label}</source>

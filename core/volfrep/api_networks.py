@@ -7,7 +7,7 @@ import os
 from typing import Any
 
 from .api import Part, specified
-from .design.cells import UnitCell, find_cell
+from .design.cells import find_cell
 from .design.networks import make_network, read_network
 from .design.spec import LatticeSpec
 from .jobs.networks.alone import network_alone

@@ -6,10 +6,10 @@ import zipfile
 
 import numpy as np
 import pytest
-from test_surface import exact_volume
 
 import samples
 import volfrep
+from exact import volume_of_struts
 from volfrep import LatticeSpec, StageCache, VolfrepError
 from volfrep.cli import command as cli
 from volfrep.design.grading import RadiusGrading, SizeGrading
@@ -238,7 +238,7 @@ def test_a_network_alone_has_its_genus_and_volume():
     network = make_network(NODES, STRUTS, [0.5, 0.6, 0.7, 0.8, 0.6, 0.5])
     made = network_alone(LatticeSpec(network=network, deviation=0.01))
     assert (made.report.bodies, made.report.genus) == (1, 3)
-    assert made.report.volume_mm3 == pytest.approx(exact_volume(made.wireframe), rel=5e-3)
+    assert made.report.volume_mm3 == pytest.approx(volume_of_struts(made.wireframe), rel=5e-3)
 
 
 def test_networks_are_values_of_a_specification(tmp_path):

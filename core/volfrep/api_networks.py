@@ -7,6 +7,7 @@ import os
 from typing import Any
 
 from .api import Part, specified
+from .design.cells import find_cell
 from .design.networks import make_network, read_network
 from .design.spec import LatticeSpec
 from .jobs.networks.alone import network_alone
@@ -42,6 +43,10 @@ def mesh_network(
     >>> made.report.genus, made.report.bodies
     (1, 1)
     """
-    found = make_network(*graph) if isinstance(graph, tuple) else read_network(graph)
+    if isinstance(graph, tuple):
+        found = make_network(*graph)
+    else:
+        cell = parameters.get("cell", None if spec is None else spec.cell)
+        found = read_network(graph, find_cell(cell) if isinstance(cell, str) else cell)
     wanted = specified(spec, {**parameters, "network": found}, None)
     return Part(network_alone(wanted, progress=progress), wanted, None, StageCache())

@@ -95,3 +95,50 @@ def in_struts(points, graph):
         hit = np.linalg.norm(p[row] - graph.nodes[node], axis=1) <= graph.joint_radii[node]
         inside[part[row[hit]]] = True
     return inside
+
+
+def volume_of_struts(frame, points=400_000, seed=3):
+    """Of a wireframe's struts and balls, by points spread in all of these.
+
+    Each counts by how many of them hold it.
+    """
+    random = np.random.default_rng(seed)
+    start, end = frame.nodes[frame.struts].swapaxes(0, 1)
+    span = end - start
+    length = np.linalg.norm(span, axis=1)
+    along = span / length[:, None]
+    one, two = frame.radii.T
+    volume = np.concatenate(
+        [np.pi * length / 3 * (one**2 + one * two + two**2), 4 / 3 * np.pi * frame.joint_radii**3]
+    )
+    body = random.choice(len(volume), points, p=volume / volume.sum())
+    is_strut = body < len(length)
+    place = np.empty((points, 3))
+    strut = body[is_strut]
+    # Along a cone by its cross-section, then within that.
+    s = random.random(len(strut))
+    a, b = one[strut], two[strut]
+    with np.errstate(invalid="ignore", divide="ignore"):
+        share = (np.cbrt(a**3 + s * (b**3 - a**3)) - a) / (b - a)
+    share = np.where(np.abs(b - a) < 1e-9, s, share)
+    wide = (a + share * (b - a)) * np.sqrt(random.random(len(strut)))
+    across = np.cross(along[strut], random.normal(size=(len(strut), 3)))
+    across /= np.linalg.norm(across, axis=1, keepdims=True)
+    place[is_strut] = start[strut] + share[:, None] * span[strut] + wide[:, None] * across
+    ball = body[~is_strut] - len(length)
+    way = random.normal(size=(len(ball), 3))
+    way /= np.linalg.norm(way, axis=1, keepdims=True)
+    deep = frame.joint_radii[ball] * np.cbrt(random.random(len(ball)))
+    place[~is_strut] = frame.nodes[ball] + deep[:, None] * way
+    tree, held = cKDTree(place), np.zeros(points)
+    reach = 0.5 * length + np.maximum(one, two)
+    for k, found in enumerate(tree.query_ball_point(start + 0.5 * span, reach)):
+        near = np.array(found, int)
+        local = place[near] - start[k]
+        at = local @ along[k]
+        off = np.sqrt(np.maximum((local * local).sum(axis=1) - at**2, 0.0))
+        radius = one[k] + (two[k] - one[k]) / length[k] * at
+        held[near] += (at >= 0) & (at <= length[k]) & (off <= radius)
+    for found in tree.query_ball_point(frame.nodes, frame.joint_radii):
+        held[found] += 1
+    return volume.sum() * np.mean(1.0 / np.maximum(held, 1))

@@ -177,6 +177,64 @@ def test_layers_grow_from_one_face_into_the_solid(doc, sector):
     assert (radii.min(), radii.max()) == (pytest.approx(22), pytest.approx(30))
 
 
+@pytest.fixture
+def wing(doc):
+    """A NACA 0012 between its spars, of chord 200: its upper and its lower skin are splines."""
+
+    def half(x):
+        return 0.6 * (0.2969 * x**0.5 - 0.126 * x - 0.3516 * x**2 + 0.2843 * x**3 - 0.1015 * x**4)
+
+    shares = [0.05 + 0.6 * (k / 40) ** 1.5 for k in range(41)]
+    sides = []
+    for sign in (1, -1):
+        curve = Part.BSplineCurve()
+        curve.interpolate([App.Vector(200 * x, 0, sign * 200 * half(x)) for x in shares])
+        sides.append(curve.toShape())
+    upper, lower = sides
+    ends = [
+        Part.makeLine(upper.valueAt(at), lower.valueAt(at))
+        for at in (upper.FirstParameter, upper.LastParameter)
+    ]
+    flat = Part.Face(Part.Wire([upper, ends[1], lower, ends[0]]))
+    made = doc.addObject("Part::Feature", "Wing")
+    made.Shape = flat.extrude(App.Vector(0, 60, 0))
+    doc.recompute()
+    skins = [
+        k
+        for k, face in enumerate(made.Shape.Faces)
+        if abs(face.BoundBox.XLength - 120) < 1 and face.BoundBox.YLength > 59
+    ]
+    skins.sort(key=lambda k: -made.Shape.Faces[k].CenterOfMass.z)
+    return made, [f"Face{k + 1}" for k in skins]
+
+
+def ends_from(obj, face):
+    """How far each node of the lattice that is made lies from a face, by FreeCAD, mm."""
+    from freecad_volfrep.bridge.solids import mesh_of_shape
+    from freecad_volfrep.features.values import specification_of
+    from volfrep.jobs.targets import infill_of
+
+    struts = infill_of(mesh_of_shape(obj.Base.Shape, "wing"), specification_of(obj)).struts
+    return [Part.Vertex(*node).distToShape(face)[0] for node in struts.nodes.tolist()]
+
+
+def test_the_ends_of_struts_lie_on_a_wings_skins(doc, wing):
+    made, names = wing
+    obj = make_lattice_infill(
+        doc, made, CellType="BCC", Network="Faces", CellSize=12, StrutRadius=0.8, ShellThickness=0
+    )
+    deviation, on_face = 0.8 / 35, 11 * 6
+    skins = [made.getSubObject(name) for name in names]
+    obj.NetworkFaces, obj.NetworkLayers = [(made, tuple(names))], 1
+    for skin in skins:
+        away = sorted(ends_from(obj, skin))
+        assert away[on_face - 1] < 0.2 * deviation < away[on_face]
+    obj.NetworkFaces, obj.NetworkThickness = [(made, (names[0],))], 6
+    away = sorted(ends_from(obj, skins[0]))
+    assert away[on_face - 1] < 0.2 * deviation
+    assert all(abs(far - 6) < 0.2 * deviation for far in away[-on_face:])
+
+
 def test_a_face_that_is_no_rectangle_serves_and_one_of_three_sides_does_not(doc):
     corners = [(0, 0, 0), (30, 4, 0), (26, 22, 0), (-3, 17, 0), (0, 0, 0)]
     base = doc.addObject("Part::Feature", "Prism")

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Mapping
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..design.parameters import BY_NAME, GROUPS, PARAMETERS, Parameter
@@ -19,8 +18,6 @@ from ..util.errors import VolfrepError
 if TYPE_CHECKING:
     from ..design.spec import LatticeSpec
 
-#: Files of networks that hold nodes and struts and nothing to lay cells into.
-STRUTS_ALONE = (".json", ".csv", ".3mf")
 #: Where an option's value is kept, so that no other option has the same place.
 _PLACE = "parameter_"
 
@@ -93,11 +90,18 @@ def _refuse_idle_cell(given: Mapping[str, object], spec: LatticeSpec) -> None:
     """
     from ..design.networks import GivenNetwork, RandomNetwork
 
-    if isinstance(spec.network, GivenNetwork) and "cell" in given:
-        file = spec.network.source
-        if Path(file).suffix.lower() in STRUTS_ALONE:
+    if isinstance(spec.network, GivenNetwork):
+        file = f"'{spec.network.source}'"
+        if "cell" in given and not spec.network.cell:
             raise VolfrepError(
-                f"--cell has no effect with '{file}', which holds struts: leave it out."
+                f"--cell has no effect with {file}, which holds struts, and no hexahedra or "
+                "quadrilaterals to lay cells into: leave it out."
+            )
+        counts = spec.network.thickness and not given.get("network_layers")
+        if "cell_size" in given and not (counts or spec.resolution):
+            raise VolfrepError(
+                f"--cell-size has no effect with {file}, which says where every strut lies: leave "
+                "it out."
             )
     if not isinstance(spec.network, RandomNetwork):
         return

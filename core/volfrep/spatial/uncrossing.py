@@ -48,8 +48,9 @@ DEEP = 0.1
 MOST_RINGS = 3
 #: With so many times fewer places that cross than at first only what is about them is watched.
 FEWER = 0.1
-#: Of many places a round that leaves more than this part of them as they are is the last one.
-STUCK = 0.95
+#: Of many places a round that goes so far and leaves more than this part of them as they are is the
+#: last one: folds that are all alike may need more than a little way, all of them.
+FAR, STUCK = 0.5, 0.95
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,7 +104,8 @@ def uncrossed(
             break
         crossed = len(places.pairs)
         places.move(share)
-        if deformed and crossed > MOST_PLACES and len(places.pairs) > STUCK * crossed:
+        stuck = crossed > MOST_PLACES and len(places.pairs) > STUCK * crossed
+        if deformed and share >= FAR and stuck:
             break
     mesh, pairs = places.mesh, places.found
     if among is not everywhere:  # what moved may have met what lies farther away

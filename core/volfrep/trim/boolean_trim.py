@@ -105,7 +105,8 @@ def _joined(
             piece = pieces[0]
             if len(wrong):
                 raise piece.error
-            return Joined(piece.mesh, piece.on_wall, wrong)
+            # Vertices of the slivers that went are out of use.
+            return Joined(compact(piece.mesh), piece.on_wall, wrong)
         if not len(wrong):
             together = [pieces[k] for k in range(groups.count)]
             if cavity:

@@ -6,10 +6,10 @@ import zipfile
 
 import numpy as np
 import pytest
-from test_surface import exact_volume
 
 import samples
 import volfrep
+from exact import volume_of_struts
 from volfrep import LatticeSpec, StageCache, VolfrepError
 from volfrep.cli import command as cli
 from volfrep.design.grading import RadiusGrading, SizeGrading
@@ -238,7 +238,7 @@ def test_a_network_alone_has_its_genus_and_volume():
     network = make_network(NODES, STRUTS, [0.5, 0.6, 0.7, 0.8, 0.6, 0.5])
     made = network_alone(LatticeSpec(network=network, deviation=0.01))
     assert (made.report.bodies, made.report.genus) == (1, 3)
-    assert made.report.volume_mm3 == pytest.approx(exact_volume(made.wireframe), rel=5e-3)
+    assert made.report.volume_mm3 == pytest.approx(volume_of_struts(made.wireframe), rel=5e-3)
 
 
 def test_networks_are_values_of_a_specification(tmp_path):
@@ -294,13 +294,16 @@ def test_what_is_wrong_with_a_random_network(change, message):
         ("voronoi --network-points 9 --cell-size 4", "--cell-size has no effect"),
         ("voronoi --activation inside", "choice of active cells is for cells"),
         ("voronoi --boundary whole", "boundary of whole cells is for cells"),
-        ("file --network-file {} --cell Octet", "which holds struts"),
-        ("file --network-file {} --network-thickness 3", "--network-thickness is for layers"),
-        ("file --network-file {} --network-layers 3", "--network-layers is for layers"),
+        ("file --network-file {1} --cell Octet", "csv', which holds struts"),
+        ("file --network-file {2} --cell Octet", "obj', which holds struts"),
+        ("file --network-file {3} --cell Octet", "vtk', which holds struts"),
+        ("file --network-file {1} --cell-size 4", "which says where every strut lies"),
+        ("file --network-file {1} --network-thickness 3", "--network-thickness is for layers"),
+        ("file --network-file {1} --network-layers 3", "--network-layers is for layers"),
     ],
 )
 def test_an_option_without_effect_on_a_network_is_refused(options, said, tmp_path, capsys):
-    words = options.format(written(tmp_path)[1]).split()
+    words = options.format(*written(tmp_path)).split()
     assert cli.run(["fill", "no.stl", "-o", str(tmp_path / "x.stl"), "--network", *words]) == 2
     assert said in capsys.readouterr().err
 

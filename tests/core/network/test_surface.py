@@ -6,6 +6,7 @@ import pytest
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
 
+from exact import volume_of_struts
 from volfrep import LatticeSpec, VolfrepError
 from volfrep.grid.strut_graph import Wireframe
 from volfrep.io.write.stl import as_read
@@ -71,47 +72,6 @@ def _turned(one, two):
     return (2 * np.outer(middle, middle) - np.eye(3)) @ (2 * np.outer(one, one) - np.eye(3))
 
 
-def exact_volume(frame, points=400_000, seed=3):
-    """By points spread in all struts and balls, each counted by how many of them hold it."""
-    random = np.random.default_rng(seed)
-    start, end = frame.nodes[frame.struts].swapaxes(0, 1)
-    span = end - start
-    length = np.linalg.norm(span, axis=1)
-    along = span / length[:, None]
-    one, two = frame.radii.T
-    volume = np.concatenate(
-        [np.pi * length / 3 * (one**2 + one * two + two**2), 4 / 3 * np.pi * frame.joint_radii**3]
-    )
-    body = random.choice(len(volume), points, p=volume / volume.sum())
-    is_strut = body < len(length)
-    place = np.empty((points, 3))
-    strut = body[is_strut]
-    # Along a cone by its cross-section, then within that.
-    s = random.random(len(strut))
-    a, b = one[strut], two[strut]
-    with np.errstate(invalid="ignore", divide="ignore"):
-        share = (np.cbrt(a**3 + s * (b**3 - a**3)) - a) / (b - a)
-    share = np.where(np.abs(b - a) < 1e-9, s, share)
-    wide = (a + share * (b - a)) * np.sqrt(random.random(len(strut)))
-    across = np.cross(along[strut], random.normal(size=(len(strut), 3)))
-    across /= np.linalg.norm(across, axis=1, keepdims=True)
-    place[is_strut] = start[strut] + share[:, None] * span[strut] + wide[:, None] * across
-    ball = body[~is_strut] - len(length)
-    way = random.normal(size=(len(ball), 3))
-    way /= np.linalg.norm(way, axis=1, keepdims=True)
-    deep = frame.joint_radii[ball] * np.cbrt(random.random(len(ball)))
-    place[~is_strut] = frame.nodes[ball] + deep[:, None] * way
-    held = np.zeros(points)
-    for k in range(len(length)):
-        local = place - start[k]
-        at = local @ along[k]
-        off = np.sqrt(np.maximum((local * local).sum(axis=1) - at**2, 0.0))
-        held += (at >= 0) & (at <= length[k]) & (off <= one[k] + (two[k] - one[k]) / length[k] * at)
-    for centre, radius in zip(frame.nodes, frame.joint_radii, strict=True):
-        held += np.linalg.norm(place - centre, axis=1) <= radius
-    return volume.sum() * np.mean(1.0 / np.maximum(held, 1))
-
-
 def surface_of(frame, sides=FEWEST_SIDES):
     return network_surface(frame, sides, Monitor())
 
@@ -124,7 +84,7 @@ def holds_the_contract(frame, sides=FEWEST_SIDES, within=0.005, points=100_000):
     assert read.degenerate_triangles == 0
     assert read.bodies == count
     assert read.genus == len(frame.struts) - len(frame.nodes) + count
-    assert read.volume == pytest.approx(exact_volume(frame, points), rel=within)
+    assert read.volume == pytest.approx(volume_of_struts(frame, points), rel=within)
     return made
 
 
@@ -168,7 +128,7 @@ def test_struts_may_be_cones_and_balls_larger_than_they_are():
 
 def test_finer_facets_come_nearer_to_the_volume():
     frame = random_graph(4)
-    exact = exact_volume(frame)
+    exact = volume_of_struts(frame)
     coarse, fine = (surface_of(frame, sides).mesh.volume for sides in (10, 24))
     assert abs(fine / exact - 1) < 2e-3
     assert abs(coarse / exact - 1) < 5e-3
@@ -199,7 +159,7 @@ def test_struts_that_overlap_are_united(name):
     read = measure(as_read(made.mesh))
     assert read.watertight
     assert (read.bodies, read.genus) == (1, 0)
-    assert read.volume == pytest.approx(exact_volume(frame), rel=0.02)
+    assert read.volume == pytest.approx(volume_of_struts(frame), rel=0.02)
 
 
 def test_what_overlaps_is_welded_to_what_does_not():
@@ -216,4 +176,4 @@ def test_what_overlaps_is_welded_to_what_does_not():
     assert read.bodies == 1
     # The two struts that cross close one more loop than the graph has in its pieces.
     assert read.genus == len(frame.struts) - len(frame.nodes) + pieces(frame)
-    assert read.volume == pytest.approx(exact_volume(frame), rel=0.01)
+    assert read.volume == pytest.approx(volume_of_struts(frame), rel=0.01)

@@ -278,3 +278,9 @@ def test_slivers_go_in_the_groups_but_not_where_these_meet(small_groups):
     distance = cKDTree(exact.vertices).query(clean.vertices)[0]
     assert distance.max() < 8 * coarse
     assert quality.inspect(clean).quality.overused_edges == 0
+
+
+def test_slivers_that_go_leave_no_vertices_behind():
+    exact, clean = (trimmed(samples.sphere(10.0), precision=p).surface.mesh for p in (0.0, 0.02))
+    assert len(clean.triangles) < len(exact.triangles)
+    assert len(np.unique(clean.triangles)) == len(clean.vertices)

@@ -9,6 +9,7 @@ grid by a function of three coordinates. Nodes that meet on a common face become
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 from scipy.sparse import coo_matrix
@@ -75,7 +76,8 @@ def laid_into(
     nodes, struts = _joined(places.reshape(-1, 3), merged, cell, len(boxes))
     corner_rows = _merged(points, same)[boxes]
     _refuse_misfits(cell, merged.reshape(len(boxes), -1), corner_rows, where)
-    return make_network(nodes, struts, (), where, source, np.tile(cell.widths, len(boxes)))
+    made = make_network(nodes, struts, (), where, source, np.tile(cell.widths, len(boxes)))
+    return replace(made, cell=cell.name)
 
 
 def laid_along(
@@ -120,7 +122,8 @@ def laid_along(
         )
     merged = _merged(places, SAME_PLACE * float(length.min()))
     nodes, struts = _joined(places[inverse.ravel()], merged[inverse.ravel()], cell, total)
-    return make_network(nodes, struts, (), where, widths=np.tile(cell.widths, total))
+    made = make_network(nodes, struts, (), where, widths=np.tile(cell.widths, total))
+    return replace(made, cell=cell.name)
 
 
 def layers_on(

@@ -34,6 +34,8 @@ class GivenNetwork:
         layers: how many these are.
         widths: (m,) float64, what the lattice's own radius is multiplied by at each strut; none,
             (0,), for 1.
+        cell: name of the cell that was laid into a mesh or along faces; empty where the struts are
+            given as they are.
     """
 
     nodes: NDArray[np.float64] = field(compare=False)
@@ -43,6 +45,7 @@ class GivenNetwork:
     thickness: float = field(default=0.0, compare=False)
     layers: int = field(default=1, compare=False)
     widths: NDArray[np.float64] = field(default_factory=lambda: np.zeros(0), compare=False)
+    cell: str = field(default="", compare=False)
     _content: bytes = field(init=False, repr=False)
 
     def __post_init__(self) -> None:

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import volfrep
 from volfrep.design.cells import find_cell
 from volfrep.design.networks import read_network
 from volfrep.design.networks.laid_cells import CORNERS
@@ -29,6 +30,7 @@ def test_hexahedra_hold_a_cell_each(tmp_path: Path, name: str) -> None:
     file = written(tmp_path / name, CUBES, "hexahedron", rows, **how)
     made = read_network(file, find_cell("BCC"))
     assert (len(made.nodes), len(made.struts)) == (12 + 2, 16 + 20)
+    assert made.cell == "BCC"
     with pytest.raises(VolfrepError, match="give the cell"):
         read_network(tmp_path / name)
 
@@ -37,7 +39,13 @@ def test_tetrahedra_give_their_edges(tmp_path: Path) -> None:
     points = CUBES[[0, 1, 3, 4, 6]]
     file = written(tmp_path / "t.vtk", points, "tetra", [[0, 1, 2, 3], [1, 2, 3, 4]])
     made = read_network(file)
-    assert (len(made.nodes), len(made.struts)) == (5, 9)
+    assert (len(made.nodes), len(made.struts), made.cell) == (5, 9, "")
+
+
+def test_cells_in_the_hexahedra_of_a_file_are_meshed(tmp_path: Path) -> None:
+    file = written(tmp_path / "mesh.vtk", CUBES, "hexahedron", [range(8)])
+    made = volfrep.mesh_network(file, cell="Box", strut_radius=0.5)
+    assert (made.report.bodies, made.report.genus) == (1, 5)
 
 
 def test_quadrilaterals_carry_layers(tmp_path: Path) -> None:

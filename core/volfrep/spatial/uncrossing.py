@@ -42,8 +42,8 @@ BLOCK_TRIANGLES = 1 << 15
 #: Places that cross are looked at with what lies nearer than so many of their triangles' edges;
 #: more places than these with everything.
 REACH, MOST_PLACES = 4.0, 200
-#: So many triangles of a deformed mesh are all looked at, which takes less than a second.
-MOST_ANYWHERE = 100_000
+#: So many triangles of a deformed mesh are all looked at, which takes a fifth of a second.
+MOST_ANYWHERE = 40_000
 #: From this share on each place that is left gets a ring more every second time.
 DEEP = 0.1
 #: So many rings of triangles round those that cross move, at most.

@@ -36,6 +36,7 @@ from .refinement import all_stray, coarser, flipped_nearer, split_where_it_stray
 from .sdf import Field, Primitives
 from .surface_fit import fit_border, fit_facets
 from .untangle import crossing_facets, untangled
+from .windows import sampled_finely_enough
 
 #: Samples are clamped to so many steps: farther from the surface only their sign matters.
 SEEN_STEPS = 2.0
@@ -92,6 +93,7 @@ def mesh_octants(
     Raises:
         FacetsCross: there is an octant whose facets run through each other, however it is meshed.
     """
+    spec = sampled_finely_enough(cell, spec)
     # What an octant's surface may consist of, as far as its vertices may move.
     primitives = {
         key: octant_primitives(cell, key, spec.cell_size, spec.strut_radius, spec.reach)

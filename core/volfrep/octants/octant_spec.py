@@ -26,6 +26,7 @@ class OctantSpec:
         strut_radius: r, mm.
         fillet: joint fillet, mm.
         facets: facet edges along L.
+        samples: by how many times samples are nearer to each other than facets need.
 
     >>> spec = OctantSpec(cell_size=10.0, strut_radius=1.0, fillet=0.0, facets=20)
     >>> spec.edge, spec.steps, spec.step
@@ -36,6 +37,7 @@ class OctantSpec:
     strut_radius: float
     fillet: float
     facets: int
+    samples: int = 1
 
     @property
     def edge(self) -> float:
@@ -67,4 +69,4 @@ class OctantSpec:
     def steps(self) -> int:
         """Sampling steps along an octant."""
         finest = self.cell_size / (COARSEST_STEP * self.strut_radius)
-        return math.ceil(0.5 * max(self.facets, finest))
+        return self.samples * math.ceil(0.5 * max(self.facets, finest))

@@ -29,6 +29,8 @@ LOOK_AT = np.array(
 ) / 6.0  # fmt: skip
 #: Where those are that need a close look: between several struts some one point strays most.
 LOOK_CLOSELY = np.array([(i, j, 12 - i - j) for i in range(13) for j in range(13 - i)]) / 12.0
+#: Points that are looked at at a time: cells of many struts would take gigabytes.
+POINTS_AT_ONCE = 1 << 17
 #: And edges, in shares of their length.
 LOOK_ALONG = tuple(k / 12.0 for k in range(1, 12))
 #: Edges shorter than this, in wanted edges, are not divided.
@@ -56,6 +58,12 @@ def strays(surface: Surface, corners: Ints, looks: Floats = LOOK_AT) -> Floats:
     """
     if not len(corners):
         return np.zeros(0)
+    size = POINTS_AT_ONCE // len(looks)
+    parts = (corners[begin : begin + size] for begin in range(0, len(corners), size))
+    return np.concatenate([_strays(surface, part, looks) for part in parts])
+
+
+def _strays(surface: Surface, corners: Ints, looks: Floats) -> Floats:
     points = np.einsum("qi,mik->mqk", looks, surface.vertices[corners])
     values = surface.field.rows(corners[:, 0]).values_of_groups(points)
     result: Floats = np.abs(values).max(axis=1)

@@ -33,6 +33,8 @@ DRIFT = 0.03
 STEP = 0.3
 #: Facets that stray weigh more in the fit: by this, and the square of how far they stray.
 STRAYING = 20.0
+#: Points that are looked at at a time: cells of many struts would take gigabytes.
+AT_ONCE = 1 << 17
 #: The last correction of the volume moves no vertex further than this, in wanted edges.
 BALANCE_REACH = 0.05
 
@@ -179,7 +181,13 @@ def _sampled(surface: Surface) -> tuple[Floats, Floats, Floats]:
     corners = surface.vertices[surface.triangles]
     points = np.einsum("qi,mik->mqk", QUADRATURE, corners).reshape(-1, 3)
     rows = np.repeat(surface.triangles[:, 0], len(QUADRATURE))
-    value, gradient = surface.field.rows(rows).values_and_gradients(points)
+    parts = [
+        surface.field.rows(rows[begin : begin + AT_ONCE]).values_and_gradients(
+            points[begin : begin + AT_ONCE]
+        )
+        for begin in range(0, len(rows), AT_ONCE)
+    ]
+    value, gradient = (np.concatenate(part) for part in zip(*parts, strict=True))
     area = 0.5 * np.linalg.norm(remesh.normals(corners), axis=1)
     return area, value.reshape(len(area), -1), gradient.reshape(len(area), -1, 3)
 

@@ -42,6 +42,8 @@ BLOCK_TRIANGLES = 1 << 15
 #: Places that cross are looked at with what lies nearer than so many of their triangles' edges;
 #: more places than these with everything.
 REACH, MOST_PLACES = 4.0, 200
+#: So many triangles of a deformed mesh are all looked at, which takes a fifth of a second.
+MOST_ANYWHERE = 40_000
 #: From this share on each place that is left gets a ring more every second time.
 DEEP = 0.1
 #: So many rings of triangles round those that cross move, at most.
@@ -71,8 +73,15 @@ class Turns:
 
 
 def turns_of(mesh: TriangleMesh, monitor: Monitor, deformed: bool = False) -> Turns:
-    """Where a mesh turns back, and crosses itself there; as of `uncrossed`."""
-    among = turning_back(mesh, deformed)
+    """Where a mesh turns back, and crosses itself there; as of `uncrossed`.
+
+    Deformed struts of different joints may meet where nothing turns back: of a mesh that is no
+    larger than `MOST_ANYWHERE` all is looked at.
+    """
+    if deformed and len(mesh.triangles) <= MOST_ANYWHERE:
+        among = np.ones(len(mesh.triangles), bool)
+    else:
+        among = turning_back(mesh, deformed)
     return Turns(among, _crossing(mesh, among, monitor))
 
 

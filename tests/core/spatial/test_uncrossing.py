@@ -11,7 +11,7 @@ from volfrep.design.profile import Profile
 from volfrep.design.spec import LatticeSpec
 from volfrep.io.write.stl import as_read
 from volfrep.jobs.infill import Infill
-from volfrep.mesh.triangle_mesh import TriangleMesh
+from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
 from volfrep.spatial import uncrossing
 from volfrep.spatial.piercing import piercing_pairs
 from volfrep.spatial.uncrossing import turning_back, uncrossed
@@ -76,6 +76,19 @@ def test_struts_that_fold_without_turning_back_wholly_are_drawn_apart():
     """25 pairs of facets crossed here, at edges that turn by 110 to 150 degrees."""
     result = Infill(samples.box((24.0, 20.0, 14.0)), FOLDED).result
     assert not len(piercing_pairs(as_read(result.mesh)))
+
+
+def test_deformed_balls_that_meet_where_nothing_turns_back_are_drawn_apart():
+    """Struts of different joints do: 86 pairs of facets crossed in a part, and nobody told."""
+    one, two = samples.sphere(10.0, 3), samples.sphere(10.0, 3)
+    shifted = TriangleMesh(two.vertices + np.array([19.6, 3.1, 1.7]), two.triangles)
+    mesh = concatenate(one, shifted)
+    assert not turning_back(mesh, deformed=True).any()
+    assert len(piercing_pairs(as_read(mesh)))
+    straight, place = uncrossed(mesh, Monitor(), deformed=True)
+    assert not len(piercing_pairs(as_read(straight)))
+    assert place is None
+    assert np.abs(straight.vertices - mesh.vertices).max() < 1.0
 
 
 def test_what_cannot_be_drawn_apart_is_told_with_its_place(monkeypatch):

@@ -139,6 +139,12 @@ def _workers(options: argparse.Namespace, triangles: int) -> Iterator[Executor |
             yield executor
         return
     count, module = options.workers, ""
+    if count == 1:
+        from concurrent.futures import ThreadPoolExecutor
+
+        with ThreadPoolExecutor(1) as executor:  # groups one after the other
+            yield executor
+        return
     if triangles >= WORTH_WORKERS:  # they start while this process looks for the wall
         module = "volfrep.trim.group_cut"
     elif count is None:

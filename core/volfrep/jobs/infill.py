@@ -303,12 +303,13 @@ class Infill:
             # Where nothing is cut there is no wall that an octant could reach.
             margin = np.inf if not is_cut else 0.0 if self._keeps_places else FIRST_MARGIN
             with self.monitor.stage("tile", 0.4, 0.5):
-                first = self._octants(is_cut, margin)
+                within = partial(self._octants, is_cut)
+                first = within(margin)
             with self.monitor.stage("lattice", 0.5, 0.6):
                 self._laid_octants[is_cut] = (
                     in_place(*first, motion)
                     if motion is not None
-                    else lay(first, margin, partial(self._octants, is_cut), self._placed)
+                    else lay(first, margin, within, self._placed, self.monitor)
                 )
         return self._laid_octants[is_cut]
 

@@ -54,7 +54,7 @@ def look_at_moved(
         monitor: for cancel.
     """
     twin = np.zeros(len(points), bool)
-    twin[_merging(layout, points, excess)] = True
+    twin[_merging(layout, points, excess, monitor)] = True
     row, kinds = np.full(where.shape, -1, np.int64), []
     unsound, bent = np.zeros_like(where), np.zeros_like(where)
     for octant, every in zip(octants, layout.places, strict=True):
@@ -76,7 +76,7 @@ def _copies(octant: Octant) -> int:
     return max(1, BLOCK_VERTICES // max(1, len(octant.vertices)))
 
 
-def _merging(layout: Layout, points: Floats, excess: float) -> Ints:
+def _merging(layout: Layout, points: Floats, excess: float, monitor: Monitor) -> Ints:
     """The vertices that a file would take for one with another; ascending."""
     grid, step = layout.grid, decimal_step(points)
     layers = grid.kind.shape[0]
@@ -94,7 +94,11 @@ def _merging(layout: Layout, points: Floats, excess: float) -> Ints:
         result: Ints = near[merging(own[near], step)] + np.int64(rows[0])
         return result
 
-    result: Ints = np.unique(np.concatenate([np.zeros(0, np.int64), *in_threads(in_part, ends)]))
+    found = [np.zeros(0, np.int64)]
+    for rows in in_threads(in_part, ends):
+        monitor.tick()
+        found.append(rows)
+    result: Ints = np.unique(np.concatenate(found))
     return result
 
 

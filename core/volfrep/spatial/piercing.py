@@ -246,15 +246,18 @@ def _edges_pierce(
 
 def _sides(vertices: Floats, planes: NDArray[np.int32], points: NDArray[np.int32]) -> Signs:
     """(n,) the exact side, -1, 0 or 1, of points against planes through three vertices each."""
-    origin = vertices[points]
-    u, v, w = (vertices[planes[:, k]] - origin for k in range(3))
+    # Axis by axis, which numpy takes in faster than rows of three.
+    columns = [vertices[:, k] for k in range(3)]
+    corners = [np.ascontiguousarray(planes[:, k]) for k in range(3)]
+    origin = [column[points] for column in columns]
+    u, v, w = ([c[q] - o for c, o in zip(columns, origin, strict=True)] for q in corners)
     value = np.zeros(len(points))
     size = np.zeros(len(points))
     for i in range(3):
         j, k = (i + 1) % 3, (i + 2) % 3
-        left, right = v[:, j] * w[:, k], v[:, k] * w[:, j]
-        value += u[:, i] * (left - right)
-        size += np.abs(u[:, i]) * (np.abs(left) + np.abs(right))
+        left, right = v[j] * w[k], v[k] * w[j]
+        value += u[i] * (left - right)
+        size += np.abs(u[i]) * (np.abs(left) + np.abs(right))
     signs = np.sign(value).astype(np.int8)
     unsure = np.flatnonzero(np.abs(value) <= ROUNDING * size)
     # Where every term is zero a difference is, and that is exact.

@@ -16,6 +16,8 @@ from ..util.types import Bools, Floats, Ints
 PAIRS_PER_STEP = 500_000
 #: The finest grid has no more bins along the largest triangle: their names have 21 bits an axis.
 MOST_BINS = 1 << 16
+#: A box begins in a bin along x (1), y (2) and z (4).
+ALONG_ALL = 7
 #: The most cells along the longest side of the grid by which triangles near others are picked.
 ABOUT_CELLS = 160
 
@@ -101,7 +103,7 @@ def _crossing_edges(
 
 
 def close_pairs(corners: Floats, among: Bools, margin: float = 0.0) -> Iterator[tuple[Ints, Ints]]:
-    """Pairs of triangles whose boxes overlap, at least one of them chosen; some of them twice.
+    """Pairs of triangles whose boxes overlap, at least one of them chosen, each once.
 
     They meet in the bins of several grids, each twice as coarse as the one before: every triangle
     waits in the bins of its own size, and visits those and all coarser ones.
@@ -125,10 +127,10 @@ def close_pairs(corners: Floats, among: Bools, margin: float = 0.0) -> Iterator[
                                   (smaller[~among[smaller]], waiting[among[waiting]])):  # fmt: skip
             if not (len(visiting) and len(visited)):
                 continue
-            waits, its_bin = boxes_in_bins(low[visited], high[visited], origin, cell)
+            waits, its_bin, begins = _boxes_in_bins(low[visited], high[visited], origin, cell)
             order = np.argsort(its_bin, kind="stable")
-            waits, its_bin = visited[waits[order]], its_bin[order]
-            visits, bins = boxes_in_bins(low[visiting], high[visiting], origin, cell)
+            waits, its_bin, begins = visited[waits[order]], its_bin[order], begins[order]
+            visits, bins, ours = _boxes_in_bins(low[visiting], high[visiting], origin, cell)
             visits = visiting[visits]
             first = np.searchsorted(its_bin, bins)
             count = np.searchsorted(its_bin, bins, "right") - first
@@ -138,7 +140,10 @@ def close_pairs(corners: Floats, among: Bools, margin: float = 0.0) -> Iterator[
             steps = np.searchsorted(total, np.arange(0, int(count.sum()), PAIRS_PER_STEP))
             for begin, end in zip(steps, [*steps[1:], len(count)], strict=True):
                 row, place = spread(count[begin:end])
-                a, b = visits[begin + row], waits[first[begin + row] + place]
+                row, place = begin + row, first[begin + row] + place
+                # Boxes overlap in many bins: in the first of these one of the two begins.
+                here = (ours[row] | begins[place]) == ALONG_ALL
+                a, b = visits[row[here]], waits[place[here]]
                 # Of two chosen ones of a size both visit: once is enough.
                 keep = (a < b) | (level[a] < grid) | ~among[b]
                 a, b = a[keep], b[keep]
@@ -163,19 +168,28 @@ def _together(pairs: Iterator[tuple[Ints, Ints]]) -> Iterator[tuple[Ints, Ints]]
 
 def boxes_in_bins(low: Floats, high: Floats, origin: Floats, size: float) -> tuple[Ints, Ints]:
     """Every box with every bin of a grid that it reaches into, as (box, bin) pairs."""
+    return _boxes_in_bins(low, high, origin, size)[:2]
+
+
+def _boxes_in_bins(
+    low: Floats, high: Floats, origin: Floats, size: float
+) -> tuple[Ints, Ints, NDArray[np.uint8]]:
+    """As `boxes_in_bins`, and along which axes the box begins in the bin: a bit for each."""
     first = np.floor((low - origin) / size).astype(np.int64)
     span = np.floor((high - origin) / size).astype(np.int64) - first + 1
     row, place = spread(span.prod(axis=1))
-    place, along_z = np.divmod(place, span[row, 2])
-    along_x, along_y = np.divmod(place, span[row, 1])
+    rest, place = np.divmod(place, span[row, 2])
+    along_x, along_y = np.divmod(rest, span[row, 1])
     x, y, z = first[row].T
-    return row, ((x + along_x) << 42) + ((y + along_y) << 21) + z + along_z
+    begins = [(along == 0).view(np.uint8) for along in (along_x, along_y, place)]
+    number = ((x + along_x) << 42) + ((y + along_y) << 21) + z + place
+    return row, number, begins[0] | begins[1] << 1 | begins[2] << 2
 
 
 def meeting_boxes(
     low: Floats, high: Floats, least: Floats, most: Floats, size: float
 ) -> tuple[Ints, Ints]:
-    """Boxes and other boxes that meet, as (box, other) pairs, some of them more than once.
+    """Boxes and other boxes that meet, as (box, other) pairs, each once.
 
     Args:
         low: (n, 3) lowest corners of the boxes.
@@ -185,13 +199,16 @@ def meeting_boxes(
         size: of the bins in which they are looked for; of no effect on what is found.
     """
     origin = np.minimum(low.min(axis=0), least.min(axis=0))
-    box, its_bin = boxes_in_bins(low, high, origin, size)
+    box, its_bin, ours = _boxes_in_bins(low, high, origin, size)
     order = np.argsort(its_bin, kind="stable")
-    box, its_bin = box[order], its_bin[order]
-    other, bins = boxes_in_bins(least, most, origin, size)
+    box, its_bin, ours = box[order], its_bin[order], ours[order]
+    other, bins, theirs = _boxes_in_bins(least, most, origin, size)
     begin = np.searchsorted(its_bin, bins)
     row, place = spread(np.searchsorted(its_bin, bins, "right") - begin)
-    a, b = box[begin[row] + place], other[row]
+    place += begin[row]
+    # Boxes overlap in many bins: in the first of these one of the two begins.
+    here = (ours[place] | theirs[row]) == ALONG_ALL
+    a, b = box[place[here]], other[row[here]]
     for axis in range(3):
         ends = (np.ascontiguousarray(each[:, axis]) for each in (low, high, least, most))
         lowest, highest, its_least, its_most = ends

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Executor, Future, wait
+from concurrent.futures import Executor, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -19,6 +19,7 @@ from ..mesh.triangle_mesh import TriangleMesh, compact, concatenate, corners_amo
 from ..spatial.rays import inside_points
 from ..util.errors import VolfrepError
 from ..util.progress import POLL_SECONDS, Monitor
+from ..util.threads import threads
 from ..util.types import Bools, Floats, Ints
 from ..util.workers import at_once
 from .culling import KeptOctants, without_pinches
@@ -67,7 +68,7 @@ def trim(
         cavity: True for domain - lattice turned inside out (the wall with holes where struts
             meet it, and the struts), False for domain & lattice.
         monitor: for progress and cancel.
-        executor: cuts groups beside each other; None: one after the other in this process.
+        executor: cuts groups beside each other; None: threads of this process.
         precision: slivers thinner than that go where groups do not meet, mm; 0: all stay.
 
     Raises:
@@ -125,9 +126,23 @@ def _cut(
     groups: Iterator[tuple[int, Group]], count: int, executor: Executor | None, monitor: Monitor
 ) -> Iterator[tuple[int, Piece]]:
     """What the Boolean leaves of numbered groups, in their order."""
-    ahead: deque[tuple[int, Group, Future[Piece] | None]] = deque()
+    own = None
     if count == 1:
         executor = None  # to start a worker takes longer than the group
+    elif executor is None and threads() > 1:
+        executor = own = ThreadPoolExecutor(threads())
+    try:
+        yield from _cut_beside(groups, count, executor, monitor)
+    finally:
+        if own is not None:  # after a cancel it does not wait for the groups that were begun
+            own.shutdown(wait=False, cancel_futures=True)
+
+
+def _cut_beside(
+    groups: Iterator[tuple[int, Group]], count: int, executor: Executor | None, monitor: Monitor
+) -> Iterator[tuple[int, Piece]]:
+    """As `_cut`, with this executor; None: here."""
+    ahead: deque[tuple[int, Group, Future[Piece] | None]] = deque()
     for done in range(count):
         piece = None
         # Some groups ahead, so that no worker waits; not all, so that they take no memory.

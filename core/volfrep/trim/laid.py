@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -56,11 +56,13 @@ class Laid(Placed):
         octants: their meshes, without corners.
         excess: how far those that do not keep their places reach out of them, in units of their
             edges.
+        monitor: asked for a cancel while these are looked at.
     """
 
     kept: KeptOctants
     octants: dict[OctantKey, Octant]
     excess: float = 0.0
+    monitor: Monitor = field(default_factory=Monitor)
 
     def alone(self, where: Bools) -> Layout:
         """Some of the octants without their corners, numbered as among all; their own count."""
@@ -90,7 +92,9 @@ class Laid(Placed):
         octants = [self.octants[key] for key in self.layout.grid.keys]
         farthest = np.float32(np.abs(self.points).max(initial=1.0))
         safe = SAFE_STEPS * float(np.spacing(farthest))
-        return look_at_moved(self.layout, octants, self.points, where, safe, self.excess, Monitor())
+        return look_at_moved(
+            self.layout, octants, self.points, where, safe, self.excess, self.monitor
+        )
 
     @cached_property
     def unsound(self) -> Bools:
@@ -298,6 +302,7 @@ def lay(
     margin: float,
     within: Callable[[float], tuple[KeptOctants, dict[OctantKey, Octant]]],
     place: Callable[[Layout], Deformed],
+    monitor: Monitor,
 ) -> Laid:
     """The octants laid where the struts are; with more of them, where struts reach far out.
 
@@ -306,6 +311,7 @@ def lay(
         margin: how far out of their places octants may reach, in units of their edges.
         within: gives the octants within a wider one.
         place: gives where the vertices of numbered octants are.
+        monitor: asked for a cancel whenever these are looked at.
 
     Raises:
         VolfrepError: octants reach out farther than `MOST_WIDENINGS` find.
@@ -316,7 +322,7 @@ def lay(
         placed = place(layout)
         if placed.excess <= margin + 1e-9:
             still = Motion(np.zeros(3))
-            return Laid(layout, placed.vertices, still, kept, octants, placed.excess)
+            return Laid(layout, placed.vertices, still, kept, octants, placed.excess, monitor)
         if widening < MOST_WIDENINGS:
             margin = max(SPARE_MARGIN * placed.excess, 2.0 * margin if widening else 0.0)
             kept, octants = within(margin)

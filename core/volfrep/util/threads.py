@@ -45,6 +45,9 @@ def in_threads(work: Callable[[S], T], items: Iterable[S]) -> Iterator[T]:
     Numpy lets go of the interpreter while it computes: portions of 10,000 numbers and more gain.
     """
     count = threads()
+    if count == 1:
+        yield from map(work, items)
+        return
     waiting: deque[Future[T]] = deque()
     with ThreadPoolExecutor(max_workers=count) as pool:
         try:

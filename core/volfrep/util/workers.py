@@ -14,7 +14,7 @@ from importlib import import_module
 from typing import Any
 
 from .errors import VolfrepError
-from .threads import threads
+from .threads import threads, use_threads
 from .version import VERSION
 
 #: A scheduler that does not answer within so long is not there, s.
@@ -45,7 +45,8 @@ def processes(count: int | None = None, module: str = "") -> Iterator[Executor |
     from concurrent.futures import ProcessPoolExecutor
 
     context = multiprocessing.get_context("spawn")
-    pool = ProcessPoolExecutor(count, context, _prepared, (module,))
+    each = max(1, threads() // count)
+    pool = ProcessPoolExecutor(count, context, _prepared, (module, each))
     if module:
         pool.submit(int)
     try:
@@ -54,9 +55,13 @@ def processes(count: int | None = None, module: str = "") -> Iterator[Executor |
         pool.shutdown(cancel_futures=True)
 
 
-def _prepared(module: str) -> None:
-    """Leave Ctrl-C, which a terminal sends to all its processes, to the one that is asked."""
+def _prepared(module: str, thread_count: int) -> None:
+    """Leave Ctrl-C, which a terminal sends to all its processes, to the one that is asked.
+
+    The cores are for the processes: threads of each would only wait for one another.
+    """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    use_threads(thread_count)
     if module:
         import_module(module)
 

@@ -3,6 +3,7 @@
 
 from concurrent.futures import BrokenExecutor, ProcessPoolExecutor, ThreadPoolExecutor
 from dataclasses import dataclass, replace
+from threading import Event, get_ident
 
 import manifold3d
 import numpy as np
@@ -28,7 +29,9 @@ from volfrep.trim.culling import cull, octant_roles
 from volfrep.trim.group_cut import open_vertices
 from volfrep.trim.laid import in_place
 from volfrep.trim.trimmed_surface import TrimmedSurface
+from volfrep.util.errors import Cancelled
 from volfrep.util.progress import Monitor
+from volfrep.util.threads import use_threads
 
 L = 10.0
 
@@ -39,9 +42,11 @@ class Found:
     boolean_triangles: int
 
 
-def trimmed(domain, name="CVC", radius=1.0, cavity=True, grow=0, executor=None, precision=0.0):
+def trimmed(
+    domain, name="CVC", radius=1.0, cavity=True, grow=0, executor=None, precision=0.0, monitor=None
+):
     """The lattice cut at the domain; with `grow`, that many more octants go into the Boolean."""
-    cell, monitor = LIBRARY[name], Monitor()
+    cell, monitor = LIBRARY[name], monitor or Monitor()
     cells = make_grid(domain.bounds, L, (1.3, 2.1, 0.7))
     roles = octant_roles(domain, cells, monitor)
     if grow:
@@ -157,8 +162,11 @@ def test_the_trimmed_lattice_has_the_genus_of_a_boolean_by_others():
 
 @pytest.fixture
 def small_groups(monkeypatch):
-    """Groups of so few triangles that a sample has several."""
+    """Groups of so few triangles that a sample has several, cut one after the other."""
     monkeypatch.setattr(wall_groups, "GROUP_TRIANGLES", 12_000)
+    use_threads(1)
+    yield
+    use_threads(0)
 
 
 def joined_of(monkeypatch):
@@ -199,6 +207,40 @@ def test_groups_give_the_surface_that_one_boolean_gives(
     assert some.area == pytest.approx(one.area, rel=1e-9)
     for figure in ("shells", "bodies", "voids", "genus"):
         assert getattr(some, figure) == getattr(one, figure)
+
+
+def test_threads_of_this_process_cut_the_same(small_groups, monkeypatch):
+    alone, cutting = mesh_of(trimmed(tilted_box())), set()
+    real = boolean_trim.cut
+
+    def noted(group, monitor=None):
+        cutting.add(get_ident())
+        return real(group, monitor)
+
+    monkeypatch.setattr(boolean_trim, "cut", noted)
+    use_threads(3)
+    mesh = mesh_of(trimmed(tilted_box()))
+    np.testing.assert_array_equal(mesh.vertices, alone.vertices)
+    np.testing.assert_array_equal(mesh.triangles, alone.triangles)
+    assert get_ident() not in cutting
+    assert cutting
+
+
+def test_a_cancel_while_threads_cut_begins_no_more_groups(small_groups, monkeypatch):
+    use_threads(2)
+    begun, waits = [], Event()
+
+    def noted(group, monitor=None):
+        begun.append(group)
+        waits.wait()
+
+    monkeypatch.setattr(boolean_trim, "cut", noted)
+    try:
+        with pytest.raises(Cancelled):
+            trimmed(tilted_box(), monitor=Monitor(lambda *_: not begun))
+    finally:
+        waits.set()
+    assert 1 <= len(begun) <= 2
 
 
 @pytest.mark.slow

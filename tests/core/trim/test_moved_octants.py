@@ -20,6 +20,7 @@ from volfrep.mesh.quality import measure
 from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.spatial.winding import Lines, windings
 from volfrep.trim.trimmed_surface import TrimmedSurface
+from volfrep.util.errors import Cancelled
 from volfrep.util.progress import Monitor
 
 
@@ -110,3 +111,9 @@ def test_unsound_octants_go_into_the_mesh():
     assert isinstance(more, TrimmedSurface)
     assert more.triangles == surface.triangles
     assert more.is_joined
+
+
+def test_a_cancel_is_seen_while_octants_are_looked_at():
+    laid = graded()._laid(is_cut=True)
+    with pytest.raises(Cancelled):
+        _ = replace(laid, monitor=Monitor(lambda *_: False)).moved

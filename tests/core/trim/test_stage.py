@@ -10,6 +10,7 @@ import pytest
 from volfrep import VolfrepError
 from volfrep.lattice.deform import Deformed
 from volfrep.trim.laid import FIRST_MARGIN, MOST_WIDENINGS, SPARE_MARGIN, lay
+from volfrep.util.progress import Monitor
 
 
 @dataclass
@@ -33,7 +34,7 @@ def laid(reach):
     def place(margin):
         return Deformed(np.zeros((0, 3)), reach(margin))
 
-    found = lay((Octants(FIRST_MARGIN), {}), FIRST_MARGIN, within, place)
+    found = lay((Octants(FIRST_MARGIN), {}), FIRST_MARGIN, within, place, Monitor())
     assert found.layout == tried[-1]
     return tried
 

@@ -113,6 +113,8 @@ def close_pairs(corners: Floats, among: Bools, margin: float = 0.0) -> Iterator[
         among: (m,) bool, the chosen ones.
         margin: by which each box is larger than its triangle on every side, mm.
     """
+    if not len(corners):
+        return
     low, high = corners.min(axis=1) - margin, corners.max(axis=1) + margin
     extent = (high - low).max(axis=1)
     size = max(float(np.percentile(extent, 50)), float(extent.max()) / MOST_BINS)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A wall gets fewer facets, none of which cross, in a number of tries that is known beforehand."""
+"""No facets of a wall run through each other, after a number of rounds that is known beforehand."""
 
 import manifold3d
 import numpy as np
@@ -7,29 +7,26 @@ import pytest
 import trimesh
 
 import samples
-from volfrep.mesh.triangle_mesh import TriangleMesh
-from volfrep.shell import wall_decimation as simplify
+from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
+from volfrep.shell import crossing_plugs
 from volfrep.shell.crossing_plugs import without_crossings
 from volfrep.shell.offset import inner_wall
-from volfrep.shell.wall_crossings import judged
-from volfrep.spatial.self_intersection import crossing_triangles
+from volfrep.shell.wall_crossings import crossed_along, judged
+from volfrep.spatial.piercing import piercing_pairs
 from volfrep.util.progress import Monitor
 from walls import wall_errors
 
-DEPTH = 1e-5
 
-
-def crossing(mesh):
-    return crossing_triangles(mesh, np.ones(len(mesh.triangles), bool), DEPTH)
-
-
-def overlapping_spheres():
+def overlapping_spheres(shift=19.6):
     """Two spheres that share a lens of 0.4, as one mesh."""
     one = samples.sphere(10.0, 3)
-    return TriangleMesh(
-        np.concatenate([one.vertices, one.vertices + np.array([19.6, 0.013, 0.027])]),
-        np.concatenate([one.triangles, one.triangles + len(one.vertices)]),
-    )
+    two = TriangleMesh(one.vertices + np.array([shift, 0.013, 0.027]), one.triangles)
+    return concatenate(one, two)
+
+
+def is_manifold(mesh):
+    solid = manifold3d.Mesh64(mesh.vertices, mesh.triangles.astype(np.uint64))
+    return manifold3d.Manifold(solid).status() == manifold3d.Error.NoError
 
 
 @pytest.mark.slow
@@ -37,49 +34,57 @@ def test_a_housing_whose_walls_are_hardly_thicker_than_two_skins():
     solid, thickness = samples.housing(), 5.0
     monitor = Monitor()
     wall = inner_wall(solid, thickness, monitor)
-    assert not crossing(wall.mesh).any()
+    assert not len(piercing_pairs(wall.mesh))
     assert trimesh.Trimesh(wall.mesh.vertices, wall.mesh.triangles, process=False).is_watertight
     assert np.abs(wall_errors(solid, wall.mesh, thickness)).max() < 0.05
     assert wall.worst < 0.05
-    assert 1 < monitor.work["simplifications of the wall"] <= simplify.TRIES
+    assert 1 <= monitor.work["times the wall was drawn apart"] <= crossing_plugs.ROUNDS
 
 
-def test_tries_that_each_leave_one_crossing_less_end_all_the_same(monkeypatch):
-    """The case that did not end: 10,000 tries would go by, each a little better than the last."""
-    left = iter(range(10_000, 0, -1))
-
-    def one_less(mesh, depth, before):
-        found = judged(mesh, depth, before)
-        crossed = np.zeros(len(mesh.triangles), bool)
-        crossed[: min(next(left), len(crossed))] = True
-        return type(found)(found.names, crossed, found.edge_of, found.through, found.points)
-
-    monkeypatch.setattr(simplify, "judged", one_less)
-    monkeypatch.setattr(simplify, "without_crossings", lambda mesh, known, thickness: mesh)
-    monitor = Monitor()
-    inner_wall(samples.plate(32), 2.0, monitor)
-    assert monitor.work["simplifications of the wall"] <= simplify.TRIES
+def test_rounds_that_change_nothing_end_all_the_same(monkeypatch):
+    mesh, monitor = overlapping_spheres(), Monitor()
+    monkeypatch.setattr(crossing_plugs, "uncrossed", lambda mesh, monitor, turns: (mesh, None))
+    monkeypatch.setattr(crossing_plugs, "_less", lambda mesh, sizes, places: mesh)
+    assert without_crossings(mesh, 10.0, monitor) is mesh
+    assert monitor.work["times the wall was drawn apart"] == crossing_plugs.ROUNDS
 
 
 def test_what_is_known_of_a_mesh_is_enough_to_judge_one_that_differs_little():
     mesh = overlapping_spheres()
-    before = judged(mesh, DEPTH)
+    before = judged(mesh, Monitor())
     moved = mesh.vertices.copy()
     moved[np.argmax(moved[:, 0])] += [0.3, 0.2, 0.1]
     other = TriangleMesh(moved, mesh.triangles[::-1])
-    again = judged(other, DEPTH, before)
-    assert before.crossed.any()
-    assert np.array_equal(again.crossed, crossing(other))
+    again = judged(other, Monitor(), before)
+    assert len(before.pairs)
+    assert np.array_equal(again.pairs, piercing_pairs(other))
 
 
-def test_crossing_facets_go_with_a_little_of_the_room_about_them():
+def test_two_triangles_cross_along_what_their_planes_have_in_common():
+    """One stands upright on x = 0.5 to 3 in the other's plane, which reaches to x = 2 there."""
+    corners = [[0, -2, 0], [4, -2, 0], [0, 2, 0], [-0.5, 0, -1], [4, 0, -1], [1.75, 0, 1]]
+    mesh = TriangleMesh(np.array(corners, float), np.array([[0, 1, 2], [3, 4, 5]], np.int32))
+    ends = np.stack(crossed_along(mesh, np.array([[0, 1]])))[:, 0]
+    expected = [[0.625, 0.0, 0.0], [2.0, 0.0, 0.0]]
+    np.testing.assert_allclose(sorted(ends.tolist()), expected, atol=1e-12)
+
+
+def test_spheres_that_overlap_by_a_hair_are_drawn_apart():
+    mesh = overlapping_spheres(19.99)
+    apart = without_crossings(mesh, 10.0, Monitor())
+    assert len(piercing_pairs(mesh))
+    assert not len(piercing_pairs(apart))
+    assert len(apart.vertices) == len(mesh.vertices)
+    assert np.abs(apart.vertices - mesh.vertices).max() < 0.3
+
+
+def test_what_cannot_be_drawn_apart_goes_with_a_little_of_the_room_about_it(monkeypatch):
+    monkeypatch.setattr(crossing_plugs, "uncrossed", lambda mesh, monitor, turns: (mesh, None))
     mesh = overlapping_spheres()
-    thickness = 10.0
-    plugged = without_crossings(mesh, judged(mesh, DEPTH), thickness)
-    assert crossing(mesh).any()
-    assert not crossing(plugged).any()
-    solid = manifold3d.Mesh64(plugged.vertices, plugged.triangles.astype(np.uint64))
-    assert manifold3d.Manifold(solid).status() == manifold3d.Error.NoError
-    # The ring in which they cross is 5.6 across: boxes of a few tenths along it.
-    assert plugged.volume == pytest.approx(mesh.volume, rel=2e-3)
+    plugged = without_crossings(mesh, 10.0, Monitor())
+    assert len(piercing_pairs(mesh))
+    assert not len(piercing_pairs(plugged))
+    assert is_manifold(plugged)
+    # One flat box about the lens of 5.6 across and 0.4 thick.
+    assert plugged.volume == pytest.approx(mesh.volume, rel=3e-3)
     assert plugged.volume < mesh.volume

@@ -199,6 +199,25 @@ def test_a_script_sizes_in_one_call(infill):
         size_lattice(infill, safty=2)
 
 
+def test_a_random_network_is_sized_as_cells_are(doc):
+    box = doc.addObject("Part::Box", "Beam")
+    box.Length, box.Width, box.Height = 40, 20, 20
+    doc.recompute()
+    infill = make_lattice_infill(
+        doc, box, Network="Voronoi", NetworkPoints=15, StrutRadius=0.6, ShellThickness=1.5
+    )
+    doc.recompute()
+    struts = infill.Struts
+    loaded(infill)
+    outcome = size_lattice(infill, goal="stiffness", prove=False)
+    before, after = outcome.part.before, outcome.part.sized.analysis
+    assert before.compliance[0] > after.compliance[0]
+    doc.recompute()
+    assert infill.isValid(), infill.Status
+    assert (infill.Struts, infill.Bodies) == (struts, 1)
+    assert list(infill.SizedRadii) == pytest.approx(outcome.part.radii)
+
+
 @pytest.mark.slow
 def test_a_target_gives_the_mass_that_is_distributed(infill):
     loaded(infill)

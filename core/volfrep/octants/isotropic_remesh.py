@@ -29,7 +29,7 @@ from .constrained_mesh import (
     neighbour_mean,
     project,
 )
-from .sdf import distances_and_gradients
+from .sdf import distances, distances_and_gradients
 from .untangle import proper_border
 
 #: Edges shorter than this, in units of the wanted edge, are collapsed.
@@ -239,7 +239,11 @@ def _snap(surface: Surface, ends: Ints, movable: Bools) -> Surface:
     one, two = held[ends[:, 0]], held[ends[:, 1]]
     apart = ~((one[:, :, None] == two[:, None, :]) & (one[:, :, None] >= 0)).any(axis=(1, 2))
     apart &= movable[ends].any(axis=1)
-    ends, one, two = ends[apart], one[apart, 0], two[apart, 0]
+    ends, one, two = ends[apart], one[apart], two[apart]
+    one, two = (
+        _toward(surface, held_by, ends[:, end], surface.vertices[ends[:, 1 - end]])
+        for end, held_by in enumerate((one, two))
+    )
     # An end that touches the other's primitive as well is on the crease already.
     primitives, tolerance = surface.field.primitives, ON_SURFACE * surface.edge
     at_one, _ = distances_and_gradients(surface.vertices[ends[:, 0]], primitives.take(two))
@@ -266,3 +270,19 @@ def _snap(surface: Surface, ends: Ints, movable: Bools) -> Surface:
     vertices, new_held = surface.vertices.copy(), surface.held.copy()
     vertices[vertex], new_held[vertex] = point[pick], held_by[pick]
     return replace(moved(surface, vertices), held=new_held)
+
+
+def _toward(surface: Surface, held: Ints, vertex: Ints, others: Floats) -> Ints:
+    """(k,) the primitive that vertices lie on, of the (k, 3) that hold them: mostly the first.
+
+    A vertex on an octant's edge may lie on several. Octants beyond name these in another order,
+    and take the same one, which is the nearest to the edge's other end.
+    """
+    result = held[:, 0].copy()
+    look = np.flatnonzero((surface.pinned[vertex].sum(axis=1) >= 2) & (held[:, 1] >= 0))
+    if len(look):
+        points = np.repeat(others[look, None], 3, axis=1)
+        away = distances(points, surface.field.primitives.take(held[look]))
+        away[held[look] < 0] = np.inf
+        result[look] = held[look, np.argmin(away, axis=1)]
+    return result

@@ -119,15 +119,21 @@ def _crossing_edges(surface: Surface, ends: Ints) -> Ints:
             np.take_along_axis(points[end], flat[a], axis=1)
             for end in (ends[a, 0], ends[a, 1], ends[b, 0], ends[b, 1])
         )
-        cross = (_turn(p, q, u) * _turn(p, q, v) <= 0.0) & (_turn(u, v, p) * _turn(u, v, q) <= 0.0)
+        touch = TOUCHING * surface.edge
+        cross = ~(_on_one_side(p, q, u, v, touch) | _on_one_side(u, v, p, q, touch))
         found += [a[cross], b[cross]]
     return np.unique(np.concatenate(found))
 
 
-def _turn(a: Floats, b: Floats, c: Floats) -> Floats:
-    """Twice the area of flat triangles, positive where they run counter-clockwise."""
-    one, two = b - a, c - a
-    result: Floats = one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]
+def _on_one_side(a: Floats, b: Floats, c: Floats, d: Floats, touch: float) -> Bools:
+    """Whether flat points c and d lie on the same side of the lines through a and b, off them.
+
+    On a line is what is nearer than that: where ends meet, another octant rounds otherwise.
+    """
+    along = b - a
+    away = [along[:, 0] * (p - a)[:, 1] - along[:, 1] * (p - a)[:, 0] for p in (c, d)]
+    off = touch * np.linalg.norm(along, axis=1)
+    result: Bools = (np.minimum(*away) > off) | (np.maximum(*away) < -off)
     return result
 
 

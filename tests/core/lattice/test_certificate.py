@@ -18,10 +18,11 @@ from volfrep.util.progress import Monitor
 SKEW = make_cell("skew", [[0, 0, 0], [1, 1, 1], [0.3, 0.6, 0.45]], [[0, 2], [2, 1]])
 
 
-def layout_of(cell, active, radius=1.0):
+def layout_of(cell, active, radius=1.0, facets=12):
     monitor = Monitor()
     grid = octant_grid(cell, active, 10.0, np.array([3.0, -40.0, 7.0]))
-    return lay_out(grid, mesh_octants(cell, OctantSpec(10.0, radius, 0.0, 12), grid.keys, monitor))
+    spec = OctantSpec(10.0, radius, 0.0, facets)
+    return lay_out(grid, mesh_octants(cell, spec, grid.keys, monitor))
 
 
 @pytest.mark.parametrize("cell", [*map(find_cell, PAPERS), SKEW], ids=lambda c: c.name)
@@ -41,6 +42,16 @@ def test_the_survey_agrees_with_the_measure(cell, share):
     assert surveyed.volume == pytest.approx(measured.volume, rel=near)
     assert surveyed.area == pytest.approx(measured.area, rel=near)
     np.testing.assert_array_equal(surveyed.bounds, measured.bounds)
+
+
+@pytest.mark.parametrize(
+    ("cell", "radius", "facets", "share"),
+    [("Kagome", 1.5877651511816147, 8, 1.0), ("Kelvin", 1.5690050236742336, 15, 0.6)],
+)
+def test_octants_fit_where_creases_leave_them(cell, radius, facets, share):
+    """On a crease a vertex lies on two struts, and where two creases end it has a twin."""
+    active = np.random.default_rng(1).random((2, 2, 2)) <= share
+    certify(layout_of(LIBRARY[cell], active, radius, facets))
 
 
 def test_an_octant_with_a_hole_is_found():

@@ -42,6 +42,17 @@ def left_out(spec: LatticeSpec) -> list[str]:
     ]
 
 
+def strut_by_strut(limits: Limits) -> list[str]:
+    """A sentence on what a limit of buckling does not hold; nothing without one."""
+    if limits.buckling is None:
+        return []
+    return [
+        "Buckling was looked at strut by strut, between joints that stay where they are: where "
+        "joints can shift sideways, as in cells that bend (Box, CVC), the lattice may buckle as a "
+        "whole at half the factor asked for. Ask for more, or put a step *BUCKLE into its deck."
+    ]
+
+
 def unproved(problem: Problem, used: Mapping[str, float], analysis: Analysis) -> str:
     """Which limit a design does not hold when CalculiX solves it."""
     worst = max(used, key=lambda name: used[name])

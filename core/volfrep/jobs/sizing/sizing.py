@@ -30,7 +30,7 @@ from ..infill import Infill
 from ..networks.frame import fixed_graph
 from ..targets import aimed, infill_of
 from .goal import Goal
-from .notes import left_out, not_held, stressed_skin, unproved
+from .notes import left_out, not_held, stressed_skin, strut_by_strut, unproved
 from .part_model import given_radii, part_model, spacing
 from .removal import RADIUS_STEP, SLACK, Thinned, field_points, radius_field, thinned
 
@@ -143,7 +143,7 @@ def size(
     if not sized.holds:
         notes.append(not_held(problem, sized.analysis))
     notes += stressed_skin(model, sized.analysis, goal.limits)
-    notes += left_out(spec)
+    notes += left_out(spec) + strut_by_strut(goal.limits)
     if sized.stopped == "cancelled":
         notes.append("The search was cancelled: this is the best design so far.")
     final = _stored(problem, sized.analysis.radii, goal.limits)

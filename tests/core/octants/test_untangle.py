@@ -84,10 +84,13 @@ def test_struts_that_cross_anyhow_leave_no_facets_that_do(resolution):
         assert inner.max() < 3.5
 
 
-def test_narrow_windows_leave_no_facets_that_cross():
-    for resolution in (24, 28, 30):
-        spec = LatticeSpec("FCC", 10.0, 3.0, resolution=resolution)
-        assert not crossings(block(spec, (1, 1, 1)).mesh)
+@pytest.mark.parametrize(
+    "resolution",
+    [24, pytest.param(28, marks=pytest.mark.slow), pytest.param(30, marks=pytest.mark.slow)],
+)
+def test_narrow_windows_leave_no_facets_that_cross(resolution):
+    spec = LatticeSpec("FCC", 10.0, 3.0, resolution=resolution)
+    assert not crossings(block(spec, (1, 1, 1)).mesh)
 
 
 def test_where_facets_cross_however_they_are_meshed_finer_ones_are_tried():

@@ -47,16 +47,26 @@ class Ingredients:
         return self.domain is not None and self.spec.with_skin
 
 
-def inputs_of(obj: App.DocumentObject) -> tuple[TriangleMesh, LatticeSpec, StageCache]:
-    """An infill's solid, specification and cache, for files that are made of its struts.
+def infill_made_of(obj: App.DocumentObject) -> tuple[TriangleMesh, LatticeSpec, StageCache]:
+    """What the present mesh of an infill was made of: the solid, the specification, the cache.
 
     Raises:
-        VolfrepError: that is no lattice infill, it is out of date, or holds no bare struts.
+        VolfrepError: that is no lattice infill, or it is out of date.
     """
     require_engine()
     if not isinstance(getattr(obj, "Proxy", None), LatticeInfill):
         raise VolfrepError(f"'{obj.Label}' is a mesh without struts: choose a lattice infill.")
-    solid, spec, cache = obj.Proxy.inputs(obj)
+    made: tuple[TriangleMesh, LatticeSpec, StageCache] = obj.Proxy.inputs(obj)
+    return made
+
+
+def inputs_of(obj: App.DocumentObject) -> tuple[TriangleMesh, LatticeSpec, StageCache]:
+    """An infill's solid, specification and cache, for files that are made of its struts.
+
+    Raises:
+        VolfrepError: as `infill_made_of`, or it holds no bare struts.
+    """
+    solid, spec, cache = infill_made_of(obj)
     if spec.output == "domain":
         raise VolfrepError(f"'{obj.Label}' holds no lattice: set its Output to part or lattice.")
     if spec.fillet > 0:

@@ -11,8 +11,7 @@ import FreeCAD as App
 
 from volfrep.util.errors import VolfrepError
 
-from .exact import warn
-from .lattice_infill import LatticeInfill
+from .exact import infill_made_of, warn
 from .progress import job_title, run_job
 
 if TYPE_CHECKING:
@@ -77,14 +76,12 @@ def export_layers(
     from volfrep.apart.engine_process import Call
     from volfrep.jobs.slices import write_layers
 
-    if not isinstance(getattr(obj, "Proxy", None), LatticeInfill):
-        raise VolfrepError(f"'{obj.Label}' is a mesh without struts: choose a lattice infill.")
+    solid, spec, cache = infill_made_of(obj)
     if abs(place_in_document(obj).Rotation.Angle) > 1e-9:
         raise VolfrepError(
             f"'{obj.Label}' is turned by its Placement or its App::Part's, and layers are cut as "
             "its base lies: turn the base instead, so that z points off the build plate."
         )
-    solid, spec, cache = obj.Proxy.inputs(obj)
     sizes = {"layer": layer, "pixel": pixel, "form": form}
     made: Layers = run_job(
         job_title("Layers of {label}", obj),

@@ -12,7 +12,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..mesh import remesh
-from ..util.linalg import along, solved
+from ..util.linalg import along, normalized, solved
 from ..util.types import Floats
 from .constrained_mesh import (
     Surface,
@@ -158,7 +158,7 @@ def _fit(surface: Surface, farthest: float | None) -> Surface:
         for k in range(15):
             total[:, k] += np.bincount(triangles[:, corner], local[:, k], minlength=count)
     matrix, right, normal = total[:, :9].reshape(-1, 3, 3), total[:, 9:12], total[:, 12:]
-    normal = normal / np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+    normal = normalized(normal)
     pairs = np.concatenate([triangles[:, :2], triangles[:, 1:], triangles[:, ::2]])
     mean, _ = neighbour_mean(count, pairs, surface.vertices)
     drift = mean - surface.vertices
@@ -208,13 +208,9 @@ def _balance(surface: Surface) -> Surface:
     amount[some] = -missed[some] / swept[some]
     limit = BALANCE_REACH * surface.edge
     flux = area[:, None] * np.einsum("q,mqk->mk", QUADRATURE_WEIGHTS, gradient)
-    normal = np.stack(
-        [
-            np.bincount(triangles.ravel(), np.repeat(flux[:, k], 3), minlength=count)
-            for k in range(3)
-        ],
-        axis=1,
-    )
-    normal = normal / np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+    sums = [
+        np.bincount(triangles.ravel(), np.repeat(flux[:, k], 3), minlength=count) for k in range(3)
+    ]
+    normal = normalized(np.stack(sums, axis=1))
     step = np.clip(amount, -limit, limit)[piece][:, None] * normal
     return moved(surface, surface.vertices + np.where(free[:, None], step, 0.0))

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..mesh import remesh
 from ..util.linalg import along, normalized, solved
-from ..util.types import Floats
+from ..util.types import Floats, Ints
 from .constrained_mesh import (
     Surface,
     between_samples,
@@ -86,8 +86,8 @@ def _offset_border(surface: Surface) -> Surface:
         return surface
     field = surface.field.rows(index)
     points, loose = surface.vertices[index], ~surface.pinned[index]
-    level = surface.edge**2 * _curvature(field, points, surface.edge) / 16.0
     held = surface.held[index]
+    level = surface.edge**2 * _curvature(field, points, held, surface.edge) / 16.0
     single = held[:, 0] < 0
     held = held.copy()
     if field.fillet <= 0.0:
@@ -112,14 +112,18 @@ def _offset_border(surface: Surface) -> Surface:
     return moved(surface, vertices)
 
 
-def _curvature(field: Field, points: Floats, edge: float) -> Floats:
+def _curvature(field: Field, points: Floats, held: Ints, edge: float) -> Floats:
     """The curvature of the surface at points on it, 1/mm, positive where it is convex.
 
-    Of a rounded joint k1 + k2, and no more than a strut has.
+    On a crease the largest of the primitives that hold the points, (k, 3): each of these is the
+    nearest, but for rounding, and the octant beyond a face rounds otherwise. Of a rounded joint
+    k1 + k2, and no more than a strut has.
     """
     primitives = field.primitives
     if field.fillet <= 0.0:
-        return 1.0 / primitives.radius[field.nearest(points)[1]]
+        nearest = 1.0 / primitives.radius[field.nearest(points)[1]]
+        several = np.where(held >= 0, 1.0 / primitives.radius[held], 0.0).max(axis=1)
+        return np.where(held[:, 0] >= 0, several, nearest)
     step = 0.2 * edge
     total = -6.0 * field.values(points)
     for axis in range(3):

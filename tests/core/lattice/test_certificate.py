@@ -17,11 +17,21 @@ from volfrep.util.progress import Monitor
 
 SKEW = make_cell("skew", [[0, 0, 0], [1, 1, 1], [0.3, 0.6, 0.45]], [[0, 2], [2, 1]])
 
+#: Its octants are no mirror images of each other, and round what they compute otherwise.
+TANGLED = make_cell(
+    "tangled",
+    [
+        [0, 0, 0], [0, 0, 1], [1, 0, 0], [0, 1, 0], [1, 1, 0], [1, 1, 1],
+        [0.372, 0.298, 0.676], [0.315, 0.656, 0.357], [0.506, 0.325, 0.39],
+    ],
+    [[0, 1], [0, 2], [0, 3], [0, 6], [1, 7], [2, 7], [3, 6], [4, 8], [5, 6], [5, 8]],
+)  # fmt: skip
 
-def layout_of(cell, active, radius=1.0, facets=12):
+
+def layout_of(cell, active, radius=1.0, facets=12, size=10.0):
     monitor = Monitor()
-    grid = octant_grid(cell, active, 10.0, np.array([3.0, -40.0, 7.0]))
-    spec = OctantSpec(10.0, radius, 0.0, facets)
+    grid = octant_grid(cell, active, size, np.array([3.0, -40.0, 7.0]))
+    spec = OctantSpec(size, radius, 0.0, facets)
     return lay_out(grid, mesh_octants(cell, spec, grid.keys, monitor))
 
 
@@ -52,6 +62,14 @@ def test_octants_fit_where_creases_leave_them(cell, radius, facets, share):
     """On a crease a vertex lies on two struts, and where two creases end it has a twin."""
     active = np.random.default_rng(1).random((2, 2, 2)) <= share
     certify(layout_of(LIBRARY[cell], active, radius, facets))
+
+
+def test_octants_fit_where_a_joint_and_a_strut_are_equally_near():
+    """The vertex on their crease is moved by the curvature of one of them, the same beyond."""
+    active = np.ones((2, 2, 2), bool)
+    layout = layout_of(TANGLED, active, 0.15213236906986066, 9, 1.0950169171910413)
+    certify(layout)
+    assert agree_on_faces(layout)
 
 
 def test_an_octant_with_a_hole_is_found():

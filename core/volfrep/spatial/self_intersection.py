@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.triangle_mesh import TriangleMesh
-from ..util.ragged import spread
+from ..util.ragged import pairs_in_steps, spread
 from ..util.types import Bools, Floats, Ints
 
 #: Pairs of triangles that one vectorised step takes at a time.
@@ -20,6 +20,8 @@ MOST_BINS = 1 << 16
 ALONG_ALL = 7
 #: The most cells along the longest side of the grid by which triangles near others are picked.
 ABOUT_CELLS = 160
+#: A plane may be so many of these cells from where rounding puts it.
+PLANE_SLACK = 1e-3
 
 
 def crossing_triangles(mesh: TriangleMesh, among: Bools, depth: float) -> Bools:
@@ -53,31 +55,12 @@ def crossing_edges(mesh: TriangleMesh, among: Bools, depth: float) -> tuple[Ints
     """
     found = [(np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros((0, 3)))]
     if among.any():
-        rows = _reached_from(mesh, among)
+        rows = np.flatnonzero(among | about(mesh, among))
         part = TriangleMesh(mesh.vertices, mesh.triangles[rows])
         for one, other, points in _crossing_edges(part, among[rows], depth):
             found.append((rows[one], rows[other], points))
     one, other, points = (np.concatenate(column) for column in zip(*found, strict=True))
     return one, other, points
-
-
-def _reached_from(mesh: TriangleMesh, among: Bools) -> Ints:
-    """The triangles whose boxes reach into cubes that those of the chosen ones reach into."""
-    if among.all():
-        return np.arange(len(among))
-    corners = mesh.vertices[mesh.triangles]
-    low, high = corners.min(axis=1), corners.max(axis=1)
-    first, last = low[among], high[among]
-    size = max(float((last - first).max()), float(np.ptp(corners, axis=(0, 1)).max()) / MOST_BINS)
-    origin = low.min(axis=0)
-    bins = np.unique(boxes_in_bins(first, last, origin, size)[1])
-    # Those of the others that are larger than a cube reach into many: kept without a look.
-    result = among | ((high - low).max(axis=1) > size)
-    rows = np.flatnonzero(~result)
-    box, its_bin = boxes_in_bins(low[rows], high[rows], origin, size)
-    place = np.minimum(np.searchsorted(bins, its_bin), len(bins) - 1)
-    result[rows[box[bins[place] == its_bin]]] = True
-    return np.flatnonzero(result)
 
 
 def _crossing_edges(
@@ -254,19 +237,13 @@ def _edges_cross(
         yield rows, p + share[:, None] * (q - p)
 
 
-def crossing_near(mesh: TriangleMesh, among: Bools, depth: float) -> Bools:
-    """As `crossing_triangles`, for few triangles of many: looks at those about them only."""
-    result = np.zeros(len(mesh.triangles), bool)
-    if not among.any():
-        return result
-    rows = np.flatnonzero(among | about(mesh, among))
-    part = TriangleMesh(mesh.vertices, mesh.triangles[rows])
-    result[rows] = crossing_triangles(part, among[rows], depth)
-    return result
-
-
 def about(mesh: TriangleMesh, among: Bools) -> Bools:
-    """(m,) which triangles' boxes reach into the cells of a grid that the chosen ones' boxes do."""
+    """(m,) which triangles' boxes reach into the cells of a grid that the chosen ones go through.
+
+    Whatever meets a chosen one does so in a cell that this goes through.
+    """
+    if among.all():
+        return among
     columns = [np.ascontiguousarray(mesh.vertices[:, k]) for k in range(3)]
     corners = np.ascontiguousarray(mesh.triangles.T)
     least = [column.min() for column in columns]
@@ -274,28 +251,22 @@ def about(mesh: TriangleMesh, among: Bools) -> Bools:
     size = max(float(max(np.ptp(column) for column in columns)) / cells_along, 1e-300)
     # Cells of every vertex first: there are half as many of them as of triangles.
     cells = [((c - low) / size).astype(np.int16) for c, low in zip(columns, least, strict=True)]
-    shape = [int(cell.max()) + 2 for cell in cells]
-    # How many boxes begin less end at each cell, summed up: how many cover it.
-    cover = np.zeros(shape, np.int32)
-    low, high = _boxes(cells, corners[:, among])
-    ends = [(one, two + 1) for one, two in zip(low, high, strict=True)]
-    for i, j, k in np.ndindex(2, 2, 2):
-        np.add.at(cover, (ends[0][i], ends[1][j], ends[2][k]), 1 - 2 * ((i + j + k) % 2))
-    for axis in range(3):
-        np.cumsum(cover, axis=axis, out=cover)
+    shape = tuple(int(cell.max()) + 1 for cell in cells)
+    places = (mesh.vertices[mesh.triangles[among]] - np.array(least)) / size
+    covered = _gone_through(places, _boxes(cells, corners[:, among]), shape)
     # A triangle with a corner in a covered cell reaches into one; with all of them in one cell
     # that tells all.
     steps = [shape[1] * shape[2], shape[2], 1]
     where = np.zeros(len(mesh.vertices), np.int32)
     for cell, step in zip(cells, steps, strict=True):
         where += cell.astype(np.int32) * np.int32(step)
-    is_covered = (cover > 0).ravel()[where]
+    is_covered = covered.ravel()[where]
     a, b, c = (is_covered[row] for row in corners)
     result: Bools = a | b | c
     a, b, c = (where[row] for row in corners)
     rows = np.flatnonzero(~result & ((a != b) | (a != c)))
     # Of the others the covered cells in their boxes are counted, by sums over all lower cells.
-    taken = np.pad((cover > 0).astype(np.int32), ((1, 0),) * 3)
+    taken = np.pad(covered.astype(np.int32), ((1, 0),) * 3)
     for axis in range(3):
         np.cumsum(taken, axis=axis, out=taken)
     flat, total = taken.ravel(), np.zeros(len(rows), np.int32)
@@ -308,6 +279,53 @@ def about(mesh: TriangleMesh, among: Bools) -> Bools:
         part = flat[sides[0][i] + sides[1][j] + sides[2][k]]
         total += part if (i + j + k) % 2 else -part
     result[rows] = total != 0
+    return result
+
+
+def _gone_through(
+    places: Floats,
+    ends: tuple[list[NDArray[np.int16]], list[NDArray[np.int16]]],
+    shape: tuple[int, ...],
+) -> Bools:
+    """Bool of a shape, the cells in the boxes of triangles that their planes go through.
+
+    Args:
+        places: (k, 3, 3) the triangles' corners, in cells.
+        ends: the first and the last cells of their boxes along each axis.
+        shape: of the grid.
+    """
+    low, high = (np.stack(end, axis=1).astype(np.int64) for end in ends)
+    normal = np.cross(places[:, 1] - places[:, 0], places[:, 2] - places[:, 0])
+    steepest = np.abs(normal).argmax(axis=1)
+    result = np.zeros(shape, bool)
+    for axis in range(3):
+        # Over every column of a box along the axis that the triangle faces most its plane goes
+        # through a few cells: how many begin less end at each, summed up, is how many do.
+        rows = np.flatnonzero(steepest == axis)
+        u, v = (axis + 1) % 3, (axis + 2) % 3
+        span = high[rows] - low[rows] + 1
+        total = np.zeros([n + (k == axis) for k, n in enumerate(shape)], np.int32)
+        along = [total.strides[k] // total.itemsize for k in range(3)]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            slope = -normal[rows][:, [u, v]] / normal[rows, axis][:, None]
+        flat = np.isfinite(slope).all(axis=1)
+        slope[~flat] = 0.0
+        middle = places[rows, 0, axis] - slope[:, 0] * (places[rows, 0, u] - 0.5)
+        middle -= slope[:, 1] * (places[rows, 0, v] - 0.5)
+        # What has no plane may be anywhere in its box.
+        half = np.where(flat, 0.5 * np.abs(slope).sum(axis=1) + PLANE_SLACK, np.inf)
+        for row, place in pairs_in_steps(span[:, u] * span[:, v]):
+            across, up = np.divmod(place, span[row, v])
+            across, up = across + low[rows[row], u], up + low[rows[row], v]
+            height = middle[row] + slope[row, 0] * across + slope[row, 1] * up
+            first = np.maximum(np.floor(height - half[row]), low[rows[row], axis])
+            last = np.minimum(np.floor(height + half[row]), high[rows[row], axis])
+            some = first <= last
+            at = across[some] * along[u] + up[some] * along[v]
+            for end, sign in ((first[some], 1), (last[some] + 1, -1)):
+                np.add.at(total.reshape(-1), at + end.astype(np.int64) * along[axis], sign)
+        np.cumsum(total, axis=axis, out=total)
+        result |= np.take(total, range(shape[axis]), axis=axis) > 0
     return result
 
 

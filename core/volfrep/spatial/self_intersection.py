@@ -22,6 +22,12 @@ ALONG_ALL = 7
 ABOUT_CELLS = 160
 #: A plane may be so many of these cells from where rounding puts it.
 PLANE_SLACK = 1e-3
+#: A triangle with less than this of the area that its sides could have has no plane.
+NO_PLANE = 1e-9
+#: And so many of the finer cells, a byte each, by which few are picked of those.
+MOST_CELLS = 1 << 26
+#: The least side of what they divide, as a part of its longest one.
+LEAST_REACH = 1e-3
 
 
 def crossing_triangles(mesh: TriangleMesh, among: Bools, depth: float) -> Bools:
@@ -160,15 +166,26 @@ def _boxes_in_bins(
     low: Floats, high: Floats, origin: Floats, size: float
 ) -> tuple[Ints, Ints, NDArray[np.uint8]]:
     """As `boxes_in_bins`, and along which axes the box begins in the bin: a bit for each."""
-    first = np.floor((low - origin) / size).astype(np.int64)
-    span = np.floor((high - origin) / size).astype(np.int64) - first + 1
-    row, place = spread(span.prod(axis=1))
-    rest, place = np.divmod(place, span[row, 2])
-    along_x, along_y = np.divmod(rest, span[row, 1])
-    x, y, z = first[row].T
-    begins = [(along == 0).view(np.uint8) for along in (along_x, along_y, place)]
-    number = ((x + along_x) << 42) + ((y + along_y) << 21) + z + place
-    return row, number, begins[0] | begins[1] << 1 | begins[2] << 2
+    # Axis by axis, which numpy takes in faster than rows of three; most boxes reach into one bin.
+    first, span = [], []
+    for axis in range(3):
+        begin = np.floor((low[:, axis] - origin[axis]) / size).astype(np.int64)
+        end = np.floor((high[:, axis] - origin[axis]) / size).astype(np.int64)
+        first.append(begin)
+        span.append(end - begin + 1)
+    count = span[0] * span[1] * span[2]
+    row = np.repeat(np.arange(len(count)), count)
+    number = ((first[0] << 42) + (first[1] << 21) + first[2])[row]
+    begins = np.full(len(row), ALONG_ALL, np.uint8)
+    several = count > 1
+    some = np.flatnonzero(several[row])
+    owner, place = spread(count[several])
+    across, up = (each[several][owner] for each in span[1:])
+    rest, along_z = np.divmod(place, up)
+    along_x, along_y = np.divmod(rest, across)
+    number[some] += (along_x << 42) + (along_y << 21) + along_z
+    begins[some] = (along_x == 0) | (along_y == 0) << 1 | (along_z == 0) << 2
+    return row, number, begins
 
 
 def meeting_boxes(
@@ -252,8 +269,8 @@ def about(mesh: TriangleMesh, among: Bools) -> Bools:
     # Cells of every vertex first: there are half as many of them as of triangles.
     cells = [((c - low) / size).astype(np.int16) for c, low in zip(columns, least, strict=True)]
     shape = tuple(int(cell.max()) + 1 for cell in cells)
-    places = (mesh.vertices[mesh.triangles[among]] - np.array(least)) / size
-    covered = _gone_through(places, _boxes(cells, corners[:, among]), shape)
+    chosen = mesh.vertices[mesh.triangles[among]] - np.array(least)
+    covered = _gone_through(chosen / size, shape)
     # A triangle with a corner in a covered cell reaches into one; with all of them in one cell
     # that tells all.
     steps = [shape[1] * shape[2], shape[2], 1]
@@ -279,53 +296,78 @@ def about(mesh: TriangleMesh, among: Bools) -> Bools:
         part = flat[sides[0][i] + sides[1][j] + sides[2][k]]
         total += part if (i + j + k) % 2 else -part
     result[rows] = total != 0
+    rows = np.flatnonzero(result & ~among)
+    if len(rows):
+        result[rows] = _nearer(columns, least, corners[:, rows], chosen)
     return result
 
 
-def _gone_through(
-    places: Floats,
-    ends: tuple[list[NDArray[np.int16]], list[NDArray[np.int16]]],
-    shape: tuple[int, ...],
+def _nearer(
+    columns: list[Floats], least: list[float], corners: NDArray[np.int32], chosen: Floats
 ) -> Bools:
+    """As `about`, in finer cells, of triangles (3, m) that are mostly no larger than one.
+
+    Larger ones are not told apart.
+    """
+    at = [
+        [column[row] - low for row in corners] for column, low in zip(columns, least, strict=True)
+    ]
+    low, high = ([end.reduce(each) for each in at] for end in (np.minimum, np.maximum))
+    across = np.max([b - a for a, b in zip(low, high, strict=True)], axis=0)
+    reach = np.array([float(end.max(initial=0.0)) for end in high])
+    reach = np.maximum(reach, max(float(reach.max()) * LEAST_REACH, 1e-300))
+    size = max(float(np.cbrt(reach.prod() / MOST_CELLS)), float(np.median(across)))
+    covered = _gone_through(chosen / size, tuple((reach / size).astype(np.int64) + 1))
+    first = [(each / size).astype(np.int32) for each in low]
+    last = [(each / size).astype(np.int32) for each in high]
+    result = np.any([b - a > 1 for a, b in zip(first, last, strict=True)], axis=0)
+    rows = np.flatnonzero(~result)
+    ends = [(a[rows], b[rows]) for a, b in zip(first, last, strict=True)]
+    for i, j, k in np.ndindex(2, 2, 2):
+        result[rows] |= covered[ends[0][i], ends[1][j], ends[2][k]]
+    return np.asarray(result, np.bool_)
+
+
+def _gone_through(corners: Floats, shape: tuple[int, ...]) -> Bools:
     """Bool of a shape, the cells in the boxes of triangles that their planes go through.
 
     Args:
-        places: (k, 3, 3) the triangles' corners, in cells.
-        ends: the first and the last cells of their boxes along each axis.
-        shape: of the grid.
+        corners: (k, 3, 3) of the triangles, in cells.
+        shape: of the grid; what lies beyond it is left out.
     """
-    low, high = (np.stack(end, axis=1).astype(np.int64) for end in ends)
-    normal = np.cross(places[:, 1] - places[:, 0], places[:, 2] - places[:, 0])
-    steepest = np.abs(normal).argmax(axis=1)
+    low = np.floor(corners.min(axis=1)).astype(np.int64)
+    high = np.minimum(np.floor(corners.max(axis=1)).astype(np.int64), np.array(shape) - 1)
+    e, f = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    normal = np.cross(e, f)
+    # Along the axis that it faces most the plane goes through a few cells of each column.
+    axis = np.abs(normal).argmax(axis=1)
+    every = np.arange(len(corners))
+    other = np.stack([(axis + 1) % 3, (axis + 2) % 3], axis=1)
+    up = normal[every, axis]
+    sizes = np.linalg.norm(e, axis=1) * np.linalg.norm(f, axis=1)
+    flat = np.abs(up) <= NO_PLANE * sizes
+    slope = -normal[every[:, None], other] / np.where(flat, 1.0, up)[:, None]
+    slope[flat] = 0.0
+    middle = corners[every, 0, axis]
+    middle -= (slope * (corners[every[:, None], 0, other] - 0.5)).sum(axis=1)
+    span = np.maximum(high - low + 1, 0)
+    wide, deep = span[every[:, None], other], span[every, axis]
+    # What has no plane may be anywhere in its box.
+    half = np.where(flat, np.inf, 0.5 * np.abs(slope).sum(axis=1) + PLANE_SLACK)
+    deep = np.minimum(deep, np.where(flat, deep, (2.0 * half).astype(np.int64) + 2))
     result = np.zeros(shape, bool)
-    for axis in range(3):
-        # Over every column of a box along the axis that the triangle faces most its plane goes
-        # through a few cells: how many begin less end at each, summed up, is how many do.
-        rows = np.flatnonzero(steepest == axis)
-        u, v = (axis + 1) % 3, (axis + 2) % 3
-        span = high[rows] - low[rows] + 1
-        total = np.zeros([n + (k == axis) for k, n in enumerate(shape)], np.int32)
-        along = [total.strides[k] // total.itemsize for k in range(3)]
-        with np.errstate(divide="ignore", invalid="ignore"):
-            slope = -normal[rows][:, [u, v]] / normal[rows, axis][:, None]
-        flat = np.isfinite(slope).all(axis=1)
-        slope[~flat] = 0.0
-        middle = places[rows, 0, axis] - slope[:, 0] * (places[rows, 0, u] - 0.5)
-        middle -= slope[:, 1] * (places[rows, 0, v] - 0.5)
-        # What has no plane may be anywhere in its box.
-        half = np.where(flat, 0.5 * np.abs(slope).sum(axis=1) + PLANE_SLACK, np.inf)
-        for row, place in pairs_in_steps(span[:, u] * span[:, v]):
-            across, up = np.divmod(place, span[row, v])
-            across, up = across + low[rows[row], u], up + low[rows[row], v]
-            height = middle[row] + slope[row, 0] * across + slope[row, 1] * up
-            first = np.maximum(np.floor(height - half[row]), low[rows[row], axis])
-            last = np.minimum(np.floor(height + half[row]), high[rows[row], axis])
-            some = first <= last
-            at = across[some] * along[u] + up[some] * along[v]
-            for end, sign in ((first[some], 1), (last[some] + 1, -1)):
-                np.add.at(total.reshape(-1), at + end.astype(np.int64) * along[axis], sign)
-        np.cumsum(total, axis=axis, out=total)
-        result |= np.take(total, range(shape[axis]), axis=axis) > 0
+    steps = np.array([shape[1] * shape[2], shape[2], 1])
+    for row, place in pairs_in_steps(wide[:, 0] * wide[:, 1] * deep):
+        place, ahead = np.divmod(place, deep[row])
+        along = np.stack(np.divmod(place, wide[row, 1]), axis=1)
+        along += low[row[:, None], other[row]]
+        height = middle[row] + (slope[row] * along).sum(axis=1)
+        first = np.maximum(np.floor(height - half[row]), low[row, axis[row]])
+        last = np.minimum(np.floor(height + half[row]), high[row, axis[row]])
+        at = first.astype(np.int64) + ahead
+        inside = at <= last
+        flat_at = at * steps[axis[row]] + (along * steps[other[row]]).sum(axis=1)
+        result.reshape(-1)[flat_at[inside]] = True
     return result
 
 

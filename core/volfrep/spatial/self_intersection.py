@@ -8,8 +8,9 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.triangle_mesh import TriangleMesh
+from ..mesh.triangle_mesh import TriangleMesh, box_of
 from ..util.ragged import pairs_in_steps, spread
+from ..util.threads import in_threads
 from ..util.types import Bools, Floats, Ints
 
 #: Pairs of triangles that one vectorised step takes at a time.
@@ -20,6 +21,8 @@ MOST_BINS = 1 << 16
 ALONG_ALL = 7
 #: The most cells along the longest side of the grid by which triangles near others are picked.
 ABOUT_CELLS = 160
+#: Triangles that are looked for in the grid at once.
+BLOCK_TRIANGLES = 1 << 17
 #: A plane may be so many of these cells from where rounding puts it.
 PLANE_SLACK = 1e-3
 #: A triangle with less than this of the area that its sides could have has no plane.
@@ -261,33 +264,54 @@ def about(mesh: TriangleMesh, among: Bools) -> Bools:
     """
     if among.all():
         return among
-    columns = [np.ascontiguousarray(mesh.vertices[:, k]) for k in range(3)]
-    corners = np.ascontiguousarray(mesh.triangles.T)
-    least = [column.min() for column in columns]
+    least, most = box_of(mesh.vertices)
     cells_along = min(ABOUT_CELLS, 8 + int(np.cbrt(len(mesh.triangles))))
-    size = max(float(max(np.ptp(column) for column in columns)) / cells_along, 1e-300)
+    size = max(float((most - least).max()) / cells_along, 1e-300)
     # Cells of every vertex first: there are half as many of them as of triangles.
-    cells = [((c - low) / size).astype(np.int16) for c, low in zip(columns, least, strict=True)]
+    cells = [((mesh.vertices[:, k] - low) / size).astype(np.int16) for k, low in enumerate(least)]
     shape = tuple(int(cell.max()) + 1 for cell in cells)
-    chosen = mesh.vertices[mesh.triangles[among]] - np.array(least)
+    chosen = mesh.vertices[mesh.triangles[among]] - least
     covered = _gone_through(chosen / size, shape)
-    # A triangle with a corner in a covered cell reaches into one; with all of them in one cell
-    # that tells all.
-    steps = [shape[1] * shape[2], shape[2], 1]
     where = np.zeros(len(mesh.vertices), np.int32)
-    for cell, step in zip(cells, steps, strict=True):
+    for cell, step in zip(cells, (shape[1] * shape[2], shape[2], 1), strict=True):
         where += cell.astype(np.int32) * np.int32(step)
     is_covered = covered.ravel()[where]
-    a, b, c = (is_covered[row] for row in corners)
-    result: Bools = a | b | c
-    a, b, c = (where[row] for row in corners)
-    rows = np.flatnonzero(~result & ((a != b) | (a != c)))
-    # Of the others the covered cells in their boxes are counted, by sums over all lower cells.
+    # How many covered cells there are up to each.
     taken = np.pad(covered.astype(np.int32), ((1, 0),) * 3)
     for axis in range(3):
         np.cumsum(taken, axis=axis, out=taken)
-    flat, total = taken.ravel(), np.zeros(len(rows), np.int32)
-    low, high = _boxes(cells, corners[:, rows])
+
+    def reaching(begin: int) -> Bools:
+        corners = np.ascontiguousarray(mesh.triangles[begin : begin + BLOCK_TRIANGLES].T)
+        # A triangle with a corner in a covered cell reaches into one; with all of them in one
+        # cell that tells all.
+        a, b, c = (is_covered[row] for row in corners)
+        result: Bools = a | b | c
+        a, b, c = (where[row] for row in corners)
+        rows = np.flatnonzero(~result & ((a != b) | (a != c)))
+        result[rows] = _cells_within(taken, *_boxes(cells, corners[:, rows])) > 0
+        return result
+
+    starts = range(0, len(mesh.triangles), BLOCK_TRIANGLES)
+    result = np.concatenate(list(in_threads(reaching, starts)))
+    rows = np.flatnonzero(result & ~among)
+    if len(rows):
+        corners = mesh.vertices[mesh.triangles[rows]] - least
+        result[rows] = _nearer(corners.min(axis=1), corners.max(axis=1), chosen)
+    return result
+
+
+def _cells_within(
+    taken: NDArray[np.int32], low: list[NDArray[np.int16]], high: list[NDArray[np.int16]]
+) -> NDArray[np.int32]:
+    """(k,) how many chosen cells lie in boxes from cells to cells.
+
+    Args:
+        taken: how many there are before each cell along all axes.
+        low: the boxes' first cells along each axis, (k,).
+        high: their last ones.
+    """
+    flat, total = taken.ravel(), np.zeros(len(low[0]), np.int32)
     steps = [taken.shape[1] * taken.shape[2], taken.shape[2], 1]
     low_at = [one.astype(np.int32) * step for one, step in zip(low, steps, strict=True)]
     high_at = [(two.astype(np.int32) + 1) * step for two, step in zip(high, steps, strict=True)]
@@ -295,31 +319,20 @@ def about(mesh: TriangleMesh, among: Bools) -> Bools:
     for i, j, k in np.ndindex(2, 2, 2):
         part = flat[sides[0][i] + sides[1][j] + sides[2][k]]
         total += part if (i + j + k) % 2 else -part
-    result[rows] = total != 0
-    rows = np.flatnonzero(result & ~among)
-    if len(rows):
-        result[rows] = _nearer(columns, least, corners[:, rows], chosen)
-    return result
+    return total
 
 
-def _nearer(
-    columns: list[Floats], least: list[float], corners: NDArray[np.int32], chosen: Floats
-) -> Bools:
-    """As `about`, in finer cells, of triangles (3, m) that are mostly no larger than one.
+def _nearer(low: Floats, high: Floats, chosen: Floats) -> Bools:
+    """As `about`, in finer cells, of boxes (k, 3) that are mostly no larger than one.
 
-    Larger ones are not told apart.
+    Larger ones are not told apart. The corners of the chosen triangles are (c, 3, 3).
     """
-    at = [
-        [column[row] - low for row in corners] for column, low in zip(columns, least, strict=True)
-    ]
-    low, high = ([end.reduce(each) for each in at] for end in (np.minimum, np.maximum))
-    across = np.max([b - a for a, b in zip(low, high, strict=True)], axis=0)
-    reach = np.array([float(end.max(initial=0.0)) for end in high])
+    reach = high.max(axis=0)
     reach = np.maximum(reach, max(float(reach.max()) * LEAST_REACH, 1e-300))
-    size = max(float(np.cbrt(reach.prod() / MOST_CELLS)), float(np.median(across)))
+    across = float(np.median((high - low).max(axis=1)))
+    size = max(float(np.cbrt(reach.prod() / MOST_CELLS)), across)
     covered = _gone_through(chosen / size, tuple((reach / size).astype(np.int64) + 1))
-    first = [(each / size).astype(np.int32) for each in low]
-    last = [(each / size).astype(np.int32) for each in high]
+    first, last = ([(each / size).astype(np.int32) for each in end.T] for end in (low, high))
     result = np.any([b - a > 1 for a, b in zip(first, last, strict=True)], axis=0)
     rows = np.flatnonzero(~result)
     ends = [(a[rows], b[rows]) for a, b in zip(first, last, strict=True)]
@@ -353,8 +366,9 @@ def _gone_through(corners: Floats, shape: tuple[int, ...]) -> Bools:
     span = np.maximum(high - low + 1, 0)
     wide, deep = span[every[:, None], other], span[every, axis]
     # What has no plane may be anywhere in its box.
-    half = np.where(flat, np.inf, 0.5 * np.abs(slope).sum(axis=1) + PLANE_SLACK)
-    deep = np.minimum(deep, np.where(flat, deep, (2.0 * half).astype(np.int64) + 2))
+    half = 0.5 * np.abs(slope).sum(axis=1) + PLANE_SLACK
+    deep = np.where(flat, deep, np.minimum(deep, (2.0 * half).astype(np.int64) + 2))
+    half[flat] = np.inf
     result = np.zeros(shape, bool)
     steps = np.array([shape[1] * shape[2], shape[2], 1])
     for row, place in pairs_in_steps(wide[:, 0] * wide[:, 1] * deep):

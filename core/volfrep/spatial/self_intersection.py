@@ -278,8 +278,7 @@ def about(mesh: TriangleMesh, among: Bools) -> Bools:
     is_covered = covered.ravel()[where]
     # How many covered cells there are up to each.
     taken = np.pad(covered.astype(np.int32), ((1, 0),) * 3)
-    for axis in range(3):
-        np.cumsum(taken, axis=axis, out=taken)
+    taken = taken.cumsum(0, np.int32).cumsum(1, np.int32).cumsum(2, np.int32)
 
     def reaching(begin: int) -> Bools:
         corners = np.ascontiguousarray(mesh.triangles[begin : begin + BLOCK_TRIANGLES].T)
@@ -296,8 +295,12 @@ def about(mesh: TriangleMesh, among: Bools) -> Bools:
     result = np.concatenate(list(in_threads(reaching, starts)))
     rows = np.flatnonzero(result & ~among)
     if len(rows):
-        corners = mesh.vertices[mesh.triangles[rows]] - least
-        result[rows] = _nearer(corners.min(axis=1), corners.max(axis=1), chosen)
+        a, b, c = mesh.triangles[rows].T
+        low, high = np.empty((2, 3, len(rows)))
+        for k, column in enumerate(mesh.vertices.T):
+            for end, pick in ((low, np.minimum), (high, np.maximum)):
+                end[k] = pick(pick(column[a], column[b]), column[c]) - least[k]
+        result[rows] = _nearer(low, high, chosen)
     return result
 
 
@@ -323,16 +326,16 @@ def _cells_within(
 
 
 def _nearer(low: Floats, high: Floats, chosen: Floats) -> Bools:
-    """As `about`, in finer cells, of boxes (k, 3) that are mostly no larger than one.
+    """As `about`, in finer cells, of boxes, corners (3, k), that are mostly no larger than one.
 
     Larger ones are not told apart. The corners of the chosen triangles are (c, 3, 3).
     """
-    reach = high.max(axis=0)
+    reach = high.max(axis=1)
     reach = np.maximum(reach, max(float(reach.max()) * LEAST_REACH, 1e-300))
-    across = float(np.median((high - low).max(axis=1)))
+    across = float(np.median((high - low).max(axis=0)))
     size = max(float(np.cbrt(reach.prod() / MOST_CELLS)), across)
     covered = _gone_through(chosen / size, tuple((reach / size).astype(np.int64) + 1))
-    first, last = ([(each / size).astype(np.int32) for each in end.T] for end in (low, high))
+    first, last = ([(each / size).astype(np.int32) for each in end] for end in (low, high))
     result = np.any([b - a > 1 for a, b in zip(first, last, strict=True)], axis=0)
     rows = np.flatnonzero(~result)
     ends = [(a[rows], b[rows]) for a, b in zip(first, last, strict=True)]

@@ -109,7 +109,7 @@ class Inspection:
 def measure(mesh: TriangleMesh, monitor: Monitor | None = None) -> Quality:
     """Topology, volume and size of a mesh, by vertex indices (nothing is merged).
 
-    Takes about 0.15 s and 60 bytes per triangle for a million triangles on two cores.
+    Takes about 0.15 s for a million triangles on two cores, and 45 bytes for each.
 
     Args:
         mesh: any mesh, closed or not.

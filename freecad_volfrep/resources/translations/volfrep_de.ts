@@ -2647,7 +2647,7 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
     </message>
     <message>
       <source>frame buckling, % of its limit</source>
-      <translation type="unfinished" />
+      <translation>gemeinsames Knicken, % der Grenze</translation>
     </message>
     <message>
       <source>frequency, % of its limit</source>
@@ -2695,7 +2695,7 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
     </message>
     <message>
       <source>load before struts buckle together, times</source>
-      <translation type="unfinished" />
+      <translation>Last, bis Streben gemeinsam knicken, Vielfaches</translation>
     </message>
     <message>
       <source>loose pieces removed</source>
@@ -2707,7 +2707,7 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
     </message>
     <message>
       <source>lowest load before they buckle together, times</source>
-      <translation type="unfinished" />
+      <translation>kleinste Last, bis sie gemeinsam knicken, Vielfaches</translation>
     </message>
     <message>
       <source>manifold</source>
@@ -3113,7 +3113,7 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
     </message>
     <message>
       <source>frame buckling</source>
-      <translation type="unfinished" />
+      <translation>gemeinsames Knicken</translation>
     </message>
     <message>
       <source>frequency</source>

@@ -2647,7 +2647,7 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
     </message>
     <message>
       <source>frame buckling, % of its limit</source>
-      <translation type="unfinished" />
+      <translation>instabilità d'insieme, % del limite</translation>
     </message>
     <message>
       <source>frequency, % of its limit</source>
@@ -2695,7 +2695,7 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
     </message>
     <message>
       <source>load before struts buckle together, times</source>
-      <translation type="unfinished" />
+      <translation>carico prima dell'instabilità d'insieme, volte</translation>
     </message>
     <message>
       <source>loose pieces removed</source>
@@ -2707,7 +2707,7 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
     </message>
     <message>
       <source>lowest load before they buckle together, times</source>
-      <translation type="unfinished" />
+      <translation>minimo carico prima dell'instabilità d'insieme, volte</translation>
     </message>
     <message>
       <source>manifold</source>
@@ -3113,7 +3113,7 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
     </message>
     <message>
       <source>frame buckling</source>
-      <translation type="unfinished" />
+      <translation>instabilità d'insieme</translation>
     </message>
     <message>
       <source>frequency</source>

@@ -172,8 +172,9 @@ class Outcome:
                 ("load before buckling, times", *(_margin(a.buckling[:, k]) for _, a in columns)),
             ]
             if np.isfinite(sized.factors[k]):
-                together = (_told(a.factors[k]) for _, a in columns)
-                rows.append(("load before struts buckle together, times", *together))
+                together = (a.factors[k] for _, a in columns)
+                told = (float(one) if np.isfinite(one) else "-" for one in together)
+                rows.append(("load before struts buckle together, times", *told))
             worst = int(np.argmax(state.stress.max(axis=1)))
             place = "{:.4g}, {:.4g}, {:.4g}".format(*state.ends[worst].mean(axis=0))
             rows.append(("most stressed strut, at x, y, z", place))
@@ -204,11 +205,6 @@ class Outcome:
 
 def _mass(volume: float, density: float) -> float:
     return volume * density / 1000.0
-
-
-def _told(factor: float) -> float | str:
-    """A load factor, or a dash where nothing buckles."""
-    return float(factor) if np.isfinite(factor) else "-"
 
 
 def _margin(shares: NDArray[np.float64]) -> float:

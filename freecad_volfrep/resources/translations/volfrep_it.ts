@@ -2646,6 +2646,10 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
       <translation>trovati</translation>
     </message>
     <message>
+      <source>frame buckling, % of its limit</source>
+      <translation>instabilità d'insieme, % del limite</translation>
+    </message>
+    <message>
       <source>frequency, % of its limit</source>
       <translation>frequenza, % del limite</translation>
     </message>
@@ -2690,12 +2694,20 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
       <translation>carico prima dell'instabilità, volte</translation>
     </message>
     <message>
+      <source>load before struts buckle together, times</source>
+      <translation>carico prima dell'instabilità d'insieme, volte</translation>
+    </message>
+    <message>
       <source>loose pieces removed</source>
       <translation>pezzi isolati rimossi</translation>
     </message>
     <message>
       <source>lowest frequency there over here</source>
       <translation>frequenza minima là su qui</translation>
+    </message>
+    <message>
+      <source>lowest load before they buckle together, times</source>
+      <translation>minimo carico prima dell'instabilità d'insieme, volte</translation>
     </message>
     <message>
       <source>manifold</source>
@@ -3098,6 +3110,10 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
     <message>
       <source>displacement</source>
       <translation>spostamento</translation>
+    </message>
+    <message>
+      <source>frame buckling</source>
+      <translation>instabilità d'insieme</translation>
     </message>
     <message>
       <source>frequency</source>

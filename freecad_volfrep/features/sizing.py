@@ -208,7 +208,7 @@ def _mass(volume: float, density: float) -> float:
 
 
 def _margin(shares: NDArray[np.float64]) -> float:
-    """How many times the load may be until the first strut buckles."""
+    """How many times the load may be until struts buckle, one alone or together."""
     return float(1.0 / max(float(shares.max(initial=0.0)), 1e-12))
 
 

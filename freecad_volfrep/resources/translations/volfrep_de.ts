@@ -2984,8 +2984,8 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
       <translation>Ziel</translation>
     </message>
     <message>
-      <source>How many times the load may be before the first strut buckles; 0 for no limit</source>
-      <translation>Wievielmal so groß die Last sein darf, bevor die erste Strebe knickt; 0 für keine Grenze</translation>
+      <source>How many times the load may be before struts buckle, one alone or together; 0 for no limit</source>
+      <translation>Wievielmal so groß die Last sein darf, bevor Streben knicken, eine allein oder zusammen; 0 für keine Grenze</translation>
     </message>
     <message>
       <source>How mass and limits went, step by step</source>

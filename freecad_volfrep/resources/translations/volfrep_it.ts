@@ -2984,8 +2984,8 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
       <translation>Obiettivo</translation>
     </message>
     <message>
-      <source>How many times the load may be before the first strut buckles; 0 for no limit</source>
-      <translation>Quante volte il carico può essere prima che la prima asta si instabilizzi; 0 per nessun limite</translation>
+      <source>How many times the load may be before struts buckle, one alone or together; 0 for no limit</source>
+      <translation>Quante volte il carico può essere prima che le aste si instabilizzino, una da sola o insieme; 0 per nessun limite</translation>
     </message>
     <message>
       <source>How mass and limits went, step by step</source>

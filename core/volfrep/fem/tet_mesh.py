@@ -132,24 +132,28 @@ def tetrahedra(mesh: TriangleMesh, monitor: Monitor | None = None) -> Tetrahedra
 def mended(mesh: TriangleMesh, monitor: Monitor) -> tuple[TriangleMesh, float]:
     """A closed mesh without needles and caps, and how far a move could take its surface, mm.
 
-    The mesh as it is where it has no angle below `NEEDLE`, or where facets would cross or lie on
-    each other then.
+    The mesh as it is where it has no angle below `NEEDLE`, or where facets would cross then;
+    one in which no facet lies on its neighbour, where there is one.
     """
     corners = mesh.vertices[mesh.triangles]
     if angles_of(corners).min(initial=180.0) >= NEEDLE:
         return mesh, 0.0
     edge = float(np.median(np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)))
     tolerance = Tolerance(MENDING * edge, (), NEAR * edge)
+    best = mesh, 0.0
     for _ in range(TRIES):
         better = monitor.call(lambda: well_shaped(mesh, tolerance, SHORTEST * edge))  # noqa: B023
         every = np.ones(len(better.triangles), bool)
         crossed = monitor.call(lambda: crossing_triangles(better, every, TOUCHING * edge))  # noqa: B023
-        crossed |= _folded(better)
         if not crossed.any():
-            return better, tolerance.usual
+            # What folds in the end may still be filled, and needles surely are not.
+            best = better, tolerance.usual
+            crossed = _folded(better)
+            if not crossed.any():
+                break
         place = better.vertices[np.unique(better.triangles[crossed])]
         tolerance = replace(tolerance, places=(*tolerance.places, place))
-    return mesh, 0.0
+    return best
 
 
 def _folded(mesh: TriangleMesh) -> Bools:

@@ -113,7 +113,7 @@ def test_every_cell_fills_a_box(cell, shell):
     assert tetrahedra(mesh).volumes().sum() == pytest.approx(mesh.volume, rel=1e-3)
 
 
-def test_what_would_cross_or_fold_is_not_mended(monkeypatch):
+def test_what_would_cross_is_not_mended(monkeypatch):
     """Gmsh refuses a surface of which one facet is folded back onto the next, too."""
     solid = samples.box((15.0, 12.0, 12.0))
     mesh = fill(solid, LatticeSpec(cell="CVC", shell=1, resolution=8)).mesh
@@ -125,7 +125,7 @@ def test_what_would_cross_or_fold_is_not_mended(monkeypatch):
     monkeypatch.setattr(tet_mesh, "well_shaped", lambda *_: better)
     with monkeypatch.context() as one:
         one.setattr(tet_mesh, "_folded", lambda _: np.ones(len(better.triangles), bool))
-        assert mended(mesh, Monitor()) == (mesh, 0.0)
+        assert mended(mesh, Monitor()) == (better, moved), "needles are worse"
     monkeypatch.setattr(tet_mesh, "crossing_triangles", lambda _, among, depth: among)
     assert mended(mesh, Monitor()) == (mesh, 0.0)
 

@@ -41,6 +41,8 @@ COLLAPSE_UP_TO = 1.3
 FLIP_PASSES = 2
 #: A vertex may move this far, in units of the wanted edge, to reach a crease.
 SNAP_REACH = 1.5
+#: Both ends of an edge are equally near to a crease within this, in units of the wanted edge.
+TIED = 1e-6
 #: Halvings that settle a vertex on an octant's edge.
 BISECTIONS = 30
 
@@ -258,18 +260,32 @@ def _snap(surface: Surface, ends: Ints, movable: Bools) -> Surface:
     gap = np.linalg.norm(surface.vertices[ends] - point[:, None], axis=2)
     gap[~movable[ends]] = np.inf
     winner = np.argmin(gap, axis=1)
+    even = np.isclose(gap[:, 0], gap[:, 1], rtol=0.0, atol=TIED * surface.edge)
+    winner[even] = _first_end(surface, ends[even])
     vertex = ends[np.arange(len(ends)), winner]
     distance = gap.min(axis=1)
     good &= distance < SNAP_REACH * surface.edge
     vertex, point, held_by, distance = vertex[good], point[good], held_by[good], distance[good]
-    # Each vertex takes the nearest of the places that its edges propose, corners first.
+    # Each vertex takes the nearest of the places that its edges propose, corners first; of places
+    # that are equally near one that the octant beyond takes, too.
     corner = held_by[:, 2] >= 0
-    order = np.lexsort((distance, ~corner))
+    steps = np.round(np.column_stack([point[:, ::-1], distance]) / (TIED * surface.edge))
+    order = np.lexsort((*steps.T, ~corner))
     vertex, first = np.unique(vertex[order], return_index=True)
     pick = order[first]
     vertices, new_held = surface.vertices.copy(), surface.held.copy()
     vertices[vertex], new_held[vertex] = point[pick], held_by[pick]
     return replace(moved(surface, vertices), held=new_held)
+
+
+def _first_end(surface: Surface, ends: Ints) -> Ints:
+    """(k,) 0 or 1, the end of edges that comes first along x, y or z, whoever numbers them."""
+    points = surface.vertices[ends]
+    way = points[:, 1] - points[:, 0]
+    way[np.abs(way) < TIED * surface.edge] = 0.0
+    axis = (way != 0.0).argmax(axis=1)
+    result: Ints = (way[np.arange(len(way)), axis] < 0.0).astype(np.int64)
+    return result
 
 
 def _toward(surface: Surface, held: Ints, vertex: Ints, others: Floats) -> Ints:

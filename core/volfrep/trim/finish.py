@@ -60,7 +60,7 @@ def tidied(surface: TrimmedSurface, precision: float, monitor: Monitor) -> Trimm
     part, among = TriangleMesh(smooth.vertices, smooth.triangles[rows]), new[rows]
     if surface.octants is not None:
         near = surface.octants.reached(smooth.vertices[smooth.triangles[new]])
-        if result.has_inner_edges(new):  # that octants may have, too
+        if near.any() and result.has_inner_edges(new):  # that those octants may have, too
             return tidied(surface.with_octants(near, monitor), precision, monitor)
         part = replace(result, mesh=compact(part)).with_octants(near, monitor).mesh
         among = np.pad(among, (0, len(part.triangles) - len(among)))

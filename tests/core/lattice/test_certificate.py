@@ -72,6 +72,17 @@ def test_octants_fit_where_a_joint_and_a_strut_are_equally_near():
     assert agree_on_faces(layout)
 
 
+@pytest.mark.parametrize(
+    ("size", "radius", "facets"),
+    [(17.776401119427685, 1.217720071165018, 20), (26.103108069836463, 2.184414544820798, 16)],
+)
+def test_octants_fit_where_both_ends_of_an_edge_are_equally_near_to_a_crease(size, radius, facets):
+    """Of Kagome's octants the half on one side of a diagonal is the other one's mirror image."""
+    layout = layout_of(LIBRARY["Kagome"], np.ones((2, 2, 2), bool), radius, facets, size)
+    certify(layout)
+    assert agree_on_faces(layout)
+
+
 def test_an_octant_with_a_hole_is_found():
     layout = layout_of(LIBRARY["CVC"], np.ones((2, 2, 2), bool))
     key = layout.grid.keys[3]

@@ -14,9 +14,11 @@ import numpy as np
 
 from ..mesh import remesh
 from ..mesh.triangle_mesh import TriangleMesh
-from ..spatial.self_intersection import close_pairs, crossing_triangles
+from ..spatial.piercing import piercing_pairs
+from ..spatial.self_intersection import close_pairs
 from ..util.types import Bools, Floats, Ints
 from .constrained_mesh import Surface, moved, neighbour_mean
+from .octant import STEPS
 
 #: Facets that stick through others by no more than this, in wanted edges, only touch.
 TOUCHING = 1e-6
@@ -30,10 +32,18 @@ FOLDED = 0.2
 
 
 def crossing_facets(surface: Surface) -> Bools:
-    """(m,) which facets another facet of their own octant runs through."""
-    everywhere = np.ones(len(surface.triangles), bool)
-    mesh = TriangleMesh(_apart(surface), surface.triangles.astype(np.int32))
-    return crossing_triangles(mesh, everywhere, TOUCHING * surface.edge)
+    """(m,) which facets another facet of their own octant runs through.
+
+    Exact, for the vertices as octants have them, in whole steps: next to a face facets may lie in
+    one plane, where those that overlap touch as far as rounding can tell. Turned with a lattice, or
+    rounded by a file, they would cross.
+    """
+    steps = np.rint(surface.vertices * (STEPS / surface.size))
+    steps[:, 0] += 2.0 * STEPS * surface.piece
+    pairs = piercing_pairs(TriangleMesh(steps, surface.triangles.astype(np.int32)))
+    crossing = np.zeros(len(surface.triangles), bool)
+    crossing[pairs] = True
+    return crossing
 
 
 def untangled(surface: Surface, home: Floats) -> tuple[Surface, Bools]:

@@ -35,7 +35,7 @@ from .pieces import Meshed
 from .refinement import all_stray, coarser, flipped_nearer, split_where_it_strays
 from .sdf import Field, Primitives
 from .surface_fit import fit_border, fit_facets
-from .untangle import crossing_facets, untangled
+from .untangle import crossing_deeply, crossing_facets, untangled
 from .windows import sampled_finely_enough
 
 #: Samples are clamped to so many steps: farther from the surface only their sign matters.
@@ -144,6 +144,8 @@ def _mesh(
                 if manner is _Manner.FINE:
                     meshed = _refined(meshed, spec.deviation)
                 fitted, crossed = untangled(meshed.surface, meshed.home)
+                if manner is _Manner.GENTLE and crossed.any():  # a hair is better than no octant
+                    crossed &= crossing_deeply(fitted)
                 order = meshed.order
             bad = np.unique(fitted.piece[fitted.triangles[crossed, 0]])
             result.update(batch.split(fitted, order))

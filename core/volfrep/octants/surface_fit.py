@@ -35,6 +35,8 @@ STEP = 0.3
 STRAYING = 20.0
 #: Points that are looked at at a time: cells of many struts would take gigabytes.
 AT_ONCE = 1 << 17
+#: Surfaces that are equally near within this, in wanted edges, meet at a vertex.
+TIED = 1e-6
 #: The last correction of the volume moves no vertex further than this, in wanted edges.
 BALANCE_REACH = 0.05
 
@@ -119,7 +121,11 @@ def _curvature(field: Field, points: Floats, edge: float) -> Floats:
     """
     primitives = field.primitives
     if field.fillet <= 0.0:
-        return 1.0 / primitives.radius[field.nearest(points)[1]]
+        # On a crease of a strut and a joint rounding would choose between them, and otherwise in
+        # the octant beyond.
+        met = np.column_stack([field.nearest(points)[1], field.touching(points, TIED * edge)])
+        radius = np.where(met < 0, np.inf, primitives.radius[met]).min(axis=1)
+        return np.asarray(1.0 / radius, np.float64)
     step = 0.2 * edge
     total = -6.0 * field.values(points)
     for axis in range(3):

@@ -15,7 +15,8 @@ import numpy as np
 from ..mesh import remesh
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.piercing import piercing_pairs
-from ..spatial.self_intersection import close_pairs
+from ..spatial.self_intersection import close_pairs, crossing_triangles
+from ..util.linalg import along
 from ..util.types import Bools, Floats, Ints
 from .constrained_mesh import Surface, moved, neighbour_mean
 from .octant import STEPS
@@ -27,6 +28,8 @@ TOUCHING = 1e-6
 ROUNDS = 24
 SMOOTHED = 3
 WIDER_AFTER = 4
+#: A turn in which no plane along the axes stays one; its rows are at right angles.
+TURN = np.array([[2.0, 3.0, 6.0], [6.0, 2.0, -3.0], [-3.0, 6.0, -2.0]]) / 7.0
 #: An edge of the border that turns by an angle of a lesser cosine has folded over.
 FOLDED = 0.2
 
@@ -34,16 +37,25 @@ FOLDED = 0.2
 def crossing_facets(surface: Surface) -> Bools:
     """(m,) which facets another facet of their own octant runs through.
 
-    Exact, for the vertices as octants have them, in whole steps: next to a face facets may lie in
-    one plane, where those that overlap touch as far as rounding can tell. Turned with a lattice, or
-    rounded by a file, they would cross.
+    Exact, for the vertices as octants have them, in whole steps. Next to a face facets may lie in
+    one plane, where those that overlap touch as far as anybody can tell; turned with a lattice, or
+    rounded by a file, they cross, and so they are looked at turned and rounded, too.
     """
     steps = np.rint(surface.vertices * (STEPS / surface.size))
-    steps[:, 0] += 2.0 * STEPS * surface.piece
-    pairs = piercing_pairs(TriangleMesh(steps, surface.triangles.astype(np.int32)))
+    turned = np.rint(np.stack([along(steps, row) for row in TURN], axis=1))
     crossing = np.zeros(len(surface.triangles), bool)
-    crossing[pairs] = True
+    for vertices in (steps, turned):
+        vertices[:, 0] += 4.0 * STEPS * surface.piece
+        pairs = piercing_pairs(TriangleMesh(vertices, surface.triangles.astype(np.int32)))
+        crossing[pairs] = True
     return crossing
+
+
+def crossing_deeply(surface: Surface) -> Bools:
+    """As `crossing_facets`, those that stick through others by more than `TOUCHING`."""
+    everywhere = np.ones(len(surface.triangles), bool)
+    mesh = TriangleMesh(_apart(surface), surface.triangles.astype(np.int32))
+    return crossing_triangles(mesh, everywhere, TOUCHING * surface.edge)
 
 
 def untangled(surface: Surface, home: Floats) -> tuple[Surface, Bools]:

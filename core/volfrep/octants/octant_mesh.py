@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import hashlib
+import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
@@ -35,7 +36,7 @@ from .pieces import Meshed
 from .refinement import all_stray, coarser, flipped_nearer, split_where_it_strays
 from .sdf import Field, Primitives
 from .surface_fit import fit_border, fit_facets
-from .untangle import crossing_deeply, crossing_facets, untangled
+from .untangle import crossing_facets, untangled
 from .windows import sampled_finely_enough
 
 #: Samples are clamped to so many steps: farther from the surface only their sign matters.
@@ -129,7 +130,8 @@ def _mesh(
     """
     monitor.count("kinds of octants meshed", len(primitives))
     todo = list(primitives)
-    for manner in _Manner:
+    # Facets that touch are better than none, where nothing keeps them apart.
+    for exact, manner in itertools.product((True, False), _Manner):
         same, todo = todo, []
         done = 0
         while done < len(same):
@@ -139,13 +141,15 @@ def _mesh(
             if manner is _Manner.COARSE_AND_FINE:
                 fine = _refined(_coarsened(meshed, spec.deviation), spec.deviation)
                 # To draw facets apart moves them off the surface, and smaller ones less.
-                fitted, order, crossed = fine.surface, fine.order, crossing_facets(fine.surface)
+                fitted, order, crossed = (
+                    fine.surface,
+                    fine.order,
+                    crossing_facets(fine.surface, exact),
+                )
             else:
                 if manner is _Manner.FINE:
                     meshed = _refined(meshed, spec.deviation)
-                fitted, crossed = untangled(meshed.surface, meshed.home)
-                if manner is _Manner.GENTLE and crossed.any():  # a hair is better than no octant
-                    crossed &= crossing_deeply(fitted)
+                fitted, crossed = untangled(meshed.surface, meshed.home, exact)
                 order = meshed.order
             bad = np.unique(fitted.piece[fitted.triangles[crossed, 0]])
             result.update(batch.split(fitted, order))

@@ -34,31 +34,29 @@ TURN = np.array([[2.0, 3.0, 6.0], [6.0, 2.0, -3.0], [-3.0, 6.0, -2.0]]) / 7.0
 FOLDED = 0.2
 
 
-def crossing_facets(surface: Surface) -> Bools:
+def crossing_facets(surface: Surface, exact: bool = True) -> Bools:
     """(m,) which facets another facet of their own octant runs through.
 
     Exact, for the vertices as octants have them, in whole steps. Next to a face facets may lie in
     one plane, where those that overlap touch as far as anybody can tell; turned with a lattice, or
-    rounded by a file, they cross, and so they are looked at turned and rounded, too.
+    rounded by a file, they cross, and so they are looked at turned and rounded, too. Otherwise
+    those that stick through others by more than `TOUCHING`.
     """
+    triangles = surface.triangles.astype(np.int32)
+    if not exact:
+        everywhere = np.ones(len(triangles), bool)
+        mesh = TriangleMesh(_apart(surface), triangles)
+        return crossing_triangles(mesh, everywhere, TOUCHING * surface.edge)
     steps = np.rint(surface.vertices * (STEPS / surface.size))
     turned = np.rint(np.stack([along(steps, row) for row in TURN], axis=1))
-    crossing = np.zeros(len(surface.triangles), bool)
+    crossing = np.zeros(len(triangles), bool)
     for vertices in (steps, turned):
         vertices[:, 0] += 4.0 * STEPS * surface.piece
-        pairs = piercing_pairs(TriangleMesh(vertices, surface.triangles.astype(np.int32)))
-        crossing[pairs] = True
+        crossing[piercing_pairs(TriangleMesh(vertices, triangles))] = True
     return crossing
 
 
-def crossing_deeply(surface: Surface) -> Bools:
-    """As `crossing_facets`, those that stick through others by more than `TOUCHING`."""
-    everywhere = np.ones(len(surface.triangles), bool)
-    mesh = TriangleMesh(_apart(surface), surface.triangles.astype(np.int32))
-    return crossing_triangles(mesh, everywhere, TOUCHING * surface.edge)
-
-
-def untangled(surface: Surface, home: Floats) -> tuple[Surface, Bools]:
+def untangled(surface: Surface, home: Floats, exact: bool = True) -> tuple[Surface, Bools]:
     """The surface with facets that cross drawn apart, where that is possible.
 
     A vertex goes to the middle of its neighbours, off the exact surface by a part of a facet; and
@@ -67,6 +65,7 @@ def untangled(surface: Surface, home: Floats) -> tuple[Surface, Bools]:
     Args:
         surface: its facets fitted.
         home: (n, 3) where marching cubes found its vertices, mm.
+        exact: whether facets that only touch are drawn apart, as `crossing_facets` tells.
 
     Returns:
         The surface, and (m,) which facets still cross.
@@ -74,7 +73,7 @@ def untangled(surface: Surface, home: Floats) -> tuple[Surface, Bools]:
     count, triangles = len(surface.vertices), surface.triangles
     pairs = np.concatenate([triangles[:, :2], triangles[:, 1:], triangles[:, ::2]])
     border = surface.pinned.any(axis=1)
-    crossed = crossing_facets(surface)
+    crossed = crossing_facets(surface, exact)
     for turn in range(ROUNDS):
         if not crossed.any():
             break
@@ -88,7 +87,7 @@ def untangled(surface: Surface, home: Floats) -> tuple[Surface, Bools]:
         else:
             target = 0.5 * (surface.vertices + home)
         surface = moved(surface, np.where(goes, target, surface.vertices))
-        crossed = crossing_facets(surface)
+        crossed = crossing_facets(surface, exact)
     return surface, crossed
 
 

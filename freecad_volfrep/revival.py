@@ -53,7 +53,8 @@ def revive(doc: App.Document) -> list[App.DocumentObject]:
     """Give objects of ours their proxies back; returns those that had lost them.
 
     They are marked as touched, because their properties may have changed meanwhile: the next
-    recompute finds out, and makes no new mesh where nothing has.
+    recompute finds out, and makes no new mesh where nothing has. So are infills whose results were
+    of a wrong type, for which a new one is made.
     """
     if doc.Restoring:
         return []
@@ -62,8 +63,11 @@ def revive(doc: App.Document) -> list[App.DocumentObject]:
         names = set(obj.PropertiesList)
         if names >= _INFILL:
             from freecad_volfrep.features.lattice_infill import LatticeInfill, revive_infill
+            from freecad_volfrep.features.properties import has_lost_results
 
             kind, bring_back = LatticeInfill, revive_infill
+            if has_lost_results(obj):
+                obj.touch()
         elif names >= _PRINT_CHECK:
             from freecad_volfrep.features.print_check import PrintCheck, revive_print_check
 

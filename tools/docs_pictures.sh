@@ -28,6 +28,8 @@ commands        open_the_piston_rod     example_piston_rod   example_piston_rod
 display         section                 section_2_moved      section_view
 display         colours                 colours_1_radius     colour_by
 lattice_infill  pick_in_the_panel       11_picked_direction  picking
+lattice_infill  choose_walls            panel_6_walls        walls_panel
+lattice_infill  choose_walls            walls_made           walls_made
 sizing          size_and_take           sizing_2_plot        sizing_plot
 sizing          size_and_take           sizing_2_sized       size_lattice
 sizing          show_results            results_deformed     strut_results

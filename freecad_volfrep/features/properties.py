@@ -115,6 +115,8 @@ PROPERTIES = (
     _internal("App::PropertyInteger", "SchemaVersion", "Of this table", SCHEMA_VERSION),
 )
 
+#: `Status` where results were of a wrong type, until the next recompute.
+SPOILED = "Results were of a wrong type, as another program leaves them: recompute for new ones"
 #: What a user sets, by name.
 INPUTS = tuple(prop.name for prop in PROPERTIES if not prop.flags)
 
@@ -144,11 +146,12 @@ def ensure_properties(obj: App.DocumentObject) -> None:
     choices[BY_NAME["print_process"].property_name] = [NOTHING, *PROCESSES]
     add_missing(obj, PROPERTIES, choices)
     migrate(obj, PROPERTIES)
-    wrong = wrong_types(obj)
-    for name in wrong:
-        if name not in INPUTS:
-            obj.removeProperty(name)
+    spoiled = [name for name in wrong_types(obj) if name not in INPUTS]
+    for name in spoiled:
+        obj.removeProperty(name)
     add_missing(obj, PROPERTIES, choices)
+    if spoiled:
+        obj.Fingerprint, obj.Status = "", SPOILED  # their values are gone
     wrong = wrong_types(obj)
     for name, labels in choices.items():  # a cell may have been added since the file was saved
         if name not in wrong and obj.getEnumerationsOfProperty(name) != labels:
@@ -173,6 +176,11 @@ def wrong_types(obj: App.DocumentObject) -> dict[str, Property]:
         for prop in PROPERTIES
         if prop.name in present and obj.getTypeIdOfProperty(prop.name) != wanted[prop.name]
     }
+
+
+def has_lost_results(obj: App.DocumentObject) -> bool:
+    """Whether results were of a wrong type, and no recompute has come since."""
+    return bool(obj.Status == SPOILED)
 
 
 def is_spoiled(obj: App.DocumentObject) -> bool:

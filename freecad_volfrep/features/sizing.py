@@ -32,7 +32,9 @@ GOALS = {
     "stiffness": QT_TRANSLATE_NOOP("VolfrepSizePanel", "Most stiffness"),
 }
 #: The limits' names, marked for translation.
-LIMIT_NAMES = marked("VolfrepSizePanel", "stress", "displacement", "buckling", "frequency")
+LIMIT_NAMES = marked(
+    "VolfrepSizePanel", "stress", "displacement", "buckling", "frame buckling", "frequency"
+)
 #: What a new wish begins with: safety against yield; radii over the present one.
 FIRST_SAFETY, SMALLEST, LARGEST = 1.5, 0.5, 2.0
 NO_ANALYSIS = (
@@ -169,6 +171,10 @@ class Outcome:
                 ("largest stress, MPa", *(float(a.stress[..., k].max()) for _, a in columns)),
                 ("load before buckling, times", *(_margin(a.buckling[:, k]) for _, a in columns)),
             ]
+            if np.isfinite(sized.factors[k]):
+                together = (a.factors[k] for _, a in columns)
+                told = (float(one) if np.isfinite(one) else "-" for one in together)
+                rows.append(("load before struts buckle together, times", *told))
             worst = int(np.argmax(state.stress.max(axis=1)))
             place = "{:.4g}, {:.4g}, {:.4g}".format(*state.ends[worst].mean(axis=0))
             rows.append(("most stressed strut, at x, y, z", place))
@@ -182,6 +188,9 @@ class Outcome:
             ]
             if "lowest_frequency" in proof:
                 figures.append(("lowest frequency there over here", proof["lowest_frequency"]))
+            known = [factor for factor in proof.get("buckling_factors", ()) if factor is not None]
+            if known:
+                figures.append(("lowest load before they buckle together, times", min(known)))
             tables.append(Table("The same beams in CalculiX", tuple(figures)))
         notes = tuple((note,) for note in self.part.report["notes"])
         if notes:
@@ -199,7 +208,7 @@ def _mass(volume: float, density: float) -> float:
 
 
 def _margin(shares: NDArray[np.float64]) -> float:
-    """How many times the load may be until the first strut buckles."""
+    """How many times the load may be until struts buckle, one alone or together."""
     return float(1.0 / max(float(shares.max(initial=0.0)), 1e-12))
 
 

@@ -47,6 +47,8 @@ WORDS = marked(
     "largest radius, mm", "stress, % of its limit", "displacement, % of its limit",
     "buckling, % of its limit", "frequency, % of its limit", "work of the loads, N mm",
     "largest displacement, mm", "largest stress, MPa", "load before buckling, times",
+    "frame buckling, % of its limit", "load before struts buckle together, times",
+    "lowest load before they buckle together, times",
     "most stressed strut, at x, y, z", "The same beams in CalculiX", "displacements differ by, %",
     "largest stress there over here", "lowest frequency there over here", "Notes", "Steps", "step",
     "mass, g", "most used limit",

@@ -63,7 +63,8 @@ FIELDS = (
         "",
         QT_TRANSLATE_NOOP(
             "VolfrepSizePanel",
-            "How many times the load may be before the first strut buckles; 0 for no limit",
+            "How many times the load may be before struts buckle, one alone or together; 0 for "
+            "no limit",
         ),
     ),
     (

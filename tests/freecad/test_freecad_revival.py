@@ -13,7 +13,7 @@ import pytest
 from freecad_volfrep import make_print_check
 from freecad_volfrep.features import LatticeInfill, PrintCheck
 from freecad_volfrep.features.lattice_infill import REVIVED, UP_TO_DATE
-from freecad_volfrep.features.properties import SCHEMA_VERSION
+from freecad_volfrep.features.properties import SCHEMA_VERSION, SPOILED
 from freecad_volfrep.revival import revive
 
 PROXY = 'module="freecad_volfrep.features" class="LatticeInfill"'
@@ -127,6 +127,7 @@ def test_a_damaged_or_a_foreign_proxy_is_replaced(doc, infill, tmp_path, opened,
     again = opened(rewritten(doc, tmp_path / "bad.FCStd", (PROXY, proxy)))
     obj = again.getObject(infill.Name)
     assert isinstance(obj.Proxy, LatticeInfill)
+    assert obj.Status == REVIVED
     obj.StrutRadius = 0.8
     again.recompute()
     assert obj.isValid(), obj.getStatusString()
@@ -161,9 +162,13 @@ def test_results_of_a_wrong_type_are_made_anew_before_the_mesh(doc, infill, tmp_
         infill.addProperty("App::PropertyVector", name)
     doc.saveCopy(str(path))
     obj = opened(path).getObject(infill.Name)
-    obj.StrutRadius = 0.8
+    assert obj.Status == SPOILED
     obj.Document.recompute()
     assert obj.isValid(), obj.getStatusString()
+    assert obj.Status == UP_TO_DATE
+    assert obj.Volume.Value == pytest.approx(obj.Mesh.Volume, rel=1e-4)
+    obj.StrutRadius = 0.8
+    obj.Document.recompute()
     assert obj.Volume.Value == pytest.approx(obj.Mesh.Volume, rel=1e-4)
 
 

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from ..mesh.remesh import unit_normals
 from ..mesh.smooth_faces import smooth_faces
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..util.content import content_of, held
@@ -197,9 +198,7 @@ def lie_on(openings: TriangleMesh, points: Floats, reach: Floats | float = 0.0) 
 
 
 def _normals(mesh: TriangleMesh) -> Floats:
-    a, b, c = mesh.corners()
-    normal = np.cross(b - a, c - a)
-    return np.asarray(normal / np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None])
+    return unit_normals(mesh.vertices[mesh.triangles])
 
 
 def open_triangles(solid: TriangleMesh, faces: tuple[OpenFace, ...]) -> Bools:

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ..mesh import remesh
 from ..mesh.brep import FacetedBrep, faceted_brep
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..mesh.well_shaped import Tolerance, angles_of, well_shaped
@@ -18,7 +19,7 @@ from ..spatial.self_intersection import crossing_triangles
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 from ..util.subprocesses import run_program
-from ..util.types import Floats, Ints
+from ..util.types import Bools, Floats, Ints
 
 #: A solver needs about 50 kB for each of these: more are not a job for tetrahedra.
 MAX_TRIANGLES = 200_000
@@ -33,6 +34,9 @@ NEEDLE = 2.0
 #: median edges about them), and they are mended so many times.
 MENDING = 0.05
 NEAR = 1.0
+#: Facets that meet at an edge at an angle below this, degrees, lie on each other to Gmsh, which
+#: refuses such surfaces below 0.1.
+FOLDED = 0.3
 #: Facets that run through each other by less (median edges) touch: they lie in one plane.
 TOUCHING = 1e-7
 TRIES = 6
@@ -128,22 +132,42 @@ def tetrahedra(mesh: TriangleMesh, monitor: Monitor | None = None) -> Tetrahedra
 def mended(mesh: TriangleMesh, monitor: Monitor) -> tuple[TriangleMesh, float]:
     """A closed mesh without needles and caps, and how far a move could take its surface, mm.
 
-    The mesh as it is where it has no angle below `NEEDLE`, or where facets would cross then.
+    The mesh as it is where it has no angle below `NEEDLE`, or where facets would cross then;
+    one in which no facet lies on its neighbour, where there is one.
     """
     corners = mesh.vertices[mesh.triangles]
     if angles_of(corners).min(initial=180.0) >= NEEDLE:
         return mesh, 0.0
     edge = float(np.median(np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)))
     tolerance = Tolerance(MENDING * edge, (), NEAR * edge)
+    best = mesh, 0.0
     for _ in range(TRIES):
         better = monitor.call(lambda: well_shaped(mesh, tolerance, SHORTEST * edge))  # noqa: B023
         every = np.ones(len(better.triangles), bool)
         crossed = monitor.call(lambda: crossing_triangles(better, every, TOUCHING * edge))  # noqa: B023
         if not crossed.any():
-            return better, tolerance.usual
+            # What folds in the end may still be filled, and needles surely are not.
+            best = better, tolerance.usual
+            crossed = _folded(better)
+            if not crossed.any():
+                break
         place = better.vertices[np.unique(better.triangles[crossed])]
         tolerance = replace(tolerance, places=(*tolerance.places, place))
-    return mesh, 0.0
+    return best
+
+
+def _folded(mesh: TriangleMesh) -> Bools:
+    """(m,) triangles that lie on one that they share an edge with."""
+    table = remesh.edges(mesh.triangles.astype(np.int64), len(mesh.vertices))
+    normal = remesh.normals(mesh.vertices[mesh.triangles])
+    normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+    one, other = table.triangles[table.triangles[:, 1] >= 0].T
+    # Of unit vectors that are nearly opposite the sum is the angle between them.
+    apart = np.linalg.norm(normal[one] + normal[other], axis=1)
+    found = np.zeros(len(normal), bool)
+    found[one[apart < np.radians(FOLDED)]] = True
+    found[other[apart < np.radians(FOLDED)]] = True
+    return found
 
 
 def nodes_on(filled: TetrahedralMesh, wall: TriangleMesh) -> Ints:
@@ -170,8 +194,8 @@ def _cannot_fill(why: str) -> VolfrepError:
     lines = [line.partition(":")[2] for line in why.splitlines() if line.startswith("Error")]
     reason = (lines[0] if lines else why).strip().rstrip(".") or "it said nothing"
     return VolfrepError(
-        f"Gmsh cannot fill this mesh with tetrahedra ({reason}): use a coarser deviation, a joint "
-        "fillet of 0, or beams."
+        f"Gmsh cannot fill this mesh with tetrahedra ({reason}): solve its struts with beams, "
+        "which need no such mesh, or try another resolution or origin."
     )
 
 

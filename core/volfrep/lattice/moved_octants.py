@@ -194,9 +194,7 @@ def _dot(one: list[Floats], two: list[Floats]) -> Floats:
 
 def _normals(octant: Octant) -> Floats:
     """(m, 3) the unit normals of an octant's facets in its frame."""
-    twice = remesh.normals(octant.vertices[octant.triangles])
-    normals: Floats = twice / np.maximum(np.linalg.norm(twice, axis=1), 1e-300)[:, None]
-    return normals
+    return remesh.unit_normals(octant.vertices[octant.triangles])
 
 
 def _most_turned(octant: Octant) -> float:

@@ -141,9 +141,12 @@ class PaddedGrid:
         """(nx, ny, nz) bool, the octants of the part's grid and half a cell about it that lie in
         usable cells; None: all do.
         """
-        if self.usable is None:
-            return None
-        whole = self.usable
+        return None if self.usable is None else self._octants_in(self.usable)
+
+    def _octants_in(self, whole: Bools) -> Bools:
+        """(nx, ny, nz) bool, the octants of the part's grid and half a cell about it that lie in
+        some of all the cells.
+        """
         for axis, width in enumerate(self.first):
             pad = [(1, 1) if k == axis and not width else (0, 0) for k in range(3)]
             whole = np.pad(whole, pad, mode="wrap")
@@ -165,9 +168,12 @@ class PaddedGrid:
         if not endless:
             return octant_grid(cell, active, size, cells.origin, cells.periodic)
         if self.usable is not None:
-            # The grid that reaches beyond, without the octants beyond.
+            # The grid that reaches beyond, without the octants beyond, nor those on the far side
+            # of cells that cannot be used: the graph has none of their struts.
             grid = octant_grid(cell, self.usable, size, cells.origin, cells.periodic)
-            return replace(grid, kind=grid.kind[self._inner(2)])
+            near = self._octants_in(self._around(active, SUPPORT - 1))
+            kind = np.where(near, grid.kind[self._inner(2)], np.int16(-1))
+            return replace(grid, kind=kind)
         open_ends = zip(active.shape, cells.periodic, strict=True)
         nx, ny, nz = (2 * n + (0 if closed else 2) for n, closed in open_ends)
         if cell.is_mirror_symmetric:
@@ -180,20 +186,23 @@ class PaddedGrid:
 
     def graph(self, cell: UnitCell, active: Bools, endless: bool) -> CellGraph:
         """The graph of all the cells whose struts the octants of the active ones are bound to."""
-        around = [(n, n) if n else (SUPPORT, SUPPORT) for n in self.first]
-        wide = active
-        for axis, width in enumerate(around):
-            pad = [width if k == axis else (0, 0) for k in range(3)]
-            wide = np.pad(wide, pad, mode="constant" if self.first[axis] else "wrap")
-        if endless:
-            from scipy import ndimage  # slow to import
-
-            wide = ndimage.binary_dilation(wide, np.ones((3, 3, 3), bool), SUPPORT)
-        wide = wide[tuple(slice(None) if n else slice(SUPPORT, -SUPPORT) for n in self.first)]
+        wide = self._around(active, SUPPORT if endless else 0)
         if endless and self.usable is not None:
             wide &= self.usable
         origin = self.cells.origin - self.cells.cell_size * np.array(self.first)
         return cell_graph(cell, wide, self.cells.cell_size, origin, self.cells.periodic, self.first)
+
+    def _around(self, active: Bools, steps: int) -> Bools:
+        """All the cells, true for active ones of the part's grid and so many about them."""
+        wide = active
+        for axis, added in enumerate(self.first):
+            pad = [(SUPPORT, SUPPORT) if k == axis else (0, 0) for k in range(3)]
+            wide = np.pad(wide, pad, mode="constant" if added else "wrap")
+        if steps:
+            from scipy import ndimage  # slow to import
+
+            wide = ndimage.binary_dilation(wide, np.ones((3, 3, 3), bool), steps)
+        return wide[tuple(slice(None) if n else slice(SUPPORT, -SUPPORT) for n in self.first)]
 
 
 def padded_grid(cells: CellGrid, mapping: CoordinateMap | None, least: float) -> PaddedGrid:

@@ -24,6 +24,9 @@ from .assembly import (
     placed_octants,
 )
 
+#: With so many times fewer corners than vertices in all, these are sorted and not counted.
+FEW = 32
+
 
 @dataclass(frozen=True, eq=False)
 class Placed:
@@ -62,6 +65,10 @@ class Placed:
             where: octants that have all their vertices.
             monitor: for cancel.
         """
+        if triangles.size < self.layout.count // FEW:
+            wanted, local = np.unique(triangles, return_inverse=True)
+            local = local.reshape(-1, 3).astype(np.int32)
+            return TriangleMesh(self.coordinates(wanted, where, monitor), local), wanted
         used = np.zeros(self.layout.count, bool)
         used[triangles] = True
         wanted = np.flatnonzero(used).astype(np.int32)

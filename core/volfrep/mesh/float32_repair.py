@@ -55,7 +55,7 @@ def without_slivers(
     """As `remove_slivers`, with (m,) which triangles were not there, or elsewhere."""
     thin = _slivers(mesh.vertices, mesh.triangles[:among], tolerance)
     result, new, _ = _rebuilt(mesh, thin, tolerance)
-    return mesh if result is mesh else compact(result), new
+    return mesh if result is mesh else compact(result, owned=True), new
 
 
 def without_inner_slivers(
@@ -109,8 +109,7 @@ def _names(triangles: NDArray[np.int32]) -> NDArray[np.uint64]:
 
 def _slivers(points: NDArray[np.float64], triangles: NDArray[np.int32], tolerance: float) -> Ints:
     """The triangles with an edge or a height below the tolerance."""
-    # Axis by axis, which numpy takes in faster than rows of three.
-    columns = np.ascontiguousarray(points.T)
+    columns = points.T
     starts = range(0, len(triangles), BLOCK_TRIANGLES)
     found = [
         _slivers_in(columns, triangles[k : k + BLOCK_TRIANGLES], tolerance) + k for k in starts

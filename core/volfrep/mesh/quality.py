@@ -10,15 +10,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from typing import Any, TypeVar
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csr_matrix
-from scipy.sparse.csgraph import connected_components
 
 from ..util.progress import Monitor
 from ..util.threads import threads
+from .edge_table import edge_uses
 from .triangle_mesh import TriangleMesh
 
 T = TypeVar("T")
@@ -99,7 +98,7 @@ class Inspection:
     Attributes:
         quality: of the whole.
         shell: (m,) int32, which shell each triangle belongs to.
-        volume: signed volume of every shell, mm3; shells without triangles may be among them.
+        volume: signed volume of every shell, mm3.
     """
 
     quality: Quality
@@ -110,7 +109,7 @@ class Inspection:
 def measure(mesh: TriangleMesh, monitor: Monitor | None = None) -> Quality:
     """Topology, volume and size of a mesh, by vertex indices (nothing is merged).
 
-    Takes about 0.15 s and 60 bytes per triangle for a million triangles on two cores.
+    Takes about 0.15 s for a million triangles on two cores, and 45 bytes for each.
 
     Args:
         mesh: any mesh, closed or not.
@@ -180,17 +179,16 @@ def inspect(mesh: TriangleMesh, monitor: Monitor | None = None) -> Inspection:
     points = columns if vertices == len(used) else columns[:, used]
     bounds = np.array([points.min(axis=1), points.max(axis=1)])
 
-    forward, backward = _run(monitor, lambda: _edges(mesh))
-    uses = _edge_uses(forward, backward)
+    uses = _run(monitor, lambda: edge_uses(mesh))
     volumes, area, degenerate, repeated = _run(
-        monitor, lambda: _sizes(columns - bounds.mean(axis=0)[:, None], mesh.triangles)
+        monitor, lambda: _sizes(columns, bounds.mean(axis=0), mesh.triangles)
     )
-    shell, shell_volumes = _run(monitor, lambda: _shells(mesh, uses.graph, volumes))
-    # A vertex without triangle is a component of its own.
-    shells = len(shell_volumes) - (len(used) - vertices)
+    shell = uses.piece[mesh.triangles[:, 0]]
+    shell_volumes = np.bincount(shell, volumes, minlength=uses.pieces).astype(np.float64)
+    shells = uses.pieces
 
     watertight = not (uses.open or uses.overused or uses.misoriented or repeated)
-    euler = vertices - uses.graph.nnz + len(mesh.triangles)
+    euler = vertices - uses.count + len(mesh.triangles)
     quality = Quality(
         triangles=len(mesh.triangles),
         vertices=vertices,
@@ -237,88 +235,18 @@ def shape_statistics(mesh: TriangleMesh) -> ShapeStatistics:
     )
 
 
-#: More uses of an edge one way count as so many.
-MOST_COUNTED = (1 << 15) - 1
-
-
-@dataclass(frozen=True, eq=False)
-class _EdgeUses:
-    open: int
-    overused: int
-    misoriented: int
-    graph: Any  # sparse matrix, one entry for each undirected edge
-
-
-def _edges(mesh: TriangleMesh) -> tuple[Any, Any]:
-    """How often each edge is used towards its higher index, and towards its lower one.
-
-    Two sparse matrices (lower index, higher index) -> count. Building one is a counting sort,
-    in compiled code that lets the other thread run.
-    """
-    with ThreadPoolExecutor(max_workers=min(2, threads())) as pool:
-        forward, backward = pool.map(lambda way: _directed_edges(mesh, way), (True, False))
-    return forward, backward
-
-
-def _directed_edges(mesh: TriangleMesh, towards_higher: bool) -> Any:
-    ways = []
-    for first, second in ((0, 1), (1, 2), (2, 0)):
-        start, end = mesh.triangles[:, first], mesh.triangles[:, second]
-        if not towards_higher:
-            start, end = end, start
-        ways.append((start, end, start < end))
-    filled = np.cumsum([0] + [np.count_nonzero(chosen) for _, _, chosen in ways])
-    rows, columns = np.empty((2, filled[-1]), np.int32)
-    for (start, end, chosen), low, high in zip(ways, filled, filled[1:], strict=False):
-        np.compress(chosen, start, out=rows[low:high])
-        np.compress(chosen, end, out=columns[low:high])
-    del ways
-    size = len(mesh.vertices)
-    return csr_matrix((np.ones(len(rows), np.int32), (rows, columns)), shape=(size, size))
-
-
-def _edge_uses(forward: Any, backward: Any) -> _EdgeUses:
-    if (
-        np.array_equal(forward.indptr, backward.indptr)
-        and np.array_equal(forward.indices, backward.indices)
-        and (forward.data == 1).all()
-        and (backward.data == 1).all()
-    ):
-        return _EdgeUses(0, 0, 0, forward)
-    # Both counts of an edge in one number: the forward one below, the backward one above.
-    for way in (forward, backward):
-        np.minimum(way.data, MOST_COUNTED, out=way.data)
-    backward.data *= MOST_COUNTED + 1
-    both = forward + backward
-    ahead, back = both.data & MOST_COUNTED, both.data // (MOST_COUNTED + 1)
-    uses = ahead + back
-    return _EdgeUses(
-        open=int(np.count_nonzero(uses == 1)),
-        overused=int(np.count_nonzero(uses > 2)),
-        misoriented=int(np.count_nonzero((uses == 2) & (ahead != 1))),
-        graph=both,
-    )
-
-
-def _shells(
-    mesh: TriangleMesh, graph: Any, volumes: NDArray[np.float64]
-) -> tuple[NDArray[np.int32], NDArray[np.float64]]:
-    """The shell of every triangle and every shell's volume; unused vertices are shells too."""
-    components, label = connected_components(graph, directed=False)
-    of_triangle: NDArray[np.int32] = label[mesh.triangles[:, 0]]
-    sums = np.bincount(of_triangle, weights=volumes, minlength=components)
-    return of_triangle, sums.astype(np.float64)
-
-
 def _sizes(
-    columns: NDArray[np.float64], triangles: NDArray[np.int32]
+    columns: NDArray[np.float64], centre: NDArray[np.float64], triangles: NDArray[np.int32]
 ) -> tuple[NDArray[np.float64], float, int, int]:
-    """Signed volumes about the origin, total area, degenerate triangles, repeated vertices."""
+    """Signed volumes about a point, total area, degenerate triangles, repeated vertices."""
     volumes = np.empty(len(triangles))
 
     def block(start: int, stop: int) -> tuple[float, int, int]:
         corners = np.ascontiguousarray(triangles[start:stop].T)
-        a, b, c = ([column.take(corner) for column in columns] for corner in corners)
+        a, b, c = (
+            [column.take(corner) - at for column, at in zip(columns, centre, strict=True)]
+            for corner in corners
+        )
         e = [b[k] - a[k] for k in range(3)]
         f = [c[k] - a[k] for k in range(3)]
         normal = _cross(e, f)

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..util.linalg import normalized
 from ..util.ragged import rows_of
 from ..util.types import Bools, Floats, Ints
 
@@ -82,6 +83,11 @@ def worse_quality(a: Floats, b: Floats, left: Floats, right: Floats) -> Floats:
 def normals(points: Floats) -> Floats:
     """(m, 3) vectors of twice the area of (m, 3, 3) triangles."""
     return np.cross(points[:, 1] - points[:, 0], points[:, 2] - points[:, 0])
+
+
+def unit_normals(points: Floats) -> Floats:
+    """(m, 3) unit normals of (m, 3, 3) triangles; zero of those without area."""
+    return normalized(normals(points))
 
 
 def grouped(rows: Ints, values: Ints, count: int) -> tuple[Ints, Ints]:

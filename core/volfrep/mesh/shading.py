@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
+from ..util.linalg import normalized
 from ..util.types import Floats, Ints
 from .triangle_mesh import TriangleMesh
 
@@ -49,7 +50,7 @@ def shaded(mesh: TriangleMesh, crease_angle: float = CREASE_ANGLE) -> Shaded:
     vertex[corner] = t.ravel()
     weight = np.repeat(area, 3, axis=0)
     total = np.stack([np.bincount(corner, weight[:, k], count) for k in range(3)], axis=1)
-    normals = total / np.maximum(np.linalg.norm(total, axis=1), 1e-300)[:, None]
+    normals = normalized(total)
     return Shaded(
         mesh.vertices[vertex].astype(np.float32),
         normals.astype(np.float32),

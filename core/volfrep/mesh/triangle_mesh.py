@@ -95,9 +95,19 @@ def corners_among(chosen: NDArray[np.bool_], triangles: NDArray[np.int32]) -> ND
     return result
 
 
-def compact(mesh: TriangleMesh) -> TriangleMesh:
-    """The mesh without the vertices that no triangle uses."""
+def compact(mesh: TriangleMesh, *, owned: bool = False) -> TriangleMesh:
+    """The mesh without the vertices that no triangle uses.
+
+    Args:
+        mesh: any.
+        owned: nobody else has its triangles: they are numbered anew where they are.
+    """
     used = np.zeros(len(mesh.vertices), bool)
     used[mesh.triangles.ravel()] = True
     index = np.cumsum(used, dtype=np.int32) - 1
-    return TriangleMesh(mesh.vertices[used], index[mesh.triangles])
+    triangles = mesh.triangles
+    if owned:
+        np.take(index, triangles, out=triangles, mode="clip")
+    else:
+        triangles = index[triangles]
+    return TriangleMesh(mesh.vertices[used], triangles)

@@ -197,8 +197,7 @@ def _collapsed(
     ends = np.stack([triangles[rows, at[rows]], triangles[rows, (at[rows] + 1) % 3]], axis=1)
     wanted = np.unique(ends.min(axis=1) * np.int64(count) + ends.max(axis=1))
     longest = float(sides[rows, at[rows]].max(initial=0.0)) * (1.0 + 1e-9)
-    normal = remesh.normals(corners)
-    normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+    normal = remesh.unit_normals(corners)
     begin, facet = remesh.grouped(triangles.ravel(), np.repeat(np.arange(len(triangles)), 3), count)
 
     def away(vertex: Ints, place: Floats) -> Floats:

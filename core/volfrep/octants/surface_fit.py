@@ -12,8 +12,8 @@ from __future__ import annotations
 import numpy as np
 
 from ..mesh import remesh
-from ..util.linalg import along, solved
-from ..util.types import Floats
+from ..util.linalg import along, normalized, solved
+from ..util.types import Floats, Ints
 from .constrained_mesh import (
     Surface,
     between_samples,
@@ -35,8 +35,6 @@ STEP = 0.3
 STRAYING = 20.0
 #: Points that are looked at at a time: cells of many struts would take gigabytes.
 AT_ONCE = 1 << 17
-#: Surfaces that are equally near within this, in wanted edges, meet at a vertex.
-TIED = 1e-6
 #: The last correction of the volume moves no vertex further than this, in wanted edges.
 BALANCE_REACH = 0.05
 
@@ -88,8 +86,8 @@ def _offset_border(surface: Surface) -> Surface:
         return surface
     field = surface.field.rows(index)
     points, loose = surface.vertices[index], ~surface.pinned[index]
-    level = surface.edge**2 * _curvature(field, points, surface.edge) / 16.0
     held = surface.held[index]
+    level = surface.edge**2 * _curvature(field, points, held, surface.edge) / 16.0
     single = held[:, 0] < 0
     held = held.copy()
     if field.fillet <= 0.0:
@@ -114,18 +112,18 @@ def _offset_border(surface: Surface) -> Surface:
     return moved(surface, vertices)
 
 
-def _curvature(field: Field, points: Floats, edge: float) -> Floats:
+def _curvature(field: Field, points: Floats, held: Ints, edge: float) -> Floats:
     """The curvature of the surface at points on it, 1/mm, positive where it is convex.
 
-    Of a rounded joint k1 + k2, and no more than a strut has.
+    On a crease the largest of the primitives that hold the points, (k, 3): each of these is the
+    nearest, but for rounding, and the octant beyond a face rounds otherwise. Of a rounded joint
+    k1 + k2, and no more than a strut has.
     """
     primitives = field.primitives
     if field.fillet <= 0.0:
-        # On a crease of a strut and a joint rounding would choose between them, and otherwise in
-        # the octant beyond.
-        met = np.column_stack([field.nearest(points)[1], field.touching(points, TIED * edge)])
-        radius = np.where(met < 0, np.inf, primitives.radius[met]).min(axis=1)
-        return np.asarray(1.0 / radius, np.float64)
+        nearest = 1.0 / primitives.radius[field.nearest(points)[1]]
+        several = np.where(held >= 0, 1.0 / primitives.radius[held], 0.0).max(axis=1)
+        return np.where(held[:, 0] >= 0, several, nearest)
     step = 0.2 * edge
     total = -6.0 * field.values(points)
     for axis in range(3):
@@ -164,7 +162,7 @@ def _fit(surface: Surface, farthest: float | None) -> Surface:
         for k in range(15):
             total[:, k] += np.bincount(triangles[:, corner], local[:, k], minlength=count)
     matrix, right, normal = total[:, :9].reshape(-1, 3, 3), total[:, 9:12], total[:, 12:]
-    normal = normal / np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+    normal = normalized(normal)
     pairs = np.concatenate([triangles[:, :2], triangles[:, 1:], triangles[:, ::2]])
     mean, _ = neighbour_mean(count, pairs, surface.vertices)
     drift = mean - surface.vertices
@@ -214,13 +212,9 @@ def _balance(surface: Surface) -> Surface:
     amount[some] = -missed[some] / swept[some]
     limit = BALANCE_REACH * surface.edge
     flux = area[:, None] * np.einsum("q,mqk->mk", QUADRATURE_WEIGHTS, gradient)
-    normal = np.stack(
-        [
-            np.bincount(triangles.ravel(), np.repeat(flux[:, k], 3), minlength=count)
-            for k in range(3)
-        ],
-        axis=1,
-    )
-    normal = normal / np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+    sums = [
+        np.bincount(triangles.ravel(), np.repeat(flux[:, k], 3), minlength=count) for k in range(3)
+    ]
+    normal = normalized(np.stack(sums, axis=1))
     step = np.clip(amount, -limit, limit)[piece][:, None] * normal
     return moved(surface, surface.vertices + np.where(free[:, None], step, 0.0))

@@ -37,6 +37,8 @@ MOST_BEAMS = 400_000
 #: Seconds that OpenCASCADE takes to cut a lattice at a wall, per strut; measured on lattices of
 #: 100 to 900 struts in a box, a cylinder, and a box with a hole.
 TRIM_SECONDS_PER_STRUT = 8e-3
+#: So many times fewer triangles than just fit are advised, so that the advice is not refused next.
+SURE = 1.25
 #: A wall of more triangles is not handed to OpenCASCADE's Booleans.
 MOST_WALL_TRIANGLES = 3_000
 #: Exact solids of more struts than this are not cut: the Boolean grows faster than its input.
@@ -78,10 +80,11 @@ class Asked:
 
     def coarser(self, excess: float) -> str:
         """The setting with so many times fewer facets, or else fewer struts."""
-        # Triangles go with the square of the facets along L.
-        resolution = int(self.spec.facets_along_cell / np.sqrt(excess))
-        if resolution >= self.spec.coarsest_resolution:
-            return f"a resolution of {resolution}"
+        # Triangles go with the square of the facets along L, but for those along a wall.
+        fits = self.spec.facets_along_cell / np.sqrt(excess)
+        coarsest = self.spec.coarsest_resolution
+        if fits >= coarsest:
+            return f"a resolution of {max(int(fits / np.sqrt(SURE)), coarsest)}"
         return self.fewer(excess)
 
     def fewer(self, excess: float) -> str:

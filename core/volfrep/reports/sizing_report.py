@@ -124,6 +124,13 @@ def sizing_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
     for name, use in report["uses"].items():
         said = f", {there[name]:.1%} in CalculiX" if name in there else ""
         rows.append((f"{name} limit", f"{use:.1%} used{said}"))
+    factors = (report["calculix"] or {}).get("buckling_factors", [None] * len(report["cases"]))
+    for k, case in enumerate(report["cases"]):
+        own = case["frame_buckling_factor"]
+        if own is not None:
+            found = "" if factors[k] is None else f", {factors[k]:.3g} in CalculiX"
+            text = f"all struts together buckle at {own:.3g} times the load{found}"
+            rows.append((f"case {case['name']}", text))
     rows += [
         (
             f"case {case['name']}",
@@ -193,10 +200,17 @@ def _case(model: SizingModel, before: Analysis, final: Analysis, k: int) -> dict
         "stress_mpa": float(final.stress[:, :, k].max()),
         "worst_strut": {"number": strut, "middle_mm": place.tolist()},
         "buckling": float(final.buckling[:, k].max()),
+        "frame_buckling_factor": _known(final.factors[k]),
         "before": {
             "compliance_nmm": float(before.compliance[k]),
             "displacement_mm": float(before.largest[k]),
             "stress_mpa": float(before.stress[:, :, k].max()),
             "buckling": float(before.buckling[:, k].max()),
+            "frame_buckling_factor": _known(before.factors[k]),
         },
     }
+
+
+def _known(factor: float) -> float | None:
+    """A load factor; None where it was not asked for, or nothing buckles."""
+    return float(factor) if np.isfinite(factor) else None

@@ -120,7 +120,10 @@ def _looked_at(
     wall = depth.monitor.call(lambda: _contoured(field, part, crossings, known))
     leaf = crossings.leaf_of_patch
     small = part.size[leaf] * field.unit < SMALL * depth.thickness
-    stray = _strays(wall, new, depth) > np.where(small, STRAY_SMALL, STRAY)
+    # A halved leaf beside smaller ones may have none but known edges.
+    fresh = changed[near][leaf]
+    fresh[crossings.patch[new]] = True
+    stray = _strays(wall, fresh, depth) > np.where(small, STRAY_SMALL, STRAY)
     halve = np.bincount(leaf, minlength=len(part.size)) > 1
     halve[leaf[stray]] = True
     return near, known, halve & (part.size > FINEST)
@@ -173,11 +176,9 @@ def _contoured(field: DepthField, leaves: Leaves, crossings: Crossings, known: _
     return Wall(crossings, facets(crossings, vertices, anchor, normal))
 
 
-def _strays(wall: Wall, new: Bools, depth: Depth) -> Floats:
-    """(p,) how far the facets round each patch's vertex stray, if a new edge is among them."""
+def _strays(wall: Wall, fresh: Bools, depth: Depth) -> Floats:
+    """(p,) how far the facets round each patch's vertex stray, if a fresh one (p,) is at them."""
     vertices, triangles = wall.facets.mesh.vertices, wall.facets.mesh.triangles
-    fresh = np.zeros(len(vertices), bool)
-    fresh[wall.crossings.patch[new]] = True
     result = np.zeros(len(vertices))
     result[fresh] = np.abs(depth.strays(vertices[fresh]))
     suspect = wall.facets.off[wall.facets.edge] > FLAT * STRAY * depth.thickness

@@ -7,8 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..mesh.remesh import unit_normals
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.piercing import pairs_at_planes, piercing_among
+from ..util.linalg import normalized
 from ..util.progress import Monitor
 from ..util.types import Floats, Ints
 
@@ -52,8 +54,7 @@ def judged(mesh: TriangleMesh, monitor: Monitor, before: Judged | None = None) -
 def crossed_along(mesh: TriangleMesh, pairs: Ints) -> tuple[Floats, Floats]:
     """(k, 3) and (k, 3) mm: both ends of the lines along which pairs (k, 2) of triangles cross."""
     one, other = mesh.vertices[mesh.triangles[pairs.T]]
-    way = np.cross(_normals(one), _normals(other))
-    way /= np.maximum(np.linalg.norm(way, axis=1), 1e-300)[:, None]
+    way = normalized(np.cross(unit_normals(one), unit_normals(other)))
     ends = [_at_plane(one, other, way), _at_plane(other, one, way)]
     # Both parts of the line lie on it: what they have in common.
     start = np.where((ends[0][0] >= ends[1][0])[:, None], ends[0][2], ends[1][2])
@@ -61,14 +62,9 @@ def crossed_along(mesh: TriangleMesh, pairs: Ints) -> tuple[Floats, Floats]:
     return start, stop
 
 
-def _normals(corners: Floats) -> Floats:
-    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    return np.asarray(normal / np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None])
-
-
 def _at_plane(one: Floats, other: Floats, way: Floats) -> tuple[Floats, Floats, Floats, Floats]:
     """Where planes of triangles cut others, (k, 3, 3): least and most along a way, and points."""
-    height = np.einsum("kij,kj->ki", one - other[:, :1], _normals(other))
+    height = np.einsum("kij,kj->ki", one - other[:, :1], unit_normals(other))
     following = np.roll(height, -1, axis=1)
     cut = (height > 0.0) != (following > 0.0)
     share = np.where(cut, height / np.where(cut, height - following, 1.0), 0.0)

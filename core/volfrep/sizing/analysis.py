@@ -12,8 +12,12 @@ from ..util.errors import VolfrepError
 from ..util.types import Bools, Floats
 from .node_radii import NodeRadii
 from .structure import Case, Structure
-from .strut_results import buckling_loads, stresses
+from .strut_results import buckling_loads, columns_of, stresses
 from .tapered_beams import energies
+
+#: Of each case so many of the lowest load factors are looked at where derivatives are asked for:
+#: what makes one larger must not make another one smaller.
+_MODES = 4
 
 
 @dataclass(frozen=True)
@@ -23,28 +27,27 @@ class Limits:
     Attributes:
         stress: von Mises in struts and skin, MPa.
         displacement: of any node, mm.
-        buckling: how many times the load may be before the first strut buckles.
+        buckling: how many times the load may be before the first strut buckles by itself.
         frequency: the lowest natural one, Hz, with the first case's supports.
+        frame_buckling: how many times it may be before struts buckle together.
     """
 
     stress: float | None = None
     displacement: float | None = None
     buckling: float | None = None
     frequency: float | None = None
+    frame_buckling: float | None = None
 
     def __post_init__(self) -> None:
-        for name in ("stress", "displacement", "buckling", "frequency"):
-            value = getattr(self, name)
+        for name, value in vars(self).items():
             if value is not None and not (np.isfinite(value) and value > 0.0):
-                raise VolfrepError(f"The limit of {name} must be above 0, not {value}.")
+                called = name.replace("_", " ")
+                raise VolfrepError(f"The limit of {called} must be above 0, not {value}.")
 
     @property
     def any(self) -> bool:
         """Whether there is a limit at all."""
-        return any(
-            value is not None
-            for value in (self.stress, self.displacement, self.buckling, self.frequency)
-        )
+        return any(value is not None for value in vars(self).values())
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,6 +97,8 @@ class Analysis:
         stress: (m, 2, k) von Mises at both ends of every strut, MPa.
         buckling: (m, k) share of its buckling load that every strut carries.
         frequency: lowest, Hz; nan where it was not asked for.
+        factors: (k,) how many times each case's load may be before struts buckle together, inf
+            where they never do; nan where it was not asked for.
         uses: by the name of each limit that is given, the largest share of it that is used: 1 at
             the limit.
         worst: by the same names, the case (or -1) and the strut or node where that is.
@@ -108,6 +113,7 @@ class Analysis:
     stress: Floats
     buckling: Floats
     frequency: float
+    factors: Floats
     uses: dict[str, float]
     worst: dict[str, tuple[int, int]]
 
@@ -126,11 +132,15 @@ class Changes:
         displacement: (n, k) of each case's largest watched displacement, over the limit; None
             without one.
         frequency: (n,) of the limit over the lowest frequency; None without one.
+        frame_buckling: (n, c) of the limit over the lowest load factors of each case; None without.
+        frame_uses: (c,) what it is over them.
     """
 
     compliance: Floats
     displacement: Floats | None
     frequency: Floats | None
+    frame_buckling: Floats | None = None
+    frame_uses: Floats | None = None
 
 
 def analysed(
@@ -181,9 +191,22 @@ def analysed(
         frequency, mode = float(found[0]), modes
         uses["frequency"] = limits.frequency / frequency
         worst["frequency"] = -1, -1
+    together: list[tuple[Floats, Floats]] = []
+    if limits.frame_buckling is not None:
+        columns, count = columns_of(beams, of_struts), _MODES if with_changes else 1
+        together = [
+            structure.buckling(columns, forces[:, :, k], factor, count)
+            for k, factor in enumerate(factors)
+        ]
+        first = int(np.argmin([found[0] for found, _ in together]))
+        uses["frame buckling"] = limits.frame_buckling / float(together[first][0][0])
+        bent = structure.forces(of_struts, together[first][1][:, :, :1])
+        felt = np.einsum("mfk,mf->m", energies(bent, bent), columns.flexibility)
+        worst["frame buckling"] = first, int(np.argmax(felt))
+    factor_of = np.array([found[0] for found, _ in together] or [np.nan] * len(factors))
     analysis = Analysis(
         radii, problem.radii.volume(radii), compliance, moved, size.max(axis=0), forces,
-        stress, buckling, frequency, uses, worst,
+        stress, buckling, frequency, factor_of, uses, worst,
     )  # fmt: skip
     if not with_changes:
         return analysis, None
@@ -228,8 +251,47 @@ def analysed(
         stiffer = -change(strained, strained)[:, 0]
         mass = _mass_change(problem, of_struts, mode[:, :, 0], mode[:, :, 0])
         of_frequency = -0.5 * (stiffer - rate * mass) / rate * limits.frequency / frequency
+    of_frame, frame_uses = [], []
+    for k, (found, modes) in enumerate(together):
+        lowest = np.isfinite(found)
+        asked = limits.frame_buckling or np.nan
+        frame_uses.append(asked / found[lowest])
+        for place, mode in zip(found[lowest], modes.transpose(2, 0, 1)[lowest], strict=True):
+            own = forces[:, :, k]
+            stiffer = _columns_change(problem, of_struts, place * own, mode)
+            strain = place * columns.turned_by(place * own, mode)
+            way, held_by = beams.strained(columns.flexibility, strain)
+            pull = np.zeros(moved.shape[:2])
+            np.add.at(pull, beams.struts[:, 0], way[:, 0])
+            np.add.at(pull, beams.struts[:, 1], way[:, 1])
+            back = structure.answers(factors[k : k + 1], pull[:, :, None])
+            virtual = structure.forces(of_struts, back) - held_by[:, :, None]
+            more = change(virtual, forces[:, :, k : k + 1])[:, 0]
+            if any(problem.cases[k].acceleration):
+                everywhere = np.repeat(back, len(problem.cases), axis=2)
+                more = more + heavier(everywhere)[:, k]
+            of_frame.append(-(stiffer + more) * asked / place**2)
     of_compliance = change(forces, forces) + 2.0 * heavier(moved)
-    return analysis, Changes(of_compliance, of_displacement, of_frequency)
+    return analysis, Changes(
+        of_compliance, of_displacement, of_frequency,
+        np.stack(of_frame, axis=1) if of_frame else None,
+        np.concatenate(frame_uses) if of_frame else None,
+    )  # fmt: skip
+
+
+def _columns_change(problem: Problem, of_struts: Floats, forces: Floats, mode: Floats) -> Floats:
+    """(n,) derivative of mode K mode to the radii at the nodes, under the same forces (m, 6)."""
+    beams = problem.structure.beams
+
+    def felt(radii: Floats) -> Floats:
+        return columns_of(beams, radii).work(forces, mode)
+
+    result = np.empty(of_struts.shape)
+    for end in (0, 1):
+        step = np.zeros(of_struts.shape)
+        step[:, end] = 1e-4 * of_struts[:, end]
+        result[:, end] = (felt(of_struts + step) - felt(of_struts - step)) / (2.0 * step[:, end])
+    return problem.radii.to_nodes(result)
 
 
 def _mass_change(problem: Problem, of_struts: Floats, left: Floats, right: Floats) -> Floats:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy import sparse
-from scipy.sparse.linalg import splu
+from scipy.sparse.linalg import SuperLU, splu
 
 from ..util.errors import VolfrepError
 from ..util.types import Bools, Floats, Ints
@@ -180,15 +180,30 @@ def factored(pattern: BlockPattern, whole: sparse.csc_matrix, held: Bools) -> Fa
     free = (pattern.ordered(held.astype(float)) == 0.0) & (diagonal > 0)
     matrix = masked(whole, free)
     try:
-        factor = splu(
-            matrix,
-            permc_spec="NATURAL",
-            diag_pivot_thresh=0.0,
-            options={"SymmetricMode": True},
-        )
+        factor = _split(matrix)
     except RuntimeError as error:
         raise _loose() from error
     return Factored(pattern, matrix, whole, free, factor.solve)
+
+
+def definite(matrix: sparse.csc_matrix) -> Callable[[Floats], Floats] | None:
+    """What solves a matrix in a pattern's order; None where it is not positive definite.
+
+    It is when all pivots are above 0, of which no row changes places (Sylvester's law).
+    """
+    try:
+        factor = _split(matrix)
+    except RuntimeError:  # a pivot is 0
+        return None
+    kept = bool((factor.perm_r == np.arange(matrix.shape[0])).all())
+    solve: Callable[[Floats], Floats] = factor.solve
+    return solve if kept and float(factor.U.diagonal().min()) > 0.0 else None
+
+
+def _split(matrix: sparse.csc_matrix) -> SuperLU:
+    return splu(
+        matrix, permc_spec="NATURAL", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
+    )
 
 
 def _loose() -> VolfrepError:

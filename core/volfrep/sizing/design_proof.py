@@ -60,6 +60,9 @@ class Proved:
             result["displacement"] = float(there.max()) / limits.displacement
         if limits.frequency is not None:
             result["frequency"] = final.uses["frequency"] / self.figures["lowest_frequency"]
+        factors = [one for one in self.figures.get("buckling_factors", ()) if one is not None]
+        if limits.frame_buckling is not None and factors:
+            result["frame buckling"] = limits.frame_buckling / min(factors)
         return result
 
     def holds(self, limits: Limits, final: Analysis) -> bool:
@@ -72,8 +75,8 @@ def corrected(
 ) -> tuple[Problem, Limits]:
     """A problem and limits with which a design holds the given ones when CalculiX solves it.
 
-    Stress is a strut's own: each counts as stressed as CalculiX finds it. Displacement and
-    frequency are all struts', and their limits become that much stricter.
+    Stress is a strut's own: each counts as stressed as CalculiX finds it. Displacement, frequency
+    and buckling together are all struts', and their limits become that much stricter.
 
     Args:
         problem: as `final` solved it.
@@ -91,6 +94,9 @@ def corrected(
     if limits.frequency is not None and used["frequency"] > PROVED:
         ratio = used["frequency"] / final.uses["frequency"]
         wanted = replace(wanted, frequency=limits.frequency * ratio)
+    if limits.frame_buckling is not None and used.get("frame buckling", 0.0) > PROVED:
+        ratio = used["frame buckling"] / final.uses["frame buckling"]
+        wanted = replace(wanted, frame_buckling=limits.frame_buckling * ratio)
     return problem, wanted
 
 
@@ -169,9 +175,13 @@ def proved(
         x, y, z = case.acceleration
         cases.append(Case(held, loads, moved if moved.any() else None, (x, y, z)))
     modes = 3 if "frequency" in final.uses else 0
+    # Of a skin only the stiffness is known, here; and what is moved is no load.
+    expected = None
+    if solid is None and all(case.moved is None for case in cases):
+        expected = np.where(np.isfinite(final.factors), final.factors, np.nan)
     found = prove(
         deck, material.for_solver(), cases, skin=solid, more_nodes=more, modes=modes,
-        monitor=monitor,
+        expected=expected, monitor=monitor,
     )  # fmt: skip
     mine = final.displacements[:, :3][there]
     theirs = found.displacements[place[there]]
@@ -199,6 +209,10 @@ def proved(
     if modes:
         result["frequencies_hz"] = found.frequencies.tolist()
         result["lowest_frequency"] = float(found.frequencies[0] / final.frequency)
+    if np.isfinite(found.factors).any():
+        result["buckling_factors"] = [
+            float(factor) if np.isfinite(factor) else None for factor in found.factors
+        ]
     return Proved(result, more)
 
 

@@ -24,6 +24,7 @@ from .analysis import Analysis, Changes, Limits, Problem, analysed
 _MOVE = 1.25
 #: How a use falls with all radii, as a power: stress, displacement, buckling, frequency.
 _POWERS = {"stress": 2.6, "displacement": 3.0, "buckling": 4.0, "frequency": 1.0}
+_POWERS["frame buckling"] = 4.0
 #: Powers of a stress ratio, a buckling ratio and a criterion by which a radius is changed.
 _STRESSED, _BUCKLED, _CRITERION = 0.35, 0.22, 0.3
 #: What one factor does to a design is believed when it is nearer to 1 than this.
@@ -181,6 +182,9 @@ def lightest(
     if not limits.any:
         raise VolfrepError("Least mass needs a limit: stress, displacement, buckling, frequency.")
     radii = np.clip(start, problem.low, problem.high)
+    everything, limits = limits, replace(limits, frame_buckling=None)
+    if not limits.any:
+        limits = everything
     steps: list[Step] = []
     best: list[tuple[float, Floats]] = []
     least, since, stopped = np.inf, 0, "steps"
@@ -205,6 +209,8 @@ def lightest(
         radii = problem.smoothed(_lighter(problem, found, changes, limits))
     tried = [scaled_to_limits(problem, limits, chosen) for _, chosen in best or [(0.0, radii)]]
     final, holds = min(tried, key=lambda entry: (not entry[1], entry[0].volume))
+    if everything != limits:
+        final, holds = thickened(problem, everything, final.radii)
     return Sized(final, tuple(steps), stopped, holds)
 
 
@@ -306,6 +312,9 @@ def _lighter(problem: Problem, found: Analysis, changes: Changes, limits: Limits
     if changes.frequency is not None:
         shared.append(changes.frequency[:, None])
         uses.append(np.array([found.uses["frequency"]]))
+    if changes.frame_buckling is not None and changes.frame_uses is not None:
+        shared.append(changes.frame_buckling)
+        uses.append(changes.frame_uses)
     if not shared:
         return low
     cost = np.maximum(shape.volume_change(radii), 1e-9)

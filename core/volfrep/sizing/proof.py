@@ -14,6 +14,7 @@ import tempfile
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from subprocess import CompletedProcess
 
 import numpy as np
 
@@ -32,6 +33,11 @@ from .structure import Case
 from .tapered_beams import Beams
 
 _BLOCK = re.compile(r"^ displacements .*?\n\n((?: +\d+(?: +\S+){3}\n)*)", re.MULTILINE)
+#: The first row of its table of load factors.
+_FIRST = re.compile(r"^ +1 +(\S+)$", re.MULTILINE)
+#: CalculiX sees no load factors below 1, and those far above it badly: what it is given is scaled
+#: so that it finds about this one.
+_FACTOR = 10.0
 _ROW = 12
 #: Struts whose directions differ by less share an orientation.
 DIRECTION = 1e-6
@@ -72,11 +78,14 @@ class Proof:
         sections: (nodes, 3, cases) the pull in the beams, N, and the moments about the two axes of
             their section, N mm: at nodes between equal elements of a strut.
         frequencies: (modes,) Hz.
+        factors: (cases,) how many times the loads may be before the frame buckles; nan where that
+            was not asked for.
     """
 
     displacements: Floats
     sections: Floats
     frequencies: Floats
+    factors: Floats
 
 
 def prove(
@@ -87,6 +96,7 @@ def prove(
     skin: SolidSkin | None = None,
     more_nodes: Floats | None = None,
     modes: int = 0,
+    expected: Floats | None = None,
     monitor: Monitor | None = None,
 ) -> Proof:
     """Solve beams by CalculiX.
@@ -98,6 +108,8 @@ def prove(
         skin: about them; None for none.
         more_nodes: (h, 3) nodes behind those of the skin, which only follow others, mm.
         modes: how many frequencies, with the first case's supports.
+        expected: (cases,) near which load factor each case buckles, nan where that is not asked
+            for; None for nowhere.
         monitor: asked for a cancel while CalculiX runs.
 
     Raises:
@@ -121,20 +133,26 @@ def prove(
     moved = np.zeros((len(nodes), 3, len(cases)))
     sections = np.zeros((len(nodes), 3, len(cases)))
     frequencies = np.zeros(0)
+    factors = np.full(len(cases), np.nan)
+    environment = {**os.environ, "OMP_NUM_THREADS": str(threads())}
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         for group in alike:
             steps = [_static(cases[k]) for k in group]
             if modes and 0 in group:
                 steps.append(f"*STEP\n*FREQUENCY\n{modes}\n*END STEP\n")
-            with (folder / "job.inp").open("wb") as deck:
-                deck.writelines(_deck(nodes, model, material))
-                if skin is not None:
-                    deck.writelines(_skin(skin, model, material))
-                deck.write(_held(cases[group[0]].held).encode())
-                deck.writelines(step.encode() for step in steps)
-            environment = {**os.environ, "OMP_NUM_THREADS": str(threads())}
-            said = run_program([program, "-i", "job"], folder, monitor, environment)
+            held = _held(cases[group[0]].held)
+
+            def solved(steps: Sequence[str], held: str = held) -> CompletedProcess[str]:
+                with (folder / "job.inp").open("wb") as deck:
+                    deck.writelines(_deck(nodes, model, material))
+                    if skin is not None:
+                        deck.writelines(_skin(skin, model, material))
+                    deck.write(held.encode())
+                    deck.writelines(step.encode() for step in steps)
+                return run_program([program, "-i", "job"], folder, monitor, environment)
+
+            said = solved(steps)
             printed = folder / "job.dat"
             text = printed.read_text(errors="replace") if printed.is_file() else ""
             blocks = _BLOCK.findall(text)
@@ -150,7 +168,16 @@ def prove(
                 sections[number, :, k] = table[:, [3, 5, 6]]
             if modes and 0 in group:
                 frequencies = _frequencies(text)[:modes]
-    return Proof(moved, sections, frequencies)
+            for k in group:
+                near = np.nan if expected is None else float(expected[k])
+                if np.isfinite(near):
+                    scale = near / _FACTOR
+                    solved([_buckling(cases[k], scale)])
+                    found = _FIRST.search(printed.read_text(errors="replace"))
+                    if found is None:
+                        raise VolfrepError("CalculiX found no load at which the frame buckles.")
+                    factors[k] = scale * float(found[1])
+    return Proof(moved, sections, frequencies, factors)
 
 
 def end_stresses(proof: Proof, model: BeamModel, beams: Beams, radii: Floats) -> Floats:
@@ -280,18 +307,27 @@ def _static(case: Case) -> str:
         for node, axis in np.argwhere(case.held):
             value = case.moved[node, axis]
             lines.append(f"{node + 1},{axis + 1},{axis + 1},{value:.12g}\n")
-    lines.append("*CLOAD,OP=NEW\n")
-    for node, axis in np.argwhere((case.loads != 0.0) & ~case.held):
-        lines.append(f"{node + 1},{axis + 1},{case.loads[node, axis]:.12g}\n")
-    lines.append("*DLOAD,OP=NEW\n")
-    if any(case.acceleration):
-        size = float(np.linalg.norm(case.acceleration))
-        way = ",".join(f"{value / size:.12g}" for value in case.acceleration)
-        lines.append(f"EALL,GRAV,{size:.12g},{way}\n")
+    lines += _loads(case, 1.0)
     lines.append(
         "*NODE PRINT,NSET=NALL\nU\n*NODE FILE,OUTPUT=2D\nU\n*EL FILE,SECTION FORCES\nS\n*END STEP\n"
     )
     return "".join(lines)
+
+
+def _loads(case: Case, scale: float) -> list[str]:
+    lines = ["*CLOAD,OP=NEW\n"]
+    for node, axis in np.argwhere((case.loads != 0.0) & ~case.held):
+        lines.append(f"{node + 1},{axis + 1},{scale * case.loads[node, axis]:.12g}\n")
+    lines.append("*DLOAD,OP=NEW\n")
+    if any(case.acceleration):
+        size = float(np.linalg.norm(case.acceleration))
+        way = ",".join(f"{value / size:.12g}" for value in case.acceleration)
+        lines.append(f"EALL,GRAV,{scale * size:.12g},{way}\n")
+    return lines
+
+
+def _buckling(case: Case, scale: float) -> str:
+    return "".join(["*STEP\n*BUCKLE\n4\n", *_loads(case, scale), "*END STEP\n"])
 
 
 def _frequencies(text: str) -> Floats:

@@ -11,6 +11,7 @@ from scipy.spatial import cKDTree
 from ..mesh import remesh
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.proximity import closest_points
+from ..util.linalg import normalized
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
 
@@ -38,8 +39,7 @@ class _Creases:
     def __init__(self, vertices: Floats, triangles: Ints, pinned: Floats, tiny: float) -> None:
         self.count, self.vertices, self.tiny = len(vertices), vertices, tiny
         table = remesh.edges(triangles, self.count)
-        normal = remesh.normals(vertices[triangles])
-        normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+        normal = remesh.unit_normals(vertices[triangles])
         one, two = table.triangles.T
         # A needle faces nowhere: it counts with its neighbour beyond its longest edge, which so
         # can be flipped, and a crease that it lies on runs along its other two.
@@ -63,8 +63,7 @@ class _Creases:
         number = np.bincount(ends.ravel(), minlength=self.count)
         # On a crease of two edges that run straight on; a corner elsewhere.
         way = np.zeros((self.count, 3))
-        step = vertices[ends[:, 1]] - vertices[ends[:, 0]]
-        step /= np.maximum(np.linalg.norm(step, axis=1), 1e-300)[:, None]
+        step = normalized(vertices[ends[:, 1]] - vertices[ends[:, 0]])
         np.add.at(way, ends[:, 0], step)
         np.add.at(way, ends[:, 1], -step)
         bent = np.linalg.norm(way, axis=1) > 0.7

@@ -3,18 +3,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 from scipy import sparse
+from scipy.linalg import eigh
 from scipy.sparse.linalg import LinearOperator, eigsh
 
 from ..util.types import Bools, Floats, Ints
-from .block_matrix import BlockPattern, Factored, factored, masked
+from .block_matrix import BlockPattern, Factored, definite, factored, masked
+from .strut_results import Columns
 from .tapered_beams import Beams
 
 _UNIT = np.eye(6)
+#: A load factor is sought from so near below it, and in so many steps at most.
+_NEAR_BUCKLING, _SHIFTS = 0.15, 12
+#: Accuracy of what a step on the way to it is, relative.
+_LOOSE = 1e-3
+#: Matrices of no more rows are solved as full ones.
+_FEW = 120
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,11 +129,11 @@ class Structure:
             VolfrepError: a part of the structure can move without resistance.
         """
         parts = self.beams.stiffness(self.beams.flexibility(radii))
-        return factored(self._pattern, self._assembled(parts, "stiffness"), held)
+        return factored(self._pattern, self._assembled(parts, self._fixed("stiffness")), held)
 
     def mass(self, radii: Floats) -> sparse.csc_matrix:
         """The consistent mass, t and t mm2, in the pattern's order."""
-        return self._assembled(self.beams.mass(radii), "mass")
+        return self._assembled(self.beams.mass(radii), self._fixed("mass"))
 
     def displacements(self, radii: Floats, cases: Sequence[Case]) -> tuple[Floats, list[Factored]]:
         """How the nodes move in every load case.
@@ -243,7 +251,70 @@ class Structure:
         modes = self.followed(self._pattern.restored(vectors[:, order]))
         return np.sqrt(np.maximum(values[order], 0.0)) / (2.0 * np.pi), modes
 
-    def _assembled(self, parts: tuple[Floats, Floats, Floats], name: str) -> sparse.csc_matrix:
+    def buckling(
+        self, columns: Columns, forces: Floats, factor: Factored, count: int = 1
+    ) -> tuple[Floats, Floats]:
+        """How many times the forces in the struts may be before these buckle together.
+
+        Struts are columns whose joints move and turn. From a load factor below the lowest, at which
+        the stiffness is still positive definite, the next ones are those of a linear problem; so
+        near to the lowest that a last step on what bends makes it right. A skin is as stiff as
+        without its forces.
+
+        Args:
+            columns: the struts.
+            forces: (m, 6) in them, see `Beams.forces`.
+            factor: the stiffness of the same radii.
+            count: how many of the lowest.
+
+        Returns:
+            (count,) load factors, inf where nothing buckles; and (n, 6, count) modes, each scaled
+            so that the loads' work in it falls by 1 where the load factor rises by 1.
+        """
+        free, pulls = factor.free, forces[:, 0]
+        pressed = pulls < 0.0
+        if not pressed.any():
+            return np.full(count, np.inf), np.zeros((len(self.nodes), 6, count))
+        most = float((columns.clamped()[pressed] / -pulls[pressed]).min())
+
+        def at(place: float) -> tuple[sparse.csc_matrix, sparse.csc_matrix]:
+            whole, change = columns.blocks(place, forces)
+            stiffness = self._assembled(whole, self._fixed("stiffness"))
+            return masked(stiffness, free), masked(self._assembled(change), free, 0.0)
+
+        place, solve, (matrix, change) = 0.0, factor.solve, at(0.0)
+        vectors = np.where(free, np.cos(np.arange(len(free))), 0.0)[:, None]
+        for _ in range(_SHIFTS):
+            steps, vectors = _steps_to_singular(matrix, change, solve, vectors[:, 0], count)
+            lowest = min(place + float(steps[0]), most)
+            if lowest - place <= _NEAR_BUCKLING * lowest:
+                break
+            ahead = lowest
+            for _ in range(_SHIFTS):
+                # Nearer to the lowest, but not beyond it.
+                ahead -= (1.0 if ahead < lowest else 0.5) * _NEAR_BUCKLING * (ahead - place)
+                matrix, change = at(ahead)
+                inverse = definite(matrix)
+                if inverse is not None:
+                    place, solve = ahead, inverse
+                    break
+        at_lowest = min(lowest, (1.0 - 1e-6) * most)
+        matrix, change = at(at_lowest)
+        stiff = np.einsum("ik,ik->k", vectors, matrix @ vectors)
+        softer = np.einsum("ik,ik->k", vectors, change @ vectors)
+        found = np.where(softer < 0.0, at_lowest - stiff / np.minimum(softer, -1e-300), np.inf)
+        vectors = vectors * np.where(softer < 0.0, np.maximum(-softer, 1e-300) ** -0.5, 0.0)
+        order = np.argsort(found)
+        found = found[order]
+        found[0] = min(found[0], most)  # where joints stay, a strut buckles between them
+        return found, self.followed(self._pattern.restored(vectors[:, order]))
+
+    def _fixed(self, name: str) -> Floats | None:
+        return None if self.fixed_blocks is None else getattr(self.fixed_blocks, name)
+
+    def _assembled(
+        self, parts: tuple[Floats, Floats, Floats], fixed: Floats | None = None
+    ) -> sparse.csc_matrix:
         tied, (_, ends) = self._tied, self._ends
         first, between, second = (part[~tied] for part in parts)
         blocks = [first, between, between.swapaxes(1, 2), second]
@@ -257,7 +328,8 @@ class Structure:
             whole[:, 3:, 3:] = _led(of_second, second, of_second)
             blocks.append(whole.reshape(-1, 6, 6))
         if self.fixed_blocks is not None:
-            blocks.append(getattr(self.fixed_blocks, name))
+            none = np.zeros((len(self.fixed_blocks.rows), 6, 6))
+            blocks.append(none if fixed is None else fixed)
         return self._pattern.matrix(np.concatenate(blocks))
 
 
@@ -266,3 +338,37 @@ def _led(left: Floats, block: Floats, right: Floats) -> Floats:
     half = block[:, None] @ right  # (t, 3, 6, 6)
     result: Floats = left.swapaxes(2, 3)[:, :, None] @ half[:, None]
     return result
+
+
+def _steps_to_singular(
+    matrix: sparse.csc_matrix,
+    change: sparse.csc_matrix,
+    solve: Callable[[Floats], Floats],
+    start: Floats,
+    count: int,
+) -> tuple[Floats, Floats]:
+    """The smallest steps s > 0 for which a positive definite matrix + s change is singular.
+
+    Args:
+        matrix: positive definite.
+        change: symmetric.
+        solve: of the matrix.
+        start: a vector to begin with.
+        count: how many.
+
+    Returns:
+        (count,) steps, inf where there is none; and (n, count) what the matrix no longer resists.
+    """
+    size = matrix.shape[0]
+    if size <= _FEW:  # too few for Lanczos' vectors
+        last = [max(size - count, 0), size - 1]
+        values, vectors = eigh(-change.toarray(), matrix.toarray(), subset_by_index=last)
+    else:
+        inverse = LinearOperator(matrix.shape, lambda b: solve(np.asarray(b, float)))
+        values, vectors = eigsh(
+            -change, count, matrix, which="LA", Minv=inverse, v0=start, tol=_LOOSE
+        )
+    order = np.argsort(-values)
+    shares = values[order]
+    steps = np.where(shares > 0.0, 1.0 / np.where(shares > 0.0, shares, 1.0), np.inf)
+    return steps, vectors[:, order]

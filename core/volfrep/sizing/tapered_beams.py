@@ -104,10 +104,16 @@ class Beams:
         Stretch by a pull; twist by a torque; slope by a moment; slope by a force across (and shift
         by a moment); shift by a force across.
         """
+        return self.flexibility_between(radii, 0.0, 1.0)
+
+    def flexibility_between(self, radii: Floats, first: float, last: float) -> Floats:
+        """(m, 5) as `flexibility`, of a piece of each strut between two shares of its length."""
         length, material = self.length, self.material
         table = self.ends(radii)
         stiff = self.stiff_lengths(radii, table)
         borders = np.stack([0.0 * length, stiff[:, 0], length - stiff[:, 1], length], axis=1)
+        start, end = first * length[:, None], last * length[:, None]
+        borders = np.clip(borders, start, end)
         result = np.zeros((len(length), 5))
         for zone, points in ((0, _IN_END), (1, _ALONG), (2, _IN_END)):
             place, weight = _gauss(points)
@@ -122,7 +128,7 @@ class Beams:
             area = np.pi * radius**2 * self.section.area * axial
             inertia = 0.25 * np.pi * radius**4
             bend = step / (material.young * inertia * bending)
-            arm = length[:, None] - x
+            arm = end - x
             twist = step / (material.shear * 2.0 * inertia * self.section.torsion * bending)
             slide = step / (material.shear * self.section.shear * np.pi * radius**2 * axial)
             result[:, 0] += (step / (material.young * area)).sum(axis=1)
@@ -189,6 +195,23 @@ class Beams:
             ],
             axis=1,
         )
+
+    def strained(self, flexibility: Floats, strain: Floats) -> tuple[Floats, Floats]:
+        """Loads at the ends that move the second ends (m, 6) against the first, in local axes.
+
+        Returns:
+            (m, 2, 6) at both ends, in global axes; and (m, 6) forces as of `forces`.
+        """
+        moved = np.concatenate(
+            [np.einsum("mji,mj->mi", self.axes, part) for part in (strain[:, :3], strain[:, 3:])],
+            axis=1,
+        )[:, :, None]
+        local = self.forces(flexibility, np.zeros_like(moved), moved)[:, :, 0]
+        ends = np.empty((len(strain), 2, 6))
+        ends[:, 1, :3] = np.einsum("mji,mj->mi", self.axes, local[:, :3])
+        ends[:, 1, 3:] = np.einsum("mji,mj->mi", self.axes, local[:, 3:])
+        ends[:, 0] = -np.einsum("mji,mj->mi", self._carried(), ends[:, 1])
+        return ends, local
 
     def mass(self, radii: Floats) -> tuple[Floats, Floats, Floats]:
         """Consistent mass, blocks as `stiffness`, t and t mm2 (J. S. Archer, AIAA J. 3, 1965)."""

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
+from ..mesh.remesh import unit_normals
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.errors import VolfrepError
 from ..util.ragged import spread
@@ -251,10 +252,7 @@ class SurfaceIndex:
         return np.asarray(_dot(points - closest, normal) < 0.0)
 
     def _normals(self, triangle: Ints) -> Floats:
-        a, b, c = self.corners[triangle].transpose(1, 0, 2)
-        normal = np.cross(b - a, c - a)
-        unit: Floats = normal / np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
-        return unit
+        return unit_normals(self.corners[triangle])
 
     def _corner_normals(self, triangle: Ints, corner: Ints) -> Floats:
         """The normals of all triangles round a corner, by walking from one to the next."""
@@ -374,8 +372,7 @@ def _sample_reentrant_edges(
     They are the nearest to many points inside, and the samples on the faces recede from them.
     """
     corners = np.stack(mesh.corners(), axis=1)
-    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+    normal = unit_normals(corners)
     triangle, edge = np.nonzero(across > np.arange(len(across))[:, None])
     other = across[triangle, edge]
     start, end = corners[triangle, edge], corners[triangle, (edge + 1) % 3]

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..mesh.remesh import unit_normals
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.types import Bools, Floats, Ints
 from .self_intersection import meeting_boxes
@@ -117,8 +118,7 @@ def _near_pairs(first: TriangleMesh, second: TriangleMesh) -> tuple[Ints, Ints]:
         low, high = _boxes(first)
         least, most = _boxes(second)
         others = second.vertices[second.triangles]
-        normal = np.cross(others[:, 1] - others[:, 0], others[:, 2] - others[:, 0])
-        normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+        normal = unit_normals(others)
         offset = np.einsum("ij,ij->i", others[:, 0], normal)
         # The last run is filled up with its last facet.
         count = low.shape[1]

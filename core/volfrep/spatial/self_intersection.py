@@ -8,8 +8,9 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.triangle_mesh import TriangleMesh
-from ..util.ragged import spread
+from ..mesh.triangle_mesh import TriangleMesh, box_of
+from ..util.ragged import pairs_in_steps, spread
+from ..util.threads import in_threads
 from ..util.types import Bools, Floats, Ints
 
 #: Pairs of triangles that one vectorised step takes at a time.
@@ -20,6 +21,16 @@ MOST_BINS = 1 << 16
 ALONG_ALL = 7
 #: The most cells along the longest side of the grid by which triangles near others are picked.
 ABOUT_CELLS = 160
+#: Triangles that are looked for in the grid at once.
+BLOCK_TRIANGLES = 1 << 17
+#: A plane may be so many of these cells from where rounding puts it.
+PLANE_SLACK = 1e-3
+#: A triangle with less than this of the area that its sides could have has no plane.
+NO_PLANE = 1e-9
+#: And so many of the finer cells, a byte each, by which few are picked of those.
+MOST_CELLS = 1 << 26
+#: The least side of what they divide, as a part of its longest one.
+LEAST_REACH = 1e-3
 
 
 def crossing_triangles(mesh: TriangleMesh, among: Bools, depth: float) -> Bools:
@@ -53,31 +64,12 @@ def crossing_edges(mesh: TriangleMesh, among: Bools, depth: float) -> tuple[Ints
     """
     found = [(np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros((0, 3)))]
     if among.any():
-        rows = _reached_from(mesh, among)
+        rows = np.flatnonzero(among | about(mesh, among))
         part = TriangleMesh(mesh.vertices, mesh.triangles[rows])
         for one, other, points in _crossing_edges(part, among[rows], depth):
             found.append((rows[one], rows[other], points))
     one, other, points = (np.concatenate(column) for column in zip(*found, strict=True))
     return one, other, points
-
-
-def _reached_from(mesh: TriangleMesh, among: Bools) -> Ints:
-    """The triangles whose boxes reach into cubes that those of the chosen ones reach into."""
-    if among.all():
-        return np.arange(len(among))
-    corners = mesh.vertices[mesh.triangles]
-    low, high = corners.min(axis=1), corners.max(axis=1)
-    first, last = low[among], high[among]
-    size = max(float((last - first).max()), float(np.ptp(corners, axis=(0, 1)).max()) / MOST_BINS)
-    origin = low.min(axis=0)
-    bins = np.unique(boxes_in_bins(first, last, origin, size)[1])
-    # Those of the others that are larger than a cube reach into many: kept without a look.
-    result = among | ((high - low).max(axis=1) > size)
-    rows = np.flatnonzero(~result)
-    box, its_bin = boxes_in_bins(low[rows], high[rows], origin, size)
-    place = np.minimum(np.searchsorted(bins, its_bin), len(bins) - 1)
-    result[rows[box[bins[place] == its_bin]]] = True
-    return np.flatnonzero(result)
 
 
 def _crossing_edges(
@@ -177,15 +169,26 @@ def _boxes_in_bins(
     low: Floats, high: Floats, origin: Floats, size: float
 ) -> tuple[Ints, Ints, NDArray[np.uint8]]:
     """As `boxes_in_bins`, and along which axes the box begins in the bin: a bit for each."""
-    first = np.floor((low - origin) / size).astype(np.int64)
-    span = np.floor((high - origin) / size).astype(np.int64) - first + 1
-    row, place = spread(span.prod(axis=1))
-    rest, place = np.divmod(place, span[row, 2])
-    along_x, along_y = np.divmod(rest, span[row, 1])
-    x, y, z = first[row].T
-    begins = [(along == 0).view(np.uint8) for along in (along_x, along_y, place)]
-    number = ((x + along_x) << 42) + ((y + along_y) << 21) + z + place
-    return row, number, begins[0] | begins[1] << 1 | begins[2] << 2
+    # Axis by axis, which numpy takes in faster than rows of three; most boxes reach into one bin.
+    first, span = [], []
+    for axis in range(3):
+        begin = np.floor((low[:, axis] - origin[axis]) / size).astype(np.int64)
+        end = np.floor((high[:, axis] - origin[axis]) / size).astype(np.int64)
+        first.append(begin)
+        span.append(end - begin + 1)
+    count = span[0] * span[1] * span[2]
+    row = np.repeat(np.arange(len(count)), count)
+    number = ((first[0] << 42) + (first[1] << 21) + first[2])[row]
+    begins = np.full(len(row), ALONG_ALL, np.uint8)
+    several = count > 1
+    some = np.flatnonzero(several[row])
+    owner, place = spread(count[several])
+    across, up = (each[several][owner] for each in span[1:])
+    rest, along_z = np.divmod(place, up)
+    along_x, along_y = np.divmod(rest, across)
+    number[some] += (along_x << 42) + (along_y << 21) + along_z
+    begins[some] = (along_x == 0) | (along_y == 0) << 1 | (along_z == 0) << 2
+    return row, number, begins
 
 
 def meeting_boxes(
@@ -254,52 +257,64 @@ def _edges_cross(
         yield rows, p + share[:, None] * (q - p)
 
 
-def crossing_near(mesh: TriangleMesh, among: Bools, depth: float) -> Bools:
-    """As `crossing_triangles`, for few triangles of many: looks at those about them only."""
-    result = np.zeros(len(mesh.triangles), bool)
-    if not among.any():
+def about(mesh: TriangleMesh, among: Bools) -> Bools:
+    """(m,) which triangles' boxes reach into the cells of a grid that the chosen ones go through.
+
+    Whatever meets a chosen one does so in a cell that this goes through.
+    """
+    if among.all():
+        return among
+    least, most = box_of(mesh.vertices)
+    cells_along = min(ABOUT_CELLS, 8 + int(np.cbrt(len(mesh.triangles))))
+    size = max(float((most - least).max()) / cells_along, 1e-300)
+    # Cells of every vertex first: there are half as many of them as of triangles.
+    cells = [((mesh.vertices[:, k] - low) / size).astype(np.int16) for k, low in enumerate(least)]
+    shape = tuple(int(cell.max()) + 1 for cell in cells)
+    chosen = mesh.vertices[mesh.triangles[among]] - least
+    covered = _gone_through(chosen / size, shape)
+    where = np.zeros(len(mesh.vertices), np.int32)
+    for cell, step in zip(cells, (shape[1] * shape[2], shape[2], 1), strict=True):
+        where += cell.astype(np.int32) * np.int32(step)
+    is_covered = covered.ravel()[where]
+    # How many covered cells there are up to each.
+    taken = np.pad(covered.astype(np.int32), ((1, 0),) * 3)
+    taken = taken.cumsum(0, np.int32).cumsum(1, np.int32).cumsum(2, np.int32)
+
+    def reaching(begin: int) -> Bools:
+        corners = np.ascontiguousarray(mesh.triangles[begin : begin + BLOCK_TRIANGLES].T)
+        # A triangle with a corner in a covered cell reaches into one; with all of them in one
+        # cell that tells all.
+        a, b, c = (is_covered[row] for row in corners)
+        result: Bools = a | b | c
+        a, b, c = (where[row] for row in corners)
+        rows = np.flatnonzero(~result & ((a != b) | (a != c)))
+        result[rows] = _cells_within(taken, *_boxes(cells, corners[:, rows])) > 0
         return result
-    rows = np.flatnonzero(among | about(mesh, among))
-    part = TriangleMesh(mesh.vertices, mesh.triangles[rows])
-    result[rows] = crossing_triangles(part, among[rows], depth)
+
+    starts = range(0, len(mesh.triangles), BLOCK_TRIANGLES)
+    result = np.concatenate(list(in_threads(reaching, starts)))
+    rows = np.flatnonzero(result & ~among)
+    if len(rows):
+        a, b, c = mesh.triangles[rows].T
+        low, high = np.empty((2, 3, len(rows)))
+        for k, column in enumerate(mesh.vertices.T):
+            for end, pick in ((low, np.minimum), (high, np.maximum)):
+                end[k] = pick(pick(column[a], column[b]), column[c]) - least[k]
+        result[rows] = _nearer(low, high, chosen)
     return result
 
 
-def about(mesh: TriangleMesh, among: Bools) -> Bools:
-    """(m,) which triangles' boxes reach into the cells of a grid that the chosen ones' boxes do."""
-    columns = [np.ascontiguousarray(mesh.vertices[:, k]) for k in range(3)]
-    corners = np.ascontiguousarray(mesh.triangles.T)
-    least = [column.min() for column in columns]
-    cells_along = min(ABOUT_CELLS, 8 + int(np.cbrt(len(mesh.triangles))))
-    size = max(float(max(np.ptp(column) for column in columns)) / cells_along, 1e-300)
-    # Cells of every vertex first: there are half as many of them as of triangles.
-    cells = [((c - low) / size).astype(np.int16) for c, low in zip(columns, least, strict=True)]
-    shape = [int(cell.max()) + 2 for cell in cells]
-    # How many boxes begin less end at each cell, summed up: how many cover it.
-    cover = np.zeros(shape, np.int32)
-    low, high = _boxes(cells, corners[:, among])
-    ends = [(one, two + 1) for one, two in zip(low, high, strict=True)]
-    for i, j, k in np.ndindex(2, 2, 2):
-        np.add.at(cover, (ends[0][i], ends[1][j], ends[2][k]), 1 - 2 * ((i + j + k) % 2))
-    for axis in range(3):
-        np.cumsum(cover, axis=axis, out=cover)
-    # A triangle with a corner in a covered cell reaches into one; with all of them in one cell
-    # that tells all.
-    steps = [shape[1] * shape[2], shape[2], 1]
-    where = np.zeros(len(mesh.vertices), np.int32)
-    for cell, step in zip(cells, steps, strict=True):
-        where += cell.astype(np.int32) * np.int32(step)
-    is_covered = (cover > 0).ravel()[where]
-    a, b, c = (is_covered[row] for row in corners)
-    result: Bools = a | b | c
-    a, b, c = (where[row] for row in corners)
-    rows = np.flatnonzero(~result & ((a != b) | (a != c)))
-    # Of the others the covered cells in their boxes are counted, by sums over all lower cells.
-    taken = np.pad((cover > 0).astype(np.int32), ((1, 0),) * 3)
-    for axis in range(3):
-        np.cumsum(taken, axis=axis, out=taken)
-    flat, total = taken.ravel(), np.zeros(len(rows), np.int32)
-    low, high = _boxes(cells, corners[:, rows])
+def _cells_within(
+    taken: NDArray[np.int32], low: list[NDArray[np.int16]], high: list[NDArray[np.int16]]
+) -> NDArray[np.int32]:
+    """(k,) how many chosen cells lie in boxes from cells to cells.
+
+    Args:
+        taken: how many there are before each cell along all axes.
+        low: the boxes' first cells along each axis, (k,).
+        high: their last ones.
+    """
+    flat, total = taken.ravel(), np.zeros(len(low[0]), np.int32)
     steps = [taken.shape[1] * taken.shape[2], taken.shape[2], 1]
     low_at = [one.astype(np.int32) * step for one, step in zip(low, steps, strict=True)]
     high_at = [(two.astype(np.int32) + 1) * step for two, step in zip(high, steps, strict=True)]
@@ -307,7 +322,69 @@ def about(mesh: TriangleMesh, among: Bools) -> Bools:
     for i, j, k in np.ndindex(2, 2, 2):
         part = flat[sides[0][i] + sides[1][j] + sides[2][k]]
         total += part if (i + j + k) % 2 else -part
-    result[rows] = total != 0
+    return total
+
+
+def _nearer(low: Floats, high: Floats, chosen: Floats) -> Bools:
+    """As `about`, in finer cells, of boxes, corners (3, k), that are mostly no larger than one.
+
+    Larger ones are not told apart. The corners of the chosen triangles are (c, 3, 3).
+    """
+    reach = high.max(axis=1)
+    reach = np.maximum(reach, max(float(reach.max()) * LEAST_REACH, 1e-300))
+    across = float(np.median((high - low).max(axis=0)))
+    size = max(float(np.cbrt(reach.prod() / MOST_CELLS)), across)
+    covered = _gone_through(chosen / size, tuple((reach / size).astype(np.int64) + 1))
+    first, last = ([(each / size).astype(np.int32) for each in end] for end in (low, high))
+    result = np.any([b - a > 1 for a, b in zip(first, last, strict=True)], axis=0)
+    rows = np.flatnonzero(~result)
+    ends = [(a[rows], b[rows]) for a, b in zip(first, last, strict=True)]
+    for i, j, k in np.ndindex(2, 2, 2):
+        result[rows] |= covered[ends[0][i], ends[1][j], ends[2][k]]
+    return np.asarray(result, np.bool_)
+
+
+def _gone_through(corners: Floats, shape: tuple[int, ...]) -> Bools:
+    """Bool of a shape, the cells in the boxes of triangles that their planes go through.
+
+    Args:
+        corners: (k, 3, 3) of the triangles, in cells.
+        shape: of the grid; what lies beyond it is left out.
+    """
+    low = np.floor(corners.min(axis=1)).astype(np.int64)
+    high = np.minimum(np.floor(corners.max(axis=1)).astype(np.int64), np.array(shape) - 1)
+    e, f = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    normal = np.cross(e, f)
+    # Along the axis that it faces most the plane goes through a few cells of each column.
+    axis = np.abs(normal).argmax(axis=1)
+    every = np.arange(len(corners))
+    other = np.stack([(axis + 1) % 3, (axis + 2) % 3], axis=1)
+    up = normal[every, axis]
+    sizes = np.linalg.norm(e, axis=1) * np.linalg.norm(f, axis=1)
+    flat = np.abs(up) <= NO_PLANE * sizes
+    slope = -normal[every[:, None], other] / np.where(flat, 1.0, up)[:, None]
+    slope[flat] = 0.0
+    middle = corners[every, 0, axis]
+    middle -= (slope * (corners[every[:, None], 0, other] - 0.5)).sum(axis=1)
+    span = np.maximum(high - low + 1, 0)
+    wide, deep = span[every[:, None], other], span[every, axis]
+    # What has no plane may be anywhere in its box.
+    half = 0.5 * np.abs(slope).sum(axis=1) + PLANE_SLACK
+    deep = np.where(flat, deep, np.minimum(deep, (2.0 * half).astype(np.int64) + 2))
+    half[flat] = np.inf
+    result = np.zeros(shape, bool)
+    steps = np.array([shape[1] * shape[2], shape[2], 1])
+    for row, place in pairs_in_steps(wide[:, 0] * wide[:, 1] * deep):
+        place, ahead = np.divmod(place, deep[row])
+        along = np.stack(np.divmod(place, wide[row, 1]), axis=1)
+        along += low[row[:, None], other[row]]
+        height = middle[row] + (slope[row] * along).sum(axis=1)
+        first = np.maximum(np.floor(height - half[row]), low[row, axis[row]])
+        last = np.minimum(np.floor(height + half[row]), high[row, axis[row]])
+        at = first.astype(np.int64) + ahead
+        inside = at <= last
+        flat_at = at * steps[axis[row]] + (along * steps[other[row]]).sum(axis=1)
+        result.reshape(-1)[flat_at[inside]] = True
     return result
 
 

@@ -272,11 +272,10 @@ def turning_back(mesh: TriangleMesh, deformed: bool = False) -> Bools:
     Where it is deformed, also those at sharp edges that stick out.
     """
     size = len(mesh.vertices)
-    corners = np.ascontiguousarray(mesh.triangles.T)
-    columns = np.ascontiguousarray(mesh.vertices.T)
+    corners, columns = mesh.triangles.T, mesh.vertices.T
     # At both ends of such an edge two of the normals nearly cancel out, and so their sum is short.
     # For that they need not be known well, and half as long numbers take half the memory.
-    length, count = np.zeros(size), np.zeros(size, np.int64)
+    length, count = np.zeros(size), np.zeros(size, np.int32)
     for along in _rough_normals(columns, corners):
         total = np.zeros(size)
         for corner in corners:
@@ -316,7 +315,7 @@ def _rough_normals(columns: Floats, corners: NDArray[np.int32]) -> NDArray[np.fl
 
     def block(start: int) -> None:
         part = slice(start, start + BLOCK_TRIANGLES)
-        normal[:, part] = _unit_normals(columns, corners[:, part])
+        normal[:, part] = _unit_normals(columns, np.ascontiguousarray(corners[:, part]))
 
     for _ in in_threads(block, range(0, corners.shape[1], BLOCK_TRIANGLES)):
         pass

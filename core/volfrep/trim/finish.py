@@ -19,12 +19,12 @@ from ..mesh.float32_repair import (
     without_slivers,
 )
 from ..mesh.quality import Quality
-from ..mesh.triangle_mesh import TriangleMesh
+from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..spatial.self_intersection import about, crossing_triangles
 from ..spatial.uncrossing import turns_of, uncrossed
 from ..spatial.winding import Lines
 from ..util.errors import VolfrepError
-from ..util.progress import Monitor
+from ..util.progress import Monitor, release_memory
 from ..util.types import Floats, Ints
 from .trimmed_surface import TrimmedSurface
 
@@ -51,6 +51,7 @@ def tidied(surface: TrimmedSurface, precision: float, monitor: Monitor) -> Trimm
         monitor: for cancel.
     """
     smooth, new = without_slivers(surface.mesh, precision)
+    release_memory()
     result = replace(surface, mesh=smooth)
     if not new.any():
         return result
@@ -61,7 +62,7 @@ def tidied(surface: TrimmedSurface, precision: float, monitor: Monitor) -> Trimm
         near = surface.octants.reached(smooth.vertices[smooth.triangles[new]])
         if result.has_inner_edges(new):  # that octants may have, too
             return tidied(surface.with_octants(near, monitor), precision, monitor)
-        part = replace(result, mesh=part).with_octants(near, monitor).mesh
+        part = replace(result, mesh=compact(part)).with_octants(near, monitor).mesh
         among = np.pad(among, (0, len(part.triangles) - len(among)))
     if monitor.call(lambda: crossing_triangles(part, among, precision)).any():
         return surface  # a sliver is better than facets that cross

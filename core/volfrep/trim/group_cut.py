@@ -25,7 +25,7 @@ from ..mesh.triangle_mesh import TriangleMesh, compact, empty_mesh
 from ..spatial.mutual_cut import cut_mutually
 from ..spatial.rays import inside_points
 from ..spatial.seams import NotCertain
-from ..spatial.self_intersection import crossing_near
+from ..spatial.self_intersection import crossing_triangles
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
@@ -115,7 +115,7 @@ def cut(group: Group, monitor: Monitor | None = None) -> Piece:
 def _tidied(piece: Piece, precision: float, monitor: Monitor) -> Piece:
     """The piece without slivers where it meets no other one, if nothing crosses then."""
     smooth, new, stayed = without_inner_slivers(piece.mesh, piece.rim, precision)
-    if not new.any() or monitor.call(lambda: crossing_near(smooth, new, precision)).any():
+    if not new.any() or monitor.call(lambda: crossing_triangles(smooth, new, precision)).any():
         return piece
     # What was rebuilt counts as of the wall where all its corners were on it.
     at_wall = np.zeros(len(smooth.vertices), bool)

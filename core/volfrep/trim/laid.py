@@ -31,7 +31,7 @@ from ..octants.octant import Octant, OctantKey, wrapped
 from ..spatial.self_intersection import meeting_boxes
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
-from ..util.ragged import spread
+from ..util.ragged import pairs_in_steps
 from ..util.types import Bools, Floats, Ints, Periodic
 from .culling import CROSSING_MARGIN, KeptOctants
 
@@ -277,18 +277,19 @@ class InnerOctants:
         low = np.clip(np.floor(places.min(axis=1) + REACH).astype(np.int64), 0, limit)
         high = np.clip(np.ceil(places.max(axis=1) - REACH).astype(np.int64), 0, limit)
         span = np.maximum(high - low, 0)
-        row, place = spread(span.prod(axis=1))
-        place, z = np.divmod(place, span[row, 2])
-        x, y = np.divmod(place, span[row, 1])
-        index = low[row] + np.stack([x, y, z], axis=1)
-        some = self.where[tuple(index.T)]
-        index, row = index[some], row[some]
-        # A large triangle is near few of the octants that its box is near.
-        normal = np.cross(places[:, 1] - places[:, 0], places[:, 2] - places[:, 0])[row]
-        above = np.einsum("ij,ij->i", index + 0.5 - places[row, 0], normal)
-        meets = np.abs(above) <= (0.5 - REACH) * np.abs(normal).sum(axis=1)
         result = np.zeros(self.where.shape, bool)
-        result[tuple(index[meets].T)] = True
+        normal = np.cross(places[:, 1] - places[:, 0], places[:, 2] - places[:, 0])
+        for row, place in pairs_in_steps(span.prod(axis=1)):
+            place, z = np.divmod(place, span[row, 2])
+            x, y = np.divmod(place, span[row, 1])
+            index = low[row] + np.stack([x, y, z], axis=1)
+            some = self.where[tuple(index.T)]
+            index, row = index[some], row[some]
+            # A large triangle is near few of the octants that its box is near.
+            across = normal[row]
+            above = np.einsum("ij,ij->i", index + 0.5 - places[row, 0], across)
+            meets = np.abs(above) <= (0.5 - REACH) * np.abs(across).sum(axis=1)
+            result[tuple(index[meets].T)] = True
         return result
 
 

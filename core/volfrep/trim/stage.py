@@ -25,7 +25,7 @@ from ..octants.octant_spec import OctantSpec
 from ..shell.domain import Domain
 from ..spatial.proximity import closest_points
 from ..util.errors import VolfrepError
-from ..util.progress import Monitor
+from ..util.progress import Monitor, release_memory
 from ..util.types import Bools
 from .boolean_trim import Trimmed, cut_again, trim
 from .culling import KeptOctants, OctantRoles, cull, keep_all
@@ -155,6 +155,7 @@ def cleared_cut(
         if removed and not surface.triangles:
             raise _nothing_holds()
     del trimmed  # nobody else has it: the mesh before slivers go, in the way of that after
+    release_memory()
     surface = tidied(surface, precision, monitor)
     bodies = 0
     if not (has_skin or keep_pieces):
@@ -167,7 +168,10 @@ def cleared_cut(
         raise VolfrepError(
             "No strut lies inside the part: reduce the cell size or move the origin."
         )
-    if with_skin and cleared.surface is not surface:
+    is_less = cleared.surface is not surface
+    del surface  # as above
+    release_memory()
+    if with_skin and is_less:
         # The cavity's surface counts as negative: what is left may be its wall only.
         cavity = wall.volume
         if cavity + cleared.quality.volume < NO_LATTICE * cavity:

@@ -78,7 +78,7 @@ class TrimmedSurface:
         more, number = inner.laid.mesh(inner.laid.facets(where, monitor), where, monitor)
         # Vertices that both parts have are the mesh's.
         place = np.minimum(np.searchsorted(number, inner.rim), len(number) - 1)
-        shared = number[place] == inner.rim
+        shared = (number[place] == inner.rim) & (self._rim_rows >= 0)
         fresh = np.ones(len(number), bool)
         fresh[place[shared]] = False
         row = np.cumsum(fresh) - 1 + len(self.mesh.vertices)

@@ -8,8 +8,10 @@ those of 3 x 3 matrices; what a file's coordinates come from is computed here in
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .types import Floats
 
@@ -25,6 +27,11 @@ def along(vectors: Floats, direction: Floats) -> Floats:
 def times(vectors: Floats, matrix: Floats) -> Floats:
     """(..., k) the products of (..., 3) rows with a (3, k) matrix."""
     return np.asarray(np.einsum("...j,jk->...k", vectors, matrix))
+
+
+def normalized(vectors: NDArray[Any]) -> Floats:
+    """(n, 3) vectors of length 1 along (n, 3) vectors; zero along those of no length."""
+    return np.asarray(vectors / np.maximum(np.linalg.norm(vectors, axis=1), 1e-300)[:, None])
 
 
 def determinants(matrices: Floats) -> Floats:

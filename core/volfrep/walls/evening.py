@@ -10,6 +10,7 @@ import numpy as np
 
 from ..mesh import remesh
 from ..octants.constrained_mesh import Surface, moved, neighbour_mean, shortened
+from ..util.linalg import normalized
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
 
@@ -93,7 +94,7 @@ def _balanced(surface: Surface, field: Distances) -> Surface:
             summed[:, k] += np.bincount(
                 surface.triangles[:, corner], normal[:, k], minlength=len(summed)
             )
-    summed /= np.maximum(np.linalg.norm(summed, axis=1), 1e-300)[:, None]
+    summed = normalized(summed)
     return moved(surface, surface.vertices + np.where(inner[:, None], amount * summed, 0.0))
 
 

@@ -2646,6 +2646,10 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
       <translation>gefunden</translation>
     </message>
     <message>
+      <source>frame buckling, % of its limit</source>
+      <translation>gemeinsames Knicken, % der Grenze</translation>
+    </message>
+    <message>
       <source>frequency, % of its limit</source>
       <translation>Frequenz, % der Grenze</translation>
     </message>
@@ -2690,12 +2694,20 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
       <translation>Last bis zum Knicken, Vielfaches</translation>
     </message>
     <message>
+      <source>load before struts buckle together, times</source>
+      <translation>Last, bis Streben gemeinsam knicken, Vielfaches</translation>
+    </message>
+    <message>
       <source>loose pieces removed</source>
       <translation>entfernte lose Teile</translation>
     </message>
     <message>
       <source>lowest frequency there over here</source>
       <translation>niedrigste Frequenz dort zu hier</translation>
+    </message>
+    <message>
+      <source>lowest load before they buckle together, times</source>
+      <translation>kleinste Last, bis sie gemeinsam knicken, Vielfaches</translation>
     </message>
     <message>
       <source>manifold</source>
@@ -2972,8 +2984,8 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
       <translation>Ziel</translation>
     </message>
     <message>
-      <source>How many times the load may be before the first strut buckles; 0 for no limit</source>
-      <translation>Wievielmal so groß die Last sein darf, bevor die erste Strebe knickt; 0 für keine Grenze</translation>
+      <source>How many times the load may be before struts buckle, one alone or together; 0 for no limit</source>
+      <translation>Wievielmal so groß die Last sein darf, bevor Streben knicken, eine allein oder zusammen; 0 für keine Grenze</translation>
     </message>
     <message>
       <source>How mass and limits went, step by step</source>
@@ -3098,6 +3110,10 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
     <message>
       <source>displacement</source>
       <translation>Verschiebung</translation>
+    </message>
+    <message>
+      <source>frame buckling</source>
+      <translation>gemeinsames Knicken</translation>
     </message>
     <message>
       <source>frequency</source>

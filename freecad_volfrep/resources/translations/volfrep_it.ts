@@ -2646,6 +2646,10 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
       <translation>trovati</translation>
     </message>
     <message>
+      <source>frame buckling, % of its limit</source>
+      <translation>instabilità d'insieme, % del limite</translation>
+    </message>
+    <message>
       <source>frequency, % of its limit</source>
       <translation>frequenza, % del limite</translation>
     </message>
@@ -2690,12 +2694,20 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
       <translation>carico prima dell'instabilità, volte</translation>
     </message>
     <message>
+      <source>load before struts buckle together, times</source>
+      <translation>carico prima dell'instabilità d'insieme, volte</translation>
+    </message>
+    <message>
       <source>loose pieces removed</source>
       <translation>pezzi isolati rimossi</translation>
     </message>
     <message>
       <source>lowest frequency there over here</source>
       <translation>frequenza minima là su qui</translation>
+    </message>
+    <message>
+      <source>lowest load before they buckle together, times</source>
+      <translation>minimo carico prima dell'instabilità d'insieme, volte</translation>
     </message>
     <message>
       <source>manifold</source>
@@ -2972,8 +2984,8 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
       <translation>Obiettivo</translation>
     </message>
     <message>
-      <source>How many times the load may be before the first strut buckles; 0 for no limit</source>
-      <translation>Quante volte il carico può essere prima che la prima asta si instabilizzi; 0 per nessun limite</translation>
+      <source>How many times the load may be before struts buckle, one alone or together; 0 for no limit</source>
+      <translation>Quante volte il carico può essere prima che le aste si instabilizzino, una da sola o insieme; 0 per nessun limite</translation>
     </message>
     <message>
       <source>How mass and limits went, step by step</source>
@@ -3098,6 +3110,10 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
     <message>
       <source>displacement</source>
       <translation>spostamento</translation>
+    </message>
+    <message>
+      <source>frame buckling</source>
+      <translation>instabilità d'insieme</translation>
     </message>
     <message>
       <source>frequency</source>

@@ -11,6 +11,7 @@ from volfrep.design.forecast import (
     expected_triangles,
     forecast_block,
     forecast_fill,
+    narrow_room,
     skin_bends,
 )
 from volfrep.design.grading import CellMap, SizeGrading
@@ -87,6 +88,18 @@ def test_a_surface_bends_along_the_edges_of_a_box_and_all_over_a_ball():
     assert box == pytest.approx(4 * 90.0 * np.pi / 2.0 / 2.0)
     assert ball == pytest.approx(8.0 * np.pi * 20.0 / 2.0, rel=0.01)
     assert skin_bends(samples.box(), LatticeSpec(shell=0.0)) == 0.0
+
+
+def test_rooms_between_two_skins_are_narrow_in_a_plate_little_thicker_than_both():
+    """Above and below, room of a fifth of the skin: 5 x 5 cubes on each square of the skin."""
+    spec = LatticeSpec(shell=2.0)
+    narrow = narrow_room(samples.box((60.0, 50.0, 4.4)), spec)
+    assert narrow == pytest.approx(2 * 60.0 * 50.0 / 2.0**2 * (5.0**2 - 1.0), rel=0.02)
+    assert narrow_room(samples.box((60.0, 50.0, 3.9)), spec) == 0.0, "solid"
+    assert narrow_room(samples.box((60.0, 50.0, 6.1)), spec) == 0.0, "wide"
+    assert narrow_room(samples.box((60.0, 50.0, 4.4)), LatticeSpec(shell=0.0)) == 0.0
+    wide, tight = (forecast_fill(samples.box((60.0, 50.0, z)), spec) for z in (6.1, 4.4))
+    assert tight.seconds > wide.seconds + 1.0
 
 
 def test_a_thin_skin_of_a_flat_sheet_is_no_long_job():

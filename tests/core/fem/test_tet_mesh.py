@@ -114,13 +114,27 @@ def test_every_cell_fills_a_box(cell, shell):
 
 
 def test_what_would_cross_is_not_mended(monkeypatch):
+    """Gmsh refuses a surface of which one facet is folded back onto the next, too."""
     solid = samples.box((15.0, 12.0, 12.0))
     mesh = fill(solid, LatticeSpec(cell="CVC", shell=1, resolution=8)).mesh
     better, moved = mended(mesh, Monitor())
     assert moved > 0.0
     assert is_bad(better.vertices[better.triangles]).sum() < 20
+    assert not tet_mesh._folded(better).any()
+    monkeypatch.setattr(tet_mesh, "TRIES", 1)
+    monkeypatch.setattr(tet_mesh, "well_shaped", lambda *_: better)
+    with monkeypatch.context() as one:
+        one.setattr(tet_mesh, "_folded", lambda _: np.ones(len(better.triangles), bool))
+        assert mended(mesh, Monitor()) == (better, moved), "needles are worse"
     monkeypatch.setattr(tet_mesh, "crossing_triangles", lambda _, among, depth: among)
     assert mended(mesh, Monitor()) == (mesh, 0.0)
+
+
+def test_a_facet_that_lies_on_its_neighbour():
+    corners = np.array([[0.0, 0, 0], [4, 0, 0], [2, 3, 0], [2, 1, 2.0]])
+    facets = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]], np.int32)
+    assert not tet_mesh._folded(TriangleMesh(corners, facets)).any()
+    assert tet_mesh._folded(TriangleMesh(corners * (1.0, 1.0, 1e-3), facets)).all()
 
 
 @needs_gmsh

@@ -216,11 +216,10 @@ def test_many_pinched_vertices_over_several_blocks(monkeypatch: pytest.MonkeyPat
 def test_measuring_can_be_cancelled(monkeypatch: pytest.MonkeyPatch) -> None:
     held = threading.Event()
 
-    def slow(mesh: TriangleMesh) -> tuple[None, None]:
+    def slow(mesh: TriangleMesh) -> None:
         held.wait(30)
-        return None, None
 
-    monkeypatch.setattr("volfrep.mesh.quality._edges", slow)
+    monkeypatch.setattr("volfrep.mesh.quality.edge_uses", slow)
     with pytest.raises(Cancelled):
         measure(torus(), Monitor(lambda fraction, stage: False))
     held.set()

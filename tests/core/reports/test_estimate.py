@@ -41,7 +41,7 @@ def test_exact_surfaces_of_a_block_know_its_kinds_of_joints():
 def test_a_coarser_resolution_is_the_nearest_setting_that_fits():
     with pytest.raises(VolfrepError, match=r"4,000,000 plane faces.* resolution of 10, or"):
         estimate_faceted(4_000_000, Asked(SPEC))
-    with pytest.raises(VolfrepError, match=r"the limit is 200,000\): choose a resolution of 14"):
+    with pytest.raises(VolfrepError, match=r"the limit is 200,000\): choose a resolution of 12"):
         estimate_tetrahedra(400_000, Asked(SPEC))
 
 

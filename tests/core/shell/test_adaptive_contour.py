@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The wall of solids whose inner wall is known: cubes are halved until it is where it should be."""
 
+import manifold3d
 import numpy as np
 import pytest
 import trimesh
 
 import samples
+from volfrep.mesh.booleans import as_mesh
 from volfrep.shell import adaptive_contour as refine
 from volfrep.shell.sampled_depth import COARSEST
 from walled import field_of
@@ -35,6 +37,15 @@ def test_the_wall_of_a_ball_strays_no_further_than_it_may():
     points = found.triangles_center
     assert np.abs(np.linalg.norm(points, axis=1) - 18.0).max() < refine.STRAY_SMALL * 2.0
     assert np.abs(field.depth.strays(found.vertices)).max() < refine.STRAY_SMALL
+
+
+def test_the_wall_about_a_cone_strays_no_further_where_halved_cubes_lie_beside_smaller_ones():
+    """Such cubes may have no edge of their own that was not looked at before."""
+    cone = manifold3d.Manifold.cylinder(20.0, 6.0, 3.0, 24).translate((0.0, 0.0, -3.0))
+    solid = as_mesh(manifold3d.Manifold.cube((14.0, 14.0, 14.0), True) - cone)
+    field = field_of(solid, 0.8, cube=0.64)
+    vertices = refine.find_wall(field).facets.mesh.vertices
+    assert np.abs(field.depth.strays(vertices)).max() < refine.STRAY_SMALL
 
 
 def test_cubes_are_halved_where_the_wall_is_bent_and_not_where_it_is_flat():

@@ -1,19 +1,15 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A final design solved by CalculiX too: bare, and with its skin."""
 
-import re
 import shutil
-import subprocess
 
 import numpy as np
 import pytest
 import trimesh
 
 from volfrep import LatticeSpec
-from volfrep.fem.beam_mesh import fitted_beams
+from volfrep.design.cells import PAPERS
 from volfrep.io.solid import check_solid
-from volfrep.io.write.calculix import write_beams
-from volfrep.jobs.infill import Infill
 from volfrep.jobs.sizing import Goal, size
 from volfrep.loads.load_cases import Force, LoadCase, LoadCases, Support
 from volfrep.loads.regions import InPlane
@@ -69,10 +65,8 @@ def test_a_skin_of_wedges_moves_as_shells_do():
 
 @needs_calculix
 @pytest.mark.slow
-@pytest.mark.parametrize("cell", ["BCC", "FCC", "Octet"])
-def test_a_column_of_stretched_struts_buckles_in_calculix_as_late_as_it_is_sized_for(
-    cell, tmp_path
-):
+@pytest.mark.parametrize("cell", PAPERS)
+def test_a_pressed_column_buckles_in_calculix_no_sooner_than_it_is_sized_for(cell):
     shape = trimesh.creation.box((20, 20, 30))
     shape.apply_translation((10, 10, 15))
     solid = check_solid(TriangleMesh(shape.vertices, shape.faces.astype(np.int32)), "column")
@@ -82,23 +76,10 @@ def test_a_column_of_stretched_struts_buckles_in_calculix_as_late_as_it_is_sized
     spec = LatticeSpec(
         cell, cell_size=10, strut_radius=0.5, shell=0, boundary="whole", activation="inside"
     )
-    goal = Goal(Limits(buckling=2.0), radius_min=0.1, radius_max=1.2)
-    made = size(solid, spec, loads, goal, prove_it=False)
-    assert made.sized.analysis.uses["buckling"] == pytest.approx(1.0, abs=0.001)
-
-    frame, pressed = Infill(solid, made.spec).struts, made.model.problem.cases[0]
-    write_beams(
-        fitted_beams(frame, None, spec.fitted_cell, spec.cell_size)[0],
-        tmp_path / "column.inp", loads.material.for_solver(),
-    )  # fmt: skip
-    with (tmp_path / "column.inp").open("a") as deck:
-        deck.write("*BOUNDARY\n")
-        deck.writelines(f"{node + 1},1,6\n" for node in np.flatnonzero(pressed.held.all(axis=1)))
-        deck.write("*STEP\n*BUCKLE\n2\n*CLOAD\n")
-        for node in np.flatnonzero(pressed.loads[:, 2]):
-            deck.write(f"{node + 1},3,{pressed.loads[node, 2]:.12g}\n")
-        deck.write("*END STEP\n")
-    subprocess.run(["ccx", "-i", "column"], cwd=tmp_path, check=True, capture_output=True)
-    factor = float(re.findall(r"^ +1 +(\S+)$", (tmp_path / "column.dat").read_text(), re.M)[0])
-    # Many struts of Octet are near their load at once, and hold each other less than is reckoned.
-    assert (0.94 if cell == "Octet" else 0.99) * 2.0 < factor < 1.4 * 2.0
+    made = size(solid, spec, loads, Goal(Limits(buckling=2.0), radius_min=0.1, radius_max=1.2))
+    assert made.sized.holds
+    assert made.sized.analysis.factors[0] > 1.999
+    assert made.report["calculix"]["buckling_factors"][0] > 0.99 * 2.0
+    if cell != "CVC":  # whose struts bend under the load: CalculiX's rigid joints turn otherwise
+        factor = made.report["calculix"]["buckling_factors"][0]
+        assert made.sized.analysis.factors[0] == pytest.approx(factor, rel=0.03)

@@ -104,7 +104,7 @@ def test_derivatives_are_those_of_differences():
     heavy = replace(problem.cases[1], acceleration=(2e8, -3e8, 1e8))
     problem = replace(problem, cases=(problem.cases[0], heavy, problem.cases[2]))
     radii = radii * (1.0 + 0.3 * np.sin(np.arange(len(radii))) ** 2)
-    limits = Limits(stress=100.0, displacement=1.0, frequency=100.0)
+    limits = Limits(stress=100.0, displacement=1.0, frequency=100.0, frame_buckling=1.0)
     found, changes = analysed(problem, radii, limits, with_changes=True)
     step = np.zeros(len(radii))
     step[23] = 1e-4
@@ -118,6 +118,11 @@ def test_derivatives_are_those_of_differences():
     )
     assert changes.frequency[23] == pytest.approx(
         (high.uses["frequency"] - low.uses["frequency"]) / 2e-4, rel=1e-3
+    )
+    first = int(np.argmax(changes.frame_uses))
+    assert changes.frame_uses[first] == pytest.approx(found.uses["frame buckling"])
+    assert changes.frame_buckling[23, first] == pytest.approx(
+        (high.uses["frame buckling"] - low.uses["frame buckling"]) / 2e-4, rel=1e-2
     )
 
 

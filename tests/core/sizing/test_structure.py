@@ -5,6 +5,7 @@ import shutil
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 from volfrep import LatticeSpec
 from volfrep.design.cells import LIBRARY, PAPERS
@@ -16,7 +17,7 @@ from volfrep.mechanics.frame import SQUARE_SECTION, PeriodicFrame, Section, fram
 from volfrep.mechanics.materials import Material
 from volfrep.sizing.proof import end_stresses, prove
 from volfrep.sizing.structure import Case, Structure, Ties
-from volfrep.sizing.strut_results import buckling_loads, stresses
+from volfrep.sizing.strut_results import buckling_loads, columns_of, stresses
 from volfrep.sizing.tapered_beams import (
     Elastic,
     beams_of,
@@ -186,6 +187,52 @@ def test_columns_buckle_as_euler_and_newmark_say():
     beams = beams_of(nodes, np.array([[0, 1], [1, 2], [2, 3]]), STEEL)
     radii = np.array([[9.0, 9.0], [1.0, 1.0], [9.0, 9.0]])
     assert buckling_loads(beams, radii, 4)[1] == pytest.approx(4 * euler, rel=0.01)
+
+
+def load_factors(structure, held, loads, radii, count=1):
+    """How many times the loads may be until the frame buckles."""
+    moved, factors = structure.displacements(radii, [Case(held, loads)])
+    forces = structure.forces(radii, moved)[:, :, 0]
+    return structure.buckling(columns_of(structure.beams, radii), forces, factors[0], count)[0]
+
+
+EULER = np.pi**2 * 210_000 * INERTIA / 50**2
+
+
+@pytest.mark.parametrize("parts", [1, 3])
+def test_a_column_with_a_free_end_buckles_at_a_quarter_of_eulers_load(parts):
+    structure, held, axis, _ = chain(parts=parts)
+    loads = np.zeros((parts + 1, 6))
+    loads[-1, :3] = -axis
+    found = load_factors(structure, held, loads, np.ones((parts, 2)), 2)
+    assert found == pytest.approx([EULER / 4, EULER / 4], rel=1e-4)  # one for each direction
+    loads *= -1.0
+    assert load_factors(structure, held, loads, np.ones((parts, 2))) == np.inf  # pulled
+
+
+@pytest.mark.parametrize("parts", [1, 2])
+@pytest.mark.parametrize(("clamped", "times"), [((), 1.0), ((0,), 2.0457), ((0, -1), 4.0)])
+def test_columns_between_supports_buckle_at_the_textbooks_loads(parts, clamped, times):
+    structure, _, _, _ = chain(along=(1.0, 0.0, 0.0), parts=parts)
+    held, loads = np.zeros((2, parts + 1, 6))
+    held[0, :4], held[-1, 1:3] = 1.0, 1.0
+    for end in clamped:
+        held[end, 4:] = 1.0
+    loads[-1, 0] = -1.0
+    found = load_factors(structure, held.astype(bool), loads, np.ones((parts, 2)))
+    assert found == pytest.approx(times * EULER, rel=2e-3)
+
+
+def test_a_portal_sways():
+    """Timoshenko & Gere, Theory of Elastic Stability, 1961: kh / tan kh = -6 of equal bars."""
+    nodes = np.array([[0, 0, 0], [0, 0, 50], [50, 0, 50], [50, 0, 0]], float)
+    held, loads = np.zeros((4, 6), bool), np.zeros((4, 6))
+    held[[0, 3]], held[:, [1, 3, 5]] = True, True
+    loads[[1, 2], 2] = -1.0
+    beams = beams_of(nodes, np.array([[0, 1], [1, 2], [2, 3]]), STEEL, section=NO_SHEAR)
+    found = load_factors(Structure(nodes, beams), held, loads, np.full((3, 2), 1.0))
+    root = brentq(lambda x: x / np.tan(x) + 6.0, 0.5 * np.pi + 1e-6, np.pi - 1e-6)
+    assert found == pytest.approx(root**2 * 210_000 * INERTIA / 50**2, rel=1e-3)
 
 
 def test_struts_are_those_of_the_homogenised_frame():

@@ -4,6 +4,7 @@ import pytest
 
 import samples
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
+from volfrep.spatial.piercing import piercing_pairs
 from volfrep.spatial.self_intersection import about, close_pairs, crossing_triangles
 
 
@@ -66,13 +67,32 @@ def test_pairs_whose_boxes_meet_and_that_have_a_chosen_triangle_come_once(share)
     np.testing.assert_array_equal(found, meets & (chosen[:, None] | chosen[None]))
 
 
-def test_what_lies_about_a_few_triangles_holds_all_whose_boxes_meet_theirs():
-    corners, meets = scattered(400)
+@pytest.mark.parametrize("which", [slice(0, 5), slice(-5, None), slice(190, 195)])
+def test_what_lies_about_a_few_triangles_holds_all_that_cross_them(which):
+    corners, _ = scattered(400)
     mesh = TriangleMesh(corners.reshape(-1, 3), np.arange(1200, dtype=np.int32).reshape(-1, 3))
-    # The chosen ones are small.
     chosen = np.zeros(len(corners), bool)
-    chosen[np.ptp(corners, axis=1).max(axis=1).argsort()[:5]] = True
+    chosen[np.ptp(corners, axis=1).max(axis=1).argsort()[which]] = True
     near = about(mesh, chosen)
     assert near[chosen].all()
-    assert near[meets[chosen].any(axis=0)].all()
+    pairs = piercing_pairs(mesh)
+    crossing = chosen[pairs].any(axis=1)
+    assert crossing.any() or which == slice(0, 5)
+    assert near[pairs[crossing]].all()
     assert not near.all()
+
+
+def test_a_large_triangle_is_near_what_is_at_its_plane_and_not_what_is_in_its_box():
+    small = samples.sphere(1.0, 1)
+    places = np.array([[20.0, 20.0, 60.0], [40.0, 40.0, 20.0], [90.0, 90.0, 95.0]])
+    balls = concatenate(*(TriangleMesh(small.vertices + at, small.triangles) for at in places))
+    large = TriangleMesh(np.diag([100.0, 100.0, 100.0]), np.array([[0, 1, 2]], np.int32))
+    mesh = concatenate(balls, large)
+    chosen = np.arange(len(mesh.triangles)) == len(mesh.triangles) - 1
+    for flat in (False, True):  # without a plane all of its box is near
+        if flat:
+            mesh.vertices[-1] = mesh.vertices[-3:-1].mean(axis=0)
+        near = about(mesh, chosen)[:-1].reshape(3, -1)
+        assert near[0].any() != flat
+        assert not near[2].any()
+        assert not near[1].any() or not flat

@@ -15,7 +15,7 @@ from volfrep.jobs.pipeline import fill
 from volfrep.mesh.float32_repair import without_slivers
 from volfrep.mesh.quality import measure
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
-from volfrep.spatial.self_intersection import crossing_near, crossing_triangles
+from volfrep.spatial.self_intersection import crossing_triangles
 from volfrep.spatial.uncrossing import Turns
 from volfrep.trim.finish import finished, refuse_merging, tidied
 from volfrep.trim.group_cut import open_vertices
@@ -164,19 +164,6 @@ def test_slivers_stay_where_facets_would_cross_without_them(monkeypatch):
 
     monkeypatch.setattr("volfrep.trim.finish.without_slivers", bad)
     assert tidied(TrimmedSurface(box), 1e-4, Monitor()).mesh is box
-
-
-def test_near_the_few_finds_what_everywhere_does():
-    part = samples.sphere(20.0, 4)
-    vertices = part.vertices.copy()
-    top = int(vertices[:, 2].argmax())
-    vertices[top] = [0.3, 0.2, -25.0]
-    bent = TriangleMesh(vertices, part.triangles)
-    few = (bent.triangles == top).any(axis=1)
-    found = crossing_near(bent, few, 1e-6)
-    assert found.sum() > few.sum()
-    np.testing.assert_array_equal(found, crossing_triangles(bent, few, 1e-6))
-    assert not crossing_near(bent, np.zeros(len(few), bool), 1e-6).any()
 
 
 def test_new_triangles_are_those_that_were_not_there():

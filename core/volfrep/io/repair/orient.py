@@ -8,6 +8,7 @@ import numpy as np
 from ...mesh.edge_table import Edges, areas_of, pieces_of, place_text, plural
 from ...mesh.triangle_mesh import TriangleMesh
 from ...util.errors import VolfrepError
+from ...util.linalg import normalized
 from ...util.types import Bools, Ints
 
 
@@ -79,11 +80,9 @@ def _round_edges(mesh: TriangleMesh, sides: Ints, number: Ints, many: Ints) -> t
     """Pairs of sides on edges of many triangles, that bound the same wedge of material."""
     low, high = sides[many].min(axis=1), sides[many].max(axis=1)
     origin = mesh.vertices[low]
-    along = mesh.vertices[high] - origin
-    along /= np.maximum(np.linalg.norm(along, axis=1), 1e-300)[:, None]
+    along = normalized(mesh.vertices[high] - origin)
     across = np.eye(3)[np.abs(along).argmin(axis=1)]
-    u = np.cross(along, across)
-    u /= np.maximum(np.linalg.norm(u, axis=1), 1e-300)[:, None]
+    u = normalized(np.cross(along, across))
     v = np.cross(along, u)
     third = mesh.triangles.ravel()[many // 3 * 3 + (many % 3 + 2) % 3]
     to_third = mesh.vertices[third] - origin

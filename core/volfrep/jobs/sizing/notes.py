@@ -14,6 +14,7 @@ from ...sizing.model import SizingModel
 _REMEDIES = {
     "stress": "a thicker skin there, a load or support on a larger area, or a lower safety",
     "buckling": "smaller cells, a thicker skin there, or a lower factor",
+    "frame buckling": "larger cells, a thicker skin, a stiffer cell, or a lower factor",
     "displacement": "a thicker skin, a cell that is stiffer in that direction, or a higher limit",
     "frequency": "a thicker skin, a stiffer cell, more supports, or a lower limit",
 }
@@ -42,14 +43,13 @@ def left_out(spec: LatticeSpec) -> list[str]:
     ]
 
 
-def strut_by_strut(limits: Limits) -> list[str]:
-    """A sentence on what a limit of buckling does not hold; nothing without one."""
-    if limits.buckling is None:
+def stiff_skin(model: SizingModel, limits: Limits) -> list[str]:
+    """A sentence on what a limit of buckling does not hold; nothing without one or a skin."""
+    if limits.buckling is None or model.skin is None:
         return []
     return [
-        "Buckling was looked at strut by strut, between joints that stay where they are: where "
-        "joints can shift sideways, as in cells that bend (Box, CVC), the lattice may buckle as a "
-        "whole at half the factor asked for. Ask for more, or put a step *BUCKLE into its deck."
+        "Struts were kept from buckling, alone and together; that the skin may buckle between them "
+        "was not looked at."
     ]
 
 

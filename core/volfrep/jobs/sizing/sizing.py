@@ -30,7 +30,7 @@ from ..infill import Infill
 from ..networks.frame import fixed_graph
 from ..targets import aimed, infill_of
 from .goal import Goal
-from .notes import left_out, not_held, stressed_skin, strut_by_strut, unproved
+from .notes import left_out, not_held, stiff_skin, stressed_skin, unproved
 from .part_model import given_radii, part_model, spacing
 from .removal import RADIUS_STEP, SLACK, Thinned, field_points, radius_field, thinned
 
@@ -104,6 +104,9 @@ def size(
         Cancelled: the callback said so before there was a design.
     """
     goal = goal or Goal()
+    if goal.limits.frame_buckling is None:  # no struts buckle, neither one nor many together
+        limits = replace(goal.limits, frame_buckling=goal.limits.buckling)
+        goal = replace(goal, limits=limits)
     monitor = monitor or Monitor(progress)
     if goal.limits.any and goal.volume is not None:
         raise VolfrepError("Give limits for the least mass, or a volume for the most stiffness.")
@@ -143,7 +146,7 @@ def size(
     if not sized.holds:
         notes.append(not_held(problem, sized.analysis))
     notes += stressed_skin(model, sized.analysis, goal.limits)
-    notes += left_out(spec) + strut_by_strut(goal.limits)
+    notes += left_out(spec) + stiff_skin(model, goal.limits)
     if sized.stopped == "cancelled":
         notes.append("The search was cancelled: this is the best design so far.")
     final = _stored(problem, sized.analysis.radii, goal.limits)

@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+from collections import Counter
+
+import numpy as np
+import pytest
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+
+import samples
+from volfrep.mesh.edge_table import edge_uses
+from volfrep.mesh.quality import inspect
+from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
+
+
+def torn(seed):
+    """Two balls, some of whose triangles are gone, doubled, turned over or share other corners."""
+    random = np.random.default_rng(seed)
+    both = concatenate(samples.sphere(3.0, 2), samples.sphere(1.0, 1), samples.sphere(2.0, 1))
+    triangles = both.triangles[random.random(len(both.triangles)) > 0.02]
+    triangles = np.concatenate([triangles, triangles[random.random(len(triangles)) < 0.03]])
+    turned = random.random(len(triangles)) < 0.02
+    triangles[turned] = triangles[turned, ::-1]
+    moved = random.random(len(triangles)) < 0.01
+    triangles[moved, 0] = triangles[moved, 1]
+    random.shuffle(triangles)
+    return TriangleMesh(both.vertices, triangles)
+
+
+@pytest.mark.parametrize("block", [1, 7, 100, 1 << 17])
+@pytest.mark.parametrize("seed", range(3))
+def test_edges_that_blocks_have_in_common_are_counted_as_if_there_were_none(
+    block, seed, monkeypatch
+):
+    mesh = torn(seed)
+    monkeypatch.setattr("volfrep.mesh.edge_table.BLOCK_TRIANGLES", block)
+    sides = [(a, b) for t in mesh.triangles.tolist() for a, b in zip(t, t[1:] + t[:1], strict=True)]
+    ways = Counter((a, b) for a, b in sides if a != b)
+    edges = {(min(side), max(side)) for side in ways}
+    uses = [(ways[a, b], ways[b, a]) for a, b in edges]
+    found = edge_uses(mesh)
+    assert found.count == len(edges)
+    assert found.open == sum(one + two == 1 for one, two in uses)
+    assert found.overused == sum(one + two > 2 for one, two in uses)
+    assert found.misoriented == sum(one + two == 2 and one != 1 for one, two in uses)
+    assert min(found.open, found.overused, found.misoriented) > 0
+
+    size = len(mesh.vertices)
+    a, b = np.array(sides).T
+    graph = coo_matrix((np.ones(len(a)), (a, b)), shape=(size, size))
+    label = connected_components(graph, directed=False)[1]
+    used = np.unique(mesh.triangles)
+    # The same pieces, in the order of their lowest vertices.
+    expected = np.unique(label[used], return_inverse=True)[1]
+    np.testing.assert_array_equal(found.piece[used], expected)
+    assert found.pieces == expected.max() + 1 >= 3
+
+
+def test_a_mesh_has_the_same_figures_in_blocks(monkeypatch):
+    mesh = concatenate(samples.sphere(9.0, 2), samples.sphere(4.0, 1).reversed())
+    whole = inspect(mesh)
+    monkeypatch.setattr("volfrep.mesh.edge_table.BLOCK_TRIANGLES", 50)
+    assert len(mesh.triangles) > 100
+    again = inspect(mesh)
+    assert whole.quality.watertight
+    for name in vars(whole.quality):
+        np.testing.assert_array_equal(getattr(whole.quality, name), getattr(again.quality, name))
+    np.testing.assert_array_equal(whole.shell, again.shell)
+
+
+def test_what_is_empty_has_no_edges():
+    nothing = edge_uses(TriangleMesh(np.zeros((0, 3)), np.zeros((0, 3), np.int32)))
+    assert (nothing.count, nothing.pieces) == (0, 0)

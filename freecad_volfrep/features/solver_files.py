@@ -217,6 +217,8 @@ def tetrahedra_of(obj: App.DocumentObject) -> TetrahedralMesh:
 
     title = job_title("Tetrahedra of {label}", obj)
     filled: TetrahedralMesh = run_job(title, Call(made, (mesh_in_document(obj),)))
+    for sentence in filled.warnings:
+        App.Console.PrintWarning(f"VOLFREP, {obj.Label}: {sentence}\n")
     return filled
 
 

@@ -256,7 +256,7 @@ def _write_tetrahedra(
         wall = infill.cavity if spec.output == "lattice" else infill.solid
         sets["SKIN"] = nodes_on(filled, wall)
     write_tetrahedra(filled, options.output, _material_of(options), sets=sets)
-    return ()
+    return filled.warnings
 
 
 def _asked(spec: LatticeSpec, options: argparse.Namespace) -> Asked:

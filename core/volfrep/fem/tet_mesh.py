@@ -25,6 +25,9 @@ from ..util.types import Bools, Floats, Ints
 MAX_TRIANGLES = 200_000
 #: The tetrahedra's volume may differ from the mesh's by this fraction.
 VOLUME_TOLERANCE = 1e-6
+#: Mending is told where it changes the volume by more than this fraction: beside the thin lip of a
+#: wing small moves take much.
+VOLUME_TOLD = 2e-3
 #: Nodes are on a wall within this part of its box's diagonal: what single precision keeps.
 WALL_TOLERANCE = 1e-6
 #: Gmsh copes with facets that have no angle below this, degrees.
@@ -73,11 +76,23 @@ class TetrahedralMesh:
         elements: (m, 10) int64, rows of `nodes`: four corners, then the middles of the edges
             1-2, 2-3, 3-1, 1-4, 2-4, 3-4 (the order of CalculiX and of FreeCAD).
         moved: how far each move to mend the surface could take it, mm; 0 where nothing was.
+        grown: by what part of it the volume became larger by that.
     """
 
     nodes: Floats
     elements: Ints
     moved: float = 0.0
+    grown: float = 0.0
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """A sentence where mending changed the volume."""
+        if abs(self.grown) <= VOLUME_TOLD:
+            return ()
+        return (
+            f"The tetrahedra's volume differs by {self.grown:+.2%} from the mesh's: its needles "
+            "were mended, which takes from thin lips. A finer deviation takes less.",
+        )
 
     def volumes(self) -> Floats:
         """(m,) signed volume of each tetrahedron, mm3."""
@@ -120,7 +135,8 @@ def tetrahedra(mesh: TriangleMesh, monitor: Monitor | None = None) -> Tetrahedra
         filled = folder / "filled.msh"
         if not filled.is_file() or said.returncode:
             raise _cannot_fill(said.stdout)
-        result = replace(_read(filled.read_bytes()), moved=moved)
+        grown = surface.volume / mesh.volume - 1.0
+        result = replace(_read(filled.read_bytes()), moved=moved, grown=grown)
     volumes = result.volumes()
     if not len(volumes) or volumes.min() <= 0:
         raise _cannot_fill("it made tetrahedra that are inside out")

@@ -113,6 +113,19 @@ def test_every_cell_fills_a_box(cell, shell):
     assert tetrahedra(mesh).volumes().sum() == pytest.approx(mesh.volume, rel=1e-3)
 
 
+@needs_gmsh
+def test_a_volume_that_mending_changed_is_told(monkeypatch):
+    """Gmsh fills the mended mesh, and its volume is compared with that of the mesh as it was."""
+    box = samples.box((10.0, 8.0, 2.0))
+    thinner = TriangleMesh(box.vertices * (1.0, 1.0, 0.99), box.triangles)
+    monkeypatch.setattr(tet_mesh, "mended", lambda mesh, _: (thinner, 0.02))
+    filled = tetrahedra(box)
+    assert filled.grown == pytest.approx(-0.01)
+    assert "-1.00%" in filled.warnings[0]
+    monkeypatch.setattr(tet_mesh, "mended", lambda mesh, _: (mesh, 0.0))
+    assert tetrahedra(box).warnings == ()
+
+
 def test_what_would_cross_is_not_mended(monkeypatch):
     """Gmsh refuses a surface of which one facet is folded back onto the next, too."""
     solid = samples.box((15.0, 12.0, 12.0))

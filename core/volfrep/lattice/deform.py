@@ -28,6 +28,7 @@ from ..util.threads import in_threads
 from ..util.types import Floats, Ints
 from .assembly import Layout, numbers
 from .strut_binding import (
+    LEAST_ROOM,
     SPACE,
     SPHERE,
     STRUT,
@@ -40,9 +41,6 @@ from .strut_masks import NodeLookup
 
 #: Vertices that are placed at a time: what they need should stay in the processor's cache.
 CHUNK_VERTICES = 16_000
-#: Between its creases a strut must be at least this long, in units of its radius, on each side of
-#: its middle.
-LEAST_ROOM = 0.05
 #: A vertex of a joint sphere keeps this share of its angle from the nearest strut.
 KEPT_ANGLE = 0.5
 #: Angle from a strut, in radians, within which it draws the sphere's vertices along.

@@ -30,6 +30,10 @@ OUTERMOST = 1.0 - 1e-6
 #: Rulings that run along another strut, in the square of the sine of the angle between them.
 PARALLEL = 1e-9
 
+#: Between its creases a strut must be at least this long, in units of its radius, on each side of
+#: its middle.
+LEAST_ROOM = 0.05
+
 #: A strut stands off another one by more than this, as the sine of the angle between them; and
 #: struts whose directions across it differ by less than this, in radians, are behind one another.
 STANDS_OFF = 1e-3
@@ -118,7 +122,7 @@ def bind(cell: UnitCell, spec: OctantSpec, key: OctantKey, octant: Octant) -> St
         axis, radial, uniform, np.zeros(count), np.full(count, joint),
         directions, np.zeros(others.shape), others,
     )  # fmt: skip
-    share = (along * length - start) / (0.5 * length - start)
+    share = _shares(along * length, start, 0.5 * length, radius)
 
     left, right, turn = _between(nodes, neighbours, near, far, axis, radial)
 
@@ -150,6 +154,20 @@ def bind(cell: UnitCell, spec: OctantSpec, key: OctantKey, octant: Octant) -> St
         share,
         off / radius,
         level,
+    )
+
+
+def _shares(along: Floats, start: Floats, middle: Floats, radius: float) -> Floats:
+    """(n,) positions between creases (0) and the middles of struts (1).
+
+    Where the creases of a strut's two ends meet, what is left between them says nothing of where
+    on it a vertex is: off it by a hair, it may be many times as far away. It is at the middle then,
+    or as far from it as from where there would be just enough room.
+    """
+    room, least = middle - start, LEAST_ROOM * radius
+    crowded = 1.0 + (along - middle) / least
+    return np.where(
+        room < least, np.clip(crowded, 0.0, 1.0), (along - start) / np.maximum(room, least)
     )
 
 

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import hashlib
+import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
@@ -129,7 +130,8 @@ def _mesh(
     """
     monitor.count("kinds of octants meshed", len(primitives))
     todo = list(primitives)
-    for manner in _Manner:
+    # Facets that touch are better than none, where nothing keeps them apart.
+    for exact, manner in itertools.product((True, False), _Manner):
         same, todo = todo, []
         done = 0
         while done < len(same):
@@ -139,11 +141,15 @@ def _mesh(
             if manner is _Manner.COARSE_AND_FINE:
                 fine = _refined(_coarsened(meshed, spec.deviation), spec.deviation)
                 # To draw facets apart moves them off the surface, and smaller ones less.
-                fitted, order, crossed = fine.surface, fine.order, crossing_facets(fine.surface)
+                fitted, order, crossed = (
+                    fine.surface,
+                    fine.order,
+                    crossing_facets(fine.surface, exact),
+                )
             else:
                 if manner is _Manner.FINE:
                     meshed = _refined(meshed, spec.deviation)
-                fitted, crossed = untangled(meshed.surface, meshed.home)
+                fitted, crossed = untangled(meshed.surface, meshed.home, exact)
                 order = meshed.order
             bad = np.unique(fitted.piece[fitted.triangles[crossed, 0]])
             result.update(batch.split(fitted, order))

@@ -14,9 +14,12 @@ import numpy as np
 
 from ..mesh import remesh
 from ..mesh.triangle_mesh import TriangleMesh
+from ..spatial.piercing import piercing_pairs
 from ..spatial.self_intersection import close_pairs, crossing_triangles
+from ..util.linalg import along
 from ..util.types import Bools, Floats, Ints
 from .constrained_mesh import Surface, moved, neighbour_mean
+from .octant import STEPS
 
 #: Facets that stick through others by no more than this, in wanted edges, only touch.
 TOUCHING = 1e-6
@@ -25,18 +28,35 @@ TOUCHING = 1e-6
 ROUNDS = 24
 SMOOTHED = 3
 WIDER_AFTER = 4
+#: A turn in which no plane along the axes stays one; its rows are at right angles.
+TURN = np.array([[2.0, 3.0, 6.0], [6.0, 2.0, -3.0], [-3.0, 6.0, -2.0]]) / 7.0
 #: An edge of the border that turns by an angle of a lesser cosine has folded over.
 FOLDED = 0.2
 
 
-def crossing_facets(surface: Surface) -> Bools:
-    """(m,) which facets another facet of their own octant runs through."""
-    everywhere = np.ones(len(surface.triangles), bool)
-    mesh = TriangleMesh(_apart(surface), surface.triangles.astype(np.int32))
-    return crossing_triangles(mesh, everywhere, TOUCHING * surface.edge)
+def crossing_facets(surface: Surface, exact: bool = True) -> Bools:
+    """(m,) which facets another facet of their own octant runs through.
+
+    Exact, for the vertices as octants have them, in whole steps. Next to a face facets may lie in
+    one plane, where those that overlap touch as far as anybody can tell; turned with a lattice, or
+    rounded by a file, they cross, and so they are looked at turned and rounded, too. Otherwise
+    those that stick through others by more than `TOUCHING`.
+    """
+    triangles = surface.triangles.astype(np.int32)
+    if not exact:
+        everywhere = np.ones(len(triangles), bool)
+        mesh = TriangleMesh(_apart(surface), triangles)
+        return crossing_triangles(mesh, everywhere, TOUCHING * surface.edge)
+    steps = np.rint(surface.vertices * (STEPS / surface.size))
+    turned = np.rint(np.stack([along(steps, row) for row in TURN], axis=1))
+    crossing = np.zeros(len(triangles), bool)
+    for vertices in (steps, turned):
+        vertices[:, 0] += 4.0 * STEPS * surface.piece
+        crossing[piercing_pairs(TriangleMesh(vertices, triangles))] = True
+    return crossing
 
 
-def untangled(surface: Surface, home: Floats) -> tuple[Surface, Bools]:
+def untangled(surface: Surface, home: Floats, exact: bool = True) -> tuple[Surface, Bools]:
     """The surface with facets that cross drawn apart, where that is possible.
 
     A vertex goes to the middle of its neighbours, off the exact surface by a part of a facet; and
@@ -45,6 +65,7 @@ def untangled(surface: Surface, home: Floats) -> tuple[Surface, Bools]:
     Args:
         surface: its facets fitted.
         home: (n, 3) where marching cubes found its vertices, mm.
+        exact: whether facets that only touch are drawn apart, as `crossing_facets` tells.
 
     Returns:
         The surface, and (m,) which facets still cross.
@@ -52,7 +73,7 @@ def untangled(surface: Surface, home: Floats) -> tuple[Surface, Bools]:
     count, triangles = len(surface.vertices), surface.triangles
     pairs = np.concatenate([triangles[:, :2], triangles[:, 1:], triangles[:, ::2]])
     border = surface.pinned.any(axis=1)
-    crossed = crossing_facets(surface)
+    crossed = crossing_facets(surface, exact)
     for turn in range(ROUNDS):
         if not crossed.any():
             break
@@ -66,7 +87,7 @@ def untangled(surface: Surface, home: Floats) -> tuple[Surface, Bools]:
         else:
             target = 0.5 * (surface.vertices + home)
         surface = moved(surface, np.where(goes, target, surface.vertices))
-        crossed = crossing_facets(surface)
+        crossed = crossing_facets(surface, exact)
     return surface, crossed
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from scipy import sparse
 from scipy.stats import qmc
 
-from ..lattice.deform import LEAST_ROOM
+from ..lattice.strut_binding import LEAST_ROOM
 from ..util.types import Floats, Ints
 
 #: Points in the ball about a joint by which its struts' overlap is found, and how far that is

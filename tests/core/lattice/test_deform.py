@@ -12,9 +12,9 @@ from volfrep.grid.node_frames import node_frames
 from volfrep.grid.strut_graph import cell_graph
 from volfrep.lattice.assembly import coordinates, facets, lay_out
 from volfrep.lattice.deform import deform
-from volfrep.lattice.strut_binding import bind
+from volfrep.lattice.strut_binding import STRUT, bind
 from volfrep.mesh.triangle_mesh import TriangleMesh
-from volfrep.octants.octant import octant_grid
+from volfrep.octants.octant import OctantKey, octant_grid
 from volfrep.octants.octant_mesh import mesh_octants, octant_spec
 from volfrep.octants.sdf import distances, spheres, struts
 from volfrep.util.errors import VolfrepError
@@ -92,6 +92,18 @@ def test_vertices_come_onto_struts_of_another_radius(laid, radius):
     # Between struts alone (r2) and joints alone (r3).
     low, high = sorted([radius**1.7, radius**2.1])
     assert low < grown < high
+
+
+def test_where_creases_meet_vertices_are_bound_to_the_middle_of_their_strut():
+    """Kagome's windows are closed there: creases of a strut's two ends meet at its middle. Bound
+    beyond it by many times what is left between them, vertices flew off thinner struts."""
+    spec = LatticeSpec("Kagome", SIZE, 1.35, resolution=12)
+    cell, meshing = spec.unit_cell(), octant_spec(SIZE, spec.struts, spec.detail)
+    keys = [OctantKey(mirror, 0xFF) for mirror in (1, 2)]
+    for key, octant in mesh_octants(cell, meshing, keys, Monitor()).items():
+        bound = bind(cell, meshing, key, octant)
+        share = bound.share[bound.kind == STRUT]
+        assert -0.1 < share.min() < share.max() < 1.01
 
 
 def test_moved_nodes_take_their_vertices_along(laid):

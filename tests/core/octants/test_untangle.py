@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from trimesh.transformations import rotation_matrix
 
 from volfrep.design.cells import PAPERS, UnitCell
 from volfrep.design.spec import LatticeSpec
@@ -15,6 +16,7 @@ from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.octants.octant import OctantKey
 from volfrep.octants.octant_mesh import FacetsCross, mesh_octants, octant_spec
 from volfrep.octants.octant_spec import OctantSpec
+from volfrep.spatial.piercing import piercing_pairs
 from volfrep.spatial.self_intersection import crossing_triangles
 from volfrep.util.errors import VolfrepError
 from volfrep.util.progress import Monitor
@@ -91,6 +93,18 @@ def test_struts_that_cross_anyhow_leave_no_facets_that_do(resolution):
 def test_narrow_windows_leave_no_facets_that_cross(resolution):
     spec = LatticeSpec("FCC", 10.0, 3.0, resolution=resolution)
     assert not crossings(block(spec, (1, 1, 1)).mesh)
+
+
+def test_facets_in_one_plane_beside_a_face_do_not_overlap():
+    """Such touch as they are meshed, and cross once a turned lattice is written to a file."""
+    spec = LatticeSpec("Kagome", 10.0, 1.4813)
+    key = OctantKey(0, 0xFF, sum(1 << k for k in (226, 237, 238, 247, 253, 296)))  # struts gone
+    meshing = octant_spec(spec.cell_size, spec.struts, spec.detail)
+    octant = mesh_octants(spec.unit_cell(), meshing, [key], Monitor())[key]
+    assert len(octant.triangles)
+    turned = octant.vertices @ rotation_matrix(0.8, (1.0, 2.0, 3.0))[:3, :3].T
+    for vertices in (octant.vertices, turned.astype(np.float32).astype(float)):
+        assert not len(piercing_pairs(TriangleMesh(vertices, octant.triangles)))
 
 
 def test_where_facets_cross_however_they_are_meshed_finer_ones_are_tried():

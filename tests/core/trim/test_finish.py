@@ -166,6 +166,20 @@ def test_slivers_stay_where_facets_would_cross_without_them(monkeypatch):
     assert tidied(TrimmedSurface(box), 1e-4, Monitor()).mesh is box
 
 
+def test_slivers_away_from_all_octants_take_none_of_these_along(monkeypatch):
+    """Whatever edges they have: no octant has any there."""
+
+    def rebuilt(mesh, tolerance):
+        corner = mesh.vertices.sum(axis=1).argmin()
+        return mesh, (mesh.triangles == corner).any(axis=1)
+
+    monkeypatch.setattr("volfrep.trim.finish.without_slivers", rebuilt)
+    monkeypatch.setattr(TrimmedSurface, "has_inner_edges", lambda surface, among: True)
+    solid = samples.box((36.0, 36.0, 36.0))
+    surface = fill(solid, LatticeSpec("Box", 6.0, 0.5, shell=1.0)).surface
+    assert surface.octants is not None
+
+
 def test_new_triangles_are_those_that_were_not_there():
     part = samples.sphere(20.0, 3)
     # One edge made shorter than the tolerance.

@@ -16,7 +16,7 @@ from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.even_points import even_points
 from ..spatial.proximity import neighbours
 from ..spatial.rays import inside_points, segment_crossings
-from ..util.linalg import frame_about, times
+from ..util.linalg import frame_about, normalized, times
 from ..util.progress import Monitor
 from ..util.types import Floats
 from .cells import UnitCell
@@ -166,8 +166,7 @@ def skin_bends(solid: TriangleMesh, spec: LatticeSpec) -> float:
         return 0.0
     across = neighbours(solid)
     a, b, c = solid.corners()
-    normal = np.cross(b - a, c - a)
-    normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+    normal = normalized(np.cross(b - a, c - a))
     total = 0.0
     for k, (start, end) in enumerate(((a, b), (b, c), (c, a))):
         cosine = np.einsum("ij,ij->i", normal, normal[across[:, k]])

@@ -39,8 +39,9 @@ def crossing_facets(surface: Surface, exact: bool = True) -> Bools:
 
     Exact, for the vertices as octants have them, in whole steps. Next to a face facets may lie in
     one plane, where those that overlap touch as far as anybody can tell; turned with a lattice, or
-    rounded by a file, they cross, and so they are looked at turned and rounded, too. Otherwise
-    those that stick through others by more than `TOUCHING`.
+    rounded by a file, they cross, and so they are looked at turned and rounded, too. Which of those
+    do that are as good as a line is chance: all of them are told. Otherwise those that stick
+    through others by more than `TOUCHING`.
     """
     triangles = surface.triangles.astype(np.int32)
     if not exact:
@@ -49,7 +50,7 @@ def crossing_facets(surface: Surface, exact: bool = True) -> Bools:
         return crossing_triangles(mesh, everywhere, TOUCHING * surface.edge)
     steps = np.rint(surface.vertices * (STEPS / surface.size))
     turned = np.rint(np.stack([along(steps, row) for row in TURN], axis=1))
-    crossing = np.zeros(len(triangles), bool)
+    crossing = _flat(surface.vertices[triangles], TOUCHING * surface.edge)
     for vertices in (steps, turned):
         vertices[:, 0] += 4.0 * STEPS * surface.piece
         crossing[piercing_pairs(TriangleMesh(vertices, triangles))] = True
@@ -156,6 +157,13 @@ def _on_one_side(a: Floats, b: Floats, c: Floats, d: Floats, touch: float) -> Bo
     off = touch * np.linalg.norm(along, axis=1)
     result: Bools = (np.minimum(*away) > off) | (np.maximum(*away) < -off)
     return result
+
+
+def _flat(corners: Floats, height: float) -> Bools:
+    """(m,) which facets of (m, 3, 3) corners are less high than that over their longest side."""
+    longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
+    flat: Bools = np.linalg.norm(remesh.normals(corners), axis=1) < height * longest
+    return flat
 
 
 def _apart(surface: Surface) -> Floats:

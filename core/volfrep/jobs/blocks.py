@@ -39,7 +39,7 @@ from ..util.numbers import whole
 from ..util.progress import Monitor, ProgressCallback, peak_memory_mb
 from ..walls.laying import closed_octants, octants_of_cells
 from .finer import until_sound
-from .octant_guard import refuse_solid_cells, refuse_too_large
+from .octant_guard import refuse_solid_cells, refuse_too_large, straying
 from .target_report import judged
 from .walls.making import keeps_places as keeps_wall_places
 from .walls.making import meshed_walls, no_graph, no_struts, placed_walls, solid_of, wall_meshing
@@ -262,6 +262,7 @@ def _lay(spec: LatticeSpec, cells: CellGrid, placement: Placement, monitor: Moni
             lambda wanted: mesh_octants(cell, wanted, grid.keys, monitor),
         )
         refuse_solid_cells(octants, used)
+        notes += straying(octants, used)
         layout = lay_out(grid, octants)
     graph = cell_graph(cell, active, spec.cell_size, cells.origin, cells.periodic)
     return _Laid(cells, placement, layout, graph, used, notes)

@@ -326,7 +326,7 @@ class Infill:
             return kept, made.value
 
         (kept, octants), self._meshing, notes = until_sound(self._meshing, meshed)
-        self._notes += notes
+        self._notes = notes + guard.straying(octants, self._meshing)
         guard.refuse_solid_cells(octants, self._meshing)
         guard.refuse_too_large(self.spec, kept.grid, octants, kept.border, streamed=self._streamed)
         return kept, octants

@@ -28,12 +28,14 @@ from ..util.threads import in_threads
 from ..util.types import Floats, Ints
 from .assembly import Layout, numbers
 from .strut_binding import (
+    AT_SIDE,
     LEAST_ROOM,
     SPACE,
     SPHERE,
     STRUT,
     StrutBinding,
     angles_to_struts,
+    corner_turns,
     counter_clockwise,
     crease,
 )
@@ -163,6 +165,7 @@ def _place(own: StrutBinding, rows: Ints, sign: Ints, nodes: NodeFrames) -> Floa
             rows[:, own.right[is_strut]].ravel(),
             np.repeat(sign.prod(axis=1), is_strut.sum()),
             np.tile(own.turn[is_strut], count),
+            np.tile(own.corner[is_strut], count),
             radial[:, is_strut].reshape(-1, 3),
             np.tile(own.along[is_strut], count),
             np.tile(own.share[is_strut], count),
@@ -187,6 +190,7 @@ def _on_struts(
     right: Ints,
     sense: Ints,
     turn: Floats,
+    corner: Floats,
     radial: Floats,
     along: Floats,
     share: Floats,
@@ -202,12 +206,12 @@ def _on_struts(
         # At the joint a ruling lies between the same struts, and as far between them, as it did;
         # towards the middle it is just turned with the strut.
         off = np.flatnonzero(left != near)
-        first = _across(nodes.points[left[off]] - start[off], axis[off])
-        second = _across(nodes.points[right[off]] - start[off], axis[off])
+        sides = [nodes.points[row[off]] - start[off] for row in (left, right)]
+        first, second = (_across(side, axis[off]) for side in sides)
         about = sense[off, None] * axis[off]
         angle = counter_clockwise(first, second, about)
         angle[left[off] == right[off]] = 2.0 * np.pi
-        angle *= turn[off]
+        angle *= _turns(turn[off], corner[off], axis[off], sides, about, near[off], nodes)
         own = np.cos(angle)[:, None] * first + np.sin(angle)[:, None] * np.cross(about, first)
         mixed = np.clip(share[off], 0.0, 1.0)[:, None]
         radial[off] = _across((1.0 - mixed) * own + mixed * radial[off], axis[off])
@@ -222,6 +226,33 @@ def _on_struts(
             "the cells be larger there."
         )
     return strut.point(begin + share * room, radial, scale)
+
+
+def _turns(
+    turn: Floats,
+    corner: Floats,
+    axis: Floats,
+    sides: list[Floats],
+    about: Floats,
+    near: Ints,
+    nodes: NodeFrames,
+) -> Floats:
+    """(n,) turns from left to right where the creases with both meet elsewhere than they did.
+
+    Where another strut hides that place, the creases are others than they were, and all stays.
+    """
+    result = turn.copy()
+    some = np.flatnonzero(corner > 0.0)
+    left, right = (side[some] for side in sides)
+    was, before, near = corner[some], turn[some], near[some]
+    now = corner_turns(
+        axis[some], left, right, about[some], nodes.directions[near], nodes.neighbours[near] >= 0
+    )
+    now = np.where(now > 0.0, np.clip(now, AT_SIDE, 1.0 - AT_SIDE), was)
+    result[some] = np.where(
+        before < was, before * now / was, 1.0 - (1.0 - before) * (1.0 - now) / (1.0 - was)
+    )
+    return result
 
 
 @dataclass(frozen=True, eq=False)

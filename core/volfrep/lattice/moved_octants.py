@@ -18,7 +18,7 @@ from ..mesh.float32_repair import merging
 from ..mesh.precision import decimal_step
 from ..mesh.triangle_mesh import TriangleMesh
 from ..octants.octant import Octant
-from ..spatial.uncrossing import STICKS_OUT, turning_back
+from ..spatial.turns import STICKS_OUT, turning_back
 from ..util.linalg import along
 from ..util.progress import Monitor
 from ..util.threads import in_threads
@@ -200,7 +200,7 @@ def _normals(octant: Octant) -> Floats:
 def _most_turned(octant: Octant) -> float:
     """The cosine of the angle by which both facets at any edge may turn without folding there.
 
-    That is half of what the sharpest edge that sticks out has left to `uncrossing.STICKS_OUT`.
+    That is half of what the sharpest edge that sticks out has left to `turns.STICKS_OUT`.
     """
     if not len(octant.triangles):
         return -1.0

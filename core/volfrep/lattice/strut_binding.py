@@ -34,6 +34,13 @@ PARALLEL = 1e-9
 #: its middle.
 LEAST_ROOM = 0.05
 
+#: Creases that meet no farther than this from a strut beside them, in turns from one to the next,
+#: meet at that strut.
+AT_SIDE = 0.05
+
+#: A place is inside another strut where it is farther along that by more than this part.
+AS_FAR = 1e-6
+
 #: A strut stands off another one by more than this, as the sine of the angle between them; and
 #: struts whose directions across it differ by less than this, in radians, are behind one another.
 STANDS_OFF = 1e-3
@@ -57,6 +64,7 @@ class StrutBinding:
         left: (n,) row of the node whose strut, seen along the vertex' own, comes next clockwise.
         right: (n,) the same counter-clockwise; `near` itself where no strut stands off the own.
         turn: (n,) how far the ruling lies from left to right, from 0 to 1.
+        corner: (n,) the turn at which the creases with both of them meet; 0 where they do not.
         radial: (n, 3) unit vector from the strut's axis, or from the sphere's centre.
         along: (n,) position on the strut from the near node, in units of its length.
         share: (n,) position between crease (0) and the strut's middle (1); for a sphere, the angle
@@ -73,6 +81,7 @@ class StrutBinding:
     left: Ints
     right: Ints
     turn: Floats
+    corner: Floats
     radial: Floats
     along: Floats
     share: Floats
@@ -125,6 +134,12 @@ def bind(cell: UnitCell, spec: OctantSpec, key: OctantKey, octant: Octant) -> St
     share = _shares(along * length, start, 0.5 * length, radius)
 
     left, right, turn = _between(nodes, neighbours, near, far, axis, radial)
+    corner = np.zeros(count)
+    some = np.flatnonzero((left != near) & (left != right))
+    first, second = (nodes[row[some]] - nodes[near[some]] for row in (left, right))
+    every, present = directions[some], neighbours[near[some]] >= 0
+    meets = corner_turns(axis[some], first, second, axis[some], every, present)
+    corner[some] = np.where((meets > AT_SIDE) & (meets < 1.0 - AT_SIDE), meets, 0.0)
 
     on_sphere = kind == SPHERE
     if on_sphere.any():
@@ -149,6 +164,7 @@ def bind(cell: UnitCell, spec: OctantSpec, key: OctantKey, octant: Octant) -> St
         rows[2],
         rows[3],
         turn,
+        corner,
         radial,
         along,
         share,
@@ -196,12 +212,16 @@ def _between(
     off = directions - np.einsum("nj,nkj->nk", axis, directions)[:, :, None] * axis[:, None]
     others &= np.linalg.norm(off, axis=2) > STANDS_OFF
     angle = counter_clockwise(radial[:, None], off, axis[:, None])
-    # Of struts behind one another, the first in the table stands for all.
+    # Of struts behind one another, the one nearest to the own stands for all: its crease shows.
     angle = np.where(others, np.round(angle / SAME_ANGLE) * SAME_ANGLE, np.nan)
     rows = np.arange(len(near))
     some = others.any(axis=1)
     ahead, behind = np.where(others, angle, np.inf), np.where(others, angle, -np.inf)
-    right, left = ahead.argmin(axis=1), behind.argmax(axis=1)
+    near_own = np.einsum("nj,nkj->nk", axis, directions)
+    right, left = (
+        np.where(each == best[:, None], near_own, -np.inf).argmax(axis=1)
+        for each, best in ((ahead, ahead.min(axis=1)), (behind, behind.max(axis=1)))
+    )
     after, before = ahead[rows, right], 2.0 * np.pi - behind[rows, left]
     turn = np.zeros(len(near))
     turn[some] = before[some] / (before + after)[some]
@@ -210,6 +230,45 @@ def _between(
         np.where(some, table[near, right], near),
         turn,
     )
+
+
+def corner_turns(
+    axis: Floats,
+    left: Floats,
+    right: Floats,
+    about: Floats,
+    directions: Floats,
+    others: NDArray[np.bool_],
+) -> Floats:
+    """At which turns from left to right the creases of struts with those on both sides meet.
+
+    Struts of one radius at a node meet where a point is equally far along all three.
+
+    Args:
+        axis: (n, 3) unit directions of the struts, away from the node.
+        left: (n, 3) from the node along the struts that come next clockwise.
+        right: (n, 3) those that come next counter-clockwise.
+        about: (n, 3) the directions, or their opposites where left and right are seen reflected.
+        directions: (n, k, 3) unit directions of all the struts at the node.
+        others: (n, k) bool, whether there is such a strut.
+
+    Returns:
+        (n,) turns, mostly within 0 and 1; 0 where they meet inside another strut, behind the node
+        or nowhere.
+    """
+    first, second = (side / np.linalg.norm(side, axis=1)[:, None] for side in (left, right))
+    meets = np.cross(axis - first, axis - second)
+    ahead = np.einsum("ni,ni->n", meets, axis)
+    meets *= np.sign(ahead)[:, None]
+    farther = np.einsum("nki,ni->nk", directions, meets) > (1.0 + AS_FAR) * np.abs(ahead)[:, None]
+    shows = (ahead != 0.0) & ~(farther & others).any(axis=1)
+    first, second, meets = (
+        each - np.einsum("ni,ni->n", each, axis)[:, None] * axis for each in (first, second, meets)
+    )
+    whole = counter_clockwise(first, second, about)
+    to_it = counter_clockwise(first, meets, about)
+    result: Floats = np.where(shows, to_it / np.maximum(whole, 1e-300), 0.0)
+    return result
 
 
 def counter_clockwise(start: Floats, end: Floats, axis: Floats) -> Floats:

@@ -332,21 +332,24 @@ class _Batch:
         return _Batch(used, raw, solid, whole, 0.5 * spec.cell_size / STEPS)
 
     def split(self, refined: Surface, order: Ints) -> dict[OctantKey, Octant]:
-        """The refined surface cut into the octants again."""
+        """The refined surface cut into the octants again, with how far each strays."""
         # Pieces are runs of vertices.
         begin = np.searchsorted(refined.piece, np.arange(len(self.raw) + 1))
         owner = refined.piece[refined.triangles[:, 0]]
         by_piece = np.argsort(owner, kind="stable")
         cuts = np.searchsorted(owner[by_piece], np.arange(len(self.raw) + 1))
+        stray = np.zeros(len(self.raw))
+        if refined.field.fillet == 0.0:  # otherwise values are no distances
+            np.maximum.at(stray, owner, all_stray(refined, 0.0))
         result = {}
         for k, key in enumerate(self.keys):
             part = slice(begin[k], begin[k + 1])
             vertices = np.rint(refined.vertices[part] / self.step) * self.step
             triangles = refined.triangles[by_piece[cuts[k] : cuts[k + 1]]] - begin[k]
-            result[key] = ranked_octant(
-                vertices, triangles, refined.place[part], order[part],
-                self.solid_corners[k],
-            )  # fmt: skip
+            octant = ranked_octant(
+                vertices, triangles, refined.place[part], order[part], self.solid_corners[k]
+            )
+            result[key] = replace(octant, stray=float(stray[k]))
         return result
 
 

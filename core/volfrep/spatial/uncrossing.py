@@ -12,33 +12,27 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
 from ..mesh.precision import decimal_step, rounded
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..util.progress import Monitor
-from ..util.threads import in_threads
 from ..util.types import Bools, Floats, Ints
 from .crossing_watch import CrossingWatch
 from .piercing import pairs_at_planes, piercing_among
+from .self_intersection import about
+from .turns import touching, turning_back
 
-#: The surface turns back at an edge where the cosine between its normals is below this.
-TURNS_BACK = -0.9
-#: Deformed struts do so at an edge that sticks out and is sharper than this: facets round a strut
-#: turn by 60 degrees at most, and where struts meet is a valley.
-STICKS_OUT = -0.2
 #: Vertices of crossing triangles move by so much of the way to the middle of their neighbours, one
 #: share after the other; below 0 that far anywhere.
 SHARES = (1e-4, -1e-3, 1e-3, -1e-3, 0.01, -0.01, 0.03, -0.03, 0.1, -0.1, 0.2, -0.2, 0.3, -0.3,
           0.5, -0.1, 0.5, -0.3, 0.5, -0.3)  # fmt: skip
 #: Facets that fold overlap by more than a hair.
 FOLDED_SHARES = (0.1, 0.3, 0.5, 0.5, 0.5, 0.5, -0.1, 0.5)
-#: By how much a vertex' rough normals may be wrong, each.
-ROUGHNESS = 1e-6
-#: Triangles whose rough normals are found at a time: they should stay in the processor's cache.
-BLOCK_TRIANGLES = 1 << 15
+#: Of a deformed mesh, facets that cross by less than so many steps of a file only graze each other,
+#: and so many rounds of `SHARES` are for them.
+GRAZING, GRAZED = 8.0, 4
 #: Places that cross are looked at with what lies nearer than so many of their triangles' edges;
 #: more places than these with everything.
 REACH, MOST_PLACES = 4.0, 200
@@ -103,28 +97,66 @@ def uncrossed(
         The mesh, the same one where nothing crosses; and (3,) where triangles still do, mm.
     """
     turns = turns or turns_of(mesh, monitor, deformed)
-    everywhere, pairs = turns.among, turns.pairs
+    if not len(turns.pairs):
+        return mesh, None
+    before, pairs = mesh, turns.pairs
+    if deformed:
+        # What grazes needs steps of a file only; with as much as folds do it would cross deeper.
+        grazes = _depths(mesh, pairs) < GRAZING * decimal_step(mesh.vertices)
+        mesh, left = _drawn_apart(mesh, pairs[grazes], turns.among, SHARES[:GRAZED], monitor)
+        pairs = np.concatenate([pairs[~grazes], left])
+        mesh, pairs = _drawn_apart(mesh, pairs, turns.among, FOLDED_SHARES, monitor)
+    if not deformed or len(pairs) <= MOST_PLACES:
+        mesh, pairs = _drawn_apart(mesh, pairs, turns.among, SHARES, monitor)
+    if mesh is not before:  # what moved may have met what lies anywhere
+        moved = (mesh.vertices != before.vertices).any(axis=1)
+        went = touching(moved, mesh.triangles.T)
+        stay = turns.pairs[~went[turns.pairs].any(axis=1)]
+        now = _crossing(mesh, about(mesh, went), monitor, moved)
+        pairs = np.concatenate([stay, now])
     if not len(pairs):
         return mesh, None
-    among, before = _about(mesh, pairs, everywhere), mesh
-    places = _Places.around(mesh, pairs, among, monitor)
-    for share in FOLDED_SHARES if deformed else SHARES:
+    return mesh, mesh.vertices[mesh.triangles[pairs[0, 0]]].mean(axis=0)
+
+
+def _drawn_apart(
+    mesh: TriangleMesh, pairs: Ints, among: Bools, shares: tuple[float, ...], monitor: Monitor
+) -> tuple[TriangleMesh, Ints]:
+    """The mesh after rounds of moves about pairs of triangles that cross; the pairs that are left.
+
+    Args:
+        mesh: any mesh, mm.
+        pairs: (k, 2) triangles that cross.
+        among: (m,) bool, triangles where the surface turns back, which they may meet.
+        shares: as `SHARES`, a round each.
+        monitor: asked for a cancel.
+    """
+    if not len(pairs):
+        return mesh, pairs
+    places = _Places.around(mesh, pairs, _about(mesh, pairs, among), monitor)
+    for share in shares:
         if not len(places.pairs):
             break
         crossed = len(places.pairs)
         places.move(share)
         stuck = crossed > MOST_PLACES and len(places.pairs) > STUCK * crossed
-        if deformed and share >= FAR and stuck:
+        if shares is FOLDED_SHARES and share >= FAR and stuck:
             break
-    mesh, pairs = places.mesh, places.found
-    if among is not everywhere:  # what moved may have met what lies farther away
-        elsewhere = (mesh.vertices != before.vertices).any(axis=1)
-        went = _touching(elsewhere, mesh.triangles.T)
-        farther = _crossing(mesh, everywhere | went, monitor, elsewhere)
-        pairs = np.unique(np.concatenate([pairs, farther]), axis=0)
-    if not len(pairs):
-        return mesh, None
-    return mesh, mesh.vertices[mesh.triangles[pairs[0, 0]]].mean(axis=0)
+    return places.mesh, places.found
+
+
+def _depths(mesh: TriangleMesh, pairs: Ints) -> Floats:
+    """(k,) how far pairs of triangles that cross reach through each other's planes, mm."""
+    corners = mesh.vertices[mesh.triangles[pairs]]
+    result = np.full(len(pairs), np.inf)
+    for one, other in ((0, 1), (1, 0)):
+        a, b, c = (corners[:, other, k] for k in range(3))
+        normal = np.cross(b - a, c - a)
+        normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+        height = np.einsum("nij,nj->ni", corners[:, one] - a[:, None], normal)
+        reach = np.minimum(height.max(axis=1), -height.min(axis=1))
+        result = np.minimum(result, reach)
+    return result
 
 
 class _Places:
@@ -162,9 +194,9 @@ class _Places:
         near, corners = np.zeros(len(mesh.vertices), bool), np.ascontiguousarray(mesh.triangles.T)
         near[mesh.triangles[pairs]] = True
         for _ in range(MOST_RINGS):
-            near[mesh.triangles[_touching(near, corners)]] = True
+            near[mesh.triangles[touching(near, corners)]] = True
         near[mesh.triangles[among]] = True
-        inside = _touching(near, corners)
+        inside = touching(near, corners)
         free = np.ones(len(mesh.vertices), bool)
         free[mesh.triangles[~inside]] = False
         return cls(mesh, np.flatnonzero(inside), pairs, free, monitor)
@@ -232,7 +264,7 @@ class _Places:
         return np.asarray(level > 0, np.bool_)
 
     def _touching(self, near: Bools) -> Bools:
-        return _touching(near, self._corners)
+        return touching(near, self._corners)
 
     def _mesh_of(self, vertices: Floats) -> TriangleMesh:
         return TriangleMesh(vertices, self._triangles)
@@ -266,77 +298,6 @@ def _ends(mesh: TriangleMesh, rows: Ints) -> tuple[Floats, Floats]:
     return corners.min(axis=1), corners.max(axis=1)
 
 
-def turning_back(mesh: TriangleMesh, deformed: bool = False) -> Bools:
-    """(m,) the triangles that have a corner at an edge where the surface turns back on itself.
-
-    Where it is deformed, also those at sharp edges that stick out.
-    """
-    size = len(mesh.vertices)
-    corners, columns = mesh.triangles.T, mesh.vertices.T
-    # At both ends of such an edge two of the normals nearly cancel out, and so their sum is short.
-    # For that they need not be known well, and half as long numbers take half the memory.
-    length, count = np.zeros(size), np.zeros(size, np.int32)
-    for along in _rough_normals(columns, corners):
-        total = np.zeros(size)
-        for corner in corners:
-            total += np.bincount(corner, along, size)
-        length += np.square(total, out=total)
-    for corner in corners:
-        count += np.bincount(corner, minlength=size)
-    least = STICKS_OUT if deformed else TURNS_BACK
-    sharp = np.sqrt(length) <= count - 2.0 + np.sqrt(2.0 + 2.0 * least) + ROUGHNESS * count
-    rows = np.flatnonzero(sum(sharp[corner].view(np.int8) for corner in corners) > 1)
-    normal = _unit_normals(columns, corners[:, rows])
-    start = mesh.triangles[rows].astype(np.int64)
-    end = np.roll(start, -1, axis=1)
-    side = np.flatnonzero((sharp[start] & sharp[end]).ravel())
-    apex = np.roll(start, -2, axis=1).ravel()[side]
-    start, end, owner = start.ravel()[side], end.ravel()[side], side // 3
-    edge = np.minimum(start, end) * np.int64(size) + np.maximum(start, end)
-    order = np.argsort(edge)
-    same = edge[order[1:]] == edge[order[:-1]]
-    side, other = order[:-1][same], order[1:][same]
-    one, two = owner[side], owner[other]
-    cosine = sum(along[one] * along[two] for along in normal)
-    turned = cosine < TURNS_BACK
-    if deformed:
-        beyond = mesh.vertices[apex[other]] - mesh.vertices[start[side]]
-        sticks_out = sum(along[one] * beyond[:, k] for k, along in enumerate(normal)) < 0.0
-        turned |= (cosine < STICKS_OUT) & sticks_out
-    near = np.zeros(size, bool)
-    near[mesh.triangles[rows[one[turned]]]] = True
-    near[mesh.triangles[rows[two[turned]]]] = True
-    return _touching(near, corners)
-
-
-def _rough_normals(columns: Floats, corners: NDArray[np.int32]) -> NDArray[np.float32]:
-    """(3, m) the unit normals of triangles, (3, m), of vertices (3, n), to single precision."""
-    normal = np.empty(corners.shape, np.float32)
-
-    def block(start: int) -> None:
-        part = slice(start, start + BLOCK_TRIANGLES)
-        normal[:, part] = _unit_normals(columns, np.ascontiguousarray(corners[:, part]))
-
-    for _ in in_threads(block, range(0, corners.shape[1], BLOCK_TRIANGLES)):
-        pass
-    return normal
-
-
-def _unit_normals(columns: Floats, corners: NDArray[np.int32]) -> list[Floats]:
-    """Three of (m,): the normals of triangles, (3, m), of length 1, axis by axis."""
-    a, b, c = ([column[corner] for column in columns] for corner in corners)
-    e, f = ([q[k] - a[k] for k in range(3)] for q in (b, c))
-    normal = [e[i] * f[j] - e[j] * f[i] for i, j in ((1, 2), (2, 0), (0, 1))]
-    length = np.maximum(np.sqrt(sum(along * along for along in normal)), 1e-300)
-    return [along / length for along in normal]
-
-
-def _touching(near: Bools, corners: NDArray[np.int32]) -> Bools:
-    """(m,) which of the triangles, (3, m), have a corner among the near vertices."""
-    a, b, c = (near[corner] for corner in corners)
-    return np.asarray(a | b | c, np.bool_)
-
-
 def _crossing(
     mesh: TriangleMesh, among: Bools, monitor: Monitor, moved: Bools | None = None
 ) -> Ints:
@@ -346,13 +307,13 @@ def _crossing(
     """
     near = np.zeros(len(mesh.vertices), bool)
     near[mesh.triangles[among]] = True
-    rows = np.flatnonzero(_touching(near, mesh.triangles.T))
+    rows = np.flatnonzero(touching(near, mesh.triangles.T))
     if not len(rows):
         return np.zeros((0, 2), np.int64)
     step = decimal_step(mesh.vertices)
     part = compact(TriangleMesh(mesh.vertices, mesh.triangles[rows]))
     # Neither rounding moves a coordinate by more than a step: few pairs need an exact look, twice.
-    wanted = None if moved is None else _touching(moved, mesh.triangles[rows].T)
+    wanted = None if moved is None else touching(moved, mesh.triangles[rows].T)
     close = pairs_at_planes(part, step, monitor, wanted)
     found = [
         piercing_among(TriangleMesh(vertices, part.triangles), close)

@@ -12,11 +12,12 @@ from volfrep.grid.node_frames import node_frames
 from volfrep.grid.strut_graph import cell_graph
 from volfrep.lattice.assembly import coordinates, facets, lay_out
 from volfrep.lattice.deform import deform
-from volfrep.lattice.strut_binding import STRUT, bind
+from volfrep.lattice.strut_binding import STRUT, bind, corner_turns
 from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.octants.octant import OctantKey, octant_grid
 from volfrep.octants.octant_mesh import mesh_octants, octant_spec
 from volfrep.octants.sdf import distances, spheres, struts
+from volfrep.spatial.piercing import piercing_pairs
 from volfrep.util.errors import VolfrepError
 from volfrep.util.progress import Monitor
 
@@ -40,11 +41,17 @@ class Laid:
             if len(place) and len(self.layout.octants[key].vertices)
         }
 
-    def brought(self, points=None, radius=RADIUS):
-        """The vertices on struts of a radius, or of one for each node, between given places."""
-        nodes = self.graph.nodes
+    def brought(self, points=None, radius=RADIUS, stretch=None):
+        """The vertices on struts of a radius, or of one for each node, between given places.
+
+        Or between places that the cells' stretch along x, y and z gives.
+        """
+        nodes, bends = self.graph.nodes, None
+        if stretch is not None:
+            points = nodes * stretch
+            bends = np.broadcast_to(np.diag(stretch), (len(nodes), 3, 3))
         radii = np.broadcast_to(np.asarray(radius, float), len(nodes)).copy()
-        made = node_frames(self.graph, nodes if points is None else points, radii, SIZE)
+        made = node_frames(self.graph, nodes if points is None else points, radii, SIZE, bends)
         return deform(
             self.layout, self.bindings, self.cell, made, identity_map(SIZE), 0.0, Monitor()
         )
@@ -114,6 +121,30 @@ def test_moved_nodes_take_their_vertices_along(laid):
     on_struts = np.linalg.norm(moved - first - shift, axis=1)
     # What lies in space (corners of caps) is of the map and not of the nodes.
     assert np.mean(on_struts < 1e-9) > 0.99
+
+
+@pytest.mark.parametrize("stretch", [1.5, 2.5])
+def test_no_facets_cross_where_creases_meet_elsewhere_between_struts(stretch):
+    """Octet's struts close up where cells are stretched: 8 facets folded at every such corner."""
+    octet = Laid(LIBRARY["Octet"])
+    vertices = octet.brought(stretch=(stretch, 1.0, 1.0)).vertices
+    assert not len(piercing_pairs(octet.mesh(vertices)))
+
+
+def test_the_corner_of_three_creases_is_found_from_their_struts():
+    up, right, aside = np.array([[0.0, 0.0, 1.0]]), np.array([[0.0, 1.0, 1.0]]), (1.0, 0.0, 1.0)
+
+    def found(*left, others=((0.0, 0.0, 1.0),)):
+        directions = np.array([others])
+        present = np.ones(directions.shape[:2], bool)
+        return corner_turns(up, np.array([left]), right, up, directions, present)[0]
+
+    assert found(*aside) == pytest.approx(0.5)
+    # A strut that lies nearer to the own one reaches farther along it, and round it.
+    assert 0.5 < found(1.0, 0.0, 9.0) < 1.0
+    # Another one hides the place; of three struts in one plane the creases do not meet.
+    assert found(*aside, others=((0.5, 0.5, np.sqrt(0.5)),)) == 0.0
+    assert found(0.0, -1.0, 1.0) == 0.0
 
 
 def test_struts_that_grow_into_each_other_are_refused(laid):

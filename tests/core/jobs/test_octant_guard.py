@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What is told of octants before they are laid."""
+
+import numpy as np
+import pytest
+
+from volfrep import LatticeSpec
+from volfrep.jobs.blocks import block
+from volfrep.jobs.octant_guard import TOLD, straying
+from volfrep.octants import sdf
+from volfrep.octants.octant import octant_grid, octant_primitives
+from volfrep.octants.octant_mesh import mesh_octants, octant_spec
+from volfrep.util.progress import Monitor
+
+SIZE = 10.0
+
+
+def meshed(cell, radius, **options):
+    spec = LatticeSpec(cell, SIZE, radius, **options)
+    wanted = octant_spec(SIZE, spec.struts, spec.detail)
+    grid = octant_grid(spec.unit_cell(), np.ones((1, 1, 1), bool), SIZE, np.zeros(3))
+    return spec, wanted, mesh_octants(spec.unit_cell(), wanted, grid.keys, Monitor())
+
+
+@pytest.mark.parametrize(("cell", "is_told"), [("CVC", False), ("Weaire-Phelan", True)])
+def test_facets_that_stray_farther_than_promised_are_told_by_how_much(cell, is_told):
+    spec, wanted, octants = meshed(cell, 1.0)
+    farthest = 0.0
+    random = np.random.default_rng(0)
+    for key, octant in octants.items():
+        if not len(octant.triangles):
+            continue
+        weights = random.dirichlet(np.ones(3), (60, 1))
+        corners = octant.vertices[octant.triangles]
+        points = (weights[..., None] * corners[None]).sum(axis=2).reshape(-1, 1, 3)
+        exact = octant_primitives(spec.unit_cell(), key, SIZE, 1.0, wanted.reach)
+        off = np.abs(sdf.union(sdf.distances(points, exact), 0.0)).max()
+        assert off <= 1.1 * octant.stray
+        farthest = max(farthest, off)
+    told = straying(octants, wanted)
+    assert bool(told) is is_told
+    assert bool(farthest > TOLD * wanted.deviation) is is_told
+    if is_told:
+        most = max(octant.stray for octant in octants.values())
+        assert f"by up to {most:.2g} mm" in told[0]
+        assert most == pytest.approx(farthest, rel=0.25)
+        assert told[0] in block(spec, (1, 1, 1)).report.warnings
+
+
+def test_fillets_have_no_distances_to_tell():
+    _, wanted, octants = meshed("CVC", 0.8, fillet=0.6)
+    assert not straying(octants, wanted)

@@ -64,6 +64,8 @@ EXPECTED_TRIANGLES, EXPECTED_SQUARES, LARGE = 40_000, 4_000.0, 0.05
 NEAR_STRUT, NEAR_WALL, WRONG = 0.25, 0.1, 0.01
 #: Triangles up to which crossings are looked for.
 MOST_TRIANGLES = 400_000
+#: After so many jobs, a line on the standard error says how far it is.
+PROGRESS = 100
 
 
 def random_solid(rng: np.random.Generator) -> tuple[TriangleMesh, list[str]]:
@@ -412,7 +414,7 @@ def _import_all() -> None:
 
 
 def main() -> int:
-    """Run jobs for so many minutes; tell faults as they come, and counts at the end."""
+    """Run jobs for so many minutes; tell faults as they come, counts on the way and at the end."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--minutes", type=float, default=5.0)
     parser.add_argument("--seed", type=int, default=None, help="default: of the clock")
@@ -437,6 +439,9 @@ def main() -> int:
             faults += 1
             print(json.dumps(told, default=str), flush=True)
         number += 1
+        if (number - options.first) % PROGRESS == 0:
+            counts = f"{made} made, {refused} refused, {faults} faults"
+            print(f"seed {seed}: to job {number - 1}, {counts}", file=sys.stderr, flush=True)
     print(
         f"seed {seed}: jobs {options.first} to {number - 1}, {made} made, {refused} refused, "
         f"{judged:,} points judged, {shallow} with triangles that cross within rounding, "

@@ -14,8 +14,7 @@ from functools import partial
 import numpy as np
 
 from ..mesh import remesh
-from ..mesh.float32_repair import merging
-from ..mesh.precision import decimal_step
+from ..mesh.precision import decimal_step, merging
 from ..mesh.triangle_mesh import TriangleMesh
 from ..octants.octant import Octant
 from ..spatial.turns import STICKS_OUT, turning_back

@@ -11,17 +11,16 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from ..util.ragged import rows_of
 from ..util.types import Bools, Ints
 from . import remesh
-from .precision import decimal_step, rounded
+from .precision import merging_vertices
 from .triangle_mesh import TriangleMesh, compact
 
 #: Edges shorter than this many steps of float32 at the mesh's farthest coordinate are removed.
 STEPS = 16
 #: Passes over the edges: each takes those that do not touch each other.
 PASSES = 8
-#: Points whose hashes are found at a time.
-HASHED_ROWS = 1 << 16
 #: Triangles looked at at a time.
 BLOCK_TRIANGLES = 1 << 15
 
@@ -161,6 +160,8 @@ def _without(
     used, local = np.unique(triangles[part], return_inverse=True)
     moved, kept, inner = _collapse(points[used], local.reshape(-1, 3).astype(np.int64), tolerance)
     inner, flipped = _flip_slivers(moved, inner, tolerance)
+    if not flipped and len(kept) == len(used):
+        moved, kept, inner = _close_slivers(moved, inner, tolerance)
     stay = used[kept]
     piece = inner.astype(np.int32)
     if passes > 1 and (flipped or len(stay) < len(used)):
@@ -192,17 +193,32 @@ def _collapse(
     points: NDArray[np.float64], triangles: Ints, tolerance: float
 ) -> tuple[NDArray[np.float64], Ints, Ints]:
     """An open piece of mesh, collapsed within its border: points, which they were, triangles."""
-    table = remesh.edges(triangles, len(points))
-    rank = np.zeros(len(points), np.int64)
+    rank = _at_border(triangles, len(points))
+    rules = _rules(rank, lambda a, b: _keeps_side(a, b, tolerance))
+    points, triangles, renumber = remesh.collapse(points, triangles, rules, tolerance, np.inf)
+    return points, np.flatnonzero(renumber >= 0), triangles
+
+
+def _at_border(triangles: Ints, count: int) -> Ints:
+    """(count,) 1 for the vertices at the border of an open piece of mesh, 0 for the others."""
+    table = remesh.edges(triangles, count)
+    rank = np.zeros(count, np.int64)
     rank[table.ends[table.triangles[:, 1] < 0]] = 1
+    return rank
+
+
+def _rules(
+    rank: Ints,
+    stays_good: Callable[[NDArray[np.float64], NDArray[np.float64]], Bools],
+    merge: Callable[[Ints, Ints], tuple[NDArray[np.float64], NDArray[np.float64]]] | None = None,
+) -> remesh.Rules:
+    """What may be collapsed: all but vertices of the border, which stay where they are."""
 
     def is_free(gone: Ints, _: Ints) -> Bools:
         free: Bools = rank[gone] == 0
         return free
 
-    rules = remesh.Rules(rank, is_free, _none, lambda a, b: _keeps_side(a, b, tolerance))
-    points, triangles, renumber = remesh.collapse(points, triangles, rules, tolerance, np.inf)
-    return points, np.flatnonzero(renumber >= 0), triangles
+    return remesh.Rules(rank, is_free, _none, stays_good, merge)
 
 
 def _flip_slivers(
@@ -225,6 +241,61 @@ def _flip_slivers(
     return remesh.flip(points, triangles, gain, _none)
 
 
+def _close_slivers(
+    points: NDArray[np.float64], triangles: Ints, tolerance: float
+) -> tuple[NDArray[np.float64], Ints, Ints]:
+    """As `_collapse`, of slivers that no flip helps, such as some in a row along a crease.
+
+    The corner that lies on the edge opposite to it is merged into the nearer end of that edge, if
+    this lies in the planes of all other facets about the corner: the surface stays.
+    """
+    count = len(points)
+    rank = _at_border(triangles, count)
+    thin = triangles[_slivers(points, triangles.astype(np.int32), tolerance)]
+    corners, row = points[thin], np.arange(len(thin))
+    opposite = np.linalg.norm(np.roll(corners, -1, axis=1) - np.roll(corners, 1, axis=1), axis=2)
+    middle = opposite.argmax(axis=1)
+    one, two = (middle + 1) % 3, (middle + 2) % 3
+    nearer = np.where(opposite[row, two] <= opposite[row, one], one, two)
+    inner = rank[thin[row, middle]] == 0
+    gone, kept = thin[row, middle][inner], thin[row, nearer][inner]
+    start, around = remesh.grouped(
+        triangles.ravel(), np.repeat(np.arange(len(triangles)), 3), count
+    )
+    rows, owner = rows_of(start, gone)
+    facets = points[triangles[around[rows]]]
+    way = points[kept[owner]] - points[gone[owner]]
+    off = np.abs((remesh.unit_normals(facets) * way).sum(axis=1))
+    off[_is_thin(facets, tolerance)] = 0.0  # it has no plane
+    farthest = np.zeros(len(gone))
+    np.maximum.at(farthest, owner, off)
+    flat = farthest < tolerance
+    if not flat.any():
+        return points, np.arange(count), triangles
+    gone, kept, farthest = gone[flat], kept[flat], farthest[flat]
+    edge, first = np.unique(_edge_names(gone, kept, count), return_index=True)
+
+    def merge(a: Ints, b: Ints) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        name = _edge_names(a, b, count)
+        place = np.minimum(np.searchsorted(edge, name), len(edge) - 1)
+        cost = np.where(edge[place] == name, farthest[first[place]], np.inf)
+        return cost, points[kept[first[place]]]
+
+    def good(old: NDArray[np.float64], new: NDArray[np.float64]) -> Bools:
+        before, after = _height(*old.swapaxes(0, 1)), _height(*new.swapaxes(0, 1))
+        return (after >= np.minimum(before, tolerance)) & _keeps_side(old, new, tolerance)
+
+    rules = _rules(rank, good, merge)
+    points, triangles, renumber = remesh.collapse(points, triangles, rules, np.inf, np.inf)
+    return points, np.flatnonzero(renumber >= 0), triangles
+
+
+def _edge_names(a: Ints, b: Ints, count: int) -> Ints:
+    """(k,) a number for each edge between two of `count` vertices, whichever end comes first."""
+    name: Ints = np.minimum(a, b) * np.int64(count) + np.maximum(a, b)
+    return name
+
+
 def _height(
     a: NDArray[np.float64], b: NDArray[np.float64], c: NDArray[np.float64]
 ) -> NDArray[np.float64]:
@@ -244,9 +315,14 @@ def _none(one: Ints, two: Ints) -> Bools:
 def _keeps_side(old: NDArray[np.float64], new: NDArray[np.float64], tolerance: float) -> Bools:
     """Whether triangles keep their side; a sliver as thin as the tolerance has none to keep."""
     before, after = remesh.normals(old), remesh.normals(new)
-    longest = np.linalg.norm(old - np.roll(old, 1, axis=1), axis=2).max(axis=1)
-    thin = np.linalg.norm(before, axis=1) < 4.0 * tolerance * longest
-    result: Bools = thin | (np.einsum("ij,ij->i", before, after) > 0.0)
+    result: Bools = _is_thin(old, tolerance) | (np.einsum("ij,ij->i", before, after) > 0.0)
+    return result
+
+
+def _is_thin(corners: NDArray[np.float64], tolerance: float) -> Bools:
+    """Whether triangles (m, 3, 3) are so thin that their normals may be anything."""
+    a, b, c = corners.swapaxes(0, 1)
+    result: Bools = _height(a, b, c) < 4.0 * tolerance
     return result
 
 
@@ -283,58 +359,3 @@ def separate_vertices(mesh: TriangleMesh, precision: float) -> TriangleMesh:
         vertices[twins] -= total * (reach / length)[:, None]
         mesh = TriangleMesh(vertices, mesh.triangles)
     return mesh
-
-
-def merging_vertices(mesh: TriangleMesh) -> Ints:
-    """The vertices that a reader of a file would take for one with another, such together.
-
-    A binary file holds the nearest float32 of every coordinate, a text the nearest decimal.
-    """
-    return merging(mesh.vertices, decimal_step(mesh.vertices))
-
-
-def merging(vertices: NDArray[np.float64], step: float) -> Ints:
-    """`merging_vertices` among points (n, 3), where the decimals of a text resolve a step in mm."""
-
-    def binary(part: slice | Ints) -> NDArray[np.float32]:
-        return vertices[part].astype(np.float32)
-
-    def text(part: slice | Ints) -> NDArray[np.float32]:
-        return rounded(vertices[part], step).astype(np.float32)
-
-    twins = _twins(binary, len(vertices))
-    return twins if len(twins) else _twins(text, len(vertices))
-
-
-def _twins(rows: Callable[[slice | Ints], NDArray[np.float32]], size: int) -> Ints:
-    """Indices of the points that share all their coordinates with another one, twins together."""
-    # Sorted by their hashes, which are made twice rather than held beside their order.
-    key = _hashes(rows, size)
-    key.sort()
-    shared_keys = key[1:][key[1:] == key[:-1]]
-    if not len(shared_keys):
-        return np.zeros(0, np.int64)
-    index = np.flatnonzero(np.isin(_hashes(rows, size), shared_keys))
-    points = rows(index)
-    _, inverse, count = np.unique(
-        points + np.float32(0.0), axis=0, return_inverse=True, return_counts=True
-    )
-    inverse = inverse.ravel()
-    shared = count[inverse] > 1
-    twins: Ints = index[shared][np.argsort(inverse[shared], kind="stable")]
-    return twins
-
-
-def _hashes(rows: Callable[[slice | Ints], NDArray[np.float32]], count: int) -> NDArray[np.uint64]:
-    """(count,) a number for each point, equal where the coordinates are."""
-    key = np.empty(count, np.uint64)
-    for start in range(0, count, HASHED_ROWS):
-        part = slice(start, min(start + HASHED_ROWS, count))
-        # Zero has two signs and is one number.
-        x, y, z = (rows(part) + np.float32(0.0)).view(np.uint32).astype(np.uint64).T
-        with np.errstate(over="ignore"):
-            mixed = x * np.uint64(0x9E3779B97F4A7C15)
-            mixed ^= y * np.uint64(0xC2B2AE3D27D4EB4F)
-            mixed += (z << np.uint64(32)) ^ (z * np.uint64(0x165667B19E3779F9))
-        key[part] = mixed
-    return key

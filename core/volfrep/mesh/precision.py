@@ -4,15 +4,16 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..util.errors import VolfrepError
+from ..util.types import Ints
 from .triangle_mesh import TriangleMesh
 
-#: Triangles looked at, or lines of text made, in one step (bounds the memory).
+#: Triangles or points looked at, or lines of text made, in one step (bounds the memory).
 BLOCK_ROWS = 1 << 16
 
 
@@ -73,3 +74,58 @@ def lines(template: str, blocks: Iterable[NDArray[np.generic]]) -> Iterator[byte
         for start in range(0, len(values), BLOCK_ROWS):
             block = values[start : start + BLOCK_ROWS]
             yield ((template * len(block)) % tuple(block.ravel().tolist())).encode("ascii")
+
+
+def merging_vertices(mesh: TriangleMesh) -> Ints:
+    """The vertices that a reader of a file would take for one with another, such together.
+
+    A binary file holds the nearest float32 of every coordinate, a text the nearest decimal.
+    """
+    return merging(mesh.vertices, decimal_step(mesh.vertices))
+
+
+def merging(vertices: NDArray[np.float64], step: float) -> Ints:
+    """`merging_vertices` among points (n, 3), where the decimals of a text resolve a step in mm."""
+
+    def binary(part: slice | Ints) -> NDArray[np.float32]:
+        return vertices[part].astype(np.float32)
+
+    def text(part: slice | Ints) -> NDArray[np.float32]:
+        return rounded(vertices[part], step).astype(np.float32)
+
+    twins = _twins(binary, len(vertices))
+    return twins if len(twins) else _twins(text, len(vertices))
+
+
+def _twins(rows: Callable[[slice | Ints], NDArray[np.float32]], size: int) -> Ints:
+    """Indices of the points that share all their coordinates with another one, twins together."""
+    # Sorted by their hashes, which are made twice rather than held beside their order.
+    key = _hashes(rows, size)
+    key.sort()
+    shared_keys = key[1:][key[1:] == key[:-1]]
+    if not len(shared_keys):
+        return np.zeros(0, np.int64)
+    index = np.flatnonzero(np.isin(_hashes(rows, size), shared_keys))
+    points = rows(index)
+    _, inverse, count = np.unique(
+        points + np.float32(0.0), axis=0, return_inverse=True, return_counts=True
+    )
+    inverse = inverse.ravel()
+    shared = count[inverse] > 1
+    twins: Ints = index[shared][np.argsort(inverse[shared], kind="stable")]
+    return twins
+
+
+def _hashes(rows: Callable[[slice | Ints], NDArray[np.float32]], count: int) -> NDArray[np.uint64]:
+    """(count,) a number for each point, equal where the coordinates are."""
+    key = np.empty(count, np.uint64)
+    for start in range(0, count, BLOCK_ROWS):
+        part = slice(start, min(start + BLOCK_ROWS, count))
+        # Zero has two signs and is one number.
+        x, y, z = (rows(part) + np.float32(0.0)).view(np.uint32).astype(np.uint64).T
+        with np.errstate(over="ignore"):
+            mixed = x * np.uint64(0x9E3779B97F4A7C15)
+            mixed ^= y * np.uint64(0xC2B2AE3D27D4EB4F)
+            mixed += (z << np.uint64(32)) ^ (z * np.uint64(0x165667B19E3779F9))
+        key[part] = mixed
+    return key

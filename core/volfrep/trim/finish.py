@@ -12,12 +12,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..mesh.float32_repair import (
-    edge_within,
-    merging_vertices,
-    separate_vertices,
-    without_slivers,
-)
+from ..mesh.float32_repair import edge_within, separate_vertices, without_slivers
+from ..mesh.precision import merging_vertices
 from ..mesh.quality import Quality
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..spatial.self_intersection import about, crossing_triangles

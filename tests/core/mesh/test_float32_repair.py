@@ -50,6 +50,52 @@ def test_a_flat_triangle_is_flipped_away():
     assert quality.shape_statistics(clean).smallest_angle > 1.0
 
 
+def with_a_sliver_in_a_row():
+    """A prism with a sliver at a sharp edge, the facets on both sides of which are slender, too."""
+    outline = np.array([[0, 0], [0.004, -1e-5], [0.88, 0], [0.8844, 9e-5], [1, 1], [0, 1]])
+    count = len(outline)
+    at = np.arange(count)
+    fan = np.array([[0, k, k + 1] for k in range(1, count - 1)])
+    after = np.roll(at, -1)
+    sides = [[at, at + count, after], [after, at + count, after + count]]
+    triangles = [fan[:, ::-1], fan + count, *(np.stack(side, axis=1)[:, ::-1] for side in sides)]
+    points = np.concatenate([np.column_stack([outline, np.full(count, z)]) for z in (0.0, 1.0)])
+    return TriangleMesh(points, np.concatenate(triangles).astype(np.int32))
+
+
+def smallest_height(mesh):
+    corners = mesh.vertices[mesh.triangles]
+    sides = corners - np.roll(corners, 1, axis=1)
+    twice = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1)
+    return (twice / np.linalg.norm(sides, axis=2).max(axis=1)).min()
+
+
+def test_a_sliver_that_no_flip_helps_is_closed_along_its_edge():
+    mesh = with_a_sliver_in_a_row()
+    assert quality.measure(mesh).watertight
+    assert mesh.volume > 0
+    assert smallest_height(mesh) < 2e-5
+    clean = remove_slivers(mesh, 6e-5)
+    found = quality.measure(clean)
+    assert found.watertight
+    assert found.genus == 0
+    assert smallest_height(clean) > 6e-5
+    assert len(clean.vertices) == len(mesh.vertices) - 2
+    assert clean.volume == pytest.approx(mesh.volume, abs=1e-5)
+
+
+def test_a_sliver_stays_where_closing_it_would_move_the_surface():
+    mesh = with_a_sliver_in_a_row()
+    # A ridge begins at the sliver's middle, and not at an end.
+    ridge = mesh.vertices.copy()
+    ridge[7, 1] = -0.5
+    bent = TriangleMesh(ridge, mesh.triangles)
+    clean = remove_slivers(bent, 6e-5)
+    assert quality.measure(clean).watertight
+    assert clean.volume == pytest.approx(bent.volume, abs=1e-5)
+    assert clean.bounds == pytest.approx(bent.bounds, abs=1e-9)
+
+
 def test_a_good_mesh_is_left_as_it_is():
     mesh = samples.sphere(10.0, 3)
     assert remove_slivers(mesh, 1e-4) is mesh

@@ -20,6 +20,7 @@ from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 from ..util.subprocesses import run_program
 from ..util.types import Bools, Floats, Ints
+from .facet_grading import graded
 
 #: A solver needs about 50 kB for each of these: more are not a job for tetrahedra.
 MAX_TRIANGLES = 200_000
@@ -104,7 +105,8 @@ class TetrahedralMesh:
 def tetrahedra(mesh: TriangleMesh, monitor: Monitor | None = None) -> TetrahedralMesh:
     """Fill a closed mesh with tetrahedra whose outer faces are its triangles.
 
-    Needles and caps, as a cut leaves them, are mended first, with little about them.
+    Needles and caps, as a cut leaves them, are mended first, with little about them, and facets
+    that are large beside those near them are divided.
 
     Args:
         mesh: closed, mm.
@@ -124,7 +126,9 @@ def tetrahedra(mesh: TriangleMesh, monitor: Monitor | None = None) -> Tetrahedra
             f"(the limit is {MAX_TRIANGLES:,}): choose a coarser deviation or fewer cells, or "
             "solve it with beams."
         )
-    surface, moved = mended(compact(mesh), monitor or Monitor())
+    monitor = monitor or Monitor()
+    surface, moved = mended(compact(mesh), monitor)
+    surface = monitor.call(lambda: graded(surface))
     brep = faceted_brep(surface)
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)

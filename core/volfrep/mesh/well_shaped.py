@@ -264,8 +264,17 @@ def _longest(corners: Floats) -> Floats:
 
 def _flipped(points: Floats, triangles: Ints, tolerance: Tolerance) -> tuple[Ints, int]:
     """Facets with their edges flipped where that makes the least angle larger; how many were."""
+    poor = np.zeros(len(points), bool)
+    poor[triangles[angles_of(points[triangles]).min(axis=1) < WANTED_ANGLE]] = True
 
     def gain(ends: Ints, corners: Ints) -> Floats:
+        # Most facets are good, and stay: only edges with a poor one are looked at.
+        result = np.full(len(ends), -1.0)
+        rows = np.flatnonzero(poor[ends].all(axis=1) & poor[corners].any(axis=1))
+        result[rows] = gain_of(ends[rows], corners[rows])
+        return result
+
+    def gain_of(ends: Ints, corners: Ints) -> Floats:
         u, v = ends.T
         a, b = corners.T
         old = np.stack([[u, v, a], [v, u, b]]).transpose(2, 0, 1).reshape(-1, 3)

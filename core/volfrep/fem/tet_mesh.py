@@ -13,7 +13,7 @@ import numpy as np
 from ..mesh import remesh
 from ..mesh.brep import FacetedBrep, faceted_brep
 from ..mesh.triangle_mesh import TriangleMesh, compact
-from ..mesh.well_shaped import Tolerance, angles_of, well_shaped
+from ..mesh.well_shaped import Tolerance, angles_of, well_shaped, without_fins
 from ..spatial.proximity import closest_points
 from ..spatial.self_intersection import crossing_triangles
 from ..util.errors import VolfrepError
@@ -167,6 +167,7 @@ def mended(mesh: TriangleMesh, monitor: Monitor) -> tuple[TriangleMesh, float]:
         crossed = monitor.call(lambda: crossing_triangles(better, every, TOUCHING * edge))  # noqa: B023
         if not crossed.any():
             # What folds in the end may still be filled, and needles surely are not.
+            better = without_fins(better, _folded(better))
             best = better, tolerance.usual
             crossed = _folded(better)
             if not crossed.any():

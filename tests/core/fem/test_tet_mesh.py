@@ -150,6 +150,7 @@ def test_what_would_cross_is_not_mended(monkeypatch):
     monkeypatch.setattr(tet_mesh, "TRIES", 1)
     monkeypatch.setattr(tet_mesh, "well_shaped", lambda *_: better)
     with monkeypatch.context() as one:
+        one.setattr(tet_mesh, "without_fins", lambda mesh, _: mesh)
         one.setattr(tet_mesh, "_folded", lambda _: np.ones(len(better.triangles), bool))
         assert mended(mesh, Monitor()) == (better, moved), "needles are worse"
     monkeypatch.setattr(tet_mesh, "crossing_triangles", lambda _, among, depth: among)

@@ -32,6 +32,8 @@ lattice_infill  choose_walls            panel_6_walls        walls_panel
 lattice_infill  choose_walls            walls_made           walls_made
 sizing          size_and_take           sizing_2_plot        sizing_plot
 sizing          size_and_take           sizing_2_sized       size_lattice
+sizing          size_a_network          network_3_sized      network_sized
+sizing          size_a_network          network_5_mesh       network_made
 sizing          show_results            results_deformed     strut_results
 "
 rows() { grep -E "$only" <<<"$PICTURES"; }

@@ -54,6 +54,13 @@ def reports():
     return [window for window in found if window.isVisible()]
 
 
+def network():
+    """A beam of Voronoi edges, held and loaded as that of cells is."""
+    return loaded(
+        Network="Voronoi", NetworkPoints=20, StrutRadius=0.8, ShellThickness=0.8, Resolution=10
+    )
+
+
 def open_panel(obj):
     select(obj)
     click(toolbar_button("Size Lattice"))
@@ -105,6 +112,46 @@ def size_and_take(doc, obj):
     doc.undo()
     doc.recompute()
     check("which is taken back", (obj.Mesh.CountFacets, obj.Volume.Value) == before)
+
+
+def size_a_network(doc, obj):
+    """A random network is sized by clicks as cells are, and its radii stored on its own nodes."""
+    struts = obj.Struts
+    select(obj)
+    picture("network_1_selected")
+    open_panel(obj)
+    picture("network_2_panel")
+    click(part("Prove"))
+    click(part("Size"))
+    found = wait_until(lambda: part("Said").text() != "", 90)
+    figures["least mass of a network"] = part("Said").text()
+    check("limits are held", found and "hold all limits" in part("Said").text(),
+          part("Said").text())  # fmt: skip
+    rows = part("Steps", QtGui.QTableWidget).rowCount()
+    check("nothing is sought below the least radius", rows < 30, rows)
+    goal = part("Goal", QtGui.QComboBox)
+    goal.setCurrentIndex(goal.findData("stiffness"))
+    settle()
+    click(part("Size"))
+    found = wait_until(lambda: "times as stiff" in part("Said").text(), 90)
+    check("it says what was found", found, part("Said").text())
+    figures["said of a network"] = part("Said").text()
+    check("the struts are shown", dock() is not None)
+    picture("network_3_sized")
+    figures["shades of a network"] = shades("network_3_sized", view_3d())
+    check("in colours", figures["shades of a network"] > 200, figures["shades of a network"])
+    answer_panel("OK")
+    check("the panel closes", wait_until(lambda: sizing_panel() is None, 90))
+    settle()
+    check("it is up to date", obj.Status == "Up to date", obj.Status)
+    check("its struts are the same", obj.Struts == struts, (obj.Struts, struts))
+    check("with radii of their own", obj.RadiusGrading == "Field" and len(obj.SizedRadii) > 10)
+    check("in one piece", obj.Bodies == 1, obj.Bodies)
+    check("a report opens", len(reports()) == 1)
+    picture("network_4_taken")
+    reports()[0].close()
+    settle()
+    picture("network_5_mesh")
 
 
 def colour_the_preview(obj):
@@ -284,6 +331,7 @@ run_checks(
     "sizing",
     {
         size_and_take: loaded,
+        size_a_network: network,
         cancel_the_panel: loaded,
         escape_keeps_the_best: lambda: loaded((120, 40, 40)),
         show_results: loaded,

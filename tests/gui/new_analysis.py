@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A lattice beam and two analyses of it: what scripts about loads begin with."""
+"""A beam of cells or of a network and two analyses of it: what scripts about loads begin with."""
 
 import FreeCAD as App
 import ObjectsFem
@@ -15,8 +15,15 @@ TITANIUM = {
 }
 
 
-def loaded(size=(60, 20, 20), cell=10, shell=0.0):
-    """A document with a lattice beam, held at one end, and two analyses of it."""
+def loaded(size=(60, 20, 20), cell=10, shell=0.0, **values):
+    """A document with a lattice beam, held at one end, and two analyses of it.
+
+    Args:
+        size: of the beam, mm.
+        cell: edge of its cells, mm; the struts' radius is 0.08 of it.
+        shell: the skin, mm.
+        values: of the infill's properties, in place of these.
+    """
     from freecad_volfrep import make_lattice_infill
 
     doc = App.newDocument("Sizing")
@@ -24,9 +31,8 @@ def loaded(size=(60, 20, 20), cell=10, shell=0.0):
     box = doc.addObject("Part::Box", "Beam")
     box.Length, box.Width, box.Height = size
     doc.recompute()
-    obj = make_lattice_infill(
-        doc, box, CellType="BCC", CellSize=cell, StrutRadius=0.08 * cell, ShellThickness=shell
-    )
+    usual = {"CellType": "BCC", "CellSize": cell, "StrutRadius": 0.08 * cell}
+    obj = make_lattice_infill(doc, box, **{**usual, "ShellThickness": shell, **values})
     doc.recompute()
     faces = {face.CenterOfMass.x: k + 1 for k, face in enumerate(box.Shape.Faces)}
     edges = enumerate(box.Shape.Edges, 1)

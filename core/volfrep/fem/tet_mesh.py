@@ -13,13 +13,14 @@ import numpy as np
 from ..mesh import remesh
 from ..mesh.brep import FacetedBrep, faceted_brep
 from ..mesh.triangle_mesh import TriangleMesh, compact
-from ..mesh.well_shaped import Tolerance, angles_of, well_shaped
+from ..mesh.well_shaped import Tolerance, angles_of, well_shaped, without_fins
 from ..spatial.proximity import closest_points
 from ..spatial.self_intersection import crossing_triangles
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 from ..util.subprocesses import run_program
 from ..util.types import Bools, Floats, Ints
+from .facet_grading import graded
 
 #: A solver needs about 50 kB for each of these: more are not a job for tetrahedra.
 MAX_TRIANGLES = 200_000
@@ -104,7 +105,8 @@ class TetrahedralMesh:
 def tetrahedra(mesh: TriangleMesh, monitor: Monitor | None = None) -> TetrahedralMesh:
     """Fill a closed mesh with tetrahedra whose outer faces are its triangles.
 
-    Needles and caps, as a cut leaves them, are mended first, with little about them.
+    Needles and caps, as a cut leaves them, are mended first, with little about them, and facets
+    that are large beside those near them are divided.
 
     Args:
         mesh: closed, mm.
@@ -124,7 +126,9 @@ def tetrahedra(mesh: TriangleMesh, monitor: Monitor | None = None) -> Tetrahedra
             f"(the limit is {MAX_TRIANGLES:,}): choose a coarser deviation or fewer cells, or "
             "solve it with beams."
         )
-    surface, moved = mended(compact(mesh), monitor or Monitor())
+    monitor = monitor or Monitor()
+    surface, moved = mended(compact(mesh), monitor)
+    surface = monitor.call(lambda: graded(surface))
     brep = faceted_brep(surface)
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
@@ -163,6 +167,7 @@ def mended(mesh: TriangleMesh, monitor: Monitor) -> tuple[TriangleMesh, float]:
         crossed = monitor.call(lambda: crossing_triangles(better, every, TOUCHING * edge))  # noqa: B023
         if not crossed.any():
             # What folds in the end may still be filled, and needles surely are not.
+            better = without_fins(better, _folded(better))
             best = better, tolerance.usual
             crossed = _folded(better)
             if not crossed.any():

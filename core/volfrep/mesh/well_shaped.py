@@ -110,6 +110,50 @@ def well_shaped(mesh: TriangleMesh, tolerance: Tolerance, shortest: float) -> Tr
     return compact(TriangleMesh(points, triangles.astype(np.int32)))
 
 
+def without_fins(mesh: TriangleMesh, folded: Bools) -> TriangleMesh:
+    """The closed mesh without points that only three facets share which lie on one another.
+
+    Such a point sticks out of the surface in a fin of no thickness: one facet takes the place of
+    its three, and nothing is lost. The mesh itself where there is none.
+
+    Args:
+        mesh: closed.
+        folded: (m,) facets that lie on a neighbour.
+    """
+    triangles = mesh.triangles.astype(np.int64)
+    count = len(mesh.vertices)
+    tip = np.bincount(triangles.ravel(), minlength=count) == 3
+    tip &= np.bincount(triangles[folded].ravel(), minlength=count) == 3
+    tip[triangles[tip[triangles].sum(axis=1) > 1]] = False
+    rows, facet = _around(triangles, tip)
+    # Of a tetrahedron the fourth facet would be left with its own back.
+    whole = ~np.isin(_names(facet, count), _names(triangles, count))
+    if not whole.any():
+        return mesh
+    stays = np.ones(len(triangles), bool)
+    stays[rows[whole].ravel()] = False
+    joined = np.concatenate([triangles[stays], facet[whole]]).astype(np.int32)
+    return compact(TriangleMesh(mesh.vertices, joined))
+
+
+def _around(triangles: Ints, chosen: Bools) -> tuple[Ints, Ints]:
+    """Of each chosen point, which has three facets: their rows, and the one facet about them."""
+    rows, corner = np.nonzero(chosen[triangles])
+    order = np.argsort(triangles[rows, corner], kind="stable")
+    rows, corner = rows[order], corner[order]
+    begin = triangles[rows, (corner + 1) % 3].reshape(-1, 3)
+    end = triangles[rows, (corner + 2) % 3].reshape(-1, 3)
+    # Round the point: what the first facet ends with, another begins with.
+    third = np.where(begin[:, 1] == end[:, 0], end[:, 1], end[:, 2])
+    return rows.reshape(-1, 3), np.stack([begin[:, 0], end[:, 0], third], axis=1)
+
+
+def _names(triangles: Ints, count: int) -> Ints:
+    """A number for the three corners of each facet, whatever their order."""
+    result: Ints = (np.sort(triangles, axis=1) * np.array([count**2, count, 1])).sum(axis=1)
+    return result
+
+
 def _mended(
     points: Floats, triangles: Ints, tolerance: Tolerance, shortest: float, dearer: bool
 ) -> tuple[Floats, Ints, Ints]:
@@ -264,8 +308,17 @@ def _longest(corners: Floats) -> Floats:
 
 def _flipped(points: Floats, triangles: Ints, tolerance: Tolerance) -> tuple[Ints, int]:
     """Facets with their edges flipped where that makes the least angle larger; how many were."""
+    poor = np.zeros(len(points), bool)
+    poor[triangles[angles_of(points[triangles]).min(axis=1) < WANTED_ANGLE]] = True
 
     def gain(ends: Ints, corners: Ints) -> Floats:
+        # Most facets are good, and stay: only edges with a poor one are looked at.
+        result = np.full(len(ends), -1.0)
+        rows = np.flatnonzero(poor[ends].all(axis=1) & poor[corners].any(axis=1))
+        result[rows] = gain_of(ends[rows], corners[rows])
+        return result
+
+    def gain_of(ends: Ints, corners: Ints) -> Floats:
         u, v = ends.T
         a, b = corners.T
         old = np.stack([[u, v, a], [v, u, b]]).transpose(2, 0, 1).reshape(-1, 3)

@@ -29,6 +29,8 @@ _POWERS["frame buckling"] = 4.0
 _STRESSED, _BUCKLED, _CRITERION = 0.35, 0.22, 0.3
 #: What one factor does to a design is believed when it is nearer to 1 than this.
 _NEAR = 1.08
+#: Radii are the least that are allowed within this factor.
+_LOWEST = 1.0 + 1e-6
 #: How a use falls with a node's radius, as it is foreseen; and how far in one step at most.
 _POWER, _FALL = 3.0, 0.6
 #: A design holds its limits when none is used more than this.
@@ -194,7 +196,9 @@ def lightest(
         factor = _factor(found)
         scaled = np.clip(radii * factor, problem.low, problem.high)
         volume = problem.radii.volume(scaled)
-        near = 1.0 / _NEAR < factor < _NEAR
+        # No struts are thinner than all as thin as they may be.
+        least_of_all = bool((radii <= problem.low * _LOWEST).all()) and factor <= 1.0
+        near = 1.0 / _NEAR < factor < _NEAR or least_of_all
         steps.append(Step(volume, float(found.compliance.sum()), dict(found.uses), near))
         if near:
             since = 0 if volume < least * (1.0 - _BETTER) else since + 1
@@ -203,7 +207,7 @@ def lightest(
         if not watch(number, steps[-1]):
             stopped = "cancelled"
             break
-        if since >= _PATIENCE and number >= _FEWEST:
+        if least_of_all or (since >= _PATIENCE and number >= _FEWEST):
             stopped = "converged"
             break
         radii = problem.smoothed(_lighter(problem, found, changes, limits))

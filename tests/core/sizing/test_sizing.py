@@ -162,6 +162,19 @@ def test_a_frequency_is_reached_with_less_mass():
     assert made.analysis.volume < 0.8 * problem.radii.volume(radii)
 
 
+def test_a_search_ends_where_all_radii_are_the_least():
+    """A skin that carries everything leaves nothing to be sized."""
+    problem, radii = cantilever(count=(3, 1, 1))
+    low = np.full(len(radii), 0.7 * radii.min())
+    problem = replace(problem, low=low)
+    thin, _ = analysed(problem, low, Limits(stress=1.0))
+    made = lightest(problem, Limits(stress=100.0 * thin.most_used), radii)
+    assert made.holds
+    assert made.stopped == "converged"
+    assert len(made.steps) < 6
+    assert made.analysis.radii == pytest.approx(low)
+
+
 def test_limits_that_cannot_be_held_are_told():
     problem, radii = cantilever(count=(3, 1, 1))
     made = lightest(problem, Limits(stress=1.0), radii, most_steps=4)

@@ -39,9 +39,8 @@ def crossing_facets(surface: Surface, exact: bool = True) -> Bools:
 
     Exact, for the vertices as octants have them, in whole steps. Next to a face facets may lie in
     one plane, where those that overlap touch as far as anybody can tell; turned with a lattice, or
-    rounded by a file, they cross, and so they are looked at turned and rounded, too. Which of those
-    do that are as good as a line is chance: all of them are told. Otherwise those that stick
-    through others by more than `TOUCHING`.
+    rounded by a file, they cross, and so they are looked at turned and rounded, too. Otherwise
+    those that stick through others by more than `TOUCHING`.
     """
     triangles = surface.triangles.astype(np.int32)
     if not exact:
@@ -50,7 +49,7 @@ def crossing_facets(surface: Surface, exact: bool = True) -> Bools:
         return crossing_triangles(mesh, everywhere, TOUCHING * surface.edge)
     steps = np.rint(surface.vertices * (STEPS / surface.size))
     turned = np.rint(np.stack([along(steps, row) for row in TURN], axis=1))
-    crossing = _flat(surface.vertices[triangles], TOUCHING * surface.edge)
+    crossing = np.zeros(len(triangles), bool)
     for vertices in (steps, turned):
         vertices[:, 0] += 4.0 * STEPS * surface.piece
         crossing[piercing_pairs(TriangleMesh(vertices, triangles))] = True
@@ -74,7 +73,7 @@ def untangled(surface: Surface, home: Floats, exact: bool = True) -> tuple[Surfa
     count, triangles = len(surface.vertices), surface.triangles
     pairs = np.concatenate([triangles[:, :2], triangles[:, 1:], triangles[:, ::2]])
     border = surface.pinned.any(axis=1)
-    crossed = crossing_facets(surface, exact)
+    crossed = _wrong(surface, exact)
     for turn in range(ROUNDS):
         if not crossed.any():
             break
@@ -88,8 +87,17 @@ def untangled(surface: Surface, home: Floats, exact: bool = True) -> tuple[Surfa
         else:
             target = 0.5 * (surface.vertices + home)
         surface = moved(surface, np.where(goes, target, surface.vertices))
-        crossed = crossing_facets(surface, exact)
+        crossed = _wrong(surface, exact)
     return surface, crossed
+
+
+def _wrong(surface: Surface, exact: bool) -> Bools:
+    """(m,) which facets cross, or are as flat as a line.
+
+    Whether such a one beside others that crossed does so, once it is turned and rounded, is chance.
+    """
+    crossing = crossing_facets(surface, exact)
+    return crossing | _flat(surface) if exact else crossing
 
 
 def proper_border(before: Surface, after: Surface) -> Surface:
@@ -159,11 +167,13 @@ def _on_one_side(a: Floats, b: Floats, c: Floats, d: Floats, touch: float) -> Bo
     return result
 
 
-def _flat(corners: Floats, height: float) -> Bools:
-    """(m,) which facets of (m, 3, 3) corners are less high than that over their longest side."""
+def _flat(surface: Surface) -> Bools:
+    """(m,) which facets are less high over their longest side than what only touches."""
+    corners = surface.vertices[surface.triangles]
     longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
-    flat: Bools = np.linalg.norm(remesh.normals(corners), axis=1) < height * longest
-    return flat
+    twice = np.linalg.norm(remesh.normals(corners), axis=1)
+    result: Bools = twice < TOUCHING * surface.edge * longest
+    return result
 
 
 def _apart(surface: Surface) -> Floats:

@@ -113,7 +113,14 @@ def test_a_deck_of_tetrahedra(tmp_path: Path, part: Path) -> None:
     text = out.read_text()
     assert "*ELEMENT,TYPE=C3D10" in text
     assert "*DENSITY\n7.85e-09\n" in text
-    assert len(sets_of(out)["SKIN"]) == 8 + 18
+    rows = re.findall(r"^(\d+),(.+),(.+),(.+)$", text.split("*NODE")[1].split("\n*")[0], re.M)
+    where = {int(number): np.array(place, float) for number, *place in rows}
+    points = np.array(list(where.values()))
+    ends = points.min(axis=0), points.max(axis=0)
+    off = np.minimum(points - ends[0], ends[1] - points)
+    outside = {number for number, away in zip(where, off.min(axis=1), strict=True) if away < 1e-6}
+    assert outside == set(sets_of(out)["SKIN"])
+    assert (np.sort(off, axis=1)[:, 2] < 1e-6).sum() == 8  # the corners
 
 
 @needs_freecad

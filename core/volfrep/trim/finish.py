@@ -84,11 +84,10 @@ def finished(
     mesh = surface.mesh
     apart = separate_vertices(mesh, edge_within(quality.bounds))
     if apart is not mesh:
-        after = replace(surface, mesh=apart)
-        wider = _with_reached(surface, after, monitor)
+        wider = _with_reached(surface, apart, monitor)
         if wider is not surface:
             return finished(wider, quality, monitor, moved, cut)
-        surface = after
+        surface = replace(surface, mesh=apart)
         again = surface.inspected(monitor).found.quality
         if abs(again.volume - quality.volume) > MOST_MOVED * abs(quality.volume):
             raise _finer_than_files(mesh)
@@ -103,11 +102,10 @@ def finished(
             turns = turns.followed_by(len(surface.mesh.triangles) - beside)
         straight, place = uncrossed(surface.mesh, monitor, moved, turns)
     if straight is not surface.mesh:
-        after = replace(surface, mesh=straight)
-        wider = _with_reached(surface, after, monitor)
+        wider = _with_reached(surface, straight, monitor)
         if wider is not surface:
             return finished(wider, quality, monitor, moved, cut)
-        surface = after
+        surface = replace(surface, mesh=straight)
         quality = surface.inspected(monitor).found.quality
     refuse_no_solid(quality)
     told = () if place is None else (_touching(place),)
@@ -139,14 +137,12 @@ def _with_octants_about(surface: TrimmedSurface, pairs: Ints, monitor: Monitor) 
     return surface.with_octants(near, monitor)
 
 
-def _with_reached(
-    surface: TrimmedSurface, after: TrimmedSurface, monitor: Monitor
-) -> TrimmedSurface:
-    """The surface with the octants in its mesh that belong to vertices which were moved.
+def _with_reached(surface: TrimmedSurface, mesh: TriangleMesh, monitor: Monitor) -> TrimmedSurface:
+    """The surface with the octants in its mesh that belong to vertices which another mesh moves.
 
     Args:
         surface: with its mesh as it was.
-        after: with its mesh as it is to be.
+        mesh: as it is to be.
         monitor: for cancel.
 
     Returns:
@@ -154,9 +150,8 @@ def _with_reached(
     """
     if surface.octants is None:
         return surface
-    if not after.is_joined:
+    if not replace(surface, mesh=mesh).is_joined:
         return TrimmedSurface(surface.whole(monitor))
-    mesh = after.mesh
     moved = (mesh.vertices != surface.mesh.vertices).any(axis=1)
     about = mesh.triangles[moved[mesh.triangles].any(axis=1)]
     return surface.with_octants(surface.octants.reached(mesh.vertices[about]), monitor)

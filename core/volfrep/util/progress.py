@@ -18,10 +18,6 @@ ProgressCallback = Callable[[float, str], "bool | None"]
 
 T = TypeVar("T")
 
-#: What `keep_memory` tells glibc: the options' numbers in malloc.h, and so many bytes.
-M_TRIM_THRESHOLD, M_MMAP_THRESHOLD = -1, -3
-KEPT_BYTES = 1 << 30
-
 #: How often a long call into a compiled library is interrupted to ask for a cancel, in seconds.
 POLL_SECONDS = 0.2
 
@@ -101,22 +97,6 @@ def release_memory() -> None:
         trim = getattr(ctypes.CDLL(None), "malloc_trim", None)
         if trim is not None:
             trim(ctypes.c_size_t(0))
-
-
-def keep_memory() -> None:
-    """Keep what arrays that are gone leave behind, for the next ones of this process.
-
-    glibc gives large pieces back at once, and the system clears every page of the next one again:
-    where jobs of the same size follow one another, two of three page faults are of that kind. As
-    much as the largest job needs is held from then on; other C libraries are left alone.
-    """
-    if sys.platform.startswith("linux"):
-        import ctypes
-
-        told = getattr(ctypes.CDLL(None), "mallopt", None)
-        if told is not None:
-            for option in (M_MMAP_THRESHOLD, M_TRIM_THRESHOLD):
-                told(ctypes.c_int(option), ctypes.c_int(KEPT_BYTES))
 
 
 def peak_memory_mb() -> float:

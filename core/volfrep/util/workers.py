@@ -14,7 +14,6 @@ from importlib import import_module
 from typing import Any
 
 from .errors import VolfrepError
-from .progress import keep_memory
 from .threads import threads, use_threads
 from .version import VERSION
 
@@ -63,7 +62,6 @@ def _prepared(module: str, thread_count: int) -> None:
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     use_threads(thread_count)
-    keep_memory()
     if module:
         import_module(module)
 

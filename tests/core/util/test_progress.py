@@ -1,9 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Progress comes in order, a cancel is honoured soon, every stage is timed."""
 
-import ctypes
-import mmap
-import subprocess
 import sys
 import threading
 import time
@@ -93,31 +90,3 @@ def test_peak_memory_grows_with_what_is_held() -> None:
     held = bytearray(200_000_000)
     held[::4096] = b"x" * len(held[::4096])
     assert peak_memory_mb() > before + 100 or before > 200
-
-
-#: Page faults of filling a large piece of memory twenty times anew.
-FAULTS = """
-import resource
-from volfrep.util.progress import keep_memory
-{first}
-before = resource.getrusage(resource.RUSAGE_SELF).ru_minflt
-for _ in range(20):
-    held = bytearray(b"x") * 40_000_000
-    del held
-print(resource.getrusage(resource.RUSAGE_SELF).ru_minflt - before)
-"""
-
-
-@pytest.mark.skipif(
-    not (sys.platform.startswith("linux") and hasattr(ctypes.CDLL(None), "mallopt")),
-    reason="of glibc only",
-)
-def test_kept_memory_is_not_asked_for_again() -> None:
-    def faults(first: str) -> int:
-        code = FAULTS.format(first=first)
-        told = subprocess.run([sys.executable, "-c", code], capture_output=True, check=True)
-        return int(told.stdout)
-
-    once = 40_000_000 // mmap.PAGESIZE
-    assert faults("") > 19 * once
-    assert faults("keep_memory()") < 2 * once

@@ -17,7 +17,7 @@ from scipy.spatial import cKDTree
 
 from ..mesh import remesh
 from ..mesh.triangle_mesh import TriangleMesh
-from ..util.types import Bools, Floats, Ints
+from ..util.types import Floats, Ints
 
 #: The size of facets may grow by this much for each mm away from smaller ones.
 GRADIENT = 1.0
@@ -49,7 +49,7 @@ def graded(mesh: TriangleMesh) -> TriangleMesh:
         large = large[longest[large] > LONGEST * wanted.at(middle[large])]
         if not len(large):
             break
-        points, triangles = _divided(points, triangles, name, large)
+        points, triangles = remesh.halve(points, triangles, name, large, PATH)
     return TriangleMesh(points, triangles.astype(np.int32))
 
 
@@ -87,30 +87,3 @@ def _longest_edges(points: Floats, triangles: Ints) -> tuple[Ints, Floats, Float
     row, at = np.arange(len(triangles)), np.where(length == longest[:, None], name, -1).argmax(1)
     middle = 0.5 * (points[triangles[row, at]] + points[after[row, at]])
     return name[row, at], longest, middle
-
-
-def _divided(points: Floats, triangles: Ints, name: Ints, large: Ints) -> tuple[Floats, Ints]:
-    """Longest edges halved that are it for both facets, on the way from the large ones."""
-    table = remesh.edges(triangles, len(points))
-    count = np.int64(len(points))
-    key = table.ends.min(axis=1) * count + table.ends.max(axis=1)
-    beyond = np.zeros(len(triangles), np.int64)
-    for k in (0, 1):
-        mine = name[table.triangles[:, k]] == key
-        beyond[table.triangles[mine, k]] = table.triangles[mine, 1 - k]
-    halved = [np.zeros(0, np.int64)]
-    going = large
-    for _ in range(PATH):
-        over = beyond[going]
-        arrived = name[over] == name[going]
-        halved.append(name[going[arrived]])
-        going = np.unique(over[~arrived])
-        if not len(going):
-            break
-    names = np.unique(np.concatenate(halved))
-
-    def asked(one: Ints, two: Ints) -> Bools:
-        result: Bools = np.isin(np.minimum(one, two) * count + np.maximum(one, two), names)
-        return result
-
-    return remesh.split(points, triangles, asked)

@@ -180,8 +180,7 @@ def mended(mesh: TriangleMesh, monitor: Monitor) -> tuple[TriangleMesh, float]:
 def _folded(mesh: TriangleMesh) -> Bools:
     """(m,) triangles that lie on one that they share an edge with."""
     table = remesh.edges(mesh.triangles.astype(np.int64), len(mesh.vertices))
-    normal = remesh.normals(mesh.vertices[mesh.triangles])
-    normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+    normal = remesh.unit_normals(mesh.vertices[mesh.triangles])
     one, other = table.triangles[table.triangles[:, 1] >= 0].T
     # Of unit vectors that are nearly opposite the sum is the angle between them.
     apart = np.linalg.norm(normal[one] + normal[other], axis=1)

@@ -233,8 +233,10 @@ def _flip_slivers(
             points[corners[:, 0]],
             points[corners[:, 1]],
         )
-        old = np.minimum(_height(a, b, c), _height(b, a, d))
-        new = np.minimum(_height(c, d, b), _height(d, c, a))
+        old, new = (
+            np.minimum(*(remesh.heights(np.stack(corners, axis=1)) for corners in pair))
+            for pair in (((a, b, c), (b, a, d)), ((c, d, b), (d, c, a)))
+        )
         wanted: NDArray[np.float64] = np.where(old < tolerance, new - 1.5 * old, -1.0)
         return wanted
 
@@ -282,7 +284,7 @@ def _close_slivers(
         return cost, points[kept[first[place]]]
 
     def good(old: NDArray[np.float64], new: NDArray[np.float64]) -> Bools:
-        before, after = _height(*old.swapaxes(0, 1)), _height(*new.swapaxes(0, 1))
+        before, after = remesh.heights(old), remesh.heights(new)
         return (after >= np.minimum(before, tolerance)) & _keeps_side(old, new, tolerance)
 
     rules = _rules(rank, good, merge)
@@ -294,18 +296,6 @@ def _edge_names(a: Ints, b: Ints, count: int) -> Ints:
     """(k,) a number for each edge between two of `count` vertices, whichever end comes first."""
     name: Ints = np.minimum(a, b) * np.int64(count) + np.maximum(a, b)
     return name
-
-
-def _height(
-    a: NDArray[np.float64], b: NDArray[np.float64], c: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """The least height of triangles, mm."""
-    corners = np.stack([a, b, c], axis=1)
-    longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
-    height: NDArray[np.float64] = np.linalg.norm(remesh.normals(corners), axis=1) / np.maximum(
-        longest, 1e-300
-    )
-    return height
 
 
 def _none(one: Ints, two: Ints) -> Bools:
@@ -321,8 +311,7 @@ def _keeps_side(old: NDArray[np.float64], new: NDArray[np.float64], tolerance: f
 
 def _is_thin(corners: NDArray[np.float64], tolerance: float) -> Bools:
     """Whether triangles (m, 3, 3) are so thin that their normals may be anything."""
-    a, b, c = corners.swapaxes(0, 1)
-    result: Bools = _height(a, b, c) < 4.0 * tolerance
+    result: Bools = remesh.heights(corners) < 4.0 * tolerance
     return result
 
 

@@ -90,6 +90,13 @@ def unit_normals(points: Floats) -> Floats:
     return normalized(normals(points))
 
 
+def heights(points: Floats) -> Floats:
+    """(m,) the least heights of (m, 3, 3) triangles; zero of those without area."""
+    longest = np.linalg.norm(points - np.roll(points, 1, axis=1), axis=2).max(axis=1)
+    result: Floats = np.linalg.norm(normals(points), axis=1) / np.maximum(longest, 1e-300)
+    return result
+
+
 def grouped(rows: Ints, values: Ints, count: int) -> tuple[Ints, Ints]:
     """The values of each of `count` rows laid end to end: (count + 1,) offsets, values."""
     order = np.argsort(rows, kind="stable")
@@ -291,6 +298,50 @@ def flip(
     result[pair[select, 0]] = first[select]
     result[pair[select, 1]] = second[select]
     return result, len(select)
+
+
+def halve(
+    vertices: Floats, triangles: Ints, edge: Ints, going: Ints, rounds: int
+) -> tuple[Floats, Ints]:
+    """Halve chosen edges of triangles, or those that their neighbours chose first.
+
+    A chosen edge is halved if the triangle beyond chose it, too; else that one's is looked at, and
+    so on (M. C. Rivara, Int. J. Numer. Meth. Engng. 40, 1997). A path ends at an open edge.
+
+    Args:
+        vertices: (n, 3) mm.
+        triangles: (m, 3).
+        edge: (m,) the edge that each triangle chooses, by its ends: lower * n + higher.
+        going: triangles whose edges are to be halved.
+        rounds: steps of the longest path.
+
+    Returns:
+        Vertices and triangles as of `split`.
+    """
+    count = np.int64(len(vertices))
+    table = edges(triangles, len(vertices))
+    inner = table.triangles[:, 1] >= 0
+    pair, ends = table.triangles[inner], table.ends[inner]
+    name = ends.min(axis=1) * count + ends.max(axis=1)
+    beyond = np.full(len(triangles), -1, np.int64)
+    for k in (0, 1):
+        mine = edge[pair[:, k]] == name
+        beyond[pair[mine, k]] = pair[mine, 1 - k]
+    found = [np.zeros(0, np.int64)]
+    for _ in range(rounds):
+        going = going[beyond[going] >= 0]
+        over = beyond[going]
+        ends_here = edge[over] == edge[going]
+        found.append(edge[going[ends_here]])
+        going = np.unique(over[~ends_here])
+        if not len(going):
+            break
+    chosen = np.unique(np.concatenate(found))
+
+    def asked(one: Ints, two: Ints) -> Bools:
+        return np.isin(np.minimum(one, two) * count + np.maximum(one, two), chosen)
+
+    return split(vertices, triangles, asked)
 
 
 def split(

@@ -31,6 +31,8 @@ LOSS = 0.8
 TURN = 0.7
 #: But those lower than this part of the tolerance have no side that would matter.
 THIN = 0.2
+#: Facets on the way to a longest edge that is the longest of both its facets.
+PATH = 20
 #: Rounds of all three moves.
 ROUNDS = 24
 #: Rings of facets about bad ones that may change.
@@ -206,7 +208,7 @@ def _without_threes(points: Floats, triangles: Ints, tolerance: Tolerance) -> In
     normal = remesh.normals(points[facet])
     size = np.maximum(np.linalg.norm(normal, axis=1), 1e-300)
     corners = points[triangles]
-    is_thin = _height(corners) < THIN * tolerance.at(corners.mean(axis=1))
+    is_thin = remesh.heights(corners) < THIN * tolerance.at(corners.mean(axis=1))
     away = np.abs(np.einsum("ij,ij->i", normal, points[point[:, 0]] - points[facet[:, 0]])) / size
     sides = remesh.normals(points[triangles[rows.ravel()]]).reshape(-1, 3, 3)
     along = np.einsum("ikj,ij->ik", sides, normal)
@@ -281,7 +283,7 @@ def _improves(before: Floats, after: Floats, tolerance: Tolerance) -> Bools:
     thin = THIN * tolerance.at(before.mean(axis=1))
     least, was = angles_of(after).min(axis=1), angles_of(before).min(axis=1)
     good = (least > WANTED_ANGLE) | (least >= LOSS * was)
-    low = np.maximum(_height(before), _height(after)) < thin
+    low = np.maximum(remesh.heights(before), remesh.heights(after)) < thin
     result: Bools = low | (good & _same_side(before, after, thin))
     return result
 
@@ -290,20 +292,10 @@ def _same_side(before: Floats, after: Floats, thin: Floats) -> Bools:
     """Whether facets (m, 3, 3) look the same way; those lower than `thin` before look nowhere."""
     old, new = remesh.normals(before), remesh.normals(after)
     size = np.linalg.norm(old, axis=1) * np.linalg.norm(new, axis=1)
-    result: Bools = (np.einsum("ij,ij->i", old, new) > TURN * size) | (_height(before) < thin)
+    result: Bools = (np.einsum("ij,ij->i", old, new) > TURN * size) | (
+        remesh.heights(before) < thin
+    )
     return result
-
-
-def _height(corners: Floats) -> Floats:
-    """(m,) the least height of facets, mm."""
-    area: Floats = np.linalg.norm(remesh.normals(corners), axis=1)
-    return area / _longest(corners)
-
-
-def _longest(corners: Floats) -> Floats:
-    """The longest side of each facet, mm."""
-    length: Floats = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
-    return np.maximum(length, 1e-300)
 
 
 def _flipped(points: Floats, triangles: Ints, tolerance: Tolerance) -> tuple[Ints, int]:
@@ -354,34 +346,10 @@ def _split(points: Floats, triangles: Ints, shortest: float) -> tuple[Floats, In
     every = np.arange(len(triangles))
     a, b = triangles[every, at], triangles[every, (at + 1) % 3]
     longest = np.minimum(a, b) * count + np.maximum(a, b)
-    table = remesh.edges(triangles, len(points))
-    inner = table.triangles[:, 1] >= 0
-    pair = table.triangles[inner]
-    low, high = table.ends[inner].min(axis=1), table.ends[inner].max(axis=1)
-    name = low * count + high
-    # From a bad facet to the one beyond its longest edge, as long as that has a longer one.
-    beyond = np.full(len(triangles), -1, np.int64)
-    for k in (0, 1):
-        mine = longest[pair[:, k]] == name
-        beyond[pair[mine, k]] = pair[mine, 1 - k]
     # Where a short edge could not go, halves of the others would be as bad.
     some = (sides.max(axis=1) > 2.0 * shortest) & (sides.min(axis=1) > 0.2 * shortest)
     going = np.flatnonzero(is_bad(corners) & some)
-    wanted = [np.zeros(0, np.int64)]
-    for _ in range(20):
-        going = going[beyond[going] >= 0]
-        over = beyond[going]
-        ends_here = longest[over] == longest[going]
-        wanted.append(longest[going[ends_here]])
-        going = np.unique(over[~ends_here])
-        if not len(going):
-            break
-    names = np.unique(np.concatenate(wanted))
-
-    def asked(one: Ints, two: Ints) -> Bools:
-        return np.isin(np.minimum(one, two) * count + np.maximum(one, two), names)
-
-    return remesh.split(points, triangles, asked)
+    return remesh.halve(points, triangles, longest, going, PATH)
 
 
 def _never(one: Ints, two: Ints) -> Bools:

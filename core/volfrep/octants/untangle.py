@@ -97,7 +97,10 @@ def _wrong(surface: Surface, exact: bool) -> Bools:
     Whether such a one beside others that crossed does so, once it is turned and rounded, is chance.
     """
     crossing = crossing_facets(surface, exact)
-    return crossing | _flat(surface) if exact else crossing
+    if exact:
+        heights = remesh.heights(surface.vertices[surface.triangles])
+        crossing |= heights < TOUCHING * surface.edge
+    return crossing
 
 
 def proper_border(before: Surface, after: Surface) -> Surface:
@@ -164,15 +167,6 @@ def _on_one_side(a: Floats, b: Floats, c: Floats, d: Floats, touch: float) -> Bo
     away = [along[:, 0] * (p - a)[:, 1] - along[:, 1] * (p - a)[:, 0] for p in (c, d)]
     off = touch * np.linalg.norm(along, axis=1)
     result: Bools = (np.minimum(*away) > off) | (np.maximum(*away) < -off)
-    return result
-
-
-def _flat(surface: Surface) -> Bools:
-    """(m,) which facets are less high over their longest side than what only touches."""
-    corners = surface.vertices[surface.triangles]
-    longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
-    twice = np.linalg.norm(remesh.normals(corners), axis=1)
-    result: Bools = twice < TOUCHING * surface.edge * longest
     return result
 
 

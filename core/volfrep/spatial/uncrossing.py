@@ -17,6 +17,7 @@ from scipy.sparse.csgraph import connected_components
 
 from ..mesh.precision import decimal_step, rounded
 from ..mesh.triangle_mesh import TriangleMesh, compact
+from ..util.linalg import normalized
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
 from .crossing_watch import CrossingWatch
@@ -151,8 +152,7 @@ def _depths(mesh: TriangleMesh, pairs: Ints) -> Floats:
     result = np.full(len(pairs), np.inf)
     for one, other in ((0, 1), (1, 0)):
         a, b, c = (corners[:, other, k] for k in range(3))
-        normal = np.cross(b - a, c - a)
-        normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+        normal = normalized(np.cross(b - a, c - a))
         height = np.einsum("nij,nj->ni", corners[:, one] - a[:, None], normal)
         reach = np.minimum(height.max(axis=1), -height.min(axis=1))
         result = np.minimum(result, reach)

@@ -141,11 +141,8 @@ def _mesh(
             if manner is _Manner.COARSE_AND_FINE:
                 fine = _refined(_coarsened(meshed, spec.deviation), spec.deviation)
                 # To draw facets apart moves them off the surface, and smaller ones less.
-                fitted, order, crossed = (
-                    fine.surface,
-                    fine.order,
-                    crossing_facets(fine.surface, exact),
-                )
+                fitted, order = fine.surface, fine.order
+                crossed = crossing_facets(fitted, exact)
             else:
                 if manner is _Manner.FINE:
                     meshed = _refined(meshed, spec.deviation)

@@ -48,7 +48,8 @@ def processes(count: int | None = None, module: str = "") -> Iterator[Executor |
     each = max(1, threads() // count)
     pool = ProcessPoolExecutor(count, context, _prepared, (module, each))
     if module:
-        pool.submit(int)
+        for _ in range(count):  # each call starts one process, while none is idle
+            pool.submit(int)
     try:
         yield pool
     finally:

@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
@@ -83,7 +84,8 @@ def test_as_many_workers_as_are_asked_for(monkeypatch: pytest.MonkeyPatch) -> No
     with pytest.raises(VolfrepError, match="At least 1 worker"), workers.processes(0):
         pass
     with workers.processes(2, "volfrep.trim.group_cut") as executor:
-        assert executor is not None
+        assert isinstance(executor, ProcessPoolExecutor)
+        assert len(executor._processes) == 2, "both start at once"
         assert "volfrep.trim.group_cut" in executor.submit(_modules).result(), "before it is asked"
 
 

@@ -310,7 +310,7 @@ def join(pieces: Sequence[Piece], rim: Floats, tolerance: float) -> Joined:
     row = equal_rows(rim, points[chosen])
     at_rim[seam[chosen[row[row >= 0]]]] = True
     loose.append(np.searchsorted(begin, _open(triangles, number, seam, at_rim), "right") - 1)
-    mesh = compact(TriangleMesh(whole.vertices, triangles))
+    mesh = compact(whole, owned=True)
     return Joined(mesh, on_wall, np.unique(np.concatenate(loose)))
 
 

@@ -15,6 +15,7 @@ import time
 import traceback
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -35,6 +36,7 @@ if TYPE_CHECKING:
     from ..io.write.stl_ahead import StlAhead
     from ..mesh.triangle_mesh import TriangleMesh
     from ..reports.result import Result
+    from ..trim.laid import InnerOctants
     from .solver_options import Writer
 
 EXIT_DEFECT = 1
@@ -166,6 +168,15 @@ def _ahead(options: argparse.Namespace) -> Iterator[StlAhead | None]:
         yield ahead
 
 
+def _are_cut(executor: Executor | None, ahead: StlAhead | None, inner: InnerOctants) -> None:
+    """All groups are cut: workers may go, and a file may begin."""
+    from ..util.workers import let_go
+
+    let_go(executor)
+    if ahead is not None:
+        ahead.begin(inner)
+
+
 def _fill(options: argparse.Namespace) -> None:
     spec = material.specified(options)
     _check_targets(options, spec)
@@ -201,7 +212,7 @@ def _fill(options: argparse.Namespace) -> None:
             return
         solver_options.settle_step(infill, options)
         beams = infill.beams if options.threemf == "both" else None
-        infill.ahead = None if ahead is None else ahead.begin
+        infill.ahead = partial(_are_cut, executor, ahead)
         result = infill.result
         domain = None
         if options.print_report is not None:

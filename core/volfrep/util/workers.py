@@ -56,6 +56,17 @@ def processes(count: int | None = None, module: str = "") -> Iterator[Executor |
         pool.shutdown(cancel_futures=True)
 
 
+def let_go(executor: Executor | None) -> None:
+    """End an executor's processes early, with what they hold, where it has any of this machine.
+
+    What is still given to it is refused with a `RuntimeError`.
+    """
+    from concurrent.futures import ProcessPoolExecutor  # slow to load
+
+    if isinstance(executor, ProcessPoolExecutor):
+        executor.shutdown(wait=False, cancel_futures=True)
+
+
 def _prepared(module: str, thread_count: int) -> None:
     """Leave Ctrl-C, which a terminal sends to all its processes, to the one that is asked.
 

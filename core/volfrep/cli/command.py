@@ -15,6 +15,7 @@ import time
 import traceback
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -32,8 +33,10 @@ if TYPE_CHECKING:
 
     from ..design.spec import LatticeSpec
     from ..grid.strut_graph import BeamModel
+    from ..io.write.stl_ahead import StlAhead
     from ..mesh.triangle_mesh import TriangleMesh
     from ..reports.result import Result
+    from ..trim.laid import InnerOctants
     from .solver_options import Writer
 
 EXIT_DEFECT = 1
@@ -153,6 +156,27 @@ def _workers(options: argparse.Namespace, triangles: int) -> Iterator[Executor |
         yield executor
 
 
+@contextmanager
+def _ahead(options: argparse.Namespace) -> Iterator[StlAhead | None]:
+    """The file to write where it may be begun before all of it is known; else None."""
+    from ..io.write.stl_ahead import stl_ahead
+
+    if Path(options.output).suffix.lower() != ".stl":
+        yield None
+        return
+    with stl_ahead(options.output) as ahead:
+        yield ahead
+
+
+def _are_cut(executor: Executor | None, ahead: StlAhead | None, inner: InnerOctants) -> None:
+    """All groups are cut: workers may go, and a file may begin."""
+    from ..util.workers import let_go
+
+    let_go(executor)
+    if ahead is not None:
+        ahead.begin(inner)
+
+
 def _fill(options: argparse.Namespace) -> None:
     spec = material.specified(options)
     _check_targets(options, spec)
@@ -171,7 +195,11 @@ def _fill(options: argparse.Namespace) -> None:
         print(f"Expected: {expected if meshed else expected.of_axes}.", flush=True)
     is_cut = meshed and spec.network is None and spec.output != "domain"
     cut = expected.triangles if is_cut else 0
-    with _workers(options, cut) as executor, Progress(options.quiet) as progress:
+    with (
+        _workers(options, cut) as executor,
+        Progress(options.quiet) as progress,
+        _ahead(options) as ahead,
+    ):
         infill = aimed(
             solid, spec, progress=progress, meshed=meshed, executor=executor,
             streamed=_is_plain(options),
@@ -184,12 +212,13 @@ def _fill(options: argparse.Namespace) -> None:
             return
         solver_options.settle_step(infill, options)
         beams = infill.beams if options.threemf == "both" else None
+        infill.ahead = partial(_are_cut, executor, ahead)
         result = infill.result
         domain = None
         if options.print_report is not None:
             domain = infill.cavity
         write = solver_options.writer(options, spec, infill, progress)
-        _finish(result, options, spec, {"read": read_seconds}, beams, domain, write)
+        _finish(result, options, spec, {"read": read_seconds}, beams, domain, write, ahead)
         _picture(result, options, spec, solid)
 
 
@@ -297,11 +326,12 @@ def _finish(
     beams: BeamModel | None,
     domain: TriangleMesh | None = None,
     write: Writer | None = None,
+    ahead: StlAhead | None = None,
 ) -> None:
     """Write the mesh, with its beams if there are any; tell what was made.
 
     `domain` is what the lattice fills, for the print report; `write` writes the file where it is
-    not a mesh.
+    not a mesh, `ahead` where it is an STL that may be begun.
     """
     from ..io.write import write_surface
     from ..io.write.threemf import write_3mf_beams
@@ -313,6 +343,8 @@ def _finish(
         warnings = tuple(dict.fromkeys((*warnings, *beams.warnings)))
     if write is not None:
         warnings += write(result)
+    elif ahead is not None:
+        ahead.finish(result.surface)
     elif beams is None:
         write_surface(result.surface, options.output, figures=result.report.figures)
     else:

@@ -29,12 +29,8 @@ from ..octants.octant_mesh import mesh_octants, octant_spec
 from ..octants.octant_spec import OctantSpec
 from ..reports.result import Result, report_of
 from ..shell.domain import Domain, find_domain
-from ..trim.beam_model import (
-    deformed_struts,
-    part_beams,
-    reaching_into,
-    refuse_fillets,
-)
+from ..trim.beam_model import deformed_struts, part_beams, reaching_into, refuse_fillets
+from ..trim.boolean_trim import Ahead
 from ..trim.clip_struts import Clipped
 from ..trim.culling import KeptOctants, OctantRoles
 from ..trim.drains import Drained, trapped
@@ -74,6 +70,7 @@ class Infill:
         solid: the part.
         spec: what was asked for.
         monitor: times every stage that was run so far, and counts its work.
+        ahead: told which octants a file may begin with (`trim.boolean_trim.trim`); None: nobody.
 
     Raises:
         VolfrepError: cells larger than the part. Every stage raises it where the specification
@@ -112,6 +109,7 @@ class Infill:
         self._laid_octants: dict[bool, Laid] = {}
         self._held_struts: dict[bool, Held] = {}
         self._notes: tuple[str, ...] = ()
+        self.ahead: Ahead | None = None
 
     @property
     def result(self) -> Result:
@@ -355,6 +353,7 @@ class Infill:
         return cut_lattice(
             laid, self.solid, self.domain, self._meshing, self.monitor, keep_pieces=keep,
             has_skin=self._skin is not None, with_skin=with_skin, executor=self._executor,
+            ahead=self.ahead,
         )  # fmt: skip
 
     def _reported(self, output: str, cleared: Cleared, drained: Drained | None = None) -> Result:

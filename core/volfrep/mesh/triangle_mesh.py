@@ -78,13 +78,13 @@ def empty_mesh() -> TriangleMesh:
 
 def concatenate(*meshes: TriangleMesh) -> TriangleMesh:
     """All the meshes as one, nothing welded."""
-    offsets = np.cumsum([0] + [len(mesh.vertices) for mesh in meshes[:-1]])
-    return TriangleMesh(
-        np.concatenate([mesh.vertices for mesh in meshes]),
-        np.concatenate(
-            [mesh.triangles + np.int32(k) for mesh, k in zip(meshes, offsets, strict=True)]
-        ),
-    )
+    triangles = np.concatenate([mesh.triangles for mesh in meshes])
+    first, begin = 0, 0
+    for mesh in meshes:
+        end = begin + len(mesh.triangles)
+        triangles[begin:end] += np.int32(first)
+        first, begin = first + len(mesh.vertices), end
+    return TriangleMesh(np.concatenate([mesh.vertices for mesh in meshes]), triangles)
 
 
 def corners_among(chosen: NDArray[np.bool_], triangles: NDArray[np.int32]) -> NDArray[np.int8]:

@@ -31,6 +31,8 @@ from .wall_groups import Groups, grouped
 if TYPE_CHECKING:
     import manifold3d
 
+#: Is told octants inside.
+Ahead = Callable[[InnerOctants], None]
 #: Vertices of two groups are the same within this part of the shortest edge that files hold.
 SAME_VERTEX = 1e-4
 
@@ -56,6 +58,7 @@ def trim(
     monitor: Monitor,
     executor: Executor | None = None,
     precision: float = 0.0,
+    ahead: Ahead | None = None,
 ) -> Trimmed:
     """Cut the lattice at the domain's wall.
 
@@ -70,6 +73,7 @@ def trim(
         monitor: for progress and cancel.
         executor: cuts groups beside each other; None: threads of this process.
         precision: slivers thinner than that go where groups do not meet, mm; 0: all stay.
+        ahead: told the octants inside once all groups are cut; a few may still go into the mesh.
 
     Raises:
         VolfrepError: the domain's mesh is not a solid that can be cut.
@@ -77,8 +81,8 @@ def trim(
     monitor.tick(0.1)
     kept = laid.kept
     inner = InnerOctants(laid, kept.inside) if kept.inside.any() else None
-    rim = np.zeros((0, 3)) if inner is None else inner.rim_points
-    found = _joined(grouped(laid, domain, monitor, precision), rim, cavity, monitor, executor)
+    groups = grouped(laid, domain, monitor, precision)
+    found = _joined(groups, inner, cavity, monitor, executor, ahead)
     trimmed = TrimmedSurface(found.mesh, inner)
     if not trimmed.is_joined:
         # The Boolean has taken out vertices at the caps, as it may do between tiny triangles: let
@@ -92,15 +96,24 @@ def trim(
 
 
 def _joined(
-    groups: Groups, rim: Floats, cavity: bool, monitor: Monitor, executor: Executor | None
+    groups: Groups,
+    inner: InnerOctants | None,
+    cavity: bool,
+    monitor: Monitor,
+    executor: Executor | None,
+    ahead: Ahead | None,
 ) -> Joined:
     """All groups, cut and joined; those that do not meet exactly are cut as one."""
     same = SAME_VERTEX * shortest_edge(groups.wall)
+    rim = np.zeros((0, 3)) if inner is None else inner.rim_points
     pieces: dict[int, Piece] = {}
     while True:
         missing = np.array([k for k in range(groups.count) if k not in pieces], np.int64)
         given = groups.each(missing, cavity, monitor)
         pieces.update(_cut(given, len(missing), executor, monitor))
+        if ahead is not None and inner is not None:
+            ahead(inner.sound)
+            ahead = None
         wrong = np.array([k for k, piece in pieces.items() if piece.defect], np.int64)
         if groups.count == 1:
             piece = pieces[0]
@@ -310,7 +323,7 @@ def join(pieces: Sequence[Piece], rim: Floats, tolerance: float) -> Joined:
     row = equal_rows(rim, points[chosen])
     at_rim[seam[chosen[row[row >= 0]]]] = True
     loose.append(np.searchsorted(begin, _open(triangles, number, seam, at_rim), "right") - 1)
-    mesh = compact(TriangleMesh(whole.vertices, triangles))
+    mesh = compact(whole, owned=True)
     return Joined(mesh, on_wall, np.unique(np.concatenate(loose)))
 
 

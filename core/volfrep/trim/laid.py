@@ -152,6 +152,12 @@ class InnerOctants:
         """What is proved of them by their kinds."""
         return certify_pieces(self.layout, box(self.layout).mean(axis=0), self.laid.moved)
 
+    @property
+    def sound(self) -> InnerOctants:
+        """Those of them in which moving them has left no fault."""
+        wrong = self.where & self.laid.unsound
+        return InnerOctants(self.laid, self.where & ~wrong) if wrong.any() else self
+
     @cached_property
     def rim(self) -> Ints:
         """The vertices, by their numbers, at which octants are open; ascending."""

@@ -27,7 +27,7 @@ from ..spatial.proximity import closest_points
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor, release_memory
 from ..util.types import Bools
-from .boolean_trim import Trimmed, cut_again, trim
+from .boolean_trim import Ahead, Trimmed, cut_again, trim
 from .culling import KeptOctants, OctantRoles, cull, keep_all
 from .drains import Drained, drain
 from .finish import tidied
@@ -80,6 +80,7 @@ def cut_lattice(
     with_skin: bool,
     executor: Executor | None = None,
     keep_pieces: bool = False,
+    ahead: Ahead | None = None,
 ) -> Cleared:
     """The part or the lattice, without loose pieces and slivers, and its quality.
 
@@ -93,6 +94,7 @@ def cut_lattice(
         with_skin: whether the lattice is joined to it.
         executor: of the groups of octants that the wall cuts; None: this process.
         keep_pieces: pieces that hang on nothing stay.
+        ahead: as of `trim`.
 
     Raises:
         VolfrepError: nothing is left, or nothing would hold it.
@@ -101,7 +103,7 @@ def cut_lattice(
     def cut() -> Trimmed:
         found = trim(
             domain.wall, laid, cavity=with_skin, monitor=monitor, executor=executor,
-            precision=shortest_edge(solid),
+            precision=shortest_edge(solid), ahead=ahead,
         )  # fmt: skip
         unproved = _to_look_at(laid, domain.wall)
         if not unproved.any():

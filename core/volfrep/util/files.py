@@ -88,13 +88,8 @@ def replacing(path: str | os.PathLike[str], size: int = 0) -> Iterator[BinaryIO]
             anything is written where the size is known).
     """
     target = check_writable(path)
+    refuse_full(target, size)
     real = target.resolve()
-    free = shutil.disk_usage(real.parent).free
-    if size > free:
-        raise VolfrepError(
-            f"Cannot write '{target}': it will have {size / 1e9:.3g} GB and the disk has "
-            f"{free / 1e9:.3g} GB left; free some, or use a coarser resolution or fewer cells."
-        )
     part = real.with_name(f".volfrep-{secrets.token_hex(4)}.part")
     try:
         try:
@@ -107,6 +102,16 @@ def replacing(path: str | os.PathLike[str], size: int = 0) -> Iterator[BinaryIO]
             part.unlink(missing_ok=True)
     except OSError as error:
         raise not_written(target, error) from error
+
+
+def refuse_full(path: str | os.PathLike[str], size: int) -> None:
+    """Raise a `VolfrepError` where the disk has no room for so many bytes (more) of a file."""
+    free = shutil.disk_usage(Path(path).resolve().parent).free
+    if size > free:
+        raise VolfrepError(
+            f"Cannot write '{path}': it will have {size / 1e9:.3g} GB and the disk has "
+            f"{free / 1e9:.3g} GB left; free some, or use a coarser resolution or fewer cells."
+        )
 
 
 @contextmanager

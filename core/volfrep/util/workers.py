@@ -48,11 +48,23 @@ def processes(count: int | None = None, module: str = "") -> Iterator[Executor |
     each = max(1, threads() // count)
     pool = ProcessPoolExecutor(count, context, _prepared, (module, each))
     if module:
-        pool.submit(int)
+        for _ in range(count):  # each call starts one process, while none is idle
+            pool.submit(int)
     try:
         yield pool
     finally:
         pool.shutdown(cancel_futures=True)
+
+
+def let_go(executor: Executor | None) -> None:
+    """End an executor's processes early, with what they hold, where it has any of this machine.
+
+    What is still given to it is refused with a `RuntimeError`.
+    """
+    from concurrent.futures import ProcessPoolExecutor  # slow to load
+
+    if isinstance(executor, ProcessPoolExecutor):
+        executor.shutdown(wait=False, cancel_futures=True)
 
 
 def _prepared(module: str, thread_count: int) -> None:

@@ -8,7 +8,9 @@ import signal
 import subprocess
 import sys
 from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -22,10 +24,11 @@ import volfrep.cli.command
 from clusters import WORKERS, worker
 from clusters import cluster as cluster
 from volfrep import LatticeSpec, VolfrepError
-from volfrep.io.solid import check_solid
+from volfrep.io.solid import check_solid, read_solid
 from volfrep.io.write.stl import write_stl
 from volfrep.jobs.pipeline import fill as fill_solid
-from volfrep.trim import wall_groups
+from volfrep.mesh.quality import measure
+from volfrep.trim import boolean_trim, wall_groups
 from volfrep.util import workers
 
 LATTICE = ["--cell", "CVC", "--cell-size", "8", "--strut-radius", "0.8"]
@@ -83,8 +86,36 @@ def test_as_many_workers_as_are_asked_for(monkeypatch: pytest.MonkeyPatch) -> No
     with pytest.raises(VolfrepError, match="At least 1 worker"), workers.processes(0):
         pass
     with workers.processes(2, "volfrep.trim.group_cut") as executor:
-        assert executor is not None
+        assert isinstance(executor, ProcessPoolExecutor)
+        assert len(executor._processes) == 2, "both start at once"
         assert "volfrep.trim.group_cut" in executor.submit(_modules).result(), "before it is asked"
+
+
+def test_workers_go_when_all_groups_are_cut_and_groups_are_cut_without_them(
+    tmp_path: Path, part: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert fill(part, tmp_path / "one.stl", "--workers", 1, "--quiet") == 0
+    pools: list[ProcessPoolExecutor] = []
+    join, let_go = boolean_trim.join, workers.let_go
+
+    def kept(executor: object) -> None:
+        assert isinstance(executor, ProcessPoolExecutor)
+        pools.append(executor)
+        let_go(executor)
+
+    def all_loose(*given: object) -> boolean_trim.Joined:
+        found = join(*given)
+        with pytest.raises(RuntimeError, match="after shutdown"):
+            pools[0].submit(int)
+        monkeypatch.setattr(boolean_trim, "join", join)
+        return replace(found, loose=np.arange(2))
+
+    monkeypatch.setattr(workers, "let_go", kept)
+    monkeypatch.setattr(boolean_trim, "join", all_loose)
+    assert fill(part, tmp_path / "two.stl", "--workers", 2, "--quiet") == 0
+    one, two = (measure(read_solid(tmp_path / f"{name}.stl")) for name in ("one", "two"))
+    assert (one.bodies, one.genus) == (two.bodies, two.genus)
+    assert one.volume == pytest.approx(two.volume, rel=1e-9)
 
 
 def test_what_does_not_go_together_is_refused(

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from itertools import islice
+from typing import BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
@@ -50,14 +51,16 @@ def write_stl(
     write_facets(path, len(mesh.triangles), mesh_blocks(mesh, path), monitor)
 
 
-def mesh_blocks(mesh: TriangleMesh, path: str | os.PathLike[str]) -> Iterator[Callable[[], Facets]]:
-    """The facets of a mesh in mm, block by block, for the file at the path.
+def mesh_blocks(
+    mesh: TriangleMesh, path: str | os.PathLike[str], first: int = 0
+) -> Iterator[Callable[[], Facets]]:
+    """The facets of a mesh in mm, from the first one wanted, block by block, for the file.
 
     Raises:
         VolfrepError: as `write_stl`.
     """
     vertices = single_precision(mesh, path)
-    for start in range(0, len(mesh.triangles), BLOCK_FACETS):
+    for start in range(first, len(mesh.triangles), BLOCK_FACETS):
         yield partial(facets_at, vertices, mesh.triangles[start : start + BLOCK_FACETS], path)
 
 
@@ -80,22 +83,39 @@ def write_facets(
             written.
         Cancelled: when the monitor says so; no file is left behind.
     """
+    refuse_too_many(count, path)
+    with replacing(path, HEADER_BYTES + 4 + FACET.itemsize * count) as file:
+        write_head(file, count)
+        append_facets(file, blocks, count, 0, monitor)
+
+
+def refuse_too_many(count: int, path: str | os.PathLike[str]) -> None:
+    """Raise a `VolfrepError` where a file cannot count so many facets."""
     if count > MOST_FACETS:
         raise VolfrepError(
             f"Cannot write '{path}': an STL file holds at most {MOST_FACETS:,} triangles, and "
             f"there are {count:,}; use a coarser resolution or fewer cells."
         )
-    workers = threads()
-    waiting = iter(blocks)
-    with (
-        replacing(path, HEADER_BYTES + 4 + FACET.itemsize * count) as file,
-        ThreadPoolExecutor(max_workers=workers) as pool,
-    ):
-        file.write(b"binary STL, mm".ljust(HEADER_BYTES, b" "))
-        file.write(np.array(count, "<u4").tobytes())
+
+
+def write_head(file: BinaryIO, count: int) -> None:
+    """Write what comes before the facets."""
+    file.write(b"binary STL, mm".ljust(HEADER_BYTES, b" "))
+    file.write(np.array(count, "<u4").tobytes())
+
+
+def append_facets(
+    file: BinaryIO,
+    blocks: Iterable[Callable[[], Facets]],
+    count: int,
+    written: int,
+    monitor: Monitor | None,
+) -> None:
+    """Write blocks of facets, as of `write_facets`, where so many of all are written."""
+    workers, waiting = threads(), iter(blocks)
+    with ThreadPoolExecutor(max_workers=workers) as pool:
         # A few blocks ahead, so that the threads work on while a block is written.
         ahead = deque(pool.submit(block) for block in islice(waiting, 2 * workers))
-        written = 0
         try:
             while ahead:
                 facets = ahead.popleft().result()

@@ -17,11 +17,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...grid.motion import Motion
-from ...lattice.assembly import Layout, facet_blocks, in_steps, placed
-from ...octants.octant import OctantGrid
+from ...lattice.assembly import Layout, in_steps, numbers, placed
+from ...octants.octant import Octant, OctantGrid
+from ...trim.laid import InnerOctants
 from ...trim.trimmed_surface import TrimmedSurface
 from ...util.progress import Monitor
-from ...util.types import Floats
+from ...util.types import Bools, Floats, Ints
 from .stl import BLOCK_FACETS, FACET, Facets, facets_at, mesh_blocks, write_facets
 
 #: A facet of the file whose numbers are moved some at once: numpy is slow at filling records number
@@ -44,13 +45,17 @@ def write_octants_stl(
             written.
         Cancelled: when the monitor says so; no file is left behind.
     """
-    write_facets(path, layout.triangles, _blocks(layout, Motion(np.zeros(3))), monitor)
+    copies = _copies(layout, Motion(np.zeros(3)))
+    write_facets(path, layout.triangles, (some.facets for some in copies), monitor)
 
 
 def write_surface_stl(
     surface: TrimmedSurface, path: str | os.PathLike[str], monitor: Monitor | None = None
 ) -> None:
-    """Write a surface: what is in its mesh, then the octants beside it, as they are laid.
+    """Write a surface: the octants inside, as they are laid, then what is in its mesh.
+
+    An octant inside that is in the mesh leaves its place in the file to facets of the mesh, so
+    that octants can be written before it is known which of them stay (`stl_ahead`).
 
     Args:
         surface: in mm.
@@ -61,19 +66,88 @@ def write_surface_stl(
         VolfrepError: as `write_stl` and `write_octants_stl`.
         Cancelled: when the monitor says so; no file is left behind.
     """
-    blocks = mesh_blocks(surface.mesh, path)
-    if surface.octants is not None:
-        beside, points = surface.octants, surface.octants.laid.points
-        blocks = chain(
-            blocks,
-            _blocks(beside.layout, beside.laid.motion)
-            if points is None
-            else _moved_blocks(beside.layout, points, path),
-        )
-    write_facets(path, surface.triangles, blocks, monitor)
+    rest = mesh_blocks(surface.mesh, path)
+    inner = places_of(surface)
+    if inner is not None:
+        blocks = (facets for _, facets in filled_places(surface, inner, path))
+        rest = chain(blocks, mesh_blocks(surface.mesh, path, left_over(surface, inner)))
+    write_facets(path, surface.triangles, rest, monitor)
 
 
-def _blocks(layout: Layout, motion: Motion) -> Iterator[Callable[[], Facets]]:
+def places_of(surface: TrimmedSurface) -> InnerOctants | None:
+    """The octants that have a place in the file of a surface; None where there are none beside it.
+
+    All sound ones that the wall does not cross; or only those beside the mesh, where this could not
+    fill the places of the others.
+    """
+    beside = surface.octants
+    if beside is None:
+        return None
+    inner = InnerOctants(beside.laid, beside.laid.kept.inside).sound
+    if np.array_equal(beside.where, inner.where):
+        return beside
+    return inner if left_over(surface, inner) <= len(surface.mesh.triangles) else beside
+
+
+def left_over(surface: TrimmedSurface, inner: InnerOctants) -> int:
+    """How many triangles of a surface's mesh lie in the places of octants."""
+    return inner.layout.triangles + len(surface.mesh.triangles) - surface.triangles
+
+
+def filled_places(
+    surface: TrimmedSurface, inner: InnerOctants, path: str | os.PathLike[str]
+) -> Iterator[tuple[Copies, Callable[[], Facets]]]:
+    """Octants that have a place in the file, some at a time, and what is to stand there.
+
+    Raises:
+        VolfrepError: as `write_stl`.
+    """
+    beside, mesh, first = surface.octants, surface.mesh, 0
+    goes = inner.where if beside is None else inner.where & ~beside.where
+    for copies in octant_copies(inner, path):
+        gone = goes[tuple(copies.places.T)]
+        after = first + int(gone.sum()) * copies.each
+        facets = copies.facets
+        if after > first:
+            facets = partial(copies.without, gone, mesh.vertices, mesh.triangles[first:after], path)
+        yield copies, facets
+        first = after
+
+
+@dataclass(frozen=True, eq=False)
+class Copies:
+    """Octants of one kind and frame that follow each other in a file.
+
+    Attributes:
+        places: (k, 3) where they lie.
+        each: facets of each.
+        facets: makes those of all of them.
+    """
+
+    places: Ints
+    each: int
+    facets: Callable[[], Facets]
+
+    def without(
+        self, gone: Bools, vertices: Floats, triangles: NDArray[np.int32],
+        path: str | os.PathLike[str],
+    ) -> Facets:  # fmt: skip
+        """The facets, with as many triangles of a mesh in place of some of the octants."""
+        result = self.facets()
+        others = facets_at(vertices, triangles, path)
+        result.reshape(-1, self.each)[gone] = others.reshape(-1, self.each)
+        return result
+
+
+def octant_copies(inner: InnerOctants, path: str | os.PathLike[str]) -> Iterator[Copies]:
+    """Octants inside a wall, some at a time, for the file at the path."""
+    points = inner.laid.points
+    if points is None:
+        return _copies(inner.layout, inner.laid.motion)
+    return _moved_copies(inner.layout, points, path)
+
+
+def _copies(layout: Layout, motion: Motion) -> Iterator[Copies]:
     grid = layout.grid
     for key, place in zip(grid.keys, layout.places, strict=True):
         octant = layout.octants[key]
@@ -84,22 +158,36 @@ def _blocks(layout: Layout, motion: Motion) -> Iterator[Callable[[], Facets]]:
         corner, sign = layout.frames(place)
         # Octants of one frame together: their facets are the same but for where they lie.
         for frame in np.unique(sign, axis=0):
-            own = corner[(sign == frame).all(axis=1)]
+            of = (sign == frame).all(axis=1)
+            own, at = corner[of], place[of]
             order = octant.triangles if frame.prod() > 0 else octant.triangles[:, ::-1]
             directions = motion.turned(frame * normals).astype(np.float32)
             pattern = _Pattern(frame * steps, motion, order.ravel(), directions)
             size = max(1, BLOCK_FACETS // len(order))
             for begin in range(0, len(own), size):
-                yield partial(_facets, grid, own[begin : begin + size], pattern)
+                part = slice(begin, begin + size)
+                yield Copies(at[part], len(order), partial(_facets, grid, own[part], pattern))
 
 
-def _moved_blocks(
-    layout: Layout, points: Floats, path: str | os.PathLike[str]
-) -> Iterator[Callable[[], Facets]]:
+def _moved_copies(layout: Layout, points: Floats, path: str | os.PathLike[str]) -> Iterator[Copies]:
     """Octants whose numbered vertices were moved to (n, 3) points, mm."""
-    for corners in facet_blocks(layout):
-        for begin in range(0, len(corners), BLOCK_FACETS):
-            yield partial(facets_at, points, corners[begin : begin + BLOCK_FACETS], path)
+
+    def facets(octant: Octant, order: NDArray[np.int32], at: Ints) -> Facets:
+        corners = np.take(numbers(layout, octant, at), order, axis=1, mode="clip")
+        return facets_at(points, corners.reshape(-1, 3), path)
+
+    for key, place in zip(layout.grid.keys, layout.places, strict=True):
+        octant = layout.octants[key]
+        if not len(octant.triangles) or not len(place):
+            continue
+        each = len(octant.triangles)
+        size = max(1, BLOCK_FACETS // each)
+        ahead = layout.frames(place)[1].prod(axis=1) > 0
+        for chosen, order in ((ahead, octant.triangles), (~ahead, octant.triangles[:, ::-1])):
+            own = place[chosen]
+            for begin in range(0, len(own), size):
+                at = own[begin : begin + size]
+                yield Copies(at, each, partial(facets, octant, order.ravel(), at))
 
 
 @dataclass(frozen=True, eq=False)

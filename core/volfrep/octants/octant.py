@@ -162,7 +162,7 @@ def sample_octants(
     axis = np.linspace(0.0, 0.5 * cell_size, steps + 1)
     step = axis[1]
     points = np.stack(np.meshgrid(axis, axis, axis, indexing="ij"), axis=-1).reshape(-1, 3)
-    values = np.full((len(primitives), len(points)), cell_size)
+    values = np.full((len(primitives), len(points)), float(cell_size))
     every = sdf.join(*primitives)
     _, first, number = np.unique(every.rows, axis=0, return_index=True, return_inverse=True)
     shared = every.take(first)

@@ -63,7 +63,7 @@ def test_octants_that_share_struts_are_sampled_as_each_alone():
     own = [octant_primitives(cell, key, 10.0, 0.8, 2.0) for key in keys]
     own.append(own[0].take(np.zeros(0, int)))
     for fillet in (0.0, 0.6):
-        together = sample_octants(own, 10.0, 7, fillet)
+        together = sample_octants(own, 10, 7, fillet)  # whole numbers are given, too
         for samples, alone in zip(together, own, strict=True):
             np.testing.assert_array_equal(samples, sample_octant(alone, 10.0, 7, fillet))
     assert (together[-1] == 10.0).all()

@@ -14,6 +14,7 @@ them the vertices on the face, are the same: pieces are joined by counting, neve
 from __future__ import annotations
 
 import itertools
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -33,6 +34,8 @@ ALL_ACTIVE = 0xFF
 #: would make marching cubes put several vertices on one grid point. Not a round number, so that
 #: a radius that is a multiple of the step cannot meet it.
 ZERO_BAND = 1.2345e-3
+#: Distances of samples from primitives that are found at a time, so that they stay in the cache.
+VALUES_AT_ONCE = 1 << 17
 #: Vertices lie at whole steps of an octant's edge over this, so that octants which share a vertex
 #: can give it the very same coordinates.
 STEPS = float(1 << 26)
@@ -145,20 +148,35 @@ class RawOctant:
 
 def sample_octant(primitives: Primitives, cell_size: float, steps: int, fillet: float) -> Floats:
     """(steps + 1)^3 signed distances over the octant, none of them zero."""
+    result: Floats = sample_octants([primitives], cell_size, steps, fillet)[0]
+    return result
+
+
+def sample_octants(
+    primitives: Sequence[Primitives], cell_size: float, steps: int, fillet: float
+) -> Floats:
+    """(k, steps + 1, steps + 1, steps + 1) signed distances over octants, none of them zero.
+
+    Those of a primitive that several octants have are found once.
+    """
     axis = np.linspace(0.0, 0.5 * cell_size, steps + 1)
     step = axis[1]
-    if not len(primitives):
-        return np.full((steps + 1,) * 3, cell_size)
     points = np.stack(np.meshgrid(axis, axis, axis, indexing="ij"), axis=-1).reshape(-1, 3)
-    chunk = max(1, 2_000_000 // len(primitives))
-    values = np.concatenate(
-        [
-            sdf.union(sdf.distances(points[k : k + chunk, None], primitives), fillet)
-            for k in range(0, len(points), chunk)
-        ]
-    )
+    values = np.full((len(primitives), len(points)), float(cell_size))
+    every = sdf.join(*primitives)
+    _, first, number = np.unique(every.rows, axis=0, return_index=True, return_inverse=True)
+    shared = every.take(first)
+    ends = np.cumsum([0] + [len(own) for own in primitives])
+    rows = [number.ravel()[begin:end] for begin, end in itertools.pairwise(ends)]
+    chunk = max(1, VALUES_AT_ONCE // max(1, len(shared)))
+    for k in range(0, len(points), chunk):
+        part = slice(k, k + chunk)
+        distances = sdf.distances(points[part, None], shared).T.copy()
+        for octant, row in enumerate(rows):
+            if len(row):
+                values[octant, part] = sdf.union(distances[row].T, fillet)
     values[np.abs(values) < ZERO_BAND * step] = ZERO_BAND * step
-    return values.reshape((steps + 1,) * 3)
+    return values.reshape(-1, *(steps + 1,) * 3)
 
 
 def raw_octant(samples: Floats, cell_size: float) -> RawOctant:

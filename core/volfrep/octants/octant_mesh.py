@@ -6,11 +6,10 @@ from __future__ import annotations
 import hashlib
 import itertools
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from enum import Enum
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..design.cells import UnitCell
 from ..design.spec_parts import Resolution, Struts
@@ -19,30 +18,25 @@ from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 from ..util.types import Floats, Ints
 from . import sdf
+from .batch import Batch, sampled
 from .border_refinement import ROUNDS, finer_border
 from .constrained_mesh import Surface
 from .isotropic_remesh import even_out
 from .octant import (
-    STEPS,
     Octant,
     OctantKey,
-    RawOctant,
     octant_primitives,
-    raw_octant,
-    sample_octant,
 )
 from .octant_spec import OctantSpec
 from .pieces import Meshed
 from .refinement import all_stray, coarser, flipped_nearer, split_where_it_strays
-from .sdf import Field, Primitives
+from .sdf import Primitives
 from .surface_fit import fit_border, fit_facets
 from .untangle import crossing_facets, untangled
 from .windows import sampled_finely_enough
 
 #: Samples are clamped to so many steps: farther from the surface only their sign matters.
 SEEN_STEPS = 2.0
-#: Pieces are meshed together up to about this many vertices.
-BATCH_VERTICES = 150_000
 #: How far facets may stray, in deviations, after vertices that are not needed are merged, and after
 #: facets that stray are divided: 1.5 is what is promised.
 MERGED_TO = 1.15
@@ -101,8 +95,7 @@ def mesh_octants(
         for key in dict.fromkeys(keys)
     }
     groups: dict[bytes, list[OctantKey]] = {}
-    for key, own in primitives.items():
-        samples = sample_octant(own, spec.cell_size, spec.steps, spec.fillet)
+    for key, samples in sampled(spec, primitives):
         seen = np.clip(samples, -SEEN_STEPS * spec.step, SEEN_STEPS * spec.step)
         groups.setdefault(hashlib.blake2b(seen.tobytes()).digest(), []).append(key)
         monitor.tick()
@@ -130,38 +123,54 @@ def _mesh(
     """
     monitor.count("kinds of octants meshed", len(primitives))
     todo = list(primitives)
+    while todo:
+        batch = Batch.of(spec, {key: primitives[key] for key in todo})
+        todo = todo[len(batch.keys) :]
+        result.update(_meshed(spec, batch))
+        monitor.tick(1.0 - len(todo) / len(primitives))
+
+
+def _meshed(spec: OctantSpec, batch: Batch) -> dict[OctantKey, Octant]:
+    """The octants of a batch: those whose facets cross once more, in the next manner.
+
+    Raises:
+        FacetsCross: there is one whose facets run through each other, however it is meshed.
+    """
+    result: dict[OctantKey, Octant] = {}
+    farthest = DIVIDED_TO * spec.deviation
+    even = _bordered(*even_out(batch.surface), batch, farthest)
+    gentle: Meshed | None = None
+    left = np.ones(len(batch.keys), bool)
     # Facets that touch are better than none, where nothing keeps them apart.
     for exact, manner in itertools.product((True, False), _Manner):
-        same, todo = todo, []
-        done = 0
-        while done < len(same):
-            batch = _Batch.of(spec, {key: primitives[key] for key in same[done:]})
-            remeshed, origin = even_out(batch.surface, manner is _Manner.GENTLE)
-            meshed = _bordered(remeshed, batch, origin, DIVIDED_TO * spec.deviation)
-            if manner is _Manner.COARSE_AND_FINE:
-                fine = _refined(_coarsened(meshed, spec.deviation), spec.deviation)
-                # To draw facets apart moves them off the surface, and smaller ones less.
-                fitted, order = fine.surface, fine.order
-                crossed = crossing_facets(fitted, exact)
-            else:
-                if manner is _Manner.FINE:
-                    meshed = _refined(meshed, spec.deviation)
-                fitted, crossed = untangled(meshed.surface, meshed.home, exact)
-                order = meshed.order
-            bad = np.unique(fitted.piece[fitted.triangles[crossed, 0]])
-            result.update(batch.split(fitted, order))
-            todo += [batch.keys[k] for k in bad]
-            done += len(batch.keys)
-            monitor.tick(done / len(same))
-        if not todo:
-            return
+        if manner is _Manner.GENTLE:
+            if gentle is None:
+                gentle = _bordered(*even_out(batch.surface, gently=True), batch, farthest)
+            meshed = gentle
+        else:
+            meshed = even
+        meshed = meshed.where(left[meshed.surface.piece])
+        if manner is _Manner.COARSE_AND_FINE:
+            # To draw facets apart moves them off the surface, and smaller ones less.
+            meshed = _refined(_coarsened(meshed, spec.deviation), spec.deviation)
+            fitted, crossed = meshed.surface, crossing_facets(meshed.surface, exact)
+        else:
+            if manner is _Manner.FINE:
+                meshed = _refined(meshed, spec.deviation)
+            fitted, crossed = untangled(meshed.surface, meshed.home, exact)
+        bad = np.zeros(len(left), bool)
+        bad[fitted.piece[fitted.triangles[crossed, 0]]] = True
+        result.update(batch.split(replace(meshed, surface=fitted), left & ~bad))
+        left = bad
+        if not left.any():
+            return result
     raise FacetsCross(
         f"Where struts meet, facets of a {spec.facets}th of a cell run through each other: "
         "choose another resolution or strut radius, or move the nodes of the cell."
     )
 
 
-def _bordered(remeshed: Surface, batch: _Batch, origin: Ints, farthest: float) -> Meshed:
+def _bordered(remeshed: Surface, origin: Ints, batch: Batch, farthest: float) -> Meshed:
     """The surface fitted, with more vertices where its border strays by more than that, mm.
 
     Every octant that shares a face has the same there, however it is meshed inside.
@@ -173,7 +182,9 @@ def _bordered(remeshed: Surface, batch: _Batch, origin: Ints, farthest: float) -
         if finer is found.surface:
             break
         found = found.of(finer, parents)
-    return replace(found, surface=fit_facets(found.surface))
+    surface = found.surface
+    surface = replace(surface, field=surface.field.anchored(surface.vertices))
+    return replace(found, surface=fit_facets(surface))
 
 
 def _coarsened(meshed: Meshed, deviation: float) -> Meshed:
@@ -269,125 +280,3 @@ def _alike(
 
     wanted = values(first)
     return [key for key in others if np.array_equal(values(key), wanted)]
-
-
-@dataclass(frozen=True, eq=False)
-class _Batch:
-    """Raw octants laid into one surface, and the step that their vertices are rounded to."""
-
-    keys: list[OctantKey]
-    raw: list[RawOctant]
-    solid_corners: list[NDArray[np.bool_]]
-    surface: Surface
-    step: float
-
-    @staticmethod
-    def of(spec: OctantSpec, todo: Mapping[OctantKey, Primitives]) -> _Batch:
-        """As many of the octants, from the first, as fit in a batch."""
-        used: list[OctantKey] = []
-        raw: list[RawOctant] = []
-        solid: list[NDArray[np.bool_]] = []
-        primitives: list[Primitives] = []
-        counts: list[Ints] = []
-        near: list[Ints] = []
-        total = offset = 0
-        for key, own in todo.items():
-            samples = sample_octant(own, spec.cell_size, spec.steps, spec.fillet)
-            piece = raw_octant(samples, spec.cell_size)
-            if used and total + len(piece.vertices) > BATCH_VERTICES:
-                break
-            used.append(key)
-            raw.append(piece)
-            solid.append(samples[:: spec.steps, :: spec.steps, :: spec.steps] < 0.0)
-            primitives.append(own)
-            if len(piece.vertices):
-                count, index = _near(piece.vertices, own, spec.reach)
-                counts.append(count)
-                near.append(index + offset)
-            total += len(piece.vertices)
-            offset += len(own)
-        first = np.cumsum([0] + [len(piece.vertices) for piece in raw])
-        place = np.concatenate([piece.place for piece in raw])
-        none = np.zeros(0, np.int64)
-        field = Field(
-            sdf.join(*primitives),
-            np.concatenate([[0], np.cumsum(np.concatenate([none, *counts]))]).astype(np.int64),
-            np.concatenate([none, *near]),
-            spec.fillet,
-        )
-        whole = Surface(
-            np.concatenate([piece.vertices for piece in raw]),
-            np.concatenate([piece.triangles + k for piece, k in zip(raw, first[:-1], strict=True)]),
-            place,
-            np.full(place.shape, -1, np.int64),
-            field,
-            spec.edge,
-            spec.step,
-            np.repeat(np.arange(len(raw)), np.diff(first)),
-            0.5 * spec.cell_size,
-        )
-        return _Batch(used, raw, solid, whole, 0.5 * spec.cell_size / STEPS)
-
-    def split(self, refined: Surface, order: Ints) -> dict[OctantKey, Octant]:
-        """The refined surface cut into the octants again, with how far each strays."""
-        # Pieces are runs of vertices.
-        begin = np.searchsorted(refined.piece, np.arange(len(self.raw) + 1))
-        owner = refined.piece[refined.triangles[:, 0]]
-        by_piece = np.argsort(owner, kind="stable")
-        cuts = np.searchsorted(owner[by_piece], np.arange(len(self.raw) + 1))
-        stray = np.zeros(len(self.raw))
-        if refined.field.fillet == 0.0:  # otherwise values are no distances
-            np.maximum.at(stray, owner, all_stray(refined, 0.0))
-        result = {}
-        for k, key in enumerate(self.keys):
-            part = slice(begin[k], begin[k + 1])
-            vertices = np.rint(refined.vertices[part] / self.step) * self.step
-            triangles = refined.triangles[by_piece[cuts[k] : cuts[k + 1]]] - begin[k]
-            octant = ranked_octant(
-                vertices, triangles, refined.place[part], order[part], self.solid_corners[k]
-            )
-            result[key] = replace(octant, stray=float(stray[k]))
-        return result
-
-
-def ranked_octant(
-    vertices: Floats,
-    triangles: Ints,
-    place: NDArray[np.int8],
-    order: Ints,
-    solid_corners: NDArray[np.bool_],
-) -> Octant:
-    """An octant whose vertices are numbered on each face and edge by their order there.
-
-    Arguments as the attributes of `Octant` and `RawOctant`.
-    """
-    entity = (place.astype(np.int64) * np.array([9, 3, 1])).sum(axis=1)
-    return Octant(
-        vertices,
-        triangles.astype(np.int32),
-        entity.astype(np.int8),
-        _ranks(entity, order),
-        solid_corners,
-    )
-
-
-def _near(points: Floats, primitives: Primitives, reach: float) -> tuple[Ints, Ints]:
-    """For every point how many and which primitives are up to `reach` beyond the nearest."""
-    counts, index = [], []
-    chunk = max(1, 1_000_000 // max(len(primitives), 1))
-    for k in range(0, len(points), chunk):
-        distance = sdf.distances(points[k : k + chunk, None], primitives)
-        is_near = distance <= distance.min(axis=1, keepdims=True).clip(min=0.0) + reach
-        counts.append(is_near.sum(axis=1))
-        index.append(np.nonzero(is_near)[1])
-    return np.concatenate(counts), np.concatenate(index)
-
-
-def _ranks(entity: Ints, order: Ints) -> NDArray[np.int32]:
-    """Number of every vertex within its entity, by `order`."""
-    sequence = np.lexsort((order, entity))
-    count = np.bincount(entity, minlength=27)
-    start = np.cumsum(count) - count
-    rank = np.empty(len(entity), np.int32)
-    rank[sequence] = np.arange(len(entity)) - start[entity[sequence]]
-    return rank

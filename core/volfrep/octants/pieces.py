@@ -59,14 +59,10 @@ class Meshed:
             result: NDArray[Any] = np.concatenate([a, b])[by_piece]
             return result
 
-        begin = np.concatenate([one.field.start, one.field.start[-1] + two.field.start[1:]])
-        field = replace(
-            one.field, start=begin, near=np.concatenate([one.field.near, two.field.near])
-        )
         triangles = rank[np.concatenate([one.triangles, two.triangles + len(one.vertices)])]
         surface = replace(
             one, vertices=both(one.vertices, two.vertices), triangles=triangles,
             place=both(one.place, two.place), held=both(one.held, two.held),
-            field=field.rows(by_piece), piece=piece[by_piece],
+            field=one.field.joined(two.field).rows(by_piece), piece=piece[by_piece],
         )  # fmt: skip
         return Meshed(surface, both(self.home, other.home), both(self.order, other.order))

@@ -87,9 +87,10 @@ def all_stray(surface: Surface, closely: float = np.inf) -> Floats:
 def edges_stray(surface: Surface, ends: Ints) -> Floats:
     """(k,) how far edges of (k, 2) vertices stray from the exact surface, mm."""
     a, b = surface.vertices[ends[:, 0]], surface.vertices[ends[:, 1]]
-    field = surface.field.rows(ends[:, 0])
+    nearer = [surface.field.rows(end) for end in ends.T]
     result: Floats = np.zeros(len(ends))
     for share in LOOK_ALONG:
+        field = nearer[share > 0.5]
         result = np.maximum(result, np.abs(field.values(a + share * (b - a))))
     return result
 

@@ -10,7 +10,7 @@ direction, so that one expression serves both.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +20,10 @@ from ..util.types import Floats, Ints
 
 #: Half length of a primitive that has no caps: a joint sphere.
 _NO_CAPS = 1e30
+#: No distance changes faster than its place but for rounding, which is far below this.
+FASTEST = 1.0 + 1e-9
+#: Pairs of a point and a primitive whose distances are measured at a time.
+PAIRS_AT_ONCE = 1 << 20
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,6 +46,13 @@ class Primitives:
 
     def __len__(self) -> int:
         return len(self.radius)
+
+    @property
+    def rows(self) -> Floats:
+        """(k, 9) all that is known of each."""
+        return np.column_stack(
+            [self.middle, self.direction, self.half_length, self.radius, self.slope]
+        )
 
     def take(self, index: NDArray[np.generic]) -> Primitives:
         """The primitives of that index or mask, in its order."""
@@ -103,15 +114,27 @@ def distances(points: Floats, primitives: Primitives) -> Floats:
     >>> distances(np.array([[5.0, 3.0, 0.0], [5.0, 0.0, 0.0]]), strut).tolist()
     [2.0, -1.0]
     """
-    offset = points - primitives.middle
-    axial = np.einsum("...i,...i->...", offset, primitives.direction)
+    # A column at a time, and in place: numpy takes rows of three slowly.
+    x, y, z = (points[..., k] - primitives.middle[..., k] for k in range(3))
+    u, v, w = (primitives.direction[..., k] for k in range(3))
+    axial = x * u
+    axial += y * v
+    axial += z * w
     # The radius from the rejected vector, not from Pythagoras: no cancellation on thin struts.
-    rejected = offset - axial[..., None] * primitives.direction
-    across = np.sqrt(np.einsum("...i,...i->...", rejected, rejected))
-    beside = _beside(across, axial, primitives)
+    x -= axial * u
+    y -= axial * v
+    z -= axial * w
+    x *= x
+    y *= y
+    z *= z
+    x += y
+    x += z
+    beside = _beside(np.sqrt(x), axial, primitives)
     beyond = np.abs(axial) - primitives.half_length
-    outside = np.hypot(np.maximum(beside, 0.0), np.maximum(beyond, 0.0))
-    result: Floats = outside + np.minimum(np.maximum(beside, beyond), 0.0)
+    result: Floats = np.maximum(beside, beyond)
+    # Before both the side and a cap the rim is nearest.
+    rim = (beside > 0.0) & (beyond > 0.0)
+    result[rim] = np.hypot(beside[rim], beyond[rim])
     return result
 
 
@@ -166,6 +189,21 @@ def union(values: Floats, fillet: float = 0.0) -> Floats:
 
 
 @dataclass(frozen=True, eq=False)
+class Anchors:
+    """How far primitives are from places, by which those that are too far elsewhere are known.
+
+    Attributes:
+        points: (n, 3) a place for each point of a `Field`, mm.
+        away: (pairs,) signed distances of the primitives near each point from its place, mm.
+        least: (n,) the smallest of them.
+    """
+
+    points: Floats
+    away: Floats
+    least: Floats
+
+
+@dataclass(frozen=True, eq=False)
 class Field:
     """The signed distance at points that each know which primitives can be near them.
 
@@ -174,53 +212,105 @@ class Field:
         start: (n + 1,) offsets into `near`.
         near: (pairs,) primitives near point 0, then near point 1, …; at least one each.
         fillet: radius of the round union, mm.
+        anchors: spare most of the distances, since none changes faster than its place; None where
+            nobody measured.
     """
 
     primitives: Primitives
     start: Ints
     near: Ints
     fillet: float
+    anchors: Anchors | None = None
 
     def rows(self, index: Ints) -> Field:
         """The field at points that take over the neighbourhoods of the points `index`."""
         pairs, _ = rows_of(self.start, index)
         counts = self.start[index + 1] - self.start[index]
         start = np.concatenate([[0], np.cumsum(counts)])
-        return Field(self.primitives, start, self.near[pairs], self.fillet)
+        anchors = self.anchors
+        if anchors is not None:
+            anchors = Anchors(anchors.points[index], anchors.away[pairs], anchors.least[index])
+        return Field(self.primitives, start, self.near[pairs], self.fillet, anchors)
 
-    def _pairs(self, points: Floats) -> tuple[Ints, Floats]:
+    def anchored(self, points: Floats) -> Field:
+        """The same field, its distances measured at (n, 3) points."""
+        away = np.zeros(len(self.near))
+        owner = np.repeat(np.arange(len(points)), np.diff(self.start))
+        for begin in range(0, len(owner), PAIRS_AT_ONCE):
+            part = slice(begin, begin + PAIRS_AT_ONCE)
+            away[part] = distances(points[owner[part]], self.primitives.take(self.near[part]))
+        least = np.minimum.reduceat(away, self.start[:-1]) if len(points) else away
+        return replace(self, anchors=Anchors(points, away, least))
+
+    def joined(self, other: Field) -> Field:
+        """The points of both, of the same primitives; anchored where both are."""
+        start = np.concatenate([self.start, self.start[-1] + other.start[1:]])
+        near = np.concatenate([self.near, other.near])
+        one, two = self.anchors, other.anchors
+        anchors = None
+        if one is not None and two is not None:
+            anchors = Anchors(
+                np.concatenate([one.points, two.points]),
+                np.concatenate([one.away, two.away]),
+                np.concatenate([one.least, two.least]),
+            )
+        return Field(self.primitives, start, near, self.fillet, anchors)
+
+    def _pairs(
+        self, points: Floats, within: float = 0.0, radius: Floats | float = 0.0
+    ) -> tuple[Ints, Ints, Ints]:
+        """(pairs,) points and primitives near them, and (n + 1,) where each point's begin.
+
+        Without those that are farther than others and than `within`, everywhere in a radius about
+        the points, as their distances at the anchors tell.
+        """
         owner = np.repeat(np.arange(len(points)), self.start[1:] - self.start[:-1])
-        return owner, points[owner]
+        anchors = self.anchors
+        if anchors is None:
+            return owner, self.near, self.start
+        off = points - anchors.points
+        moved = self._fastest * np.sqrt(np.einsum("ij,ij->i", off, off)) + radius
+        limit = np.maximum(anchors.least + 2.0 * moved, max(self.fillet, within) + moved)
+        limit += (FASTEST - 1.0) * self.primitives.radius.max(initial=0.0)
+        seen = np.flatnonzero(anchors.away <= limit[owner])
+        owner = owner[seen]
+        start = np.concatenate([[0], np.cumsum(np.bincount(owner, minlength=len(points)))])
+        return owner, self.near[seen], start
+
+    @property
+    def _fastest(self) -> float:
+        """How much faster than its place a distance may change: that of a cone's cap does."""
+        return FASTEST * (2.0**0.5 if self.primitives.slope.any() else 1.0)
 
     def nearest(self, points: Floats) -> tuple[Floats, Ints]:
         """(n,) smallest distance and the primitive that has it."""
-        owner, repeated = self._pairs(points)
-        values = distances(repeated, self.primitives.take(self.near))
-        least = np.minimum.reduceat(values, self.start[:-1])
+        owner, near, start = self._pairs(points)
+        values = distances(points[owner], self.primitives.take(near))
+        least = np.minimum.reduceat(values, start[:-1])
         hits = np.flatnonzero(values == least[owner])
         first = hits[np.searchsorted(owner[hits], np.arange(len(points)))]
-        return least, self.near[first]
+        return least, near[first]
 
     def touching(self, points: Floats, tolerance: float) -> Ints:
         """(n, 3) up to three primitives whose surfaces pass within `tolerance`; -1 for none."""
-        owner, repeated = self._pairs(points)
-        values = distances(repeated, self.primitives.take(self.near))
+        owner, near, _ = self._pairs(points, tolerance)
+        values = distances(points[owner], self.primitives.take(near))
         hits = np.flatnonzero(np.abs(values) < tolerance)
         place = np.arange(len(hits)) - np.searchsorted(owner[hits], owner[hits])
         hits, place = hits[place < 3], place[place < 3]
         result = np.full((len(points), 3), -1, np.int64)
-        result[owner[hits], place] = self.near[hits]
+        result[owner[hits], place] = near[hits]
         return result
 
     def values(self, points: Floats) -> Floats:
         """(n,) signed distances in mm."""
-        _, repeated = self._pairs(points)
-        values = distances(repeated, self.primitives.take(self.near))
-        least: Floats = np.minimum.reduceat(values, self.start[:-1])
+        owner, near, start = self._pairs(points)
+        values = distances(points[owner], self.primitives.take(near))
+        least: Floats = np.minimum.reduceat(values, start[:-1])
         if self.fillet <= 0.0:
             return least
         reach = np.maximum(self.fillet - values, 0.0)
-        rounded = self.fillet - np.sqrt(np.add.reduceat(reach**2, self.start[:-1]))
+        rounded = self.fillet - np.sqrt(np.add.reduceat(reach**2, start[:-1]))
         return np.where(least < self.fillet, rounded, least)
 
     def values_of_groups(self, points: Floats) -> Floats:
@@ -230,14 +320,12 @@ class Field:
         """
         middle = points.mean(axis=1)
         offset = points - middle[:, None]
-        radius = np.sqrt(np.einsum("nqi,nqi->nq", offset, offset).max(axis=1))
-        # How much faster than its argument the distance of a cone's cap may change.
-        radius = radius * (np.sqrt(2.0) if self.primitives.slope.any() else 1.0) * (1.0 + 1e-9)
-        owner, repeated = self._pairs(middle)
-        values = distances(repeated, self.primitives.take(self.near))
-        least = np.minimum.reduceat(values, self.start[:-1])
+        radius = np.sqrt(np.einsum("nqi,nqi->nq", offset, offset).max(axis=1)) * self._fastest
+        owner, near, start = self._pairs(middle, 0.0, radius)
+        values = distances(middle[owner], self.primitives.take(near))
+        least = np.minimum.reduceat(values, start[:-1])
         seen = values <= np.maximum(least + 2.0 * radius, self.fillet + radius)[owner]
-        owner, near = owner[seen], self.near[seen]
+        owner, near = owner[seen], near[seen]
         start = np.searchsorted(owner, np.arange(len(points)))
         values = distances(points[owner], self.primitives.take(near[:, None]))
         nearest: Floats = np.minimum.reduceat(values, start, axis=0)
@@ -252,13 +340,13 @@ class Field:
         if self.fillet <= 0.0:
             _, primitive = self.nearest(points)
             return distances_and_gradients(points, self.primitives.take(primitive))
-        owner, repeated = self._pairs(points)
-        values, gradients = distances_and_gradients(repeated, self.primitives.take(self.near))
-        least = np.minimum.reduceat(values, self.start[:-1])
+        owner, near, start = self._pairs(points)
+        values, gradients = distances_and_gradients(points[owner], self.primitives.take(near))
+        least = np.minimum.reduceat(values, start[:-1])
         reach = np.maximum(self.fillet - values, 0.0)
         # Beyond the fillet's reach only the nearest primitive counts.
         weight = np.where(least[owner] < self.fillet, reach, values == least[owner])
-        norm = np.sqrt(np.add.reduceat(weight**2, self.start[:-1]))
-        blended = np.add.reduceat(weight[:, None] * gradients, self.start[:-1], axis=0)
+        norm = np.sqrt(np.add.reduceat(weight**2, start[:-1]))
+        blended = np.add.reduceat(weight[:, None] * gradients, start[:-1], axis=0)
         rounded = np.where(least < self.fillet, self.fillet - norm, least)
         return rounded, blended / norm[:, None]

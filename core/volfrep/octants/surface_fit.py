@@ -184,7 +184,7 @@ def _sampled(surface: Surface) -> tuple[Floats, Floats, Floats]:
     """(m,) areas of the facets, and (m, q) values and (m, q, 3) gradients of the field in them."""
     corners = surface.vertices[surface.triangles]
     points = np.einsum("qi,mik->mqk", QUADRATURE, corners).reshape(-1, 3)
-    rows = np.repeat(surface.triangles[:, 0], len(QUADRATURE))
+    rows = surface.triangles.ravel()  # each of the points is nearest to one of the corners
     parts = [
         surface.field.rows(rows[begin : begin + AT_ONCE]).values_and_gradients(
             points[begin : begin + AT_ONCE]

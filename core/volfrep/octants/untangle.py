@@ -34,25 +34,31 @@ TURN = np.array([[2.0, 3.0, 6.0], [6.0, 2.0, -3.0], [-3.0, 6.0, -2.0]]) / 7.0
 FOLDED = 0.2
 
 
-def crossing_facets(surface: Surface, exact: bool = True) -> Bools:
+def crossing_facets(surface: Surface, exact: bool = True, pieces: Bools | None = None) -> Bools:
     """(m,) which facets another facet of their own octant runs through.
+
+    `pieces`: (k,) octants that are looked at; None for all.
 
     Exact, for the vertices as octants have them, in whole steps. Next to a face facets may lie in
     one plane, where those that overlap touch as far as anybody can tell; turned with a lattice, or
     rounded by a file, they cross, and so they are looked at turned and rounded, too. Otherwise
     those that stick through others by more than `TOUCHING`.
     """
-    triangles = surface.triangles.astype(np.int32)
+    crossing = np.zeros(len(surface.triangles), bool)
+    look = np.arange(len(crossing))
+    if pieces is not None:
+        look = np.flatnonzero(pieces[surface.piece[surface.triangles[:, 0]]])
+    triangles = surface.triangles[look].astype(np.int32)
     if not exact:
         everywhere = np.ones(len(triangles), bool)
         mesh = TriangleMesh(_apart(surface), triangles)
-        return crossing_triangles(mesh, everywhere, TOUCHING * surface.edge)
+        crossing[look] = crossing_triangles(mesh, everywhere, TOUCHING * surface.edge)
+        return crossing
     steps = np.rint(surface.vertices * (STEPS / surface.size))
     turned = np.rint(np.stack([along(steps, row) for row in TURN], axis=1))
-    crossing = np.zeros(len(triangles), bool)
     for vertices in (steps, turned):
         vertices[:, 0] += 4.0 * STEPS * surface.piece
-        crossing[piercing_pairs(TriangleMesh(vertices, triangles))] = True
+        crossing[look[piercing_pairs(TriangleMesh(vertices, triangles))]] = True
     return crossing
 
 
@@ -73,12 +79,15 @@ def untangled(surface: Surface, home: Floats, exact: bool = True) -> tuple[Surfa
     count, triangles = len(surface.vertices), surface.triangles
     pairs = np.concatenate([triangles[:, :2], triangles[:, 1:], triangles[:, ::2]])
     border = surface.pinned.any(axis=1)
-    crossed = _wrong(surface, exact)
+    pieces = np.ones(surface.piece.max(initial=-1) + 1, bool)
+    crossed = _wrong(surface, exact, pieces)
     for turn in range(ROUNDS):
         if not crossed.any():
             break
         near = np.zeros(count, bool)
         near[triangles[crossed]] = True
+        pieces[:] = False  # the others stay as they are
+        pieces[surface.piece[near]] = True
         for _ in range(turn // WIDER_AFTER):
             near[triangles[near[triangles].any(axis=1)]] = True
         goes = (near & ~border)[:, None]
@@ -87,16 +96,16 @@ def untangled(surface: Surface, home: Floats, exact: bool = True) -> tuple[Surfa
         else:
             target = 0.5 * (surface.vertices + home)
         surface = moved(surface, np.where(goes, target, surface.vertices))
-        crossed = _wrong(surface, exact)
+        crossed = _wrong(surface, exact, pieces)
     return surface, crossed
 
 
-def _wrong(surface: Surface, exact: bool) -> Bools:
-    """(m,) which facets cross, or are as flat as a line.
+def _wrong(surface: Surface, exact: bool, pieces: Bools) -> Bools:
+    """(m,) which facets of some of the octants cross, or are as flat as a line.
 
     Whether such a one beside others that crossed does so, once it is turned and rounded, is chance.
     """
-    crossing = crossing_facets(surface, exact)
+    crossing = crossing_facets(surface, exact, pieces)
     if exact:
         heights = remesh.heights(surface.vertices[surface.triangles])
         crossing |= heights < TOUCHING * surface.edge

@@ -11,6 +11,7 @@ import numpy as np
 from ..mesh.edge_table import pieces_of
 from ..mesh.remesh import edges
 from ..mesh.triangle_mesh import TriangleMesh
+from ..octants.batch import ranked_octant
 from ..octants.caps import cap, with_corners
 from ..octants.octant import (
     ALL_ACTIVE,
@@ -21,7 +22,6 @@ from ..octants.octant import (
     octant_mirrors,
     used_kinds,
 )
-from ..octants.octant_mesh import ranked_octant
 from ..util.types import Bools, Floats, Ints, Periodic
 
 

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from ..lattice.assembly import Layout, coordinates, lay_out, numbers
 from ..mesh import remesh
 from ..octants import sdf
+from ..octants.batch import ranked_octant
 from ..octants.constrained_mesh import Surface, shortened
 from ..octants.octant import (
     ALL_ACTIVE,
@@ -27,7 +28,7 @@ from ..octants.octant import (
     octant_mirrors,
     raw_octant,
 )
-from ..octants.octant_mesh import FacetsCross, ranked_octant
+from ..octants.octant_mesh import FacetsCross
 from ..octants.untangle import untangled
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints

@@ -6,7 +6,15 @@ import pytest
 
 from samples import SKEW
 from volfrep.design.cells import LIBRARY, PAPERS, find_cell
-from volfrep.octants.octant import octant_grid
+from volfrep.octants import octant_mesh
+from volfrep.octants.octant import (
+    ALL_ACTIVE,
+    OctantKey,
+    octant_grid,
+    octant_primitives,
+    sample_octant,
+    sample_octants,
+)
 from volfrep.octants.octant_mesh import mesh_octants
 from volfrep.octants.octant_spec import OctantSpec
 from volfrep.util.progress import Monitor
@@ -47,3 +55,42 @@ def test_struts_that_show_keep_octants_apart():
     monitor = Monitor()
     mesh_octants(cell, OctantSpec(10.0, 0.8, 0.5, 8), keys, monitor)
     assert monitor.work["kinds of octants meshed"] == len(keys) == 27
+
+
+def test_octants_that_share_struts_are_sampled_as_each_alone():
+    cell = LIBRARY["Octet"]
+    keys = [OctantKey(0, pattern, missing) for pattern, missing in [(255, 0), (255, 6), (3, 1)]]
+    own = [octant_primitives(cell, key, 10.0, 0.8, 2.0) for key in keys]
+    own.append(own[0].take(np.zeros(0, int)))
+    for fillet in (0.0, 0.6):
+        together = sample_octants(own, 10, 7, fillet)  # whole numbers are given, too
+        for samples, alone in zip(together, own, strict=True):
+            np.testing.assert_array_equal(samples, sample_octant(alone, 10.0, 7, fillet))
+    assert (together[-1] == 10.0).all()
+
+
+def test_octants_whose_facets_cross_are_evened_out_once(monkeypatch):
+    """And once gently: the eight tries begin with what these two give."""
+    evened, looked = [], []
+    even_out, crossing = octant_mesh.even_out, octant_mesh.crossing_facets
+
+    def counted(raw, gently=False):
+        evened.append(gently)
+        return even_out(raw, gently)
+
+    def crossed(surface, exact=True, pieces=None):
+        looked.append(exact)
+        return np.ones(len(surface.triangles), bool) | crossing(surface, exact, pieces)
+
+    monkeypatch.setattr(octant_mesh, "even_out", counted)
+    monkeypatch.setattr(octant_mesh, "crossing_facets", crossed)
+    key = OctantKey(0, ALL_ACTIVE)
+    spec = OctantSpec(10.0, 1.0, 0.0, 8)
+    assert len(mesh_octants(LIBRARY["BCC"], spec, [key], Monitor())[key].triangles)
+    assert (evened, looked) == ([False], [True])
+    monkeypatch.setattr(
+        octant_mesh, "untangled", lambda surface, *_: (surface, crossed(surface, True))
+    )
+    with pytest.raises(octant_mesh.FacetsCross):
+        mesh_octants(LIBRARY["BCC"], spec, [key], Monitor())
+    assert evened == [False, False, True]

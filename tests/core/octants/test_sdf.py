@@ -4,6 +4,7 @@
 import numpy as np
 import pytest
 
+from implicit import field_of
 from volfrep.octants import sdf
 
 
@@ -93,3 +94,38 @@ def test_a_fillet_rounds_a_right_angle_with_its_radius():
 def test_a_fillet_leaves_a_lone_primitive_alone():
     values = np.array([[0.3, 2.0], [-0.7, 1.0], [0.9, 1.1]])
     np.testing.assert_allclose(sdf.union(values, 1.0), values.min(axis=1))
+
+
+@pytest.mark.parametrize("taper", [1.0, 2.0])
+@pytest.mark.parametrize("fillet", [0.0, 0.7])
+def test_anchors_spare_no_primitive_that_matters(fillet, taper):
+    rng = np.random.default_rng(8)
+    start, end = rng.uniform(-6, 6, (30, 3)), rng.uniform(-6, 6, (30, 3))
+    ends = np.tile([0.4, 0.4 * taper], (30, 1))
+    primitives = sdf.join(sdf.struts(start, end, ends), sdf.spheres(start, 0.9))
+    places = rng.uniform(-6, 6, (200, 3))
+    plain = field_of(primitives, len(places), fillet)
+    anchored = plain.anchored(places)
+    points = places + rng.normal(size=places.shape) * rng.choice([0.0, 0.1, 1.0], (200, 1))
+    assert len(anchored._pairs(points)[0]) < 0.6 * len(plain._pairs(points)[0])
+    np.testing.assert_allclose(anchored.values(points), plain.values(points), atol=1e-13)
+    for one, two in zip(anchored.nearest(points), plain.nearest(points), strict=True):
+        np.testing.assert_array_equal(one, two)
+    np.testing.assert_array_equal(anchored.touching(points, 0.3), plain.touching(points, 0.3))
+    pairs = zip(
+        anchored.values_and_gradients(points), plain.values_and_gradients(points), strict=True
+    )
+    for one, two in pairs:
+        np.testing.assert_allclose(one, two, atol=1e-12)
+    group = points[:, None] + rng.uniform(-0.4, 0.4, (200, 5, 3))
+    np.testing.assert_allclose(
+        anchored.values_of_groups(group), plain.values_of_groups(group), atol=1e-13
+    )
+    some = rng.integers(0, 200, 50)
+    joined = anchored.rows(some).joined(anchored.rows(some))
+    assert joined.anchors is not None
+    np.testing.assert_allclose(
+        joined.values(np.tile(points[some], (2, 1))),
+        np.tile(plain.rows(some).values(points[some]), 2),
+        atol=1e-13,
+    )

@@ -10,7 +10,9 @@ M. C. Rivara, Int. J. Numer. Meth. Engng. 40, 1997.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -33,6 +35,8 @@ TURN = 0.7
 THIN = 0.2
 #: Facets on the way to a longest edge that is the longest of both its facets.
 PATH = 20
+#: Passes of flips after each collapse and each split.
+FLIPS = 3
 #: Rounds of all three moves.
 ROUNDS = 24
 #: Rings of facets about bad ones that may change.
@@ -58,28 +62,41 @@ class Tolerance:
     def at(self, points: Floats) -> Floats:
         """(n,) the tolerance at points (n, 3), mm."""
         result = np.full(len(points), self.usual)
-        for places in self.places:
-            apart = cKDTree(places).query(points, distance_upper_bound=self.reach)[0]
+        for tree in self._trees:
+            apart = tree.query(points, distance_upper_bound=self.reach)[0]
             result[apart < np.inf] *= LESS
         return result
+
+    @cached_property
+    def _trees(self) -> list[cKDTree]:
+        return [cKDTree(places) for places in self.places]
 
 
 def angles_of(corners: Floats) -> Floats:
     """(m, 3) angles of (m, 3, 3) facets, degrees; 0 where two corners are one."""
-    along = np.roll(corners, -1, axis=1) - corners
-    length = np.linalg.norm(along, axis=2)
-    back = np.roll(along, 1, axis=1)
-    product = np.maximum(length * np.roll(length, 1, axis=1), 1e-300)
-    cosine = -np.einsum("mij,mij->mi", along, back) / product
-    result: Floats = np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0)))
-    return np.where((length > 0) & (np.roll(length, 1, axis=1) > 0), result, 0.0)
+    # Axis by axis, which numpy takes in faster than rows of three.
+    x = [[corners[:, k, axis] for axis in range(3)] for k in range(3)]
+    along = [[q - p for p, q in zip(x[k], x[(k + 1) % 3], strict=True)] for k in range(3)]
+    length = [np.sqrt(e[0] * e[0] + e[1] * e[1] + e[2] * e[2]) for e in along]
+    result = np.zeros((len(corners), 3))
+    for k in range(3):
+        e, f, product = along[k], along[k - 1], length[k] * length[k - 1]
+        cosine = -(e[0] * f[0] + e[1] * f[1] + e[2] * f[2]) / np.maximum(product, 1e-300)
+        angle = np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0)))
+        result[:, k] = np.where((length[k] > 0) & (length[k - 1] > 0), angle, 0.0)
+    return result
+
+
+def _least_angles(corners: Floats) -> Floats:
+    """(m,) the least angles of (m, 3, 3) facets, degrees."""
+    a, b, c = angles_of(corners).T
+    return np.asarray(np.minimum(np.minimum(a, b), c))
 
 
 def is_bad(corners: Floats) -> Bools:
     """(m,) whether (m, 3, 3) facets have angles beyond the limits."""
     angle = angles_of(corners)
-    result: Bools = (angle.min(axis=1) < LEAST_ANGLE) | (angle.max(axis=1) > MOST_ANGLE)
-    return result
+    return np.asarray((angle.min(axis=1) < LEAST_ANGLE) | (angle.max(axis=1) > MOST_ANGLE))
 
 
 def well_shaped(mesh: TriangleMesh, tolerance: Tolerance, shortest: float) -> TriangleMesh:
@@ -91,25 +108,38 @@ def well_shaped(mesh: TriangleMesh, tolerance: Tolerance, shortest: float) -> Tr
         shortest: no edge is split into pieces shorter than that, mm.
     """
     points, triangles = mesh.vertices, mesh.triangles.astype(np.int64)
+    bad = is_bad(points[triangles])
     for done in range(ROUNDS):
-        bad = is_bad(points[triangles])
         if not bad.any():
             break
-        near = np.zeros(len(points), bool)
-        near[triangles[bad]] = True
+        part = bad
         for _ in range(RINGS):
-            part = near[triangles].any(axis=1)
-            near[triangles[part]] = True
-        used, local = np.unique(triangles[part], return_inverse=True)
-        moved, piece, kept = _mended(
-            points[used], local.reshape(-1, 3), tolerance, shortest, done % 2 == 1
-        )
-        # Points that went are no longer in use, new ones follow all the others.
-        row = np.concatenate([used[kept], len(points) + np.arange(len(moved) - len(kept))])
-        points = np.concatenate([points, moved[len(kept) :]])
-        points[row[: len(kept)]] = moved[: len(kept)]
-        triangles = np.concatenate([triangles[~part], row[piece]])
+            part = _touching(part, triangles, len(points))
+        used, local = _numbered(triangles[part], len(points))
+        moved, piece = _mended(points[used], local, tolerance, shortest, done % 2 == 1)
+        row = np.concatenate([used, len(points) + np.arange(len(moved) - len(used))])
+        points = np.concatenate([points, moved[len(used) :]])
+        points[used] = moved[: len(used)]
+        rest, changed = triangles[~part], row[piece]
+        triangles = np.concatenate([rest, changed])
+        bad = np.concatenate([np.zeros(len(rest), bool), is_bad(points[changed])])
     return compact(TriangleMesh(points, triangles.astype(np.int32)))
+
+
+def _touching(chosen: Bools, triangles: Ints, count: int) -> Bools:
+    """(m,) which triangles have a corner, of `count` ones, in common with a chosen one."""
+    near = np.zeros(count, bool)
+    near[triangles[chosen]] = True
+    a, b, c = (near[triangles[:, k]] for k in range(3))
+    return np.asarray(a | b | c, np.bool_)
+
+
+def _numbered(triangles: Ints, count: int) -> tuple[Ints, Ints]:
+    """The points of triangles, of `count` ones, ascending; the triangles of these."""
+    is_used = np.zeros(count, bool)
+    is_used[triangles] = True
+    number = np.cumsum(is_used) - 1
+    return np.flatnonzero(is_used), number[triangles]
 
 
 def without_fins(mesh: TriangleMesh, folded: Bools) -> TriangleMesh:
@@ -158,22 +188,13 @@ def _names(triangles: Ints, count: int) -> Ints:
 
 def _mended(
     points: Floats, triangles: Ints, tolerance: Tolerance, shortest: float, dearer: bool
-) -> tuple[Floats, Ints, Ints]:
-    """An open piece after one round: points, facets, and which points the first ones were."""
-    kept, triangles = np.unique(_without_threes(points, triangles, tolerance), return_inverse=True)
-    points, triangles = points[kept], triangles.reshape(-1, 3)
-    points, triangles, renumber = _collapsed(points, triangles, tolerance, dearer)
-    kept = kept[np.flatnonzero(renumber >= 0)]
-    for _ in range(3):
-        triangles, flipped = _flipped(points, triangles, tolerance)
-        if not flipped:
-            break
+) -> tuple[Floats, Ints]:
+    """An open piece after one round: points keep their rows, though not their facets."""
+    triangles = _without_threes(points, triangles, tolerance)
+    points, triangles = _collapsed(points, triangles, tolerance, dearer)
+    triangles = _flipped(points, triangles, tolerance)
     points, triangles = _split(points, triangles, shortest)
-    for _ in range(3):
-        triangles, flipped = _flipped(points, triangles, tolerance)
-        if not flipped:
-            break
-    return points, triangles, kept
+    return points, _flipped(points, triangles, tolerance)
 
 
 def _fixed(triangles: Ints, count: int) -> Bools:
@@ -197,30 +218,22 @@ def _without_threes(points: Floats, triangles: Ints, tolerance: Tolerance) -> In
     several = chosen[triangles].sum(axis=1) > 1
     chosen[triangles[several].max(axis=1)] = False
     chosen[np.sort(triangles[several], axis=1)[:, 1]] = False
-    rows, corner = np.nonzero(chosen[triangles])
-    point = triangles[rows, corner]
-    begin, end = triangles[rows, (corner + 1) % 3], triangles[rows, (corner + 2) % 3]
-    order = np.argsort(point, kind="stable")
-    rows, point, begin, end = (part[order].reshape(-1, 3) for part in (rows, point, begin, end))
-    # Round the point: what the first facet ends with, another begins with.
-    third = np.where(begin[:, 1] == end[:, 0], end[:, 1], end[:, 2])
-    facet = np.stack([begin[:, 0], end[:, 0], third], axis=1)
+    rows, facet = _around(triangles, chosen)
+    point = np.flatnonzero(chosen)
     normal = remesh.normals(points[facet])
     size = np.maximum(np.linalg.norm(normal, axis=1), 1e-300)
-    corners = points[triangles]
+    corners = points[triangles[rows.ravel()]]
     is_thin = remesh.heights(corners) < THIN * tolerance.at(corners.mean(axis=1))
-    away = np.abs(np.einsum("ij,ij->i", normal, points[point[:, 0]] - points[facet[:, 0]])) / size
-    sides = remesh.normals(points[triangles[rows.ravel()]]).reshape(-1, 3, 3)
+    away = np.abs(np.einsum("ij,ij->i", normal, points[point] - points[facet[:, 0]])) / size
+    sides = remesh.normals(corners).reshape(-1, 3, 3)
     along = np.einsum("ikj,ij->ik", sides, normal)
     # What is that thin has no side that would matter.
     same = along > TURN * size[:, None] * np.linalg.norm(sides, axis=2)
-    same |= is_thin[rows]
-    goes = (away <= tolerance.at(points[point[:, 0]])) & same.all(axis=1)
-    goes &= near[point[:, 0]] | ~is_bad(points[facet])
+    same |= is_thin.reshape(-1, 3)
+    goes = (away <= tolerance.at(points[point])) & same.all(axis=1)
+    goes &= near[point] | ~is_bad(points[facet])
     # Of a tetrahedron the fourth facet would be left with its own back.
-    shape = np.array([len(points) ** 2, len(points), 1])
-    names = [(np.sort(part, axis=1) * shape).sum(axis=1) for part in (facet, triangles)]
-    goes &= ~np.isin(*names)
+    goes &= ~np.isin(_names(facet, len(points)), _names(triangles, len(points)))
     stays = np.ones(len(triangles), bool)
     stays[rows[goes].ravel()] = False
     return np.concatenate([triangles[stays], facet[goes]])
@@ -228,21 +241,37 @@ def _without_threes(points: Floats, triangles: Ints, tolerance: Tolerance) -> In
 
 def _collapsed(
     points: Floats, triangles: Ints, tolerance: Tolerance, dearer: bool
-) -> tuple[Floats, Ints, Ints]:
-    """Shortest edges of bad facets collapsed: points, facets, the new number of each point.
+) -> tuple[Floats, Ints]:
+    """Shortest edges of bad facets collapsed: points, which keep their rows, and facets.
 
     Onto the end where that moves the surface less, or else the `dearer` way.
     """
+    bad = is_bad(points[triangles])
+    if not bad.any():
+        return points, triangles
+    at_border = _fixed(triangles, len(points))
+    part = _touching(bad, triangles, len(points))
+    used, local = _numbered(triangles[part], len(points))
+    rules, longest = _rules(points[used], local, bad[part], at_border[used], tolerance, dearer)
+    moved, some, renumber = remesh.collapse(points[used], local, rules, longest, np.inf)
+    row = used[renumber >= 0]
+    points = points.copy()
+    points[row] = moved
+    return points, np.concatenate([triangles[~part], row[some]])
+
+
+def _rules(
+    points: Floats, triangles: Ints, bad: Bools, fixed: Bools, tolerance: Tolerance, dearer: bool
+) -> tuple[remesh.Rules, float]:
+    """How the shortest edges of bad facets collapse, and how long the longest of them is."""
     count = len(points)
-    fixed = _fixed(triangles, count)
     corners = points[triangles]
-    bad = is_bad(corners)
-    sides = np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=2)
-    at = sides.argmin(axis=1)
     rows = np.flatnonzero(bad)
-    ends = np.stack([triangles[rows, at[rows]], triangles[rows, (at[rows] + 1) % 3]], axis=1)
+    sides = np.linalg.norm(corners[rows] - np.roll(corners[rows], -1, axis=1), axis=2)
+    at = sides.argmin(axis=1)
+    ends = np.stack([triangles[rows, at], triangles[rows, (at + 1) % 3]], axis=1)
     wanted = np.unique(ends.min(axis=1) * np.int64(count) + ends.max(axis=1))
-    longest = float(sides[rows, at[rows]].max(initial=0.0)) * (1.0 + 1e-9)
+    longest = float(sides.min(axis=1).max(initial=0.0)) * (1.0 + 1e-9)
     normal = remesh.unit_normals(corners)
     begin, facet = remesh.grouped(triangles.ravel(), np.repeat(np.arange(len(triangles)), 3), count)
 
@@ -255,8 +284,13 @@ def _collapsed(
         return np.where(fixed[vertex] & (place != points[vertex]).any(axis=1), np.inf, result)
 
     def merge(gone: Ints, kept: Ints) -> tuple[Floats, Floats]:
+        result, target = np.full(len(gone), np.inf), points[kept]
         low, high = np.minimum(gone, kept), np.maximum(gone, kept)
-        asked = np.isin(low * np.int64(count) + high, wanted)
+        asked = np.flatnonzero(np.isin(low * np.int64(count) + high, wanted))
+        result[asked], target[asked] = cost_of(gone[asked], kept[asked])
+        return result, target
+
+    def cost_of(gone: Ints, kept: Ints) -> tuple[Floats, Floats]:
         one, two = away(gone, points[kept]), away(kept, points[gone])
         allowed = np.minimum(tolerance.at(points[gone]), tolerance.at(points[kept]))
         # Where both would do, the one that moves the surface less, or the other.
@@ -265,23 +299,22 @@ def _collapsed(
         cost = np.where(onto, one, two)
         target = np.where(onto[:, None], points[kept], points[gone])
         length = np.linalg.norm(points[gone] - points[kept], axis=1)
-        return np.where(asked & (cost <= allowed), length, np.inf), target
+        return np.where(cost <= allowed, length, np.inf), target
 
     def improves(before: Floats, after: Floats) -> Bools:
         return _improves(before, after, tolerance)
 
-    def always(gone: Ints, _: Ints) -> Bools:
-        result: Bools = ~fixed[gone]
-        return result
+    def is_free(gone: Ints, _: Ints) -> Bools:
+        return np.asarray(~fixed[gone])
 
-    rules = remesh.Rules(fixed.astype(np.int64), always, _never, improves, merge)
-    return remesh.collapse(points, triangles, rules, max(longest, 1e-300), np.inf)
+    rules = remesh.Rules(fixed.astype(np.int64), is_free, _never, improves, merge)
+    return rules, max(longest, 1e-300)
 
 
 def _improves(before: Floats, after: Floats, tolerance: Tolerance) -> Bools:
     """Whether facets keep their side, and become no worse where they are bad."""
     thin = THIN * tolerance.at(before.mean(axis=1))
-    least, was = angles_of(after).min(axis=1), angles_of(before).min(axis=1)
+    least, was = _least_angles(after), _least_angles(before)
     good = (least > WANTED_ANGLE) | (least >= LOSS * was)
     low = np.maximum(remesh.heights(before), remesh.heights(after)) < thin
     result: Bools = low | (good & _same_side(before, after, thin))
@@ -298,25 +331,36 @@ def _same_side(before: Floats, after: Floats, thin: Floats) -> Bools:
     return result
 
 
-def _flipped(points: Floats, triangles: Ints, tolerance: Tolerance) -> tuple[Ints, int]:
-    """Facets with their edges flipped where that makes the least angle larger; how many were."""
-    poor = np.zeros(len(points), bool)
-    poor[triangles[angles_of(points[triangles]).min(axis=1) < WANTED_ANGLE]] = True
+def _flipped(points: Floats, triangles: Ints, tolerance: Tolerance) -> Ints:
+    """Facets with their edges flipped where that makes the least angle larger."""
+    poor = _least_angles(points[triangles]) < WANTED_ANGLE
+    triangles = triangles.copy()
+    for _ in range(FLIPS):
+        # Most facets are good, and stay: only edges of poor ones are looked at, with all facets
+        # about them, and again where others have changed.
+        rows = np.flatnonzero(_touching(poor, triangles, len(points)))
+        some, flipped = remesh.flip(points, triangles[rows], _flip_gain(points, tolerance), _never)
+        if not flipped:
+            break
+        poor[:] = False
+        poor[rows[(some != triangles[rows]).any(axis=1)]] = True
+        triangles[rows] = some
+        rows = np.flatnonzero(_touching(poor, triangles, len(points)))
+        poor[:] = False
+        poor[rows] = _least_angles(points[triangles[rows]]) < WANTED_ANGLE
+    return triangles
+
+
+def _flip_gain(points: Floats, tolerance: Tolerance) -> Callable[[Ints, Ints], Floats]:
+    """What flips of edges win: degrees of the least angle, negative where they are not allowed."""
 
     def gain(ends: Ints, corners: Ints) -> Floats:
-        # Most facets are good, and stay: only edges with a poor one are looked at.
-        result = np.full(len(ends), -1.0)
-        rows = np.flatnonzero(poor[ends].all(axis=1) & poor[corners].any(axis=1))
-        result[rows] = gain_of(ends[rows], corners[rows])
-        return result
-
-    def gain_of(ends: Ints, corners: Ints) -> Floats:
         u, v = ends.T
         a, b = corners.T
         old = np.stack([[u, v, a], [v, u, b]]).transpose(2, 0, 1).reshape(-1, 3)
         new = np.stack([[a, b, v], [b, a, u]]).transpose(2, 0, 1).reshape(-1, 3)
-        was = angles_of(points[old]).min(axis=1).reshape(-1, 2).min(axis=1)
-        then = angles_of(points[new]).min(axis=1).reshape(-1, 2).min(axis=1)
+        was = _least_angles(points[old]).reshape(-1, 2).min(axis=1)
+        then = _least_angles(points[new]).reshape(-1, 2).min(axis=1)
         # The two edges are the diagonals of a tetrahedron: how far apart they are.
         p, q = points[v] - points[u], points[b] - points[a]
         across = np.cross(p, q)
@@ -334,7 +378,7 @@ def _flipped(points: Floats, triangles: Ints, tolerance: Tolerance) -> tuple[Int
                 allowed[rows] &= _same_side(before, points[pairs[1][:, n]], THIN * most)
         return np.where(allowed, then - was - 0.1, -1.0)
 
-    return remesh.flip(points, triangles, gain, _never)
+    return gain
 
 
 def _split(points: Floats, triangles: Ints, shortest: float) -> tuple[Floats, Ints]:

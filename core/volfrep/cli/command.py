@@ -14,7 +14,7 @@ import tempfile
 import time
 import traceback
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -156,16 +156,13 @@ def _workers(options: argparse.Namespace, triangles: int) -> Iterator[Executor |
         yield executor
 
 
-@contextmanager
-def _ahead(options: argparse.Namespace) -> Iterator[StlAhead | None]:
+def _ahead(options: argparse.Namespace) -> AbstractContextManager[StlAhead | None]:
     """The file to write where it may be begun before all of it is known; else None."""
-    from ..io.write.stl_ahead import stl_ahead
-
     if Path(options.output).suffix.lower() != ".stl":
-        yield None
-        return
-    with stl_ahead(options.output) as ahead:
-        yield ahead
+        return nullcontext()
+    from ..io.write.stl_ahead import stl_ahead  # with what cuts, which no other file needs here
+
+    return stl_ahead(options.output)
 
 
 def _are_cut(executor: Executor | None, ahead: StlAhead | None, inner: InnerOctants) -> None:

@@ -68,6 +68,7 @@ def wish(**values):
     return Wish(**{**vars(Wish("mass", 2.0, 0, 0, 0, 0, 0.3, 1.6, prove=False)), **values})
 
 
+@pytest.mark.slow
 def test_thin_struts_are_removed_and_stay_so_in_the_document(infill):
     doc, box = infill.Document, infill.Base
     analysis = analysis_of(doc, "one end")  # nothing is done to the other

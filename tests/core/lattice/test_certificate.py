@@ -64,6 +64,7 @@ def test_octants_fit_where_creases_leave_them(cell, radius, facets, share):
     certify(layout_of(LIBRARY[cell], active, radius, facets))
 
 
+@pytest.mark.slow
 def test_octants_fit_where_a_joint_and_a_strut_are_equally_near():
     """The vertex on their crease is moved by the curvature of one of them, the same beyond."""
     active = np.ones((2, 2, 2), bool)
@@ -72,6 +73,7 @@ def test_octants_fit_where_a_joint_and_a_strut_are_equally_near():
     assert agree_on_faces(layout)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("size", "radius", "facets"),
     [(17.776401119427685, 1.217720071165018, 20), (26.103108069836463, 2.184414544820798, 16)],

@@ -10,6 +10,7 @@ import signal
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -78,6 +79,7 @@ def test_limits_that_are_kept_change_nothing(here: Path, tmp_path: Path) -> None
 def test_a_process_that_dies_gets_its_run_again_and_then_is_at_fault(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    only_filled = replace(FILLED, do=("fill",))
     tried = []
 
     def deadly(child: apart._Child, design: object) -> None:
@@ -89,11 +91,11 @@ def test_a_process_that_dies_gets_its_run_again_and_then_is_at_fault(
     send = apart._Child._send
     monkeypatch.setattr(apart._Child, "_send", deadly)
     deaths = (2,)  # the first that is sent is the batch
-    made = volfrep.sweep(FILLED, tmp_path / "once", workers=1, limit_hours=1.0)
+    made = volfrep.sweep(only_filled, tmp_path / "once", workers=1, limit_hours=1.0)
     assert made.count("done") == 4
     tried.clear()
     deaths = (2, 4)
-    made = volfrep.sweep(FILLED, tmp_path / "twice", workers=1, limit_hours=1.0)
+    made = volfrep.sweep(only_filled, tmp_path / "twice", workers=1, limit_hours=1.0)
     assert made.count("failed") == 1
     (said,) = (text for text in made.table.column("error") if text)
     assert "ended by signal 9, 2 times" in said

@@ -10,17 +10,17 @@ from pathlib import Path
 
 import numpy as np
 
-from ..mesh import remesh
 from ..mesh.brep import FacetedBrep, faceted_brep
 from ..mesh.triangle_mesh import TriangleMesh, compact
-from ..mesh.well_shaped import Tolerance, angles_of, well_shaped, without_fins
+from ..mesh.well_shaped import Tolerance, angles_of, well_shaped
 from ..spatial.proximity import closest_points
 from ..spatial.self_intersection import crossing_triangles
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 from ..util.subprocesses import run_program
-from ..util.types import Bools, Floats, Ints
+from ..util.types import Floats, Ints
 from .facet_grading import graded
+from .fins import folded_facets, without_fins
 
 #: A solver needs about 50 kB for each of these: more are not a job for tetrahedra.
 MAX_TRIANGLES = 200_000
@@ -38,9 +38,6 @@ NEEDLE = 2.0
 #: median edges about them), and they are mended so many times.
 MENDING = 0.05
 NEAR = 1.0
-#: Facets that meet at an edge at an angle below this, degrees, lie on each other to Gmsh, which
-#: refuses such surfaces below 0.1.
-FOLDED = 0.3
 #: Facets that run through each other by less (median edges) touch: they lie in one plane.
 TOUCHING = 1e-7
 TRIES = 6
@@ -167,27 +164,14 @@ def mended(mesh: TriangleMesh, monitor: Monitor) -> tuple[TriangleMesh, float]:
         crossed = monitor.call(lambda: crossing_triangles(better, every, TOUCHING * edge))  # noqa: B023
         if not crossed.any():
             # What folds in the end may still be filled, and needles surely are not.
-            better = without_fins(better, _folded(better))
+            better = without_fins(better, folded_facets(better))
             best = better, tolerance.usual
-            crossed = _folded(better)
+            crossed = folded_facets(better)
             if not crossed.any():
                 break
         place = better.vertices[np.unique(better.triangles[crossed])]
         tolerance = replace(tolerance, places=(*tolerance.places, place))
     return best
-
-
-def _folded(mesh: TriangleMesh) -> Bools:
-    """(m,) triangles that lie on one that they share an edge with."""
-    table = remesh.edges(mesh.triangles.astype(np.int64), len(mesh.vertices))
-    normal = remesh.unit_normals(mesh.vertices[mesh.triangles])
-    one, other = table.triangles[table.triangles[:, 1] >= 0].T
-    # Of unit vectors that are nearly opposite the sum is the angle between them.
-    apart = np.linalg.norm(normal[one] + normal[other], axis=1)
-    found = np.zeros(len(normal), bool)
-    found[one[apart < np.radians(FOLDED)]] = True
-    found[other[apart < np.radians(FOLDED)]] = True
-    return found
 
 
 def nodes_on(filled: TetrahedralMesh, wall: TriangleMesh) -> Ints:

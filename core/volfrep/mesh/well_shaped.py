@@ -33,6 +33,8 @@ LOSS = 0.8
 TURN = 0.7
 #: But those lower than this part of the tolerance have no side that would matter.
 THIN = 0.2
+#: Facets that meet at an edge at an angle below this, degrees, lie on one another.
+OPPOSITE = 0.3
 #: Facets on the way to a longest edge that is the longest of both its facets.
 PATH = 20
 #: Passes of flips after each collapse and each split.
@@ -142,34 +144,8 @@ def _numbered(triangles: Ints, count: int) -> tuple[Ints, Ints]:
     return np.flatnonzero(is_used), number[triangles]
 
 
-def without_fins(mesh: TriangleMesh, folded: Bools) -> TriangleMesh:
-    """The closed mesh without points that only three facets share which lie on one another.
-
-    Such a point sticks out of the surface in a fin of no thickness: one facet takes the place of
-    its three, and nothing is lost. The mesh itself where there is none.
-
-    Args:
-        mesh: closed.
-        folded: (m,) facets that lie on a neighbour.
-    """
-    triangles = mesh.triangles.astype(np.int64)
-    count = len(mesh.vertices)
-    tip = np.bincount(triangles.ravel(), minlength=count) == 3
-    tip &= np.bincount(triangles[folded].ravel(), minlength=count) == 3
-    tip[triangles[tip[triangles].sum(axis=1) > 1]] = False
-    rows, facet = _around(triangles, tip)
-    # Of a tetrahedron the fourth facet would be left with its own back.
-    whole = ~np.isin(_names(facet, count), _names(triangles, count))
-    if not whole.any():
-        return mesh
-    stays = np.ones(len(triangles), bool)
-    stays[rows[whole].ravel()] = False
-    joined = np.concatenate([triangles[stays], facet[whole]]).astype(np.int32)
-    return compact(TriangleMesh(mesh.vertices, joined))
-
-
-def _around(triangles: Ints, chosen: Bools) -> tuple[Ints, Ints]:
-    """Of each chosen point, which has three facets: their rows, and the one facet about them."""
+def around(triangles: Ints, chosen: Bools) -> tuple[Ints, Ints]:
+    """Of chosen points (n,) with three facets each: their rows (k, 3), the facets about them."""
     rows, corner = np.nonzero(chosen[triangles])
     order = np.argsort(triangles[rows, corner], kind="stable")
     rows, corner = rows[order], corner[order]
@@ -180,7 +156,7 @@ def _around(triangles: Ints, chosen: Bools) -> tuple[Ints, Ints]:
     return rows.reshape(-1, 3), np.stack([begin[:, 0], end[:, 0], third], axis=1)
 
 
-def _names(triangles: Ints, count: int) -> Ints:
+def names(triangles: Ints, count: int) -> Ints:
     """A number for the three corners of each facet, whatever their order."""
     result: Ints = (np.sort(triangles, axis=1) * np.array([count**2, count, 1])).sum(axis=1)
     return result
@@ -218,7 +194,7 @@ def _without_threes(points: Floats, triangles: Ints, tolerance: Tolerance) -> In
     several = chosen[triangles].sum(axis=1) > 1
     chosen[triangles[several].max(axis=1)] = False
     chosen[np.sort(triangles[several], axis=1)[:, 1]] = False
-    rows, facet = _around(triangles, chosen)
+    rows, facet = around(triangles, chosen)
     point = np.flatnonzero(chosen)
     normal = remesh.normals(points[facet])
     size = np.maximum(np.linalg.norm(normal, axis=1), 1e-300)
@@ -233,7 +209,7 @@ def _without_threes(points: Floats, triangles: Ints, tolerance: Tolerance) -> In
     goes = (away <= tolerance.at(points[point])) & same.all(axis=1)
     goes &= near[point] | ~is_bad(points[facet])
     # Of a tetrahedron the fourth facet would be left with its own back.
-    goes &= ~np.isin(_names(facet, len(points)), _names(triangles, len(points)))
+    goes &= ~np.isin(names(facet, len(points)), names(triangles, len(points)))
     stays = np.ones(len(triangles), bool)
     stays[rows[goes].ravel()] = False
     return np.concatenate([triangles[stays], facet[goes]])
@@ -331,6 +307,12 @@ def _same_side(before: Floats, after: Floats, thin: Floats) -> Bools:
     return result
 
 
+def _are_opposite(one: Floats, other: Floats) -> Bools:
+    """Whether facets (m, 3, 3) look the opposite way of others, within `OPPOSITE` degrees."""
+    sides = remesh.unit_normals(one) + remesh.unit_normals(other)
+    return np.asarray(np.linalg.norm(sides, axis=1) < np.radians(OPPOSITE), np.bool_)
+
+
 def _flipped(points: Floats, triangles: Ints, tolerance: Tolerance) -> Ints:
     """Facets with their edges flipped where that makes the least angle larger."""
     poor = _least_angles(points[triangles]) < WANTED_ANGLE
@@ -370,12 +352,15 @@ def _flip_gain(points: Floats, tolerance: Tolerance) -> Callable[[Ints, Ints], F
         rows = np.flatnonzero(allowed)
         most = tolerance.at(0.5 * (points[u[rows]] + points[v[rows]]))
         allowed[rows] = apart[rows] <= most
-        # A crease stays where it is, however small.
-        pairs = [part.reshape(-1, 2, 3)[rows] for part in (old, new)]
+        # A crease stays where it is, however small. But a facet that lies on one higher than it is
+        # looks the wrong way: what takes the place of both looks as the other one does.
+        pairs = [points[part.reshape(-1, 2, 3)[rows]] for part in (old, new)]
+        high = [remesh.heights(pairs[0][:, k]) for k in (0, 1)]
+        lies = _are_opposite(pairs[0][:, 0], pairs[0][:, 1])
         for k in (0, 1):
-            before = points[pairs[0][:, k]]
+            thin = np.where(lies & (high[k] < high[1 - k]), np.inf, THIN * most)
             for n in (0, 1):
-                allowed[rows] &= _same_side(before, points[pairs[1][:, n]], THIN * most)
+                allowed[rows] &= _same_side(pairs[0][:, k], pairs[1][:, n], thin)
         return np.where(allowed, then - was - 0.1, -1.0)
 
     return gain

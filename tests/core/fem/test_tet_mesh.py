@@ -11,6 +11,7 @@ import samples
 from volfrep import LatticeSpec
 from volfrep.fem import tet_mesh
 from volfrep.fem.calculix import solve
+from volfrep.fem.fins import folded_facets
 from volfrep.fem.model import StaticStep
 from volfrep.fem.tet_mesh import MAX_TRIANGLES, mended, nodes_on, tetrahedra
 from volfrep.io.write.calculix import sides, write_tetrahedra
@@ -146,22 +147,15 @@ def test_what_would_cross_is_not_mended(monkeypatch):
     better, moved = mended(mesh, Monitor())
     assert moved > 0.0
     assert is_bad(better.vertices[better.triangles]).sum() < 20
-    assert not tet_mesh._folded(better).any()
+    assert not folded_facets(better).any()
     monkeypatch.setattr(tet_mesh, "TRIES", 1)
     monkeypatch.setattr(tet_mesh, "well_shaped", lambda *_: better)
     with monkeypatch.context() as one:
         one.setattr(tet_mesh, "without_fins", lambda mesh, _: mesh)
-        one.setattr(tet_mesh, "_folded", lambda _: np.ones(len(better.triangles), bool))
+        one.setattr(tet_mesh, "folded_facets", lambda _: np.ones(len(better.triangles), bool))
         assert mended(mesh, Monitor()) == (better, moved), "needles are worse"
     monkeypatch.setattr(tet_mesh, "crossing_triangles", lambda _, among, depth: among)
     assert mended(mesh, Monitor()) == (mesh, 0.0)
-
-
-def test_a_facet_that_lies_on_its_neighbour():
-    corners = np.array([[0.0, 0, 0], [4, 0, 0], [2, 3, 0], [2, 1, 2.0]])
-    facets = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]], np.int32)
-    assert not tet_mesh._folded(TriangleMesh(corners, facets)).any()
-    assert tet_mesh._folded(TriangleMesh(corners * (1.0, 1.0, 1e-3), facets)).all()
 
 
 @needs_gmsh

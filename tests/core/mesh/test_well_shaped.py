@@ -7,9 +7,11 @@ import samples
 from volfrep import LatticeSpec
 from volfrep.jobs.blocks import block
 from volfrep.jobs.pipeline import fill
+from volfrep.mesh import remesh
+from volfrep.mesh import well_shaped as well_shaped_module
 from volfrep.mesh.quality import measure
 from volfrep.mesh.triangle_mesh import TriangleMesh
-from volfrep.mesh.well_shaped import Tolerance, angles_of, is_bad, well_shaped, without_fins
+from volfrep.mesh.well_shaped import Tolerance, angles_of, is_bad, well_shaped
 from volfrep.spatial.proximity import closest_points
 from volfrep.spatial.self_intersection import crossing_triangles
 
@@ -111,27 +113,15 @@ def test_a_sharp_edge_stays_sharp():
     assert is_bad(corners(better)).sum() < 0.05 * is_bad(corners(mesh)).sum()
 
 
-def test_a_fin_without_thickness_goes():
-    """Three facets about a point in their plane, but beyond an edge of the facet they stand for."""
-    box = samples.box((10.0, 8.0, 6.0))
-    a, b, c = box.triangles[0]
-    ends = box.vertices[[a, b, c]]
-    lengths = np.linalg.norm(ends - np.roll(ends, -1, axis=0), axis=1)
-    # Beyond a side of the box, not its diagonal.
-    far = (int(lengths.argmin()) + 2) % 3
-    tip = 0.6 * (ends[(far + 1) % 3] + ends[(far + 2) % 3]) - 0.2 * ends[far]
-    new = len(box.vertices)
-    facets = np.concatenate([box.triangles[1:], [[a, b, new], [b, c, new], [c, a, new]]])
-    mesh = TriangleMesh(np.vstack([box.vertices, tip]), facets.astype(np.int32))
-    folded = np.zeros(len(facets), bool)
-    assert without_fins(mesh, folded) is mesh
-    folded[-3:] = True
-    better = without_fins(mesh, folded)
-    assert len(better.triangles) == 12
-    assert len(better.vertices) == 8
-    assert better.volume == pytest.approx(480.0)
-    assert measure(better).watertight
-    # Of a tetrahedron every corner has three facets, and none can go.
-    corners = np.vstack([np.zeros(3), np.eye(3)])
-    four = TriangleMesh(corners, np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]], np.int32))
-    assert without_fins(four, np.ones(4, bool)) is four
+@pytest.mark.parametrize("height", [-0.2, -0.02])
+def test_a_facet_turned_over_its_neighbour_is_put_right(height):
+    """The corner beyond an edge was brought over the facet on the other side, in its plane."""
+    points = np.array([[0.0, 0, 0], [4, 0, 0], [1.5, -3, 0], [2, height, 0]])
+    turned = np.array([[0, 2, 1], [0, 1, 3]])
+    put_right = well_shaped_module._flipped(points, turned, Tolerance(TOLERANCE))
+    normal = remesh.normals(points[put_right])
+    assert normal[:, 2].min() > 0
+    assert normal[:, 2].sum() == pytest.approx(12.0 + 4.0 * height)
+    # A true crease stays.
+    points[3, 2] = 0.2
+    assert (well_shaped_module._flipped(points, turned, Tolerance(TOLERANCE)) == turned).all()

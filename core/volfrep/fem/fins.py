@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Facets that lie on one another, as moves of needles may leave them: found, and taken off."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..mesh import remesh
+from ..mesh.triangle_mesh import TriangleMesh, compact
+from ..mesh.well_shaped import OPPOSITE, around, names
+from ..util.types import Bools
+
+
+def folded_facets(mesh: TriangleMesh) -> Bools:
+    """(m,) facets that lie on one that they share an edge with, within `OPPOSITE` degrees."""
+    table = remesh.edges(mesh.triangles.astype(np.int64), len(mesh.vertices))
+    normal = remesh.unit_normals(mesh.vertices[mesh.triangles])
+    one, other = table.triangles[table.triangles[:, 1] >= 0].T
+    # Of unit vectors that are nearly opposite the sum is the angle between them.
+    apart = np.linalg.norm(normal[one] + normal[other], axis=1)
+    found = np.zeros(len(normal), bool)
+    found[one[apart < np.radians(OPPOSITE)]] = True
+    found[other[apart < np.radians(OPPOSITE)]] = True
+    return found
+
+
+def without_fins(mesh: TriangleMesh, folded: Bools) -> TriangleMesh:
+    """The closed mesh without fins of no thickness; the mesh itself where there is none.
+
+    Where three facets about a point lie on one another, one takes their place; two facets with the
+    same corners, which lie back to back, go. Nothing is lost by either.
+
+    Args:
+        mesh: closed.
+        folded: (m,) facets that lie on a neighbour.
+    """
+    triangles = mesh.triangles.astype(np.int64)
+    count = len(mesh.vertices)
+    tip = np.bincount(triangles.ravel(), minlength=count) == 3
+    tip &= np.bincount(triangles[folded].ravel(), minlength=count) == 3
+    tip[triangles[tip[triangles].sum(axis=1) > 1]] = False
+    rows, facet = around(triangles, tip)
+    # A tetrahedron would go as a whole.
+    whole = ~np.isin(names(facet, count), names(triangles, count))
+    stays = np.ones(len(triangles), bool)
+    stays[rows[whole].ravel()] = False
+    joined = np.concatenate([triangles[stays], facet[whole]])
+    _, which, uses = np.unique(names(joined, count), return_inverse=True, return_counts=True)
+    alone = uses[which.ravel()] == 1
+    if alone.all() and not whole.any():
+        return mesh
+    return compact(TriangleMesh(mesh.vertices, joined[alone].astype(np.int32)))

@@ -25,10 +25,10 @@ def folded_facets(mesh: TriangleMesh) -> Bools:
 
 
 def without_fins(mesh: TriangleMesh, folded: Bools) -> TriangleMesh:
-    """The closed mesh without fins of no thickness; the mesh itself where there is none.
+    """The closed mesh without points that only three facets share which lie on one another.
 
-    Where three facets about a point lie on one another, one takes their place; two facets with the
-    same corners, which lie back to back, go. Nothing is lost by either.
+    Such a point sticks out of the surface in a fin of no thickness: one facet takes the place of
+    its three, and nothing is lost. The mesh itself where there is none.
 
     Args:
         mesh: closed.
@@ -40,13 +40,11 @@ def without_fins(mesh: TriangleMesh, folded: Bools) -> TriangleMesh:
     tip &= np.bincount(triangles[folded].ravel(), minlength=count) == 3
     tip[triangles[tip[triangles].sum(axis=1) > 1]] = False
     rows, facet = around(triangles, tip)
-    # A tetrahedron would go as a whole.
+    # Of a tetrahedron the fourth facet would be left with its own back.
     whole = ~np.isin(names(facet, count), names(triangles, count))
+    if not whole.any():
+        return mesh
     stays = np.ones(len(triangles), bool)
     stays[rows[whole].ravel()] = False
-    joined = np.concatenate([triangles[stays], facet[whole]])
-    _, which, uses = np.unique(names(joined, count), return_inverse=True, return_counts=True)
-    alone = uses[which.ravel()] == 1
-    if alone.all() and not whole.any():
-        return mesh
-    return compact(TriangleMesh(mesh.vertices, joined[alone].astype(np.int32)))
+    joined = np.concatenate([triangles[stays], facet[whole]]).astype(np.int32)
+    return compact(TriangleMesh(mesh.vertices, joined))

@@ -316,12 +316,22 @@ def _are_opposite(one: Floats, other: Floats) -> Bools:
 def _flipped(points: Floats, triangles: Ints, tolerance: Tolerance) -> Ints:
     """Facets with their edges flipped where that makes the least angle larger."""
     poor = _least_angles(points[triangles]) < WANTED_ANGLE
+    at_border = _fixed(triangles, len(points))
     triangles = triangles.copy()
     for _ in range(FLIPS):
         # Most facets are good, and stay: only edges of poor ones are looked at, with all facets
         # about them, and again where others have changed.
-        rows = np.flatnonzero(_touching(poor, triangles, len(points)))
-        some, flipped = remesh.flip(points, triangles[rows], _flip_gain(points, tolerance), _never)
+        seen = np.zeros(len(points), bool)
+        seen[triangles[poor]] = True
+        rows = np.flatnonzero(seen[triangles].any(axis=1))
+        seen &= ~at_border
+
+        def is_unknown(one: Ints, two: Ints) -> Bools:
+            """Whether facets that are not looked at may have an edge between the two already."""
+            return np.asarray(~(seen[one] | seen[two]), np.bool_)  # noqa: B023
+
+        gain = _flip_gain(points, tolerance)
+        some, flipped = remesh.flip(points, triangles[rows], gain, is_unknown)
         if not flipped:
             break
         poor[:] = False

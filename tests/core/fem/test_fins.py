@@ -35,18 +35,6 @@ def test_a_fin_without_thickness_goes():
     assert without_fins(four, np.ones(4, bool)) is four
 
 
-def test_two_facets_back_to_back_go():
-    box = samples.box((10.0, 8.0, 6.0))
-    a, b, _ = box.triangles[0]
-    new = len(box.vertices)
-    facets = np.concatenate([box.triangles, [[a, b, new], [b, a, new]]]).astype(np.int32)
-    mesh = TriangleMesh(np.vstack([box.vertices, [20.0, 1.0, 1.0]]), facets)
-    better = without_fins(mesh, np.zeros(len(facets), bool))
-    assert (len(better.vertices), len(better.triangles)) == (8, 12)
-    assert better.volume == pytest.approx(480.0)
-    assert measure(better).watertight
-
-
 def test_a_facet_that_lies_on_its_neighbour():
     corners = np.array([[0.0, 0, 0], [4, 0, 0], [2, 3, 0], [2, 1, 2.0]])
     facets = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]], np.int32)

@@ -125,3 +125,11 @@ def test_a_facet_turned_over_its_neighbour_is_put_right(height):
     # A true crease stays.
     points[3, 2] = 0.2
     assert (well_shaped_module._flipped(points, turned, Tolerance(TOLERANCE)) == turned).all()
+
+
+def test_a_flip_makes_no_edge_that_others_have():
+    """Where some facets about both its ends were not looked at, an edge was made twice."""
+    spec = LatticeSpec("FCC", cell_size=10, strut_radius=1, shell=0, deviation=0.05)
+    mesh = fill(samples.sphere(11.0), spec).mesh
+    better = well_shaped(mesh, Tolerance(0.03), 0.15)
+    assert measure(better).watertight

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 import tempfile
 from dataclasses import dataclass, replace
@@ -41,6 +42,8 @@ NEAR = 1.0
 #: Facets that run through each other by less (median edges) touch: they lie in one plane.
 TOUCHING = 1e-7
 TRIES = 6
+#: What Gmsh finds to intersect is mended less in a next try, so many times.
+GMSH_TRIES = 4
 #: No edge is split into pieces shorter than this part of it.
 SHORTEST = 0.25
 #: Seconds, nodes, elements and bytes of the deck per triangle, each within a factor of two of what
@@ -126,8 +129,31 @@ def tetrahedra(mesh: TriangleMesh, monitor: Monitor | None = None) -> Tetrahedra
             "solve it with beams."
         )
     monitor = monitor or Monitor()
-    surface, moved = mended(compact(mesh), monitor)
-    surface = monitor.call(lambda: graded(surface))
+    places: list[Floats] = []
+    while True:
+        surface, moved = mended(compact(mesh), monitor, tuple(places))
+        surface = monitor.call(lambda: graded(surface))  # noqa: B023
+        said, filled = _filled(program, surface, monitor)
+        place = _intersection(said)
+        if filled is not None:
+            break
+        # Facets that touch in one plane cross nowhere, but are not to Gmsh's liking.
+        if place is None or not moved or len(places) == GMSH_TRIES:
+            raise _cannot_fill(said)
+        places.append(place)
+    result = replace(filled, moved=moved, grown=surface.volume / mesh.volume - 1.0)
+    volumes = result.volumes()
+    if not len(volumes) or volumes.min() <= 0:
+        raise _cannot_fill("it made tetrahedra that are inside out")
+    if abs(volumes.sum() / surface.volume - 1.0) > VOLUME_TOLERANCE:
+        raise _cannot_fill(f"it filled {volumes.sum():.6g} of {surface.volume:.6g} mm3")
+    return result
+
+
+def _filled(
+    program: str, surface: TriangleMesh, monitor: Monitor
+) -> tuple[str, TetrahedralMesh | None]:
+    """What Gmsh says of a closed surface, and the tetrahedra where it fills it."""
     brep = faceted_brep(surface)
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
@@ -137,18 +163,19 @@ def tetrahedra(mesh: TriangleMesh, monitor: Monitor | None = None) -> Tetrahedra
         said = run_program(command, folder, monitor)
         filled = folder / "filled.msh"
         if not filled.is_file() or said.returncode:
-            raise _cannot_fill(said.stdout)
-        grown = surface.volume / mesh.volume - 1.0
-        result = replace(_read(filled.read_bytes()), moved=moved, grown=grown)
-    volumes = result.volumes()
-    if not len(volumes) or volumes.min() <= 0:
-        raise _cannot_fill("it made tetrahedra that are inside out")
-    if abs(volumes.sum() / surface.volume - 1.0) > VOLUME_TOLERANCE:
-        raise _cannot_fill(f"it filled {volumes.sum():.6g} of {surface.volume:.6g} mm3")
-    return result
+            return said.stdout, None
+        return said.stdout, _read(filled.read_bytes())
 
 
-def mended(mesh: TriangleMesh, monitor: Monitor) -> tuple[TriangleMesh, float]:
+def _intersection(said: str) -> Floats | None:
+    """(1, 3) where Gmsh says that facets intersect, mm."""
+    found = re.search(r"intersection \(([^,()]+),([^,()]+),([^,()]+)\)", said)
+    return None if found is None else np.array([[float(number) for number in found.groups()]])
+
+
+def mended(
+    mesh: TriangleMesh, monitor: Monitor, places: tuple[Floats, ...] = ()
+) -> tuple[TriangleMesh, float]:
     """A closed mesh without needles and caps, and how far a move could take its surface, mm.
 
     The mesh as it is where it has no angle below `NEEDLE`, or where facets would cross then;
@@ -158,7 +185,7 @@ def mended(mesh: TriangleMesh, monitor: Monitor) -> tuple[TriangleMesh, float]:
     if angles_of(corners).min(initial=180.0) >= NEEDLE:
         return mesh, 0.0
     edge = float(np.median(np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)))
-    tolerance = Tolerance(MENDING * edge, (), NEAR * edge)
+    tolerance = Tolerance(MENDING * edge, places, NEAR * edge)
     best = mesh, 0.0
     for _ in range(TRIES):
         better = monitor.call(lambda: well_shaped(mesh, tolerance, SHORTEST * edge))  # noqa: B023

@@ -132,12 +132,35 @@ def test_a_volume_that_mending_changed_is_told(monkeypatch):
     """Gmsh fills the mended mesh, and its volume is compared with that of the mesh as it was."""
     box = samples.box((10.0, 8.0, 2.0))
     thinner = TriangleMesh(box.vertices * (1.0, 1.0, 0.99), box.triangles)
-    monkeypatch.setattr(tet_mesh, "mended", lambda mesh, _: (thinner, 0.02))
+    monkeypatch.setattr(tet_mesh, "mended", lambda mesh, *_: (thinner, 0.02))
     filled = tetrahedra(box)
     assert filled.grown == pytest.approx(-0.01)
     assert "-1.00%" in filled.warnings[0]
-    monkeypatch.setattr(tet_mesh, "mended", lambda mesh, _: (mesh, 0.0))
+    monkeypatch.setattr(tet_mesh, "mended", lambda mesh, *_: (mesh, 0.0))
     assert tetrahedra(box).warnings == ()
+
+
+@needs_gmsh
+def test_what_gmsh_finds_to_intersect_is_mended_less(monkeypatch):
+    said = "Error : Invalid boundary mesh (facet-facet intersection), intersection (1.5,-2,3e-1)"
+    filled, asked = tet_mesh._filled, []
+
+    def mend(mesh, _, places):
+        asked.append(places)
+        return mesh, 0.01
+
+    monkeypatch.setattr(tet_mesh, "mended", mend)
+    monkeypatch.setattr(tet_mesh, "_filled", lambda *_: (said, None))
+    with pytest.raises(VolfrepError, match="facet-facet intersection"):
+        tetrahedra(samples.box((4.0, 4.0, 4.0)))
+    assert len(asked) == 1 + tet_mesh.GMSH_TRIES
+    assert asked[1][0].tolist() == [[1.5, -2.0, 0.3]]
+    asked.clear()
+    monkeypatch.setattr(
+        tet_mesh, "_filled", lambda *given: filled(*given) if len(asked) > 1 else (said, None)
+    )
+    assert tetrahedra(samples.box((4.0, 4.0, 4.0))).volumes().sum() == pytest.approx(64)
+    assert len(asked) == 2
 
 
 def test_what_would_cross_is_not_mended(monkeypatch):

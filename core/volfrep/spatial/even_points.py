@@ -27,7 +27,7 @@ def even_points(dimensions: int, points_log2: int, seed: int = 1) -> Floats:
     integrals"; Matousek 1998, "On the L2-discrepancy for anchored boxes", for the scrambling.
     """
     random = np.random.default_rng(seed)
-    digit = 1 << np.arange(BITS)
+    digit = 1 << np.arange(BITS, dtype=np.int64)
     shift = (random.integers(2, size=(dimensions, BITS), dtype=np.uint32) * digit).sum(axis=1)
     mixed = np.tril(random.integers(2, size=(dimensions, BITS, BITS), dtype=np.uint32), -1)
     mixed |= np.eye(BITS, dtype=np.uint32)
@@ -51,4 +51,4 @@ def _directions(dimension: int) -> Ints:
             numbers.append(2 * numbers[-1] ^ 4 * numbers[-2] ^ numbers[-2])
         else:
             numbers.append(2 * numbers[-1] ^ numbers[-1] if dimension else 1)
-    return np.array(numbers) << np.arange(BITS)[::-1]
+    return np.array(numbers, np.int64) << np.arange(BITS, dtype=np.int64)[::-1]

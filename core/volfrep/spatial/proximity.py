@@ -332,15 +332,13 @@ def index_surface(
             f"Sampling the part's surface every {spacing:.3g} mm would take {expected:.2g} "
             "points: ask for a thicker shell."
         )
-    across = neighbours(mesh)
-    if sampled is None:
-        sampled = sample_triangles(np.stack(mesh.corners(), axis=1), spacing)
-    samples, owner = sampled
-    edge_samples, edge_owner = sample_reentrant_edges(mesh, across, spacing)
-    samples = np.concatenate([samples, edge_samples])
-    triangle = np.concatenate([owner, edge_owner]).astype(np.int32)
+    across, corners = neighbours(mesh), np.stack(mesh.corners(), axis=1)
+    samples, owner = sample_triangles(corners, spacing) if sampled is None else sampled
+    on_edges = sample_reentrant_edges(corners, unit_normals(corners), across, spacing)
+    samples = np.concatenate([samples, on_edges[0]])
+    triangle = np.concatenate([owner, on_edges[1]]).astype(np.int32)
     tree = cKDTree(samples, balanced_tree=False, compact_nodes=False, leafsize=32)
-    return SurfaceIndex(np.stack(mesh.corners(), axis=1), across, tree, triangle, spacing)
+    return SurfaceIndex(corners, across, tree, triangle, spacing)
 
 
 def neighbours(mesh: TriangleMesh) -> Ints:

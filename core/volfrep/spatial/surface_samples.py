@@ -5,13 +5,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..mesh.remesh import unit_normals
-from ..mesh.triangle_mesh import TriangleMesh
 from ..util.ragged import spread
+from ..util.threads import in_threads
 from ..util.types import Floats, Ints
 
 #: Sine of the angle between two faces from which their reentrant edge has samples of its own.
 SHARP_BEND = 0.1
+#: Triangles that one thread samples at a time.
+TRIANGLES_PER_STEP = 2000
 
 
 def sample_triangles(corners: Floats, spacing: float) -> tuple[Floats, Ints]:
@@ -19,6 +20,18 @@ def sample_triangles(corners: Floats, spacing: float) -> tuple[Floats, Ints]:
 
     Every point of a triangle (k, 3, 3) has one of them within 0.75 of the spacing.
     """
+    starts = range(0, max(len(corners), 1), TRIANGLES_PER_STEP)
+
+    def part(start: int) -> tuple[Floats, Ints]:
+        points, owner = _sampled(corners[start : start + TRIANGLES_PER_STEP], spacing)
+        return points, owner + start
+
+    points, owners = zip(*in_threads(part, starts), strict=True)
+    return np.concatenate(points), np.concatenate(owners)
+
+
+def _sampled(corners: Floats, spacing: float) -> tuple[Floats, Ints]:
+    """As `sample_triangles`, on one thread."""
     lengths = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2)
     longest = lengths.argmax(axis=1)
     turn = (longest[:, None] + np.arange(3)) % 3
@@ -40,13 +53,22 @@ def sample_triangles(corners: Floats, spacing: float) -> tuple[Floats, Ints]:
     return a + along[:, None] * (b - a) + up[:, None] * (c - a), owner
 
 
-def sample_reentrant_edges(mesh: TriangleMesh, across: Ints, spacing: float) -> tuple[Floats, Ints]:
+def sample_reentrant_edges(
+    corners: Floats, normal: Floats, across: Ints, spacing: float
+) -> tuple[Floats, Ints]:
     """Points along the edges that point into the solid.
 
     They are the nearest to many points inside, and the samples on the faces recede from them.
+
+    Args:
+        corners: (m, 3, 3) of triangles.
+        normal: (m, 3) their unit normals, outward.
+        across: (m, 3) the triangle on the other side of each edge.
+        spacing: mm.
+
+    Returns:
+        (k, 3) points and (k,) a triangle of each.
     """
-    corners = np.stack(mesh.corners(), axis=1)
-    normal = unit_normals(corners)
     triangle, edge = np.nonzero(across > np.arange(len(across))[:, None])
     other = across[triangle, edge]
     start, end = corners[triangle, edge], corners[triangle, (edge + 1) % 3]

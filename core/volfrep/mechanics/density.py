@@ -19,13 +19,15 @@ from numpy.typing import NDArray
 from ..design.cells import UnitCell
 from ..octants import sdf as frep
 from ..octants.sdf import Primitives
+from ..spatial.even_points import even_points
 from ..util.errors import VolfrepError
 from ..util.types import Floats, Ints
 from .endless import EndlessCell, endless_cell, own_primitives, refuse_odd
 
-#: Sets of Sobol points, and points of a set in each body.
+#: Sets of Sobol points, and points of a set in each body (a power of 2).
 SETS = 8
-POINTS = 2048
+POINTS_LOG2 = 11
+POINTS = 2**POINTS_LOG2
 #: Pairs of a point and a body that are looked at together.
 _CHUNK = 2_000_000
 #: Standard errors that the error tells.
@@ -186,10 +188,7 @@ def _axis_gaps(one: Primitives, two: Primitives) -> Floats:
 @lru_cache(maxsize=2)
 def _sobol() -> NDArray[np.float64]:
     """(SETS * POINTS, 3) points of the unit cube, the same in every run."""
-    from scipy.stats import qmc  # slow to load, and every job loads this module
-
-    sets = [qmc.Sobol(3, scramble=True, seed=seed).random(POINTS) for seed in range(SETS)]
-    return np.concatenate(sets)
+    return np.concatenate([even_points(3, POINTS_LOG2, seed) for seed in range(SETS)])
 
 
 def _points(bodies: Primitives, fillet: float) -> tuple[Floats, Floats]:

@@ -58,8 +58,7 @@ def find_wall(field: DepthField) -> Wall:
         The wall, without crossings and facets where nothing is so deep.
     """
     monitor = field.depth.monitor
-    leaves = _seen_through(field, field.coarsest_leaves(), 0)
-    negative = field.negative(leaves)
+    leaves, negative = _seen_through(field, field.coarsest_leaves(), 0)
     known = _Known(np.zeros(0, np.int64), *np.zeros((3, 0, 3)))
     changed = np.ones(len(leaves.size), bool)
     for done in range(ROUNDS):
@@ -71,25 +70,31 @@ def find_wall(field: DepthField) -> Wall:
         if enough or not halve.any():
             break
         stay = leaves.chosen(~halve)
-        halves = _seen_through(field, leaves.chosen(halve).halved(), len(stay.size))
+        halves, below = _seen_through(field, leaves.chosen(halve).halved(), len(stay.size))
         leaves = stay.joined(halves)
-        negative = np.concatenate([negative[~halve], field.negative(halves)])
+        negative = np.concatenate([negative[~halve], below])
         changed = np.arange(len(leaves.size)) >= len(stay.size)
     crossings = monitor.call(lambda: cross(leaves, negative))
     return monitor.call(lambda: _contoured(field, leaves, crossings, known))
 
 
-def _seen_through(field: DepthField, leaves: Leaves, others: int) -> Leaves:
-    """Some of all leaves, halved until no cavity wider than `NARROW` thicknesses is missed."""
+def _seen_through(field: DepthField, leaves: Leaves, others: int) -> tuple[Leaves, Bools]:
+    """Some of all leaves, halved until no cavity wider than `NARROW` thicknesses is missed.
+
+    Returns:
+        n leaves, and (n, 8) which of their corners lie inside the inner wall.
+    """
     narrow = NARROW * field.depth.thickness
-    done = leaves.chosen(slice(0))
+    done, below = leaves.chosen(slice(0)), np.zeros((0, 8), bool)
     while len(leaves.size):
-        hide = field.hide(leaves, narrow / 2.0) & (leaves.size * field.unit > narrow)
+        hide, negative = field.hide(leaves, narrow / 2.0)
+        hide &= leaves.size * field.unit > narrow
         if others + len(done.size) + len(leaves.size) + 7 * hide.sum() > MOST_LEAVES:
-            return done.joined(leaves)
+            hide[:] = False
         done = done.joined(leaves.chosen(~hide))
+        below = np.concatenate([below, negative[~hide]])
         leaves = leaves.chosen(hide).halved()
-    return done
+    return done, below
 
 
 @dataclass(frozen=True, eq=False)

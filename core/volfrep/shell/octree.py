@@ -18,6 +18,7 @@ import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
+from ..spatial.morton import interleaved
 from ..util.types import Bools, Ints
 
 #: Coordinates are whole numbers of this many bits.
@@ -216,7 +217,7 @@ def _divided(edges: Edges) -> Ints:
 def _leaves_round(leaves: Leaves, edges: Edges) -> Ints:
     """(n, 4) the leaf in each quadrant round the edges; -1: none."""
     # In the order of interleaved bits the cubes of a leaf follow each other.
-    start = _interleaved(leaves.corner)
+    start = interleaved(leaves.corner)
     order = np.argsort(start)
     start = start[order]
     rows = np.arange(len(edges.low))
@@ -225,27 +226,10 @@ def _leaves_round(leaves: Leaves, edges: Edges) -> Ints:
         cube = edges.low.copy()
         cube[rows, (edges.axis + 1) % 3] += u
         cube[rows, (edges.axis + 2) % 3] += v
-        leaf = order[np.searchsorted(start, _interleaved(cube), "right") - 1]
+        leaf = order[np.searchsorted(start, interleaved(cube), "right") - 1]
         beside = cube - leaves.corner[leaf]
         inside = ((beside >= 0) & (beside < leaves.size[leaf][:, None])).all(axis=1)
         result[:, quadrant] = np.where(inside, leaf, -1)
-    return result
-
-
-def _interleaved(nodes: Ints) -> Ints:
-    """Morton codes: the bits of x, y, z in turn (G. M. Morton, 1966)."""
-    result = np.zeros(len(nodes), np.int64)
-    for axis in range(3):
-        bits = nodes[:, axis].copy()
-        for shift, mask in (
-            (32, 0x1F00000000FFFF),
-            (16, 0x1F0000FF0000FF),
-            (8, 0x100F00F00F00F00F),
-            (4, 0x10C30C30C30C30C3),
-            (2, 0x1249249249249249),
-        ):
-            bits = (bits | (bits << shift)) & mask
-        result |= bits << (2 - axis)
     return result
 
 

@@ -128,11 +128,6 @@ class DepthField:
         off_lines = (nodes % self._step != 0).any(axis=1)
         return self.depth.values(self.point(nodes), inside, off_lines)
 
-    def negative(self, leaves: Leaves) -> Bools:
-        """(n, 8) which corners lie inside the inner wall."""
-        parts = [self.sample(part.nodes().reshape(-1, 3))[0] for part in _parts(leaves)]
-        return np.concatenate(parts).reshape(-1, 8) < 0
-
     def coarsest_leaves(self) -> Leaves:
         """The cubes of the coarsest size near the wall: all that it crosses, and neighbours.
 
@@ -165,15 +160,16 @@ class DepthField:
             leaves = leaves.joined(more)
         return leaves
 
-    def hide(self, leaves: Leaves, least: float) -> Bools:
-        """(n,) whether the surface may enter a leaf whose corner signs agree.
+    def hide(self, leaves: Leaves, least: float) -> tuple[Bools, Bools]:
+        """(n,) whether the surface may enter a leaf unseen; (n, 8) corners inside the inner wall.
 
         Along an edge or a diagonal the planes below both ends meet at the deepest point. Where it
         lies deeper than the thickness and `least` (mm) and the ends do not, there is one.
         """
-        return np.concatenate([self._hide(part, least) for part in _parts(leaves)])
+        hide, negative = zip(*(self._hide(part, least) for part in _parts(leaves)), strict=True)
+        return np.concatenate(hide), np.concatenate(negative)
 
-    def _hide(self, leaves: Leaves, least: float) -> Bools:
+    def _hide(self, leaves: Leaves, least: float) -> tuple[Bools, Bools]:
         value, gradient = self.sample(leaves.nodes().reshape(-1, 3))
         value, gradient = value.reshape(-1, 8), gradient.reshape(-1, 8, 3)
         size = self.unit * leaves.size
@@ -185,7 +181,7 @@ class DepthField:
             between = (a >= 0) & (b >= 0) & (down < 0) & (up > 0)
             share = np.clip((b - up - a) / np.where(between, down - up, 1.0), 0.0, 1.0)
             result |= between & (a + share * down < -least)
-        return result
+        return result, value < 0
 
 
 def _parts(leaves: Leaves) -> list[Leaves]:

@@ -7,14 +7,14 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy import sparse
-from scipy.stats import qmc
 
 from ..lattice.strut_binding import LEAST_ROOM
+from ..spatial.even_points import even_points
 from ..util.types import Floats, Ints
 
-#: Points in the ball about a joint by which its struts' overlap is found, and how far that is
-#: looked at, in radii.
-_POINTS = 4096
+#: Points (a power of 2) in the cube about a joint by which its struts' overlap is found, and how
+#: far that is looked at, in radii.
+_POINTS_LOG2 = 12
 _FARTHEST = 6.0
 #: Of the radius at which the mesh of struts would have no room between their joints.
 _SAFE = 0.9
@@ -90,7 +90,7 @@ def joint_overlap(nodes: Floats, struts: Ints, sphere: float) -> Floats:
         sphere: radius of the joint's sphere over the struts'.
     """
     stars, of_node = _stars(nodes, struts)
-    cube = qmc.Sobol(3, scramble=True, seed=1).random(_POINTS) * 2.0 - 1.0
+    cube = even_points(3, _POINTS_LOG2) * 2.0 - 1.0
     ball = cube[np.linalg.norm(cube, axis=1) <= 1.0]
     values = np.zeros(len(stars))
     for k, ways in enumerate(stars):

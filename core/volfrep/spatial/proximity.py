@@ -19,20 +19,22 @@ from ..mesh.remesh import unit_normals
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.errors import VolfrepError
 from ..util.ragged import spread
-from ..util.threads import threads
+from ..util.threads import in_threads, threads
 from ..util.types import Floats, Ints
+from .morton import interleaved, neighbours_together
+from .surface_samples import sample_reentrant_edges, sample_triangles
 
 #: Points, or pairs of a point and a triangle, that one vectorised step takes at a time.
 POINTS_PER_STEP = 50_000
 PAIRS_PER_STEP = 2_000_000
+#: Points that one thread looks for at a time.
+POINTS_PER_WALK = 4096
 #: How often the walk from a nearest sample to the nearest triangle may cross an edge.
 MAX_EDGE_CROSSINGS = 8
 #: No more triangles are walked through round a corner.
 MOST_ROUND_A_CORNER = 1000
 #: A surface is not sampled with more points than this (100 bytes each, with the search tree).
 MAX_SAMPLES = 30_000_000
-#: Sine of the angle between two faces from which their reentrant edge has samples of its own.
-SHARP_BEND = 0.1
 
 
 def closest_points(mesh: TriangleMesh, points: Floats) -> tuple[Floats, Floats, Ints]:
@@ -89,10 +91,7 @@ def _box_tree(corners: Floats) -> tuple[list[Floats], Ints]:
     centre = (low + high) / 2
     span = np.maximum(np.ptp(centre, axis=0), 1e-300)
     grid = ((centre - centre.min(axis=0)) / span * 1023).astype(np.int64)
-    code = np.zeros(len(grid), np.int64)
-    for bit in range(10):  # neighbours in space become neighbours in order
-        for axis in range(3):
-            code |= ((grid[:, axis] >> bit) & 1) << (3 * bit + axis)
+    code = interleaved(grid[:, ::-1])
     leaves = 1 << max(int(len(code) - 1).bit_length(), 0)
     order = np.full(leaves, -1, np.int64)
     order[: len(code)] = np.argsort(code, kind="stable")
@@ -276,7 +275,25 @@ class SurfaceIndex:
 
     def _nearest(self, points: Floats) -> tuple[Floats, Floats, Ints, Ints]:
         """Closest points, distances, their triangles, and the edges they lie on (-1: none)."""
-        nearest = self.tree.query(points, workers=threads())[1]
+        closest, distance = np.empty((len(points), 3)), np.empty(len(points))
+        triangle, on_edge = np.empty((2, len(points)), np.int64)
+        if not len(points):
+            return closest, distance, triangle, on_edge
+        # Points that ask the same branches of the tree find them in the processor's cache.
+        order = neighbours_together(points)
+
+        def part(start: int) -> None:
+            rows = order[start : start + POINTS_PER_WALK]
+            walked = self._walked(points[rows])
+            closest[rows], distance[rows], triangle[rows], on_edge[rows] = walked
+
+        for _ in in_threads(part, range(0, len(points), POINTS_PER_WALK)):
+            pass
+        return closest, distance, triangle, on_edge
+
+    def _walked(self, points: Floats) -> tuple[Floats, Floats, Ints, Ints]:
+        """As `_nearest`, on one thread."""
+        nearest = self.tree.query(points)[1]
         triangle = self.triangle_of_sample[nearest].astype(np.int64)
         closest, on_edge = closest_on_triangles(self.corners[triangle], points)
         squared = ((points - closest) ** 2).sum(axis=1)
@@ -315,15 +332,13 @@ def index_surface(
             f"Sampling the part's surface every {spacing:.3g} mm would take {expected:.2g} "
             "points: ask for a thicker shell."
         )
-    across = neighbours(mesh)
-    if sampled is None:
-        sampled = sample_triangles(np.stack(mesh.corners(), axis=1), spacing)
-    samples, owner = sampled
-    edge_samples, edge_owner = _sample_reentrant_edges(mesh, across, spacing)
-    samples = np.concatenate([samples, edge_samples])
-    triangle = np.concatenate([owner, edge_owner]).astype(np.int32)
+    across, corners = neighbours(mesh), np.stack(mesh.corners(), axis=1)
+    samples, owner = sample_triangles(corners, spacing) if sampled is None else sampled
+    on_edges = sample_reentrant_edges(corners, unit_normals(corners), across, spacing)
+    samples = np.concatenate([samples, on_edges[0]])
+    triangle = np.concatenate([owner, on_edges[1]]).astype(np.int32)
     tree = cKDTree(samples, balanced_tree=False, compact_nodes=False, leafsize=32)
-    return SurfaceIndex(np.stack(mesh.corners(), axis=1), across, tree, triangle, spacing)
+    return SurfaceIndex(corners, across, tree, triangle, spacing)
 
 
 def neighbours(mesh: TriangleMesh) -> Ints:
@@ -336,52 +351,3 @@ def neighbours(mesh: TriangleMesh) -> Ints:
     across = np.empty(len(start), np.int64)
     across[forward] = backward // 3
     return across.reshape(-1, 3)
-
-
-def sample_triangles(corners: Floats, spacing: float) -> tuple[Floats, Ints]:
-    """Points in rows parallel to each triangle's longest edge, and the triangles they lie on.
-
-    Every point of a triangle (k, 3, 3) has one of them within 0.75 of the spacing.
-    """
-    lengths = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2)
-    longest = lengths.argmax(axis=1)
-    turn = (longest[:, None] + np.arange(3)) % 3
-    corners = np.take_along_axis(corners, turn[:, :, None], axis=1)
-    base = lengths.max(axis=1)
-    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    height = np.linalg.norm(normal, axis=1) / np.maximum(base, 1e-300)
-    # Both angles at the longest edge are acute: below every point of the triangle, towards that
-    # edge, is a point of the next row. The steps make the farthest point 0.75 spacings away.
-    rows = np.maximum(np.ceil(height / (0.53 * spacing)), 1).astype(np.int64)
-    columns = np.maximum(np.ceil(base / (1.06 * spacing)), 1)
-    owner, row = spread(rows)
-    up = row / rows[owner]
-    across = np.maximum(np.ceil(columns[owner] * (1.0 - up)), 1).astype(np.int64)
-    line, column = spread(across)
-    up, owner = up[line], owner[line]
-    along = (column + 0.5) / across[line] * (1.0 - up)
-    a, b, c = corners[owner, 0], corners[owner, 1], corners[owner, 2]
-    return a + along[:, None] * (b - a) + up[:, None] * (c - a), owner
-
-
-def _sample_reentrant_edges(
-    mesh: TriangleMesh, across: Ints, spacing: float
-) -> tuple[Floats, Ints]:
-    """Points along the edges that point into the solid.
-
-    They are the nearest to many points inside, and the samples on the faces recede from them.
-    """
-    corners = np.stack(mesh.corners(), axis=1)
-    normal = unit_normals(corners)
-    triangle, edge = np.nonzero(across > np.arange(len(across))[:, None])
-    other = across[triangle, edge]
-    start, end = corners[triangle, edge], corners[triangle, (edge + 1) % 3]
-    # With both normals outward, the solid is reentrant where the neighbour rises above the face.
-    along = end - start
-    length = np.linalg.norm(along, axis=1)
-    bend = _dot(np.cross(normal[triangle], normal[other]), along) / np.maximum(length, 1e-300)
-    sharp = bend < -SHARP_BEND
-    triangle, start, along, length = triangle[sharp], start[sharp], along[sharp], length[sharp]
-    pieces = np.maximum(np.ceil(length / spacing), 1).astype(np.int64)
-    owner, place = spread(pieces + 1)
-    return start[owner] + (place / pieces[owner])[:, None] * along[owner], triangle[owner]

@@ -70,7 +70,7 @@ def test_the_coarsest_cubes_cover_every_change_of_sign(part):
     assert (leaves.size == COARSEST).all()
     top = np.ceil((part.bounds[1] - field.point(np.zeros(3))) / (COARSEST * field.unit)).astype(int)
     grid = COARSEST * np.indices(top).reshape(3, -1).T
-    negative = field.negative(octree.Leaves(grid, np.full(len(grid), COARSEST)))
+    negative = field.hide(octree.Leaves(grid, np.full(len(grid), COARSEST)), 0.1)[1]
     mixed = negative.any(axis=1) & ~negative.all(axis=1)
     assert mixed.sum() > 500
     names = np.sort(octree.name(leaves.corner))
@@ -83,9 +83,9 @@ def test_a_thin_cavity_is_suspected_where_corners_do_not_tell():
     plate = samples.box((30.0, 30.0, 2 * THICKNESS + 0.3))
     field = field_of(plate, THICKNESS, cube=1.7)
     leaves = field.coarsest_leaves()
-    blind = ~field.negative(leaves).any(axis=1)
+    blind = ~field.hide(leaves, 0.1)[1].any(axis=1)
     middle = field.point(leaves.corner + leaves.size[:, None] / 2)
     about = blind & (np.abs(middle - [15.0, 15.0, 2.15]) < [10.0, 10.0, 0.8]).all(axis=1)
     assert about.any()
-    assert field.hide(leaves, 0.1)[about].all()
-    assert not field.hide(leaves, 0.2)[about].any()
+    assert field.hide(leaves, 0.1)[0][about].all()
+    assert not field.hide(leaves, 0.2)[0][about].any()

@@ -6,12 +6,14 @@ import trimesh
 import samples
 from volfrep.mesh.triangle_mesh import empty_mesh
 from volfrep.spatial.proximity import (
+    POINTS_PER_WALK,
     closest_on_triangles,
     closest_points,
     index_surface,
     neighbours,
 )
 from volfrep.util.errors import VolfrepError
+from volfrep.util.threads import use_threads
 
 
 @pytest.mark.parametrize(
@@ -77,6 +79,25 @@ def test_the_fast_distance_keeps_its_bound(part, inside):
     assert np.mean(error < 1e-9) > 0.99
     on_surface = closest_points(part, closest)[1]
     assert on_surface.max() < 1e-6
+
+
+def test_the_fast_distance_of_a_point_depends_on_no_other_and_on_no_threads():
+    part = samples.bracket(13.0)
+    index = index_surface(part, 1.0)
+    random = np.random.default_rng(4)
+    low, high = part.bounds
+    points = low + random.random((3 * POINTS_PER_WALK, 3)) * (high - low)
+    order = random.permutation(len(points))
+    use_threads(1)
+    try:
+        closest, distance = index.near(points)
+        use_threads(2)
+        again, shuffled = index.near(points[order])
+    finally:
+        use_threads(0)
+    assert np.array_equal(again, closest[order])
+    assert np.array_equal(shuffled, distance[order])
+    assert index.near(points[:0])[0].shape == (0, 3)
 
 
 def test_samples_cover_slivers_too():

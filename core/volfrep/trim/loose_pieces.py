@@ -89,7 +89,8 @@ def clear(
         inside_loose = void & _enclosed(mesh, label, loose & ~tiny, void & ~tiny)
     gone = loose | tiny | inside_loose
     goes = gone[label]
-    left = replace(surface, mesh=compact(TriangleMesh(mesh.vertices, mesh.triangles[~goes])))
+    rest = compact(TriangleMesh(mesh.vertices, mesh.triangles[~goes]), owned=True)
+    left = replace(surface, mesh=rest)
     if found.quality.watertight and left.triangles:
         taken = measure(compact(TriangleMesh(mesh.vertices, mesh.triangles[goes])))
         quality = remaining(found.quality, taken, left.bounds, volume[used & ~gone])

@@ -163,6 +163,23 @@ def test_what_gmsh_finds_to_intersect_is_mended_less(monkeypatch):
     assert len(asked) == 2
 
 
+@needs_gmsh
+def test_a_lip_that_all_but_lies_on_the_surface_is_filled():
+    """A pyramid upon a block, its apex beyond the foot: below it is a gap of 0.05 degrees."""
+    height = np.tan(np.radians(0.05))
+    foot = [[0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0], [1, -1, height]]
+    low, high = ([[-3, -4, z], [5, -4, z], [5, 4, z], [-3, 4, z]] for z in (-4, 0))
+    pyramid = [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]]
+    ring = [[5, 6, 0], [0, 6, 1], [6, 7, 1], [1, 7, 2], [7, 8, 2], [2, 8, 3], [8, 5, 3], [3, 5, 0]]
+    sides = [[9, 11, 10], [9, 12, 11], [5, 9, 6], [6, 9, 10], [6, 10, 7], [7, 10, 11]]
+    facets = [*pyramid, *ring, *sides, [7, 11, 8], [8, 11, 12], [8, 12, 5], [5, 12, 9]]
+    mesh = TriangleMesh(np.array([*foot, *high, *low], float), np.array(facets, np.int32))
+    assert folded_facets(mesh).any()
+    filled = tetrahedra(mesh)
+    assert filled.moved == 0.0
+    assert filled.volumes().sum() == pytest.approx(256 + 4 * height / 3, rel=1e-9)
+
+
 def test_what_would_cross_is_not_mended(monkeypatch):
     """Gmsh refuses a surface of which one facet is folded back onto the next, too."""
     solid = samples.box((15.0, 12.0, 12.0))

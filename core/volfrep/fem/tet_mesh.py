@@ -35,8 +35,8 @@ WALL_TOLERANCE = 1e-6
 #: Gmsh copes with facets that have no angle below this, degrees.
 NEEDLE = 2.0
 #: Needles and caps are mended where no move takes the surface farther than this part of the mesh's
-#: median edge. About places where facets would cross it may be less in the next try (so many
-#: median edges about them), and they are mended so many times.
+#: median edge. About places where facets would cross or fold it may be less in the next try, each
+#: time so many median edges farther about them, and they are mended so many times.
 MENDING = 0.05
 NEAR = 1.0
 #: Facets that run through each other by less (median edges) touch: they lie in one plane.
@@ -182,27 +182,28 @@ def mended(
     """A closed mesh without needles and caps, and how far a move could take its surface, mm.
 
     The mesh as it is where it has no angle below `NEEDLE`, or where facets would cross then;
-    one in which no facet lies on its neighbour, where there is one.
+    one in which no facet lies on its neighbour that did not before, where there is one.
     """
     corners = mesh.vertices[mesh.triangles]
     if angles_of(corners).min(initial=180.0) >= NEEDLE:
         return mesh, 0.0
     edge = float(np.median(np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)))
     tolerance = Tolerance(MENDING * edge, places, NEAR * edge)
-    best = mesh, 0.0
-    for _ in range(TRIES):
+    best, folded_before = (mesh, 0.0), folded_facets(mesh).sum()
+    for done in range(TRIES):
         better = monitor.call(lambda: well_shaped(mesh, tolerance, SHORTEST * edge))  # noqa: B023
         every = np.ones(len(better.triangles), bool)
-        crossed = monitor.call(lambda: crossing_triangles(better, every, TOUCHING * edge))  # noqa: B023
-        if not crossed.any():
+        wrong = monitor.call(lambda: crossing_triangles(better, every, TOUCHING * edge))  # noqa: B023
+        if not wrong.any():
             # What folds in the end may still be filled, and needles surely are not.
             better = without_fins(better, folded_facets(better))
             best = better, tolerance.usual
-            crossed = folded_facets(better)
-            if not crossed.any():
+            wrong = folded_facets(better)
+            if wrong.sum() <= folded_before:
                 break
-        place = better.vertices[np.unique(better.triangles[crossed])]
-        tolerance = replace(tolerance, places=(*tolerance.places, place))
+        place = better.vertices[np.unique(better.triangles[wrong])]
+        near = NEAR * (done + 1) * edge
+        tolerance = replace(tolerance, places=(*tolerance.places, place), reach=near)
     return best
 
 

@@ -192,10 +192,32 @@ def test_what_would_cross_is_not_mended(monkeypatch):
     monkeypatch.setattr(tet_mesh, "well_shaped", lambda *_: better)
     with monkeypatch.context() as one:
         one.setattr(tet_mesh, "without_fins", lambda mesh, _: mesh)
-        one.setattr(tet_mesh, "folded_facets", lambda _: np.ones(len(better.triangles), bool))
+        one.setattr(
+            tet_mesh, "folded_facets", lambda some: np.full(len(some.triangles), some is better)
+        )
         assert mended(mesh, Monitor()) == (better, moved), "needles are worse"
     monkeypatch.setattr(tet_mesh, "crossing_triangles", lambda _, among, depth: among)
     assert mended(mesh, Monitor()) == (mesh, 0.0)
+
+
+def test_each_try_mends_less_and_farther_about_what_crosses(monkeypatch):
+    asked = []
+    monkeypatch.setattr(
+        tet_mesh, "well_shaped", lambda mesh, tolerance, _: asked.append(tolerance) or mesh
+    )
+    slender = samples.box((100.0, 1.0, 1.0))
+    with monkeypatch.context() as one:
+        one.setattr(tet_mesh, "crossing_triangles", lambda _, among, depth: among)
+        assert mended(slender, Monitor()) == (slender, 0.0)
+    assert len(asked) == tet_mesh.TRIES
+    assert [len(one.places) for one in asked] == list(range(tet_mesh.TRIES))
+    reach = [one.reach / asked[0].reach for one in asked]
+    assert reach == pytest.approx([1, *range(1, tet_mesh.TRIES)])
+    # What lies on its neighbour already is no reason for another try.
+    asked.clear()
+    monkeypatch.setattr(tet_mesh, "folded_facets", lambda mesh: np.arange(len(mesh.triangles)) < 2)
+    assert mended(slender, Monitor())[1] > 0.0
+    assert len(asked) == 1
 
 
 @needs_gmsh

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import re
 import shutil
+import subprocess
 import tempfile
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -44,6 +45,10 @@ TOUCHING = 1e-7
 TRIES = 6
 #: What Gmsh finds to intersect is mended less in a next try, so many times.
 GMSH_TRIES = 4
+#: Gmsh improves what it has filled, which does not end with a few meshes: it may take so many times
+#: what is told for all, and at least so many seconds, and is left out then.
+PATIENCE = 5.0
+LEAST_PATIENCE = 120.0
 #: No edge is split into pieces shorter than this part of it.
 SHORTEST = 0.25
 #: Seconds, nodes, elements and bytes of the deck per triangle, each within a factor of two of what
@@ -68,7 +73,7 @@ Mesh.Algorithm3D = 1;
 Mesh.AngleToleranceFacetOverlap = 0.001;
 Mesh.ElementOrder = 2;
 Mesh.SecondOrderLinear = 1;
-Mesh.Optimize = 1;
+Mesh.Optimize = %d;
 Mesh.MshFileVersion = 2.2;
 """
 
@@ -83,22 +88,30 @@ class TetrahedralMesh:
             1-2, 2-3, 3-1, 1-4, 2-4, 3-4 (the order of CalculiX and of FreeCAD).
         moved: how far each move to mend the surface could take it, mm; 0 where nothing was.
         grown: by what part of it the volume became larger by that.
+        improved: whether Gmsh came to an end with improving their shapes.
     """
 
     nodes: Floats
     elements: Ints
     moved: float = 0.0
     grown: float = 0.0
+    improved: bool = True
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """A sentence where mending changed the volume."""
-        if abs(self.grown) <= VOLUME_TOLD:
-            return ()
-        return (
-            f"The tetrahedra's volume differs by {self.grown:+.2%} from the mesh's: its needles "
-            "were mended, which takes from thin lips. A finer deviation takes less.",
-        )
+        """Sentences where mending changed the volume, and where shapes were not improved."""
+        told = []
+        if abs(self.grown) > VOLUME_TOLD:
+            told.append(
+                f"The tetrahedra's volume differs by {self.grown:+.2%} from the mesh's: its "
+                "needles were mended, which takes from thin lips. A finer deviation takes less."
+            )
+        if not self.improved:
+            told.append(
+                "Gmsh came to no end with improving the tetrahedra, so that this is left out: some "
+                "are flat. Another resolution or origin may do better."
+            )
+        return tuple(told)
 
     def volumes(self) -> Floats:
         """(m,) signed volume of each tetrahedron, mm3."""
@@ -158,16 +171,23 @@ def _filled(
 ) -> tuple[str, TetrahedralMesh | None]:
     """What Gmsh says of a closed surface, and the tetrahedra where it fills it."""
     brep = faceted_brep(surface)
-    with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        (folder / "surface.msh").write_bytes(_surface(surface, brep.shell))
-        (folder / "fill.geo").write_text(_GEO % _volumes(brep), encoding="ascii")
-        command = [program, "fill.geo", "-3", "-o", "filled.msh", "-v", "2"]
-        said = run_program(command, folder, monitor)
-        filled = folder / "filled.msh"
-        if not filled.is_file() or said.returncode:
-            return said.stdout, None
-        return said.stdout, _read(filled.read_bytes())
+    patience = max(PATIENCE * SECONDS_PER_TRIANGLE * len(surface.triangles), LEAST_PATIENCE)
+    for improved in (True, False):
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            (folder / "surface.msh").write_bytes(_surface(surface, brep.shell))
+            geo = _GEO % (_volumes(brep), improved)
+            (folder / "fill.geo").write_text(geo, encoding="ascii")
+            command = [program, "fill.geo", "-3", "-o", "filled.msh", "-v", "2"]
+            try:
+                said = run_program(command, folder, monitor, seconds=patience)
+            except subprocess.TimeoutExpired:
+                continue
+            filled = folder / "filled.msh"
+            if not filled.is_file() or said.returncode:
+                return said.stdout, None
+            return said.stdout, replace(_read(filled.read_bytes()), improved=improved)
+    return f"it came to no end within {patience:.0f} s", None
 
 
 def _intersection(said: str) -> Floats | None:

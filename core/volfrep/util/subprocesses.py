@@ -46,6 +46,7 @@ def run_program(
     folder: Path,
     monitor: Monitor | None = None,
     environment: Mapping[str, str] | None = None,
+    seconds: float | None = None,
 ) -> subprocess.CompletedProcess[str]:
     """Run a program in a folder and keep what it says, errors included.
 
@@ -54,9 +55,11 @@ def run_program(
         folder: where it runs.
         monitor: asked for a cancel while it runs.
         environment: its variables; None for this process's.
+        seconds: how long it may take; None for any time.
 
     Raises:
         Cancelled: when the monitor says so; the program has been ended.
+        subprocess.TimeoutExpired: when it takes longer; it has been ended.
     """
     process = subprocess.Popen(
         command,
@@ -69,9 +72,10 @@ def run_program(
         text=True,
         errors="replace",
     )
+    monitor = monitor or Monitor()
     try:
-        said, _ = process.communicate() if monitor is None else monitor.call(process.communicate)
-    except BaseException:  # cancelled or interrupted: it must not go on alone
+        said, _ = monitor.call(lambda: process.communicate(timeout=seconds))
+    except BaseException:  # cancelled, interrupted or out of time: it must not go on alone
         process.kill()
         process.wait()
         raise

@@ -2,6 +2,7 @@
 """Tetrahedra by Gmsh: the mesh's own triangles outside, and a bar that CalculiX stretches."""
 
 import shutil
+import subprocess
 from pathlib import Path
 
 import numpy as np
@@ -198,6 +199,28 @@ def test_what_would_cross_is_not_mended(monkeypatch):
         assert mended(mesh, Monitor()) == (better, moved), "needles are worse"
     monkeypatch.setattr(tet_mesh, "crossing_triangles", lambda _, among, depth: among)
     assert mended(mesh, Monitor()) == (mesh, 0.0)
+
+
+@needs_gmsh
+def test_without_an_end_of_improving_the_tetrahedra_stay_as_they_are(monkeypatch):
+    run, asked = tet_mesh.run_program, []
+
+    def impatient(command, folder, monitor, seconds):
+        asked.append("Mesh.Optimize = 1;" in (folder / "fill.geo").read_text())
+        if asked[-1]:
+            raise subprocess.TimeoutExpired(command, seconds)
+        return run(command, folder, monitor, seconds=seconds)
+
+    monkeypatch.setattr(tet_mesh, "run_program", impatient)
+    filled = tetrahedra(samples.box((4.0, 4.0, 4.0)))
+    assert asked == [True, False]
+    assert filled.volumes().sum() == pytest.approx(64)
+    assert "Gmsh came to no end" in filled.warnings[0]
+    monkeypatch.setattr(tet_mesh, "PATIENCE", 0.0)
+    monkeypatch.setattr(tet_mesh, "LEAST_PATIENCE", 0.0)
+    monkeypatch.setattr(tet_mesh, "run_program", run)
+    with pytest.raises(VolfrepError, match=r"no end within 0 s.*beams"):
+        tetrahedra(samples.box((4.0, 4.0, 4.0)))
 
 
 def test_each_try_mends_less_and_farther_about_what_crosses(monkeypatch):

@@ -2,6 +2,7 @@
 """Other programs end when they are done, or when the user cancels."""
 
 import os
+import subprocess
 import sys
 from pathlib import Path
 
@@ -30,6 +31,16 @@ def test_a_cancelled_program_is_ended(tmp_path: Path):
 
     with pytest.raises(Cancelled):
         run_program([sys.executable, "-c", script], tmp_path, Monitor(cancel_once_it_runs))
+    with pytest.raises(OSError, match=r"[Nn]o such process|[Pp]arameter"):
+        os.kill(int((tmp_path / "on").read_text()), 0)
+
+
+def test_a_program_that_takes_too_long_is_ended(tmp_path: Path):
+    script = (
+        "import os, pathlib, time; pathlib.Path('on').write_text(str(os.getpid())); time.sleep(600)"
+    )
+    with pytest.raises(subprocess.TimeoutExpired):
+        run_program([sys.executable, "-c", script], tmp_path, seconds=2.0)
     with pytest.raises(OSError, match=r"[Nn]o such process|[Pp]arameter"):
         os.kill(int((tmp_path / "on").read_text()), 0)
 

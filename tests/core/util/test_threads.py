@@ -68,14 +68,18 @@ def test_every_search_has_the_told_number(monkeypatch):
         asked.append(2)
         return 2
 
-    monkeypatch.setattr(proximity, "threads", counting)
-    monkeypatch.setattr(scattered_field, "threads", counting)
+    for module in (proximity, scattered_field, threads):
+        monkeypatch.setattr(module, "threads", counting)
     triangle = TriangleMesh(np.eye(3), np.array([[0, 1, 2]]))
     point = np.array([[0.2, 0.2, 1.0]])
     proximity.closest_points(triangle, point)
-    proximity.index_surface(triangle, 0.1).near(point)
+    assert asked.pop() == 2
+    index = proximity.index_surface(triangle, 0.1)
+    asked.clear()
+    index.near(point)
+    assert asked.pop() == 2
     scattered_field.PointField(np.eye(3), np.arange(3.0))(point)
-    assert asked == [2, 2, 2]
+    assert asked == [2]
 
 
 def test_the_file_is_the_same_with_any_number(mesh, tmp_path):

@@ -7,20 +7,19 @@ import numpy as np
 
 from ..mesh import remesh
 from ..mesh.triangle_mesh import TriangleMesh, compact
-from ..mesh.well_shaped import OPPOSITE, around, names
+from ..mesh.well_shaped import are_opposite, around, names
 from ..util.types import Bools
 
 
 def folded_facets(mesh: TriangleMesh) -> Bools:
-    """(m,) facets that lie on one that they share an edge with, within `OPPOSITE` degrees."""
-    table = remesh.edges(mesh.triangles.astype(np.int64), len(mesh.vertices))
-    normal = remesh.unit_normals(mesh.vertices[mesh.triangles])
-    one, other = table.triangles[table.triangles[:, 1] >= 0].T
-    # Of unit vectors that are nearly opposite the sum is the angle between them.
-    apart = np.linalg.norm(normal[one] + normal[other], axis=1)
-    found = np.zeros(len(normal), bool)
-    found[one[apart < np.radians(OPPOSITE)]] = True
-    found[other[apart < np.radians(OPPOSITE)]] = True
+    """(m,) facets that lie on one that they share an edge with: see `are_opposite`."""
+    pairs = remesh.edges(mesh.triangles.astype(np.int64), len(mesh.vertices)).triangles
+    one, other = pairs[pairs[:, 1] >= 0].T
+    corners = mesh.vertices[mesh.triangles]
+    lie = are_opposite(corners[one], corners[other])
+    found = np.zeros(len(corners), bool)
+    found[one[lie]] = True
+    found[other[lie]] = True
     return found
 
 

@@ -307,8 +307,9 @@ def _same_side(before: Floats, after: Floats, thin: Floats) -> Bools:
     return result
 
 
-def _are_opposite(one: Floats, other: Floats) -> Bools:
+def are_opposite(one: Floats, other: Floats) -> Bools:
     """Whether facets (m, 3, 3) look the opposite way of others, within `OPPOSITE` degrees."""
+    # Of unit vectors that are nearly opposite the sum is the angle between them.
     sides = remesh.unit_normals(one) + remesh.unit_normals(other)
     return np.asarray(np.linalg.norm(sides, axis=1) < np.radians(OPPOSITE), np.bool_)
 
@@ -366,7 +367,7 @@ def _flip_gain(points: Floats, tolerance: Tolerance) -> Callable[[Ints, Ints], F
         # looks the wrong way: what takes the place of both looks as the other one does.
         pairs = [points[part.reshape(-1, 2, 3)[rows]] for part in (old, new)]
         high = [remesh.heights(pairs[0][:, k]) for k in (0, 1)]
-        lies = _are_opposite(pairs[0][:, 0], pairs[0][:, 1])
+        lies = are_opposite(pairs[0][:, 0], pairs[0][:, 1])
         for k in (0, 1):
             thin = np.where(lies & (high[k] < high[1 - k]), np.inf, THIN * most)
             for n in (0, 1):

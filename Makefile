@@ -13,7 +13,7 @@ SCREEN := xvfb-run -a -s "-screen 0 1600x1200x24 -dpi 96"
 .NOTPARALLEL:
 .PHONY: help setup demo test test-all test-slow lint format test-core test-random test-alone test-freecad \
 	test-gui test-in-freecad test-freecad-1 translations test-newest docs-pictures docs-tables \
-	test-escape torture fuzz bench bench-quick bench-readme catalogue clean
+	digests vocabulary test-escape torture fuzz bench bench-quick bench-readme catalogue clean
 
 help: ## show this list
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 25
@@ -118,6 +118,12 @@ torture: setup ## every broken, odd and real file beside what it must get
 test-freecad-1: ## the workbench's tests in FreeCAD 1.0 and 1.1, each in a Debian of its own (root)
 	@status=0; for suite in trixie forky; do \
 	tools/freecad_in.sh $$suite < /dev/null || status=$$?; done; exit $$status
+
+digests: setup ## whether a change altered a file that the command writes, 3 min (DIGESTS="--write")
+	@$(PYTHON) tools/digests.py $(DIGESTS)
+
+vocabulary: setup ## whether a change altered a word that a user meets (VOCABULARY="--write")
+	@$(PYTHON) tools/vocabulary.py $(VOCABULARY)
 
 test-newest: ## the engine's tests on the newest numpy, scipy and scikit-image
 	@tools/newest.sh

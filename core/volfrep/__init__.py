@@ -13,8 +13,7 @@ from typing import TYPE_CHECKING, Any
 from .util.version import VERSION
 
 if TYPE_CHECKING:
-    from .api import Part, as_solid, block, fill, slice_layers
-    from .api_networks import mesh_network
+    from .api import Part, as_solid, block, fill, mesh_network, slice_layers
     from .design.parameters.spec_file import read_spec, write_spec
     from .design.spec import LatticeSpec
     from .io.solid import read_solid
@@ -50,7 +49,7 @@ _HOMES = {
     "Study": "studies.study",
     "read_study": "studies.study",
     "fill": "api",
-    "mesh_network": "api_networks",
+    "mesh_network": "api",
     "slice_layers": "api",
     "Report": "reports.report",
     "read_solid": "io.solid",

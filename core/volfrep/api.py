@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What a script's author needs: `fill` a part, make a `block`, and look at, check and save either.
+"""What a script's author needs: `fill` a part, make a `block`, mesh a graph, look at it, save it.
 
 >>> import trimesh, volfrep
 >>> part = volfrep.fill(
@@ -24,8 +24,12 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .design.parameters.keywords import accepted, with_target, with_wall
+from .design.cells import find_cell
+from .design.networks import make_network, read_network
 from .design.spec import LatticeSpec
+from .design.spec_parts import first_radius
+from .design.target import AIMS, Target, read_stiffness
+from .design.walls import FORMULA, Wall, find_surface, surface_name
 from .grid.strut_graph import Wireframe
 from .io.solid import Solid, check_solid, read_solid
 from .mesh.triangle_mesh import TriangleMesh
@@ -40,6 +44,9 @@ if TYPE_CHECKING:
 
     from .jobs.slices import Layers
     from .reports.printability import PrintReport
+
+#: What of a `Wall` a parameter of a call, an option or an entry of a file says.
+_WALL = {"wall_kind": "kind", "wall_thickness": "thickness", "wall_offset": "offset"}
 
 
 class MeshLike(Protocol):
@@ -244,6 +251,45 @@ def block(
     return Part(make_block(wanted, count, progress=progress), wanted, None, StageCache())
 
 
+def mesh_network(
+    graph: str | os.PathLike[str] | tuple[Any, ...],
+    spec: LatticeSpec | None = None,
+    *,
+    progress: ProgressCallback | None = None,
+    **parameters: Any,
+) -> Part:
+    """The nodes and struts of any graph, meshed as they are in free space.
+
+    To fill a part with it, give ``network=volfrep.design.networks.make_network(...)``, or a
+    ``RandomNetwork``, to `volfrep.fill`.
+
+    Args:
+        graph: a file (see `volfrep.design.networks.read_network`), or arrays: nodes (n, 3) in
+            mm, struts (m, 2), and, if they differ, radii (m,), (m, 2) or (n,) in mm.
+        spec: what to make.
+        progress: as of `volfrep.fill`.
+        parameters: as of `volfrep.fill`.
+
+    Raises:
+        VolfrepError: the graph or the specification makes no sense.
+        Cancelled: the callback said so.
+
+    >>> import volfrep
+    >>> made = volfrep.mesh_network(([[0, 0, 0], [9, 0, 0], [0, 9, 0]], [(0, 1), (0, 2), (1, 2)]))
+    >>> made.report.genus, made.report.bodies
+    (1, 1)
+    """
+    from .jobs.networks.alone import network_alone
+
+    if isinstance(graph, tuple):
+        found = make_network(*graph)
+    else:
+        cell = parameters.get("cell", None if spec is None else spec.cell)
+        found = read_network(graph, find_cell(cell) if isinstance(cell, str) else cell)
+    wanted = specified(spec, {**parameters, "network": found}, None)
+    return Part(network_alone(wanted, progress=progress), wanted, None, StageCache())
+
+
 def slice_layers(
     part: str | os.PathLike[str] | TriangleMesh | MeshLike | tuple[ArrayLike, ArrayLike],
     folder: str | os.PathLike[str],
@@ -358,7 +404,52 @@ def specified(
         solid = find_material(material)
         young = solid.young
         parameters = {"density": solid.density, **parameters}
-    parameters = with_target(with_wall(parameters, spec), spec, young)
+    parameters = _with_target(_with_wall(parameters, spec), spec, young)
     if spec is None:
         return LatticeSpec(**parameters)
     return dataclasses.replace(spec, **parameters) if parameters else spec
+
+
+def accepted() -> set[str]:
+    """The names of a call's parameters: a `LatticeSpec`'s, with walls and targets as files say."""
+    names = {field.name for field in dataclasses.fields(LatticeSpec)} - {"wall"}
+    return names | set(AIMS) | set(_WALL) | {"wall_formula"}
+
+
+def _with_wall(parameters: dict[str, Any], spec: LatticeSpec | None) -> dict[str, Any]:
+    """The parameters with a `Wall` in place of what describes one."""
+    given = {_WALL[name]: value for name, value in parameters.items() if name in _WALL}
+    rest = {name: value for name, value in parameters.items() if name not in _WALL}
+    formula = rest.pop("wall_formula", None)
+    if given:
+        rest["wall"] = dataclasses.replace(Wall() if spec is None else spec.wall, **given)
+    if formula is not None:
+        cell = rest.get("cell", FORMULA)
+        if not isinstance(cell, str) or surface_name(cell) != FORMULA:
+            raise VolfrepError(f"A wall_formula is of the cell {FORMULA}, not of another one.")
+        rest["cell"] = find_surface(FORMULA, formula)
+    return rest
+
+
+def _with_target(
+    parameters: dict[str, Any], spec: LatticeSpec | None, young: float
+) -> dict[str, Any]:
+    """The parameters with a `Target` in place of what one is given by."""
+    given = [name for name in ("strut_radius", *AIMS, "target") if parameters.get(name) is not None]
+    if len(given) > 1:
+        raise VolfrepError(
+            f"{', '.join(given[:-1])} and {given[-1]} each say how thick the struts are: give one "
+            "of them."
+        )
+    rest = {name: value for name, value in parameters.items() if name not in AIMS}
+    if given == ["strut_radius"] and spec is not None:
+        rest["target"] = None
+    if not given or given[0] not in AIMS:
+        return rest
+    aim = given[0]
+    value = parameters[aim]
+    rest["target"] = read_stiffness(value, young) if aim == "stiffness" else Target(aim, value)
+    usual = spec or LatticeSpec()
+    size, fillet = (parameters.get(n, getattr(usual, n)) for n in ("cell_size", "fillet"))
+    rest["strut_radius"] = first_radius(size, fillet)
+    return rest

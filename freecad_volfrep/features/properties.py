@@ -9,8 +9,13 @@ from typing import Any
 import FreeCAD as App
 
 from volfrep.design.parameters import BY_NAME, GROUPS, PARAMETERS, Parameter
-from volfrep.design.parameters.table import CUSTOM_CELL, NOTHING, OWN_MATERIAL, SOLIDS_MATERIAL
-from volfrep.design.parameters.wall_rows import WALLS
+from volfrep.design.parameters.table import (
+    CUSTOM_CELL,
+    NOTHING,
+    OWN_MATERIAL,
+    SOLIDS_MATERIAL,
+    WALLS,
+)
 from volfrep.util.errors import VolfrepError
 
 from .applicable import show_applicable

@@ -13,8 +13,7 @@ from freecad_volfrep.features.quantities import is_driven, number_of, set_expres
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, marked, spaced, translate
 from volfrep.design.cells import LIBRARY, load_cell
 from volfrep.design.field_files import TABLE_SUFFIXES, VTK_SUFFIXES
-from volfrep.design.parameters.table import CUSTOM_CELL
-from volfrep.design.parameters.wall_rows import WALLS
+from volfrep.design.parameters.table import CUSTOM_CELL, WALLS
 from volfrep.design.target import read_direction
 from volfrep.util.errors import VolfrepError
 

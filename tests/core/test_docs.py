@@ -15,9 +15,9 @@ from pathlib import Path
 import pytest
 
 import volfrep
+from volfrep.api import accepted
 from volfrep.cli.command import _parser
 from volfrep.design.parameters import GROUPS, PARAMETERS
-from volfrep.design.parameters.keywords import accepted
 
 ROOT = Path(__file__).resolve().parents[2]
 DOCS = ROOT / "docs"

@@ -16,8 +16,9 @@ ROOMS = (
     "network", "mechanics", "trim", "fem", "slicing", "io", "loads", "sizing", "reports", "jobs",
     "studies", "cli",
 )  # fmt: skip
-MOST_MODULES = 14
-MOST_LINES = 400
+#: A module has one subject, and as many lines as that takes. One of more lines than these says in
+#: its docstring why it is long; no other number of lines, or of modules in a folder, is a rule.
+LONG = 700
 #: Modules one of which imports the next, wherever in it the import stands; of rooms as well.
 LONGEST_CHAIN = 24
 LONGEST_CHAIN_OF_ROOMS = 13
@@ -107,9 +108,24 @@ def test_every_folder_is_a_room_that_says_what_lives_there(room: str) -> None:
             assert ast.get_docstring(ast.parse((folder / "__init__.py").read_text("utf-8")))
 
 
-def test_no_room_is_crowded_and_no_module_long() -> None:
-    paths = [path for path in modules().values() if path.name != "__init__.py"]
-    folders = [path.parent for path in paths]
-    lines = {str(path): len(path.read_text("utf-8").splitlines()) for path in paths}
-    assert {str(folder) for folder in folders if folders.count(folder) > MOST_MODULES} == set()
-    assert {path: count for path, count in lines.items() if count > MOST_LINES} == {}
+def says_why_it_is_long(text: str) -> bool:
+    """Whether a module is of no more than LONG lines, or its docstring says "long because ..."."""
+    told = ast.get_docstring(ast.parse(text)) or ""
+    return len(text.splitlines()) <= LONG or "long because" in " ".join(told.split())
+
+
+def test_a_long_module_says_why() -> None:
+    assert [n for n, p in modules().items() if not says_why_it_is_long(p.read_text("utf-8"))] == []
+
+
+@pytest.mark.parametrize(
+    ("told", "lines", "accepted"),
+    [
+        ("A thing.", LONG, True),
+        ("A thing.", LONG + 1, False),
+        ("A thing; it is long\nbecause cut in two it would be read in two.", LONG + 1, True),
+    ],
+)
+def test_what_is_long_and_what_is_a_reason(told: str, lines: int, accepted: bool) -> None:
+    head = f'"""{told}"""\n'
+    assert says_why_it_is_long(head + "x = 1\n" * (lines - head.count("\n"))) == accepted

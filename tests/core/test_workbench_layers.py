@@ -10,12 +10,13 @@ import ast
 from collections.abc import Iterator
 from pathlib import Path
 
+from test_layers import says_why_it_is_long
+
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGE = "freecad_volfrep"
 #: Low to high: what stands here imports from itself and from what stands before it. Modules beside
 #: the folders, which only look at FreeCAD and the engine, are the lowest.
 LAYERS = ("", "bridge", "exact_job", "features", "revival", "examples", "gui", "window")
-MOST_LINES = 400
 
 
 def modules() -> dict[str, Path]:
@@ -83,6 +84,5 @@ def test_objects_are_shown_by_what_the_window_registers() -> None:
     assert any(target.startswith(f"{PACKAGE}.gui") for target in imports_of("window", known))
 
 
-def test_no_module_is_long() -> None:
-    lines = {name: len(path.read_text("utf-8").splitlines()) for name, path in modules().items()}
-    assert {name: count for name, count in lines.items() if count > MOST_LINES} == {}
+def test_a_long_module_says_why() -> None:
+    assert [n for n, p in modules().items() if not says_why_it_is_long(p.read_text("utf-8"))] == []

@@ -10,15 +10,16 @@ from ...util.errors import VolfrepError
 from ..cells import LIBRARY, UnitCell, find_cell
 from ..grading import CellMap, Orientation, RadiusGrading, SizeGrading, read_point_field
 from ..networks import GivenNetwork, RandomNetwork, read_network
-from ..openings import DrainHoles, DrainPlace
+from ..openings import DrainHoles, DrainPlace, OpenFace, OpenPatch, OpenPlane, SmoothFace
 from ..profile import Profile
 from ..scattered_field import PointField, read_curve
+from ..skins.kept_bodies import KeptBody, read_body
+from ..skins.own_faces import FaceSkin, KeptFace
 from ..spec import LatticeSpec
 from ..spec_parts import first_radius
 from ..target import AIMS, Target, read_stiffness, stiffness_text
 from ..walls import FORMULA, SURFACES, PeriodicSurface, Wall, find_surface, surface_name
 from .parameter import Need, effective
-from .skin_values import skin_of, skin_values
 from .table import BY_NAME, PARAMETERS, TWO_ENDED
 from .values import field_file, is_file
 
@@ -78,7 +79,7 @@ def specification(values: Mapping[str, Any], say: Naming = in_file) -> LatticeSp
         remove_dangling=used["remove_dangling"],
         keep_pieces=used["keep_pieces"],
         shortest_stub=used["shortest_stub"],
-        **skin_of(used),
+        **_skin_of(used),
         remove_below=used["remove_below"],
         drains=_drains(used),
         resolution=used["resolution"] or None,
@@ -155,7 +156,7 @@ def values_of(spec: LatticeSpec) -> dict[str, Any]:
         "resolution": spec.resolution, "deviation": spec.deviation, "make": spec.output,
         "density": spec.density, "keep_radius": spec.keep_radius, **walls, **values,
     }  # fmt: skip
-    found |= skin_values(spec)
+    found |= _skin_values(spec)
     if spec.drains is not None:
         found["drain_diameter"] = spec.drains.diameter
         found["drain"] = tuple((*p.point, *(p.direction or ())) for p in spec.drains.places)
@@ -387,3 +388,76 @@ def _orientation(used: Mapping[str, Any]) -> Orientation | None:
         return None
     *axis, angle = used["rotate"]
     return Orientation((axis[0], axis[1], axis[2]), angle, used["rotate_origin"])
+
+
+def _skin_of(used: Mapping[str, Any]) -> dict[str, Any]:
+    """The fields of a `LatticeSpec` about faces and what is kept solid.
+
+    Args:
+        used: values by the names of the table; faces that were picked are those of `LatticeSpec`.
+
+    Raises:
+        VolfrepError: a body cannot be read, or a thickness makes no sense.
+    """
+    planes = tuple(
+        OpenPlane((x, y, z), (nx, ny, nz)) for x, y, z, nx, ny, nz in used["open_plane"] or ()
+    )
+    skins = tuple(FaceSkin(_face(numbers), numbers[-1]) for numbers in used["skin_face"] or ())
+    kept = tuple(
+        read_body(one) if isinstance(one, str) else KeptFace(_face(one), one[-1])
+        for one in used["keep_solid"] or ()
+    )
+    return {
+        "open_faces": (*(used["open_faces"] or ()), *planes),
+        "face_skins": (*(used["skin_faces"] or ()), *skins),
+        "keep_solid": (*(used["keep_solid_around"] or ()), *kept),
+    }
+
+
+def _skin_values(spec: LatticeSpec) -> dict[str, Any]:
+    """The values by name that `_skin_of` makes the same fields of.
+
+    Raises:
+        VolfrepError: a face was picked in FreeCAD, or a body has no file.
+    """
+    opened = [f for f in spec.open_faces if not isinstance(f, SmoothFace)]
+    skins = [FaceSkin(f, 0.0) for f in spec.open_faces if isinstance(f, SmoothFace)]
+    planes = [_numbers(face, "open") for face in opened]
+    own = [
+        (*_numbers(skin.face, "have a skin of their own"), skin.thickness)
+        for skin in (*skins, *spec.face_skins)
+    ]
+    return {
+        "open_plane": tuple(planes),
+        "skin_face": tuple(own),
+        "keep_solid": tuple(_kept(one) for one in spec.keep_solid),
+    }
+
+
+def _kept(one: KeptFace | KeptBody) -> str | tuple[float, ...]:
+    if isinstance(one, KeptFace):
+        return (*_numbers(one.face, "kept solid"), one.distance)
+    if not one.source or not is_file(one.source):
+        raise VolfrepError(
+            f"'{one.name}' to keep solid has no file that could be named: save it as .stl first."
+        )
+    return one.source
+
+
+def _face(numbers: tuple[float, ...]) -> OpenFace:
+    """The faces that numbers name, without the length behind them."""
+    x, y, z, *normal = numbers[:-1]
+    if not normal:
+        return SmoothFace((x, y, z))
+    nx, ny, nz = normal
+    return OpenPlane((x, y, z), (nx, ny, nz))
+
+
+def _numbers(face: OpenFace, what: str) -> tuple[float, ...]:
+    if isinstance(face, OpenPatch):
+        to_be = what if what.startswith("have") else f"be {what}"
+        raise VolfrepError(
+            f"Faces that were picked to {to_be} have no place in a file: leave them out, or give "
+            "planes."
+        )
+    return face.point if isinstance(face, SmoothFace) else (*face.point, *face.normal)

@@ -7,10 +7,8 @@ windows: ``make translations`` reads them here.
 
 from __future__ import annotations
 
-from .network_rows import GIVEN, NETWORK
+from ..walls.library import FORMULA, SURFACES
 from .parameter import Need, Parameter
-from .skin_rows import SKIN
-from .wall_rows import OF_STRUTS, SIZES, WALL
 
 #: The entry of the property `CellType` for a cell of the user's own, read from `CellFile`.
 CUSTOM_CELL = "Custom"
@@ -25,6 +23,21 @@ TWO_ENDED = ("linear", "quadratic", "exponential")
 PROFILES = ("scalar", *TWO_ENDED, "formula")
 BY_DEPTH = ("skin", "core")
 BY_PLACE = ("direction", *BY_DEPTH)
+
+#: Cells of walls; and what is for all other cells.
+WALLS = (*SURFACES, FORMULA)
+#: What says how thick they are.
+SIZES = ("wall_thickness", "wall_offset")
+OF_WALLS = Need(("cell",), WALLS)
+OF_STRUTS = Need(("cell",), WALLS, absent=True)
+
+#: Networks in place of cells: edges between random points, or those of a file.
+RANDOM = ("voronoi", "delaunay")
+_RANDOM = (Need(("network",), RANDOM),)
+#: What lies somewhere of its own accord, and may lie elsewhere: cells, and the network of a file.
+GIVEN = (Need(("network",), ("cells", "file")),)
+#: Cells in layers: on the quadrilaterals of a file, or upon or between faces picked in FreeCAD.
+_LAYERS = (Need(("network",), ("file", "faces")),)
 
 _OWN_RADIUS = Need(("radius_driven_by",), ("radius",))
 _DRAINED = (Need(("drain_diameter",)),)
@@ -128,8 +141,109 @@ PARAMETERS = (
         "Radius of the round between struts where they meet; 0 for none",
         default=0.0, needs=(OF_STRUTS,), freecad_name="JointFillet", in_panel=True,
     ),
-    *WALL,
-    *NETWORK,
+    Parameter(
+        "wall_kind", "choice", "Walls",
+        "sheet: a wall about the surface; skeleton: all where its formula is negative; "
+        "complement: all where it is positive",
+        default="sheet", choices=("sheet", "skeleton", "complement"), needs=(OF_WALLS,),
+        in_panel=True,
+    ),
+    Parameter(
+        "wall_thickness", "length", "Walls",
+        "Thickness of a sheet, measured across it",
+        default=1.0, needs=(OF_WALLS, Need(("wall_kind",), ("sheet",))), in_panel=True,
+        instead_of=("relative_density", "mass"),
+    ),
+    Parameter(
+        "wall_offset", "number", "Walls",
+        "By how many mm a skeleton or complement is thicker than up to the surface; negative for "
+        "a thinner one",
+        default=0.0, needs=(OF_WALLS, Need(("wall_kind",), ("skeleton", "complement"))),
+        in_panel=True, instead_of=("relative_density", "mass"),
+    ),
+    Parameter(
+        "wall_formula", "text", "Walls",
+        "The surface of the cell Formula: zero on it, of x, y and z, which run from 0 to 2 pi "
+        "over a cell",
+        needs=(Need(("cell",), (FORMULA,)),), required=True, initial="cos(x) + cos(y) + cos(z)",
+        in_panel=True,
+    ),
+    Parameter(
+        "network", "choice", "Network",
+        "What the lattice consists of: cells, the Voronoi or the Delaunay edges of random points, "
+        "the nodes and struts of a file, or layers of cells that follow faces picked in FreeCAD",
+        default="cells", choices=("cells", *RANDOM, "file", "faces"), of_block=False,
+    ),
+    Parameter(
+        "network_file", "file", "Network",
+        "Nodes and struts: .json, .csv, lines of .obj or .vtk, beams of .3mf; or a mesh (.vtk, "
+        ".vtu, .inp, .msh, .obj) whose hexahedra the cell is laid into, on whose quadrilaterals "
+        "layers of it lie, or whose tetrahedra's edges are struts",
+        needs=(Need(("network",), ("file",)),), required=True, of_block=False,
+    ),
+    Parameter(
+        "network_faces", "faces", "Network",
+        "Two faces between which cells lie, or one upon which they do; each has four sides",
+        needs=(Need(("network",), ("faces",)),), in_command=False,
+    ),
+    Parameter(
+        "network_thickness", "length", "Network",
+        "Of the layers of cells upon one surface together",
+        default=0.0, needs=_LAYERS, of_block=False,
+    ),
+    Parameter(
+        "network_layers", "integer", "Network",
+        "How many layers of cells lie upon a surface or between two; 0 for as many as come "
+        "nearest to the cell size",
+        default=0, needs=_LAYERS, of_block=False,
+    ),
+    Parameter(
+        "network_reversed", "flag", "Network",
+        "Layers upon one surface lie on its other side, against its normals",
+        default=False, needs=_LAYERS, of_block=False,
+    ),
+    Parameter(
+        "network_points", "integer", "Network",
+        "How many points lie in the part; 0 for as many as lie a cell size apart",
+        default=0, needs=_RANDOM, of_block=False,
+    ),
+    Parameter(
+        "network_seed", "integer", "Network",
+        "Another seed draws other points",
+        default=1, needs=_RANDOM, of_block=False,
+    ),
+    Parameter(
+        "network_relax", "integer", "Network",
+        "How often each point moves to the middle of its cell, which evens them out",
+        default=2, needs=_RANDOM, of_block=False,
+    ),
+    Parameter(
+        "network_density", "text", "Network",
+        "Density of the points as a formula of s, 0 at the wall and 1 at the deepest place, such "
+        "as '3 - 2 * s'; empty for an even one",
+        default="", needs=_RANDOM, of_block=False,
+    ),
+    Parameter(
+        "network_field", "file", "Network",
+        "A field that the density of the points follows in place of the depth: s is 0 at its "
+        "smallest value and 1 at its largest (files as of a radius field, of one column)",
+        needs=(*_RANDOM, Need(("network_density",))), of_block=False,
+    ),
+    Parameter(
+        "network_on_wall", "flag", "Network",
+        "Struts run along the wall, too, where it cuts the faces of the points' cells",
+        default=False, needs=(Need(("network",), ("voronoi",)),), of_block=False,
+    ),
+    Parameter(
+        "network_shortest", "length", "Network",
+        "Struts shorter than this are drawn together into one node; 0 for four radii",
+        default=0.0, needs=_RANDOM, of_block=False,
+    ),
+    Parameter(
+        "network_angle", "number", "Network",
+        "Of two struts that meet at less than so many degrees the longer one goes",
+        default=25.0, needs=_RANDOM, of_block=False,
+    ),
     Parameter(
         "origin", "point", "Lattice",
         "A point that is to be a corner of a cell; of a network of a file, where its own origin is "
@@ -175,7 +289,42 @@ PARAMETERS = (
         "A plane, by a point and a normal, whose faces have no skin; may be repeated",
         in_freecad=False, of_block=False,
     ),
-    *SKIN,
+    Parameter(
+        "skin_faces", "faces", "Openings",
+        "Faces of the solid whose skin has a thickness of its own, each with its number in "
+        "SkinThicknesses",
+        in_command=False,
+    ),
+    Parameter(
+        "skin_thicknesses", "lengths", "Openings",
+        "Thickness of the skin below each of the SkinFaces, in mm; 0 leaves the face open",
+        default=(), in_command=False,
+    ),
+    Parameter(
+        "skin_face", "thick_faces", "Openings",
+        "A skin of its own thickness below the smooth face at a point, or below the faces in a "
+        "plane by a point and a normal; the last number is the thickness, and 0 leaves them open; "
+        "may be repeated",
+        in_freecad=False, of_block=False,
+    ),
+    Parameter(
+        "keep_solid_around", "faces", "Openings",
+        "Faces round which the part stays solid, up to KeepDistance, and solids whose room in it "
+        "does",
+        in_command=False,
+    ),
+    Parameter(
+        "keep_distance", "length", "Openings",
+        "Distance from the faces of KeepSolidAround up to which the part stays solid",
+        default=5.0, in_command=False,
+    ),
+    Parameter(
+        "keep_solid", "solids", "Openings",
+        "What stays solid: the room of a closed body in a file (STL, PLY, OBJ, OFF, GLB), or what "
+        "is nearer than a distance, the last number, to the smooth face at a point or to the faces "
+        "in a plane; may be repeated",
+        in_freecad=False, of_block=False,
+    ),
     Parameter(
         "drain_diameter", "length", "Openings",
         "Diameter of the holes that let powder or resin out of the skin; 0 for none",

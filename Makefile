@@ -11,7 +11,7 @@ unexport PYTHONDONTWRITEBYTECODE
 SCREEN := xvfb-run -a -s "-screen 0 1600x1200x24 -dpi 96"
 
 .NOTPARALLEL:
-.PHONY: help setup demo test test-all test-slow lint format test-core test-random test-alone test-freecad \
+.PHONY: help setup demo check test test-all test-slow lint format test-core test-random test-alone test-freecad \
 	test-gui test-in-freecad test-freecad-1 translations test-newest docs-pictures docs-tables \
 	digests vocabulary test-escape torture fuzz bench bench-quick bench-readme catalogue clean
 
@@ -53,6 +53,9 @@ lane = $(foreach script,$(1),\
 WINDOWS = $(call lane,$(filter $(GUI_FIRST),$(GUI_SCRIPTS))) , \
 	$(call lane,$(filter-out $(GUI_FIRST),$(GUI_SCRIPTS)))
 IN_FREECAD = "freecad=make --no-print-directory test-freecad"
+
+check: setup ## style, types, and the tests nearest to what changed, in a minute (SECONDS=50, BASE=main)
+	@$(PYTHON) tools/check.py $(if $(BASE),--base $(BASE)) $(if $(SECONDS),--seconds $(SECONDS))
 
 lint: setup ## ruff and mypy
 	@.venv/bin/ruff check .

@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""`make check`: which tests are near to a change."""
+
+import importlib.util
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+_spec = importlib.util.spec_from_file_location("check", ROOT / "tools" / "check.py")
+check = importlib.util.module_from_spec(_spec)
+_spec.loader.exec_module(check)
+
+
+@pytest.mark.parametrize(
+    ("file", "test", "distance"),
+    [
+        ("tests/core/trim/test_prune.py", "trim/test_prune.py", 0),
+        ("core/volfrep/trim/prune.py", "trim/test_prune.py", 1),
+        ("core/volfrep/api.py", "test_api.py", 1),  # by names of the package
+        ("core/volfrep/cli/command.py", "cli/test_slice.py", 2),  # by the tests' own command
+        ("tests/core/mechanics/anisotropic_lattices.json", "mechanics/test_frame.py", 1),
+        ("README.md", "test_layers.py", 1),
+        ("core/volfrep/cli/command.py", "trim/test_prune.py", None),
+    ],
+)
+def test_how_near_tests_are_to_a_change(file, test, distance):
+    assert check.distances([file]).get(check.CORE / test) == distance

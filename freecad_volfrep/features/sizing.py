@@ -116,6 +116,11 @@ class Outcome:
                     "CalculiX's displacements of the same beams differ by {off:.2g} %.",
                 )
             ).format(off=off)
+            if not proof["confirmed"]:
+                refused = translate(
+                    "VolfrepSizePanel", "CalculiX does not confirm this design: see its notes."
+                )
+                said = f"{said} {refused}"
         return f"{self._found()} {said}".strip()
 
     def _found(self) -> str:
@@ -183,9 +188,11 @@ class Outcome:
         if proof is not None:
             off = 100.0 * max(proof["displacements_off"])
             figures: list[tuple[Any, ...]] = [
+                ("confirmed", "yes" if proof["confirmed"] else "no"),
                 ("displacements differ by, %", off),
-                ("largest stress there over here", proof["largest_stress"]),
             ]
+            if proof["worst_strut_compared"]:
+                figures.append(("largest stress there over here", proof["largest_stress"]))
             if "lowest_frequency" in proof:
                 figures.append(("lowest frequency there over here", proof["lowest_frequency"]))
             known = [factor for factor in proof.get("buckling_factors", ()) if factor is not None]

@@ -39,7 +39,7 @@ def sizing_report(
         before: one radius, the same volume.
         even: one radius, the same limits, and whether it holds them; None without limits.
         proof: how far another solver agrees; None where none was asked.
-        seconds: by stage.
+        seconds: by stage; their sum is told, too.
         notes: sentences for the user.
         unthinned: the design with the struts that were taken away, and how many these are; None
             where none was.
@@ -71,7 +71,7 @@ def sizing_report(
             for step in sized.steps
         ],
         "calculix": None if proof is None else dict(proof),
-        "seconds": dict(seconds),
+        "seconds": {**seconds, "total": sum(seconds.values())},
         "notes": list(notes),
     }
     if not np.isnan(final.frequency):
@@ -120,9 +120,12 @@ def sizing_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
     ]
     if report["skin_mass_g"]:
         rows.append(("skin mass", f"{report['skin_mass_g']:.4g} g"))
-    there = (report["calculix"] or {}).get("uses", {})
+    proof = report["calculix"]
+    there = (proof or {}).get("uses", {})
     for name, use in report["uses"].items():
-        said = f", {there[name]:.1%} in CalculiX" if name in there else ""
+        said = "" if proof is None else ", not compared in CalculiX"
+        if name in there:
+            said = f", {there[name]:.1%} in CalculiX"
         rows.append((f"{name} limit", f"{use:.1%} used{said}"))
     factors = (report["calculix"] or {}).get("buckling_factors", [None] * len(report["cases"]))
     for k, case in enumerate(report["cases"]):
@@ -170,22 +173,22 @@ def sizing_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
     if "skin_stress_mpa" in report:
         most = max(report["skin_stress_mpa"])
         rows.append(("skin stress", f"{most:.4g} MPa on all but {PEAKS:.1%} of its area"))
-    proof = report["calculix"]
-    if proof is None:
-        rows.append(("CalculiX", "has not solved this design"))
-    else:
-        off = max(proof["displacements_off"])
-        given = ", skin included" if proof["with_the_skin"] else ""
-        if not proof["worst_strut_compared"]:
-            given += "; the most stressed strut is too short to be compared"
-        rows.append(
-            (
-                "CalculiX",
-                f"displacements {off:.2%} off, largest stress {proof['largest_stress'] - 1:+.2%}"
-                + given,
-            )
-        )
+    rows.append(("CalculiX", _confirmation(proof)))
     return rows
+
+
+def _confirmation(proof: Mapping[str, Any] | None) -> str:
+    """How far CalculiX agrees, and whether that confirms the design."""
+    if proof is None:
+        return "not confirmed: it has not solved this design"
+    skin = ", skin included" if proof["with_the_skin"] else ""
+    if not proof["confirmed"]:
+        return f"NOT CONFIRMED{skin}: {'; '.join(proof['doubts'])}"
+    stress = "the most stressed strut is too short to be compared"
+    if proof["worst_strut_compared"]:
+        stress = f"largest stress {proof['largest_stress'] - 1:+.2%}"
+    off = max(proof["displacements_off"])
+    return f"confirmed{skin}: displacements {off:.2%} off, {stress}"
 
 
 def _case(model: SizingModel, before: Analysis, final: Analysis, k: int) -> dict[str, Any]:

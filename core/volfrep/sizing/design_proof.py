@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import shutil
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -35,6 +36,8 @@ HELD_TOGETHER = 100.0
 TELLING = 0.5
 #: A limit that CalculiX finds used more than this makes the design a little thicker.
 PROVED = 1.003
+#: A design is confirmed where nothing that both solutions say differs by more than this part.
+AGREES = 0.15
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,8 +56,12 @@ class Proved:
     def uses(self, limits: Limits, final: Analysis) -> dict[str, float]:
         """By the name of each limit that CalculiX has a figure for, the share of it used there."""
         result = {}
-        if limits.stress is not None:
-            result["stress"] = final.uses["stress"] * self.figures["largest_stress"]
+        felt = self.figures["largest_stress"]
+        if limits.stress is not None and felt is not None:
+            use = final.uses["stress"] * felt
+            # Without the strut that governs it is the least that there may be.
+            if self.figures["worst_strut_compared"] or use > PROVED:
+                result["stress"] = use
         if limits.displacement is not None:
             there = final.largest * np.array(self.figures["largest_displacement"])
             result["displacement"] = float(there.max()) / limits.displacement
@@ -123,8 +130,9 @@ def proved(
     Returns:
         How far displacements are off in each case, and over the design's own the largest
         displacements, stress and lowest frequency; of how many struts' ends the stress is known
-        there, and whether of the most stressed one (else its own stands for it). None where
-        CalculiX is not installed, or there are more than `MOST_PROVED` struts.
+        there, and whether of the most stressed one (the largest stress is that of those that are
+        known; None where none is); whether CalculiX confirms the design, and if not, why. None
+        where CalculiX is not installed, or there are more than `MOST_PROVED` struts.
 
     Raises:
         VolfrepError: CalculiX does not solve it.
@@ -194,7 +202,7 @@ def proved(
     there_most = np.where(known, felt, 0.0).max(axis=(1, 2))
     more = there_most / np.maximum(alone.max(axis=(1, 2)), 1e-300)
     more = np.where(there_most > TELLING * there_most.max(initial=0.0), np.maximum(more, 1.0), 1.0)
-    worst = float(np.where(known, felt, summed).max() / summed.max())
+    worst = float(felt[known].max() / summed.max()) if known.any() else None
     compared = bool(known.ravel()[int(summed.argmax())])
     result: dict[str, Any] = {
         "displacements_off": [float(value) for value in off],
@@ -213,7 +221,46 @@ def proved(
         result["buckling_factors"] = [
             float(factor) if np.isfinite(factor) else None for factor in found.factors
         ]
+    result["doubts"] = doubts(result, final, [case.name for case in problem.cases])
+    result["confirmed"] = not result["doubts"]
     return Proved(result, more)
+
+
+def doubts(figures: Mapping[str, Any], final: Analysis, names: Sequence[str]) -> list[str]:
+    """Why CalculiX does not confirm a design, in parts of a sentence; none where it does.
+
+    Args:
+        figures: as `proved` has them.
+        final: the design.
+        names: of its load cases.
+    """
+    result = []
+    ratio, off = figures["largest_displacement"], figures["displacements_off"]
+    apart = [max(one, abs(other - 1.0)) for one, other in zip(off, ratio, strict=True)]
+    k = int(np.argmax(apart))
+    if not apart[k] <= AGREES:
+        result.append(
+            f"displacements differ by {off[k]:.0%} in case '{names[k]}', where the largest one is "
+            f"{ratio[k]:.3g} times the design's own"
+        )
+    felt = figures["largest_stress"]
+    if "stress" in final.uses:
+        if not figures["worst_strut_compared"]:
+            result.append(
+                "the most stressed strut is too short to be compared, as are "
+                f"{1.0 - figures['struts_compared']:.0%} of the struts' ends"
+            )
+        elif not abs(felt - 1.0) <= AGREES:
+            result.append(f"its largest stress is {felt:.3g} times the design's own")
+    if "frequency" in final.uses and not abs(figures["lowest_frequency"] - 1.0) <= AGREES:
+        times = figures["lowest_frequency"]
+        result.append(f"its lowest frequency is {times:.3g} times the design's own")
+    factors = zip(figures.get("buckling_factors", ()), final.factors.tolist(), strict=False)
+    times = [there / own for there, own in factors if there is not None]
+    if times and not max(abs(one - 1.0) for one in times) <= AGREES:
+        worst = max(times, key=lambda one: abs(one - 1.0))
+        result.append(f"its load factor of buckling together is {worst:.3g} times the design's own")
+    return result
 
 
 def with_arms(model: BeamModel, nodes: Ints, length: float) -> BeamModel:

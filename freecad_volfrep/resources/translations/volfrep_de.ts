@@ -2614,6 +2614,10 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
       <translation>Leitfähigkeit</translation>
     </message>
     <message>
+      <source>confirmed</source>
+      <translation>bestätigt</translation>
+    </message>
+    <message>
       <source>corrupted triangles</source>
       <translation>beschädigte Dreiecke</translation>
     </message>
@@ -2950,6 +2954,10 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
     <message>
       <source>Buckling safety</source>
       <translation>Sicherheit (Knicken)</translation>
+    </message>
+    <message>
+      <source>CalculiX does not confirm this design: see its notes.</source>
+      <translation>CalculiX bestätigt diesen Entwurf nicht: siehe seine Hinweise.</translation>
     </message>
     <message>
       <source>CalculiX's displacements of the same beams and skin differ by {off:.2g} %.</source>

@@ -2614,6 +2614,10 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
       <translation>conducibilità</translation>
     </message>
     <message>
+      <source>confirmed</source>
+      <translation>confermato</translation>
+    </message>
+    <message>
       <source>corrupted triangles</source>
       <translation>triangoli corrotti</translation>
     </message>
@@ -2950,6 +2954,10 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
     <message>
       <source>Buckling safety</source>
       <translation>Sicurezza (instabilità)</translation>
+    </message>
+    <message>
+      <source>CalculiX does not confirm this design: see its notes.</source>
+      <translation>CalculiX non conferma questo progetto: vedi le sue note.</translation>
     </message>
     <message>
       <source>CalculiX's displacements of the same beams and skin differ by {off:.2g} %.</source>

@@ -30,7 +30,15 @@ from ..infill import Infill
 from ..networks.frame import fixed_graph
 from ..targets import aimed, infill_of
 from .goal import Goal
-from .notes import left_out, not_held, stiff_skin, stressed_skin, unproved
+from .notes import (
+    hardly_beams,
+    left_out,
+    not_confirmed,
+    not_held,
+    stiff_skin,
+    stressed_skin,
+    unproved,
+)
 from .part_model import given_radii, part_model, spacing
 from .removal import RADIUS_STEP, SLACK, Thinned, field_points, radius_field, thinned
 
@@ -180,6 +188,9 @@ def size(
         except VolfrepError as error:  # minutes of work are not lost to another program
             proof = None
             notes.append(f"{error} No other solver has proved this design.")
+    if proof is not None:
+        notes += not_confirmed(proof.figures["doubts"])
+    notes += hardly_beams(infill, model, final.radii, spacing(infill))
     radii = final.radii
     sized = replace(sized, analysis=final)
     full = unthinned.problem

@@ -15,8 +15,9 @@ _MOST_OF_EDGE = 0.8
 #: Directions in which the planes about a vertex agree to less than this say nothing of its place.
 _FLAT = 0.03
 #: So many times are inner vertices evened out where wedges would be turned over, and what is left
-#: drawn back by half.
-_EVENED_OUT, _DRAWN_BACK = 60, 8
+#: drawn back little by little: along the rim of a wall thinner than two skins both sides meet, and
+#: what is drawn back there is missing.
+_EVENED_OUT, _DRAWN_BACK, _PART = 60, 40, 0.1
 #: The volume at a wedge's corner over what upright walls would give: at least, and wanted.
 _UPRIGHT, _WANTED = 0.05, 0.2
 
@@ -273,7 +274,7 @@ def upright(outer: Floats, inner: Floats, triangles: Ints) -> Floats:
         if not bad.any():
             break
         some = np.unique(triangles[bad])
-        inner[some] = 0.5 * (inner[some] + outer[some])
+        inner[some] += _PART * (outer[some] - inner[some])
     return inner
 
 

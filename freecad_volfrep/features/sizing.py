@@ -125,6 +125,8 @@ class Outcome:
 
     def _found(self) -> str:
         """What was found, in a sentence."""
+        from volfrep.reports.sizing_report import least_gain
+
         sized, before, even = self.part.sized.analysis, self.part.before, self.part.even
         if not self.holds:
             there = (self.part.report["calculix"] or {}).get("uses", {})
@@ -136,11 +138,12 @@ class Outcome:
                 "Allow thicker struts, or larger cells.",
             ).format(limit=translate("VolfrepSizePanel", worst), use=uses[worst])
         if even is None:
+            gain = float(before.compliance.sum() / sized.compliance.sum())
             return translate(
                 "VolfrepSizePanel",
-                "Struts of {mass:.4g} g, {gain:.3g} times as stiff as struts of one radius and the "
-                "same mass.",
-            ).format(mass=self.mass, gain=float(before.compliance.sum() / sized.compliance.sum()))
+                "Struts of {mass:.4g} g, {least:.3g} to {gain:.3g} times as stiff as struts of one "
+                "radius and the same mass.",
+            ).format(mass=self.mass, least=least_gain(gain), gain=gain)
         analysis, held = even
         if not held:
             return translate(

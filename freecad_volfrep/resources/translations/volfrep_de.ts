@@ -3068,8 +3068,8 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
       <translation>Streben von {mass:.4g} g halten alle Grenzen ein; mit einem einheitlichen Radius wögen sie {even:.4g} g.</translation>
     </message>
     <message>
-      <source>Struts of {mass:.4g} g, {gain:.3g} times as stiff as struts of one radius and the same mass.</source>
-      <translation>Streben von {mass:.4g} g, {gain:.3g}-mal so steif wie Streben eines einheitlichen Radius mit derselben Masse.</translation>
+      <source>Struts of {mass:.4g} g, {least:.3g} to {gain:.3g} times as stiff as struts of one radius and the same mass.</source>
+      <translation>Streben von {mass:.4g} g, {least:.3g}- bis {gain:.3g}-mal so steif wie Streben eines einheitlichen Radius mit derselben Masse.</translation>
     </message>
     <message>
       <source>Take away struts that end as thin as the smallest radius and size the rest again; kept if that is lighter, or stiffer at the same mass</source>

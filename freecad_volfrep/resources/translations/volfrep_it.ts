@@ -3068,8 +3068,8 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
       <translation>Aste di {mass:.4g} g rispettano tutti i limiti; con un raggio unico peserebbero {even:.4g} g.</translation>
     </message>
     <message>
-      <source>Struts of {mass:.4g} g, {gain:.3g} times as stiff as struts of one radius and the same mass.</source>
-      <translation>Aste di {mass:.4g} g, {gain:.3g} volte più rigide di aste di raggio unico e della stessa massa.</translation>
+      <source>Struts of {mass:.4g} g, {least:.3g} to {gain:.3g} times as stiff as struts of one radius and the same mass.</source>
+      <translation>Aste di {mass:.4g} g, da {least:.3g} a {gain:.3g} volte più rigide di aste di raggio unico e della stessa massa.</translation>
     </message>
     <message>
       <source>Take away struts that end as thin as the smallest radius and size the rest again; kept if that is lighter, or stiffer at the same mass</source>

@@ -16,6 +16,7 @@ from volfrep.loads.load_cases import Force, LoadCase, LoadCases, Support
 from volfrep.loads.regions import InPlane
 from volfrep.mechanics.materials import find_material
 from volfrep.mesh.booleans import as_mesh
+from volfrep.sizing.analysis import Limits
 from volfrep.sizing.design_proof import wedge_shares
 
 FORCE = (0.0, -100.0, 0.0)
@@ -91,6 +92,44 @@ def test_ours_and_calculix_move_as_bricks_of_the_finished_mesh(shape):
     print(f"\n{shape.__name__}: bricks {most:.4f} mm, {shares}")
     assert ours == pytest.approx(most, rel=0.1)
     assert theirs == pytest.approx(most, rel=0.1)
+
+
+@needs_calculix
+@pytest.mark.slow
+def test_beams_do_not_confirm_beams_where_struts_make_the_part_solid():
+    """Both solutions of the same struts agree, and bricks of the mesh move farther than either."""
+    shape = Manifold.cube((96.0, 12.0, 12.0))
+    solid = check_solid(as_mesh(shape), "box")
+    case = LoadCase("bend", (Support(on_plane(0, 0.0)),), (Force(on_plane(0, 96.0), FORCE),))
+    spec = LatticeSpec("CVC", cell_size=12, strut_radius=3.2, shell=2)
+    goal = Goal(Limits(displacement=1e-3), radius_min=3.19, radius_max=3.2)
+    loads = LoadCases(TITANIUM, (case,))
+    design = size(solid, spec, loads, goal, most_steps=1)
+    proof, ours = design.report["calculix"], float(design.sized.analysis.largest[0])
+    assert proof["largest_displacement"] == pytest.approx([1.0], abs=0.05)
+    mesh = Infill(solid, design.spec).part.mesh
+    bricks = Bricks(mesh, 1.0, TITANIUM.young, TITANIUM.poisson)
+    shares = bricks.spread(lambda nodes: nodes[:, 0] > 96 - 1e-3)
+    moved = bricks.displacements(bricks.nodes[:, 0] < 1e-3, shares[:, None] * np.array(FORCE))
+    most = float(np.linalg.norm(moved, axis=1).max())
+    print(f"\nbox: bricks {most:.5f} mm, ours {ours / most:.3f}")
+    assert ours < 0.9 * most
+    assert not proof["confirmed"]
+    assert "of the space that they fill" in " ".join(proof["doubts"])
+
+
+def test_bricks_bend_and_stretch_as_the_closed_forms_say():
+    """A bar of 40 x 4 x 6 mm, two bricks thick, without lateral contraction at its clamp."""
+    bar = as_mesh(Manifold.cube((40.0, 4.0, 6.0)))
+    bricks = Bricks(bar, 2.0, 100_000.0, 0.0)
+    assert bricks.volume == pytest.approx(960.0)
+    held = bricks.nodes[:, 0] < 1e-3
+    shares = bricks.spread(lambda nodes: nodes[:, 0] > 40 - 1e-3)
+    pulled = bricks.displacements(held, shares[:, None] * np.array([240.0, 0, 0]))
+    assert pulled[shares > 0, 0] == pytest.approx(240 * 40 / 100_000 / 24, rel=1e-4)
+    bent = bricks.displacements(held, shares[:, None] * np.array([0, 10.0, 0]))
+    beam = 10 * 40**3 / 3 / 100_000 / (6 * 4**3 / 12) + 1.2 * 10 * 40 / 50_000 / 24
+    assert shares @ bent[:, 1] == pytest.approx(beam, rel=0.01)
 
 
 def test_shares_of_a_wedge_are_those_of_its_fifteen_nodes():

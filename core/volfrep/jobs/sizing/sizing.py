@@ -37,6 +37,7 @@ from .notes import (
     not_held,
     stiff_skin,
     stressed_skin,
+    too_dense,
     unproved,
 )
 from .part_model import given_radii, part_model, spacing
@@ -189,7 +190,10 @@ def size(
             proof = None
             notes.append(f"{error} No other solver has proved this design.")
     if proof is not None:
-        notes += not_confirmed(proof.figures["doubts"])
+        doubts = proof.figures["doubts"]
+        doubts += too_dense(infill, model, final.radii)  # beams are no proof of beams there
+        proof.figures["confirmed"] = not doubts
+        notes += not_confirmed(doubts)
     notes += hardly_beams(infill, model, final.radii, spacing(infill))
     radii = final.radii
     sized = replace(sized, analysis=final)

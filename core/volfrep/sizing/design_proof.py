@@ -9,11 +9,10 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from ..design.cells import UnitCell
 from ..fem.beam_mesh import JOINT_STIFFNESS, BeamModel, beam_model, ends_law
-from ..fem.wedge_mesh import WedgeMesh, wedge_mesh
+from ..fem.wedge_mesh import beyond_inner, wedge_mesh
 from ..grid.strut_graph import Wireframe
 from ..mechanics.frame import Ends
 from ..mechanics.materials import SolidMaterial
@@ -33,9 +32,6 @@ MOST_PROVED = 6_000
 _THIN = 0.1
 #: Both sides of what is solid are held together by so many times their thickness' stiffness.
 HELD_TOGETHER = 100.0
-#: What is beyond a node is sought among so many wedges, by so many of Newton's steps, and lies no
-#: farther out of one than this part of its width.
-_NEAREST, _NEWTON, _FARTHEST_OUT = 16, 12, 0.5
 #: Struts count as more stressed in CalculiX where they have this share of the largest stress there.
 TELLING = 0.5
 #: A limit that CalculiX finds used more than this makes the design a little thicker.
@@ -345,89 +341,6 @@ def solid_skin(
         HELD_TOGETHER * material.young * float(skin.shells.thickness.mean()),
     )
     return solid, more
-
-
-def beyond_inner(mesh: WedgeMesh, inner: Ints) -> tuple[Ints, Ints, Floats]:
-    """How the wedges on the other side move at the places of inner nodes.
-
-    A tie between places apart from each other would hold their turn, too: so it is asked for at the
-    very place, into or out of the nearest wedge, by its shape functions.
-
-    Args:
-        mesh: the skin.
-        inner: (j,) nodes on its inner side that hang together with the skin beyond.
-
-    Returns:
-        (i,) those of them that have one; (i, 15) its nodes; (i, 15) their shares.
-    """
-    if not len(inner):
-        return inner, np.empty((0, 15), np.int64), np.empty((0, 15))
-    corners = mesh.nodes[mesh.elements[:, :6]]
-    rise = corners[:, 3:].mean(axis=1) - corners[:, :3].mean(axis=1)
-    # What an inner node's own wedges rise to is the side that is not meant.
-    own = np.zeros_like(mesh.nodes)
-    for corner in range(3):
-        np.add.at(own, mesh.elements[:, corner], rise)
-    count = min(_NEAREST, len(corners))
-    near = cKDTree(corners[:, :3].mean(axis=1)).query(mesh.nodes[inner], count)[1]
-    near = near.reshape(len(inner), count)
-    row = np.repeat(np.arange(len(inner)), count)
-    element = near.ravel()
-    faces = np.einsum("ij,ij->i", rise[element], own[inner[row]]) < 0.0
-    row, element = row[faces], element[faces]
-    place, off = _place_in(corners[element], mesh.nodes[inner[row]])
-    low = np.minimum(np.minimum(place[:, 0], place[:, 1]), 1.0 - place[:, 0] - place[:, 1])
-    out = np.maximum(np.maximum(-low, 0.0), 0.5 * np.maximum(np.abs(place[:, 2]) - 1.0, 0.0))
-    out = np.where(off, np.inf, out)
-    order = np.lexsort([out, row])
-    first = order[np.unique(row[order], return_index=True)[1]]
-    first = first[out[first] < _FARTHEST_OUT]
-    return inner[row[first]], mesh.elements[element[first]], wedge_shares(place[first])
-
-
-def wedge_shares(place: Floats) -> Floats:
-    """(k, 15) shape functions of a second-order wedge at (k, 3) places: two of its three area
-    coordinates, those of the second and the third corner, and the height from -1 to 1.
-    """
-    two, three, height = place.T
-    area = np.stack([1.0 - two - three, two, three], axis=1)
-    z = height[:, None]
-    sides = 2.0 * area * np.roll(area, -1, axis=1)
-    return np.concatenate(
-        [
-            0.5 * area * (1.0 - z) * (2.0 * area - 2.0 - z),
-            0.5 * area * (1.0 + z) * (2.0 * area - 2.0 + z),
-            sides * (1.0 - z),
-            sides * (1.0 + z),
-            area * (1.0 - z**2),
-        ],
-        axis=1,
-    )
-
-
-def _place_in(corners: Floats, points: Floats) -> tuple[Floats, Bools]:
-    """(k, 3) places of points in wedges of straight edges (k, 6, 3); and which were not found."""
-    place = np.tile([1.0 / 3.0, 1.0 / 3.0, -1.0], (len(points), 1))
-    low, high = corners[:, :3], corners[:, 3:]
-    size = np.linalg.norm(corners - corners.mean(axis=1, keepdims=True), axis=2).max(axis=1)
-    for _ in range(_NEWTON):
-        area = np.stack([1.0 - place[:, 0] - place[:, 1], place[:, 0], place[:, 1]], axis=1)
-        share = 0.5 * (1.0 + place[:, 2])[:, None, None]
-        layer = (1.0 - share) * low + share * high
-        rest = points - np.einsum("kc,kci->ki", area, layer)
-        slopes = np.stack(
-            [
-                layer[:, 1] - layer[:, 0],
-                layer[:, 2] - layer[:, 0],
-                0.5 * np.einsum("kc,kci->ki", area, high - low),
-            ],
-            axis=2,
-        )
-        good = np.abs(np.linalg.det(slopes)) > 1e-9 * size**3
-        slopes[~good] = np.eye(3)
-        step = np.linalg.solve(slopes, rest[:, :, None])[:, :, 0]
-        place = place + np.where(good[:, None], np.clip(step, -1.0, 1.0), 0.0)
-    return place, np.linalg.norm(rest, axis=1) > 1e-6 * size
 
 
 def _on_solid(skin: SolidSkin, first: int, held: Bools, loads: Floats, moved: Floats) -> None:

@@ -9,6 +9,7 @@ from manifold3d import CrossSection, Manifold
 
 from bricks import Bricks
 from volfrep import LatticeSpec
+from volfrep.fem.wedge_mesh import wedge_shares
 from volfrep.io.solid import check_solid
 from volfrep.jobs.infill import Infill
 from volfrep.jobs.sizing import Goal, size
@@ -17,7 +18,6 @@ from volfrep.loads.regions import InPlane
 from volfrep.mechanics.materials import find_material
 from volfrep.mesh.booleans import as_mesh
 from volfrep.sizing.analysis import Limits
-from volfrep.sizing.design_proof import wedge_shares
 
 FORCE = (0.0, -100.0, 0.0)
 TITANIUM = find_material("Ti-6Al-4V")

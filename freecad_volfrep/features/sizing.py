@@ -116,10 +116,17 @@ class Outcome:
                     "CalculiX's displacements of the same beams differ by {off:.2g} %.",
                 )
             ).format(off=off)
+            if not proof["confirmed"]:
+                refused = translate(
+                    "VolfrepSizePanel", "CalculiX does not confirm this design: see its notes."
+                )
+                said = f"{said} {refused}"
         return f"{self._found()} {said}".strip()
 
     def _found(self) -> str:
         """What was found, in a sentence."""
+        from volfrep.reports.sizing_report import least_gain
+
         sized, before, even = self.part.sized.analysis, self.part.before, self.part.even
         if not self.holds:
             there = (self.part.report["calculix"] or {}).get("uses", {})
@@ -131,11 +138,12 @@ class Outcome:
                 "Allow thicker struts, or larger cells.",
             ).format(limit=translate("VolfrepSizePanel", worst), use=uses[worst])
         if even is None:
+            gain = float(before.compliance.sum() / sized.compliance.sum())
             return translate(
                 "VolfrepSizePanel",
-                "Struts of {mass:.4g} g, {gain:.3g} times as stiff as struts of one radius and the "
-                "same mass.",
-            ).format(mass=self.mass, gain=float(before.compliance.sum() / sized.compliance.sum()))
+                "Struts of {mass:.4g} g, {least:.3g} to {gain:.3g} times as stiff as struts of one "
+                "radius and the same mass.",
+            ).format(mass=self.mass, least=least_gain(gain), gain=gain)
         analysis, held = even
         if not held:
             return translate(
@@ -183,9 +191,11 @@ class Outcome:
         if proof is not None:
             off = 100.0 * max(proof["displacements_off"])
             figures: list[tuple[Any, ...]] = [
+                ("confirmed", "yes" if proof["confirmed"] else "no"),
                 ("displacements differ by, %", off),
-                ("largest stress there over here", proof["largest_stress"]),
             ]
+            if proof["worst_strut_compared"]:
+                figures.append(("largest stress there over here", proof["largest_stress"]))
             if "lowest_frequency" in proof:
                 figures.append(("lowest frequency there over here", proof["lowest_frequency"]))
             known = [factor for factor in proof.get("buckling_factors", ()) if factor is not None]

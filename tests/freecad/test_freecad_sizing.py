@@ -109,6 +109,14 @@ def test_struts_are_sized_stored_and_stay_within_their_limits(infill):
         assert titles[2] == "The same beams in CalculiX"
         assert max(outcome.part.report["calculix"]["displacements_off"]) < 0.01
         assert "CalculiX's displacements of the same beams differ by" in outcome.summary()
+        assert "does not confirm" not in outcome.summary()
+        proof = outcome.part.report["calculix"]
+        assert dict(row[:2] for row in outcome.tables()[2].rows)["confirmed"] == "yes"
+        proof["confirmed"] = proof["worst_strut_compared"] = False
+        assert "CalculiX does not confirm this design" in outcome.summary()
+        told = dict(row[:2] for row in outcome.tables()[2].rows)
+        assert told["confirmed"] == "no"
+        assert "largest stress there over here" not in told
     else:
         assert "no other solver has proved this design" in outcome.summary()
     assert json.loads(outcome.to_json())["struts"] == len(outcome.states[0].radii)

@@ -104,9 +104,9 @@ def _size(options: argparse.Namespace) -> None:
     if options.picture is not None:
         _picture(options, made)
     print_warnings(made.report["notes"])
-    tell(result.report, options)
+    tell(result.report, options, before=seconds)
     if not options.quiet:
-        print_rows(*sizing_rows(made.report), ("sizing time", f"{seconds:.1f} s"))
+        print_rows(*sizing_rows(made.report), ("time of sizing", f"{seconds:.1f} s of it"))
 
 
 @contextmanager

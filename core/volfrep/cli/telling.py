@@ -40,8 +40,14 @@ class Progress:
             self._shown = text
 
 
-def tell(report: Report, options: argparse.Namespace, printing: PrintReport | None = None) -> None:
-    """Write the report, and say what was made."""
+def tell(
+    report: Report,
+    options: argparse.Namespace,
+    printing: PrintReport | None = None,
+    *,
+    before: float = 0.0,
+) -> None:
+    """Write the report, and say what was made; `before` it so many seconds went by."""
     from ..util.files import replacing
 
     if options.report is not None:
@@ -55,6 +61,7 @@ def tell(report: Report, options: argparse.Namespace, printing: PrintReport | No
         return
     size = Path(options.output).stat().st_size / 1e6
     grid = " x ".join(str(n) for n in report.grid)
+    seconds = before + sum(report.stages.values())
     print_rows(
         ("file", f"{options.output}, {size:.1f} MB"),
         ("cells", f"{report.cells_active:,} active of {report.cells_total:,} ({grid})"),
@@ -67,7 +74,7 @@ def tell(report: Report, options: argparse.Namespace, printing: PrintReport | No
         ("mass", f"{report.mass_g:,.2f} g"),
         *_target(report),
         *_removed(report),
-        ("time", f"{sum(report.stages.values()):.2f} s, {report.peak_memory_mb:,.0f} MB of memory"),
+        ("time", f"{seconds:.2f} s, {report.peak_memory_mb:,.0f} MB of memory"),
         *(printing.rows() if printing is not None else ()),
     )
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.sparse import csr_matrix
+from scipy.spatial import cKDTree
 
 from ..util.types import Bools, Floats, Ints
 
@@ -15,10 +16,14 @@ _MOST_OF_EDGE = 0.8
 #: Directions in which the planes about a vertex agree to less than this say nothing of its place.
 _FLAT = 0.03
 #: So many times are inner vertices evened out where wedges would be turned over, and what is left
-#: drawn back by half.
-_EVENED_OUT, _DRAWN_BACK = 60, 8
+#: drawn back little by little: along the rim of a wall thinner than two skins both sides meet, and
+#: what is drawn back there is missing.
+_EVENED_OUT, _DRAWN_BACK, _PART = 60, 40, 0.1
 #: The volume at a wedge's corner over what upright walls would give: at least, and wanted.
 _UPRIGHT, _WANTED = 0.05, 0.2
+#: What is beyond a node is sought among so many wedges, by so many of Newton's steps, and lies no
+#: farther out of one than this part of its width.
+_NEAREST, _NEWTON, _FARTHEST_OUT = 16, 12, 0.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -197,6 +202,89 @@ def wedge_mesh(outer: Floats, inner: Floats, triangles: Ints, pads: Floats) -> W
     )
 
 
+def beyond_inner(mesh: WedgeMesh, inner: Ints) -> tuple[Ints, Ints, Floats]:
+    """How the wedges on the other side move at the places of inner nodes.
+
+    A tie between places apart from each other would hold their turn, too: so it is asked for at the
+    very place, into or out of the nearest wedge, by its shape functions.
+
+    Args:
+        mesh: the skin.
+        inner: (j,) nodes on its inner side that hang together with the skin beyond.
+
+    Returns:
+        (i,) those of them that have one; (i, 15) its nodes; (i, 15) their shares.
+    """
+    if not len(inner):
+        return inner, np.empty((0, 15), np.int64), np.empty((0, 15))
+    corners = mesh.nodes[mesh.elements[:, :6]]
+    rise = corners[:, 3:].mean(axis=1) - corners[:, :3].mean(axis=1)
+    # What an inner node's own wedges rise to is the side that is not meant.
+    own = np.zeros_like(mesh.nodes)
+    for corner in range(3):
+        np.add.at(own, mesh.elements[:, corner], rise)
+    count = min(_NEAREST, len(corners))
+    near = cKDTree(corners[:, :3].mean(axis=1)).query(mesh.nodes[inner], count)[1]
+    near = near.reshape(len(inner), count)
+    row = np.repeat(np.arange(len(inner)), count)
+    element = near.ravel()
+    faces = np.einsum("ij,ij->i", rise[element], own[inner[row]]) < 0.0
+    row, element = row[faces], element[faces]
+    place, off = _place_in(corners[element], mesh.nodes[inner[row]])
+    low = np.minimum(np.minimum(place[:, 0], place[:, 1]), 1.0 - place[:, 0] - place[:, 1])
+    out = np.maximum(np.maximum(-low, 0.0), 0.5 * np.maximum(np.abs(place[:, 2]) - 1.0, 0.0))
+    out = np.where(off, np.inf, out)
+    order = np.lexsort([out, row])
+    first = order[np.unique(row[order], return_index=True)[1]]
+    first = first[out[first] < _FARTHEST_OUT]
+    return inner[row[first]], mesh.elements[element[first]], wedge_shares(place[first])
+
+
+def wedge_shares(place: Floats) -> Floats:
+    """(k, 15) shape functions of a second-order wedge at (k, 3) places: two of its three area
+    coordinates, those of the second and the third corner, and the height from -1 to 1.
+    """
+    two, three, height = place.T
+    area = np.stack([1.0 - two - three, two, three], axis=1)
+    z = height[:, None]
+    sides = 2.0 * area * np.roll(area, -1, axis=1)
+    return np.concatenate(
+        [
+            0.5 * area * (1.0 - z) * (2.0 * area - 2.0 - z),
+            0.5 * area * (1.0 + z) * (2.0 * area - 2.0 + z),
+            sides * (1.0 - z),
+            sides * (1.0 + z),
+            area * (1.0 - z**2),
+        ],
+        axis=1,
+    )
+
+
+def _place_in(corners: Floats, points: Floats) -> tuple[Floats, Bools]:
+    """(k, 3) places of points in wedges of straight edges (k, 6, 3); and which were not found."""
+    place = np.tile([1.0 / 3.0, 1.0 / 3.0, -1.0], (len(points), 1))
+    low, high = corners[:, :3], corners[:, 3:]
+    size = np.linalg.norm(corners - corners.mean(axis=1, keepdims=True), axis=2).max(axis=1)
+    for _ in range(_NEWTON):
+        area = np.stack([1.0 - place[:, 0] - place[:, 1], place[:, 0], place[:, 1]], axis=1)
+        share = 0.5 * (1.0 + place[:, 2])[:, None, None]
+        layer = (1.0 - share) * low + share * high
+        rest = points - np.einsum("kc,kci->ki", area, layer)
+        slopes = np.stack(
+            [
+                layer[:, 1] - layer[:, 0],
+                layer[:, 2] - layer[:, 0],
+                0.5 * np.einsum("kc,kci->ki", area, high - low),
+            ],
+            axis=2,
+        )
+        good = np.abs(np.linalg.det(slopes)) > 1e-9 * size**3
+        slopes[~good] = np.eye(3)
+        step = np.linalg.solve(slopes, rest[:, :, None])[:, :, 0]
+        place = place + np.where(good[:, None], np.clip(step, -1.0, 1.0), 0.0)
+    return place, np.linalg.norm(rest, axis=1) > 1e-6 * size
+
+
 def _cut(
     own: int, triangles: Ints, pads: Floats, places: Floats
 ) -> tuple[tuple[tuple[Ints, Ints], Floats], Ints, Bools, Ints, Ints]:
@@ -273,7 +361,7 @@ def upright(outer: Floats, inner: Floats, triangles: Ints) -> Floats:
         if not bad.any():
             break
         some = np.unique(triangles[bad])
-        inner[some] = 0.5 * (inner[some] + outer[some])
+        inner[some] += _PART * (outer[some] - inner[some])
     return inner
 
 

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import shutil
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -11,7 +12,7 @@ import numpy as np
 
 from ..design.cells import UnitCell
 from ..fem.beam_mesh import JOINT_STIFFNESS, BeamModel, beam_model, ends_law
-from ..fem.wedge_mesh import wedge_mesh
+from ..fem.wedge_mesh import beyond_inner, wedge_mesh
 from ..grid.strut_graph import Wireframe
 from ..mechanics.frame import Ends
 from ..mechanics.materials import SolidMaterial
@@ -35,6 +36,8 @@ HELD_TOGETHER = 100.0
 TELLING = 0.5
 #: A limit that CalculiX finds used more than this makes the design a little thicker.
 PROVED = 1.003
+#: A design is confirmed where nothing that both solutions say differs by more than this part.
+AGREES = 0.15
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,8 +56,12 @@ class Proved:
     def uses(self, limits: Limits, final: Analysis) -> dict[str, float]:
         """By the name of each limit that CalculiX has a figure for, the share of it used there."""
         result = {}
-        if limits.stress is not None:
-            result["stress"] = final.uses["stress"] * self.figures["largest_stress"]
+        felt = self.figures["largest_stress"]
+        if limits.stress is not None and felt is not None:
+            use = final.uses["stress"] * felt
+            # Without the strut that governs it is the least that there may be.
+            if self.figures["worst_strut_compared"] or use > PROVED:
+                result["stress"] = use
         if limits.displacement is not None:
             there = final.largest * np.array(self.figures["largest_displacement"])
             result["displacement"] = float(there.max()) / limits.displacement
@@ -123,8 +130,9 @@ def proved(
     Returns:
         How far displacements are off in each case, and over the design's own the largest
         displacements, stress and lowest frequency; of how many struts' ends the stress is known
-        there, and whether of the most stressed one (else its own stands for it). None where
-        CalculiX is not installed, or there are more than `MOST_PROVED` struts.
+        there, and whether of the most stressed one (the largest stress is that of those that are
+        known; None where none is); whether CalculiX confirms the design, and if not, why. None
+        where CalculiX is not installed, or there are more than `MOST_PROVED` struts.
 
     Raises:
         VolfrepError: CalculiX does not solve it.
@@ -194,7 +202,7 @@ def proved(
     there_most = np.where(known, felt, 0.0).max(axis=(1, 2))
     more = there_most / np.maximum(alone.max(axis=(1, 2)), 1e-300)
     more = np.where(there_most > TELLING * there_most.max(initial=0.0), np.maximum(more, 1.0), 1.0)
-    worst = float(np.where(known, felt, summed).max() / summed.max())
+    worst = float(felt[known].max() / summed.max()) if known.any() else None
     compared = bool(known.ravel()[int(summed.argmax())])
     result: dict[str, Any] = {
         "displacements_off": [float(value) for value in off],
@@ -213,7 +221,46 @@ def proved(
         result["buckling_factors"] = [
             float(factor) if np.isfinite(factor) else None for factor in found.factors
         ]
+    result["doubts"] = doubts(result, final, [case.name for case in problem.cases])
+    result["confirmed"] = not result["doubts"]
     return Proved(result, more)
+
+
+def doubts(figures: Mapping[str, Any], final: Analysis, names: Sequence[str]) -> list[str]:
+    """Why CalculiX does not confirm a design, in parts of a sentence; none where it does.
+
+    Args:
+        figures: as `proved` has them.
+        final: the design.
+        names: of its load cases.
+    """
+    result = []
+    ratio, off = figures["largest_displacement"], figures["displacements_off"]
+    apart = [max(one, abs(other - 1.0)) for one, other in zip(off, ratio, strict=True)]
+    k = int(np.argmax(apart))
+    if not apart[k] <= AGREES:
+        result.append(
+            f"displacements differ by {off[k]:.0%} in case '{names[k]}', where the largest one is "
+            f"{ratio[k]:.3g} times the design's own"
+        )
+    felt = figures["largest_stress"]
+    if "stress" in final.uses:
+        if not figures["worst_strut_compared"]:
+            result.append(
+                "the most stressed strut is too short to be compared, as are "
+                f"{1.0 - figures['struts_compared']:.0%} of the struts' ends"
+            )
+        elif not abs(felt - 1.0) <= AGREES:
+            result.append(f"its largest stress is {felt:.3g} times the design's own")
+    if "frequency" in final.uses and not abs(figures["lowest_frequency"] - 1.0) <= AGREES:
+        times = figures["lowest_frequency"]
+        result.append(f"its lowest frequency is {times:.3g} times the design's own")
+    factors = zip(figures.get("buckling_factors", ()), final.factors.tolist(), strict=False)
+    times = [there / own for there, own in factors if there is not None]
+    if times and not max(abs(one - 1.0) for one in times) <= AGREES:
+        worst = max(times, key=lambda one: abs(one - 1.0))
+        result.append(f"its load factor of buckling together is {worst:.3g} times the design's own")
+    return result
 
 
 def with_arms(model: BeamModel, nodes: Ints, length: float) -> BeamModel:
@@ -274,22 +321,22 @@ def solid_skin(
     turned = lever[:, None] @ cross_matrix(arm.reshape(-1, 3)).reshape(*arm.shape, 3)
     weights = np.where(is_there, 1.0 / number, 0.0)[:, :, None, None] * np.eye(3) - turned
 
-    joined = skin.joined
-    own, beyond = mesh.inner[joined.vertices], mesh.inner[joined.beyond]
-    good = (own >= 0) & (beyond >= 0).all(axis=1)
-    own, beyond, shares = own[good], beyond[good], joined.shares[good]
-    more = np.einsum("jc,jci->ji", shares, mesh.nodes[beyond])
+    own = mesh.inner[skin.joined.vertices]
+    own = own[own >= 0]
+    own, beyond, shares = beyond_inner(mesh, own)
+    more = mesh.nodes[own]
     behind = first + len(mesh.nodes) + np.arange(len(more))
-    wide = np.zeros((len(more), most, 3, 3))
-    far = np.zeros((len(more), most), np.int64)
-    width = min(most, 3)
-    wide[:, :width] = shares[:, :width, None, None] * np.eye(3)
-    far[:, :width] = beyond[:, :width]
+    width = max(most, 15)
+    led = np.zeros((len(tips) + len(more), width), np.int64)
+    led[: len(tips), :most], led[len(tips) :, :15] = leaders, beyond
+    by = np.zeros((*led.shape, 3, 3))
+    by[: len(tips), :most] = weights
+    by[len(tips) :, :15] = shares[:, :, None, None] * np.eye(3)
     solid = SolidSkin(
         mesh,
         np.concatenate([tips, behind]),
-        np.concatenate([leaders, far]) + first,
-        np.concatenate([weights, wide]),
+        led + first,
+        by,
         np.stack([own + first, behind], axis=1),
         HELD_TOGETHER * material.young * float(skin.shells.thickness.mean()),
     )

@@ -88,6 +88,7 @@ class SkinModel:
         blocks: stiffness and mass, of shells and of what is solid between them.
         pads: (n,) mm, so far about a vertex that struts meet the skin is stiff; 0 elsewhere.
         joined: what hangs together where the part is solid.
+        solid_share: of the shells' area, where the part is thinner than two skins.
     """
 
     outside: TriangleMesh
@@ -98,6 +99,7 @@ class SkinModel:
     blocks: Blocks
     pads: Floats
     joined: Joined
+    solid_share: float
 
     def of_middle(self, displacements: Floats) -> Floats:
         """(n, 6, k) how the shells' corners move, of the nodes' displacements (n, 6, k)."""
@@ -184,7 +186,9 @@ def skin_model(
     blocks = replace(
         blocks, stiffness=rows @ blocks.stiffness @ columns, mass=rows @ blocks.mass @ columns
     )
-    return SkinModel(outside, middle, inside, shells, used, blocks, pads, joined)
+    is_solid = (room < _SOLID * wanted)[kept].all(axis=1)
+    solid_share = float(shells.area[is_solid].sum() / max(float(shells.area.sum()), 1e-300))
+    return SkinModel(outside, middle, inside, shells, used, blocks, pads, joined, solid_share)
 
 
 def ties_to(skin: SkinModel, nodes: Floats, rows: Ints, offset: int) -> Ties:

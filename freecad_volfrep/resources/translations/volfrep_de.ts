@@ -2614,6 +2614,10 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
       <translation>Leitfähigkeit</translation>
     </message>
     <message>
+      <source>confirmed</source>
+      <translation>bestätigt</translation>
+    </message>
+    <message>
       <source>corrupted triangles</source>
       <translation>beschädigte Dreiecke</translation>
     </message>
@@ -2952,6 +2956,10 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
       <translation>Sicherheit (Knicken)</translation>
     </message>
     <message>
+      <source>CalculiX does not confirm this design: see its notes.</source>
+      <translation>CalculiX bestätigt diesen Entwurf nicht: siehe seine Hinweise.</translation>
+    </message>
+    <message>
       <source>CalculiX's displacements of the same beams and skin differ by {off:.2g} %.</source>
       <translation>Die Verschiebungen von CalculiX für dieselben Balken und dieselbe Wand weichen um {off:.2g} % ab.</translation>
     </message>
@@ -3060,8 +3068,8 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
       <translation>Streben von {mass:.4g} g halten alle Grenzen ein; mit einem einheitlichen Radius wögen sie {even:.4g} g.</translation>
     </message>
     <message>
-      <source>Struts of {mass:.4g} g, {gain:.3g} times as stiff as struts of one radius and the same mass.</source>
-      <translation>Streben von {mass:.4g} g, {gain:.3g}-mal so steif wie Streben eines einheitlichen Radius mit derselben Masse.</translation>
+      <source>Struts of {mass:.4g} g, {least:.3g} to {gain:.3g} times as stiff as struts of one radius and the same mass.</source>
+      <translation>Streben von {mass:.4g} g, {least:.3g}- bis {gain:.3g}-mal so steif wie Streben eines einheitlichen Radius mit derselben Masse.</translation>
     </message>
     <message>
       <source>Take away struts that end as thin as the smallest radius and size the rest again; kept if that is lighter, or stiffer at the same mass</source>

@@ -2614,6 +2614,10 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
       <translation>conducibilità</translation>
     </message>
     <message>
+      <source>confirmed</source>
+      <translation>confermato</translation>
+    </message>
+    <message>
       <source>corrupted triangles</source>
       <translation>triangoli corrotti</translation>
     </message>
@@ -2952,6 +2956,10 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
       <translation>Sicurezza (instabilità)</translation>
     </message>
     <message>
+      <source>CalculiX does not confirm this design: see its notes.</source>
+      <translation>CalculiX non conferma questo progetto: vedi le sue note.</translation>
+    </message>
+    <message>
       <source>CalculiX's displacements of the same beams and skin differ by {off:.2g} %.</source>
       <translation>Gli spostamenti di CalculiX per le stesse travi e la stessa parete differiscono del {off:.2g} %.</translation>
     </message>
@@ -3060,8 +3068,8 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
       <translation>Aste di {mass:.4g} g rispettano tutti i limiti; con un raggio unico peserebbero {even:.4g} g.</translation>
     </message>
     <message>
-      <source>Struts of {mass:.4g} g, {gain:.3g} times as stiff as struts of one radius and the same mass.</source>
-      <translation>Aste di {mass:.4g} g, {gain:.3g} volte più rigide di aste di raggio unico e della stessa massa.</translation>
+      <source>Struts of {mass:.4g} g, {least:.3g} to {gain:.3g} times as stiff as struts of one radius and the same mass.</source>
+      <translation>Aste di {mass:.4g} g, da {least:.3g} a {gain:.3g} volte più rigide di aste di raggio unico e della stessa massa.</translation>
     </message>
     <message>
       <source>Take away struts that end as thin as the smallest radius and size the rest again; kept if that is lighter, or stiffer at the same mass</source>

@@ -2,6 +2,7 @@
 """`volfrep size`: from a part and its load cases to a part whose struts follow them."""
 
 import json
+import shutil
 import signal
 from collections.abc import Callable
 from pathlib import Path
@@ -227,3 +228,37 @@ def test_limits_that_cannot_be_held_are_told(
     assert "limit of stress cannot be held" in said
     assert "by the strut at (" in said
     assert "What may help: thicker struts, where --thickest limits them" in said
+
+
+@pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX (ccx) is not installed")
+def test_a_design_of_which_nothing_was_compared_is_not_told_as_proved(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A slender box, nearly solid: its struts are shorter than thick, the limit cannot be held."""
+    shape = trimesh.creation.box((40, 10, 10))
+    shape.apply_translation((20, 5, 5))
+    mesh = TriangleMesh(np.array(shape.vertices), np.array(shape.faces).astype(np.int32))
+    write_stl(mesh, tmp_path / "part.stl")
+    (tmp_path / "loads.toml").write_text(LOADS, encoding="utf-8")
+    out, report = tmp_path / "out.stl", tmp_path / "report.json"
+    lattice = ["--cell", "CVC", "--cell-size", 12, "--strut-radius", 1, "--shell", 2]
+    run(
+        "size", tmp_path / "part.stl", "--loads", tmp_path / "loads.toml", "-o", out, *lattice,
+        "--max-stress", 5, "--steps", 6, "--report", report,
+    )  # fmt: skip
+    told, warned = capsys.readouterr()
+    assert "stress limit" in told
+    assert "used, not compared in CalculiX" in told
+    assert "% in CalculiX" not in told
+    assert "NOT CONFIRMED" in told
+    assert "not confirmed by CalculiX: the most stressed strut is too short" in warned
+    for what in ("thicker than r/L = 0.15", "of the space", "shorter than their diameter"):
+        assert what in warned.split("Beams and shells hardly hold here")[1]
+    figures = json.loads(report.read_text(encoding="utf-8"))["sizing"]
+    proof = figures["calculix"]
+    assert proof["confirmed"] is False
+    assert "of the space that they fill" in proof["doubts"][-1]
+    assert "stress" not in proof["uses"]
+    assert proof["largest_stress"] is None
+    rows = dict(line.split("  ", 1) for line in told.splitlines() if "  " in line)
+    assert float(rows["time"].split()[0]) > figures["seconds"]["total"]

@@ -2,6 +2,7 @@
 """A final design solved by CalculiX too: bare, and with its skin."""
 
 import shutil
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -16,6 +17,7 @@ from volfrep.loads.regions import InPlane
 from volfrep.mechanics.materials import find_material
 from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.sizing.analysis import Limits
+from volfrep.sizing.design_proof import Proved, doubts
 
 needs_calculix = pytest.mark.skipif(
     shutil.which("ccx") is None, reason="CalculiX (ccx) is not installed"
@@ -83,3 +85,40 @@ def test_a_pressed_column_buckles_in_calculix_no_sooner_than_it_is_sized_for(cel
     if cell != "CVC":  # whose struts bend under the load: CalculiX's rigid joints turn otherwise
         factor = made.report["calculix"]["buckling_factors"][0]
         assert made.sized.analysis.factors[0] == pytest.approx(factor, rel=0.03)
+
+
+def figures(**more):
+    """What CalculiX says of a design that it confirms."""
+    values = {
+        "displacements_off": [0.02, 0.05], "largest_displacement": [1.01, 0.97],
+        "largest_stress": 0.99, "struts_compared": 0.9, "worst_strut_compared": True,
+    }  # fmt: skip
+    return {**values, **more}
+
+
+@pytest.mark.parametrize(
+    ("more", "said"),
+    [
+        ({}, None),
+        ({"displacements_off": [0.02, 0.88]}, "displacements differ by 88% in case 'two'"),
+        ({"largest_displacement": [0.8, 1.0]}, "is 0.8 times the design's own"),
+        ({"worst_strut_compared": False}, "too short to be compared, as are 10% of"),
+        ({"largest_stress": 1.2}, "largest stress is 1.2 times the design's own"),
+        ({"displacements_off": [np.nan, 0.0]}, "displacements differ by nan"),
+    ],
+)
+def test_why_a_design_is_not_confirmed(more, said):
+    final = SimpleNamespace(uses={"stress": 1.0}, factors=np.full(2, np.nan))
+    found = doubts(figures(**more), final, ["one", "two"])
+    assert (found == []) if said is None else (said in found[0])
+
+
+def test_a_stress_that_was_not_compared_is_no_use_of_the_limit():
+    final = SimpleNamespace(uses={"stress": 2.1}, factors=np.full(1, np.nan))
+    limits = Limits(stress=100.0)
+    unknown = Proved(figures(worst_strut_compared=False, largest_stress=None), np.ones(1))
+    assert "stress" not in unknown.uses(limits, final)
+    some = Proved(figures(worst_strut_compared=False, largest_stress=0.9), np.ones(1))
+    assert some.uses(limits, final)["stress"] == pytest.approx(0.9 * 2.1), "CalculiX's own figure"
+    below = SimpleNamespace(uses={"stress": 1.0}, factors=final.factors)
+    assert "stress" not in some.uses(limits, below)

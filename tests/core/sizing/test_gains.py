@@ -4,6 +4,9 @@
 With `-s` each prints its line of the tables in docs/sizing.md.
 """
 
+import contextlib
+import shutil
+
 import manifold3d
 import numpy as np
 import pytest
@@ -11,15 +14,22 @@ import trimesh
 
 from volfrep import LatticeSpec
 from volfrep.design.cells import PAPERS
+from volfrep.fem.calculix import solve
+from volfrep.fem.joint_loads import balls_of
+from volfrep.fem.model import StaticStep
+from volfrep.fem.tet_mesh import tetrahedra
 from volfrep.io.solid import check_solid
+from volfrep.io.write.calculix import write_tetrahedra
 from volfrep.jobs.infill import Infill
 from volfrep.jobs.sizing import Goal, size
 from volfrep.loads.load_cases import Force, LoadCase, LoadCases, Support
 from volfrep.loads.regions import InBox, InPlane
 from volfrep.mechanics.materials import find_material
-from volfrep.mesh.booleans import as_mesh
+from volfrep.mesh.booleans import as_manifold, as_mesh
 from volfrep.mesh.triangle_mesh import TriangleMesh
+from volfrep.reports.sizing_report import least_gain
 from volfrep.sizing.analysis import Limits, analysed
+from volfrep.util.errors import VolfrepError
 
 WHOLE = {"cell_size": 10, "shell": 0, "boundary": "whole", "activation": "inside"}
 
@@ -93,3 +103,60 @@ def test_a_sized_cantilever_is_stiffer_than_one_radius_with_the_same_mesh_volume
     gain = float(one.compliance[0] / made.sized.analysis.compliance[0])
     print(f"\n{cell}: {made.report['struts']} struts, {gain:.2f} times, {volume:,.0f} mm3")
     assert gain > 1.5
+
+
+def solid_work(infill, shares, held, loaded, force, folder):
+    """N mm of a force on joints of a lattice, others held: second-order tetrahedra of its mesh."""
+    for tolerance in (0.03, 0.025, 0.02, 0.015, 0.01):
+        body = as_mesh(as_manifold(infill.part.mesh).simplify(tolerance))
+        with contextlib.suppress(VolfrepError):
+            filled = tetrahedra(body)
+            break
+    frame = infill.struts
+    balls = balls_of(filled, frame, loaded)
+    nodes = np.concatenate([ball.nodes for ball in balls])
+    parts = np.concatenate([ball.shares * share for ball, share in zip(balls, shares, strict=True)])
+    fixed = np.unique(np.concatenate([ball.nodes for ball in balls_of(filled, frame, held)]))
+    deck = folder / "solid.inp"
+    step = StaticStep(fixed, nodes, force, parts)
+    write_tetrahedra(filled, deck, find_material("Ti-6Al-4V").for_solver(), step=step)
+    return float(parts @ solve(deck)[nodes] @ np.array(force))
+
+
+@pytest.mark.skipif(
+    shutil.which("ccx") is None or shutil.which("gmsh") is None,
+    reason="CalculiX (ccx) or Gmsh is not installed",
+)
+@pytest.mark.slow
+def test_solids_leave_as_much_of_a_gain_as_is_told(tmp_path):
+    """Octahedron, of which solids leave the least: thick struts bend between thin ones."""
+    cell, length, force = "Octahedron", 40.0, (0.0, 0.0, -200.0)
+    solid = block(length, 20, 20)
+    wall, tip = InPlane((0, 0, 0), (1, 0, 0)), InPlane((length, 0, 0), (1, 0, 0))
+    case = LoadCase("down", (Support(wall),), (Force(tip, force),))
+    loads = LoadCases(find_material("Ti-6Al-4V"), (case,))
+    spec = LatticeSpec(cell, strut_radius=0.6, **WHOLE)
+    made = size(solid, spec, loads, Goal(radius_max=1.2), prove_it=False)
+    infill, radius = Infill(solid, made.spec), float(made.before.radii.mean())
+    volume = infill.part.report.volume_mm3
+    for _ in range(4):  # one radius whose mesh has the same volume
+        even = Infill(solid, LatticeSpec(cell, strut_radius=radius, **WHOLE))
+        radius *= (volume / even.part.report.volume_mm3) ** 0.52
+    assert even.part.report.volume_mm3 == pytest.approx(volume, rel=2e-3)
+    works = []
+    for each in (infill, even):
+        along = each.struts.nodes[:, 0]
+        held, loaded = (np.flatnonzero(np.abs(along - x) < 1e-6) for x in (0.0, length))
+        shares = np.full(len(loaded), 1.0 / len(loaded))
+        works.append(solid_work(each, shares, held, loaded, force, tmp_path))
+    same = made.report["same_mass"]
+    gain = works[1] / works[0]
+    print(f"\n{cell}: {gain:.2f} times by solids, {same['stiffer'][0]:.2f} told")
+    assert same["stiffer_at_least"][0] <= gain * 1.01
+    assert gain < same["stiffer"][0]
+
+
+def test_the_least_that_solids_may_leave_of_a_gain():
+    assert least_gain(4.0) == pytest.approx(3.2)
+    assert least_gain(1.1) == 1.0
+    assert least_gain(0.9) == 0.9, "a design that is worse is told as it is"

@@ -3,12 +3,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+
+import numpy as np
 
 from ...design.spec import LatticeSpec
+from ...fem.beam_mesh import MEASURED_TO
 from ...reports.sizing_report import PEAKS
 from ...sizing.analysis import Analysis, Limits, Problem
 from ...sizing.model import SizingModel
+from ...util.types import Floats
+from ..infill import Infill
+
+#: Beyond these shares beams and shells are taken for what they are not: of its space that struts
+#: fill, of the struts that are shorter than wide, and of the skin on walls thinner than two skins.
+DENSE, SHORT, THIN_WALLS = 0.5, 0.25, 0.05
 
 #: What may help where a limit cannot be held.
 _REMEDIES = {
@@ -76,6 +85,59 @@ def _place(problem: Problem, analysis: Analysis, limit: str) -> str:
         f", by the {'node' if is_node else 'strut'} at ({x:.4g}, {y:.4g}, {z:.4g}) in case "
         f"'{problem.cases[case].name}'"
     )
+
+
+def not_confirmed(doubts: Sequence[str]) -> list[str]:
+    """A sentence where CalculiX does not confirm a design."""
+    if not doubts:
+        return []
+    return [
+        f"This design is not confirmed by CalculiX: {'; '.join(doubts)}. Look at it with solid "
+        "elements before it is made."
+    ]
+
+
+def too_dense(infill: Infill, model: SizingModel, radii: Floats) -> list[str]:
+    """A part of a sentence where struts fill most of their space: those of one box of 12 x 12 mm,
+    which its skin and struts make solid, were 21 % too stiff as beams, in both solutions alike.
+    """
+    dense = model.problem.radii.volume(radii) / max(infill.domain.mesh.volume, 1e-300)
+    return [f"the struts' volume is {dense:.0%} of the space that they fill"] * (dense > DENSE)
+
+
+def hardly_beams(infill: Infill, model: SizingModel, radii: Floats, cell_size: float) -> list[str]:
+    """A sentence where a design is no longer one of beams and shells.
+
+    Args:
+        infill: the part.
+        model: what was solved.
+        radii: (n,) at the nodes of the model's wireframe, mm.
+        cell_size: L, mm; of a network the median length of its struts.
+    """
+    problem, found = model.problem, []
+    beams, of_struts = problem.structure.beams, problem.radii.of_struts(radii)
+    thick = of_struts.max(axis=1)
+    if infill.spec.network is None and thick.max() > MEASURED_TO * cell_size:
+        place = problem.structure.nodes[beams.struts[int(np.argmax(thick))]].mean(axis=0)
+        x, y, z = place.tolist()
+        share = float((thick > MEASURED_TO * cell_size).mean())
+        found.append(
+            f"{share:.0%} of the struts are thicker than r/L = {MEASURED_TO:g}, up to which beams "
+            f"were compared with solids (r/L = {thick.max() / cell_size:.2g} at ({x:.4g}, "
+            f"{y:.4g}, {z:.4g}))"
+        )
+    found += too_dense(infill, model, radii)
+    short = float((beams.length < of_struts.sum(axis=1)).mean())
+    if short > SHORT:
+        found.append(f"{short:.0%} of the struts are shorter than their diameter")
+    if model.skin is not None and model.skin.solid_share > THIN_WALLS:
+        found.append(f"{model.skin.solid_share:.0%} of the skin is on walls thinner than two skins")
+    if not found:
+        return []
+    return [
+        f"Beams and shells hardly hold here: {'; '.join(found)}. Displacements and stresses may be "
+        "tens of per cent off there: look at such places with solid elements."
+    ]
 
 
 def stressed_skin(model: SizingModel, analysis: Analysis, limits: Limits) -> list[str]:

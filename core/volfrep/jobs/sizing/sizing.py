@@ -30,7 +30,16 @@ from ..infill import Infill
 from ..networks.frame import fixed_graph
 from ..targets import aimed, infill_of
 from .goal import Goal
-from .notes import left_out, not_held, stiff_skin, stressed_skin, unproved
+from .notes import (
+    hardly_beams,
+    left_out,
+    not_confirmed,
+    not_held,
+    stiff_skin,
+    stressed_skin,
+    too_dense,
+    unproved,
+)
 from .part_model import given_radii, part_model, spacing
 from .removal import RADIUS_STEP, SLACK, Thinned, field_points, radius_field, thinned
 
@@ -180,6 +189,12 @@ def size(
         except VolfrepError as error:  # minutes of work are not lost to another program
             proof = None
             notes.append(f"{error} No other solver has proved this design.")
+    if proof is not None:
+        doubts = proof.figures["doubts"]
+        doubts += too_dense(infill, model, final.radii)  # beams are no proof of beams there
+        proof.figures["confirmed"] = not doubts
+        notes += not_confirmed(doubts)
+    notes += hardly_beams(infill, model, final.radii, spacing(infill))
     radii = final.radii
     sized = replace(sized, analysis=final)
     full = unthinned.problem

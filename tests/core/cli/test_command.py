@@ -620,6 +620,26 @@ def test_open_planes_and_drain_holes(
     assert figures["spec"]["drains"]["build_direction"] == [-1.0, 0.0, 0.0]
 
 
+def test_targets_that_no_radius_meets(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    part = tmp_path / "part.stl"
+    write_stl(samples.box((20.0, 20.0, 20.0)), part)
+
+    def said(*options: str) -> str:
+        lattice = ["--cell", "Box", *options, "-o", tmp_path / "x.stl"]
+        return refused(capsys, "fill", part, *lattice)
+
+    # Struts along the edges of 18 mm, and 2 mm in the part's middle for them.
+    beyond = said("--cell-size", "18", "--shell", "9", "--relative-density", "0.1")
+    assert "'Box' of 18 mm reaches the 8 mm3 that there are for the lattice" in beyond
+    inside = ["--cell-size", "10", "--shell", "1"]
+    least = said(*inside, "--relative-density", "0.000001").split(" choose one from ")[1]
+    # Closed form: three lines of 18 mm of the thinnest struts, 1.5 / 400 cells, cross the room.
+    thinnest = 3.0 * np.pi * 0.0375**2 / 18.0**2
+    assert float(least.split()[0]) == pytest.approx(thinnest, rel=0.2)
+    # Fillets at struts that are thinner than any told by the first, rough table.
+    assert "choose one from" in said(*inside, "--fillet", "1", "--relative-density", "0.00036")
+
+
 def test_walls_are_drained_where_none_stands_in_the_hole(tmp_path: Path) -> None:
     part, out, report = (tmp_path / name for name in ("part.stl", "x.stl", "report.json"))
     write_stl(samples.box((20.0, 20.0, 20.0)), part)

@@ -76,7 +76,9 @@ def made_until_met(
         missing = wanted.missing(measure(made))
         if abs(missing) <= CLOSE * wanted.scale:
             break
-        volume += missing
+        # Of a mesh with more than twice what was foreseen so much less would be next to nothing.
+        less = wanted.lattice / max(wanted.lattice - missing, 1e-300)
+        volume = volume + missing if volume + missing > 0.5 * volume else volume * less
         made = make(volume)
     return made
 

@@ -10,6 +10,7 @@ with what it missed by.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
 from dataclasses import replace
@@ -48,6 +49,8 @@ from .walls.targets import aimed_walls, aimed_walls_block
 
 #: The first guess is this near, relative; a radius is sought up to so much above it.
 _ROUGHLY = 1.12
+#: Fewer points than these tell a first guess so badly that the radius is sought farther above it.
+_SURE = 200
 
 
 def infill_of(
@@ -222,11 +225,24 @@ class _Search:
         self._spec, self.wanted = spec, wanted
         self._low, self._high = radius_range(spec)
         self._table = table(ROUGH, self._high)
-        least, most = self._volume(self._low), self._volume(self._high)
+        most = self._volume(self._high)
+        if most <= 0.0:
+            raise VolfrepError(
+                f"No strut of cells '{spec.unit_cell().name}' of {spec.cell_size:g} mm reaches "
+                f"the {wanted.domain:.4g} mm3 that there are for the lattice, however thick, so "
+                f"that no {wanted.target.called} can be met: reduce the cell size or the skin, or "
+                "move the origin."
+            )
+        if wanted.lattice <= most:
+            found = self._radius(wanted.lattice)
+            points = self._table.points_in(wanted.lattice)
+            slack = _ROUGHLY if points >= _SURE else 1.0 + 3.0 / math.sqrt(points + 1.0)
+            self._high = min(self._high, slack * found)
+            self._table = table(FINE, self._high)
+        # Of the thinnest struts the rough table has hardly a point.
+        least = self._volume(self._low)
         if not least <= wanted.lattice <= most:
             raise VolfrepError(self._refusal(least, most))
-        self._high = min(self._high, _ROUGHLY * self._radius(wanted.lattice))
-        self._table = table(FINE, self._high)
 
     def specification(self, volume: float) -> LatticeSpec:
         """With the radius of a volume of the lattice, mm3."""
@@ -238,6 +254,8 @@ class _Search:
             return float(np.clip(self._table.radius_of(volume), low, high))
         if self._volume(high) <= volume:
             return high
+        if self._volume(low) >= volume:
+            return low
         from scipy.optimize import brentq  # slow to load, and every job loads this module
 
         return float(brentq(lambda r: self._volume(r) - volume, low, high, xtol=1e-5 * high))

@@ -35,7 +35,7 @@ class VolumeByRadius:
     """Volumes of a lattice over the radius of its struts.
 
     Attributes:
-        radius: (n,) ascending, mm.
+        radius: (n,) ascending, mm; none where no point is reached by any strut.
         volume: (n,) what is solid at each, mm3.
     """
 
@@ -43,11 +43,21 @@ class VolumeByRadius:
     volume: Floats
 
     def at(self, radius: float) -> float:
-        """The volume at a radius, mm3."""
+        """The volume at a radius, mm3; 0 where no strut reaches a point."""
+        if not len(self.radius):
+            return 0.0
         return float(np.interp(radius, self.radius, self.volume, left=0.0))
 
+    def points_in(self, volume: float) -> int:
+        """How many points tell a volume, mm3."""
+        return int(np.searchsorted(self.volume, volume))
+
     def radius_of(self, volume: float) -> float:
-        """The radius of a volume, mm; the ends' for what lies beyond them."""
+        """The radius of a volume, mm; the ends' for what lies beyond them.
+
+        Raises:
+            ValueError: no strut reaches a point.
+        """
         return float(np.interp(volume, self.volume, self.radius))
 
 

@@ -322,7 +322,7 @@ def _lowest(
     Args:
         site: where holes are drilled.
         void: its surface.
-        lattice: struts that should not be in the way.
+        lattice: struts that should not be in the way; of walls, the void's surface shows them.
         wanted: how many, and which way is up.
         others: holes to keep away from.
     """
@@ -344,7 +344,10 @@ def _lowest(
         holes, inside = holes.chosen(good), inside[good]
         # Where struts are farthest off, and other holes far enough.
         height = along(inside, up)
-        clearance = _clearance(lattice, inside + site.radius * holes.axis)
+        if len(lattice.struts):
+            clearance = _clearance(lattice, inside + site.radius * holes.axis)
+        else:
+            clearance = _room(site, void, inside)
         while len(chosen.start) < wanted.count:
             taken = np.concatenate([others.start, chosen.start])
             gap = np.linalg.norm(holes.start[:, None] - taken[None], axis=2)
@@ -388,6 +391,15 @@ def _clearance(lattice: Wireframe, points: Floats) -> Floats:
         gap = np.linalg.norm(off, axis=2) - radius[part]
         result = np.minimum(result, gap.min(axis=1))
     return result
+
+
+def _room(site: _Site, void: TriangleMesh, points: Floats) -> Floats:
+    """(n,) distance from points to what of a void's surface is not the inner wall, mm."""
+    away = closest_points(site.domain, void.vertices)[1] > ON_WALL * site.thickness
+    rows = void.triangles[away[void.triangles].any(axis=1)]
+    if not len(rows) or not len(points):
+        return np.zeros(len(points))
+    return np.asarray(closest_points(compact(TriangleMesh(void.vertices, rows)), points)[1])
 
 
 def _text(point: Floats) -> str:

@@ -22,6 +22,11 @@ from ..util.errors import VolfrepError
 from ..util.ragged import spread
 from ..util.types import Bools, Floats, Ints
 from .clip_struts import AT_WALL, Clipped, Pieces, clip, pieces_inside
+from .tied_struts import drawn_together, nearest_places, tied, with_grazing
+
+#: Struts that are one body as a mesh and hang on nothing as beams are refused from this share of
+#: their volume on.
+MOST_LEFT_OUT = 0.03
 
 
 @dataclass(frozen=True, eq=False)
@@ -162,15 +167,20 @@ def axes_of(
         raise VolfrepError(
             "No strut's axis lies inside the part: reduce the cell size or move the origin."
         )
-    if kept.has_skin or kept.bodies is None:
+    if kept.has_skin:
         return clipped
-    return _with_joints(clipped, kept.bodies)
+    if wall is not None:
+        grazing = _along(kept.left, lattice, wall)
+        clipped = drawn_together(with_grazing(clipped, lattice, wall, grazing), lattice)
+    clipped = tied(clipped)
+    return clipped if kept.bodies is None else _with_joints(clipped, kept.bodies)
 
 
 def _with_joints(clipped: Clipped, bodies: int) -> Clipped:
     """The largest so many groups of axes that share nodes.
 
-    Struts whose material meets without a node are one body of a mesh, but not of beams.
+    Raises:
+        VolfrepError: the others are more than `MOST_LEFT_OUT` of the struts' volume.
     """
     frame = clipped.wireframe
     count = len(frame.struts)
@@ -184,12 +194,16 @@ def _with_joints(clipped: Clipped, bodies: int) -> Clipped:
     if stays.all():
         return clipped
     gone = len(np.unique(group[~stays]))
-    told = (
-        f"{gone:,} group{'s' if gone > 1 else ''} of struts "
-        f"({100.0 * sizes[~stays].sum() / sizes.sum():.2g} % of their volume) touch the others "
-        "with their sides only, outside the part or without a node: as beams they would hang on "
-        "nothing, and are left out.",
+    share = float(sizes[~stays].sum() / sizes.sum())
+    left = (
+        f"{gone:,} group{'s' if gone > 1 else ''} of struts ({100.0 * share:.2g} % of their volume)"
     )
+    if share > MOST_LEFT_OUT:
+        raise VolfrepError(
+            f"As beams {left} would hang on nothing, though the mesh is one body: choose "
+            "tetrahedra or the mesh, smaller cells, or another origin."
+        )
+    told = (f"{left} hang on the others by too little for beams, and are left out.",)
     used = np.unique(frame.struts[stays])
     return Clipped(
         chosen(frame, stays), clipped.on_wall[used], clipped.owner[stays], clipped.low[stays],
@@ -287,22 +301,6 @@ def _meeting(pieces: Pieces, lattice: Wireframe, group: Ints) -> Ints:
     pairs = np.stack([np.repeat(piece[asking], found), other], axis=1)
     pairs = np.unique(np.sort(pairs[group[pairs[:, 0]] != group[pairs[:, 1]]], axis=1), axis=0)
     a, b = pairs.T
-    gap = _between_segments(start[a], end[a], start[b], end[b])
+    gap = nearest_places(start[a], end[a], start[b], end[b])[1]
     touch = pairs[gap < radius[a] + radius[b]]
     return _joined(group[touch], int(group.max()) + 1)[group]
-
-
-def _between_segments(a: Floats, b: Floats, c: Floats, d: Floats) -> Floats:
-    """(n,) distance of the segments a-b from the segments c-d (Ericson, Real-Time Collision
-    Detection, section 5.1.9).
-    """
-    u, v, w = b - a, d - c, a - c
-    uu, vv, uv = (np.einsum("ij,ij->i", *pair) for pair in ((u, u), (v, v), (u, v)))
-    uw, vw = np.einsum("ij,ij->i", u, w), np.einsum("ij,ij->i", v, w)
-    tiny = 1e-300
-    det = uu * vv - uv * uv
-    parallel = det <= 1e-12 * uu * vv
-    s = np.where(parallel, 0.0, np.clip((uv * vw - vv * uw) / np.where(parallel, 1.0, det), 0, 1))
-    t = np.clip((uv * s + vw) / np.maximum(vv, tiny), 0.0, 1.0)
-    s = np.clip((uv * t - uw) / np.maximum(uu, tiny), 0.0, 1.0)
-    return np.asarray(np.linalg.norm(w + s[:, None] * u - t[:, None] * v, axis=1))

@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 import trimesh
 
+import samples
 from volfrep.cli import command as cli
 from volfrep.cli import run_options
 from volfrep.design.cells import LIBRARY, USES, UnitCell
@@ -23,6 +24,8 @@ from volfrep.io.solid import read_triangles
 from volfrep.io.write.stl import as_read, write_stl
 from volfrep.mesh.quality import measure
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
+from volfrep.spatial.rays import inside_points
+from volfrep.util.progress import Monitor
 
 COMMAND = [sys.executable, "-m", "volfrep"]
 
@@ -615,6 +618,47 @@ def test_open_planes_and_drain_holes(
     ((x, _, _),) = figures["drain_holes"]
     assert f"1 at ({x:.4g}," in capsys.readouterr().out
     assert figures["spec"]["drains"]["build_direction"] == [-1.0, 0.0, 0.0]
+
+
+def test_targets_that_no_radius_meets(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    part = tmp_path / "part.stl"
+    write_stl(samples.box((20.0, 20.0, 20.0)), part)
+
+    def said(*options: str) -> str:
+        lattice = ["--cell", "Box", *options, "-o", tmp_path / "x.stl"]
+        return refused(capsys, "fill", part, *lattice)
+
+    # Struts along the edges of 18 mm, and 2 mm in the part's middle for them.
+    beyond = said("--cell-size", "18", "--shell", "9", "--relative-density", "0.1")
+    assert "'Box' of 18 mm reaches the 8 mm3 that there are for the lattice" in beyond
+    inside = ["--cell-size", "10", "--shell", "1"]
+    least = said(*inside, "--relative-density", "0.000001").split(" choose one from ")[1]
+    # Closed form: three lines of 18 mm of the thinnest struts, 1.5 / 400 cells, cross the room.
+    thinnest = 3.0 * np.pi * 0.0375**2 / 18.0**2
+    assert float(least.split()[0]) == pytest.approx(thinnest, rel=0.2)
+    # Fillets at struts that are thinner than any told by the first, rough table.
+    assert "choose one from" in said(*inside, "--fillet", "1", "--relative-density", "0.00036")
+
+
+def test_walls_are_drained_where_none_stands_in_the_hole(tmp_path: Path) -> None:
+    part, out, report = (tmp_path / name for name in ("part.stl", "x.stl", "report.json"))
+    write_stl(samples.box((20.0, 20.0, 20.0)), part)
+    walls = ["--cell", "Gyroid", "--wall-kind", "skeleton", "--cell-size", "10"]
+    holes = ["--shell", "1", "--drain-count", "3", "--drain-diameter", "3"]
+    asked = [*walls, *holes, "--resolution", "14", "--report", str(report)]
+    assert cli.run(["fill", str(part), "-o", str(out), *asked]) == 0
+    places = np.array(json.loads(report.read_text())["drain_holes"])
+    assert len(places) == 3
+    assert (places[:, 2] == 0.0).all()
+    made = trimesh.load_mesh(out)
+    # One surface: no void is closed any more.
+    assert made.is_watertight
+    assert made.body_count == 1
+    angle = np.linspace(0.0, 2.0 * np.pi, 13)
+    rim = 1.35 * np.stack([np.cos(angle), np.sin(angle), 0.0 * angle], axis=1)
+    mouths = (places[:, None] + rim + [0.0, 0.0, 1.3]).reshape(-1, 3)
+    mesh = TriangleMesh(np.array(made.vertices), np.array(made.faces, np.int32))
+    assert not inside_points(mesh, mouths, Monitor()).any()
 
 
 @pytest.mark.parametrize(

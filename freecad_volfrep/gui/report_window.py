@@ -54,7 +54,8 @@ WORDS = marked(
     "largest stress there over here", "lowest frequency there over here", "Notes", "Steps", "step",
     "mass, g", "most used limit",
     "What the lattice does", "relative density", "density", "E100", "E110", "E111", "G", "bulk",
-    "nu", "zener", "strength", "shear strength", "conductivity",
+    "nu", "zener", "strength", "shear strength", "conductivity", "E along x", "E along y",
+    "E along z", "strength along x", "strength along y", "strength along z",
 )  # fmt: skip
 
 

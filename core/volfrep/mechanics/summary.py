@@ -27,6 +27,11 @@ POISSON = 0.3
 #: The moduli of a summary, in the order they are told.
 MODULI = ("E100", "E110", "E111", "G", "bulk")
 RATIOS = ("nu", "zener")
+#: Entries of a stiffness that differ by less than this part of the largest are alike.
+_CUBIC = 1e-3
+#: A modulus below this part of the largest stiffness is that of what carries nothing.
+_CARRIES = 1e-6
+_NOTHING = "0: it carries nothing that way"
 
 
 @dataclass(frozen=True, eq=False)
@@ -142,17 +147,52 @@ class CellProperties:
             density = self.relative_density * solid.density
             rows.append(("material", f"{solid.name}, {solid.source}"))
             rows.append(("density", f"{density:.4g} g/cm3"))
-        for name in (*MODULI, *RATIOS, "strength", "shear_strength", "conductivity"):
+        names: tuple[str, ...] = (*MODULI, *RATIOS, "strength", "shear_strength", "conductivity")
+        if not is_cubic(self.stiffness):
+            # Means over the axes, and 2 C44 / (C11 - C12), say nothing of such a cell.
+            rows += [(f"E along {axis}", self._along(axis, unit)) for axis in "xyz"]
+            names = ("E110", "E111", "conductivity")
+            told = "MPa" if yields else "of the solid's yield stress"
+            limit = solid.yield_stress if solid is not None and solid.yield_stress else 1.0
+            strengths = [
+                (f"strength along {axis}", f"{limit / stress:.3g} {told}")
+                if np.isfinite(stress) and stress > 0.0
+                else (f"strength along {axis}", _NOTHING)
+                for axis, stress in ((axis, self.von_mises[2 * axis]) for axis in "xyz")
+            ]
+            rows += strengths
+        least = _CARRIES * float(np.abs(self.stiffness).max())
+        for name in names:
             value, error = self.values[name], self.errors[name]
             text = _with_error(value, error)
             if name in MODULI:
-                text += f" {unit}"
+                text = f"{text} {unit}" if value > least else _NOTHING
             elif "strength" in name:
                 text += " MPa" if yields else " of the solid's yield stress"
             elif name == "conductivity":
                 text += " of the solid's"
             rows.append((name.replace("_", " "), text))
         return rows
+
+    def _along(self, axis: str, unit: str) -> str:
+        """Young's modulus along an axis, and its error, which is that of the stiffness there."""
+        row = "xyz".index(axis)
+        modulus = self.young(np.eye(3)[row])
+        if modulus <= _CARRIES * float(np.abs(self.stiffness).max()):
+            return _NOTHING
+        error = modulus * float(self.errors["stiffness"][row][row] / self.stiffness[row, row])
+        return f"{_with_error(modulus, error)} {unit}"
+
+
+def is_cubic(stiffness: Floats) -> bool:
+    """Whether a (6, 6) stiffness is alike along x, y and z."""
+    mean = stiffness.copy()
+    for block in (slice(0, 3), slice(3, 6)):
+        mean[block, block] = np.eye(3) * np.trace(stiffness[block, block]) / 3.0
+    off = ~np.eye(3, dtype=bool)
+    mean[:3, :3][off] = stiffness[:3, :3][off].mean()
+    mean[:3, 3:] = mean[3:, :3] = 0.0
+    return bool(np.abs(stiffness - mean).max() < _CUBIC * np.abs(stiffness).max())
 
 
 def _with_error(value: float, error: float) -> str:

@@ -2466,6 +2466,18 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
       <translation>Kopieren</translation>
     </message>
     <message>
+      <source>E along x</source>
+      <translation>E entlang x</translation>
+    </message>
+    <message>
+      <source>E along y</source>
+      <translation>E entlang y</translation>
+    </message>
+    <message>
+      <source>E along z</source>
+      <translation>E entlang z</translation>
+    </message>
+    <message>
       <source>E100</source>
       <translation>E100</translation>
     </message>
@@ -2840,6 +2852,18 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
     <message>
       <source>strength</source>
       <translation>Festigkeit</translation>
+    </message>
+    <message>
+      <source>strength along x</source>
+      <translation>Festigkeit entlang x</translation>
+    </message>
+    <message>
+      <source>strength along y</source>
+      <translation>Festigkeit entlang y</translation>
+    </message>
+    <message>
+      <source>strength along z</source>
+      <translation>Festigkeit entlang z</translation>
     </message>
     <message>
       <source>stress, % of its limit</source>

@@ -2466,6 +2466,18 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
       <translation>Copia</translation>
     </message>
     <message>
+      <source>E along x</source>
+      <translation>E lungo x</translation>
+    </message>
+    <message>
+      <source>E along y</source>
+      <translation>E lungo y</translation>
+    </message>
+    <message>
+      <source>E along z</source>
+      <translation>E lungo z</translation>
+    </message>
+    <message>
       <source>E100</source>
       <translation>E100</translation>
     </message>
@@ -2840,6 +2852,18 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
     <message>
       <source>strength</source>
       <translation>resistenza</translation>
+    </message>
+    <message>
+      <source>strength along x</source>
+      <translation>resistenza lungo x</translation>
+    </message>
+    <message>
+      <source>strength along y</source>
+      <translation>resistenza lungo y</translation>
+    </message>
+    <message>
+      <source>strength along z</source>
+      <translation>resistenza lungo z</translation>
     </message>
     <message>
       <source>stress, % of its limit</source>

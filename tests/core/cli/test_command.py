@@ -620,6 +620,37 @@ def test_open_planes_and_drain_holes(
     assert figures["spec"]["drains"]["build_direction"] == [-1.0, 0.0, 0.0]
 
 
+@pytest.mark.parametrize("at", [1e4, 1e6, 1e308])
+def test_a_network_far_from_the_origin_keeps_its_volume_or_is_refused(
+    at: float, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    source, out = tmp_path / "far.json", tmp_path / "far.stl"
+    source.write_text(json.dumps({"nodes": [[at, 0, 0], [at, 37, 0]], "struts": [[0, 1]]}))
+    asked = ["network", str(source), "-o", str(out), "--strut-radius", "0.5"]
+    if at > 1e5:
+        assert "mm from the origin" in refused(capsys, *asked)
+        return
+    assert cli.run(asked) == 0
+    # Closed form: a cylinder and, beyond its ends, all but a little of two half balls.
+    volume = trimesh.load_mesh(out).volume
+    assert volume == pytest.approx(np.pi * 0.25 * 37.0 + np.pi / 6.0, rel=0.01)
+
+
+def test_properties_of_a_cell_that_is_not_cubic(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    asked = ["--cell-size", "10", "--strut-radius", "1"]
+    assert cli.run(["properties", "Columns", *asked]) == 0
+    told = said_rows(capsys.readouterr().out)
+    assert not {"E100", "zener", "nu", "strength"} & set(told)
+    assert told["E along x"] == told["E along y"] == "0: it carries nothing that way"
+    # Closed form: five prisms of the cell carry side by side, of which four are shared by four.
+    assert float(told["E along z"].split()[0]) == pytest.approx(2 * np.pi / 100.0, rel=0.02)
+    assert told["strength along z"].startswith("0.06")
+    assert cli.run(["properties", "BCC", *asked]) == 0
+    assert {"E100", "zener", "strength"} <= set(said_rows(capsys.readouterr().out))
+
+
 def test_targets_that_no_radius_meets(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     part = tmp_path / "part.stl"
     write_stl(samples.box((20.0, 20.0, 20.0)), part)

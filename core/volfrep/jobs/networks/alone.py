@@ -23,6 +23,10 @@ from ...util.errors import VolfrepError
 from ...util.progress import Monitor, ProgressCallback
 from ...util.types import Floats, Ints
 
+#: The coarsest step of single precision at a network's farthest node, in radii of its thinnest
+#: strut.
+FINEST_STEP = 1.0 / 50.0
+
 
 def network_frame(
     nodes: Floats,
@@ -136,11 +140,30 @@ def frame_alone(spec: LatticeSpec) -> tuple[Wireframe, Placement]:
         )
 
     first = shifted(wanted, spec)
+    _refuse_too_far(first, wanted.radii if len(wanted.radii) else np.array(spec.strut_radius))
     mapping = part_map(spec.grid, np.stack([first.min(axis=0), first.max(axis=0)]))
     nodes = first if mapping is None else mapping.to_part(first)
     bounds = np.stack([nodes.min(axis=0), nodes.max(axis=0)])
     placement = Placement(spec.cell_size, mapping, bounds, depth)
     return network_frame(nodes, wanted, wanted.struts, spec, placement), placement
+
+
+def _refuse_too_far(nodes: Floats, radii: Floats) -> None:
+    """Refuse nodes so far from the origin that files of single precision have no room for struts.
+
+    Raises:
+        VolfrepError: naming how far.
+    """
+    farthest, thinnest = float(np.abs(nodes).max()), float(np.min(radii))
+    with np.errstate(over="ignore", invalid="ignore"):
+        step = float(np.spacing(np.float32(farthest)))
+    if not step <= FINEST_STEP * thinnest:
+        held = f"holds steps of {step:.2g} mm" if np.isfinite(step) else "holds no number"
+        raise VolfrepError(
+            f"The network lies {farthest:.4g} mm from the origin, where the single precision of "
+            f"files {held} and struts of {thinnest:.4g} mm radius would lose their shape: move it "
+            "nearer to the origin."
+        )
 
 
 def network_alone(spec: LatticeSpec, *, progress: ProgressCallback | None = None) -> Result:

@@ -67,7 +67,7 @@ def test_thickness_zero_trims_the_lattice_at_the_outer_surface():
 def test_the_outputs_add_up():
     solid = samples.plate()
     cache = StageCache()
-    spec = LatticeSpec(cell="FCC", cell_size=6, strut_radius=0.6, shell=1.5)
+    spec = LatticeSpec(cell="FCC", cell_size=8, strut_radius=0.8, shell=1.5)
     part, lattice, domain = (
         fill(solid, replace(spec, output=o), cache=cache) for o in ("part", "lattice", "domain")
     )

@@ -8,7 +8,7 @@ import pytest
 import trimesh
 
 import samples
-from volfrep import LatticeSpec, VolfrepError, fill
+from volfrep import LatticeSpec, Part, VolfrepError, fill
 from volfrep.design.openings import OpenPatch, OpenPlane, SmoothFace
 from volfrep.design.skins.kept_bodies import KeptBody
 from volfrep.design.skins.own_faces import FaceSkin, KeptFace
@@ -136,11 +136,19 @@ SPEC = LatticeSpec(
 )  # fmt: skip
 
 
-def test_the_part_its_figures_and_its_preview_agree() -> None:
-    part = fill(BOX, SPEC)
+@pytest.fixture(scope="module")
+def part() -> Part:
+    return fill(BOX, SPEC)
+
+
+@pytest.fixture(scope="module")
+def domain() -> TriangleMesh:
+    return fill(BOX, LatticeSpec(**{**_fields(SPEC), "output": "domain"})).result.mesh
+
+
+def test_the_part_its_figures_and_its_preview_agree(part: Part, domain: TriangleMesh) -> None:
     solid_room = 6 * 6 * 12
     cavity = 25 * 18 * 12 - solid_room
-    domain = fill(BOX, LatticeSpec(**{**_fields(SPEC), "output": "domain"})).mesh
     assert domain.volume == pytest.approx(cavity, rel=1e-4)
     report = part.report
     assert report.watertight
@@ -156,12 +164,11 @@ def test_the_part_its_figures_and_its_preview_agree() -> None:
     assert depth.below_skin(middle, 1.0).min() > -0.4
 
 
-def test_struts_are_told_from_walls_of_every_thickness() -> None:
-    part = fill(BOX, SPEC).result.mesh
-    kinds = kinds_of_triangles(part, BOX, SPEC)
-    corners = part.vertices[part.triangles]
-    walls = fill(BOX, LatticeSpec(**{**_fields(SPEC), "output": "domain"})).result.mesh
-    off = closest_points(walls, corners.reshape(-1, 3))[1].reshape(-1, 3).max(axis=1)
+def test_struts_are_told_from_walls_of_every_thickness(part: Part, domain: TriangleMesh) -> None:
+    made = part.result.mesh
+    kinds = kinds_of_triangles(made, BOX, SPEC)
+    corners = made.vertices[made.triangles]
+    off = closest_points(domain, corners.reshape(-1, 3))[1].reshape(-1, 3).max(axis=1)
     assert (off[kinds == WALL] < 0.05).all()
     assert (off[kinds == LATTICE] > 1e-6).all()
 

@@ -152,11 +152,11 @@ def test_solids_leave_as_much_of_a_gain_as_is_told(tmp_path):
     same = made.report["same_mass"]
     gain = works[1] / works[0]
     print(f"\n{cell}: {gain:.2f} times by solids, {same['stiffer'][0]:.2f} told")
-    assert same["stiffer_at_least"][0] <= gain * 1.01
+    assert same["stiffer_at_least"][0] <= gain
     assert gain < same["stiffer"][0]
 
 
 def test_the_least_that_solids_may_leave_of_a_gain():
-    assert least_gain(4.0) == pytest.approx(3.2)
+    assert least_gain(4.0) == pytest.approx(3.0)
     assert least_gain(1.1) == 1.0
     assert least_gain(0.9) == 0.9, "a design that is worse is told as it is"

@@ -19,7 +19,7 @@ ROOMS = (
 MOST_MODULES = 14
 MOST_LINES = 400
 #: Modules one of which imports the next, wherever in it the import stands; of rooms as well.
-LONGEST_CHAIN = 24
+LONGEST_CHAIN = 25
 LONGEST_CHAIN_OF_ROOMS = 13
 
 

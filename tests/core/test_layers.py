@@ -20,7 +20,7 @@ ROOMS = (
 #: its docstring why it is long; no other number of lines, or of modules in a folder, is a rule.
 LONG = 700
 #: Modules one of which imports the next, wherever in it the import stands; of rooms as well.
-LONGEST_CHAIN = 24
+LONGEST_CHAIN = 25
 LONGEST_CHAIN_OF_ROOMS = 13
 
 

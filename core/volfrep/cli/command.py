@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The ``volfrep`` command.
 
-Exit codes: 0 done, 2 bad input (one sentence on standard error), 130 interrupted.
+Exit codes: 0 done, 2 bad input (one sentence on standard error), 3 done, but a limit that was asked
+for is not held (the files are there), 130 interrupted.
 numpy and the engine are imported inside the commands, so that ``--help`` answers at once.
 """
 
@@ -21,9 +22,10 @@ from typing import TYPE_CHECKING
 
 from ..design.parameters import BY_NAME
 from ..util.errors import VolfrepError
+from ..util.files import keeping_inputs
 from . import layers, material, printing_options, process, properties, sizing, solver_options, sweep
 from .files import check_files, read_part
-from .parameter_options import add_parameters, set_parameter, write_specification
+from .parameter_options import add_parameters, keep_specification, set_parameter, write_kept
 from .parser import Parser, Version, refuse_old
 from .run_options import add_run_options, refuse_extensions
 from .telling import Progress, print_rows, tell
@@ -39,6 +41,12 @@ if TYPE_CHECKING:
     from ..trim.laid import InnerOctants
     from .solver_options import Writer
 
+#: A command ends with what it returns; None is 0.
+Command = Callable[[argparse.Namespace], "int | None"]
+STATUS = (
+    "The exit status is 0; 2 where the input is wrong, with one sentence that says why; 3 where a "
+    "limit of 'size' is not held, with its file written all the same; 130 after Ctrl-C."
+)
 EXIT_DEFECT = 1
 EXIT_BAD_INPUT = 2
 #: Fewer triangles than these are cut in this process: others take longer to start.
@@ -50,8 +58,11 @@ def run(arguments: Sequence[str]) -> int:
     try:
         refuse_old(arguments)
         options = _parser().parse_args(arguments)
-        command: Callable[[argparse.Namespace], None] = options.command
-        command(options)
+        command: Command = options.command
+        with keeping_inputs():
+            status = command(options) or 0
+            write_kept(options)
+            return status
     except VolfrepError as error:
         print(f"volfrep: {error}", file=sys.stderr)
         return EXIT_BAD_INPUT
@@ -73,7 +84,6 @@ def run(arguments: Sequence[str]) -> int:
             file=sys.stderr,
         )
         return EXIT_DEFECT
-    return 0
 
 
 def _logged() -> str:
@@ -89,12 +99,13 @@ def _parser() -> argparse.ArgumentParser:
     parser = Parser(
         prog="volfrep",
         description="Fill a solid with a strut lattice. Lengths are in mm.",
+        epilog=STATUS,
         allow_abbrev=False,
     )
     parser.add_argument("--version", action=Version, nargs=0, help="show the version and exit")
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
 
-    def add(name: str, command: Callable[[argparse.Namespace], None], text: str) -> Parser:
+    def add(name: str, command: Command, text: str) -> Parser:
         sub: Parser = commands.add_parser(name, help=text, description=text, allow_abbrev=False)
         sub.set_defaults(command=command)
         return sub
@@ -177,7 +188,7 @@ def _are_cut(executor: Executor | None, ahead: StlAhead | None, inner: InnerOcta
 def _fill(options: argparse.Namespace) -> None:
     spec = material.specified(options)
     _check_targets(options, spec)
-    write_specification(options, spec)
+    keep_specification(options, spec)
 
     from ..design.forecast import forecast_fill
     from ..jobs.rough_radius import roughly_aimed
@@ -222,7 +233,7 @@ def _fill(options: argparse.Namespace) -> None:
 def _block(options: argparse.Namespace) -> None:
     spec = material.specified(options)
     _check_targets(options, spec)
-    write_specification(options, spec)
+    keep_specification(options, spec)
 
     from ..design.forecast import forecast_block
     from ..jobs.blocks import block, write_block_stl
@@ -265,6 +276,7 @@ def _network(options: argparse.Namespace) -> None:
     set_parameter(options, "network_file", options.file)
     spec = material.specified(options)
     _check_targets(options, spec)
+    keep_specification(options, spec)
     start = time.perf_counter()
     if solver_options.needs_axes(options):
         solver_options.write_axes(frame_alone(spec)[0], None, spec, options, start)

@@ -19,21 +19,23 @@ def check_files(options: argparse.Namespace, *, folder: bool = False) -> None:
 
     Args:
         options: of the command.
-        folder: whether the output is a folder, which `replacing_folder` looks at.
+        folder: whether the output is a folder, which its writer looks at.
 
     Raises:
         VolfrepError: naming the file, and what is wrong with it.
     """
-    from ..util.files import check_writable, refuse_overwriting, same_file
+    from ..util.files import check_writable, note_input, refuse_input, same_file
 
     inputs, outputs = _given(options, INPUTS), _given(options, OUTPUTS)
     for called, suffixes in (("cell file", (".json",)), ("material file", (".toml", ".json"))):
         if not inputs.get(called, "").lower().endswith(suffixes):
             inputs.pop(called, None)  # a name, of the library or the table
+    for called, path in inputs.items():
+        note_input(path, called)
     for called, path in outputs.items():
+        refuse_input(path)
         if not (folder and called == "output"):
             check_writable(path)
-    refuse_overwriting(outputs, inputs)
     names = list(outputs)
     for k, name in enumerate(names):
         for other in names[:k]:

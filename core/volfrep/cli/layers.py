@@ -12,7 +12,7 @@ from typing import Any
 
 from . import material
 from .files import check_files, read_part
-from .parameter_options import add_parameters, write_specification
+from .parameter_options import add_parameters, keep_specification
 from .run_options import add_run_options
 from .telling import Progress, print_rows, print_warnings
 
@@ -33,7 +33,7 @@ def add_command(add: Callable[[str, Callable[[argparse.Namespace], None], str], 
 def _slice(options: argparse.Namespace) -> None:
     spec = material.specified(options)
     check_files(options, folder=True)
-    write_specification(options, spec)
+    keep_specification(options, spec)
 
     from ..jobs.slices import write_layers
 

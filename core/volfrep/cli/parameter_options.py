@@ -14,6 +14,7 @@ from ..design.parameters import BY_NAME, GROUPS, PARAMETERS, Parameter
 from ..design.parameters.parameter import REPEATED, SHAPES
 from ..design.parameters.values import option_type
 from ..util.errors import VolfrepError
+from ..util.files import note_input
 
 if TYPE_CHECKING:
     from ..design.spec import LatticeSpec
@@ -57,7 +58,7 @@ def specification(options: argparse.Namespace) -> LatticeSpec:
         VolfrepError: a value that makes no sense, or an option that would have no effect.
     """
     from ..design.parameters import specification as made
-    from ..design.parameters.spec_file import read_values
+    from ..design.parameters.spec_file import read_values, with_paths
 
     given = {
         key.removeprefix(_PLACE): tuple(value) if isinstance(value, list) else value
@@ -72,6 +73,8 @@ def specification(options: argparse.Namespace) -> LatticeSpec:
         except VolfrepError as error:
             raise VolfrepError(f"{options.spec}: {error}") from error
         values = made.merged(given, file)
+    for name, value in values.items():
+        with_paths(name, value, _noted)
     spec = made.specification(values, option_named)
     _refuse_idle_cell(given, spec)
     direction = BY_NAME["build_direction"]
@@ -81,6 +84,13 @@ def specification(options: argparse.Namespace) -> LatticeSpec:
     options.network_file = values.get("network_file")
     options.network_field = values.get("network_field")
     return spec
+
+
+def _noted(file: str) -> str:
+    """A file that the specification names, which is read for it and not written over."""
+    if isinstance(file, str):
+        note_input(file, "file of the specification")
+    return file
 
 
 def _refuse_idle_cell(given: Mapping[str, object], spec: LatticeSpec) -> None:
@@ -116,21 +126,29 @@ def _refuse_idle_cell(given: Mapping[str, object], spec: LatticeSpec) -> None:
         )
 
 
-def write_specification(options: argparse.Namespace, spec: LatticeSpec) -> None:
-    """Write what is in force, where that is asked for.
+def keep_specification(options: argparse.Namespace, spec: LatticeSpec) -> None:
+    """Keep what is in force, where it is to be written: `write_kept` does so when all is done.
 
     Raises:
         VolfrepError: it holds what no file can say.
     """
     if options.write_spec is None:
         return
-    from ..design.parameters.spec_file import write_values
     from ..design.parameters.specification import values_of
 
     values = values_of(spec)
     if options.build_direction != BY_NAME["build_direction"].default:
         values["build_direction"] = options.build_direction
-    write_values(values, options.write_spec)
+    options.kept_specification = values
+
+
+def write_kept(options: argparse.Namespace) -> None:
+    """Write the specification of a command that has ended well."""
+    values = getattr(options, "kept_specification", None)
+    if values is not None:
+        from ..design.parameters.spec_file import write_values
+
+        write_values(values, options.write_spec)
 
 
 def option_named(name: str) -> str:

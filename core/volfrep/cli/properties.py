@@ -48,11 +48,8 @@ def _cells(options: argparse.Namespace) -> None:
     from ..design.cell_files.catalogue_text import catalogue_entry, catalogue_names
     from ..design.cells import make_cell
     from ..design.drawn_cell import save_cell
-    from ..util.files import refuse_overwriting
 
     check_files(options)
-    if options.output is not None:
-        refuse_overwriting({"output": options.output}, {"catalogue": options.catalogue})
     if options.entry is None:
         if options.output is not None:
             raise VolfrepError("--output needs --entry: which cell of the catalogue?")

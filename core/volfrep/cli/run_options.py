@@ -86,7 +86,7 @@ RUN_OPTIONS = (
         "FILE", required=True, writes="output", short="o",
     ),
     RunOption(
-        "output", ("slice",), "to make; one that holds layers is replaced",
+        "output", ("slice",), "to make; layers that the last run wrote there are replaced",
         "FOLDER", required=True, writes="output", short="o",
     ),
     RunOption(

@@ -30,10 +30,12 @@ if TYPE_CHECKING:
     from ..jobs.sizing import SizedPart
     from ..sizing.optimise import Step
 
+#: What a script is told of a part that does not hold a limit, though it is written.
+EXIT_NOT_HELD = 3
 _TEXT = "Fill a solid with a lattice whose struts are sized for its load cases."
 
 
-def add_command(add: Callable[[str, Callable[[argparse.Namespace], None], str], Any]) -> None:
+def add_command(add: Callable[[str, Callable[[argparse.Namespace], int | None], str], Any]) -> None:
     """Add the command with `cli`'s own function for that."""
     parser = add("size", _size, _TEXT)
     parser.add_argument("part", metavar="PART", help="the closed solid, as for fill")
@@ -41,8 +43,10 @@ def add_command(add: Callable[[str, Callable[[argparse.Namespace], None], str], 
     add_parameters(parser)
 
 
-def _size(options: argparse.Namespace) -> None:
+def _size(options: argparse.Namespace) -> int | None:
     spec = specification(options)
+    if options.write_spec is not None and options.radii is None:  # which the specification names
+        options.radii = str(Path(options.write_spec).with_suffix(".radii.csv"))
     check_files(options)
     out = Path(options.output)
 
@@ -59,8 +63,6 @@ def _size(options: argparse.Namespace) -> None:
         from ..reports.sizing_plot import check_plot
 
         check_plot(options.plot)
-    if options.write_spec is not None and options.radii is None:
-        raise VolfrepError("A specification names the file of its radii: give --radii, too.")
     if options.steps < 1:
         raise VolfrepError(f"There must be at least one step, not {options.steps}.")
 
@@ -107,6 +109,7 @@ def _size(options: argparse.Namespace) -> None:
     tell(result.report, options, before=seconds)
     if not options.quiet:
         print_rows(*sizing_rows(made.report), ("time of sizing", f"{seconds:.1f} s of it"))
+    return None if made.sized.holds else EXIT_NOT_HELD
 
 
 @contextmanager

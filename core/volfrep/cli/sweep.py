@@ -10,6 +10,7 @@ import argparse
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
+from .files import check_files
 from .run_options import add_run_options
 from .telling import Progress, print_rows, print_warnings
 
@@ -34,6 +35,7 @@ def _sweep(options: argparse.Namespace) -> None:
     from ..studies.study import read_study
     from ..studies.sweep import sweep
 
+    check_files(options, folder=True)
     study = read_study(options.study)
     if options.dry_run:
         from ..studies.running.executors import told_time
@@ -62,6 +64,7 @@ def _sweep(options: argparse.Namespace) -> None:
 
 
 def _tell(made: Swept, quiet: bool) -> None:
+    _warn_each(made.damaged)
     _warn("passed over", made.refused)
     failed = [sentence for sentence in made.table.column("error") if sentence]
     _warn("failed", {sentence: failed.count(sentence) for sentence in dict.fromkeys(failed)})
@@ -86,6 +89,12 @@ def _warn(what: str, sentences: Mapping[str, int]) -> None:
     if len(told) > _MOST_TOLD:
         rest = sum(count for _, count in told[_MOST_TOLD:])
         print_warnings([f"{rest:,} more {what}, for other reasons: see the page."])
+
+
+def _warn_each(sentences: tuple[str, ...]) -> None:
+    print_warnings(sentences[:_MOST_TOLD])
+    if len(sentences) > _MOST_TOLD:
+        print_warnings([f"{len(sentences) - _MOST_TOLD:,} more records are damaged the same way."])
 
 
 def _twice(count: int) -> str:

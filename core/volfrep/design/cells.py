@@ -7,7 +7,6 @@ more file. All are read by `load_cell`.
 
 from __future__ import annotations
 
-import json
 import os
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -19,6 +18,7 @@ from numpy.typing import NDArray
 from ..util.content import content_of, held
 from ..util.errors import VolfrepError
 from ..util.numbers import number_rows
+from ..util.reading import read_json
 from ..util.types import Floats
 from .cell_files.parameters import CellParameter, chosen_values, read_parameters
 from .expression import CONSTANTS, FUNCTIONS, evaluated
@@ -184,23 +184,7 @@ def load_cell(path: str | os.PathLike[str], values: str = "") -> UnitCell:
         VolfrepError: naming the file and what is wrong in it.
     """
     file = Path(path)
-    try:
-        if file.exists() and not file.is_file():
-            raise VolfrepError(f"Cannot read the cell file '{file}': it is not a file.")
-        with file.open("rb") as opened:
-            text = opened.read(MAX_FILE_BYTES + 1)
-        if len(text) > MAX_FILE_BYTES:
-            raise VolfrepError(
-                f"The cell file '{file}' is larger than {MAX_FILE_BYTES // 1000} kB: "
-                "a unit cell is a short list of nodes and struts."
-            )
-        data = json.loads(text.decode("utf-8"))
-    except OSError as error:
-        raise VolfrepError(f"Cannot read the cell file '{file}': {error.strerror}.") from error
-    except (ValueError, RecursionError) as error:
-        if isinstance(error, VolfrepError):
-            raise
-        raise VolfrepError(f"The cell file '{file}' is not valid JSON: {error}.") from error
+    data = read_json(file, "cell file", MAX_FILE_BYTES)
     if not isinstance(data, dict) or not (
         {"nodes", "struts"} <= data.keys() or "tessellation" in data
     ):

@@ -22,6 +22,7 @@ from typing import TextIO
 import numpy as np
 
 from ..util.errors import VolfrepError
+from ..util.reading import regular_file
 from ..util.types import Floats
 from .vtk_files import MAX_POINTS, TOO_MANY, load_vtk
 
@@ -64,14 +65,7 @@ def read_points(path: str | os.PathLike[str], column: str | None) -> PointsAndVa
             f"({', '.join(TABLE_SUFFIXES)}) or a VTK file ({', '.join(VTK_SUFFIXES)})."
         )
     try:
-        if file.exists() and not file.is_file():
-            raise VolfrepError(f"Cannot read '{file}': it is not a file.")
-        size = file.stat().st_size
-        if size > MAX_FILE_BYTES:
-            raise VolfrepError(
-                f"'{file.name}' has {size / 1e6:.0f} MB: the limit is {MAX_FILE_BYTES / 1e6:.0f} "
-                "MB, give fewer points."
-            )
+        regular_file(file, "field file", MAX_FILE_BYTES)
         if suffix in TABLE_SUFFIXES:
             # What is no UTF-8 can only stand in a header or a comment: it does no harm there.
             with file.open(encoding="utf-8-sig", errors="replace") as text:

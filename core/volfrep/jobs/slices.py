@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 import os
 import time
@@ -17,13 +16,13 @@ from ..design.spec import LatticeSpec
 from ..grid.placement import graded_wireframe
 from ..grid.strut_graph import Wireframe, cell_graph
 from ..io.write.layer_files import CLI_END, cli_header, cli_layer, png, svg
+from ..io.write.layer_folder import replacing_layers
 from ..mesh.triangle_mesh import TriangleMesh, box_of
 from ..slicing.layers import Section, SolidParts, each_section, layer_heights, whole
 from ..slicing.raster import pixel_grid
 from ..trim.beam_model import deformed_struts, joined_wall
 from ..util.cache import StageCache
 from ..util.errors import VolfrepError
-from ..util.files import replacing_folder
 from ..util.numbers import number
 from ..util.progress import ProgressCallback
 from .infill import Infill
@@ -31,8 +30,6 @@ from .targets import aimed
 
 #: How layers are written.
 FORMATS = ("png", "svg", "cli")
-#: What tells a folder of layers from any other.
-FIGURES = "layers.json"
 #: Active cells up to which the lattice is held as a whole, so that what hangs on nothing is found.
 MOST_WHOLE = 200_000
 #: Outlines stray from the true ones by at most this share of a strut's radius.
@@ -92,7 +89,8 @@ def write_layers(
     Args:
         solid: checked closed mesh, mm, as it stands on the build plate.
         spec: what to fill it with.
-        folder: to make; one that holds layers is replaced, any other must be empty.
+        folder: to make; of one that holds layers, those of the last run are replaced; any
+            other must be empty.
         layer: height of a layer, mm.
         pixel: edge of a picture's pixel, mm; None for the height of a layer.
         form: png (a picture of one bit a pixel a layer), svg (a drawing a layer), or cli (one file
@@ -151,7 +149,13 @@ def write_layers(
             return svg(outline, part.bounds), outline.area()
         return cli_layer(outline, z + 0.5 * layer), outline.area()
 
-    with infill.monitor.stage("slice", 0.4, 1.0), replacing_folder(folder, FIGURES) as place:
+    with (
+        infill.monitor.stage("slice", 0.4, 1.0),
+        replacing_layers(folder) as (
+            place,
+            figures,
+        ),
+    ):
         sections = each_section(part, heights, error, made, infill.monitor)
         areas, files = _written(sections, place, form, len(heights))
         volume = float(sum(areas) * layer)
@@ -160,7 +164,7 @@ def write_layers(
             (grid.shape[1], grid.shape[0]) if form == "png" else None,
             time.perf_counter() - start, warnings,
         )  # fmt: skip
-        figures = {
+        figures |= {
             "program": "VOLFREP", "unit": "mm", "format": form, "layer_height": layer,
             "volume_mm3": done.volume, "mass_g": done.mass,
             "bounds": part.bounds.tolist(), "warnings": list(warnings),
@@ -172,7 +176,6 @@ def write_layers(
         if form == "png":
             corner = (grid.origin[0], grid.origin[1] + grid.shape[0] * pixel)
             figures["pixel"] = {"edge": pixel, "count": done.pixels, "upper_left": corner}
-        (place / FIGURES).write_text(json.dumps(figures, indent=1) + "\n", encoding="utf-8")
     return done
 
 

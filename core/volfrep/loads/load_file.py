@@ -20,7 +20,7 @@ from ..mesh.smooth_faces import smooth_faces
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.proximity import closest_points
 from ..util.errors import VolfrepError
-from ..util.toml import read_toml
+from ..util.reading import read_toml
 from ..util.types import Ints
 from .load_cases import Force, Load, LoadCase, LoadCases, Moment, Pressure, Support
 from .regions import (

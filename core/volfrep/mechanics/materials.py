@@ -9,7 +9,6 @@ sheets give no Poisson's ratio: it is the handbook's for the wrought or moulded 
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
@@ -18,7 +17,7 @@ from typing import Any
 
 from ..util.errors import VolfrepError
 from ..util.numbers import number
-from ..util.toml import toml_library
+from ..util.reading import read_json, read_toml
 
 MAX_FILE_BYTES = 100_000
 _NAME = re.compile(r"[A-Za-z0-9][-\w]{0,70}", re.ASCII)
@@ -187,21 +186,8 @@ def load_material(path: Path) -> SolidMaterial:
     Raises:
         VolfrepError: naming the file and what is wrong in it.
     """
-    try:
-        data = path.read_bytes()[: MAX_FILE_BYTES + 1]
-    except OSError as error:
-        raise VolfrepError(
-            f"Cannot read the material file '{path}': {error.strerror or error}."
-        ) from error
-    if len(data) > MAX_FILE_BYTES:
-        raise VolfrepError(f"The material file '{path}' is too large to be one.")
-    try:
-        values = _parsed(data.decode("utf-8"), path)
-    except VolfrepError:
-        raise
-    except (ValueError, RecursionError) as error:
-        kind = path.suffix.lstrip(".").upper()
-        raise VolfrepError(f"The material file '{path}' is not valid {kind}: {error}.") from error
+    read = read_json if path.suffix.lower() == ".json" else read_toml
+    values = read(path, "material file")
     if not isinstance(values, dict):
         raise VolfrepError(f"The material file '{path}' must hold names and values.")
     return material_of(values, f"the material file '{path}'", path.stem, path.name)
@@ -246,10 +232,3 @@ def material_of(
             f"In {where}, density, young, poisson and yield_stress must be numbers, processes a "
             "list of names."
         ) from error
-
-
-def _parsed(text: str, path: Path) -> object:
-    if path.suffix.lower() == ".json":
-        return json.loads(text)
-    values: object = toml_library("materials").loads(text)
-    return values

@@ -8,18 +8,26 @@ study counts for every other one in the same folder.
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass, field
+import zlib
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any
+from zipfile import BadZipFile
 
 import numpy as np
 
 from ..io.solid import Solid
+from ..util.content import content_of
 from ..util.errors import VolfrepError
 from ..util.files import replacing
+from ..util.reading import own_bytes
 from .actions import ACTIONS, Asked, Figure
 
 RECORDS, PARTS = "records", "parts"
+#: Bytes of the largest record that is read.
+LARGEST = 20_000_000
 
 
 @dataclass
@@ -82,20 +90,82 @@ def record_path(folder: Path, key: str) -> Path:
 
 
 def read_record(folder: Path, key: str) -> Record | None:
-    """The record of a design; None where there is none.
+    """The record of a design; None where there is none, or a damaged one that is to be done anew.
 
     Raises:
-        VolfrepError: a file of that name is no record.
+        VolfrepError: something of that name is no file, or closed to us.
     """
     path = record_path(folder, key)
+    return None if damage_of(path) else _read(path)
+
+
+def damage_of(path: Path) -> str:
+    """What is wrong with a record, as a clause; empty for nothing, or where there is none.
+
+    Raises:
+        VolfrepError: as `read_record`.
+    """
     try:
-        return Record(**json.loads(path.read_text(encoding="utf-8")))
-    except FileNotFoundError:
+        _read(path)
+    except _DamageError as error:
+        return str(error)
+    return ""
+
+
+class _DamageError(Exception):
+    """What a record's file is not."""
+
+
+def _read(path: Path) -> Record | None:
+    if not path.exists():
         return None
-    except (OSError, ValueError, TypeError) as error:
-        raise VolfrepError(
-            f"'{path}' is no record of a run ({error}): move it away, and the run is done anew."
-        ) from error
+    data = own_bytes(path, "record", LARGEST)
+    try:
+        found = json.loads(data)
+    except (ValueError, RecursionError) as error:
+        raise _DamageError(f"it is no JSON: {error}") from error
+    if not isinstance(found, dict):
+        raise _DamageError("it is no object")
+    wrong = {one.name for one in fields(Record)} ^ found.keys()
+    if wrong:
+        raise _DamageError(f"its entry '{min(wrong)}' is missing or unknown")
+    for name, is_sound in _SOUND.items():
+        if not is_sound(found[name]):
+            raise _DamageError(f"its entry '{name}' is not what a run writes")
+    if found["key"] != path.stem:
+        raise _DamageError(f"it is of the design '{found['key']}'")
+    return Record(**found)
+
+
+def _named(kind: Callable[[Any], bool]) -> Callable[[Any], bool]:
+    """Whether a value is a table whose values are all of a kind."""
+    return lambda value: isinstance(value, dict) and all(map(kind, value.values()))
+
+
+def _is_text(value: Any) -> bool:
+    return isinstance(value, str)
+
+
+def _is_seconds(value: Any) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def _is_figure(value: Any) -> bool:
+    return value is None or isinstance(value, (int, float, str, bool))
+
+
+#: What makes an entry one that `write_record` wrote.
+_SOUND: dict[str, Callable[[Any], bool]] = {
+    "key": _is_text,
+    "version": _is_text,
+    "part": _named(_is_text),
+    "values": lambda value: isinstance(value, dict),
+    "results": lambda value: _named(_named(_is_figure))(value) and value.keys() <= ACTIONS.keys(),
+    "settings": lambda value: isinstance(value, dict),
+    "errors": _named(_is_text),
+    "notes": _named(lambda value: isinstance(value, list) and all(map(_is_text, value))),
+    "seconds": _named(_is_seconds),
+}
 
 
 def write_record(folder: Path, record: Record) -> None:
@@ -125,7 +195,10 @@ def keep_part(folder: Path, content: str, solid: Solid) -> None:
     """Write a proved solid beside the records, so that no run reads and repairs it again."""
     path = folder / PARTS / f"{content}.npz"
     if path.is_file():
-        return
+        with suppress(VolfrepError):  # a damaged one is written anew
+            kept = kept_part(folder, content)
+            if content_of(kept.vertices, kept.triangles).hex() == content:
+                return
     notes = np.array(solid.notes, str)
     with replacing(path) as file:
         np.savez(file, vertices=solid.vertices, triangles=solid.triangles, notes=notes)
@@ -142,7 +215,7 @@ def kept_part(folder: Path, content: str) -> Solid:
         with np.load(path) as data:
             notes = tuple(str(note) for note in data["notes"])
             return Solid(data["vertices"], data["triangles"], (), notes)
-    except (OSError, ValueError, KeyError) as error:
+    except (OSError, ValueError, KeyError, EOFError, BadZipFile, zlib.error) as error:
         raise VolfrepError(
             f"The study's part '{path}' cannot be read ({error}): workers must see the study's "
             "folder under the same name."

@@ -62,6 +62,7 @@ class Range:
         """
         if self.steps < 2:
             raise VolfrepError(f"A grid needs the steps of '{name}', 2 or more.")
+        _refuse_many(self.steps)  # before they are made
         shares = (k / (self.steps - 1) for k in range(self.steps))
         return tuple(dict.fromkeys(self.at(share) for share in shares))
 

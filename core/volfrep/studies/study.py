@@ -180,7 +180,7 @@ def read_study(path: str | os.PathLike[str]) -> Study:
     {'cell': ('BCC', 'CVC')}
     """
     path = Path(path)
-    data = parsed(path)
+    data = parsed(path, "study")
     try:
         return _study(path.parent, data)
     except VolfrepError as error:

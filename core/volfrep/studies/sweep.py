@@ -10,14 +10,16 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ..util.errors import VolfrepError
+from ..util.files import check_writable, keeping_inputs, refuse_input
 from ..util.progress import ProgressCallback
+from ..util.reading import read_text
 from ..util.types import Floats
 from ..util.version import VERSION
 from . import pareto
@@ -25,12 +27,15 @@ from .actions import ACTIONS, Asked, Loads
 from .designs import Design, Designs, Part, design_of, designs_of, named_part, read_part
 from .expectation import planned
 from .page import write_page
-from .records import keep_part, prepare, read_record
+from .records import damage_of, keep_part, prepare, read_record, record_path
 from .running.batches import Interpreter, Limits
 from .running.executors import Words, told_state
 from .running.scheduling import How, Job, weight
 from .study import Front, Study, read_study
 from .table import Table, table_of, write_csv, write_parquet
+
+#: The files at the top of a study's folder: tables, and the page.
+TOLD = ("runs.csv", "runs.parquet", "index.html")
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,6 +51,7 @@ class Swept:
         repeated: combinations that are the same as an earlier one.
         runs: that were done this time.
         page: the page to look at.
+        damaged: a sentence for each record that was damaged, and is done anew.
     """
 
     table: Table
@@ -54,6 +60,7 @@ class Swept:
     repeated: int
     runs: int
     page: Path
+    damaged: tuple[str, ...] = ()
 
     def count(self, state: str) -> int:
         """Designs in a state: ``done``, ``failed`` or ``open``."""
@@ -107,13 +114,23 @@ def sweep(
     """
     limits = Limits(limit_hours, limit_memory)
     how = How(workers, executor, scheduler, shard, limits, retry_failed, interpreter, words)
-    study = study if isinstance(study, Study) else read_study(study)
+    with keeping_inputs():
+        study = study if isinstance(study, Study) else read_study(study)
+        return _swept(study, folder, how, progress)
+
+
+def _swept(
+    study: Study, folder: str | os.PathLike[str], how: How, progress: ProgressCallback | None
+) -> Swept:
     at, parts, asked = _begun(study, folder)
     found = designs_of(study, parts)
     if not found.designs:
         raise VolfrepError(_nothing_left(found))
+    for name in TOLD:  # before any work; what else is in the way is found as it is written
+        check_writable(at / name)
     job = Job(at, asked, how, progress)
     mine = found.designs[how.shard[0] - 1 :: how.shard[1]]
+    damaged = tuple(_damaged(record_path(at, design.key)) for design in mine)
     runs = job.do(mine, study.do)
     front: Mapping[str, int] = {}
     if study.front is not None:
@@ -121,7 +138,7 @@ def sweep(
         if study.front.do and front:
             best = [design for design in mine if design.key in front]
             runs += job.do(best, study.all_actions)
-    return _told(study, at, found, front, runs)
+    return replace(_told(study, at, found, front, runs), damaged=tuple(filter(None, damaged)))
 
 
 def evaluate(
@@ -182,14 +199,22 @@ def _figures(folder: Path, made: Design | str, actions: tuple[str, ...]) -> dict
     return {**figures, "error": " ".join(errors) or None}
 
 
+def _damaged(path: Path) -> str:
+    """A sentence where a record is damaged; empty where it is not."""
+    wrong = damage_of(path)
+    return f"The record '{path}' is damaged, {wrong}: its run is done anew." if wrong else ""
+
+
 def _begun(study: Study, folder: str | os.PathLike[str]) -> tuple[Path, tuple[Part, ...], Asked]:
     """A study's folder, with its parts in it."""
     at = Path(folder).resolve()
+    read = [read_part(given, study.unit) for given in study.parts]
+    for name in TOLD:
+        refuse_input(at / name)
     prepare(at)
     parts = []
     loads = None
-    for given in study.parts:
-        source, solid = read_part(given, study.unit)
+    for source, solid in read:
         parts.append(named_part(source, solid))
         keep_part(at, parts[-1].content, solid)
         if study.loads is not None:
@@ -198,7 +223,7 @@ def _begun(study: Study, folder: str | os.PathLike[str]) -> tuple[Path, tuple[Pa
 
             path = Path(study.loads).resolve()
             material = read_load_cases(path, solid).material
-            loads = Loads(path, path.read_text(encoding="utf-8"), material.as_dict())
+            loads = Loads(path, read_text(path, "load file"), material.as_dict())
             goal_of(material, study.goal, lambda name: f"size.{name}")
     asked = Asked(
         study.solid_material(), study.print_process(), study.export, at, loads, study.goal
@@ -264,9 +289,9 @@ def _told(study: Study, folder: Path, found: Designs, front: Mapping[str, int], 
     """Write table and page of what is known now."""
     records = [read_record(folder, design.key) for design in found.designs]
     table = table_of(found.designs, records, study.all_actions, front, study.do)
-    write_csv(table, folder / "runs.csv")
-    write_parquet(table, folder / "runs.parquet")
-    page = folder / "index.html"
+    write_csv(table, folder / TOLD[0])
+    write_parquet(table, folder / TOLD[1])
+    page = folder / TOLD[2]
     write_page(page, study, found, table, front)
     return Swept(table, front, found.refused, found.repeated, runs, page)
 

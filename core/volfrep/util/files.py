@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Writing a file so that it is either complete or not there."""
+"""Writing a file so that it is either complete or not there, and never over one that is read."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ import secrets
 import shutil
 import tempfile
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
+from contextvars import ContextVar
 from pathlib import Path
 from typing import BinaryIO
 
@@ -16,6 +17,59 @@ from .errors import VolfrepError
 
 #: What Windows says of a file that is to be replaced while a program holds it open.
 _WINDOWS_HOLDS = (5, 32)
+#: What the files that the running job reads are called, by device and number on it, which are the
+#: same through every link; None outside of `keeping_inputs`.
+_inputs: ContextVar[dict[tuple[int, int], str] | None] = ContextVar("inputs", default=None)
+
+
+@contextmanager
+def keeping_inputs() -> Iterator[None]:
+    """A job of one or several files: within it, none that it reads is written over.
+
+    What comes through `reading` is noted by itself; `check_writable`, by which all that is written
+    goes, refuses it. A job in a job is one with it.
+    """
+    if _inputs.get() is not None:
+        yield
+        return
+    token = _inputs.set({})
+    try:
+        yield
+    finally:
+        _inputs.reset(token)
+
+
+def note_input(path: str | os.PathLike[str], what: str) -> None:
+    """Note that the job reads a file, by what a user calls it; one that is not there is none."""
+    inputs = _inputs.get()
+    if inputs is None:
+        return
+    with suppress(OSError, ValueError):  # whoever reads it will say so
+        inputs[_number(path)] = what
+
+
+def refuse_input(path: str | os.PathLike[str]) -> None:
+    """Refuse to write a file that the job reads, through symbolic and hard links too.
+
+    Raises:
+        VolfrepError: naming it.
+    """
+    inputs = _inputs.get()
+    if not inputs:
+        return
+    try:
+        what = inputs.get(_number(path))
+    except (OSError, ValueError):  # nothing is there, so nothing is lost
+        return
+    if what is not None:
+        raise VolfrepError(
+            f"Cannot write '{path}': it is the {what} itself, which is read: give another name."
+        )
+
+
+def _number(path: str | os.PathLike[str]) -> tuple[int, int]:
+    status = os.stat(path)
+    return status.st_dev, status.st_ino
 
 
 def check_writable(path: str | os.PathLike[str]) -> Path:
@@ -23,7 +77,7 @@ def check_writable(path: str | os.PathLike[str]) -> Path:
 
     Raises:
         VolfrepError: the folder does not exist or is closed to us, or the name is taken by
-            something that is not a file.
+            something that is not a file, or by one that the job reads (`keeping_inputs`).
     """
     target = Path(path)
     try:
@@ -37,6 +91,7 @@ def check_writable(path: str | os.PathLike[str]) -> Path:
         raise VolfrepError(f"Cannot write '{target}': {error.strerror}.") from error
     if not os.access(folder, os.W_OK) or (taken and not os.access(target, os.W_OK)):
         raise VolfrepError(f"Cannot write '{target}': permission denied.")
+    refuse_input(target)
     return target
 
 
@@ -148,45 +203,3 @@ def not_written(target: Path, error: OSError) -> VolfrepError:
             f"Cannot write '{target}': {error.strerror}; it may be open in another program."
         )
     return VolfrepError(f"Cannot write '{target}': {error.strerror}.")
-
-
-@contextmanager
-def replacing_folder(path: str | os.PathLike[str], mark: str) -> Iterator[Path]:
-    """A folder to fill, which takes the target's place only when the block succeeds.
-
-    It is made beside the target; after an error or an interruption it is removed.
-
-    Args:
-        path: of the target: nothing yet, an empty folder, or one that holds a file `mark`, which
-            tells that it was made the same way and may be replaced.
-        mark: a file's name.
-
-    Raises:
-        VolfrepError: naming the target and why it cannot be written.
-    """
-    target = Path(path)
-    try:
-        real = target.resolve()
-        if not real.parent.is_dir():
-            raise VolfrepError(f"Cannot write '{target}': there is no folder '{real.parent}'.")
-        if real.exists() and not real.is_dir():
-            raise VolfrepError(f"Cannot write '{target}': it exists and is not a folder.")
-        if real.exists() and any(real.iterdir()) and not (real / mark).is_file():
-            raise VolfrepError(
-                f"Cannot write '{target}': the folder holds other files; name a new one."
-            )
-        part = real.with_name(f".volfrep-{secrets.token_hex(4)}.part")
-        part.mkdir()
-        try:
-            yield part
-            if real.exists():
-                old = real.with_name(f".volfrep-{secrets.token_hex(4)}.old")
-                os.replace(real, old)
-                os.replace(part, real)
-                shutil.rmtree(old)
-            else:
-                os.replace(part, real)
-        finally:
-            shutil.rmtree(part, ignore_errors=True)
-    except OSError as error:
-        raise not_written(target, error) from error

@@ -284,7 +284,7 @@ def test_a_file_to_check_must_be_readable(
     (tmp_path / "empty.stl").touch()
     assert "is empty" in refused(capsys, "check", tmp_path / "empty.stl")
     (tmp_path / "folder.stl").mkdir()
-    assert "Is a directory" in refused(capsys, "check", tmp_path / "folder.stl")
+    assert "it is not a file but a folder" in refused(capsys, "check", tmp_path / "folder.stl")
 
 
 @pytest.mark.parametrize(

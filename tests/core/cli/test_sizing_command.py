@@ -63,9 +63,10 @@ def refusal(part: Path, capsys: pytest.CaptureFixture[str], *more: object) -> st
 
 
 def test_the_sized_part_is_an_ordinary_graded_one(part: Path, tmp_path: Path) -> None:
-    radii, spec, report = (tmp_path / name for name in ("r.csv", "s.toml", "report.json"))
-    more = ("--radii", radii, "--write-spec", spec, "--report", report, "--no-proof")
+    spec, report = (tmp_path / name for name in ("s.toml", "report.json"))
+    more = ("--write-spec", spec, "--report", report, "--no-proof")
     assert size(part, *WHOLE, "--safety", "3", *more) == 0
+    assert (tmp_path / "s.radii.csv").is_file()  # beside the specification that names it
     again = tmp_path / "again.stl"
     assert run("fill", part, "-o", again, "--spec", spec, "--quiet") == 0
     assert again.read_bytes() == (tmp_path / "out.stl").read_bytes()
@@ -137,7 +138,6 @@ def test_with_a_skin_the_struts_end_in_it_and_both_are_told(
         (["--fillet", "0.2"], "set the fillet to 0"),
         (["--smooth", "2"], "from 0 to 0.9"),
         (["--colour", "stress"], "give it"),
-        (["--write-spec", "s.toml"], "give --radii"),
     ],
 )
 def test_what_makes_no_sense_is_refused(
@@ -223,7 +223,8 @@ def test_ctrl_c_keeps_the_best_design_so_far(
 def test_limits_that_cannot_be_held_are_told(
     part: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert size(part, *WHOLE, "--max-stress", "1", "--steps", "2", "--no-proof") == 0
+    assert size(part, *WHOLE, "--max-stress", "1", "--steps", "2", "--no-proof") == 3
+    assert part.with_name("out.stl").is_file()
     said = capsys.readouterr().err
     assert "limit of stress cannot be held" in said
     assert "by the strut at (" in said

@@ -10,9 +10,11 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
-from pathlib import Path
 
 from ...util.errors import VolfrepError
+from ...util.reading import regular_file
+
+MAX_FILE_BYTES = 500_000_000
 
 #: Words that begin what is read of an entry. Any other line of words ends a list.
 _NAME, _EDGES, _NODES, _BARS = "name:", "normalized unit cell parameters", "nodal positions", "bar "
@@ -57,8 +59,9 @@ def catalogue_entry(path: str | os.PathLike[str], name: str) -> Entry:
 
 def _entries(path: str | os.PathLike[str]) -> Iterator[list[str]]:
     """Of each cell its name, and its lines after that; one at a time, for there may be many."""
+    path = regular_file(path, "catalogue", MAX_FILE_BYTES)
     try:
-        with Path(path).open(encoding="utf-8-sig") as file:
+        with path.open(encoding="utf-8-sig") as file:
             lines: list[str] = []
             for line in file:
                 text = line.strip()

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...util.errors import VolfrepError
+from ...util.reading import read_bytes, read_text, regular_file
 from ..cells import UnitCell
 from ..vtk_files import mesh_of
 from .laid_cells import laid_into, layers_on
@@ -71,14 +72,11 @@ def read_network(
         )
     where = f"network file '{file}'"
     try:
-        if file.exists() and not file.is_file():
-            raise VolfrepError(f"Cannot read the {where}: it is not a file.")
-        if file.stat().st_size > MAX_BYTES:
-            raise VolfrepError(f"The {where} is larger than {MAX_BYTES // 1_000_000} MB.")
+        regular_file(file, "network file", MAX_BYTES)
         if suffix == ".3mf":
             return make_network(*_beams(file, where), where, str(file))
         if suffix not in ELEMENTS or (suffix in LINES and _holds_lines(file)):
-            text = file.read_text(encoding="utf-8-sig")
+            text = read_text(file, "network file", MAX_BYTES)
             reader = {".json": _json, ".csv": _csv, ".obj": _obj, ".vtk": _vtk}[suffix]
             return make_network(*reader(text, where), where, str(file))
         return _of_elements(file, cell, thickness, layers, where)
@@ -92,7 +90,7 @@ def read_network(
 
 def _holds_lines(file: Path) -> bool:
     word = rb"(?mi)^l[ \t]" if file.suffix.lower() == ".obj" else rb"(?mi)^LINES[ \t]"
-    return re.search(word, file.read_bytes()) is not None
+    return re.search(word, read_bytes(file, "network file", MAX_BYTES)) is not None
 
 
 def _of_elements(

@@ -12,7 +12,7 @@ from typing import Any
 
 from ...util.errors import VolfrepError
 from ...util.files import check_writable, replacing
-from ...util.toml import read_toml
+from ...util.reading import read_toml
 from ..spec import LatticeSpec
 from .parameter import GROUPS
 from .recipes import recipe_or_file
@@ -93,13 +93,13 @@ def _written(values: Mapping[str, Any], folder: Path) -> str:
     return "\n".join([*lines, ""])
 
 
-def parsed(path: Path) -> dict[str, Any]:
-    """What a TOML file holds.
+def parsed(path: Path, what: str = "specification") -> dict[str, Any]:
+    """What a TOML file holds, which should be so called.
 
     Raises:
         VolfrepError: it cannot be read, or is no TOML.
     """
-    return read_toml(path, "specification")
+    return read_toml(path, what)
 
 
 def _value(path: Path, name: str, value: Any) -> Any:

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import stat
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -11,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...mesh.triangle_mesh import TriangleMesh
+from ...util import reading
 from ...util.errors import VolfrepError
 from ...util.types import Floats
 
@@ -43,18 +43,7 @@ def read_bytes(file: Path) -> bytes:
     Raises:
         VolfrepError: it cannot be read, is empty, too large, or plainly something else.
     """
-    try:
-        status = file.stat()
-        if not stat.S_ISREG(status.st_mode) and not stat.S_ISDIR(status.st_mode):
-            raise VolfrepError(f"Cannot read '{file}': it is not a file.")
-        if status.st_size > MAX_FILE_BYTES:
-            raise VolfrepError(
-                f"'{file.name}' has {status.st_size / 1e9:.1f} GB: the limit is "
-                f"{MAX_FILE_BYTES / 1e9:.0f} GB, export the solid more coarsely."
-            )
-        data = file.read_bytes()
-    except OSError as error:
-        raise VolfrepError(f"Cannot read '{file}': {error.strerror}.") from error
+    data = reading.read_bytes(file, "part", MAX_FILE_BYTES)
     start = data[:512].lstrip().lower()
     if not start and not data.strip():
         raise VolfrepError(f"'{file.name}' is empty: export the solid again.")

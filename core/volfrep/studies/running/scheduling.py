@@ -15,6 +15,7 @@ from pathlib import Path
 
 from ...mechanics.catalogue import known_cell
 from ...util.errors import VolfrepError
+from ...util.files import refuse_input
 from ...util.progress import ProgressCallback
 from ...util.threads import threads
 from ...util.version import VERSION
@@ -22,7 +23,7 @@ from ...util.workers import at_once, dask_workers
 from ..actions import ACTIONS, Asked
 from ..designs import Design
 from ..expectation import planned
-from ..records import Record, kept_part, read_record
+from ..records import Record, kept_part, read_record, record_path
 from .batches import Batch, Interpreter, Limits
 from .executors import (
     Tally,
@@ -107,6 +108,8 @@ class Job:
         return bool(record.missing(names, self._asked, self._how.retry))
 
     def _run(self, designs: list[Design], names: tuple[str, ...], meshed: bool) -> None:
+        for design in designs:
+            _refuse_inputs(self._folder, design, names, self._asked)
         solids = {d.part.content: kept_part(self._folder, d.part.content) for d in designs}
         plans = {d.key: planned(solids[d.part.content], d.spec) for d in designs}
         table = dict.fromkeys(names, meshed)
@@ -150,6 +153,15 @@ class Job:
             beside > 0,
             how.interpreter,
         )
+
+
+def _refuse_inputs(folder: Path, design: Design, names: tuple[str, ...], asked: Asked) -> None:
+    """Raise a `VolfrepError` where a run, perhaps in another process, would write over an input."""
+    refuse_input(record_path(folder, design.key))
+    for name in names:
+        if (file := ACTIONS[name].file(asked)) is not None:
+            for suffix in {file[1], ".csv"}:  # radii have a table of their own
+                refuse_input(folder / file[0] / f"{design.key}{suffix}")
 
 
 def weight(design: Design, seconds: float, actions: Mapping[str, bool]) -> float:

@@ -30,5 +30,5 @@ def test_a_file_goes_before_a_recipe_of_its_name(
 def test_what_is_neither_is_told_with_the_names() -> None:
     with pytest.raises(VolfrepError, match="no recipe 'pillow': recipes are bone-like, cushion"):
         read_spec("pillow")
-    with pytest.raises(VolfrepError, match="cannot be read"):
+    with pytest.raises(VolfrepError, match="Cannot read the specification"):
         read_spec("pillow.toml")

@@ -101,7 +101,7 @@ def test_files_are_named_from_the_folder_of_the_specification(
         ("radius_reach = 4", "radius_reach has no effect without radius_grading skin or core"),
         ('size_grading = "linear"', "size_grading linear needs lambda_end: give it"),
         ('cell_size = ', "is no TOML"),
-        ("a" * 1_000_001, "more than 1,000,000 bytes"),
+        ("a" * 1_000_001, "has 1,000,001 bytes"),
         ("x = " + "[" * 100_000, "is no TOML"),
     ],
 )  # fmt: skip
@@ -112,7 +112,7 @@ def test_what_makes_no_sense_is_one_sentence(tmp_path: Path, text: str, message:
         read_spec(path)
     said = str(caught.value)
     assert message in said
-    assert said.startswith(str(path))
+    assert str(path) in said
     assert "\n" not in said
 
 

@@ -34,7 +34,7 @@ COLOURS = ("#0b5cad", "#d95f02", "#1b9e77", "#7570b3", "#e7298a", "#a6761d")
 #: Cells that are not alike along x, y and z, and two that are.
 UNEVEN = ("BCCz", "FCCz", "Pyramid", "Re-entrant", "Kagome", "Diamond")
 #: Relative densities of the table, and that of the surfaces.
-DENSITIES = (0.05, 0.1, 0.2, 0.3)
+DENSITIES = (0.1, 0.3)
 OF_SURFACES = 0.1
 
 

@@ -95,7 +95,7 @@ def calls_of_examples() -> list[tuple[str, str, set[str]]]:
 
 def test_every_keyword_of_an_example_exists() -> None:
     calls = calls_of_examples()
-    assert ("walls.md", "fill", {"cell", "cell_size", "wall_thickness", "shell"}) in calls
+    assert ("tpms.md", "fill", {"cell", "cell_size", "wall_thickness", "shell"}) in calls
     for page, name, keywords in calls:
         function = attrgetter(name)(volfrep)
         own = set(inspect.signature(function).parameters)
@@ -123,7 +123,7 @@ def commands_of_examples() -> list[tuple[str, list[str]]]:
 
 def test_every_command_that_is_shown_is_understood() -> None:
     commands = commands_of_examples()
-    assert {"walls.md", "README.md", "tests.yml"} <= {name for name, _ in commands}
+    assert {"tpms.md", "README.md", "tests.yml"} <= {name for name, _ in commands}
     parser = _parser()
     for _, arguments in commands:
         parser.parse_args([re.sub(r"\$\w+", "1", word) for word in arguments if word != "..."])

@@ -25,7 +25,10 @@ STAND_INS = (
     "the piston rod are of those, in the same boxes: other parts, so that no figure compares with "
     "the paper's or with another run's on the real ones."
 )
-BARS = "Bars in seconds are meant for two idle cores: see the load above before a miss is believed."
+BARS = (
+    "Bars in seconds are meant for two idle cores: see the load above before a miss is believed. "
+    "Those that were missed or not measured:"
+)
 
 
 def document(
@@ -61,8 +64,9 @@ def document(
     count += f", {unknown} not measured" if unknown else ""
     modelled = {name for r in results.values() for name in r["machine"].get("stand_ins", ())}
     about = [STAND_INS.format(", ".join(sorted(modelled)))] if modelled else []
-    parts = [INTRODUCTION.strip(), *about, _machines(results), f"## Bars: {count}", BARS]
-    parts.append(bars_table(bars))
+    parts = [INTRODUCTION.strip(), *about, _machines(results), f"## Bars: {count}"]
+    if missed or unknown:
+        parts += [BARS, bars_table([row for row in bars if row["met"] is not True])]
     return "\n\n".join([*parts, *chapters]) + "\n", broken
 
 
@@ -80,14 +84,11 @@ def _machines(results: dict[str, dict[str, Any]]) -> str:
     if last["peer_packages"]:
         others = ", ".join(f"{name} {number}" for name, number in last["peer_packages"].items())
         lines.append(f"- Other tools, in an environment of their own: {others}.")
+    dates = [machine["date"] for machine in found.values()]
+    loads = [machine["load"] for machine in found.values()]
     lines.append(
-        "- Start of each experiment, load of the machine just before it (of "
-        f"{last['cores']} cores), and its length: "
-        + "; ".join(
-            f"{name} {machine['date']}, {machine['load']:g}, {results[name]['seconds']:.0f} s"
-            for name, machine in found.items()
-        )
-        + "."
+        f"- Measured from {min(dates)} to {max(dates)}; load just before each experiment "
+        f"{min(loads):g} to {max(loads):g} (of {last['cores']} cores)."
     )
     commits = {machine["commit"] for machine in found.values()}
     if len(commits) > 1:

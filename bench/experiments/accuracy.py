@@ -91,10 +91,7 @@ COLUMNS = (
     Column("tool", "tool"),
     Column("points or facets along L", "resolution"),
     Column("triangles", "triangles", ","),
-    Column("s", "seconds", ".2f"),
-    Column("mean, mm", "mean", "+.4f"),
     Column("RMS, mm", "rms", ".4f"),
-    Column("deviation, mm", "deviation", ".4f"),
     Column("farthest, mm", "farthest", ".3f"),
     Column("RMS to the B-rep, mm", "rms_brep", ".4f"),
 )

@@ -156,7 +156,6 @@ COLUMNS = (
     Column("setting", "setting"),
     Column("cell", "cell"),
     Column("s", "seconds", ".2f"),
-    Column("CPU s", "cpu", ".2f"),
     Column("MB", "mb", ".1f"),
     Column("triangles", "triangles", ","),
     Column("peak MB", "peak_mb", ",.0f"),

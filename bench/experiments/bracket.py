@@ -126,13 +126,12 @@ def _published(context: Context) -> dict[str, Any]:
 
 
 def render(result: dict[str, Any], images: Path) -> str:
-    """Table 3, the stages, and what voxelisation saves."""
+    """Table 3, a plot of the stages, and what voxelisation saves."""
     rows = [{**row, **_paper(row["cell"])} for row in result["rows"]]
     columns = (
         Column("cell", "cell"),
         Column("s, cold", "seconds", ".2f"),
         Column("s, r changed", "change", ".2f"),
-        Column("CPU s", "cpu", ".2f"),
         Column("MB", "mb", ".1f"),
         Column("triangles", "triangles", ","),
         Column("peak MB", "peak_mb", ",.0f"),
@@ -163,8 +162,6 @@ Seconds by stage, from cold:
 
 {plot}
 
-{_stage_table(rows)}
-
 The published method on the same files, with the cavity and the voxels that our engine found (the time for the cavity is not in it), cut and joined by trimesh with manifold3d. At the {POINTS} points a cell that the text names, and at {COARSE}, whose files come nearer to the printed sizes:
 
 {_peers(result["peers"])}
@@ -186,18 +183,6 @@ def _paper(cell: str) -> Row:
 
 def _box() -> str:
     return "178.54 x 62.50 x 108.31 mm"
-
-
-def _stage_table(rows: list[Row]) -> str:
-    shown = [
-        {"cell": row["cell"], "run": "cold", **row["stages"]} for row in rows if "stages" in row
-    ] + [
-        {"cell": row["cell"], "run": f"r = {one['radius']:g}", **one["stages"]}
-        for row in rows
-        for one in row.get("changes", [])[1:]
-    ]
-    columns = [Column("cell", "cell"), Column("run", "run")]
-    return table([*columns, *(Column(stage, stage, ".2f") for stage in STAGES)], shown)
 
 
 def _peers(peers: list[Row]) -> str:

@@ -14,9 +14,9 @@ INTRODUCTION = """# Benchmarks
 
 The evaluation of the paper that the method comes from (A. Bacciaglia, A. Liverani, A. Ceruti: Voxelization and one-dimensional lattice structures for industrial components using function representation), repeated on this engine by `make bench`, beside the printed figures and beside other tools in the same run. `make bench-quick` does a small part of it in a few minutes, into `build/bench-quick`.
 
-**Only ratios within one run mean something.** Seconds of another machine, or of a busy one, are others; the paper's are from an Intel i9-14900F with 96 GB and MATLAB 2024b. Every job is a process of its own, timed from its start to its end with the file written, on a disk that has nothing else to write, so that the start of Python and the imports are in it; memory is the process's largest. Files are judged as a reader sees them: in float32, corners merged by equality alone.
+**Only ratios within one run mean something.** Seconds of another machine, or of a busy one, are others; the paper's are from an Intel i9-14900F with 96 GB and MATLAB 2024b. Every job is a process of its own, timed from its start to its end with the file written; memory is the process's peak. Files are judged as a reader sees them: in float32, corners merged by equality.
 
-**What differs from the paper's input.** The blocks and the wing are the same. The GE bracket is a public tessellation of the same part. The piston rod is a stand-in of the same box. Figures that the paper only plots are not repeated here: none is read off a plot.
+**What differs from the paper's input.** The GE bracket is a public tessellation of the same part, the piston rod a stand-in in the same box. Figures that the paper only plots are not repeated.
 """
 
 STAND_INS = (

@@ -137,7 +137,6 @@ def render(result: dict[str, Any], images: Path) -> str:
         Column("peak MB", "peak_mb", ",.0f"),
         Column("closed", "watertight", yes_no),
         Column("bodies", "bodies"),
-        Column("genus", "genus", ","),
         Column("paper: s", "paper_seconds", "g"),
         Column("paper: MB", "paper_mb", ".1f"),
     )
@@ -152,7 +151,7 @@ def render(result: dict[str, Any], images: Path) -> str:
     grid = " x ".join(str(n) for n in BRACKET_GRID)
     return f"""## Table 3: the GE bracket
 
-Skin of {SHELL:g} mm, L = 10, r = 1; from the file of the part to the STL of skin and lattice in one body. "Cold": a process of its own. "r changed": the slower of two later runs (r = {RADII[1]:g}, then {RADII[2]:g}) in one process that keeps the stages' results, as FreeCAD does, with the file written. The paper's times begin with the shell already made in SolidWorks; ours make it.
+Skin of {SHELL:g} mm, L = 10, r = 1; from the file of the part to the STL of one body. "r changed": the slower of two later runs (r = {RADII[1]:g}, then {RADII[2]:g}) with the stages' results kept. The paper's times begin with the shell already made; ours make it.
 
 Our part is a public tessellation of the same bracket, not the paper's file: box {_box()}, grid {grid} as in the paper. The paper counts {BRACKET_ACTIVE} active cells; here the rules give {counts}. Ours fills the cells that touch the cavity.
 
@@ -162,7 +161,7 @@ Seconds by stage, from cold:
 
 {plot}
 
-The published method on the same files, with the cavity and the voxels that our engine found (the time for the cavity is not in it), cut and joined by trimesh with manifold3d. At the {POINTS} points a cell that the text names, and at {COARSE}, whose files come nearer to the printed sizes:
+The published method on the same files, with our cavity and voxels (their time not included), cut and joined by trimesh with manifold3d:
 
 {_peers(result["peers"])}
 

@@ -14,9 +14,9 @@ INTRODUCTION = """# Benchmarks
 
 The evaluation of the paper that the method comes from (A. Bacciaglia, A. Liverani, A. Ceruti: Voxelization and one-dimensional lattice structures for industrial components using function representation), repeated on this engine by `make bench`, beside the printed figures and beside other tools in the same run. `make bench-quick` does a small part of it in a few minutes, into `build/bench-quick`.
 
-**Only ratios within one run mean something.** Seconds of another machine, or of a busy one, are others; the paper's are from an Intel i9-14900F with 96 GB and MATLAB 2024b. Every job is a process of its own, timed from its start to its end with the file written, on a disk that has nothing else to write, so that the start of Python and the imports are in it; memory is the process's largest. Files are judged as a reader sees them: in float32, corners merged by equality alone.
+**Only ratios within one run mean something.** Seconds of another machine, or of a busy one, are others; the paper's are from an Intel i9-14900F with 96 GB and MATLAB 2024b. Every job is a process of its own, timed from its start to its end with the file written; memory is the process's peak. Files are judged as a reader sees them: in float32, corners merged by equality.
 
-**What differs from the paper's input.** The blocks and the wing are the same. The GE bracket is a public tessellation of the same part. The piston rod is a stand-in of the same box. Figures that the paper only plots are not repeated here: none is read off a plot.
+**What differs from the paper's input.** The GE bracket is a public tessellation of the same part, the piston rod a stand-in in the same box. Figures that the paper only plots are not repeated.
 """
 
 STAND_INS = (
@@ -25,7 +25,10 @@ STAND_INS = (
     "the piston rod are of those, in the same boxes: other parts, so that no figure compares with "
     "the paper's or with another run's on the real ones."
 )
-BARS = "Bars in seconds are meant for two idle cores: see the load above before a miss is believed."
+BARS = (
+    "Bars in seconds are meant for two idle cores: see the load above before a miss is believed. "
+    "Those that were missed or not measured:"
+)
 
 
 def document(
@@ -61,8 +64,9 @@ def document(
     count += f", {unknown} not measured" if unknown else ""
     modelled = {name for r in results.values() for name in r["machine"].get("stand_ins", ())}
     about = [STAND_INS.format(", ".join(sorted(modelled)))] if modelled else []
-    parts = [INTRODUCTION.strip(), *about, _machines(results), f"## Bars: {count}", BARS]
-    parts.append(bars_table(bars))
+    parts = [INTRODUCTION.strip(), *about, _machines(results), f"## Bars: {count}"]
+    if missed or unknown:
+        parts += [BARS, bars_table([row for row in bars if row["met"] is not True])]
     return "\n\n".join([*parts, *chapters]) + "\n", broken
 
 
@@ -80,14 +84,11 @@ def _machines(results: dict[str, dict[str, Any]]) -> str:
     if last["peer_packages"]:
         others = ", ".join(f"{name} {number}" for name, number in last["peer_packages"].items())
         lines.append(f"- Other tools, in an environment of their own: {others}.")
+    dates = [machine["date"] for machine in found.values()]
+    loads = [machine["load"] for machine in found.values()]
     lines.append(
-        "- Start of each experiment, load of the machine just before it (of "
-        f"{last['cores']} cores), and its length: "
-        + "; ".join(
-            f"{name} {machine['date']}, {machine['load']:g}, {results[name]['seconds']:.0f} s"
-            for name, machine in found.items()
-        )
-        + "."
+        f"- Measured from {min(dates)} to {max(dates)}; load just before each experiment "
+        f"{min(loads):g} to {max(loads):g} (of {last['cores']} cores)."
     )
     commits = {machine["commit"] for machine in found.values()}
     if len(commits) > 1:

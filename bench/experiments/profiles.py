@@ -27,26 +27,19 @@ def measure(context: Context) -> dict[str, Any]:
 
 
 def render(result: dict[str, Any], images: Path) -> str:
-    """The stages and the top functions of each job."""
-    parts = [
-        "## What remains\n\nBy stage (the times of the report) and by function (cProfile, which "
-        "slows Python's own calls down and sees one thread only; seconds in the function itself, "
-        "and with what it calls)."
+    """The stages of each job; the functions stay in the experiment's JSON."""
+    shown = [
+        row if row.get("note") else {**row, "by_stage": _by_stage(row["stages"])}
+        for row in result["rows"]
     ]
-    columns = (
-        Column("function", "function", lambda text: f"`{text}`"),
-        Column("calls", "calls", ","),
-        Column("s itself", "seconds", ".3f"),
-        Column("s with callees", "with_callees", ".3f"),
-    )
-    for row in result["rows"]:
-        if row.get("note"):
-            parts.append(f"### {row['job']}\n\n{row['note']}")
-            continue
-        stages = [{"stage": name, "seconds": value} for name, value in row["stages"].items()]
-        listed = table((Column("stage", "stage"), Column("s", "seconds", ".3f")), stages)
-        top = table(columns, row["functions"])
-        parts.append(
-            f"### {row['job']}: {row['seconds']:.2f} s under cProfile\n\n{listed}\n\n{top}"
-        )
-    return "\n\n".join(parts)
+    columns = (Column("job", "job"), Column("s", "seconds", ".2f"), Column("stages", "by_stage"))
+    return f"""## What remains
+
+Under cProfile, which slows Python's own calls down and sees one thread only. The functions that take most are in `build/bench/profiles.json`.
+
+{table(columns, shown)}
+"""
+
+
+def _by_stage(stages: dict[str, float]) -> str:
+    return ", ".join(f"{name} {seconds:.2f}" for name, seconds in stages.items())

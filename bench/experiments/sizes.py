@@ -48,7 +48,6 @@ def render(result: dict[str, Any], images: Path) -> str:
         Column("L, mm", "size", "g"),
         Column("active cells", "cells_active", ","),
         Column("s", "seconds", ".2f"),
-        *(Column(stage, stage, ".2f") for stage in STAGES),
         Column("MB", "mb", ".1f"),
         Column("peak MB", "peak_mb", ",.0f"),
         Column("closed", "watertight", yes_no),

@@ -68,7 +68,7 @@ def render(result: dict[str, Any], images: Path) -> str:
     grid = " x ".join(str(n) for n in result["grid"])
     return f"""## The wing (section 2.4, Fig. 5)
 
-NACA 2412, chord and span of 1000 mm, modelled from its equations; L = 20. Grid {grid}, the paper's is {" x ".join(map(str, WING_GRID))}. The paper prints {100 * WING_SHARE:.1f} % active, without its outline of the section: a section has 357 cells, so one cell more is 0.28 %. Its figure agrees with cells that touch the wing, not with cells whose centre is inside, which is the rule that its text gives. The wing fills {100 * result["volume_share"]:.1f} % of its box.
+NACA 2412, chord and span of 1000 mm, modelled from its equations; L = 20. Grid {grid}, the paper's is {" x ".join(map(str, WING_GRID))}. The paper prints {100 * WING_SHARE:.1f} % active: that agrees with cells that touch the wing, not with cells whose centre is inside, the rule in its text. The wing fills {100 * result["volume_share"]:.1f} % of its box.
 
 {table(columns, result["rows"])}
 """

@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""From the results of FreeCAD's FEM workbench to fields of values at points."""
+"""From the results of FreeCAD's FEM workbench to fields of values at points.
+
+Nodes are brought from where their mesh shows to the group that the infill lies in. FreeCAD numbers
+nodes anew when it reopens a file: they are then matched by order.
+"""
 
 from __future__ import annotations
 

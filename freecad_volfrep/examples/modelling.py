@@ -3,6 +3,9 @@
 
 Every size is an expression on the part's spreadsheet, so that nothing here is a fixed number
 after the part is built.
+
+No edge is named that a size could rename: FreeCAD 1.1 loses a fillet's edges that come from a
+union, so such arcs are drawn in the sketches.
 """
 
 from __future__ import annotations

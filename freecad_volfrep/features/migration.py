@@ -2,6 +2,9 @@
 """Infills of earlier releases: their properties under the present names, types and groups.
 
 Each step looks at what it finds and not at a version, so that all of it may run again.
+
+Old and new properties stand beside each other until values and expressions have moved. A rotation
+is read to nine decimals, since a saved quaternion loses its last digits.
 """
 
 from __future__ import annotations

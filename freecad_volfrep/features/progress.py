@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""How a job of the engine is run: beside the window, or at once without a screen."""
+"""How a job of the engine is run: beside the window, or at once without a screen.
+
+What only this FreeCAD can do goes through a generator, between whose steps the window answers; a
+cancel is thrown into it, and what was added to the document goes.
+"""
 
 from __future__ import annotations
 

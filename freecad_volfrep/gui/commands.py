@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The table of the workbench's commands, its toolbars and its menu."""
+"""The table of the workbench's commands, its toolbars and its menu.
+
+Shortcuts begin with L and a letter that none of FreeCAD's own has after it.
+"""
 
 from __future__ import annotations
 

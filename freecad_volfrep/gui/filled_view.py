@@ -1,5 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A filled part on the screen: its lattice and the skin's inner wall seen through its outside."""
+"""A filled part on the screen: its lattice and the skin's inner wall seen through its outside.
+
+Nothing is sorted, which FreeCAD does by triangles' middles and gets wrong for large ones: all is
+opaque but the outside, of which only the nearest is drawn, first into the depth buffer, then in its
+colour. Cut faces are the insides, in one even colour.
+"""
 
 from __future__ import annotations
 

@@ -8,6 +8,9 @@ the part; so all other keys and clicks but those that cancel are taken out of th
 events instead, which is what FreeCAD itself does while a document is recomputed. FreeCAD's own
 progress indicator is not used: it cannot be cancelled by a click, its Escape asks a question, and a
 recompute holds it already.
+
+A modal window gets its input, whoever opens it: swallowing the answer to FreeCAD's question would
+hang it.
 """
 
 from __future__ import annotations

@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""How our objects show in the tree and in the view."""
+"""How our objects show in the tree and in the view.
+
+Our display modes are made when they are first shown and dropped with a new mesh; while a file is
+read they wait, since the solid may not be there yet.
+"""
 
 from __future__ import annotations
 

@@ -95,7 +95,7 @@ def calls_of_examples() -> list[tuple[str, str, set[str]]]:
 
 def test_every_keyword_of_an_example_exists() -> None:
     calls = calls_of_examples()
-    assert ("walls.md", "fill", {"cell", "cell_size", "wall_thickness", "shell"}) in calls
+    assert ("tpms.md", "fill", {"cell", "cell_size", "wall_thickness", "shell"}) in calls
     for page, name, keywords in calls:
         function = attrgetter(name)(volfrep)
         own = set(inspect.signature(function).parameters)
@@ -123,7 +123,7 @@ def commands_of_examples() -> list[tuple[str, list[str]]]:
 
 def test_every_command_that_is_shown_is_understood() -> None:
     commands = commands_of_examples()
-    assert {"walls.md", "README.md", "tests.yml"} <= {name for name, _ in commands}
+    assert {"tpms.md", "README.md", "tests.yml"} <= {name for name, _ in commands}
     parser = _parser()
     for _, arguments in commands:
         parser.parse_args([re.sub(r"\$\w+", "1", word) for word in arguments if word != "..."])
@@ -136,6 +136,44 @@ def test_every_link_leads_to_a_file(page: Path) -> None:
     links = re.findall(r"\]\(([^)#\s]+)", page.read_text(encoding="utf-8"))
     local = [link for link in links if "://" not in link]
     assert [link for link in local if not (page.parent / link).exists()] == []
+
+
+def anchors(page: Path) -> set[str]:
+    """What a page's headings are called in links, as GitHub makes it of them."""
+    titles = re.findall(r"^#+ (.*)$", page.read_text(encoding="utf-8"), re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-") for title in titles}
+
+
+def test_every_link_to_a_heading_finds_it() -> None:
+    pages = [
+        *sorted(DOCS.rglob("*.md")),
+        *(ROOT / name for name in ("README.md", "ARCHITECTURE.md")),
+    ]
+    links = [
+        (page, name, anchor)
+        for page in pages
+        for name, anchor in re.findall(r"\]\(([^)#:]*)#([^)]+)\)", page.read_text(encoding="utf-8"))
+    ]
+    assert len(links) > 20
+    dead = [
+        f"{page.name}: {name}#{anchor}"
+        for page, name, anchor in links
+        if anchor not in anchors(page.parent / name if name else page)
+    ]
+    assert dead == []
+
+
+def test_the_modules_that_the_architecture_names_exist() -> None:
+    text = (ROOT / "ARCHITECTURE.md").read_text(encoding="utf-8")
+    homes = (ROOT, ROOT / "core" / "volfrep", ROOT / "freecad_volfrep")
+    named = set(re.findall(r"`((?:\w+/)+\w+(?:\.py|\.json|\.txt)?)(?:\.[\w.]+)?/?`", text))
+    assert len(named) > 30
+    gone = [
+        name
+        for name in sorted(named)
+        if not any((home / f"{name}{end}").exists() for home in homes for end in ("", ".py"))
+    ]
+    assert gone == []
 
 
 def test_the_tutorials_pictures_are_small_and_used() -> None:

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The table of what is said to a run beside the lattice: files, forms, limits. A new one is a row.
 
-Commands, what they read and write, and docs/engine.md follow from it, as the lattice's options do
-from `design.parameters`. Read without numpy, so that ``--help`` answers at once.
+Commands, what they read and write, and docs/reference.md follow from it, as the lattice's options
+do from `design.parameters`. Read without numpy, so that ``--help`` answers at once.
 """
 
 from __future__ import annotations

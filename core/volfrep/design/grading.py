@@ -1,5 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Grading: sizes and radii that vary over the part, cells about an axis or a centre, rotation."""
+"""Grading: sizes and radii that vary over the part, cells about an axis or a centre, rotation.
+
+Radii live at nodes: struts are cones between them, the same from both cells that share a node.
+Struts stay round by default; the published way stretches them with their cells, so that no strut
+has the radius that was asked for.
+"""
 
 from __future__ import annotations
 

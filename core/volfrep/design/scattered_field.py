@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Scattered-data interpolation of a stress or temperature, and its transfer curve to a radius."""
+"""Scattered-data interpolation of a stress or temperature, and its transfer curve to a radius.
+
+Weights over the 8 nearest points fade to nothing at the ninth (Shepard), because plain weights jump
+where neighbours change.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""VTK files read by meshio, within bounds: what they promise, hold and are inflated to."""
+"""VTK files read by meshio, within bounds: what they promise, hold and are inflated to.
+
+Its readers are called by name: `meshio.read` exits the program on damaged files.
+"""
 
 from __future__ import annotations
 

@@ -5,6 +5,9 @@ Bare beams from node to node are far too soft, because struts of ordinary thickn
 their joints. So the ends of each strut are stiffened. How far and how much depends on the cell and
 the radius, and is fitted to the cell's homogenised stiffness (`volfrep.mechanics.joint_fit`);
 without a fit they are rigid over a part of the radius.
+
+Ends are stiffened by modulus and width. FreeCAD's round beams keep their width, because CalculiX
+ties sections of different width into a rigid knot.
 """
 
 from __future__ import annotations

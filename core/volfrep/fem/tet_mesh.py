@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A closed mesh filled with second-order tetrahedra by Gmsh, without the needles of a cut."""
+"""A closed mesh filled with second-order tetrahedra by Gmsh, without the needles of a cut.
+
+By Gmsh's Delaunay algorithm: its parallel one (HXT) fails on the needles that a Boolean leaves.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The grid of cells over a domain, and its active cells: those that hold a lattice."""
+"""The grid of cells over a domain, and its active cells: those that hold a lattice.
+
+A cell is active when it shares volume with the domain: the lattice inside then does not depend on
+where activation ends. The paper's rule (centre inside) is `centre`.
+"""
 
 from __future__ import annotations
 

@@ -4,6 +4,9 @@
 What holds for the edges of a kind of octant holds wherever its vertices are; their lengths, areas
 and volumes, and whether facets fold, are each octant's own. Nothing here holds more than the
 vertices and a few numbers an octant.
+
+A facet that has turned by less than half of what the sharpest edge of its kind has left cannot be
+at a fold; only octants with others are compared with their neighbours.
 """
 
 from __future__ import annotations

@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Strut masks: which struts of the lattice an octant's own are, and octants that lack some."""
+"""Strut masks: which struts of the lattice an octant's own are, and octants that lack some.
+
+A kind is then a pattern and the set of struts that it lacks, so that what stays is as exact as
+before, at the cost of one more kind for each set.
+"""
 
 from __future__ import annotations
 

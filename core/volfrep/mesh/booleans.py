@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Booleans of whole meshes by manifold3d."""
+"""Booleans of whole meshes by manifold3d.
+
+The only bridge to manifold3d.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Decimation by vertex clustering: a coarse likeness of a mesh, for looking at."""
+"""Decimation by vertex clustering: a coarse likeness of a mesh, for looking at.
+
+For looking only. Reducing a finished mesh by quadrics was tried for files and dropped: a larger
+deviation from the start makes fewer triangles, in less time.
+"""
 
 from __future__ import annotations
 

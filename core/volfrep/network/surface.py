@@ -5,6 +5,9 @@ A strut between two joints needs a place where nothing but itself is: there the 
 meet in a flat disc. Where it is too short for that, or where struts run into each other without
 sharing a node, the nodes about it are made of whole struts and balls, which manifold3d unites;
 their discs towards the other joints stay as they are, so that the pieces still fit.
+
+One Boolean of all struts and balls was tried and dropped: it took 20 times as long and left
+needles.
 """
 
 from __future__ import annotations

@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Octant meshing, done once a pattern: sample, contour, remesh, fit, untangle."""
+"""Octant meshing, done once a pattern: sample, contour, remesh, fit, untangle.
+
+Octants whose samples near the surface are equal, and whose field at the facets is, share one mesh:
+most patterns differ by struts that end inside a joint.
+"""
 
 from __future__ import annotations
 

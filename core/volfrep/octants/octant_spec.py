@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the mesh of an octant depends on: sizes, steps, and how far struts show."""
+"""What the mesh of an octant depends on: sizes, steps, and how far struts show.
+
+Facets have a coarsest size: with fewer than six round a strut its vertices cannot be placed such
+that the volume is right.
+"""
 
 from __future__ import annotations
 

@@ -5,6 +5,8 @@ It is the level set of the distance to the outer surface, so it cannot cross its
 surface of moved faces does. `sampled_depth` samples the depth at the corners of cubes, `octree`
 tells the patches of surface in them, `dual_contouring` makes facets of these, `adaptive_contour`
 halves the cubes whose facets stray, `wall_decimation` takes the facets away that are not needed.
+
+OpenCASCADE's exact offset fails on real parts and is not used.
 """
 
 from __future__ import annotations

@@ -3,6 +3,9 @@
 
 Such a skin's cavity is all that is deep enough below the other faces. It reaches a little beyond
 the open ones, so that nothing of it coincides with them: cut at the part's surface, it opens there.
+
+By half a thickness, because nothing outside the part is then in the cavity that is not in front of
+an open face.
 """
 
 from __future__ import annotations

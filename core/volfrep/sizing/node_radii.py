@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Radii at nodes as what is varied: what struts get of them, their volume, their bounds."""
+"""Radii at nodes as what is varied: what struts get of them, their volume, their bounds.
+
+Radii and not densities, at nodes, because the mesh is made of these. Volume is the struts' cones
+less what they share at a node: a constant of its directions times the radius cubed.
+"""
 
 from __future__ import annotations
 

@@ -3,6 +3,10 @@
 
 The deck has the same struts, joints, supports and loads; a cone is steps there, beams are expanded
 into solid elements, and a skin is of second-order wedges. Its files go to a temporary folder.
+
+CalculiX makes rigid knots where sections or directions change, and with Poisson's ratio a stepped
+cone is too stiff: so the deck has none, and gives the shear modulus by itself with an orientation
+along each strut.
 """
 
 from __future__ import annotations

@@ -7,6 +7,9 @@ the middle is taken to lie on the outside.
 
 Where the part is thinner than two skins it is solid: there the shells of both sides have half of
 its thickness each, and the material between them holds them together.
+
+Shells and not solids: a layer of solid elements thin enough to bend would have ten times the
+unknowns of all struts.
 """
 
 from __future__ import annotations

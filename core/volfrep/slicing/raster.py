@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Polygons to pixels: which pixels' middles they wind about."""
+"""Polygons to pixels: which pixels' middles they wind about.
+
+Only the places where the winding changes are sorted, so that a layer costs by its outlines and not
+by its pixels.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Where a plane of equal z cuts round struts and joint spheres: polygons of their own area."""
+"""Where a plane of equal z cuts round struts and joint spheres: polygons of their own area.
+
+At each place along its axis a cone has a disc, and a plane cuts a chord of it: place and length of
+the chord are closed forms.
+"""
 
 from __future__ import annotations
 

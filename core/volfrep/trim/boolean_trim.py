@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The lattice trimmed to its domain: groups of octants at the wall are cut, and joined again."""
+"""The lattice trimmed to its domain: groups of octants at the wall are cut, and joined again.
+
+The border is grown until no two of its octants touch along an edge or a corner only: their caps
+would share an edge between four triangles.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The trimming stage: octants culled, assembled, cut at the wall, cleared of loose pieces."""
+"""The trimming stage: octants culled, assembled, cut at the wall, cleared of loose pieces.
+
+Octants on moved struts reach out of their places. They are looked for within a margin that at least
+doubles from round to round, so that the search ends; what reaches farther than a joint's known
+surroundings is refused.
+"""
 
 from __future__ import annotations
 

@@ -5,6 +5,9 @@ Every triangle of the lattice and of the wall is given out by one group, which h
 touches it: a group's own octants are cut by all of the wall about them, and its own triangles of
 the wall by all octants that reach them, those of other groups too. So both sides of a seam have
 the same vertices, up to rounding.
+
+Triangles of the wall that reach into two groups are split, or one would draw a whole row of octants
+along.
 """
 
 from __future__ import annotations

@@ -1,5 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The results of the stages of a run, kept for the next one."""
+"""The results of the stages of a run, kept for the next one.
+
+A stage's key is the very inputs that its function is given: the function sees nothing else, so that
+a dependency cannot be forgotten in a list. A mesh counts by its fingerprint, an earlier stage by
+its own key, a part of the specification by its content.
+"""
 
 from __future__ import annotations
 

@@ -130,7 +130,7 @@ def test_a_wall_is_made_as_stiff_as_it_is_asked_for(monkeypatch):
     target = read_stiffness("0.05:111")
     spec = LatticeSpec("Schwarz P", 10.0, shell=0, target=target)
     found = stiffness.stiff_walls(spec, target)
-    # Another homogenisation, as exact as the table in docs/walls.md.
+    # Another homogenisation, as exact as the table in docs/tpms.md.
     wall = found.wall
     made = volfrep.properties("Schwarz P", 10.0, wall_thickness=wall.thickness, along=48)
     assert made.values["E111"] == pytest.approx(0.05, rel=0.02)

@@ -34,7 +34,7 @@ def test_forecasts_and_properties_of_walls_are_those_of_the_part(cube: str, tmp_
     row = only_row(study, tmp_path)
     assert row["state"] == "done"
     assert row["forecast.mass_g"] == pytest.approx(row["fill.mass_g"], rel=0.01)
-    # Of the endless wall, not of the two cells that the cube cuts: docs/walls.md has this one.
+    # Of the endless wall, not of the two cells that the cube cuts: docs/tpms.md has this one.
     assert row["properties.E100"] == pytest.approx(0.0434, rel=0.02)
     assert row["forecast.strut_radius_mm"] == pytest.approx(0.428)
 

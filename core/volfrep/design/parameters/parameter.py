@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What a parameter is: a row of the table, its kind and unit, and when it has an effect."""
+"""What a parameter is: a row of the table, its kind and unit, and when it has an effect.
+
+What a parameter needs is data (`Need`): one function decides what has no effect, which the command
+refuses and a document hides. A parameter without effect counts with its default for others.
+"""
 
 from __future__ import annotations
 

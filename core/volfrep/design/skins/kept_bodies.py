@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Bodies whose room in a part stays solid."""
+"""Bodies whose room in a part stays solid.
+
+They are taken off the cavity by an exact Boolean; cavities that are left too small for a
+lattice are filled.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""STEP, IGES and BREP, by way of FreeCAD in a process of its own."""
+"""STEP, IGES and BREP, by way of FreeCAD in a process of its own.
+
+It has an empty profile and opens no document, so that nothing in a file is executed. FreeCAD passes
+over what it cannot resolve, so `step_text` looks first. The macro is data to the engine.
+"""
 
 from __future__ import annotations
 

@@ -3,6 +3,9 @@
 
 Each kind of octant is prepared once, its facets with their normals; a copy of it in the file costs
 an addition. `write_stl` writes the same facets from a mesh, in another order.
+
+Vertices lie at whole steps of an octant's edge (`octants.octant.STEPS`) and are added exactly, so
+that octants which share a vertex write the same float32 without knowing of each other.
 """
 
 from __future__ import annotations

@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A quantity at points of a filled part: what its surface, or its struts, are coloured by."""
+"""A quantity at points of a filled part: what its surface, or its struts, are coloured by.
+
+Of the strut nearest to each point, whatever mesh there is: nothing needs to know how the mesh was
+made.
+"""
 
 from __future__ import annotations
 

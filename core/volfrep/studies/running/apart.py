@@ -2,6 +2,9 @@
 """Runs in a process of their own, which may be ended, or die, without harm to the study.
 
 The process is this Python's, and `served` is what it does.
+
+Children with a pipe and no `ProcessPoolExecutor`: one that dies takes one run with it and not the
+pool, one run can be ended for a limit, and a script needs no main guard.
 """
 
 from __future__ import annotations

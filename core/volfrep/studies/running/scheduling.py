@@ -3,6 +3,9 @@
 
 Runs that need no mesh go first; forecasts say how many runs fit side by side, and how long they
 take.
+
+Runs that share an offset surface or a cell lie in one batch. Each batch is half of a worker's share
+of what is left, down to single runs, so that no worker waits long for the last.
 """
 
 from __future__ import annotations

@@ -45,9 +45,6 @@ def sizing_report(
             where none was.
     """
     problem, final, density = model.problem, sized.analysis, loads.material.density
-    skin_volume = 0.0
-    if model.skin is not None:
-        skin_volume = float((model.skin.shells.area * model.skin.shells.thickness).sum())
     result: dict[str, Any] = {
         "material": loads.material.as_dict(),
         "struts": len(problem.structure.beams.struts),
@@ -56,7 +53,7 @@ def sizing_report(
         "bounds_mm": [float(problem.low.min()), float(problem.high.max())],
         "strut_volume_mm3": final.volume,
         "strut_mass_g": final.volume * density / 1000.0,
-        "skin_mass_g": skin_volume * density / 1000.0,
+        "skin_mass_g": model.skin_volume * density / 1000.0,
         "holds": sized.holds,
         "uses": final.uses,
         "cases": [_case(model, before, final, k) for k in range(len(problem.cases))],

@@ -27,6 +27,8 @@ _POWERS = {"stress": 2.6, "displacement": 3.0, "buckling": 4.0, "frequency": 1.0
 _POWERS["frame buckling"] = 4.0
 #: Powers of a stress ratio, a buckling ratio and a criterion by which a radius is changed.
 _STRESSED, _BUCKLED, _CRITERION = 0.35, 0.22, 0.3
+#: Criteria over a middle one are not looked at beyond these.
+_MERITS = 1e-4, 1e4
 #: What one factor does to a design is believed when it is nearer to 1 than this.
 _NEAR = 1.08
 #: Radii are the least that are allowed within this factor.
@@ -147,8 +149,9 @@ def stiffest(
         gain = np.maximum(-(changes.compliance @ weights), 0.0)
         cost = np.maximum(shape.volume_change(radii), 1e-9)
         merit = gain / cost
-        merit = np.maximum(merit / max(float(merit.max()), 1e-300), 1e-6)
-        wanted = np.clip(merit**_CRITERION, 1e-3, None)
+        # Over a middle one: nodes that lie outside the domain, or nearly so, cost next to nothing.
+        merit = np.clip(merit / max(float(np.median(merit)), 1e-300), *_MERITS)
+        wanted = merit**_CRITERION
         radii = _moved(problem, radii, problem.smoothed(radii * wanted) / radii, volume)
     assert best is not None
     return Sized(best, tuple(steps), stopped, True)

@@ -65,7 +65,7 @@ def sizing_report(
         "stopped": sized.stopped,
         "steps": [
             {"strut_volume_mm3": step.volume, "compliance": step.compliance, "uses": step.uses}
-            for step in sized.steps
+            for step in (*sized.steps, sized.last)
         ],
         "calculix": None if proof is None else dict(proof),
         "seconds": dict(seconds),
@@ -151,7 +151,7 @@ def sizing_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
         (
             "same mass",
             f"{min(same['stiffer']):.2f} times as stiff as one radius of {same['radius_mm']:.3g} "
-            f"mm, {same['less_stress']:.2f} times less stress",
+            f"mm, {_share_of_stress(same['less_stress'])}",
         )
     )
     if "same_limits" in report:
@@ -206,6 +206,13 @@ def _case(model: SizingModel, before: Analysis, final: Analysis, k: int) -> dict
             "frame_buckling_factor": _known(before.factors[k]),
         },
     }
+
+
+def _share_of_stress(less: float) -> str:
+    """The largest stress against that of one radius, whichever is larger."""
+    if less >= 1.0:
+        return f"largest stress {less:.2f} times lower"
+    return f"largest stress {1.0 / less:.2f} times higher"
 
 
 def _known(factor: float) -> float | None:

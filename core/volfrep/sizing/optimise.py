@@ -73,12 +73,21 @@ class Sized:
         steps: all on the way.
         stopped: why: ``converged``, ``steps`` or ``cancelled``.
         holds: whether it holds all limits.
+        weights: (k,) by which the steps' compliances are summed; None for all alike.
     """
 
     analysis: Analysis
     steps: tuple[Step, ...]
     stopped: str
     holds: bool
+    weights: Floats | None = None
+
+    @property
+    def last(self) -> Step:
+        """The design itself, as the end of the table of steps."""
+        final = self.analysis
+        weights = np.ones(len(final.compliance)) if self.weights is None else self.weights
+        return Step(final.volume, float(weights @ final.compliance), dict(final.uses), True)
 
 
 #: Told a step's number and the step; returns False to stop, and the best so far is kept.
@@ -154,7 +163,7 @@ def stiffest(
         wanted = merit**_CRITERION
         radii = _moved(problem, radii, problem.smoothed(radii * wanted) / radii, volume)
     assert best is not None
-    return Sized(best, tuple(steps), stopped, True)
+    return Sized(best, tuple(steps), stopped, True, weights)
 
 
 def _moved(problem: Problem, radii: Floats, wanted: Floats, volume: float) -> Floats:
@@ -313,9 +322,9 @@ def _lighter(problem: Problem, found: Analysis, changes: Changes, limits: Limits
         np.maximum.at(needed, entries.col[part], felt.ravel()[entries.row[part]])
         low = np.clip(radii * needed, low, high)
     shared, uses = [], []
-    if changes.displacement is not None and limits.displacement is not None:
+    if changes.displacement is not None and changes.displacement_uses is not None:
         shared.append(changes.displacement)
-        uses.append(found.largest / limits.displacement)
+        uses.append(changes.displacement_uses)
     if changes.frequency is not None:
         shared.append(changes.frequency[:, None])
         uses.append(np.array([found.uses["frequency"]]))

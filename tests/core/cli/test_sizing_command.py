@@ -198,6 +198,9 @@ def test_the_steps_are_drawn(part: Path, tmp_path: Path) -> None:
     lines = [node.get("points", "").split() for node in root.iter(f"{SVG}polyline")]
     steps = json.loads(report.read_text())["sizing"]["steps"]
     assert [len(line) for line in lines] == [len(steps)] * 3
+    figures = json.loads(report.read_text())["sizing"]
+    assert steps[-1]["strut_volume_mm3"] == figures["strut_volume_mm3"]
+    assert steps[-1]["uses"] == figures["uses"]
     told = [node.text for node in root.iter(f"{SVG}text")]
     assert {"mass of the struts, g", "use of stress, %", "use of displacement, %"} <= set(told)
     heights = np.array([float(point.split(",")[1]) for point in lines[0]])
@@ -229,6 +232,35 @@ def test_ctrl_c_keeps_the_best_design_so_far(
     assert len(told) == 3 or len(told) == 4
     assert json.loads(report.read_text())["sizing"]["stopped"] == "cancelled"
     assert part.with_name("out.stl").exists()
+
+
+@pytest.mark.parametrize(
+    ("held", "says"),
+    [
+        ("x = 0", "sliding across x and turning about x through ("),
+        ("x = 0\nz = 0", "sliding along y in case 'pull'"),
+        ("fixed = true", ""),
+    ],
+)
+def test_a_part_that_may_slide_is_told(
+    part: Path, capsys: pytest.CaptureFixture[str], held: str, says: str
+) -> None:
+    """Pulled along x only: where that is solved, or refused because a pivot is 0, it is named."""
+    case = (
+        LOADS.split("[[case]]")[0].replace("fixed = true", held)
+        + """
+[[case]]
+name = "pull"
+[[case.load]]
+plane = { point = [40, 0, 0], normal = [1, 0, 0] }
+force = [100, 0, 0]
+"""
+    )
+    part.with_name("loads.toml").write_text(case, encoding="utf-8")
+    assert size(part, *WHOLE, "--steps", "1", "--no-proof") in ((0, 2) if says else (0,))
+    said = capsys.readouterr().err
+    assert says in said
+    assert ("Nothing keeps the part from" in said) == bool(says)
 
 
 def test_limits_that_cannot_be_held_are_told(

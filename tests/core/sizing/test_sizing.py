@@ -144,7 +144,8 @@ def test_derivatives_are_those_of_differences():
     assert changes.compliance[23] == pytest.approx(
         (high.compliance - low.compliance) / 2e-4, rel=1e-4
     )
-    worst = int(np.argmax(found.largest))
+    worst = int(np.argmax(changes.displacement_uses))
+    assert changes.displacement_uses[worst] == pytest.approx(found.uses["displacement"])
     assert changes.displacement[23, worst] == pytest.approx(
         (high.uses["displacement"] - low.uses["displacement"]) / 2e-4, rel=1e-3
     )
@@ -183,6 +184,21 @@ def test_the_lightest_design_holds_its_limits_and_saves_mass():
     assert one.most_used <= HOLDS
     assert one.volume == pytest.approx(even.volume, rel=0.01)
     assert made.analysis.volume < 0.8 * one.volume
+
+
+def test_nodes_that_move_alike_are_all_held():
+    """A block pulled along: its whole end moves by the limit, and one radius is far from least."""
+    problem, radii = cantilever("BCC", (4, 3, 3), radius=1.0)
+    nodes, case = problem.structure.nodes, problem.cases[0]
+    tip = nodes[:, 0] > nodes[:, 0].max() - 1e-6
+    loads = np.zeros_like(case.loads)
+    loads[tip, 0] = 2000.0 / tip.sum()
+    problem = replace(problem, cases=(replace(case, loads=loads),))
+    even, _ = analysed(problem, radii, Limits(displacement=1.0))
+    made = lightest(problem, Limits(displacement=even.uses["displacement"]), radii)
+    assert made.holds
+    assert made.stopped == "converged"
+    assert made.analysis.volume < 0.9 * even.volume
 
 
 def test_a_frequency_is_reached_with_less_mass():

@@ -325,6 +325,7 @@ def size_struts(
             keeps_best=True,
         ),
     )
+    steps.append(_row(len(steps), part.sized.last, density))
     states = part.states
     return Outcome(part, states, density, tuple(steps))
 

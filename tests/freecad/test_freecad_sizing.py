@@ -94,7 +94,7 @@ def test_struts_are_sized_stored_and_stay_within_their_limits(infill):
         infill, analyses, wish(displacement=0.3, buckling=1.0, prove=True), steps.append
     )
     assert outcome.holds
-    assert len(steps) == len(outcome.steps) > 3
+    assert len(steps) + 1 == len(outcome.steps) > 3
     stress = max(state.stress.max() for state in outcome.states)
     moved = max(state.displacement.max() for state in outcome.states)
     assert stress <= 1.01 * 903 / 2

@@ -45,6 +45,7 @@ from ..util.cache import Kept, StageCache
 from ..util.content import content_of
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor, ProgressCallback
+from ..util.types import Bools
 from . import octant_guard as guard
 from .active_cells import ActiveCells, activated, roles_of
 from .finer import until_sound
@@ -270,6 +271,11 @@ class Infill:
         is_cut = self.placement.is_cut
         wall = self.cavity if is_cut else None
         return axes_of(self.struts, wall, self._held(is_cut=is_cut), self.domain.openings)
+
+    @property
+    def staying(self) -> Bools:
+        """(m,) which of the struts the part has: those that hang on something."""
+        return self._held(is_cut=self.placement.is_cut).whole(self.struts)
 
     @property
     def warnings(self) -> tuple[str, ...]:

@@ -49,9 +49,6 @@ def sizing_report(
             where none was.
     """
     problem, final, density = model.problem, sized.analysis, loads.material.density
-    skin_volume = 0.0
-    if model.skin is not None:
-        skin_volume = float((model.skin.shells.area * model.skin.shells.thickness).sum())
     result: dict[str, Any] = {
         "material": loads.material.as_dict(),
         "struts": len(problem.structure.beams.struts),
@@ -60,7 +57,7 @@ def sizing_report(
         "bounds_mm": [float(problem.low.min()), float(problem.high.max())],
         "strut_volume_mm3": final.volume,
         "strut_mass_g": final.volume * density / 1000.0,
-        "skin_mass_g": skin_volume * density / 1000.0,
+        "skin_mass_g": model.skin_volume * density / 1000.0,
         "holds": sized.holds,
         "uses": final.uses,
         "cases": [_case(model, before, final, k) for k in range(len(problem.cases))],
@@ -75,7 +72,7 @@ def sizing_report(
         "stopped": sized.stopped,
         "steps": [
             {"strut_volume_mm3": step.volume, "compliance": step.compliance, "uses": step.uses}
-            for step in sized.steps
+            for step in (*sized.steps, sized.last)
         ],
         "calculix": None if proof is None else dict(proof),
         "seconds": {**seconds, "total": sum(seconds.values())},
@@ -170,7 +167,7 @@ def sizing_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
             "same mass",
             f"{min(same['stiffer_at_least']):.2f} to {min(same['stiffer']):.2f} times as stiff as "
             f"one radius of {same['radius_mm']:.3g} mm (beams say the most, solids may say the "
-            f"least), {same['less_stress']:.2f} times less stress",
+            f"least), {_share_of_stress(same['less_stress'])}",
         )
     )
     if "same_limits" in report:
@@ -225,6 +222,13 @@ def _case(model: SizingModel, before: Analysis, final: Analysis, k: int) -> dict
             "frame_buckling_factor": _known(before.factors[k]),
         },
     }
+
+
+def _share_of_stress(less: float) -> str:
+    """The largest stress against that of one radius, whichever is larger."""
+    if less >= 1.0:
+        return f"largest stress {less:.2f} times lower"
+    return f"largest stress {1.0 / less:.2f} times higher"
 
 
 def _known(factor: float) -> float | None:

@@ -9,12 +9,15 @@ import numpy as np
 from scipy.sparse import csr_matrix
 
 from ..util.errors import VolfrepError
-from ..util.types import Bools, Floats
+from ..util.types import Bools, Floats, Ints
 from .node_radii import NodeRadii
 from .structure import Case, Structure
 from .strut_results import buckling_loads, columns_of, stresses
 from .tapered_beams import energies
 
+#: Nodes that move more than this share of the farthest are looked at where derivatives are asked
+#: for, so many of each case at most, no two nearer to each other than this share of the size.
+_FAR, _MOVED, _ASIDE = 0.9, 12, 0.02
 #: Of each case so many of the lowest load factors are looked at where derivatives are asked for:
 #: what makes one larger must not make another one smaller.
 _MODES = 4
@@ -129,8 +132,9 @@ class Changes:
 
     Attributes:
         compliance: (n, k) of each case's.
-        displacement: (n, k) of each case's largest watched displacement, over the limit; None
-            without one.
+        displacement: (n, c) of the watched displacements over the limit that are near each case's
+            largest; None without one.
+        displacement_uses: (c,) what they are.
         frequency: (n,) of the limit over the lowest frequency; None without one.
         frame_buckling: (n, c) of the limit over the lowest load factors of each case; None without.
         frame_uses: (c,) what it is over them.
@@ -141,6 +145,7 @@ class Changes:
     frequency: Floats | None
     frame_buckling: Floats | None = None
     frame_uses: Floats | None = None
+    displacement_uses: Floats | None = None
 
 
 def analysed(
@@ -234,16 +239,27 @@ def analysed(
                 result[:, k] = _mass_change(problem, of_struts, other[:, :, k], pull)
         return result
 
-    of_displacement = of_frequency = None
+    of_displacement = of_frequency = moved_uses = None
     if limits.displacement is not None:
-        way = np.zeros((len(moved), 6, len(factors)))
-        every = np.arange(len(factors))
-        far = np.argmax(size, axis=0)
-        way[far, :3, every] = moved[far, :3, every] / np.maximum(size[far, every], 1e-300)[:, None]
-        back = structure.answers(factors, way)
+        columns_at, far = [], []
+        for k in range(len(factors)):
+            for node in _far(size[:, k], structure.nodes):
+                columns_at.append(k)
+                far.append(int(node))
+        at, every = np.array(columns_at), np.arange(len(far))
+        way = np.zeros((len(moved), 6, len(far)))
+        reach = np.maximum(size[far, at], 1e-300)
+        way[far, :3, every] = moved[far, :3, at] / reach[:, None]
+        back = structure.answers([factors[k] for k in at], way)
         virtual = structure.forces(of_struts, back)
-        of_displacement = change(virtual, forces) + heavier(back)
+        of_displacement = change(virtual, forces[:, :, at])
+        for row, k in enumerate(columns_at):
+            pull = np.zeros(moved.shape[:2])
+            pull[:, :3] = problem.cases[k].acceleration
+            if pull.any():
+                of_displacement[:, row] += _mass_change(problem, of_struts, back[:, :, row], pull)
         of_displacement = of_displacement / limits.displacement
+        moved_uses = size[far, at] / limits.displacement
     if limits.frequency is not None and mode is not None:
         strained = structure.forces(of_struts, mode)
         rate = (2.0 * np.pi * frequency) ** 2
@@ -275,8 +291,27 @@ def analysed(
     return analysis, Changes(
         of_compliance, of_displacement, of_frequency,
         np.stack(of_frame, axis=1) if of_frame else None,
-        np.concatenate(frame_uses) if of_frame else None,
+        np.concatenate(frame_uses) if of_frame else None, moved_uses,
     )  # fmt: skip
+
+
+def _far(size: Floats, nodes: Floats) -> Ints:
+    """The nodes that move farthest, and those that move nearly as far and lie elsewhere.
+
+    Each is given a price of its own: of nodes that move alike, one whose price alone is looked at
+    would be held while the others go farther.
+    """
+    most = float(size.max())
+    order = np.argsort(-size, kind="stable")
+    order = order[size[order] >= _FAR * most]
+    apart = _ASIDE * float(np.linalg.norm(np.ptp(nodes, axis=0)))
+    kept: list[int] = []
+    for node in order.tolist():
+        if len(kept) == _MOVED:
+            break
+        if not kept or np.linalg.norm(nodes[kept] - nodes[node], axis=1).min() > apart:
+            kept.append(node)
+    return np.array(kept, np.int64)
 
 
 def _columns_change(problem: Problem, of_struts: Floats, forces: Floats, mode: Floats) -> Floats:

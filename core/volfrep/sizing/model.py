@@ -14,7 +14,7 @@ from scipy.spatial import cKDTree
 
 from ..design.cells import UnitCell
 from ..fem.beam_mesh import ends_law
-from ..grid.strut_graph import Wireframe
+from ..grid.strut_graph import Graph, Wireframe
 from ..loads.load_cases import LoadCase
 from ..loads.nodal_loads import ROUNDING, Body, nodal_case
 from ..loads.regions import AnyOf, Region, simple_regions
@@ -27,10 +27,11 @@ from ..trim.clip_struts import Clipped
 from ..util.errors import VolfrepError
 from ..util.types import Bools, Floats, Ints
 from .analysis import Problem
-from .node_radii import NodeRadii, joint_overlap, largest_radii
+from .node_radii import NodeRadii, largest_radii
 from .skin import NO_FEET, Feet, SkinModel, ties_to
 from .structure import NO_TIES, Case, Structure
 from .tapered_beams import Elastic, beams_of, end_table
+from .union_volume import union_volume
 
 #: Struts that graze the skin are not longer in it than at this cosine to its normal.
 _STEEPEST = 0.3
@@ -49,6 +50,7 @@ class SizingModel:
         struts: (m,) which strut of the wireframe each piece is a part of.
         skin: its shells; None for none. Its nodes follow those of the struts' pieces.
         on_wall: (n,) bool, of the pieces' nodes, those that the skin holds.
+        skin_volume: mm3, of the part outside its domain; 0 without a skin.
     """
 
     problem: Problem
@@ -56,6 +58,7 @@ class SizingModel:
     struts: Ints
     skin: SkinModel | None
     on_wall: Bools
+    skin_volume: float = 0.0
 
     @property
     def frame_nodes(self) -> int:
@@ -123,6 +126,8 @@ def sizing_model(
     borne: float = 0.0,
     skin: SkinModel | None = None,
     solid: TriangleMesh | None = None,
+    domain: TriangleMesh | None = None,
+    stays: Bools | None = None,
 ) -> SizingModel:
     """Struts, skin and loads as one structure.
 
@@ -138,6 +143,8 @@ def sizing_model(
         borne: a radius that nodes bear even there, because struts that overlap are united, mm.
         skin: its shells; None for a bare lattice.
         solid: the part, on which regions are looked up; needed with a skin.
+        domain: closed mesh, outside of which struts have no volume; None where nothing cuts them.
+        stays: (k,) bool, which struts of the wireframe the part has at all; None for all.
 
     Raises:
         VolfrepError: nothing of the part lies where a load acts, or no strut hangs together.
@@ -163,26 +170,16 @@ def sizing_model(
             f"nearest to each other no more than {largest.min():.4g} mm fits: allow thinner "
             "struts, or make the cells larger."
         )
-    span = frame.nodes[struts[:, 1]] - frame.nodes[struts[:, 0]]
-    length = np.linalg.norm(span, axis=1)
-    whole = np.zeros(count)
     inside = np.zeros(len(frame.nodes), bool)
     inside[struts.ravel()] = True
-    # Nodes of the pieces that are the wireframe's own have joints that are counted twice.
-    own = np.full(len(frame.nodes), -1, np.int64)
-    for side, uncut, node in ((0, low == 0.0, first), (1, high == 1.0, second)):
-        own[struts[uncut, side]] = node[uncut]
-    overlap = joint_overlap(frame.nodes, struts, 1.0 + 0.5 * (least + most) / cell_size)
-    at = own >= 0
-    whole[own[at]] = overlap[at]
-    shape = NodeRadii(ends, length, whole)
+    made = Graph(wireframe.nodes, wireframe.struts if stays is None else wireframe.struts[stays])
+    filled = union_volume(made, cell_size, np.full(count, least), largest, domain)
+    shape = NodeRadii(ends, filled)
 
     alone = np.bincount(struts.ravel(), minlength=len(frame.nodes)) == 1
-    held = skin is not None and clipped.on_wall
     on_wall = np.asarray(
         clipped.on_wall & inside if skin is not None else np.zeros(len(inside), bool)
     )
-    del held
     stuff = elastic(material)
     table = end_table(ends_law(cell, cell_size, "square"), least, float(largest.max()))
     joined = ~(clipped.on_wall & alone)[struts]
@@ -227,7 +224,10 @@ def sizing_model(
         x, y, z = nodal.acceleration.tolist()
         laid.append(Case(fixed, loads, moved if moved.any() else None, (x, y, z), nodal.name))
     problem = Problem(structure, tuple(laid), shape, np.full(count, least), largest, there)
-    return SizingModel(problem, wireframe, owner, skin, on_wall)
+    skin_volume = 0.0
+    if skin is not None and solid is not None and domain is not None:
+        skin_volume = solid.volume - domain.volume
+    return SizingModel(problem, wireframe, owner, skin, on_wall, skin_volume)
 
 
 def _hanging_together(frame: Wireframe, on_wall: Bools | None) -> Bools:

@@ -13,15 +13,13 @@ import numpy as np
 from scipy import sparse
 
 from ..lattice.strut_binding import LEAST_ROOM
-from ..spatial.even_points import even_points
 from ..util.types import Floats, Ints
+from .union_volume import UnionVolume
 
-#: Points (a power of 2) in the cube about a joint by which its struts' overlap is found, and how
-#: far that is looked at, in radii.
-_POINTS_LOG2 = 12
-_FARTHEST = 6.0
 #: Of the radius at which the mesh of struts would have no room between their joints.
 _SAFE = 0.9
+#: A volume is made by one factor for all radii to this part of it, in so many steps at most.
+_MADE, _SCALINGS = 1e-8, 60
 #: Directions of struts that differ by less are the same.
 _SAME = 1e-4
 _ODD = np.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9], np.uint64)
@@ -34,30 +32,23 @@ class NodeRadii:
     Attributes:
         ends: (2 m, n) sparse: the radius at each strut's first and second end of those at nodes.
             A strut that was cut has an end between two nodes.
-        length: (m,) mm, of the struts.
-        overlap: (n,) what the struts at a node count twice, in units of its radius cubed.
+        filled: what the whole struts and their joints fill.
     """
 
     ends: sparse.csr_matrix
-    length: Floats
-    overlap: Floats
+    filled: UnionVolume
 
     def of_struts(self, radii: Floats) -> Floats:
         """(m, 2) mm, of (n,) at nodes."""
         return np.asarray(self.ends @ radii).reshape(-1, 2)
 
     def volume(self, radii: Floats) -> float:
-        """mm3, of all struts together, joints counted once."""
-        first, second = self.of_struts(radii).T
-        cones = np.pi / 3.0 * self.length * (first**2 + first * second + second**2)
-        return float(cones.sum() - self.overlap @ radii**3)
+        """mm3, of all struts and joints together, what overlaps counted once."""
+        return self.filled.at(radii)
 
     def volume_change(self, radii: Floats) -> Floats:
         """(n,) mm2, derivative of the volume to each radius."""
-        first, second = self.of_struts(radii).T
-        cones = np.stack([2.0 * first + second, first + 2.0 * second], axis=1)
-        cones *= (np.pi / 3.0 * self.length)[:, None]
-        return self.to_nodes(cones) - 3.0 * self.overlap * radii**2
+        return self.filled.change(radii)
 
     def to_nodes(self, changes: Floats) -> Floats:
         """(n,) derivatives to nodes' radii, of (m, 2) to those of struts' ends."""
@@ -65,14 +56,35 @@ class NodeRadii:
 
     def scaled_to(self, radii: Floats, volume: float, low: Floats, high: Floats) -> Floats:
         """The radii times one factor, within bounds, so that they make a volume (or come near)."""
-        small, large = 1e-3, 1e3
-        for _ in range(60):
-            middle = np.sqrt(small * large)
-            if self.volume(np.clip(radii * middle, low, high)) > volume:
-                large = middle
+
+        def beyond(log: float) -> float:
+            made = self.volume(np.clip(radii * np.exp(log), low, high))
+            return float(np.log(max(made, 1e-300) / volume))
+
+        # From one side to the other in growing steps, then between the two (the Illinois method).
+        least, most = float(np.log((low / radii).min())), float(np.log((high / radii).max()))
+        one = float(np.clip(0.0, least, most))
+        off_one = beyond(one)
+        step = -0.5 * off_one
+        two, off_two = one, off_one
+        for _ in range(_SCALINGS):
+            if abs(off_two) <= _MADE:
+                break
+            if off_one * off_two > 0.0:
+                one, off_one = two, off_two
+                two = float(np.clip(one + step, least, most))
+                if two == one:  # nothing thicker, or thinner, is allowed
+                    break
+                off_two, step = beyond(two), 2.0 * step
+                continue
+            between = two - off_two * (two - one) / (off_two - off_one)
+            off = beyond(between)
+            if off * off_two < 0.0:
+                one, off_one = two, off_two
             else:
-                small = middle
-        return np.clip(radii * small, low, high)
+                off_one *= 0.5
+            two, off_two = between, off
+        return np.asarray(np.clip(radii * np.exp(two), low, high))
 
 
 def whole_struts(struts: Ints, count: int) -> sparse.csr_matrix:
@@ -80,40 +92,6 @@ def whole_struts(struts: Ints, count: int) -> sparse.csr_matrix:
     entries = struts.ravel()
     shape = (len(entries), count)
     return sparse.csr_matrix((np.ones(len(entries)), (np.arange(len(entries)), entries)), shape)
-
-
-def joint_overlap(nodes: Floats, struts: Ints, sphere: float) -> Floats:
-    """(n,) volume that the struts at each node have in common, over its radius cubed.
-
-    Of straight half cylinders of radius 1 that begin at the node, and the joint's sphere, by
-    Sobol points: what they measure one by one, less what they measure together.
-
-    Args:
-        nodes: (n, 3) mm.
-        struts: (m, 2) rows of `nodes`.
-        sphere: radius of the joint's sphere over the struts'.
-    """
-    stars, of_node = _stars(nodes, struts)
-    cube = even_points(3, _POINTS_LOG2) * 2.0 - 1.0
-    ball = cube[np.linalg.norm(cube, axis=1) <= 1.0]
-    values = np.zeros(len(stars))
-    for k, ways in enumerate(stars):
-        if not len(ways):
-            continue
-        reach = 1.5
-        if len(ways) > 1:
-            cosine = np.clip(np.sort(ways @ ways.T - 3.0 * np.eye(len(ways)), axis=1)[:, -1], -1, 1)
-            half = 0.5 * np.arccos(cosine.max())
-            reach = min(max(1.05 / np.sin(half), reach), _FARTHEST)
-        points = reach * ball
-        along = points @ ways.T
-        square = (points**2).sum(axis=1)
-        inside = (along > 0.0) & (square[:, None] - along**2 < 1.0)
-        count = inside.sum(axis=1)
-        together = (count > 0) | (square < sphere**2)
-        share = (count.sum() - together.sum()) / len(ball)
-        values[k] = share * 4.0 / 3.0 * np.pi * reach**3
-    return np.asarray(values[of_node])
 
 
 def largest_radii(nodes: Floats, struts: Ints, most: float) -> Floats:

@@ -27,6 +27,8 @@ _POWERS = {"stress": 2.6, "displacement": 3.0, "buckling": 4.0, "frequency": 1.0
 _POWERS["frame buckling"] = 4.0
 #: Powers of a stress ratio, a buckling ratio and a criterion by which a radius is changed.
 _STRESSED, _BUCKLED, _CRITERION = 0.35, 0.22, 0.3
+#: Criteria over a middle one are not looked at beyond these.
+_MERITS = 1e-4, 1e4
 #: What one factor does to a design is believed when it is nearer to 1 than this.
 _NEAR = 1.08
 #: Radii are the least that are allowed within this factor.
@@ -71,12 +73,21 @@ class Sized:
         steps: all on the way.
         stopped: why: ``converged``, ``steps`` or ``cancelled``.
         holds: whether it holds all limits.
+        weights: (k,) by which the steps' compliances are summed; None for all alike.
     """
 
     analysis: Analysis
     steps: tuple[Step, ...]
     stopped: str
     holds: bool
+    weights: Floats | None = None
+
+    @property
+    def last(self) -> Step:
+        """The design itself, as the end of the table of steps."""
+        final = self.analysis
+        weights = np.ones(len(final.compliance)) if self.weights is None else self.weights
+        return Step(final.volume, float(weights @ final.compliance), dict(final.uses), True)
 
 
 #: Told a step's number and the step; returns False to stop, and the best so far is kept.
@@ -147,11 +158,12 @@ def stiffest(
         gain = np.maximum(-(changes.compliance @ weights), 0.0)
         cost = np.maximum(shape.volume_change(radii), 1e-9)
         merit = gain / cost
-        merit = np.maximum(merit / max(float(merit.max()), 1e-300), 1e-6)
-        wanted = np.clip(merit**_CRITERION, 1e-3, None)
+        # Over a middle one: nodes that lie outside the domain, or nearly so, cost next to nothing.
+        merit = np.clip(merit / max(float(np.median(merit)), 1e-300), *_MERITS)
+        wanted = merit**_CRITERION
         radii = _moved(problem, radii, problem.smoothed(radii * wanted) / radii, volume)
     assert best is not None
-    return Sized(best, tuple(steps), stopped, True)
+    return Sized(best, tuple(steps), stopped, True, weights)
 
 
 def _moved(problem: Problem, radii: Floats, wanted: Floats, volume: float) -> Floats:
@@ -310,9 +322,9 @@ def _lighter(problem: Problem, found: Analysis, changes: Changes, limits: Limits
         np.maximum.at(needed, entries.col[part], felt.ravel()[entries.row[part]])
         low = np.clip(radii * needed, low, high)
     shared, uses = [], []
-    if changes.displacement is not None and limits.displacement is not None:
+    if changes.displacement is not None and changes.displacement_uses is not None:
         shared.append(changes.displacement)
-        uses.append(found.largest / limits.displacement)
+        uses.append(changes.displacement_uses)
     if changes.frequency is not None:
         shared.append(changes.frequency[:, None])
         uses.append(np.array([found.uses["frequency"]]))

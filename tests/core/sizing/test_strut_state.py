@@ -4,11 +4,13 @@
 import numpy as np
 import pytest
 
+from volfrep.grid.strut_graph import Graph
 from volfrep.sizing.analysis import Limits, Problem, analysed
 from volfrep.sizing.node_radii import NodeRadii, whole_struts
 from volfrep.sizing.structure import Case, Structure
 from volfrep.sizing.strut_state import drawn_factor, strut_states, value_range
 from volfrep.sizing.tapered_beams import Elastic, beams_of
+from volfrep.sizing.union_volume import union_volume
 
 YOUNG, LENGTH, RADIUS = 2000.0, 100.0, 2.0
 AREA, INERTIA = np.pi * RADIUS**2, 0.25 * np.pi * RADIUS**4
@@ -26,8 +28,9 @@ def states():
     cases = tuple(
         Case(held, load, name=name) for name, load in zip(("push", "bend"), loads, strict=True)
     )
-    radii = NodeRadii(whole_struts(struts, 3), np.full(2, 0.5 * LENGTH), np.zeros(3))
     low = np.full(3, 0.1)
+    filled = union_volume(Graph(nodes, struts), LENGTH, low, 100 * low)
+    radii = NodeRadii(whole_struts(struts, 3), filled)
     structure = Structure(nodes, beams_of(nodes, struts, Elastic(YOUNG)))
     problem = Problem(structure, cases, radii, low, 100 * low, np.ones(3, bool))
     return strut_states(problem, analysed(problem, np.full(3, RADIUS), Limits())[0])

@@ -19,6 +19,8 @@ from ..infill import Infill
 #: fill, of the struts that are shorter than wide, and of the skin on walls thinner than two skins.
 DENSE, SHORT, THIN_WALLS = 0.5, 0.25, 0.05
 
+#: A motion as one body that supports resist by less than this part of another is free.
+_FREE = 1e-9
 #: What may help where a limit cannot be held.
 _REMEDIES = {
     "stress": "a thicker skin there, a load or support on a larger area, or a lower safety",
@@ -40,6 +42,65 @@ def not_held(problem: Problem, analysis: Analysis) -> str:
         f"that were allowed, {used}. What may help: thicker struts, where --thickest limits them; "
         f"larger cells, which bear thicker ones; {_REMEDIES[worst]}."
     )
+
+
+def free_motions(problem: Problem) -> list[str]:
+    """A sentence for each load case whose supports let the whole part slide or turn.
+
+    Where its loads do not push it that way it can be solved, and nothing else would tell.
+    """
+    nodes, notes = problem.structure.nodes, []
+    middle = nodes.mean(axis=0)
+    size = float(np.linalg.norm(np.ptp(nodes, axis=0)))
+    for case in problem.cases:
+        node, way = np.nonzero(case.held)
+        # What the part's six motions as one body do to what is held: slides along x, y, z, turns
+        # about them by 1 / size.
+        turns = np.zeros((len(node), 6, 3))
+        arm = nodes[node] - middle
+        for k, axis in enumerate(np.eye(3)):
+            turns[:, :3, k] = np.cross(axis, arm) / size
+            turns[:, 3 + k, k] = 1.0
+        motions = np.concatenate([np.eye(6)[way, :3], turns[np.arange(len(node)), way]], axis=1)
+        _, values, directions = np.linalg.svd(motions.T @ motions)
+        free = directions[values < _FREE * max(float(values[0]), 1e-300)]
+        if len(free):
+            notes.append(
+                f"Nothing keeps the part from {_motion(free, middle, size)} in case '{case.name}', "
+                "whether its loads push it there or not: hold it that way, too."
+            )
+    return notes
+
+
+def _motion(free: Floats, middle: Floats, size: float) -> str:
+    """Motions of a body (f, 6) in words: slides first, which are those without turns."""
+    _, values, combined = np.linalg.svd(free[:, 3:].T)
+    turning = int((values > 1e-6).sum())
+    slides = combined[turning:] @ free[:, :3]
+    said = []
+    if len(slides) == 3:
+        said.append("sliding in any direction")
+    elif len(slides) == 2:
+        said.append(f"sliding across {_direction(np.cross(*slides))}")
+    elif len(slides) == 1:
+        said.append(f"sliding along {_direction(slides[0])}")
+    for motion in combined[:turning] @ free:
+        axis = motion[3:] / np.linalg.norm(motion[3:])
+        # The point of the axis nearest to the middle.
+        through = middle + np.cross(axis, motion[:3]) * size / np.linalg.norm(motion[3:])
+        x, y, z = (through + 0.0).round(6).tolist()
+        said.append(f"turning about {_direction(axis)} through ({x:.4g}, {y:.4g}, {z:.4g})")
+    return " and ".join(said)
+
+
+def _direction(way: Floats) -> str:
+    """An axis by its name, or a direction."""
+    way = way / np.linalg.norm(way)
+    for k, name in enumerate("xyz"):
+        if abs(way[k]) > 1.0 - 1e-9:
+            return name
+    x, y, z = (way * np.sign(way[np.argmax(np.abs(way))])).tolist()
+    return f"({x:.3g}, {y:.3g}, {z:.3g})"
 
 
 def left_out(spec: LatticeSpec) -> list[str]:

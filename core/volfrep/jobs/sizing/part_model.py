@@ -105,6 +105,7 @@ def part_model(
     model = sizing_model(
         wireframe, clipped, spec.fitted_cell, length, material, loads.cases,
         bounds=(least, most), borne=borne, skin=skin, solid=infill.solid,
+        domain=infill.domain.mesh if infill.placement.is_cut else None, stays=infill.staying,
     )  # fmt: skip
     if goal.smooth:
         smoother = smoothing(wireframe.struts.astype(np.int64), len(wireframe.nodes), goal.smooth)

@@ -5,7 +5,8 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -31,6 +32,7 @@ from ..networks.frame import fixed_graph
 from ..targets import aimed, infill_of
 from .goal import Goal
 from .notes import (
+    free_motions,
     hardly_beams,
     left_out,
     not_confirmed,
@@ -143,8 +145,11 @@ def size(
 
     taken: Thinned | None = None
     with monitor.stage("sizing", 0.4, 0.95):
-        sized = whole = _designed(problem, goal, first, most_steps, told)
-        even = uniform(problem, goal.limits) if goal.limits.any else None
+        with _named(problem):
+            sized = whole = _designed(problem, goal, first, most_steps, told)
+            even = uniform(problem, goal.limits) if goal.limits.any else None
+        if even is not None:
+            sized = whole = _no_worse(sized, even)
         if goal.remove_thin and sized.stopped != "cancelled":
             taken, sized = _without_thin(
                 infill, loads, goal, model, sized, first, most_steps, told, cache, notes
@@ -155,10 +160,12 @@ def size(
     if not sized.holds:
         notes.append(not_held(problem, sized.analysis))
     notes += stressed_skin(model, sized.analysis, goal.limits)
+    notes += free_motions(model.problem)
     notes += left_out(spec) + stiff_skin(model, goal.limits)
     if sized.stopped == "cancelled":
         notes.append("The search was cancelled: this is the best design so far.")
-    final = _stored(problem, sized.analysis.radii, goal.limits)
+    with _named(problem):
+        final = _stored(problem, sized.analysis.radii, goal.limits)
 
     def solve_again(design: Analysis) -> Proved | None:
         cell, length = spec.fitted_cell, spacing(infill)
@@ -202,7 +209,8 @@ def size(
         np.full(len(first), float(first.mean())),
         final.volume, np.full(len(first), 1e-3 * float(first.min())), full.high,
     )  # fmt: skip
-    before, _ = analysed(full, same, goal.limits)
+    with _named(full):
+        before, _ = analysed(full, same, goal.limits)
     seconds["sizing"] = time.perf_counter() - start
     if taken is not None:
         spec, radii = taken.spec, taken.of_all(radii)
@@ -310,6 +318,28 @@ def _designed(problem: Problem, goal: Goal, first: Floats, most_steps: int, watc
             "each."
         )
     return stiffest(problem, volume, first, weights=weights, most_steps=most_steps, watch=watch)
+
+
+@contextmanager
+def _named(problem: Problem) -> Iterator[None]:
+    """Adds to a refusal which way the supports let the part go, if any."""
+    try:
+        yield
+    except Cancelled:
+        raise
+    except VolfrepError as error:
+        free = free_motions(problem)
+        if not free:
+            raise
+        raise VolfrepError(" ".join([str(error), *free])) from error
+
+
+def _no_worse(sized: Sized, even: tuple[Analysis, bool]) -> Sized:
+    """The design, or one radius for all where that holds the limits with less."""
+    one, holds = even
+    if holds and (not sized.holds or one.volume < sized.analysis.volume):
+        return replace(sized, analysis=one, holds=True)
+    return sized
 
 
 def _without_thin(

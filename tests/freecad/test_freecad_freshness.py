@@ -5,8 +5,8 @@ import json
 
 import FreeCAD as App
 import pytest
-from conftest import SMALL
 
+from conftest import SMALL
 from freecad_volfrep import make_lattice_infill
 from freecad_volfrep.features.freshness import (
     _earlier_fingerprint,

@@ -14,7 +14,7 @@ import pytest
 
 from volfrep import LatticeSpec
 from volfrep.design import cells, expression, grading, openings, scattered_field, spec, target
-from volfrep.design.cells import LIBRARY, UnitCell
+from volfrep.design.cells import UnitCell
 from volfrep.design.grading import CellMap, Orientation, RadiusGrading, SizeGrading
 from volfrep.design.networks import CellNetwork, GivenNetwork, RandomNetwork, wanted
 from volfrep.design.openings import DrainHoles, DrainPlace, OpenPatch, OpenPlane, SmoothFace

@@ -19,6 +19,7 @@ from .progress import job_title, run_job
 from .properties import (
     ensure_properties,
     is_spoiled,
+    out_of_range,
     refuse_spoiled,
     wrong_types,
 )
@@ -170,7 +171,7 @@ class LatticeInfill:
 
     def onChanged(self, obj: App.DocumentObject, name: str) -> None:  # noqa: N802
         """Show the properties that apply now, and no others."""
-        if name in CONTROLS and not wrong_types(obj):
+        if name in CONTROLS and not wrong_types(obj) and not out_of_range(obj):
             show_applicable(obj)
 
     def inputs(self, obj: App.DocumentObject) -> tuple[TriangleMesh, LatticeSpec, StageCache]:

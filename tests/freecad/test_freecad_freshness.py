@@ -2,12 +2,16 @@
 """Whether a mesh is that of the present values: by all that it is made of, after saving too."""
 
 import json
+import re
+import zipfile
 
 import FreeCAD as App
 import pytest
 
 from conftest import SMALL
 from freecad_volfrep import make_lattice_infill
+from freecad_volfrep.features.export import export_mesh
+from freecad_volfrep.features.faceted_solid import make_solid
 from freecad_volfrep.features.freshness import (
     _earlier_fingerprint,
     fingerprint_of,
@@ -15,6 +19,8 @@ from freecad_volfrep.features.freshness import (
     why_stale,
 )
 from freecad_volfrep.features.lattice_infill import UP_TO_DATE
+from freecad_volfrep.features.mesh_check import check_mesh
+from freecad_volfrep.features.statistics import statistics
 
 CELL = {
     "nodes": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
@@ -105,3 +111,48 @@ def test_why_a_mesh_is_stale(doc, infill):
     assert why_stale(infill) == ""
     infill.StrutRadius = 0
     assert "cannot be computed" in why_stale(infill)
+
+
+def test_what_is_made_of_a_stale_mesh_says_so(doc, infill, tmp_path):
+    target = tmp_path / "out.stl"
+    assert export_mesh(infill, target) == ()
+    assert not any(row[0] == "out of date" for table in check_mesh(infill) for row in table.rows)
+    assert make_solid(doc, infill).Label2 == ""
+    infill.AutoUpdate, infill.StrutRadius = False, 0.7
+    doc.recompute()
+    (said,) = export_mesh(infill, target)
+    assert "is out of date" in said
+    assert target.stat().st_size
+    for tables in (check_mesh(infill), statistics([infill])):
+        assert any(row[0] == "out of date" and said in row for t in tables for row in t.rows)
+    assert make_solid(doc, infill).Label2 == said
+
+
+def test_a_choice_that_is_at_none_of_its_values_is_refused(doc, box, tmp_path):
+    make_lattice_infill(doc, box, **SMALL)
+    doc.recompute()
+    doc.saveAs(str(tmp_path / "one.FCStd"))
+    for name in ("CellType", "Boundary"):
+        with zipfile.ZipFile(tmp_path / "one.FCStd") as kept:
+            parts = {one: kept.read(one) for one in kept.namelist()}
+        before, found, after = parts["Document.xml"].partition(f'name="{name}"'.encode())
+        assert found
+        after = re.sub(rb'<Integer value="\d+"', b'<Integer value="9999"', after, count=1)
+        parts["Document.xml"] = before + found + after
+        with zipfile.ZipFile(tmp_path / f"{name}.FCStd", "w") as changed:
+            for one, content in parts.items():
+                changed.writestr(one, content)
+        again = App.openDocument(str(tmp_path / f"{name}.FCStd"))
+        try:
+            obj = next(one for one in again.Objects if hasattr(one, "Fingerprint"))
+            assert f"{name} is at none" in obj.Status
+            obj.touch()
+            again.recompute()
+            assert not obj.isValid()
+            assert f"{name} is at none" in obj.Status
+            assert obj.Mesh.CountFacets
+            setattr(obj, name, obj.getEnumerationsOfProperty(name)[0])
+            again.recompute()
+            assert obj.isValid()
+        finally:
+            App.closeDocument(again.Name)

@@ -132,6 +132,7 @@ _TABLE = (
         selected_mesh,
         report_mesh,
         A_MESH,
+        of_mesh="as it is",
     ),
     Command(
         "VOLFREP_PrintCheck",
@@ -143,6 +144,7 @@ _TABLE = (
         selected_infill,
         check_print,
         AN_INFILL,
+        of_mesh="fresh",
     ),
     Command(
         "VOLFREP_SectionView",
@@ -165,6 +167,7 @@ _TABLE = (
         infill_with_mesh,
         colour_infill,
         A_COMPUTED_INFILL_IN_VIEW,
+        of_mesh="fresh",
     ),
     Command(
         "VOLFREP_Statistics",
@@ -176,6 +179,7 @@ _TABLE = (
         selected_or_all_infills,
         show_statistics,
         SOME_INFILLS,
+        of_mesh="as it is",
     ),
     Command(
         "VOLFREP_Export",
@@ -187,6 +191,7 @@ _TABLE = (
         selected_mesh,
         export,
         A_MESH,
+        of_mesh="as it is",
     ),
     Command(
         "VOLFREP_ToSolid",
@@ -198,6 +203,7 @@ _TABLE = (
         selected_mesh,
         make_solid_of,
         A_MESH,
+        of_mesh="as it is",
     ),
     Command(
         "VOLFREP_FemAnalysis",
@@ -209,6 +215,7 @@ _TABLE = (
         selected_infill,
         analyse,
         AN_INFILL,
+        of_mesh="fresh",
     ),
     Command(
         "VOLFREP_SizeLattice",

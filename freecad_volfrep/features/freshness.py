@@ -28,6 +28,8 @@ NOT_RECOMPUTED = QT_TRANSLATE_NOOP(
     "VolfrepFreshness", "what it is made of has changed and is not recomputed yet"
 )
 NO_SENSE = QT_TRANSLATE_NOOP("VolfrepFreshness", "its present values cannot be computed")
+#: `Status` of an infill whose mesh a step that was undone has brought back.
+STALE = "Out of date: values have changed since this mesh was made; recompute"
 #: How many digits the fingerprint of an earlier release has.
 _EARLIER_DIGITS = 64
 

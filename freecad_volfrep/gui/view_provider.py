@@ -11,11 +11,14 @@ import FreeCAD as App
 import FreeCADGui as Gui
 
 from freecad_volfrep import ICONS, preferences
+from freecad_volfrep.features.freshness import STALE, why_stale
+from freecad_volfrep.features.lattice_infill import UP_TO_DATE
 from freecad_volfrep.features.skin import is_just_made
 from freecad_volfrep.features.statistics import infills_of
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 from volfrep.util.errors import VolfrepError
 
+from . import drawing
 from .coarse_view import COARSE, show_likeness
 from .colouring import Colouring, add_properties
 from .filled_view import FILLED, FilledPart, show_filled
@@ -49,6 +52,7 @@ class LatticeInfillView:
     """
 
     _is_older = False
+    _sign: Any = None
 
     def __init__(self, view: Any) -> None:
         view.Proxy = self
@@ -107,7 +111,11 @@ class LatticeInfillView:
             refresh_section(self.object)
 
     def updateData(self, obj: Any, name: str) -> None:  # noqa: N802
-        """A new mesh: what was made of the old one goes."""
+        """A new mesh: what was made of the old one goes. A new state: it is shown."""
+        if name == "Fingerprint" and getattr(obj.Document, "Transacting", False):
+            QtCore.QTimer.singleShot(0, self._judge)  # once the step is undone
+        if name in ("Status", "Visibility"):
+            self._show_state()
         if name != "Mesh":
             return
         if not obj.Mesh.CountFacets and not obj.Document.Restoring:
@@ -143,8 +151,9 @@ class LatticeInfillView:
         return self._colouring
 
     def getIcon(self) -> str:  # noqa: N802
-        """Path of the tree's icon."""
-        return str(ICONS / "lattice_infill.svg")
+        """Path of the tree's icon: another one for a mesh that is out of date."""
+        is_stale = self._sign is not None
+        return str(ICONS / ("lattice_infill_stale.svg" if is_stale else "lattice_infill.svg"))
 
     def doubleClicked(self, view: Any) -> bool:  # noqa: N802
         """Edit the infill in its task panel."""
@@ -243,6 +252,31 @@ class LatticeInfillView:
         """Fill the mode that is shown, once a file is read or a step undone."""
         with suppress(ReferenceError):  # the document was closed meanwhile
             self._make(self.object.ViewObject.DisplayMode, is_settled=True)
+
+    def _judge(self) -> None:
+        """After a step was undone: where the mesh does not fit the values, a refresh makes it."""
+        with suppress(ReferenceError):
+            obj = self.object
+            if why_stale(obj) and obj.Status == UP_TO_DATE:
+                obj.Status = STALE
+                obj.touch()
+
+    def _show_state(self) -> None:
+        """A sign in the tree and at the mesh while that is not of the present values."""
+        obj = self.object
+        is_stale = bool(obj.Fingerprint) and obj.Status != UP_TO_DATE
+        if is_stale == (self._sign is not None):
+            return
+        root = obj.ViewObject.RootNode
+        if is_stale:
+            box = obj.Mesh.BoundBox
+            at = (box.Center.x, box.Center.y, box.ZMax)
+            self._sign = drawing.sign(translate("VolfrepFreshness", "Out of date"), at)
+            root.addChild(self._sign)
+        else:
+            root.removeChild(self._sign)
+            self._sign = None
+        obj.ViewObject.signalChangeIcon()
 
     def _show_solid(self) -> None:
         """Where there is no mesh, show what it would stand for."""

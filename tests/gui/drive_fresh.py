@@ -89,13 +89,17 @@ def an_undone_mesh_keeps_the_colour_of_its_wall():
     obj.StrutRadius = 1.5
     doc.recompute()
     doc.commitTransaction()
-    obj.AutoUpdate = False
     doc.undo()
-    obj.StrutRadius = 1.4
+    obj.AutoUpdate, obj.StrutRadius = False, 1.4
+    doc.recompute()
     settle()
     after = [(mesh_and_kinds(obj)[1] == kind).sum() for kind in (WALL, LATTICE)]
     picture("undone")
+    check("its icon is the stale one", "stale" in obj.ViewObject.Proxy.getIcon(), obj.Status)
     check("the wall is the wall", abs(after[0] - shares[0]) < 0.02 * shares[0], (shares, after))
+    obj.AutoUpdate = True
+    doc.recompute()
+    check("a recompute takes the sign away", "stale" not in obj.ViewObject.Proxy.getIcon())
     check("the lattice is the lattice", abs(after[1] - shares[1]) < 0.02 * shares[1], after)
 
 

@@ -52,6 +52,7 @@ class LatticeInfillView:
     """
 
     _is_older = False
+    _is_stale = False
     _sign: Any = None
 
     def __init__(self, view: Any) -> None:
@@ -99,6 +100,8 @@ class LatticeInfillView:
 
     def onChanged(self, view: Any, name: str) -> None:  # noqa: N802
         """Draw what is drawn already in the new colours."""
+        if name == "Visibility" and not self.object.Document.Restoring:
+            self._show_state()
         if name in _LOOKS:
             self._set_looks()
         if name in _COLOURS and not self.object.Document.Restoring:
@@ -114,7 +117,7 @@ class LatticeInfillView:
         """A new mesh: what was made of the old one goes. A new state: it is shown."""
         if name == "Fingerprint" and getattr(obj.Document, "Transacting", False):
             QtCore.QTimer.singleShot(0, self._judge)  # once the step is undone
-        if name in ("Status", "Visibility"):
+        if name == "Status":
             self._show_state()
         if name != "Mesh":
             return
@@ -152,8 +155,7 @@ class LatticeInfillView:
 
     def getIcon(self) -> str:  # noqa: N802
         """Path of the tree's icon: another one for a mesh that is out of date."""
-        is_stale = self._sign is not None
-        return str(ICONS / ("lattice_infill_stale.svg" if is_stale else "lattice_infill.svg"))
+        return str(ICONS / f"lattice_infill{'_stale' * self._is_stale}.svg")
 
     def doubleClicked(self, view: Any) -> bool:  # noqa: N802
         """Edit the infill in its task panel."""
@@ -263,20 +265,19 @@ class LatticeInfillView:
 
     def _show_state(self) -> None:
         """A sign in the tree and at the mesh while that is not of the present values."""
-        obj = self.object
-        is_stale = bool(obj.Fingerprint) and obj.Status != UP_TO_DATE
-        if is_stale == (self._sign is not None):
-            return
-        root = obj.ViewObject.RootNode
-        if is_stale:
+        obj, was_stale = self.object, self._is_stale
+        self._is_stale = bool(obj.Fingerprint) and obj.Status != UP_TO_DATE
+        root, is_shown = obj.ViewObject.RootNode, self._is_stale and obj.ViewObject.Visibility
+        if is_shown and self._sign is None:
             box = obj.Mesh.BoundBox
             at = (box.Center.x, box.Center.y, box.ZMax)
             self._sign = drawing.sign(translate("VolfrepFreshness", "Out of date"), at)
             root.addChild(self._sign)
-        else:
+        elif not is_shown and self._sign is not None:
             root.removeChild(self._sign)
             self._sign = None
-        obj.ViewObject.signalChangeIcon()
+        if was_stale != self._is_stale:
+            obj.ViewObject.signalChangeIcon()
 
     def _show_solid(self) -> None:
         """Where there is no mesh, show what it would stand for."""

@@ -97,7 +97,10 @@ def an_undone_mesh_keeps_the_colour_of_its_wall():
     picture("undone")
     check("its icon is the stale one", "stale" in obj.ViewObject.Proxy.getIcon(), obj.Status)
     check("the wall is the wall", abs(after[0] - shares[0]) < 0.02 * shares[0], (shares, after))
-    obj.AutoUpdate = True
+    obj.Visibility = False
+    settle()
+    check("hidden, the icon says it still", "stale" in obj.ViewObject.Proxy.getIcon())
+    obj.Visibility = obj.AutoUpdate = True
     doc.recompute()
     check("a recompute takes the sign away", "stale" not in obj.ViewObject.Proxy.getIcon())
     check("the lattice is the lattice", abs(after[1] - shares[1]) < 0.02 * shares[1], after)

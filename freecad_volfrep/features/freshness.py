@@ -67,9 +67,7 @@ def why_stale(obj: App.DocumentObject) -> str:
 
     It is empty as well for what is no lattice infill, and for one without a mesh.
     """
-    from .lattice_infill import LatticeInfill
-
-    if not isinstance(getattr(obj, "Proxy", None), LatticeInfill) or not obj.Fingerprint:
+    if not hasattr(getattr(obj, "Proxy", None), "solid_identity") or not obj.Fingerprint:
         return ""
     try:
         spec, solid = obj.Proxy.read(obj)

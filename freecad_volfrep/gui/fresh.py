@@ -41,16 +41,12 @@ def when_fresh(selected: Any, act: Callable[[Any], None], can_be_stale: bool) ->
 
 def _ask(labels: list[str], why: str, can_be_stale: bool) -> str:
     """What the user wants: ``recompute``, ``as it is``, or nothing."""
-    box = QtWidgets.QMessageBox(Gui.getMainWindow())
-    box.setIcon(QtWidgets.QMessageBox.Warning)
-    box.setWindowTitle("VOLFREP")
-    box.setText(
-        translate("VolfrepFreshness", "The mesh of {labels} is out of date: {why}.").format(
-            labels=", ".join(f"'{label}'" for label in labels),
-            why=translate("VolfrepFreshness", why),
-        )
-    )
     role = QtWidgets.QMessageBox
+    text = translate("VolfrepFreshness", "The mesh of {labels} is out of date: {why}.").format(
+        labels=", ".join(f"'{label}'" for label in labels),
+        why=translate("VolfrepFreshness", why),
+    )
+    box = role(role.Warning, "VOLFREP", text, role.NoButton, Gui.getMainWindow())
     buttons = {
         box.addButton(translate("VolfrepFreshness", "Recompute first"), role.AcceptRole):
             "recompute"
@@ -82,6 +78,6 @@ def _recompute(infills: list[App.DocumentObject], then: Callable[[], None]) -> N
         return
     why = why_stale(obj)
     if why:
-        tell_error(f"'{obj.Label}' is still out of date: {obj.Status}")
+        tell_error(f"{obj.Label}: {obj.Status}")
     else:
         _recompute(others, then)

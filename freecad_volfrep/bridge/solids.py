@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import FreeCAD as App
 import numpy as np
 import Part
@@ -10,6 +12,7 @@ from numpy.typing import NDArray
 
 from volfrep.io.tessellation import ANGULAR_DEVIATION, MAX_DEVIATION, RELATIVE_DEVIATION
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
+from volfrep.util.content import rough
 from volfrep.util.errors import VolfrepError
 
 from .meshes import from_freecad
@@ -52,6 +55,7 @@ class SolidReader:
     def __init__(self) -> None:
         self._shape: Part.Shape | None = None
         self._mesh: TriangleMesh | None = None
+        self._size: tuple[str, str] | None = None
 
     def read(self, base: App.DocumentObject, frame: App.Placement) -> TriangleMesh:
         """The base's solid as a mesh, in mm, in the coordinates of `frame`.
@@ -66,6 +70,7 @@ class SolidReader:
         to_frame = frame.inverse().multiply(parent)
         meshes = _mesh_objects(base)
         if meshes:
+            self._shape = self._size = None
             mesh = concatenate(*(placed(from_freecad(m), p) for m, p in meshes))
             return placed(mesh, to_frame)
         shape = Part.getShape(base)
@@ -76,8 +81,25 @@ class SolidReader:
         known = self._shape is not None and self._shape.isPartner(shape)
         if not known or self._mesh is None:
             self._mesh = mesh_of_shape(_unplaced(shape), base.Label)
+            self._size = rough(shape.Volume), rough(shape.Area)
             self._shape = shape
         return placed(self._mesh, to_frame.multiply(shape.Placement))
+
+    def identity(self, mesh: TriangleMesh) -> tuple[Any, ...]:
+        """What counts of the solid that was read last, for `volfrep.util.content.digest_of`.
+
+        To a thousandth of a micrometre, so that the rounding of a placement that is undone, or of
+        a file that was saved and opened, is no change. OpenCASCADE meshes a shape that was opened
+        from a file in another order and, here and there, with other diagonals than before: so of
+        a shape the corners of its mesh count, and how much it encloses.
+
+        Args:
+            mesh: what `read` has returned.
+        """
+        points = np.round(mesh.vertices, 6) + 0.0  # plus zero turns -0 to 0
+        if self._size is None:
+            return points, mesh.triangles.astype(np.int32)
+        return points[np.lexsort(points.T)], len(mesh.triangles), *self._size
 
 
 def mesh_of_shape(shape: Part.Shape, label: str) -> TriangleMesh:

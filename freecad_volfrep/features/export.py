@@ -14,6 +14,7 @@ from freecad_volfrep.engine import require_engine
 from freecad_volfrep.translation import translate
 from volfrep.util.errors import VolfrepError
 
+from .freshness import tell_stale
 from .input_files import refuse_inputs
 from .lattice_infill import LatticeInfill
 from .progress import job_title, run_job
@@ -99,7 +100,7 @@ def estimate_export(obj: App.DocumentObject, form: Format) -> str:
 
 def export_mesh(
     obj: App.DocumentObject, path: str | os.PathLike[str], content: str = "mesh"
-) -> None:
+) -> tuple[str, ...]:
     """Write the object's mesh, where it lies in the document, in the format of the extension.
 
     Args:
@@ -108,6 +109,9 @@ def export_mesh(
         content: ``mesh``; and in a 3MF file of a lattice infill ``beams`` (of the beam lattice
             extension) or ``both``. Of a lattice infill in .step or .inp, too: one of
             `solver_files.CONTENTS`.
+
+    Returns:
+        What is to be said of the file: that its mesh is out of date.
 
     Raises:
         VolfrepError: there is no mesh, the file cannot be written, cannot hold that content, or is
@@ -125,16 +129,17 @@ def export_mesh(
         raise VolfrepError(f"'{obj.Label}' has no mesh to export: update it first.")
     refuse_inputs(path, obj)
     if content == "mesh":
+        said = tell_stale(obj)
         mesh, figures = mesh_in_document(obj), _figures(obj)
         with beside(path) as unfinished:
             call = Call(
                 write_mesh, (mesh, str(unfinished)), {"figures": figures}, has_progress=False
             )
             run_job(job_title("Writing {label}", obj), call)
-        return
+        return said
     if content in CONTENTS:
         write_solver_file(obj, path, content)
-        return
+        return ()
     if Path(path).suffix.lower() != ".3mf" or content not in ("beams", "both"):
         raise VolfrepError(f"'{path}' cannot hold {content}: only a 3MF file holds beams or both.")
     from freecad_volfrep.bridge.beams import place_in_document, placed_beams
@@ -152,6 +157,7 @@ def export_mesh(
     model = placed_beams(model, place_in_document(obj))
     mesh = mesh_in_document(obj) if content == "both" else None
     write_3mf_beams(model, path, mesh, figures=_figures(obj))
+    return ()
 
 
 def _figures(obj: App.DocumentObject) -> dict[str, str]:

@@ -13,6 +13,7 @@ import FreeCAD as App
 from freecad_volfrep.engine import require_engine
 from volfrep.util.errors import VolfrepError
 
+from .freshness import tell_stale
 from .input_files import refuse_inputs
 from .progress import job_title, run_job
 
@@ -103,10 +104,13 @@ def make_solid(
     from volfrep.apart.engine_process import Call
 
     acceptable_solid(obj, limit)
+    said = tell_stale(obj)
     call = Call(packed_facets, (mesh_in_document(obj),), has_progress=False)
     title = job_title("Plane faces of {label}", obj)
     shape = unpacked(run_job(title, call, in_freecad=True))
-    return shape_object(doc, obj, shape, PLANE)
+    solid = shape_object(doc, obj, shape, PLANE)
+    solid.Label2 = " ".join(said)
+    return solid
 
 
 def shape_object(

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 import traceback
 from typing import TYPE_CHECKING, Any
@@ -14,11 +13,13 @@ from freecad_volfrep.engine import require_engine
 from freecad_volfrep.preferences import largest_automatic, triangles_drawn
 
 from .applicable import CONTROLS, show_applicable
+from .freshness import fingerprint_of, is_of
 from .infill_results import Asked, install, loaded, tell_driven, with_radius
 from .progress import job_title, run_job
 from .properties import (
     ensure_properties,
     is_spoiled,
+    out_of_range,
     refuse_spoiled,
     wrong_types,
 )
@@ -170,7 +171,7 @@ class LatticeInfill:
 
     def onChanged(self, obj: App.DocumentObject, name: str) -> None:  # noqa: N802
         """Show the properties that apply now, and no others."""
-        if name in CONTROLS and not wrong_types(obj):
+        if name in CONTROLS and not wrong_types(obj) and not out_of_range(obj):
             show_applicable(obj)
 
     def inputs(self, obj: App.DocumentObject) -> tuple[TriangleMesh, LatticeSpec, StageCache]:
@@ -186,7 +187,7 @@ class LatticeInfill:
 
         require_engine()
         spec, solid = self.read(obj)
-        if obj.Fingerprint != fingerprint_of(spec, solid):
+        if not is_of(obj.Fingerprint, obj, spec, solid):
             raise VolfrepError(f"'{obj.Label}' is out of date: update it first.")
         spec = with_radius(spec, json.loads(obj.Report).get("target"))
         return check_solid(solid, obj.Base.Label), spec, self._cache
@@ -276,9 +277,10 @@ class LatticeInfill:
         from volfrep.jobs.rough_radius import roughly_aimed
 
         spec, solid = self.read(obj)
-        fingerprint = fingerprint_of(spec, solid)
+        fingerprint = fingerprint_of(obj, spec, solid)
         tell_driven(obj, "Density", spec.density)
-        if obj.Fingerprint == fingerprint and obj.Mesh.CountFacets == obj.Triangles:
+        if is_of(obj.Fingerprint, obj, spec, solid) and obj.Mesh.CountFacets == obj.Triangles:
+            obj.Fingerprint = fingerprint  # which was an earlier release's
             set_value(obj, "Mass", obj.Volume.Value * spec.density / 1000.0)
             obj.Status = UP_TO_DATE
             return None
@@ -303,9 +305,13 @@ class LatticeInfill:
             spec, solid = self.read(obj)
         except VolfrepError:
             return True
-        return (
-            spec.density != asked.spec.density or fingerprint_of(spec, solid) != asked.fingerprint
-        )
+        now = fingerprint_of(obj, spec, solid)
+        return bool(spec.density != asked.spec.density or now != asked.fingerprint)
+
+    def solid_identity(self, solid: TriangleMesh) -> tuple[Any, ...]:
+        """What counts of the solid that `read` has returned last, for a digest."""
+        identity: tuple[Any, ...] = self._reader.identity(solid)
+        return identity
 
     def read(self, obj: App.DocumentObject) -> tuple[LatticeSpec, TriangleMesh]:
         """The specification and the solid of the present properties, not checked.
@@ -341,37 +347,3 @@ def revive_infill(obj: App.DocumentObject) -> None:
     except VolfrepError as error:
         obj.Status = str(error)
     revive_view(obj)
-
-
-def fingerprint_of(spec: LatticeSpec, solid: TriangleMesh) -> str:
-    """A digest of all that a result's geometry depends on.
-
-    That is not the density, unless a mass drives the radius.
-    """
-    import numpy as np
-
-    from volfrep.design.networks import GivenNetwork
-    from volfrep.design.scattered_field import PointField
-
-    digest = hashlib.sha256()
-    values = spec.as_dict()
-    density = values.pop("density")
-    if spec.target is not None:
-        values["target"] = spec.target, density if spec.target.aim == "mass" else None
-    digest.update(repr(sorted(values.items())).encode())
-    field = None if spec.radius_grading is None else spec.radius_grading.field
-    if isinstance(field, PointField):
-        digest.update(field.points.tobytes())
-        digest.update(field.values.tobytes())
-    if isinstance(spec.network, GivenNetwork):
-        for array in (spec.network.nodes, spec.network.struts, spec.network.radii):
-            digest.update(array.tobytes())
-    if spec.surface is None:
-        cell = spec.unit_cell()
-        digest.update(np.ascontiguousarray(cell.nodes, np.float64).tobytes())
-        digest.update(np.ascontiguousarray(cell.struts, np.int64).tobytes())
-    # To a thousandth of a micrometre, so that the rounding of a placement that is undone, or of
-    # a file that was saved and opened, does not count as a change; plus zero turns -0 to 0.
-    digest.update((np.round(solid.vertices, 6) + 0.0).tobytes())
-    digest.update(np.ascontiguousarray(solid.triangles, np.int32).tobytes())
-    return digest.hexdigest()

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -12,7 +11,7 @@ import FreeCAD as App
 from freecad_volfrep.engine import require_engine
 from freecad_volfrep.translation import figure, grouped, translate
 
-from .lattice_infill import fingerprint_of
+from .freshness import is_of
 from .materials import advice, material_of
 
 if TYPE_CHECKING:
@@ -96,7 +95,7 @@ class LivePreview:
 
     def __init__(self, obj: App.DocumentObject) -> None:
         self._obj = obj
-        self._key = b""
+        self._key = ""
         self._known: Any = None
 
     def show(self) -> Shown:
@@ -107,29 +106,27 @@ class LivePreview:
         """
         require_engine()
         from volfrep.design.forecast import forecast_fill
-        from volfrep.design.grading import as_plain
         from volfrep.io.solid import check_solid
         from volfrep.jobs.preview import PartDepth, preview
+        from volfrep.util.content import digest_of
 
         spec, mesh = self._obj.Proxy.read(self._obj)
-        key = hashlib.blake2b(mesh.vertices.tobytes() + mesh.triangles.tobytes())
         faces = (spec.open_faces, spec.face_skins, spec.keep_solid)
-        key.update(repr([as_plain(part) for part in faces]).encode())
-        if self._key != key.digest():
+        key = digest_of(mesh.vertices, mesh.triangles, faces)
+        if self._key != key:
             solid = check_solid(mesh, self._obj.Base.Label)
             self._known = solid, PartDepth(solid, *faces)
-            self._key = key.digest()
+            self._key = key
         solid, depth = self._known
         shown = preview(solid, spec, depth)
-        fingerprint = fingerprint_of(spec, mesh)
         return Shown(
             solid,
             shown,
             forecast_fill(solid, shown.spec),
             advice(self._obj, shown.spec.struts.extremes[0]),
             _stiffness(self._obj, shown.spec),
-            self._obj.Fingerprint == fingerprint,
-            self._obj.SizedFor == fingerprint,
+            is_of(self._obj.Fingerprint, self._obj, spec, mesh),
+            is_of(self._obj.SizedFor, self._obj, spec, mesh),
         )
 
 

@@ -10,6 +10,7 @@ import FreeCAD as App
 from freecad_volfrep.engine import require_engine
 from volfrep.util.errors import VolfrepError
 
+from .freshness import tell_stale
 from .progress import job_title, run_job
 from .tables import Table
 
@@ -34,14 +35,19 @@ def check_mesh(obj: App.DocumentObject) -> list[Table]:
 
     if not obj.isDerivedFrom("Mesh::Feature") or not obj.Mesh.CountFacets:
         raise VolfrepError(f"'{obj.Label}' has no mesh to check: update it first.")
+    said = tell_stale(obj)
     mesh = mesh_in_document(obj)
     report, crossing = run_job(job_title("Checking {label}", obj), Call(checked_mesh, (mesh,)))
     return [
-        Table(f"{obj.Label}: {_verdict(report, crossing)}", tuple(report.rows())),
+        Table(f"{obj.Label}: {_verdict(report, crossing)}", (*_stale(said), *report.rows())),
         Table("Triangles and the file's single precision", tuple(_precision(report))),
         Table("Surfaces that run through each other", tuple(_crossings(report, crossing))),
         Table("FreeCAD's own checks", tuple(_freecads_own(obj))),
     ]
+
+
+def _stale(said: tuple[str, ...]) -> list[tuple[str, str]]:
+    return [("out of date", sentence) for sentence in said]
 
 
 def _verdict(report: MeshReport, crossing: NDArray[np.float64]) -> str:

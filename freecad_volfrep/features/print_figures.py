@@ -52,17 +52,16 @@ def print_rows(obj: App.DocumentObject, shown: Shown) -> list[Row]:
         process,
         tuple(obj.BuildDirection),
     )
-    rows = [
-        _against(
-            translate("VolfrepFigures", "thinnest strut"),
-            told.thinnest_strut_mm,
-            process and process.strut,
-            is_least=True,
-        )
-    ]
+    rows = []
+    if told.thinnest_strut_mm is not None:
+        thinnest = translate("VolfrepFigures", "thinnest strut")
+        least = process and process.strut
+        rows.append(_against(thinnest, told.thinnest_strut_mm, least, is_least=True))
     gap = translate("VolfrepFigures", "narrowest gap")
     if told.narrowest_gap_mm is not None:
         rows.append(_against(gap, told.narrowest_gap_mm, process and process.gap, is_least=True))
+    elif lines.spec.surface is not None:
+        pass  # gaps are those between struts
     elif told.is_gap_known:
         wide = figure(WIDEST_GAP * lines.spec.cell_size)
         rows.append(Row(gap, translate("VolfrepFigures", "over {width} mm").format(width=wide)))

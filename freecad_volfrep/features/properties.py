@@ -159,15 +159,29 @@ def ensure_properties(obj: App.DocumentObject) -> None:
         obj.Fingerprint, obj.Status = "", SPOILED  # their values are gone
     wrong = wrong_types(obj)
     for name, labels in choices.items():  # a cell may have been added since the file was saved
-        if name not in wrong and obj.getEnumerationsOfProperty(name) != labels:
+        is_known = name not in wrong and name not in out_of_range(obj)
+        if is_known and obj.getEnumerationsOfProperty(name) != labels:
             chosen = {label.lower(): label for label in labels}.get(getattr(obj, name).lower())
             if chosen is not None:
                 setattr(obj, name, labels)
                 setattr(obj, name, chosen)
     if obj.SchemaVersion < SCHEMA_VERSION:
         obj.SchemaVersion = SCHEMA_VERSION
-    if not wrong:
+    if not wrong and not out_of_range(obj):
         show_applicable(obj)
+
+
+def out_of_range(obj: App.DocumentObject) -> list[str]:
+    """Choices that are at none of their values, as a file can say that was changed by hand."""
+    present = set(obj.PropertiesList)
+    return [
+        prop.name
+        for prop in PROPERTIES
+        if prop.type == "App::PropertyEnumeration"
+        and prop.name in present
+        and obj.getTypeIdOfProperty(prop.name) == prop.type
+        and getattr(obj, prop.name) not in (obj.getEnumerationsOfProperty(prop.name) or [])
+    ]
 
 
 def wrong_types(obj: App.DocumentObject) -> dict[str, Property]:
@@ -204,6 +218,11 @@ def refuse_spoiled(obj: App.DocumentObject) -> None:
             f"The property {name} is of the type {obj.getTypeIdOfProperty(name)} instead of "
             f"{prop.type}, so that another program has changed it: remove it, and the next "
             "recompute adds it with its first value."
+        )
+    for name in out_of_range(obj):
+        raise VolfrepError(
+            f"The property {name} is at none of the values of its list, as after a change of the "
+            "file by another program: choose one in the property editor."
         )
     if obj.SchemaVersion > SCHEMA_VERSION:
         raise VolfrepError(

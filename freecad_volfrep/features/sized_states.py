@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP
 from volfrep.util.errors import VolfrepError
 
-from .lattice_infill import fingerprint_of
+from .freshness import fingerprint_of, is_of
 
 if TYPE_CHECKING:
     from volfrep.sizing.strut_state import StrutState
@@ -51,7 +51,7 @@ def store_states(obj: App.DocumentObject, states: Sequence[StrutState]) -> None:
     kept = np.concatenate([states[0].ends, np.stack(most, axis=2)], axis=2)
     # In single precision, whose zeros a file of FreeCAD's packs to half the size.
     obj.SizedStates = kept.astype(np.float32).ravel().tolist()
-    obj.SizedFor = fingerprint_of(*obj.Proxy.read(obj))
+    obj.SizedFor = fingerprint_of(obj, *obj.Proxy.read(obj))
 
 
 def sized_states(
@@ -74,4 +74,4 @@ def why_no_states(obj: App.DocumentObject) -> str:
         values: Any = obj.Proxy.read(obj)
     except VolfrepError:
         return str(CHANGED)
-    return "" if fingerprint_of(*values) == obj.SizedFor else str(CHANGED)
+    return "" if is_of(obj.SizedFor, obj, *values) else str(CHANGED)

@@ -11,11 +11,17 @@ from numpy.typing import NDArray
 
 from volfrep.util.errors import VolfrepError
 
+from .freshness import why_stale
+
 if TYPE_CHECKING:
     import FreeCAD as App
 
     from volfrep.jobs.pipeline import FilledMesh, ShownMesh
     from volfrep.mesh.triangle_mesh import TriangleMesh
+
+#: Of the triangles of a mesh that is out of date, so many must be outside by the present solid if
+#: they are outside the mesh: else the solid is another one.
+SAME_SKIN = 0.99
 
 
 @dataclass(eq=False)
@@ -62,9 +68,14 @@ def kinds_of(obj: App.DocumentObject, mesh: TriangleMesh) -> NDArray[np.uint8]:
     made: Any = obj.Proxy.made
     if made is not None and made.triangles == triangles_digest(mesh):
         return made.kinds  # type: ignore[no-any-return]
+    outside = is_outside(mesh)
+    fallback = np.where(outside & (not outside.all()), OUTSIDE, LATTICE).astype(np.uint8)
     try:
-        solid, spec, _ = obj.Proxy.inputs(obj)
+        # Those of the present values: where other struts were asked for, the skin is the same.
+        solid, spec, _ = obj.Proxy.wanted(obj)
+        kinds = kinds_of_triangles(mesh, solid, spec)
     except VolfrepError:
-        outside = is_outside(mesh)
-        return np.where(outside & (not outside.all()), OUTSIDE, LATTICE).astype(np.uint8)
-    return kinds_of_triangles(mesh, solid, spec)
+        return fallback
+    if why_stale(obj) and not outside.all() and ((kinds == OUTSIDE) == outside).mean() < SAME_SKIN:
+        return fallback
+    return kinds

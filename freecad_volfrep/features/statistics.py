@@ -12,6 +12,7 @@ import FreeCAD as App
 from volfrep.design.walls import Wall
 from volfrep.util.errors import VolfrepError
 
+from .freshness import tell_stale
 from .lattice_infill import LatticeInfill
 from .materials import material_of
 from .progress import job_title, run_job
@@ -72,7 +73,8 @@ def statistics(infills: list[App.DocumentObject]) -> list[Table]:
     masses = [
         mass_of(obj) if report else None for obj, report in zip(infills, reports, strict=True)
     ]
-    figures = []
+    said = ["; ".join(tell_stale(obj)) for obj in infills]
+    figures: list[tuple[Any, ...]] = [("out of date", *said)] if any(said) else []
     for name, key in _FIGURES:
         values = masses if key == "mass_g" else [_plain(key, report.get(key)) for report in reports]
         figures.append((name, *values))

@@ -46,6 +46,7 @@ class ColourDock(ObjectDock):
         self._range = ColourRange(self._set_range)
         self._said = QtWidgets.QLabel(translate("VolfrepColours", "Point at the lattice"))
         self._said.setObjectName("Said")
+        self._why = ""
         panel = QtWidgets.QWidget()
         line = QtWidgets.QHBoxLayout(panel)
         line.addWidget(QtWidgets.QLabel(translate("VolfrepColours", "Colour by")))
@@ -72,6 +73,13 @@ class ColourDock(ObjectDock):
             self._quantity.blockSignals(False)
         ends = self._colouring.range
         self._range.setEnabled(ends is not None)
+        why = self._colouring.why
+        self._range.setToolTip(why)
+        if why:
+            self._said.setText(why)
+        elif self._said.text() == self._why:
+            self._tell(None)
+        self._why = why
         if ends is not None and not self._range.isAncestorOf(QtWidgets.QApplication.focusWidget()):
             self._range.show_ends(*ends)
 

@@ -80,6 +80,8 @@ class Colouring:
         self._asked: tuple[str, tuple[int, ...]] | None = None
         self._steps: Iterator[None] | None = None
         self._legend = Legend()
+        #: Why there are no colours; empty where there are, or none are wanted.
+        self.why = ""
 
     def follow(self, part: FilledPart | None) -> None:
         """Colour this from now on, which is drawn whole; or nothing."""
@@ -93,6 +95,7 @@ class Colouring:
         view = self._obj.ViewObject
         quantity = view.ColourBy
         drop_steps(self._steps)
+        self.why = ""
         if self._part is None or quantity == NOTHING:
             self._asked = None
             self._legend.remove()
@@ -185,7 +188,8 @@ class Colouring:
             if quantity in OF_LOADS:
                 options.update(_of_loads(obj, quantity))
         except VolfrepError as error:
-            tell_error(str(error))
+            self.why, self._asked = str(error), None
+            tell_error(self.why)
             return
         kinds = self._kinds()
         arrays = part.points(kinds), part.normals(kinds)

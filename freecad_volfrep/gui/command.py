@@ -37,6 +37,8 @@ class Command:
         act: is called with that.
         wanted: a sentence on what has to be there for `selected` to find something.
         computes: whether it needs the engine's packages.
+        of_mesh: whether it uses the mesh of what is selected, so that one which is out of date is
+            asked about: ``as it is`` may be, or ``fresh`` only; empty where it does not.
     """
 
     name: str
@@ -48,6 +50,7 @@ class Command:
     act: Callable[[Any], None]
     wanted: str = ""
     computes: bool = True
+    of_mesh: str = ""
 
     def GetResources(self) -> dict[str, str]:  # noqa: N802
         """Icon, texts, shortcut, and the address of the help page."""
@@ -80,7 +83,12 @@ class Command:
         if missing and self.computes:
             offer_packages(missing)
             return
-        self.act(self.selected())
+        if not self.of_mesh:
+            self.act(self.selected())
+            return
+        from .fresh import when_fresh
+
+        when_fresh(self.selected(), self.act, can_be_stale=self.of_mesh == "as it is")
 
 
 @contextmanager

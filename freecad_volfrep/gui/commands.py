@@ -135,6 +135,7 @@ _TABLE = (
         selected_mesh,
         report_mesh,
         A_MESH,
+        of_mesh="as it is",
     ),
     Command(
         "VOLFREP_PrintCheck",
@@ -146,6 +147,7 @@ _TABLE = (
         selected_infill,
         check_print,
         AN_INFILL,
+        of_mesh="fresh",
     ),
     Command(
         "VOLFREP_SectionView",
@@ -168,6 +170,7 @@ _TABLE = (
         infill_with_mesh,
         colour_infill,
         A_COMPUTED_INFILL_IN_VIEW,
+        of_mesh="fresh",
     ),
     Command(
         "VOLFREP_Statistics",
@@ -179,6 +182,7 @@ _TABLE = (
         selected_or_all_infills,
         show_statistics,
         SOME_INFILLS,
+        of_mesh="as it is",
     ),
     Command(
         "VOLFREP_Export",
@@ -190,6 +194,7 @@ _TABLE = (
         selected_mesh,
         export,
         A_MESH,
+        of_mesh="as it is",
     ),
     Command(
         "VOLFREP_ToSolid",
@@ -201,6 +206,7 @@ _TABLE = (
         selected_mesh,
         make_solid_of,
         A_MESH,
+        of_mesh="as it is",
     ),
     Command(
         "VOLFREP_FemAnalysis",
@@ -212,6 +218,7 @@ _TABLE = (
         selected_infill,
         analyse,
         AN_INFILL,
+        of_mesh="fresh",
     ),
     Command(
         "VOLFREP_SizeLattice",

@@ -15,11 +15,14 @@ import FreeCAD as App
 import FreeCADGui as Gui
 
 from freecad_volfrep import ICONS, preferences
+from freecad_volfrep.features.freshness import STALE, why_stale
+from freecad_volfrep.features.lattice_infill import UP_TO_DATE
 from freecad_volfrep.features.skin import is_just_made
 from freecad_volfrep.features.statistics import infills_of
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 from volfrep.util.errors import VolfrepError
 
+from . import drawing
 from .coarse_view import COARSE, show_likeness
 from .colouring import Colouring, add_properties
 from .filled_view import FILLED, FilledPart, show_filled
@@ -53,6 +56,8 @@ class LatticeInfillView:
     """
 
     _is_older = False
+    _is_stale = False
+    _sign: Any = None
 
     def __init__(self, view: Any) -> None:
         view.Proxy = self
@@ -99,6 +104,8 @@ class LatticeInfillView:
 
     def onChanged(self, view: Any, name: str) -> None:  # noqa: N802
         """Draw what is drawn already in the new colours."""
+        if name == "Visibility" and not self.object.Document.Restoring:
+            self._show_state()
         if name in _LOOKS:
             self._set_looks()
         if name in _COLOURS and not self.object.Document.Restoring:
@@ -111,7 +118,11 @@ class LatticeInfillView:
             refresh_section(self.object)
 
     def updateData(self, obj: Any, name: str) -> None:  # noqa: N802
-        """A new mesh: what was made of the old one goes."""
+        """A new mesh: what was made of the old one goes. A new state: it is shown."""
+        if name == "Fingerprint" and getattr(obj.Document, "Transacting", False):
+            QtCore.QTimer.singleShot(0, self._judge)  # once the step is undone
+        if name == "Status":
+            self._show_state()
         if name != "Mesh":
             return
         if not obj.Mesh.CountFacets and not obj.Document.Restoring:
@@ -147,8 +158,8 @@ class LatticeInfillView:
         return self._colouring
 
     def getIcon(self) -> str:  # noqa: N802
-        """Path of the tree's icon."""
-        return str(ICONS / "lattice_infill.svg")
+        """Path of the tree's icon: another one for a mesh that is out of date."""
+        return str(ICONS / f"lattice_infill{'_stale' * self._is_stale}.svg")
 
     def doubleClicked(self, view: Any) -> bool:  # noqa: N802
         """Edit the infill in its task panel."""
@@ -247,6 +258,30 @@ class LatticeInfillView:
         """Fill the mode that is shown, once a file is read or a step undone."""
         with suppress(ReferenceError):  # the document was closed meanwhile
             self._make(self.object.ViewObject.DisplayMode, is_settled=True)
+
+    def _judge(self) -> None:
+        """After a step was undone: where the mesh does not fit the values, a refresh makes it."""
+        with suppress(ReferenceError):
+            obj = self.object
+            if why_stale(obj) and obj.Status == UP_TO_DATE:
+                obj.Status = STALE
+                obj.touch()
+
+    def _show_state(self) -> None:
+        """A sign in the tree and at the mesh while that is not of the present values."""
+        obj, was_stale = self.object, self._is_stale
+        self._is_stale = bool(obj.Fingerprint) and obj.Status != UP_TO_DATE
+        root, is_shown = obj.ViewObject.RootNode, self._is_stale and obj.ViewObject.Visibility
+        if is_shown and self._sign is None:
+            box = obj.Mesh.BoundBox
+            at = (box.Center.x, box.Center.y, box.ZMax)
+            self._sign = drawing.sign(translate("VolfrepFreshness", "Out of date"), at)
+            root.addChild(self._sign)
+        elif not is_shown and self._sign is not None:
+            root.removeChild(self._sign)
+            self._sign = None
+        if was_stale != self._is_stale:
+            obj.ViewObject.signalChangeIcon()
 
     def _show_solid(self) -> None:
         """Where there is no mesh, show what it would stand for."""

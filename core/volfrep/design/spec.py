@@ -3,9 +3,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
+from ..util.content import digest_of
 from ..util.errors import VolfrepError
 from ..util.numbers import number
 from .cells import UnitCell, find_cell, joint_radius
@@ -389,6 +390,25 @@ class LatticeSpec:
         """What the cell is called, of struts or of walls."""
         assert not isinstance(self.cell, str)
         return self.cell.name
+
+    def digest(self) -> str:
+        """What tells it from every other one, by all its content (`util.content.digest_of`).
+
+        Equal specifications have equal ones. Where files were read does not count, nor what has
+        no effect: a wall beside struts, and lengths of picked faces and bodies below 1e-6 mm.
+
+        >>> LatticeSpec(cell="octet").digest() == LatticeSpec(cell="Octet").digest()
+        True
+        """
+        return digest_of(self if self.surface is not None else replace(self, wall=Wall()))
+
+    def shape_digest(self) -> str:
+        """As `digest`, of all that the geometry depends on.
+
+        That is not the density, unless a mass drives the radius.
+        """
+        by_mass = self.target is not None and self.target.aim == "mass"
+        return (self if by_mass else replace(self, density=1.0)).digest()
 
     def as_dict(self) -> dict[str, Any]:
         """The specification as plain JSON values."""

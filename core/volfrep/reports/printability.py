@@ -147,7 +147,7 @@ class PrintForecast:
     """What of a print report is known before anything is meshed.
 
     Attributes:
-        thinnest_strut_mm: smallest diameter.
+        thinnest_strut_mm: smallest diameter; None where there are no struts, as of walls.
         narrowest_gap_mm: between struts without a common node; None where it is above
             `clearance.WIDEST_GAP` times L, or not the same everywhere (graded lattices).
         is_gap_known: whether None means that gaps are wide.
@@ -161,7 +161,7 @@ class PrintForecast:
         saved_share: of the solid's mass.
     """
 
-    thinnest_strut_mm: float
+    thinnest_strut_mm: float | None
     narrowest_gap_mm: float | None
     is_gap_known: bool
     overhanging_share: float
@@ -285,11 +285,11 @@ def print_forecast(
     overhanging = float(length[angle < least - 1e-9].sum()) / max(float(length.sum()), 1e-300)
     saved = max(abs(solid) - part, 0.0)
     differing = (spec.size_grading, spec.radius_grading, spec.cell_map)
-    is_even = all(part is None for part in differing)
+    is_even = spec.surface is None and all(part is None for part in differing)
     gap = endless_gap(spec.unit_cell(), spec.strut_radius / spec.cell_size) if is_even else None
     is_closed = spec.with_skin and not spec.open_faces and spec.drains is None
     return PrintForecast(
-        thinnest_strut_mm=2.0 * float(radii.min()),
+        thinnest_strut_mm=2.0 * float(radii.min()) if len(radii) else None,
         narrowest_gap_mm=None if gap is None else gap * spec.cell_size,
         is_gap_known=is_even,
         overhanging_share=overhanging,

@@ -8,8 +8,6 @@ version of the engine. Where the solid, a cell or a field was read does not matt
 from __future__ import annotations
 
 import dataclasses
-import hashlib
-import json
 import shlex
 from collections import Counter
 from collections.abc import Mapping
@@ -26,7 +24,7 @@ from ..design.parameters.values import LENGTHS, SCALES, to_plain
 from ..design.spec import LatticeSpec
 from ..io.solid import Solid, read_solid
 from ..mechanics.materials import SolidMaterial
-from ..util.content import content_of
+from ..util.content import content_of, digest_of
 from ..util.errors import VolfrepError
 from ..util.version import VERSION
 from .sampling import grid, latin_hypercube
@@ -148,8 +146,7 @@ def specified(values: Mapping[str, Any], material: SolidMaterial | None) -> Latt
 def key_of(content: str, spec: LatticeSpec, values: Mapping[str, Any], version: str) -> str:
     """The key of a design; the build direction, which a print check sees, is in it too."""
     up = values.get("build_direction") or BY_NAME["build_direction"].default
-    text = json.dumps([version, content, _plain(spec), list(up)], sort_keys=True)
-    return hashlib.blake2b(text.encode(), digest_size=8).hexdigest()
+    return digest_of(version, content, spec.digest(), tuple(up))[:16]
 
 
 def named_part(source: str, solid: Solid) -> Part:
@@ -225,19 +222,3 @@ def _written(kind: str, value: Any) -> str:
 
 def _numbers(values: Any) -> str:
     return ",".join(repr(float(value)) for value in values)
-
-
-def _plain(value: Any) -> Any:
-    """All content of a specification as plain JSON values."""
-    if isinstance(value, np.ndarray):
-        return content_of(value).hex()
-    if isinstance(value, bytes):
-        return value.hex()
-    if dataclasses.is_dataclass(value):
-        compared = (f.name for f in dataclasses.fields(value) if f.compare)
-        return {name: _plain(getattr(value, name)) for name in compared}
-    if isinstance(value, tuple):
-        return [_plain(item) for item in value]
-    if isinstance(value, (int, float)) and not isinstance(value, bool):
-        return float(value)
-    return value

@@ -2012,6 +2012,37 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
     </message>
   </context>
   <context>
+    <name>VolfrepFreshness</name>
+    <message>
+      <source>Out of date</source>
+      <translation>Veraltet</translation>
+    </message>
+    <message>
+      <source>Recompute first</source>
+      <translation>Zuerst neu berechnen</translation>
+    </message>
+    <message>
+      <source>The mesh of {labels} is out of date: {why}.</source>
+      <translation>Das Netz von {labels} ist veraltet: {why}.</translation>
+    </message>
+    <message>
+      <source>Use it as it is</source>
+      <translation>So verwenden, wie es ist</translation>
+    </message>
+    <message>
+      <source>its present values cannot be computed</source>
+      <translation>seine jetzigen Werte lassen sich nicht berechnen</translation>
+    </message>
+    <message>
+      <source>values or the solid have changed since it was made</source>
+      <translation>Werte oder der Körper haben sich geändert, seit es gemacht wurde</translation>
+    </message>
+    <message>
+      <source>what it is made of has changed and is not recomputed yet</source>
+      <translation>woraus es gemacht ist, hat sich geändert und ist noch nicht neu berechnet</translation>
+    </message>
+  </context>
+  <context>
     <name>VolfrepHelp</name>
     <message>
       <source>Back</source>

@@ -2012,6 +2012,37 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
     </message>
   </context>
   <context>
+    <name>VolfrepFreshness</name>
+    <message>
+      <source>Out of date</source>
+      <translation>Non aggiornata</translation>
+    </message>
+    <message>
+      <source>Recompute first</source>
+      <translation>Prima ricalcola</translation>
+    </message>
+    <message>
+      <source>The mesh of {labels} is out of date: {why}.</source>
+      <translation>La mesh di {labels} non è aggiornata: {why}.</translation>
+    </message>
+    <message>
+      <source>Use it as it is</source>
+      <translation>Usala com'è</translation>
+    </message>
+    <message>
+      <source>its present values cannot be computed</source>
+      <translation>i suoi valori attuali non si possono calcolare</translation>
+    </message>
+    <message>
+      <source>values or the solid have changed since it was made</source>
+      <translation>i valori o il solido sono cambiati da quando è stata fatta</translation>
+    </message>
+    <message>
+      <source>what it is made of has changed and is not recomputed yet</source>
+      <translation>ciò di cui è fatta è cambiato e non è ancora ricalcolato</translation>
+    </message>
+  </context>
+  <context>
     <name>VolfrepHelp</name>
     <message>
       <source>Back</source>

@@ -91,3 +91,12 @@ def test_overhangs_go_by_the_build_direction():
     assert lying.longest_flat_mm > 0.0
     with pytest.raises(VolfrepError, match="build direction"):
         told(spec, up=(0.0, 0.0, 0.0))
+
+
+@pytest.mark.parametrize("grading", [None, RadiusGrading("skin", Profile("linear", 0.6, 1.2))])
+def test_walls_have_no_struts_to_tell_of(grading):
+    spec = LatticeSpec(cell="Gyroid", cell_size=10.0, shell=2.0, radius_grading=grading)
+    forecast = told(spec)
+    assert forecast.thinnest_strut_mm is None
+    assert (forecast.narrowest_gap_mm, forecast.is_gap_known) == (None, False)
+    assert 0.0 < forecast.saved_share < 1.0

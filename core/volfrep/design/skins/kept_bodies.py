@@ -18,7 +18,7 @@ import numpy as np
 from ...mesh.booleans import as_manifold
 from ...mesh.quality import measure
 from ...mesh.triangle_mesh import TriangleMesh
-from ...util.content import content_of, held
+from ...util.content import content_of, held, rough
 from ...util.errors import VolfrepError
 from ...util.types import Floats, Ints
 
@@ -70,6 +70,14 @@ class KeptBody:
     def mesh(self) -> TriangleMesh:
         """A copy of its surface, which a library may take that asks for arrays it could change."""
         return TriangleMesh(self.vertices.copy(), np.array(self.triangles, np.int32))
+
+    def identity(self) -> tuple[Floats, int, str]:
+        """What counts of it for `util.content.digest_of`: corners, number of facets, and volume.
+
+        As of an `OpenPatch`, the order of facets and their diagonals do not count.
+        """
+        points = np.unique(np.round(self.vertices, 6) + 0.0, axis=0)
+        return points, len(self.triangles), rough(self.mesh.volume)
 
     def as_plain(self) -> dict[str, Any]:
         """What tells one body from another, as plain JSON values."""

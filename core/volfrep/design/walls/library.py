@@ -9,7 +9,7 @@ module needs no numpy, so that ``volfrep --help`` answers at once.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from ...util.errors import VolfrepError
 
@@ -30,8 +30,8 @@ class PeriodicSurface:
 
     name: str
     formula: str
-    about: str = ""
-    also: tuple[str, ...] = ()
+    about: str = field(default="", compare=False)
+    also: tuple[str, ...] = field(default=(), compare=False)
 
 
 _LIDINOID = (

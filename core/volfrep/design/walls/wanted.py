@@ -65,6 +65,10 @@ class Wall:
         size = {"thickness": self.thickness} if self.is_sheet else {"offset": self.offset}
         return {"kind": self.kind, **size}
 
+    def identity(self) -> dict[str, Any]:
+        """What counts of it for `util.content.digest_of`."""
+        return self.as_plain()
+
     def coarsest(self, cell_size: float, thinnest: float) -> int:
         """Facets along a cell below which samples could miss a sheet of a thickness in mm."""
         if not self.is_sheet:

@@ -17,8 +17,8 @@ from .deps import PACKAGES, python_executable
 from .preferences import THREADS, read
 
 if TYPE_CHECKING:
-    from volfrep.apart.engine_process import Program
-    from volfrep.apart.engines import Engines
+    from volfrep.worker.engine_process import Program
+    from volfrep.worker.engines import Engines
 
 #: What the process imports before it is given anything to do.
 _WARM = ("volfrep.jobs.pipeline",)
@@ -29,7 +29,7 @@ _freecads: list[Engines] = []
 
 def engines() -> Engines:
     """The processes for jobs, which use as many threads as is preferred now."""
-    from volfrep.apart.engines import Engines
+    from volfrep.worker.engines import Engines
 
     threads = read(THREADS)
     if threads not in _running:
@@ -42,7 +42,7 @@ def engines() -> Engines:
 
 def freecads() -> Engines:
     """The processes for jobs that need OpenCASCADE: FreeCAD without windows."""
-    from volfrep.apart.engines import Engines
+    from volfrep.worker.engines import Engines
 
     if not _freecads:
         console = _freecad(read(THREADS))
@@ -52,7 +52,7 @@ def freecads() -> Engines:
 
 def programs(threads: int) -> list[Program]:
     """What can run the engine beside this FreeCAD, the best first."""
-    from volfrep.apart.engine_process import Program
+    from volfrep.worker.engine_process import Program
 
     use = f"from volfrep.util.threads import use_threads; use_threads({threads})"
     front = str(ROOT / "core")
@@ -64,7 +64,7 @@ def programs(threads: int) -> list[Program]:
 
 def _freecad(threads: int) -> Program | None:
     """FreeCAD without windows as a program that runs the engine and the workbench."""
-    from volfrep.apart.engine_process import Program
+    from volfrep.worker.engine_process import Program
 
     console = _console()
     if console is None:

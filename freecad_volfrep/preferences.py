@@ -47,7 +47,7 @@ class Colour(Preference):
 
 def _cells() -> list[str]:
     from volfrep.design.cells import LIBRARY
-    from volfrep.design.walls import SURFACES
+    from volfrep.design.tpms import SURFACES
 
     return [*LIBRARY, *SURFACES]
 

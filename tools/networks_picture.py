@@ -18,7 +18,7 @@ from walls_picture import drawn
 
 import volfrep
 from volfrep.design.cells import find_cell
-from volfrep.design.networks import GivenNetwork, laid_along
+from volfrep.design.graphs import GivenGraph, place_cells_along
 from volfrep.util.types import Floats
 
 FILE = Path(__file__).parents[1] / "docs" / "images" / "graphs.png"
@@ -35,17 +35,17 @@ def dome(folder: Path) -> Path:
     return file
 
 
-def sector() -> GivenNetwork:
+def sector() -> GivenGraph:
     """Two layers of BCC between the curved faces of a tube's sector."""
 
     def place(q: Floats) -> Floats:
         angle, radius = np.radians(30.0 + 120.0 * q[:, 0]), 20.0 + 10.0 * q[:, 1]
         return np.stack([radius * np.cos(angle), radius * np.sin(angle), 30.0 * q[:, 2]], axis=1)
 
-    return laid_along(find_cell("BCC"), place, (12, 2, 6), "tube sector")
+    return place_cells_along(find_cell("BCC"), place, (12, 2, 6), "tube sector")
 
 
-def wing() -> GivenNetwork:
+def wing() -> GivenGraph:
     """One layer of FCC below the upper skin of a symmetrical wing (NACA 0012), 6 mm deep."""
 
     def place(q: Floats) -> Floats:
@@ -57,7 +57,7 @@ def wing() -> GivenNetwork:
         )
         return np.stack([120.0 * x, 60.0 * q[:, 1], half - 6.0 + 6.0 * q[:, 2]], axis=1)
 
-    return laid_along(find_cell("FCC"), place, (17, 10, 1), "wing")
+    return place_cells_along(find_cell("FCC"), place, (17, 10, 1), "wing")
 
 
 def main() -> None:

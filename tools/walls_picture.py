@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from volfrep import LatticeSpec
-from volfrep.design.walls import SURFACES, Wall
+from volfrep.design.tpms import SURFACES, TpmsSheet
 from volfrep.jobs.blocks import block
 from volfrep.spatial.even_points import even_points
 from volfrep.util.types import Floats
@@ -65,8 +65,8 @@ def main() -> None:
     matplotlib.use("Agg")
     from matplotlib import pyplot
 
-    chosen = [(name, Wall("sheet", SHEET)) for name in SURFACES]
-    chosen.append(("Gyroid", Wall("skeleton", offset=-1.0)))
+    chosen = [(name, TpmsSheet("sheet", SHEET)) for name in SURFACES]
+    chosen.append(("Gyroid", TpmsSheet("skeleton", offset=-1.0)))
     figure, axes = pyplot.subplots(2, 4, figsize=(12.8, 6.9), dpi=100)
     for axis, (name, wall) in zip(axes.ravel(), chosen, strict=True):
         mesh = block(LatticeSpec(name, CELL, wall=wall), (2, 2, 2)).mesh

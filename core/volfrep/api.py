@@ -25,11 +25,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .design.cells import find_cell
-from .design.networks import make_network, read_network
+from .design.graphs import make_network, read_network
 from .design.spec import LatticeSpec
 from .design.spec_parts import first_radius
 from .design.target import AIMS, Target, read_stiffness
-from .design.walls import FORMULA, Wall, find_surface, surface_name
+from .design.tpms import FORMULA, TpmsSheet, find_surface, surface_name
 from .grid.strut_graph import Wireframe
 from .io.solid import Solid, check_solid, read_solid
 from .mesh.triangle_mesh import TriangleMesh
@@ -208,12 +208,14 @@ def fill(
     >>> part.report.cells_active
     8
     """
-    from .jobs.targets import filled
+    from .jobs.targets import fill_with_target
 
     wanted = specified(spec, parameters, material)
     solid = as_solid(part, unit)
     cache = cache or StageCache()
-    result, found = filled(solid, wanted, progress=progress, cache=cache, executor=executor)
+    result, found = fill_with_target(
+        solid, wanted, progress=progress, cache=cache, executor=executor
+    )
     return Part(result, found, solid, cache)
 
 
@@ -245,9 +247,9 @@ def block(
     True
     """
     from .jobs.blocks import block as make_block
-    from .jobs.targets import aimed_block
+    from .jobs.targets import solve_block_target
 
-    wanted = aimed_block(specified(spec, parameters, material), count, progress=progress)
+    wanted = solve_block_target(specified(spec, parameters, material), count, progress=progress)
     return Part(make_block(wanted, count, progress=progress), wanted, None, StageCache())
 
 
@@ -260,11 +262,11 @@ def mesh_network(
 ) -> Part:
     """The nodes and struts of any graph, meshed as they are in free space.
 
-    To fill a part with it, give ``network=volfrep.design.networks.make_network(...)``, or a
-    ``RandomNetwork``, to `volfrep.fill`.
+    To fill a part with it, give ``network=volfrep.design.graphs.make_network(...)``, or a
+    ``RandomGraph``, to `volfrep.fill`.
 
     Args:
-        graph: a file (see `volfrep.design.networks.read_network`), or arrays: nodes (n, 3) in
+        graph: a file (see `volfrep.design.graphs.read_network`), or arrays: nodes (n, 3) in
             mm, struts (m, 2), and, if they differ, radii (m,), (m, 2) or (n,) in mm.
         spec: what to make.
         progress: as of `volfrep.fill`.
@@ -279,7 +281,7 @@ def mesh_network(
     >>> made.report.genus, made.report.bodies
     (1, 1)
     """
-    from .jobs.networks.alone import network_alone
+    from .jobs.graphs.free_space import mesh_graph_alone
 
     if isinstance(graph, tuple):
         found = make_network(*graph)
@@ -287,7 +289,7 @@ def mesh_network(
         cell = parameters.get("cell", None if spec is None else spec.cell)
         found = read_network(graph, find_cell(cell) if isinstance(cell, str) else cell)
     wanted = specified(spec, {**parameters, "network": found}, None)
-    return Part(network_alone(wanted, progress=progress), wanted, None, StageCache())
+    return Part(mesh_graph_alone(wanted, progress=progress), wanted, None, StageCache())
 
 
 def slice_layers(
@@ -422,7 +424,7 @@ def _with_wall(parameters: dict[str, Any], spec: LatticeSpec | None) -> dict[str
     rest = {name: value for name, value in parameters.items() if name not in _WALL}
     formula = rest.pop("wall_formula", None)
     if given:
-        rest["wall"] = dataclasses.replace(Wall() if spec is None else spec.wall, **given)
+        rest["wall"] = dataclasses.replace(TpmsSheet() if spec is None else spec.wall, **given)
     if formula is not None:
         cell = rest.get("cell", FORMULA)
         if not isinstance(cell, str) or surface_name(cell) != FORMULA:

@@ -46,7 +46,7 @@ def write_exact(
     """Write a lattice as STEP with exact surfaces, a closed solid for each connected piece.
 
     Each kind of joint is fused once: a block has few, a lattice whose radii vary everywhere one
-    for every node (`predicted_exact`).
+    for every node (`predict_exact`).
 
     Args:
         wireframe: the lattice, mm.

@@ -10,7 +10,7 @@ import FreeCAD as App
 import numpy as np
 
 from volfrep.design.cells import UnitCell
-from volfrep.design.networks import GivenNetwork, laid_along
+from volfrep.design.graphs import GivenGraph, place_cells_along
 from volfrep.util.errors import VolfrepError
 from volfrep.util.types import Floats
 
@@ -34,7 +34,7 @@ def between_faces(
     cell_size: float,
     layers: int,
     thickness: float,
-) -> GivenNetwork:
+) -> GivenGraph:
     """A cell laid between two faces, or upon one, its outermost nodes on the faces themselves.
 
     Args:
@@ -77,7 +77,9 @@ def between_faces(
     counts = [max(1, round(length / cell_size)) for length in lengths]
     if layers:
         counts[2] = layers
-    return laid_along(cell, place, (counts[0], counts[1], counts[2]), "layers along the faces")
+    return place_cells_along(
+        cell, place, (counts[0], counts[1], counts[2]), "layers along the faces"
+    )
 
 
 def _surface(face: Any, name: str) -> Surface:

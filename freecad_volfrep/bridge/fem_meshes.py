@@ -15,7 +15,7 @@ import numpy as np
 import Part
 from numpy.typing import NDArray
 
-from volfrep.fem.beam_mesh import BeamModel
+from volfrep.fem.beam_mesh import BeamMesh
 from volfrep.fem.tet_mesh import TetrahedralMesh
 
 Ints = NDArray[np.int64]
@@ -41,7 +41,7 @@ class Runs:
     section: Ints
 
 
-def beam_mesh(model: BeamModel, sets: Mapping[str, Ints]) -> Generator[float, None, Fem.FemMesh]:
+def beam_mesh(model: BeamMesh, sets: Mapping[str, Ints]) -> Generator[float, None, Fem.FemMesh]:
     """Three-noded edges, the model's own nodes first and numbered from 1.
 
     Args:
@@ -84,7 +84,7 @@ def tetrahedral_mesh(
     return mesh
 
 
-def runs_of(model: BeamModel) -> Runs:
+def runs_of(model: BeamMesh) -> Runs:
     """The edges that the beams lie on: FreeCAD tells sections and materials by geometry."""
     kind = np.stack([model.strut, model.is_joint, model.section], axis=1)
     first = np.flatnonzero((np.diff(kind, axis=0, prepend=-1) != 0).any(axis=1))

@@ -51,7 +51,7 @@ def with_neighbours(vertices: NDArray[np.float64], facets: NDArray[np.uint32]) -
 
     Args:
         vertices: (n, 3) mm.
-        facets: (t, 6) of `volfrep.mesh.drawn.facets_with_neighbours`.
+        facets: (t, 6) of `volfrep.mesh.display_parts.facets_with_neighbours`.
 
     Raises:
         VolfrepError: FreeCAD did not take every triangle.

@@ -15,7 +15,7 @@ from .lattice_infill import LatticeInfill
 from .progress import job_title, run_job
 
 if TYPE_CHECKING:
-    from freecad_volfrep.bridge.apart import ExactJob
+    from freecad_volfrep.bridge.worker_calls import ExactJob
     from volfrep.design.spec import LatticeSpec
     from volfrep.grid.strut_graph import Wireframe
     from volfrep.mesh.triangle_mesh import TriangleMesh
@@ -85,9 +85,9 @@ def ingredients_of(obj: App.DocumentObject) -> Ingredients:
         Cancelled: in the window, by the user.
     """
     solid, spec, cache = inputs_of(obj)
-    from volfrep.apart.engine_process import Call
     from volfrep.jobs.beam_part import exact_struts
     from volfrep.trim.beam_model import deformed_struts
+    from volfrep.worker.engine_process import Call
 
     lattice, domain = run_job(
         job_title("Struts of {label}", obj), Call(exact_struts, (solid, spec), {"cache": cache})
@@ -102,10 +102,10 @@ def estimate_of(made_of: Ingredients) -> Estimate:
     Raises:
         VolfrepError: absurdly much; the text names the nearest cell size that fits.
     """
-    from volfrep.reports.estimate import Asked, estimate_exact
+    from volfrep.reports.estimate import ExportChoice, estimate_exact
 
     cut = made_of.domain is not None
-    return estimate_exact(made_of.lattice, Asked(made_of.spec), trimmed=cut)
+    return estimate_exact(made_of.lattice, ExportChoice(made_of.spec), trimmed=cut)
 
 
 def checked_ingredients(obj: App.DocumentObject) -> Ingredients:
@@ -128,12 +128,12 @@ def exact_shape(obj: App.DocumentObject, made_of: Ingredients) -> Any:
             the mesh's.
         Cancelled: in the window, by the user.
     """
-    from freecad_volfrep.bridge.apart import packed_exact, unpacked
     from freecad_volfrep.bridge.beams import place_in_document
-    from volfrep.apart.engine_process import Call
+    from freecad_volfrep.bridge.worker_calls import packed_exact, unpack
+    from volfrep.worker.engine_process import Call
 
     call = Call(packed_exact, (exact_job(obj, made_of),))
-    shape = unpacked(run_job(exact_title(obj), call, in_freecad=True))
+    shape = unpack(run_job(exact_title(obj), call, in_freecad=True))
     warn(obj, made_of.warnings)
     shape.Placement = place_in_document(obj).multiply(shape.Placement)
     return shape
@@ -150,8 +150,8 @@ def exact_job(obj: App.DocumentObject, made_of: Ingredients) -> ExactJob:
     Raises:
         VolfrepError: its struts are not what exact ones would be.
     """
-    from freecad_volfrep.bridge.apart import ExactJob, packed
     from freecad_volfrep.bridge.trimmed import base_shape
+    from freecad_volfrep.bridge.worker_calls import ExactJob, pack
     from volfrep.reports.estimate import refuse_inexact
 
     refuse_inexact(made_of.spec)
@@ -161,7 +161,7 @@ def exact_job(obj: App.DocumentObject, made_of: Ingredients) -> ExactJob:
         made_of.lattice,
         made_of.solid,
         made_of.domain,
-        None if base is None else packed(base),
+        None if base is None else pack(base),
         # A bush round a hole is too little of the volume for the wall's check to see.
         made_of.spec.shell if skin is None or skin.is_even else None,
         made_of.with_skin,

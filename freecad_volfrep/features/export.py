@@ -120,10 +120,10 @@ def export_mesh(
     """
     require_engine()
     from freecad_volfrep.bridge.solids import mesh_in_document
-    from volfrep.apart.engine_process import Call
     from volfrep.io.write import write_mesh
     from volfrep.io.write.threemf import BEAMS_ONLY, write_3mf_beams
     from volfrep.util.files import beside
+    from volfrep.worker.engine_process import Call
 
     if not obj.isDerivedFrom("Mesh::Feature") or not obj.Mesh.CountFacets:
         raise VolfrepError(f"'{obj.Label}' has no mesh to export: update it first.")

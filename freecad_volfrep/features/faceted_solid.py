@@ -99,15 +99,15 @@ def make_solid(
         VolfrepError: no mesh, more triangles than the limit, or a mesh that is not closed.
     """
     require_engine()
-    from freecad_volfrep.bridge.apart import packed_facets, unpacked
     from freecad_volfrep.bridge.solids import mesh_in_document
-    from volfrep.apart.engine_process import Call
+    from freecad_volfrep.bridge.worker_calls import packed_facets, unpack
+    from volfrep.worker.engine_process import Call
 
     acceptable_solid(obj, limit)
     said = tell_stale(obj)
     call = Call(packed_facets, (mesh_in_document(obj),), has_progress=False)
     title = job_title("Plane faces of {label}", obj)
-    shape = unpacked(run_job(title, call, in_freecad=True))
+    shape = unpack(run_job(title, call, in_freecad=True))
     solid = shape_object(doc, obj, shape, PLANE)
     solid.Label2 = " ".join(said)
     return solid

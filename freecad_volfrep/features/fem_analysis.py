@@ -23,7 +23,7 @@ from .progress import all_or_nothing, go_through, job_title
 from .solver_files import beams_of, tetrahedra_of
 
 if TYPE_CHECKING:
-    from volfrep.fem.beam_mesh import BeamModel
+    from volfrep.fem.beam_mesh import BeamMesh
     from volfrep.fem.tet_mesh import TetrahedralMesh
     from volfrep.mechanics.materials import Material
 
@@ -99,7 +99,7 @@ def _beam_steps(
     doc: App.Document,
     obj: App.DocumentObject,
     material: Material,
-    model: BeamModel,
+    model: BeamMesh,
     on_wall: NDArray[np.bool_],
 ) -> Generator[float, None, Any]:
     """The analysis of beams: the share that is done after each step, and the analysis."""

@@ -97,14 +97,14 @@ def tell_stale(obj: App.DocumentObject) -> tuple[str, ...]:
 
 def _earlier_fingerprint(spec: LatticeSpec, solid: TriangleMesh) -> str | None:
     """The fingerprint as releases up to 0.1.0 made it; None where they did not look at all."""
-    from volfrep.design.networks import GivenNetwork, RandomNetwork
+    from volfrep.design.graphs import GivenGraph, RandomGraph
     from volfrep.design.scattered_field import PointField
 
     network, cell = spec.network, None if spec.surface is not None else spec.unit_cell()
     if (
         (cell is not None and not cell.is_plain)
-        or (isinstance(network, GivenNetwork) and len(network.widths))
-        or (isinstance(network, RandomNetwork) and network.field is not None)
+        or (isinstance(network, GivenGraph) and len(network.widths))
+        or (isinstance(network, RandomGraph) and network.field is not None)
     ):
         return None
     digest = hashlib.sha256()
@@ -117,7 +117,7 @@ def _earlier_fingerprint(spec: LatticeSpec, solid: TriangleMesh) -> str | None:
     if isinstance(field, PointField):
         digest.update(field.points.tobytes())
         digest.update(field.values.tobytes())
-    if isinstance(network, GivenNetwork):
+    if isinstance(network, GivenGraph):
         for array in (network.nodes, network.struts, network.radii):
             digest.update(array.tobytes())
     if cell is not None:

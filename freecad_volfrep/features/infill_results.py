@@ -15,9 +15,9 @@ if TYPE_CHECKING:
     import Mesh
 
     from volfrep import LatticeSpec
-    from volfrep.apart.engine_process import Call
     from volfrep.jobs.pipeline import FilledMesh
     from volfrep.reports.report import Report
+    from volfrep.worker.engine_process import Call
 
 
 @dataclass(frozen=True, eq=False)

@@ -17,7 +17,7 @@ from .exact import Ingredients, exact_job, ingredients_of, warn
 from .progress import all_or_nothing, go_through, job_title, run_job
 
 if TYPE_CHECKING:
-    from freecad_volfrep.bridge.apart import PackedJoints
+    from freecad_volfrep.bridge.worker_calls import PackedJoints
     from volfrep.reports.estimate import Estimate
 
 #: Joints that a wall cuts are solids of their own: no more of them than this.
@@ -47,9 +47,9 @@ def make_instances(doc: App.Document, obj: App.DocumentObject) -> App.DocumentOb
         VolfrepError: OpenCASCADE does not manage it, or the parts' volume is not the mesh's.
         Cancelled: in the window, by the user; nothing is added.
     """
-    from freecad_volfrep.bridge.apart import packed_joints, unpacked
     from freecad_volfrep.bridge.trimmed import check_volume
-    from volfrep.apart.engine_process import Call
+    from freecad_volfrep.bridge.worker_calls import packed_joints, unpack
+    from volfrep.worker.engine_process import Call
 
     made_of = ingredients_of(obj)
     job = exact_job(obj, made_of)
@@ -61,7 +61,7 @@ def make_instances(doc: App.Document, obj: App.DocumentObject) -> App.DocumentOb
     with all_or_nothing(doc):
         return go_through(
             job_title("Instances of {label}", obj),
-            _group_steps(doc, obj, joints, unpacked(joints.shapes).childShapes()),
+            _group_steps(doc, obj, joints, unpack(joints.shapes).childShapes()),
         )
 
 
@@ -105,7 +105,7 @@ def estimate_instances(obj: App.DocumentObject) -> Estimate:
         Cancelled: in the window, by the user.
     """
     from volfrep.grid.congruent_joints import distinct_joints
-    from volfrep.io.write.step_exact import predicted_exact
+    from volfrep.io.write.step_exact import predict_exact
     from volfrep.reports.estimate import Estimate
 
     made_of = ingredients_of(obj)
@@ -114,7 +114,7 @@ def estimate_instances(obj: App.DocumentObject) -> Estimate:
     size = BYTES_PER_KIND * len(joints) + BYTES_PER_LINK * whole + BYTES_PER_CUT_JOINT * cut
     return Estimate(
         f"{len(joints):,} kinds of joints at {whole:,} places, {cut:,} joints at the wall",
-        predicted_exact(made_of.lattice).seconds + SECONDS_PER_CUT_JOINT * cut,
+        predict_exact(made_of.lattice).seconds + SECONDS_PER_CUT_JOINT * cut,
         1e-6 * size,
     )
 
@@ -158,8 +158,8 @@ def _sides(obj: App.DocumentObject, made_of: Ingredients) -> tuple[np.ndarray, n
         VolfrepError: the wall cuts too many joints.
         Cancelled: in the window, by the user.
     """
-    from volfrep.apart.engine_process import Call
     from volfrep.jobs.beam_part import joints_at_wall
+    from volfrep.worker.engine_process import Call
 
     whole, cut = run_job(
         job_title("Struts of {label}", obj), Call(joints_at_wall, (made_of.lattice, made_of.domain))

@@ -271,10 +271,10 @@ class LatticeInfill:
     def _asked(self, obj: App.DocumentObject, forced: bool) -> Asked | None:
         """What is to be made now; None for nothing, and `Status` says why."""
         require_engine()
-        from volfrep.apart.engine_process import Call
         from volfrep.design.forecast import forecast_fill
         from volfrep.jobs.pipeline import filled_mesh
-        from volfrep.jobs.rough_radius import roughly_aimed
+        from volfrep.jobs.rough_radius import solve_target_roughly
+        from volfrep.worker.engine_process import Call
 
         spec, solid = self.read(obj)
         fingerprint = fingerprint_of(obj, spec, solid)
@@ -284,7 +284,7 @@ class LatticeInfill:
             set_value(obj, "Mass", obj.Volume.Value * spec.density / 1000.0)
             obj.Status = UP_TO_DATE
             return None
-        forecast = forecast_fill(solid, roughly_aimed(solid, spec))
+        forecast = forecast_fill(solid, solve_target_roughly(solid, spec))
         obj.Expected = str(forecast)
         if not obj.AutoUpdate and not forced:
             obj.Status = OUT_OF_DATE

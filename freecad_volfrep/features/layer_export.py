@@ -73,8 +73,8 @@ def export_layers(
         Cancelled: in the window, by the user; what was there before stays.
     """
     from freecad_volfrep.bridge.beams import place_in_document
-    from volfrep.apart.engine_process import Call
     from volfrep.jobs.slices import write_layers
+    from volfrep.worker.engine_process import Call
 
     solid, spec, cache = infill_made_of(obj)
     if abs(place_in_document(obj).Rotation.Angle) > 1e-9:

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 import FreeCAD as App
 
 if TYPE_CHECKING:
-    from volfrep.design.networks import GivenNetwork
+    from volfrep.design.graphs import GivenGraph
 
 
-def laid_along_faces(obj: App.DocumentObject, values: dict[str, Any]) -> GivenNetwork:
+def laid_along_faces(obj: App.DocumentObject, values: dict[str, Any]) -> GivenGraph:
     """Cells between two faces, or in layers upon one.
 
     Args:

@@ -109,10 +109,10 @@ class PrintCheck:
         from freecad_volfrep.bridge.beams import place_in_document, placed_lattice
         from freecad_volfrep.bridge.meshes import to_freecad
         from freecad_volfrep.bridge.solids import mesh_in_document, placed
-        from volfrep.apart.engine_process import Call
         from volfrep.jobs.beam_part import struts_and_cavity
         from volfrep.jobs.figures.print_check import print_check
         from volfrep.reports.processes import find_process
+        from volfrep.worker.engine_process import Call
 
         solid, spec, cache = infill.Proxy.inputs(infill)
         if spec.output == "domain":

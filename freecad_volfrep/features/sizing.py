@@ -300,8 +300,8 @@ def size_struts(
         Cancelled: in the window, by the user, before there was a design; afterwards a cancel keeps
             the best.
     """
-    from volfrep.apart.engine_process import Call
     from volfrep.jobs.sizing import size
+    from volfrep.worker.engine_process import Call
 
     solid, spec, cache = obj.Proxy.wanted(obj)
     loads = loads_of(obj, analyses)
@@ -398,14 +398,14 @@ def solve_struts(obj: App.DocumentObject) -> tuple[StrutState, ...]:
         VolfrepError: there is no analysis, or it or the infill makes no sense.
         Cancelled: in the window, by the user.
     """
-    from volfrep.apart.engine_process import Call
-    from volfrep.jobs.sizing import solved
+    from volfrep.jobs.sizing import solve_struts
     from volfrep.sizing.strut_state import strut_states
+    from volfrep.worker.engine_process import Call
 
     loads = loads_of(obj, analyses_of(obj))
     solid, spec, cache = obj.Proxy.wanted(obj)
     model, analysis = run_job(
         job_title("Struts of {label}", obj),
-        Call(solved, (solid, spec, loads), {"cache": cache}),
+        Call(solve_struts, (solid, spec, loads), {"cache": cache}),
     )
     return strut_states(model.problem, analysis)

@@ -31,7 +31,7 @@ from .progress import job_title, run_job
 if TYPE_CHECKING:
     import numpy as np
 
-    from volfrep.fem.beam_mesh import BeamModel
+    from volfrep.fem.beam_mesh import BeamMesh
     from volfrep.fem.tet_mesh import TetrahedralMesh
     from volfrep.trim.clip_struts import Clipped
 
@@ -48,8 +48,8 @@ def axes_of(obj: App.DocumentObject) -> Clipped:
     """
     solid, spec, cache = inputs_of(obj)
     from freecad_volfrep.bridge.beams import place_in_document, placed_lattice
-    from volfrep.apart.engine_process import Call
     from volfrep.jobs.beam_part import clipped_infill
+    from volfrep.worker.engine_process import Call
 
     clipped = run_job(
         job_title("Struts of {label}", obj),
@@ -70,9 +70,14 @@ def estimate_file(obj: App.DocumentObject, content: str) -> str:
         raise VolfrepError(f"There is no content '{content}': choose {' or '.join(CONTENTS)}.")
     _, spec, _ = inputs_of(obj)
     from volfrep.fem.beam_mesh import beam_model
-    from volfrep.reports.estimate import Asked, estimate_axes, estimate_beams, estimate_tetrahedra
+    from volfrep.reports.estimate import (
+        ExportChoice,
+        estimate_axes,
+        estimate_beams,
+        estimate_tetrahedra,
+    )
 
-    asked = Asked(spec)
+    asked = ExportChoice(spec)
     if content == "tetrahedra":
         return str(estimate_tetrahedra(obj.Mesh.CountFacets, asked))
     if content == "instances":
@@ -109,13 +114,13 @@ def write_solver_file(obj: App.DocumentObject, path: str | os.PathLike[str], con
 
 
 def _write_exact(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
-    from freecad_volfrep.bridge.apart import write_exact_lattice, write_exact_part
     from freecad_volfrep.bridge.beams import place_in_document, placed_lattice
     from freecad_volfrep.bridge.solids import mesh_in_document
     from freecad_volfrep.bridge.trimmed import check_volume
-    from volfrep.apart.engine_process import Call
+    from freecad_volfrep.bridge.worker_calls import write_exact_lattice, write_exact_part
     from volfrep.io.write.step_faceted import write_step_faceted
     from volfrep.reports.estimate import estimate_faceted
+    from volfrep.worker.engine_process import Call
 
     made_of = checked_ingredients(obj)
     place, title = place_in_document(obj), exact_title(obj)
@@ -158,7 +163,7 @@ def _write_beams(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
     write_beams(model, path, for_solver(obj), on_wall=on_wall)
 
 
-def beams_of(obj: App.DocumentObject, **options: Any) -> tuple[BeamModel, np.ndarray]:
+def beams_of(obj: App.DocumentObject, **options: Any) -> tuple[BeamMesh, np.ndarray]:
     """The infill as beams with fitted ends, in the document's coordinates, and what is on the wall.
 
     Args:
@@ -169,9 +174,9 @@ def beams_of(obj: App.DocumentObject, **options: Any) -> tuple[BeamModel, np.nda
         VolfrepError: as `axes_of`.
         Cancelled: in the window, by the user.
     """
-    from volfrep.apart.engine_process import Call
     from volfrep.fem.beam_mesh import fitted_beams
     from volfrep.trim.beam_model import deformed_struts
+    from volfrep.worker.engine_process import Call
 
     clipped = axes_of(obj)
     spec = inputs_of(obj)[1]
@@ -189,9 +194,9 @@ def beams_of(obj: App.DocumentObject, **options: Any) -> tuple[BeamModel, np.nda
 def _write_tetrahedra(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
     from freecad_volfrep.bridge.beams import place_in_document
     from freecad_volfrep.bridge.solids import placed
-    from volfrep.apart.engine_process import Call
     from volfrep.fem.tet_mesh import nodes_on
     from volfrep.io.write.calculix import write_tetrahedra
+    from volfrep.worker.engine_process import Call
 
     solid = placed(inputs_of(obj)[0], place_in_document(obj))
     filled = tetrahedra_of(obj)
@@ -212,8 +217,8 @@ def tetrahedra_of(obj: App.DocumentObject) -> TetrahedralMesh:
         Cancelled: in the window, by the user.
     """
     from freecad_volfrep.bridge.solids import mesh_in_document
-    from volfrep.apart.engine_process import Call
     from volfrep.jobs.beam_part import tetrahedra_of as made
+    from volfrep.worker.engine_process import Call
 
     title = job_title("Tetrahedra of {label}", obj)
     filled: TetrahedralMesh = run_job(title, Call(made, (mesh_in_document(obj),)))

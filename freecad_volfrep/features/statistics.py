@@ -9,7 +9,7 @@ from typing import Any
 
 import FreeCAD as App
 
-from volfrep.design.walls import Wall
+from volfrep.design.tpms import TpmsSheet
 from volfrep.util.errors import VolfrepError
 
 from .freshness import tell_stale
@@ -105,9 +105,9 @@ def _lattices(
 
 
 def _lattice(obj: App.DocumentObject) -> dict[str, str]:
-    from volfrep.apart.engine_process import Call
     from volfrep.jobs.figures.properties import lattice_properties
     from volfrep.mechanics.catalogue import known_properties
+    from volfrep.worker.engine_process import Call
 
     try:
         _, spec, _ = obj.Proxy.inputs(obj)
@@ -135,7 +135,7 @@ def _lattice(obj: App.DocumentObject) -> dict[str, str]:
     return {name: rows[name] for name in rows if name not in ("cell", "material")}
 
 
-def _of_walls(wall: Wall) -> dict[str, Any]:
+def _of_walls(wall: TpmsSheet) -> dict[str, Any]:
     """What says how thick a wall is, as `lattice_properties` takes it."""
     if wall.is_sheet:
         return {"wall_kind": wall.kind, "wall_thickness": wall.thickness}

@@ -17,8 +17,8 @@ from .progress import SHOW_AFTER, Bar, is_waited_for
 from .qt import QtCore, QtWidgets
 
 if TYPE_CHECKING:
-    from volfrep.apart.engine_process import Call
-    from volfrep.apart.engines import Running
+    from volfrep.worker.engine_process import Call
+    from volfrep.worker.engines import Running
 
 #: Jobs are looked at so often, ms.
 TICK = 40

@@ -8,7 +8,7 @@ from typing import Any
 
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP
 from volfrep.design.cells import LIBRARY, UnitCell
-from volfrep.design.walls import PeriodicSurface
+from volfrep.design.tpms import PeriodicSurface
 
 from .cell_picture import cell_icon, wall_icon
 

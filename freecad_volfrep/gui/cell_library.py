@@ -12,7 +12,7 @@ import FreeCADGui as Gui
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 from volfrep.design.cells import LIBRARY, UnitCell, load_cell
 from volfrep.design.parameters.table import CUSTOM_CELL
-from volfrep.design.walls import SURFACES, PeriodicSurface
+from volfrep.design.tpms import SURFACES, PeriodicSurface
 from volfrep.mechanics.endless import strains_held
 from volfrep.util.errors import VolfrepError
 

@@ -59,8 +59,8 @@ def wall_icon(name: str, size: int = 72) -> QtGui.QIcon:
     Of a formula of one's own the cube is empty.
     """
     from volfrep.design.expression import compile_expression
-    from volfrep.design.walls import SURFACES
-    from volfrep.walls.midsurface import VARIABLES
+    from volfrep.design.tpms import SURFACES
+    from volfrep.tpms.midsurface import VARIABLES
 
     if name not in SURFACES:
         return cell_icon(None, size)

@@ -13,7 +13,7 @@ from freecad_volfrep.features.progress import run_job
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 from volfrep.design.cells import UnitCell
 from volfrep.design.parameters.table import NOTHING
-from volfrep.design.walls import PeriodicSurface
+from volfrep.design.tpms import PeriodicSurface
 from volfrep.util.errors import Cancelled, VolfrepError
 
 from .qt import QtCore, QtWidgets
@@ -90,8 +90,8 @@ class CellProperties(QtWidgets.QWidget):
 
     def compute(self) -> None:
         """Homogenise the cell; says here what is wrong with the values."""
-        from volfrep.apart.engine_process import Call
         from volfrep.jobs.figures.properties import lattice_properties
+        from volfrep.worker.engine_process import Call
 
         cell, size = self._cell, self._size("CellSize")
         assert cell is not None

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from volfrep.mesh.shading import shaded
+from volfrep.mesh.shading import shade
 
 from . import drawing
 from .prisms import CREASE_ANGLE, SIDES, prisms
@@ -74,7 +74,7 @@ def coloured_struts(
         style.lineWidth = LINE_WIDTH
         return drawing.separate(drawing.flat_light(), style, look, binding, coordinates, lines)
     mesh = prisms(start, end, radii)
-    drawn = shaded(mesh, CREASE_ANGLE)
+    drawn = shade(mesh, CREASE_ANGLE)
     vertex = np.empty(len(drawn.points), np.int64)
     vertex[drawn.triangles.ravel()] = mesh.triangles.ravel()
     each = np.repeat(colours.reshape(-1, 3), SIDES, axis=0)[vertex]

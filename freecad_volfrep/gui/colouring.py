@@ -171,8 +171,8 @@ class Colouring:
     def _ask(self, quantity: str) -> None:
         """Have the values made beside the window."""
         from freecad_volfrep.features.progress import job_title
-        from volfrep.apart.engine_process import Call
         from volfrep.jobs.figures.point_values import OF_LOADS, point_values
+        from volfrep.worker.engine_process import Call
 
         key = self._key
         if self._asked == key:

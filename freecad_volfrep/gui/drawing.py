@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from volfrep.mesh.drawn import in_pieces
-from volfrep.mesh.shading import CREASE_ANGLE, shaded, sharp_edges
+from volfrep.mesh.display_parts import in_pieces
+from volfrep.mesh.shading import CREASE_ANGLE, shade, sharp_edges
 from volfrep.mesh.triangle_mesh import TriangleMesh
 
 #: How shiny what we draw is.
@@ -28,7 +28,7 @@ EDGE_WIDTH, EDGE_DARKER = 2.0, 0.4
 def faces(mesh: TriangleMesh, crease_angle: float = CREASE_ANGLE) -> Any:
     """A group that draws a mesh, without a look: coordinates, normals, triangles."""
     group = _group(_coin().SoGroup())
-    for arrays in in_pieces(shaded(mesh, crease_angle)):
+    for arrays in in_pieces(shade(mesh, crease_angle)):
         group.addChild(piece(*arrays))
     return group
 
@@ -36,7 +36,7 @@ def faces(mesh: TriangleMesh, crease_angle: float = CREASE_ANGLE) -> Any:
 def piece(
     points: NDArray[np.float32], normals: NDArray[np.float32], index: NDArray[np.int32]
 ) -> Any:
-    """A separator that draws a piece of a mesh, see `volfrep.mesh.drawn`."""
+    """A separator that draws a piece of a mesh, see `volfrep.mesh.display_parts`."""
     coin = _coin()
     coordinates, directions = coin.SoCoordinate3(), coin.SoNormal()
     coordinates.point.setValues(0, len(points), points)

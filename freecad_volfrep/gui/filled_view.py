@@ -21,7 +21,7 @@ from freecad_volfrep.features.skin import is_just_made
 from . import drawing
 
 if TYPE_CHECKING:
-    from volfrep.mesh.drawn import DrawnPart
+    from volfrep.mesh.display_parts import DrawnPart
     from volfrep.mesh.triangle_mesh import TriangleMesh
 
 #: The display mode.
@@ -151,7 +151,7 @@ def show_parts(obj: Any, node: Any, is_coarse: bool) -> FilledPart:
 
     What the engine has made with the mesh serves, once; else it is made here.
     """
-    from volfrep.mesh.drawn import drawn_parts
+    from volfrep.mesh.display_parts import drawn_parts
     from volfrep.reports.facet_roles import OUTSIDE
 
     made = obj.Proxy.made

@@ -99,7 +99,7 @@ class InstallWindow(QtWidgets.QDialog):
         self._output.appendPlainText(text.rstrip())
 
     def _fail(self, error: QtCore.QProcess.ProcessError) -> None:
-        """Where the program could not even be started, `finished` never comes."""
+        """Where the program could not even be started, `finish` never comes."""
         if error == QtCore.QProcess.FailedToStart:
             self._output.appendPlainText(self._process.errorString())
             self._end()

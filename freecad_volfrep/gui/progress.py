@@ -27,8 +27,8 @@ from volfrep.util.errors import Cancelled
 from .qt import QtCore, QtGui, QtWidgets
 
 if TYPE_CHECKING:
-    from volfrep.apart.engine_process import Call
-    from volfrep.apart.engines import Running
+    from volfrep.worker.engine_process import Call
+    from volfrep.worker.engines import Running
 
 #: Quicker jobs show nothing, in ms.
 SHOW_AFTER = 700

@@ -69,13 +69,13 @@ class RecipeRow(QtWidgets.QWidget):
         self._fill()
 
     def _fill(self, chosen: str = "") -> None:
-        from volfrep.design.parameters.recipes import described
+        from volfrep.design.parameters.recipes import describe_recipe
 
         self.list.clear()
         self.list.addItem(translate("VolfrepRecipes", "Recipe..."), "")
         for name, path in known_recipes().items():
             self.list.addItem(_title(name, path), str(path))
-            about = described(path) if name in _TITLES else str(path)
+            about = describe_recipe(path) if name in _TITLES else str(path)
             self.list.setItemData(self.list.count() - 1, about, QtCore.Qt.ToolTipRole)
             if name == chosen:
                 self.list.setCurrentIndex(self.list.count() - 1)

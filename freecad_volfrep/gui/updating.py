@@ -14,7 +14,7 @@ from freecad_volfrep.translation import translate
 
 from .background import Job, begin
 from .in_steps import Stillness
-from .likeness import Likeness
+from .proxy_mesh import ProxyMesh
 from .qt import QtWidgets
 
 if TYPE_CHECKING:
@@ -51,7 +51,7 @@ class Update:
     ) -> None:
         self._obj, self._doc, self._asked = obj, obj.Document, asked
         self.is_in_panel, self.ended = is_in_panel, ended
-        self._likeness: Likeness | None = None
+        self._likeness: ProxyMesh | None = None
         self._mesh: Mesh.Mesh = None
         self._job: Job = begin(
             asked.title,
@@ -93,7 +93,7 @@ class Update:
     def _take_over(self, filled: FilledMesh) -> Iterator[None]:
         """Make FreeCAD's mesh; a large one when the user does nothing, after its likeness."""
         if len(filled.mesh.triangles) > LARGE:
-            self._likeness = Likeness(self._obj, filled)
+            self._likeness = ProxyMesh(self._obj, filled)
             stillness = Stillness(QtWidgets.QApplication.instance())
             try:
                 yield

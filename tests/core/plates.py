@@ -12,7 +12,7 @@ import manifold3d
 import numpy as np
 
 from volfrep import LatticeSpec, VolfrepError
-from volfrep.fem.beam_mesh import BeamModel, beam_model
+from volfrep.fem.beam_mesh import BeamMesh, beam_model
 from volfrep.fem.tet_mesh import TetrahedralMesh, tetrahedra
 from volfrep.io.write.calculix import sides, write_beams, write_tetrahedra
 from volfrep.jobs.blocks import block, block_wireframe
@@ -72,7 +72,7 @@ def shaken(mesh: TriangleMesh) -> tuple[TetrahedralMesh, float]:
     raise said
 
 
-def beam_force(model: BeamModel, folder: Path, *, bonded=True):
+def beam_force(model: BeamMesh, folder: Path, *, bonded=True):
     """The force on a plate, N, of the deck's beams in CalculiX."""
     path = folder / "beams.inp"
     write_beams(model, path, SOLID)
@@ -96,7 +96,7 @@ def beam_force(model: BeamModel, folder: Path, *, bonded=True):
     return abs(total_force(path, "ZMAX"))
 
 
-def beams_of(cell, ratio, **options) -> BeamModel:
+def beams_of(cell, ratio, **options) -> BeamMesh:
     frame = block_wireframe(spec_of(cell, ratio), (COUNT,) * 3)
     return beam_model(frame, **options)
 

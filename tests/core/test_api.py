@@ -14,7 +14,7 @@ import samples
 import volfrep
 from volfrep import LatticeSpec, VolfrepError
 from volfrep.api import specified
-from volfrep.design.walls import Wall
+from volfrep.design.tpms import TpmsSheet
 
 BOX = {"cell": "CVC", "cell_size": 10, "strut_radius": 1, "shell": 2, "resolution": 10}
 
@@ -40,9 +40,9 @@ def test_a_part_is_the_same_from_a_file_a_mesh_and_arrays(
 
 def test_walls_are_asked_for_as_on_the_command_line() -> None:
     spec = specified(None, {"cell": "Gyroid", "cell_size": 8, "wall_thickness": 0.8}, None)
-    assert spec == LatticeSpec("Gyroid", 8, wall=Wall("sheet", 0.8))
+    assert spec == LatticeSpec("Gyroid", 8, wall=TpmsSheet("sheet", 0.8))
     other = specified(spec, {"wall_kind": "skeleton", "wall_offset": 0.2}, None)
-    assert other.wall == Wall("skeleton", 0.8, 0.2)
+    assert other.wall == TpmsSheet("skeleton", 0.8, 0.2)
     own = specified(None, {"wall_formula": "cos(x) + cos(y) + cos(z)"}, None)
     assert own.surface is not None
     assert own.surface.formula == "cos(x) + cos(y) + cos(z)"

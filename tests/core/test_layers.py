@@ -12,8 +12,8 @@ import pytest
 ENGINE = Path(__file__).resolve().parents[2] / "core" / "volfrep"
 #: The rooms, low to high: a room imports from itself and from those before it.
 ROOMS = (
-    "util", "apart", "mesh", "spatial", "design", "shell", "grid", "octants", "lattice", "walls",
-    "network", "mechanics", "trim", "fem", "slicing", "io", "loads", "sizing", "reports", "jobs",
+    "util", "worker", "mesh", "spatial", "design", "shell", "grid", "octants", "lattice", "tpms",
+    "graphs", "mechanics", "trim", "fem", "slicing", "io", "loads", "sizing", "reports", "jobs",
     "studies", "cli",
 )  # fmt: skip
 #: A module has one subject, and as many lines as that takes. One of more lines than these says in

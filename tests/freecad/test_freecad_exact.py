@@ -16,7 +16,7 @@ require_engine()
 
 from freecad_volfrep.bridge.exact import exact_lattice, write_exact  # noqa: E402
 from volfrep import LatticeSpec  # noqa: E402
-from volfrep.io.write.step_exact import predicted_exact  # noqa: E402
+from volfrep.io.write.step_exact import predict_exact  # noqa: E402
 from volfrep.jobs.blocks import block  # noqa: E402
 from volfrep.util.errors import Cancelled, VolfrepError  # noqa: E402
 from volfrep.util.progress import Monitor  # noqa: E402
@@ -153,7 +153,7 @@ def test_gmsh_meshes_it(tmp_path):
 def test_616_cells(tmp_path):
     spec = LatticeSpec(cell="CVC", cell_size=20, strut_radius=2, resolution=10)
     frame = block(spec, (11, 8, 7)).wireframe
-    prediction = predicted_exact(frame)
+    prediction = predict_exact(frame)
     start = time.process_time()
     volume = write_exact(frame, tmp_path / "block.step")
     assert time.process_time() - start < 15

@@ -20,7 +20,7 @@ from freecad_volfrep.features.layer_export import estimate_layers, export_layers
 from freecad_volfrep.features.solver_files import CONTENTS
 from volfrep.io.write import MESH_WRITERS
 from volfrep.jobs.slices import FORMATS as FORMS_OF_LAYERS
-from volfrep.mesh.drawn import facets_with_neighbours
+from volfrep.mesh.display_parts import facets_with_neighbours
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
 from volfrep.util.errors import VolfrepError
 

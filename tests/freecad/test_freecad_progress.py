@@ -11,11 +11,11 @@ import pytest
 from freecad_volfrep.engines import freecads, programs
 from freecad_volfrep.features.progress import run_job
 from freecad_volfrep.features.screen import is_asked_by_user
-from volfrep.apart.engine_process import Call
-from volfrep.apart.engines import Engines
 from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.util.errors import VolfrepError
 from volfrep.util.threads import threads
+from volfrep.worker.engine_process import Call
+from volfrep.worker.engines import Engines
 
 
 def tell(sentence, *, progress):
@@ -53,15 +53,15 @@ def test_the_processes_of_the_window_find_the_engine():
 
 def test_a_shape_is_made_in_a_freecad_of_its_own():
     """Without a word of ours on the way, and the same as here; an error arrives as it is."""
-    from freecad_volfrep.bridge.apart import packed_facets, unpacked
     from freecad_volfrep.bridge.faceted import faceted_solid
     from freecad_volfrep.bridge.solids import mesh_of_shape
+    from freecad_volfrep.bridge.worker_calls import packed_facets, unpack
 
     mesh = mesh_of_shape(Part.makeBox(1, 2, 3), "Box")
     there = freecads().begin(Call(packed_facets, (mesh,), has_progress=False))
     open_mesh = TriangleMesh(mesh.vertices, mesh.triangles[1:])
     failed = freecads().begin(Call(packed_facets, (open_mesh,), has_progress=False))
-    shape = unpacked(there.result())
+    shape = unpack(there.result())
     assert shape.isValid()
     assert shape.Volume == faceted_solid(mesh).Volume
     with pytest.raises(VolfrepError, match="closed"):

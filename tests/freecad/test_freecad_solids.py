@@ -77,7 +77,7 @@ def test_plane_faces_where_opencascade_does_not_manage(doc, infill, monkeypatch)
     def fails(*_):
         raise VolfrepError("OpenCASCADE lost a strut.")
 
-    monkeypatch.setattr("freecad_volfrep.bridge.apart._exact", fails)
+    monkeypatch.setattr("freecad_volfrep.bridge.worker_calls._exact", fails)
     said = []
     monkeypatch.setattr("freecad_volfrep.features.solids.warn", lambda _, text: said.extend(text))
     infill.CellType, infill.Resolution = "Box", 5
@@ -168,7 +168,7 @@ def test_a_lattice_of_whole_cells_is_never_built_as_a_shape(doc, box, tmp_path, 
     infill = infill_of(
         doc, box, Output="Lattice", ShellThickness=0, Activation="Inside", Boundary="Whole"
     )
-    monkeypatch.setattr("freecad_volfrep.bridge.apart._exact", None)
+    monkeypatch.setattr("freecad_volfrep.bridge.worker_calls._exact", None)
     export_mesh(infill, tmp_path / "whole.step", "exact")
     shape = read(tmp_path / "whole.step")
     assert shape.isValid()

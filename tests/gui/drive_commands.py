@@ -375,7 +375,7 @@ def use_the_cell_library(doc, obj):
     note = library.findChild(QtGui.QLabel, "Note")
     told = library.findChild(QtGui.QLabel, "Figures")
     from volfrep.design.cells import LIBRARY
-    from volfrep.design.walls import SURFACES
+    from volfrep.design.tpms import SURFACES
 
     listed = len(LIBRARY) + len(SURFACES)
     check("with the library's cells and walls", cells.count() == listed, cells.count())

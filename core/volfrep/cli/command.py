@@ -28,7 +28,7 @@ from .files import check_files, read_part
 from .parameter_options import add_parameters, keep_specification, set_parameter, write_kept
 from .parser import Parser, Version, refuse_old
 from .run_options import add_run_options, refuse_extensions
-from .telling import Progress, print_rows, tell
+from .telling import Progress, print_rows, print_summary
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from ..io.write.stl_ahead import StlAhead
     from ..mesh.triangle_mesh import TriangleMesh
     from ..reports.result import Result
-    from ..trim.laid import InnerOctants
+    from ..trim.placed_lattice import InnerOctants
     from .solver_options import Writer
 
 #: A command ends with what it returns; None is 0.
@@ -76,7 +76,7 @@ def run(arguments: Sequence[str]) -> int:
     except KeyboardInterrupt:
         return process.say_interrupted()
     except Exception as error:  # whatever it is, the user gets a sentence
-        if process.interrupted():
+        if process.is_interrupted():
             return process.say_interrupted()
         print(
             f"volfrep: The engine failed with a {type(error).__name__} ({error}), which is a "
@@ -186,19 +186,19 @@ def _are_cut(executor: Executor | None, ahead: StlAhead | None, inner: InnerOcta
 
 
 def _fill(options: argparse.Namespace) -> None:
-    spec = material.specified(options)
+    spec = material.with_material_density(options)
     _check_targets(options, spec)
     keep_specification(options, spec)
 
     from ..design.forecast import forecast_fill
-    from ..jobs.rough_radius import roughly_aimed
-    from ..jobs.targets import aimed
+    from ..jobs.rough_radius import solve_target_roughly
+    from ..jobs.targets import solve_target
 
     start = time.perf_counter()
     solid = read_part(options, spec.cell_size)
     read_seconds = time.perf_counter() - start
     meshed = solver_options.is_meshed(options)
-    expected = forecast_fill(solid, roughly_aimed(solid, spec), streamed=_is_plain(options))
+    expected = forecast_fill(solid, solve_target_roughly(solid, spec), streamed=_is_plain(options))
     if not options.quiet:
         print(f"Expected: {expected if meshed else expected.of_axes}.", flush=True)
     is_cut = meshed and spec.network is None and spec.output != "domain"
@@ -208,7 +208,7 @@ def _fill(options: argparse.Namespace) -> None:
         Progress(options.quiet) as progress,
         _ahead(options) as ahead,
     ):
-        infill = aimed(
+        infill = solve_target(
             solid, spec, progress=progress, meshed=meshed, executor=executor,
             streamed=_is_plain(options),
         )  # fmt: skip
@@ -231,17 +231,17 @@ def _fill(options: argparse.Namespace) -> None:
 
 
 def _block(options: argparse.Namespace) -> None:
-    spec = material.specified(options)
+    spec = material.with_material_density(options)
     _check_targets(options, spec)
     keep_specification(options, spec)
 
     from ..design.forecast import forecast_block
     from ..jobs.blocks import block, write_block_stl
-    from ..jobs.targets import aimed_block
+    from ..jobs.targets import solve_block_target
 
     start = time.perf_counter()
     meshed = solver_options.is_meshed(options)
-    spec = aimed_block(spec, options.count, meshed=meshed)
+    spec = solve_block_target(spec, options.count, meshed=meshed)
     if solver_options.block_axes(spec, options, start):
         return
     if options.threemf == "beams":
@@ -260,7 +260,9 @@ def _block(options: argparse.Namespace) -> None:
         beams = block_beams(spec, options.count)
     with Progress(options.quiet) as progress:
         if streamed:
-            tell(write_block_stl(spec, options.count, options.output, progress=progress), options)
+            print_summary(
+                write_block_stl(spec, options.count, options.output, progress=progress), options
+            )
             return
         result = block(spec, tuple(options.count), progress=progress)
         write = solver_options.writer(options, spec, None, progress)
@@ -270,11 +272,11 @@ def _block(options: argparse.Namespace) -> None:
 
 def _network(options: argparse.Namespace) -> None:
     from ..grid.strut_graph import BeamModel
-    from ..jobs.networks.alone import frame_alone, network_alone
+    from ..jobs.graphs.free_space import frame_alone, mesh_graph_alone
 
     set_parameter(options, "network", "file")
     set_parameter(options, "network_file", options.file)
-    spec = material.specified(options)
+    spec = material.with_material_density(options)
     _check_targets(options, spec)
     keep_specification(options, spec)
     start = time.perf_counter()
@@ -282,7 +284,7 @@ def _network(options: argparse.Namespace) -> None:
         solver_options.write_axes(frame_alone(spec)[0], None, spec, options, start)
         return
     with Progress(options.quiet) as progress:
-        result = network_alone(spec, progress=progress)
+        result = mesh_graph_alone(spec, progress=progress)
         beams = None if options.threemf is None else BeamModel(result.wireframe)
         if options.threemf == "beams" and beams is not None:
             printing_options.finish_beams(beams, options, start)
@@ -367,7 +369,7 @@ def _finish(
     printing = None
     if options.print_report is not None:
         printing = printing_options.report_of(result, options, spec, domain)
-    tell(dataclasses.replace(report, warnings=warnings), options, printing)
+    print_summary(dataclasses.replace(report, warnings=warnings), options, printing)
 
 
 def _check(options: argparse.Namespace) -> None:

@@ -31,7 +31,7 @@ def add_command(add: Callable[[str, Callable[[argparse.Namespace], None], str], 
 
 
 def _slice(options: argparse.Namespace) -> None:
-    spec = material.specified(options)
+    spec = material.with_material_density(options)
     check_files(options, folder=True)
     keep_specification(options, spec)
 

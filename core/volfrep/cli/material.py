@@ -62,7 +62,7 @@ def apply(options: argparse.Namespace, out: Path) -> tuple[str, ...]:
     )
 
 
-def specified(options: argparse.Namespace) -> LatticeSpec:
+def with_material_density(options: argparse.Namespace) -> LatticeSpec:
     """The specification, with the density of the material where none was given."""
     spec = specification(options)
     print_warnings(apply(options, Path(options.output)))

@@ -72,7 +72,7 @@ def specification(options: argparse.Namespace) -> LatticeSpec:
             made.refuse_idle(file)
         except VolfrepError as error:
             raise VolfrepError(f"{options.spec}: {error}") from error
-        values = made.merged(given, file)
+        values = made.merge_values(given, file)
     for name, value in values.items():
         with_paths(name, value, _noted)
     spec = made.specification(values, option_named)
@@ -98,9 +98,9 @@ def _refuse_idle_cell(given: Mapping[str, object], spec: LatticeSpec) -> None:
 
     Files of specifications always hold both, and may keep them.
     """
-    from ..design.networks import GivenNetwork, RandomNetwork
+    from ..design.graphs import GivenGraph, RandomGraph
 
-    if isinstance(spec.network, GivenNetwork):
+    if isinstance(spec.network, GivenGraph):
         file = f"'{spec.network.source}'"
         if "cell" in given and not spec.network.cell:
             raise VolfrepError(
@@ -113,7 +113,7 @@ def _refuse_idle_cell(given: Mapping[str, object], spec: LatticeSpec) -> None:
                 f"--cell-size has no effect with {file}, which says where every strut lies: leave "
                 "it out."
             )
-    if not isinstance(spec.network, RandomNetwork):
+    if not isinstance(spec.network, RandomGraph):
         return
     if "cell" in given:
         raise VolfrepError(

@@ -22,7 +22,7 @@ _SAID = "volfrep: Interrupted, no file was left half-written."
 _interrupted = False
 
 
-def interrupted() -> bool:
+def is_interrupted() -> bool:
     """Whether Ctrl-C was pressed."""
     return _interrupted
 

@@ -66,7 +66,7 @@ def _cells(options: argparse.Namespace) -> None:
 
 def _library_told() -> None:
     from ..design.cells import LIBRARY, USES
-    from ..design.walls import FORMULA, SURFACES
+    from ..design.tpms import FORMULA, SURFACES
     from ..mechanics.endless import strains_held
 
     print(f"{'name':<25}{'nodes':>6}{'struts':>8}{'Maxwell':>9}  {'carries by':<13}also known as")

@@ -24,7 +24,7 @@ from ..util.progress import ProgressCallback
 from .files import check_files, read_part
 from .parameter_options import add_parameters, specification
 from .run_options import add_run_options
-from .telling import Progress, print_rows, print_warnings, tell
+from .telling import Progress, print_rows, print_summary, print_warnings
 
 if TYPE_CHECKING:
     from ..jobs.sizing import SizedPart
@@ -106,7 +106,7 @@ def _size(options: argparse.Namespace) -> int | None:
     if options.picture is not None:
         _picture(options, made)
     print_warnings(made.report["notes"])
-    tell(result.report, options, before=seconds)
+    print_summary(result.report, options, before=seconds)
     if not options.quiet:
         print_rows(*sizing_rows(made.report), ("time of sizing", f"{seconds:.1f} s of it"))
     return None if made.sized.holds else EXIT_NOT_HELD

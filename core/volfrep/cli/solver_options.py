@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from ..grid.strut_graph import Wireframe
     from ..jobs.infill import Infill
     from ..mechanics.materials import Material
-    from ..reports.estimate import Asked, Estimate
+    from ..reports.estimate import Estimate, ExportChoice
     from ..reports.result import Result
     from ..util.progress import ProgressCallback
 
@@ -259,10 +259,10 @@ def _write_tetrahedra(
     return filled.warnings
 
 
-def _asked(spec: LatticeSpec, options: argparse.Namespace) -> Asked:
-    from ..reports.estimate import Asked
+def _asked(spec: LatticeSpec, options: argparse.Namespace) -> ExportChoice:
+    from ..reports.estimate import ExportChoice
 
-    return Asked(spec, getattr(options, "count", None))
+    return ExportChoice(spec, getattr(options, "count", None))
 
 
 def _announce(estimate: Estimate, options: argparse.Namespace) -> None:

@@ -40,7 +40,7 @@ class Progress:
             self._shown = text
 
 
-def tell(
+def print_summary(
     report: Report,
     options: argparse.Namespace,
     printing: PrintReport | None = None,

@@ -15,14 +15,14 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ..util.content import content_of, held
+from ..util.content import content_of, freeze
 from ..util.errors import VolfrepError
 from ..util.numbers import number_rows
 from ..util.reading import read_json
 from ..util.types import Floats
 from .cell_files.parameters import CellParameter, chosen_values, read_parameters
-from .expression import CONSTANTS, FUNCTIONS, evaluated
-from .walls.library import SURFACES
+from .expression import CONSTANTS, FUNCTIONS, evaluate_numbers
+from .tpms.library import SURFACES
 
 #: A custom cell's file may not be larger than this, nor have more nodes or struts.
 MAX_FILE_BYTES = 1_000_000
@@ -77,9 +77,9 @@ class UnitCell:
     _content: bytes = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "nodes", held(self.nodes, np.float64))
-        object.__setattr__(self, "struts", held(self.struts, np.int64))
-        object.__setattr__(self, "widths", held(self.widths, np.float64))
+        object.__setattr__(self, "nodes", freeze(self.nodes, np.float64))
+        object.__setattr__(self, "struts", freeze(self.struts, np.int64))
+        object.__setattr__(self, "widths", freeze(self.widths, np.float64))
         object.__setattr__(self, "_content", content_of(self.nodes, self.struts, self.widths))
         _refuse_loose(self.nodes, self.struts, f"unit cell '{self.name}'")
 
@@ -207,11 +207,11 @@ def load_cell(path: str | os.PathLike[str], values: str = "") -> UnitCell:
     where = f"cell file '{file}'"
     parameters = read_parameters(data.get("parameters", {}), where, {*FUNCTIONS, *CONSTANTS})
     chosen = chosen_values(parameters, values, name.strip())
-    edges = evaluated(data.get("edges", [1.0, 1.0, 1.0]), chosen, where)
-    widths = evaluated(data.get("widths", []), chosen, where)
+    edges = evaluate_numbers(data.get("edges", [1.0, 1.0, 1.0]), chosen, where)
+    widths = evaluate_numbers(data.get("widths", []), chosen, where)
     if "tessellation" in data:
         # of no use to most cells, and slow to import
-        from .cell_files.tessellation import ruled
+        from .cell_files.tessellation import tessellate
 
         if "nodes" in data or "struts" in data or "widths" in data:
             raise VolfrepError(
@@ -220,11 +220,11 @@ def load_cell(path: str | os.PathLike[str], values: str = "") -> UnitCell:
         x, y, z = _numbers(edges, 3, "edges", where)
         rules = data["tessellation"]
         if isinstance(rules, dict) and isinstance(points := rules.get("about"), list):
-            points = evaluated(points, chosen, where)
+            points = evaluate_numbers(points, chosen, where)
             rules = rules | {"about": number_rows(points, 3, "point", where, MOST_POINTS)}
-        nodes, struts = ruled(rules, (x, y, z), where)
+        nodes, struts = tessellate(rules, (x, y, z), where)
     else:
-        nodes = evaluated(data["nodes"], chosen, where)
+        nodes = evaluate_numbers(data["nodes"], chosen, where)
         struts = data["struts"]
     cell = make_cell(name.strip(), nodes, struts, where, edges=edges, widths=widths or ())
     usual = {one.name: one.usual for one in parameters}

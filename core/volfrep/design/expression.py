@@ -217,7 +217,7 @@ def compile_expression(text: str, variables: tuple[str, ...] = (VARIABLE,)) -> E
     return Expression(text, variables, _tree=tree)
 
 
-def evaluated(data: Any, values: Mapping[str, float], where: str) -> Any:
+def evaluate_numbers(data: Any, values: Mapping[str, float], where: str) -> Any:
     """Lists of numbers and formulas with the numbers that the formulas come to.
 
     Args:
@@ -231,7 +231,7 @@ def evaluated(data: Any, values: Mapping[str, float], where: str) -> Any:
     if not values:
         return data
     if isinstance(data, list):
-        return [evaluated(item, values, where) for item in data]
+        return [evaluate_numbers(item, values, where) for item in data]
     if not isinstance(data, str):
         return data
     try:

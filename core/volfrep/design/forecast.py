@@ -16,11 +16,11 @@ from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.even_points import even_points
 from ..spatial.proximity import neighbours
 from ..spatial.rays import inside_points, segment_crossings
-from ..util.linalg import frame_about, normalized, times
+from ..util.linalg import frame_about, normalize, times
 from ..util.progress import Monitor
 from ..util.types import Floats
 from .cells import UnitCell
-from .networks import CellNetwork, RandomNetwork
+from .graphs import RandomGraph, StretchedCells
 from .spec import LatticeSpec
 
 #: At a joint a strut's surface is buried in the others up to no more radii from the node.
@@ -166,7 +166,7 @@ def skin_bends(solid: TriangleMesh, spec: LatticeSpec) -> float:
         return 0.0
     across = neighbours(solid)
     a, b, c = solid.corners()
-    normal = normalized(np.cross(b - a, c - a))
+    normal = normalize(np.cross(b - a, c - a))
     total = 0.0
     for k, (start, end) in enumerate(((a, b), (b, c), (c, a))):
         cosine = np.einsum("ij,ij->i", normal, normal[across[:, k]])
@@ -239,10 +239,10 @@ def _density(solid: TriangleMesh, spec: LatticeSpec) -> float:
 
 def _forecast_network(solid: TriangleMesh, spec: LatticeSpec, inside: float) -> Forecast:
     wanted = spec.network
-    if isinstance(wanted, RandomNetwork):
+    if isinstance(wanted, RandomGraph):
         points = wanted.points or max(1.0, inside / spec.cell_size**3)
         struts = points * STRUTS_PER_POINT[wanted.kind]
-    elif isinstance(wanted, CellNetwork):
+    elif isinstance(wanted, StretchedCells):
         cell = spec.unit_cell()
         edges = spec.cell_size * np.array(cell.edges)
         # A cell that the wall merely touches is there too.

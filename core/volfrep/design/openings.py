@@ -12,7 +12,7 @@ import numpy as np
 from ..mesh.remesh import unit_normals
 from ..mesh.smooth_faces import smooth_faces
 from ..mesh.triangle_mesh import TriangleMesh, compact
-from ..util.content import content_of, held
+from ..util.content import content_of, freeze
 from ..util.errors import VolfrepError
 from ..util.linalg import along
 from ..util.numbers import direction, number, point, whole
@@ -75,7 +75,7 @@ class OpenPatch:
     _content: bytes = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "corners", held(self.corners, np.float64))
+        object.__setattr__(self, "corners", freeze(self.corners, np.float64))
         object.__setattr__(self, "_content", content_of(self.corners))
 
     def contains(self, solid: TriangleMesh) -> Bools:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..util.content import content_of, held
+from ..util.content import content_of, freeze
 from ..util.errors import VolfrepError
 from ..util.threads import threads
 from ..util.types import Floats
@@ -79,8 +79,8 @@ class PointField:
                 f"the limit is {FARTHEST:g} mm."
             )
         points, values = _merge(points, values)
-        object.__setattr__(self, "points", held(points, np.float64))
-        object.__setattr__(self, "values", held(values, np.float64))
+        object.__setattr__(self, "points", freeze(points, np.float64))
+        object.__setattr__(self, "values", freeze(values, np.float64))
         object.__setattr__(self, "_content", content_of(points, values))
         from scipy.spatial import cKDTree  # slow to import, and most jobs have no field
 

@@ -11,7 +11,7 @@ from ..util.errors import VolfrepError
 from ..util.numbers import number
 from .cells import UnitCell, find_cell, joint_radius
 from .grading import CellMap, Orientation, RadiusGrading, SizeGrading, as_plain
-from .networks import CellNetwork, GivenNetwork, RandomNetwork
+from .graphs import GivenGraph, RandomGraph, StretchedCells
 from .openings import DrainHoles, OpenFace
 from .skins.kept_bodies import KeptBody
 from .skins.own_faces import FaceSkin, KeptFace
@@ -28,8 +28,8 @@ from .spec_parts import (
     Struts,
 )
 from .target import Target
-from .walls import PeriodicSurface, Wall, find_surface
-from .walls.wanted import wanted_facets
+from .tpms import PeriodicSurface, TpmsSheet, find_surface
+from .tpms.sheet import wanted_facets
 
 __all__ = [
     "ACTIVATIONS",
@@ -90,12 +90,12 @@ class LatticeSpec:
         orientation: the lattice turned; None for along x, y, z.
         keep_radius: where cells are stretched or bent, struts stay straight and round: the nodes
             are moved and joined anew. False: they are deformed with their cells, as published.
-        network: nodes and struts in place of cells (`volfrep.design.networks`); None for cells,
-            which becomes a `CellNetwork` where these are no cubes or their struts differ.
+        network: nodes and struts in place of cells (`volfrep.design.graphs`); None for cells,
+            which becomes a `StretchedCells` where these are no cubes or their struts differ.
             `cell_size` is then how far apart random points lie where their number is not given.
         target: what `strut_radius` is to be chosen for (`volfrep.jobs.targets` does); None where
             it counts as it is. Of walls, the thickness or offset is chosen.
-        wall: what is solid beside a cell's surface (`volfrep.design.walls`); of no effect for
+        wall: what is solid beside a cell's surface (`volfrep.design.tpms`); of no effect for
             struts. A radius grading is that of the thickness of a sheet, in mm.
 
     Raises:
@@ -137,15 +137,15 @@ class LatticeSpec:
     orientation: Orientation | None = None
     keep_radius: bool = True
     target: Target | None = None
-    network: GivenNetwork | RandomNetwork | CellNetwork | None = None
-    wall: Wall = field(default_factory=Wall)
+    network: GivenGraph | RandomGraph | StretchedCells | None = None
+    wall: TpmsSheet = field(default_factory=TpmsSheet)
 
     def __post_init__(self) -> None:
         if isinstance(self.cell, str):
             cell = find_surface(self.cell) or find_cell(self.cell)
             object.__setattr__(self, "cell", cell)
         if self.network is None and self.surface is None and not self.unit_cell().is_plain:
-            object.__setattr__(self, "network", CellNetwork())
+            object.__setattr__(self, "network", StretchedCells())
         grid = self.grid
         object.__setattr__(self, "origin", grid.origin)
         skins = tuple(self.face_skins)
@@ -197,20 +197,20 @@ class LatticeSpec:
         }
         for what, is_given in given.items():
             if is_given:
-                if isinstance(self.network, CellNetwork):
+                if isinstance(self.network, StretchedCells):
                     raise VolfrepError(
                         f"A {what} is for cells that are cubes with struts of one radius, which "
                         f"'{self.unit_cell().name}' is not: leave it out, or choose another cell."
                     )
                 raise VolfrepError(f"A {what} is for cells and not for a network: leave it out.")
-        if isinstance(self.network, RandomNetwork):
+        if isinstance(self.network, RandomGraph):
             for what, value in (("orientation", self.orientation), ("origin", self.origin)):
                 if value is not None:
                     raise VolfrepError(
                         f"An {what} moves a lattice that is given, and not random points: leave it "
                         "out, or take another seed."
                     )
-        own = isinstance(self.network, GivenNetwork) and len(self.network.radii)
+        own = isinstance(self.network, GivenGraph) and len(self.network.radii)
         if own and self.target is not None:
             raise VolfrepError(
                 f"The network's own radii say how thick its struts are: leave the target of "
@@ -400,7 +400,7 @@ class LatticeSpec:
         >>> LatticeSpec(cell="octet").digest() == LatticeSpec(cell="Octet").digest()
         True
         """
-        return digest_of(self if self.surface is not None else replace(self, wall=Wall()))
+        return digest_of(self if self.surface is not None else replace(self, wall=TpmsSheet()))
 
     def shape_digest(self) -> str:
         """As `digest`, of all that the geometry depends on.

@@ -49,7 +49,7 @@ RADIUS_TOLERANCE = 0.01
 
 
 @dataclass(frozen=True, eq=False)
-class BeamModel:
+class BeamMesh:
     """Straight two-noded beams of circular section.
 
     Attributes:
@@ -86,7 +86,7 @@ def beam_model(
     joint_law: JointLaw | None = None,
     elements_per_strut: int = ELEMENTS_PER_STRUT,
     radius_tolerance: float = RADIUS_TOLERANCE,
-) -> BeamModel:
+) -> BeamMesh:
     """Divide every strut into stiff ends and a flexible middle.
 
     Args:
@@ -153,7 +153,7 @@ def beam_model(
     radius = (1.0 - share) * wireframe.radii[strut, 0] + share * wireframe.radii[strut, 1]
     section, radii = _sections(radius, radius_tolerance)
     ends = tuple(profile(value) for value in radii.tolist())
-    return BeamModel(nodes, joints, elements, strut, section, radii, is_joint, ends)
+    return BeamMesh(nodes, joints, elements, strut, section, radii, is_joint, ends)
 
 
 def ends_law(cell: UnitCell | None, cell_size: float, section: str) -> JointLaw:
@@ -177,7 +177,7 @@ def fitted_beams(
     *,
     section: str = "square",
     elements_per_strut: int = ELEMENTS_PER_STRUT,
-) -> tuple[BeamModel, tuple[str, ...]]:
+) -> tuple[BeamMesh, tuple[str, ...]]:
     """Beams whose ends are those that were fitted to their cell.
 
     Args:

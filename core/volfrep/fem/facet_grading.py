@@ -31,7 +31,7 @@ ROUNDS = 40
 PATH = 50
 
 
-def graded(mesh: TriangleMesh) -> TriangleMesh:
+def grade_facets(mesh: TriangleMesh) -> TriangleMesh:
     """The same surface, its facets no larger than those near them in space allow.
 
     Args:

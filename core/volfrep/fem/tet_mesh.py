@@ -17,14 +17,14 @@ import numpy as np
 
 from ..mesh.brep import FacetedBrep, faceted_brep
 from ..mesh.triangle_mesh import TriangleMesh, compact
-from ..mesh.well_shaped import Tolerance, angles_of, well_shaped
+from ..mesh.well_shaped import Tolerance, angles_of, mend_bad_facets
 from ..spatial.proximity import closest_points
 from ..spatial.self_intersection import crossing_triangles
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 from ..util.subprocesses import run_program
 from ..util.types import Floats, Ints
-from .facet_grading import graded
+from .facet_grading import grade_facets
 from .fins import folded_facets, without_fins
 
 #: A solver needs about 50 kB for each of these: more are not a job for tetrahedra.
@@ -150,8 +150,8 @@ def tetrahedra(mesh: TriangleMesh, monitor: Monitor | None = None) -> Tetrahedra
     monitor = monitor or Monitor()
     places: list[Floats] = []
     while True:
-        surface, moved = mended(compact(mesh), monitor, tuple(places))
-        surface = monitor.call(lambda: graded(surface))  # noqa: B023
+        surface, moved = mend_surface(compact(mesh), monitor, tuple(places))
+        surface = monitor.call(lambda: grade_facets(surface))  # noqa: B023
         said, filled = _filled(program, surface, monitor)
         place = _intersection(said)
         if filled is not None:
@@ -199,7 +199,7 @@ def _intersection(said: str) -> Floats | None:
     return None if found is None else np.array([[float(number) for number in found.groups()]])
 
 
-def mended(
+def mend_surface(
     mesh: TriangleMesh, monitor: Monitor, places: tuple[Floats, ...] = ()
 ) -> tuple[TriangleMesh, float]:
     """A closed mesh without needles and caps, and how far a move could take its surface, mm.
@@ -214,7 +214,7 @@ def mended(
     tolerance = Tolerance(MENDING * edge, places, NEAR * edge)
     best, folded_before = (mesh, 0.0), folded_facets(mesh).sum()
     for done in range(TRIES):
-        better = monitor.call(lambda: well_shaped(mesh, tolerance, SHORTEST * edge))  # noqa: B023
+        better = monitor.call(lambda: mend_bad_facets(mesh, tolerance, SHORTEST * edge))  # noqa: B023
         every = np.ones(len(better.triangles), bool)
         wrong = monitor.call(lambda: crossing_triangles(better, every, TOUCHING * edge))  # noqa: B023
         if not wrong.any():

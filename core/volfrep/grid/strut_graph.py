@@ -142,7 +142,7 @@ def struts_of(graph: CellGraph, cell: UnitCell, cells: NDArray[np.int32]) -> Boo
     return result
 
 
-def chosen(lattice: Wireframe, struts: Bools) -> Wireframe:
+def select_struts(lattice: Wireframe, struts: Bools) -> Wireframe:
     """Some of the struts of a wireframe, (m,) bool, and their nodes."""
     used, rows = np.unique(lattice.struts[struts], return_inverse=True)
     return Wireframe(

@@ -45,7 +45,7 @@ class ActiveCells:
         )
 
 
-def activated(
+def find_active_cells(
     solid: TriangleMesh,
     domain: Domain,
     grid: Grid,

@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 
 from ..design.forecast import BYTES_PER_STREAMED_CELL
+from ..design.graphs import StretchedCells
 from ..design.memory_guard import BYTES_PER_STRUT, refuse_block, refuse_expected
-from ..design.networks import CellNetwork
 from ..design.spec import LatticeSpec
 from ..grid.cell_grid import CellGrid
 from ..grid.placement import Placement, block_placement, graded_wireframe
@@ -30,19 +30,19 @@ from ..mesh.triangle_mesh import TriangleMesh
 from ..octants.octant import octant_grid
 from ..octants.octant_mesh import mesh_octants, octant_spec
 from ..octants.octant_spec import OctantSpec
-from ..reports.report import Report, told
+from ..reports.report import Report, with_warnings
 from ..reports.result import NOTHING_REMOVED, Result, report_of
-from ..trim.finish import finished, refuse_no_solid
+from ..tpms.octants import closed_octants, octants_of_cells
+from ..trim.finish import finish, refuse_no_solid
 from ..trim.trimmed_surface import TrimmedSurface
 from ..util.errors import VolfrepError
 from ..util.numbers import whole
 from ..util.progress import Monitor, ProgressCallback, peak_memory_mb
-from ..walls.laying import closed_octants, octants_of_cells
 from .finer import until_sound
-from .octant_guard import refuse_solid_cells, refuse_too_large, straying
-from .target_report import judged
-from .walls.making import keeps_places as keeps_wall_places
-from .walls.making import meshed_walls, no_graph, no_struts, placed_walls, solid_of, wall_meshing
+from .octant_guard import deviation_warnings, refuse_solid_cells, refuse_too_large
+from .target_report import report_target
+from .tpms.octants import keeps_places as keeps_wall_places
+from .tpms.octants import mesh_tpms, no_graph, no_struts, place_tpms, solid_of, tpms_meshing
 
 #: Cells along one axis of a block.
 MOST_CELLS = 1_000_000
@@ -102,7 +102,7 @@ def _meshed(laid: _Laid, spec: LatticeSpec, monitor: Monitor) -> Result:
                 placement, monitor,
             )  # fmt: skip
         else:
-            given = placed_walls(layout, spec, placement, monitor)
+            given = place_tpms(layout, spec, placement, monitor)
         surface = TrimmedSurface(TriangleMesh(given.vertices, facets(layout, monitor)))
     removed = _removed(laid)
     with monitor.stage("check", 0.8, 1.0):
@@ -124,10 +124,10 @@ def _meshed(laid: _Laid, spec: LatticeSpec, monitor: Monitor) -> Result:
             refuse_no_solid(measured)
         else:
             moved = _is_moved(spec, placement)
-            surface, measured, notes = finished(surface, measured, monitor, moved, cut=False)
+            surface, measured, notes = finish(surface, measured, monitor, moved, cut=False)
     frame = _frame(laid, spec)
     report = _report(laid, measured, frame, spec, monitor, removed)
-    return Result(surface, frame, told(report, notes))
+    return Result(surface, frame, with_warnings(report, notes))
 
 
 def _fits_a_file(layout: Layout, measured: Quality) -> bool:
@@ -231,14 +231,14 @@ def _beside(spec: LatticeSpec, count: Sequence[int], progress: ProgressCallback 
         VolfrepError: the specification is of another network.
     """
     # of no use to most blocks, and slow to import
-    from .networks.alone import cells_beside, network_alone
+    from .graphs.free_space import cells_beside, mesh_graph_alone
 
-    if not isinstance(spec.network, CellNetwork):
+    if not isinstance(spec.network, StretchedCells):
         raise VolfrepError("A block is of cells and not of a network: choose 'network' or 'fill'.")
     shape = [whole("count", n, 1, MOST_CELLS) for n in count]
     corner = np.zeros(3) if spec.origin is None else np.array(spec.origin, float)
     laid = cells_beside(spec, (shape[0], shape[1], shape[2]), corner)
-    return network_alone(replace(spec, network=laid), progress=progress)
+    return mesh_graph_alone(replace(spec, network=laid), progress=progress)
 
 
 def _block_placement(spec: LatticeSpec, count: Sequence[int]) -> tuple[CellGrid, Placement]:
@@ -262,7 +262,7 @@ def _lay(spec: LatticeSpec, cells: CellGrid, placement: Placement, monitor: Moni
             lambda wanted: mesh_octants(cell, wanted, grid.keys, monitor),
         )
         refuse_solid_cells(octants, used)
-        notes += straying(octants, used)
+        notes += deviation_warnings(octants, used)
         layout = lay_out(grid, octants)
     graph = cell_graph(cell, active, spec.cell_size, cells.origin, cells.periodic)
     return _Laid(cells, placement, layout, graph, used, notes)
@@ -275,7 +275,7 @@ def _lay_walls(spec: LatticeSpec, cells: CellGrid, placement: Placement, monitor
         grid = octants_of_cells(active, size, cells.origin, cells.periodic)
         solid = solid_of(spec)
         octants, used, notes = until_sound(
-            wall_meshing(spec), lambda wanted: meshed_walls(solid, wanted, monitor)
+            tpms_meshing(spec), lambda wanted: mesh_tpms(solid, wanted, monitor)
         )
         refuse_solid_cells(octants, used)
         closed = closed_octants(octants, grid.keys, 0.5 * size)
@@ -319,7 +319,7 @@ def _report(
         measured, frame, cells, active, laid.placement, spec, monitor,
         domain_volume=volume, removed=removed, warnings=laid.notes,
     )  # fmt: skip
-    return judged(report, spec)
+    return report_target(report, spec)
 
 
 def _volume_of(cells: CellGrid, placement: Placement) -> float:

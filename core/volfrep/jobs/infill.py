@@ -33,11 +33,11 @@ from ..trim.beam_model import deformed_struts, part_beams, reaching_into, refuse
 from ..trim.boolean_trim import Ahead
 from ..trim.clip_struts import Clipped
 from ..trim.culling import KeptOctants, OctantRoles
-from ..trim.drains import Drained, trapped
-from ..trim.finish import finished, pieces_told, tidied
-from ..trim.held_struts import Held, axes_of, held
-from ..trim.laid import FIRST_MARGIN, Laid, in_place, lay
+from ..trim.drains import Drained, trapped_warnings
+from ..trim.finish import finish, piece_warnings, tidy
+from ..trim.kept_struts import KeptStruts, axes_of, find_kept_struts
 from ..trim.loose_pieces import Cleared, smallest_shell
+from ..trim.placed_lattice import FIRST_MARGIN, PlacedLattice, in_place, lay
 from ..trim.prune import Pruned, prune
 from ..trim.stage import chosen_octants, cut_lattice, drained_part, uncut_lattice
 from ..trim.trimmed_surface import TrimmedSurface
@@ -47,9 +47,9 @@ from ..util.errors import VolfrepError
 from ..util.progress import Monitor, ProgressCallback
 from ..util.types import Bools
 from . import octant_guard as guard
-from .active_cells import ActiveCells, activated, roles_of
+from .active_cells import ActiveCells, find_active_cells, roles_of
 from .finer import until_sound
-from .target_report import judged
+from .target_report import report_target
 
 
 class Infill:
@@ -107,8 +107,8 @@ class Infill:
             self._meshing = self._wanted_meshing()
         self._solid = Kept(solid, content_of(solid.vertices, solid.triangles))
         self._watch = Kept(self.monitor, "no result depends on it")
-        self._laid_octants: dict[bool, Laid] = {}
-        self._held_struts: dict[bool, Held] = {}
+        self._laid_octants: dict[bool, PlacedLattice] = {}
+        self._held_struts: dict[bool, KeptStruts] = {}
         self._notes: tuple[str, ...] = ()
         self.ahead: Ahead | None = None
 
@@ -139,8 +139,8 @@ class Infill:
     @cached_property
     def _cavity(self) -> tuple[TrimmedSurface, Quality, tuple[str, ...]]:
         wall = TrimmedSurface(self.domain.mesh)
-        clean = tidied(wall, shortest_edge(self.solid), self.monitor)
-        return finished(clean, measure(clean.mesh), self.monitor, moved=False)
+        clean = tidy(wall, shortest_edge(self.solid), self.monitor)
+        return finish(clean, measure(clean.mesh), self.monitor, moved=False)
 
     @cached_property
     def placement(self) -> Placement:
@@ -160,7 +160,14 @@ class Infill:
             if self._grid.cell_map is not None:
                 least = self._least_width()
             found = self._cache.run(
-                "voxels", activated, self._solid, domain, self._grid, rule, least, self._watch
+                "voxels",
+                find_active_cells,
+                self._solid,
+                domain,
+                self._grid,
+                rule,
+                least,
+                self._watch,
             )
         guard.refuse_no_cells(found.value.active, self._grid.size, rule)
         return found
@@ -287,18 +294,18 @@ class Infill:
     def _beam_warnings(self) -> tuple[str, ...]:
         return self.warnings + deformed_struts(self._grid, self._struts)
 
-    def _held(self, *, is_cut: bool) -> Held:
+    def _held(self, *, is_cut: bool) -> KeptStruts:
         """Which pieces of the struts stay, where a wall cuts them or where they are whole."""
         if is_cut not in self._held_struts:
             wall = self.cavity if is_cut else None
-            self._held_struts[is_cut] = held(
+            self._held_struts[is_cut] = find_kept_struts(
                 self.struts, wall, has_skin=self._skin is not None,
                 bodies=max(1, inspect(self.solid).quality.bodies),
                 openings=self.domain.openings, keep_all=self._boundary.keep_pieces,
             )  # fmt: skip
         return self._held_struts[is_cut]
 
-    def _laid(self, *, is_cut: bool) -> Laid:
+    def _laid(self, *, is_cut: bool) -> PlacedLattice:
         """The octants laid in the part, as of a lattice that a wall cuts, or as they are."""
         if is_cut not in self._laid_octants:
             refuse_expected(self.spec, 0.0 if self._streamed else self.domain.mesh.volume)
@@ -330,7 +337,7 @@ class Infill:
             return kept, made.value
 
         (kept, octants), self._meshing, notes = until_sound(self._meshing, meshed)
-        self._notes = notes + guard.straying(octants, self._meshing)
+        self._notes = notes + guard.deviation_warnings(octants, self._meshing)
         guard.refuse_solid_cells(octants, self._meshing)
         guard.refuse_too_large(self.spec, kept.grid, octants, kept.border, streamed=self._streamed)
         return kept, octants
@@ -352,7 +359,7 @@ class Infill:
             return self.pruned.left_graph
         return self.cells.padded.graph(self._cell, self.cells.active, self._boundary.is_endless)
 
-    def _cut(self, laid: Laid, *, with_skin: bool = False) -> Cleared:
+    def _cut(self, laid: PlacedLattice, *, with_skin: bool = False) -> Cleared:
         keep = self._boundary.keep_pieces
         if not (with_skin or self._boundary.is_trimmed):
             return uncut_lattice(laid, self.solid, self._meshing, self.monitor, keep_pieces=keep)
@@ -370,10 +377,10 @@ class Infill:
             warnings += self._cavity[2]
         else:
             with self.monitor.stage("check", 1.0, 1.0):
-                surface, quality, notes = finished(surface, quality, self.monitor, moved)
+                surface, quality, notes = finish(surface, quality, self.monitor, moved)
             warnings += self._notes + notes
         if output == "lattice":
-            warnings += pieces_told(
+            warnings += piece_warnings(
                 quality, cleared.pieces_removed, cleared.volume_removed,
                 is_in_skin=self._skin is not None,
             )  # fmt: skip
@@ -383,7 +390,7 @@ class Infill:
             warnings += drained.warnings
             skin_volume -= drained.volume
         elif domain.is_open:
-            warnings += trapped(quality.voids)
+            warnings += trapped_warnings(quality.voids)
         removed = {
             "struts_dangling_removed": pruned.left.dangling if pruned is not None else 0,
             "stubs_removed": pruned.left.stubs if pruned is not None else 0,
@@ -400,5 +407,5 @@ class Infill:
         if self._skin is not None or "domain" in (output, self.spec.output):
             report = replace(report, spec={**report.spec, "output": output})
         if output != "domain":
-            report = judged(report, self.spec)
+            report = report_target(report, self.spec)
         return Result(surface, self.struts, report)

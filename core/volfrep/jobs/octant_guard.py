@@ -8,8 +8,8 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from ..design.graphs import StretchedCells
 from ..design.memory_guard import cells_are_full, refuse_memory
-from ..design.networks import CellNetwork
 from ..design.spec import LatticeSpec
 from ..design.spec_parts import Skin
 from ..grid.strut_graph import Wireframe
@@ -99,7 +99,7 @@ def refuse_other_struts(solid: TriangleMesh, spec: LatticeSpec, *, is_of_cells: 
     `is_of_cells` tells one that knows the struts of cells only.
     """
     if spec.network is not None:
-        if is_of_cells and isinstance(spec.network, CellNetwork):
+        if is_of_cells and isinstance(spec.network, StretchedCells):
             raise VolfrepError(
                 "This is done with cells that are cubes with struts of one radius, which "
                 f"'{spec.unit_cell().name}' is not: choose another cell."
@@ -118,7 +118,9 @@ def refuse_other_struts(solid: TriangleMesh, spec: LatticeSpec, *, is_of_cells: 
         )
 
 
-def straying(octants: Mapping[OctantKey, Octant], octant_spec: OctantSpec) -> tuple[str, ...]:
+def deviation_warnings(
+    octants: Mapping[OctantKey, Octant], octant_spec: OctantSpec
+) -> tuple[str, ...]:
     """A sentence where facets stray farther from the exact struts than is promised; or none.
 
     That is known of the octants as they are meshed, before a grading moves them.

@@ -15,14 +15,14 @@ from numpy.typing import NDArray
 
 from ..design.spec import LatticeSpec
 from ..io.solid import check_solid
-from ..mesh.drawn import DrawnPart, drawn_parts, facets_with_neighbours
+from ..mesh.display_parts import DrawnPart, drawn_parts, facets_with_neighbours
 from ..mesh.triangle_mesh import TriangleMesh
 from ..reports.facet_roles import OUTSIDE, kinds_of_triangles
 from ..reports.report import Report
 from ..reports.result import Result
 from ..util.cache import StageCache
 from ..util.progress import ProgressCallback
-from .targets import filled
+from .targets import fill_with_target
 
 
 def fill(
@@ -49,7 +49,7 @@ def fill(
         VolfrepError: the specification does not fit the solid; the text says what to change.
         Cancelled: the callback said so.
     """
-    return filled(solid, spec, progress=progress, cache=cache, executor=executor)[0]
+    return fill_with_target(solid, spec, progress=progress, cache=cache, executor=executor)[0]
 
 
 class FilledMesh(NamedTuple):
@@ -74,7 +74,7 @@ class ShownMesh(NamedTuple):
     """What the window's thread would need seconds for.
 
     Attributes:
-        facets: (t, 6) uint32, triangles and their neighbours: see `mesh.drawn`.
+        facets: (t, 6) uint32, triangles and their neighbours: see `mesh.display_parts`.
         parts: what is drawn.
         is_coarse: whether that is a likeness, because the mesh has too many triangles.
     """

@@ -24,16 +24,16 @@ from ..grid.strut_graph import Wireframe, cell_graph
 from ..lattice.padded_grid import LEAST_WIDTH_STRETCHED, least_width, padded_grid
 from ..mesh.triangle_mesh import TriangleMesh
 from ..trim.clip_struts import Pieces
-from ..trim.held_struts import largest
+from ..trim.kept_struts import largest
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
-from .networks.frame import network_struts, network_volume
-from .networks.radius import with_radius
+from .graphs.frame import graph_struts, graph_volume
+from .graphs.radius import with_radius
 from .part_depth import PartDepth, Preview
 from .rough_radius import lattice_volume, radius_of_volume
 from .stiffness_target import ratio_of_stiffness
-from .walls.preview import shown_walls
+from .tpms.preview import preview_tpms
 
 __all__ = ["PartDepth", "Preview", "preview"]
 
@@ -62,7 +62,7 @@ def preview(solid: TriangleMesh, spec: LatticeSpec, depth: PartDepth) -> Preview
     if spec.network is not None:
         if spec.target is not None:
             spec = _aimed_network(solid, spec, depth, placement)
-        frame = network_struts(spec, placement, lambda: depth.domain(spec.skin), Monitor())
+        frame = graph_struts(spec, placement, lambda: depth.domain(spec.skin), Monitor())
         none = CellGrid(np.zeros(3), spec.cell_size, (0, 0, 0))
         no_lines = (np.zeros((0, 3)), np.zeros((0, 3)))
         return _shown(solid, spec, depth, frame, 0, none, no_lines)
@@ -78,7 +78,7 @@ def preview(solid: TriangleMesh, spec: LatticeSpec, depth: PartDepth) -> Preview
     active, cells = _active(grid, spec, placement.mapping, depth, usable)
     lines = _edges(active, spec, grid, placement.mapping)
     if spec.surface is not None:
-        return shown_walls(solid, spec, depth, placement, grid, usable, cells, lines)
+        return preview_tpms(solid, spec, depth, placement, grid, usable, cells, lines)
     cell = spec.unit_cell()
     if int(active.sum()) * len(cell.struts) > MOST_STRUTS:
         raise VolfrepError(
@@ -122,7 +122,7 @@ def _shown(
     domain = depth.volume_below(spec.shell)
     skin = abs(solid.volume) - domain if spec.output == "part" else 0.0
     if spec.network is not None:
-        lattice = network_volume(frame, spec, depth.points_below(spec.shell), domain)
+        lattice = graph_volume(frame, spec, depth.points_below(spec.shell), domain)
     else:
         if spec.target is not None:
             radius = _aimed_radius(spec, spec.target, bare, domain, skin)

@@ -68,7 +68,7 @@ def radius_range(spec: LatticeSpec) -> tuple[float, float]:
     return size / MAX_RESOLUTION * 1.5, largest_radius(size, spec.fillet) * (1.0 - 1e-6)
 
 
-def roughly_aimed(solid: TriangleMesh, spec: LatticeSpec) -> LatticeSpec:
+def solve_target_roughly(solid: TriangleMesh, spec: LatticeSpec) -> LatticeSpec:
     """A specification with about the radius of its target, for a forecast.
 
     Walls and networks are as they are.

@@ -26,7 +26,7 @@ from ..util.errors import VolfrepError
 from ..util.numbers import number
 from ..util.progress import ProgressCallback
 from .infill import Infill
-from .targets import aimed
+from .targets import solve_target
 
 #: How layers are written.
 FORMATS = ("png", "svg", "cli")
@@ -120,7 +120,7 @@ def write_layers(
             "Layers have straight and round struts, and these are deformed with their cells: let "
             "them keep their radius, or write the mesh."
         )
-    infill = aimed(solid, spec, progress=progress, cache=cache, meshed=False)
+    infill = solve_target(solid, spec, progress=progress, cache=cache, meshed=False)
     spec = infill.spec
     part, warnings = _parts(infill)
     wanted = float(np.ptp(part.bounds[:, 2])) / layer

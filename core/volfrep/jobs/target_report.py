@@ -9,9 +9,9 @@ from typing import TypeVar
 
 from ..design.spec import LatticeSpec
 from ..design.target import Target
-from ..reports.report import Report, told
+from ..reports.report import Report, with_warnings
 from .stiffness_target import modulus
-from .walls.stiffness import wall_modulus
+from .tpms.stiffness import tpms_modulus
 
 #: A mesh that misses its target by more, relative, is made again; so many are made at most.
 CLOSE = 3e-3
@@ -58,7 +58,7 @@ class WantedVolume:
 Made = TypeVar("Made")
 
 
-def made_until_met(
+def make_until_met(
     make: Callable[[float], Made], measure: Callable[[Made], Report] | None, wanted: WantedVolume
 ) -> Made:
     """What has the wanted volume when it is measured, or the last of what was made.
@@ -83,7 +83,7 @@ def made_until_met(
     return made
 
 
-def judged(report: Report, spec: LatticeSpec) -> Report:
+def report_target(report: Report, spec: LatticeSpec) -> Report:
     """A report that says, in `target`, what was aimed at, what was reached, and by what radius."""
     target = spec.target
     if target is None:
@@ -91,7 +91,7 @@ def judged(report: Report, spec: LatticeSpec) -> Report:
     size = spec.cell_size
     if target.aim == "stiffness":
         if spec.surface is not None:
-            reached = wall_modulus(spec, target)
+            reached = tpms_modulus(spec, target)
         else:
             ratio, fillet = spec.strut_radius / size, spec.fillet / size
             reached = modulus(spec.unit_cell(), ratio, target, fillet)
@@ -110,4 +110,4 @@ def judged(report: Report, spec: LatticeSpec) -> Report:
             f"The target, a {target.called} of {target.value:.5g}, is missed by {off:+.2%}: "
             f"{reached:.5g} came out.",
         )
-    return told(replace(report, target=figures), notes)
+    return with_warnings(replace(report, target=figures), notes)

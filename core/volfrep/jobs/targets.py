@@ -37,15 +37,15 @@ from ..util.cache import StageCache
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor, ProgressCallback
 from .blocks import block_volume, block_wireframe, measured_block
+from .graphs.infill import GraphInfill
+from .graphs.targets import solve_graph_target
 from .infill import Infill
-from .networks.infill import NetworkInfill
-from .networks.targets import aimed_network
 from .rough_radius import radius_range
 from .stiffness_target import ratio_of_stiffness
-from .target_report import REACH, WantedVolume, made_until_met
-from .walls.infill import WallInfill
-from .walls.stiffness import stiff_walls
-from .walls.targets import aimed_walls, aimed_walls_block
+from .target_report import REACH, WantedVolume, make_until_met
+from .tpms.infill import TpmsInfill
+from .tpms.stiffness import solve_tpms_stiffness
+from .tpms.targets import solve_tpms_block_target, solve_tpms_target
 
 #: The first guess is this near, relative; a radius is sought up to so much above it.
 _ROUGHLY = 1.12
@@ -64,16 +64,16 @@ def infill_of(
     streamed: bool = False,
 ) -> Infill:
     """The stages of a solid filled with cells, walls or a network; arguments as of `Infill`."""
-    kind = WallInfill if spec.surface is not None else Infill
+    kind = TpmsInfill if spec.surface is not None else Infill
     if spec.network is not None:
-        kind = NetworkInfill
+        kind = GraphInfill
     return kind(
         solid, spec, cache=cache, progress=progress, monitor=monitor, executor=executor,
         streamed=streamed,
     )  # fmt: skip
 
 
-def aimed(
+def solve_target(
     solid: TriangleMesh | Solid,
     spec: LatticeSpec,
     *,
@@ -109,9 +109,9 @@ def aimed(
     if target.aim == "stiffness":
         return made_of(_stiff(spec, target), progress=progress)
     if spec.surface is not None:
-        return aimed_walls(infill, target, made_of, meshed=meshed)
+        return solve_tpms_target(infill, target, made_of, meshed=meshed)
     if spec.network is not None:
-        return aimed_network(infill, target, made_of, meshed=meshed)
+        return solve_graph_target(infill, target, made_of, meshed=meshed)
     monitor, domain = infill.monitor, infill.domain.mesh.volume
     frame = infill.struts
     with monitor.stage("target", 0.4, 0.4):
@@ -134,10 +134,10 @@ def aimed(
     def measure(made: Infill) -> Report:
         return made.result.report
 
-    return made_until_met(make, measure if meshed else None, search.wanted)
+    return make_until_met(make, measure if meshed else None, search.wanted)
 
 
-def filled(
+def fill_with_target(
     solid: TriangleMesh | Solid,
     spec: LatticeSpec,
     *,
@@ -145,19 +145,19 @@ def filled(
     cache: StageCache | None = None,
     executor: Executor | None = None,
 ) -> tuple[Result, LatticeSpec]:
-    """The result of `aimed`, and the specification with the radius that was found."""
-    infill = aimed(solid, spec, progress=progress, cache=cache, executor=executor)
+    """The result of `solve_target`, and the specification with the radius that was found."""
+    infill = solve_target(solid, spec, progress=progress, cache=cache, executor=executor)
     return infill.result, infill.spec
 
 
-def aimed_block(
+def solve_block_target(
     spec: LatticeSpec,
     count: Sequence[int],
     *,
     progress: ProgressCallback | None = None,
     meshed: bool = True,
 ) -> LatticeSpec:
-    """The specification of a block, with the radius of its target; see `aimed`.
+    """The specification of a block, with the radius of its target; see `solve_target`.
 
     Args:
         spec: with a target, or without one: then it is returned as it is.
@@ -167,7 +167,7 @@ def aimed_block(
             otherwise the radius is the first one, as for beams.
 
     Raises:
-        VolfrepError: as `aimed`.
+        VolfrepError: as `solve_target`.
     """
     target = spec.target
     if target is None:
@@ -180,7 +180,7 @@ def aimed_block(
     if target.aim == "stiffness":
         return _stiff(spec, target)
     if spec.surface is not None:
-        return aimed_walls_block(spec, block_volume(spec, count), target)
+        return solve_tpms_block_target(spec, block_volume(spec, count), target)
     size = spec.cell_size
     block_wireframe(spec, count)  # the counts are checked
     repeats = not spec.is_graded
@@ -203,12 +203,12 @@ def aimed_block(
     def measure(made: LatticeSpec) -> Report:
         return measured_block(made, count, progress=progress)
 
-    return made_until_met(search.specification, measure if meshed else None, wanted)
+    return make_until_met(search.specification, measure if meshed else None, wanted)
 
 
 def _stiff(spec: LatticeSpec, target: Target) -> LatticeSpec:
     if spec.surface is not None:
-        return stiff_walls(spec, target)
+        return solve_tpms_stiffness(spec, target)
     size = spec.cell_size
     ratio = ratio_of_stiffness(spec.unit_cell(), target, spec.fillet / size)
     return replace(spec, strut_radius=ratio * size)

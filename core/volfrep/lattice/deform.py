@@ -22,7 +22,7 @@ from ..grid.node_frames import NodeFrames, shortest
 from ..octants.octant import Octant, OctantKey, frames
 from ..octants.sdf import Field, join, spheres, struts
 from ..util.errors import VolfrepError
-from ..util.linalg import normalized
+from ..util.linalg import normalize
 from ..util.progress import Monitor
 from ..util.threads import in_threads
 from ..util.types import Floats, Ints
@@ -330,7 +330,7 @@ def _on_spheres(
         nearest = angle.argmin(axis=1)
         lack = np.maximum(cover + KEPT_ANGLE * share - angle[rows, nearest], 0.0)
         strut = directions[rows, nearest]
-        aside = normalized(radial - np.einsum("ij,ij->i", radial, strut)[:, None] * strut)
+        aside = normalize(radial - np.einsum("ij,ij->i", radial, strut)[:, None] * strut)
         turned = np.cos(angle[rows, nearest] + lack)[:, None] * strut
         turned += np.sin(angle[rows, nearest] + lack)[:, None] * aside
         radial = np.where((lack > 0.0)[:, None], turned, radial)

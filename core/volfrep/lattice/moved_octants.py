@@ -20,7 +20,7 @@ from ..mesh import remesh
 from ..mesh.precision import decimal_step, merging
 from ..mesh.triangle_mesh import TriangleMesh
 from ..octants.octant import Octant
-from ..spatial.turns import STICKS_OUT, turning_back
+from ..spatial.folds import STICKS_OUT, find_folds
 from ..util.linalg import along
 from ..util.progress import Monitor
 from ..util.threads import in_threads
@@ -238,7 +238,7 @@ def _turning_back(layout: Layout, points: Floats, bent: Bools, monitor: Monitor)
         triangles = facets(layout, Monitor(), part)
         used, local = np.unique(triangles, return_inverse=True)
         mesh = TriangleMesh(points[used], local.reshape(-1, 3).astype(np.int32))
-        turned = turning_back(mesh, True)
+        turned = find_folds(mesh, True)
         if turned.any():
             owner = _owners(layout, part, each)[turned]
             result[tuple(owner.T)] = True

@@ -17,7 +17,7 @@ import numpy as np
 from ..design.openings import OpenPatch
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.proximity import closest_points
-from ..util.content import content_of, held
+from ..util.content import content_of, freeze
 from ..util.errors import VolfrepError
 from ..util.types import Bools, Floats
 
@@ -186,7 +186,7 @@ class OnFacets:
     _content: bytes = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "corners", held(self.corners, np.float64))
+        object.__setattr__(self, "corners", freeze(self.corners, np.float64))
         object.__setattr__(self, "_content", content_of(self.corners))
         if self.corners.ndim != 3 or self.corners.shape[1:] != (3, 3) or not len(self.corners):
             raise VolfrepError(f"{self.name.capitalize()} needs facets of three corners.")
@@ -222,7 +222,7 @@ class OnLine:
     _content: bytes = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "points", held(self.points, np.float64))
+        object.__setattr__(self, "points", freeze(self.points, np.float64))
         object.__setattr__(self, "_content", content_of(self.points))
         if self.points.ndim != 2 or self.points.shape[1] != 3 or len(self.points) < 2:
             raise VolfrepError(f"{self.name.capitalize()} needs two points or more.")

@@ -147,10 +147,12 @@ def homogenise(
     def voxels(size: int) -> Voxels:
         return voxels_of(endless, radius, fillet, size, octant=octant, density=density)
 
-    return homogenised(voxels, sizes, poisson, cubic=octant and is_cubic(cell), name=cell.name)
+    return homogenise_voxels(
+        voxels, sizes, poisson, cubic=octant and is_cubic(cell), name=cell.name
+    )
 
 
-def homogenised(
+def homogenise_voxels(
     voxels: Callable[[int], Voxels],
     sizes: tuple[int, ...],
     poisson: float,

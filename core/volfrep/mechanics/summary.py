@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from ..design.cells import UnitCell, find_cell
 from ..design.spec_parts import Grid, Struts
-from ..design.walls import Wall
+from ..design.tpms import TpmsSheet
 from ..util.errors import VolfrepError
 from ..util.types import Floats
 from .conductance import conductance
@@ -71,7 +71,7 @@ class CellProperties:
     errors: dict[str, Any]
     von_mises: dict[str, float]
     along: int
-    wall: Wall | None = None
+    wall: TpmsSheet | None = None
 
     def young(self, direction: ArrayLike) -> float:
         """Young's modulus along a direction, such as (1, 2, 0), in the unit of the moduli.

@@ -81,7 +81,7 @@ def moduli(tensor: Floats) -> Moduli:
     )
 
 
-def rotated(tensor: Floats, rotation: Floats) -> Floats:
+def rotate_tensor(tensor: Floats, rotation: Floats) -> Floats:
     """The tensor of the same lattice turned by a (3, 3) rotation matrix."""
     full = tensor[_ROW[:, :, None, None], _ROW[None, None]]
     turned = np.einsum("ai,bj,ck,dl,ijkl->abcd", *[rotation] * 4, full, optimize=True)

@@ -134,7 +134,7 @@ _SUMS = (
 )  # fmt: skip
 
 
-def combined(one: Quality, two: Quality) -> Quality:
+def combine(one: Quality, two: Quality) -> Quality:
     """The quality of two meshes taken as one, nothing welded."""
     sums = {name: getattr(one, name) + getattr(two, name) for name in _SUMS}
     watertight = one.watertight and two.watertight
@@ -148,7 +148,7 @@ def combined(one: Quality, two: Quality) -> Quality:
     return Quality(watertight=watertight, genus=genus, bounds=bounds, **sums)
 
 
-def remaining(
+def subtract_shells(
     whole: Quality, gone: Quality, bounds: NDArray[np.float64], volumes: NDArray[np.float64]
 ) -> Quality:
     """The quality of a watertight mesh less some of its shells, which have a quality of their own.

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..util.linalg import normalized
+from ..util.linalg import normalize
 from ..util.ragged import rows_of
 from ..util.types import Bools, Floats, Ints
 
@@ -87,7 +87,7 @@ def normals(points: Floats) -> Floats:
 
 def unit_normals(points: Floats) -> Floats:
     """(m, 3) unit normals of (m, 3, 3) triangles; zero of those without area."""
-    return normalized(normals(points))
+    return normalize(normals(points))
 
 
 def heights(points: Floats) -> Floats:

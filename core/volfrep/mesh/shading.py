@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
-from ..util.linalg import normalized
+from ..util.linalg import normalize
 from ..util.types import Floats, Ints
 from .triangle_mesh import TriangleMesh
 
@@ -33,7 +33,7 @@ class Shaded:
     triangles: NDArray[np.int32]
 
 
-def shaded(mesh: TriangleMesh, crease_angle: float = CREASE_ANGLE) -> Shaded:
+def shade(mesh: TriangleMesh, crease_angle: float = CREASE_ANGLE) -> Shaded:
     """The mesh with the normals that it is drawn with; it may be open.
 
     The corners of a vertex share a normal, the mean of their triangles by area, as far as one
@@ -50,7 +50,7 @@ def shaded(mesh: TriangleMesh, crease_angle: float = CREASE_ANGLE) -> Shaded:
     vertex[corner] = t.ravel()
     weight = np.repeat(area, 3, axis=0)
     total = np.stack([np.bincount(corner, weight[:, k], count) for k in range(3)], axis=1)
-    normals = normalized(total)
+    normals = normalize(total)
     return Shaded(
         mesh.vertices[vertex].astype(np.float32),
         normals.astype(np.float32),

@@ -22,7 +22,7 @@ TRIANGLES_PER_SQUARE = 2.5
 COARSER = 1.3
 
 
-def coarse_likeness(mesh: TriangleMesh, most: int) -> TriangleMesh:
+def cluster_vertices(mesh: TriangleMesh, most: int) -> TriangleMesh:
     """A mesh of at most `most` triangles that looks like the given one; in general not closed.
 
     Vertices in the same cube of a raster become one, their mean (J. Rossignac and P. Borrel,

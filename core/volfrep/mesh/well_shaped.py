@@ -101,7 +101,7 @@ def is_bad(corners: Floats) -> Bools:
     return np.asarray((angle.min(axis=1) < LEAST_ANGLE) | (angle.max(axis=1) > MOST_ANGLE))
 
 
-def well_shaped(mesh: TriangleMesh, tolerance: Tolerance, shortest: float) -> TriangleMesh:
+def mend_bad_facets(mesh: TriangleMesh, tolerance: Tolerance, shortest: float) -> TriangleMesh:
     """The closed mesh without needles and caps, as far as that goes.
 
     Args:

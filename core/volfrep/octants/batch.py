@@ -33,7 +33,7 @@ BATCH_VERTICES = 150_000
 CLOSELY = 0.5
 
 
-def sampled(
+def sample_all(
     spec: OctantSpec, primitives: Mapping[OctantKey, Primitives]
 ) -> Iterator[tuple[OctantKey, Floats]]:
     """The samples of octants, one after another."""
@@ -78,7 +78,7 @@ class Batch:
         near: list[Ints] = []
         away: list[Floats] = []
         total = offset = 0
-        for key, samples in sampled(spec, todo):
+        for key, samples in sample_all(spec, todo):
             own = todo[key]
             piece = raw_octant(samples, spec.cell_size)
             if used and total + len(piece.vertices) > BATCH_VERTICES:

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..mesh import remesh
 from ..util.types import Floats, Ints
-from .constrained_mesh import Surface, shortened
+from .constrained_mesh import Surface, shorten_steps
 from .refinement import SHORTEST, edges_stray, with_vertices
 from .sdf import distances_and_gradients
 from .untangle import proper_border
@@ -95,5 +95,5 @@ def _on_surface(surface: Surface, index: Ints) -> Floats:
         mean = np.add.reduceat(gradient * tied[:, None], field.start[:-1], axis=0) * loose
         mean = mean / np.add.reduceat(tied.astype(np.float64), field.start[:-1])[:, None]
         size = np.maximum((mean * mean).sum(axis=1), 0.05)
-        points = points - shortened(mean * (least / size)[:, None], 0.25 * surface.edge)
+        points = points - shorten_steps(mean * (least / size)[:, None], 0.25 * surface.edge)
     return points

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..util.linalg import solved
+from ..util.linalg import solve_symmetric
 from ..util.types import Bools, Floats, Ints
 from .sdf import Field, distances_and_gradients
 
@@ -87,14 +87,14 @@ def project(surface: Surface, passes: int = 2) -> Surface:
         gradient = gradient * loose[free]
         # Where the surface grazes the face that the vertex is pinned to, the step is kept short.
         size = np.maximum(np.einsum("ij,ij->i", gradient, gradient), 0.05)
-        vertices[free] -= shortened(gradient * (value / size)[:, None], 0.5 * surface.edge)
+        vertices[free] -= shorten_steps(gradient * (value / size)[:, None], 0.5 * surface.edge)
         if len(bound):
             step = step_to_primitives(surface, vertices[bound], surface.held[bound], loose[bound])
-            vertices[bound] += shortened(step, 0.5 * surface.edge)
-    return moved(surface, vertices)
+            vertices[bound] += shorten_steps(step, 0.5 * surface.edge)
+    return move_vertices(surface, vertices)
 
 
-def moved(surface: Surface, vertices: Floats) -> Surface:
+def move_vertices(surface: Surface, vertices: Floats) -> Surface:
     """The surface with its vertices elsewhere, each still in its octant, face or edge.
 
     A facet that left its octant would run through those of the next one, and a vertex that came
@@ -129,11 +129,11 @@ def step_to_primitives(
     # Not `einsum`, whose last bits hang on where in the batch a row lies: neighbours that see the
     # same on their common face must come to the same place.
     normal = (jacobian[:, :, None, :] * jacobian[:, None, :, :]).sum(axis=3) + 1e-6 * np.eye(3)
-    factor = solved(normal, value.reshape(-1, 3))
+    factor = solve_symmetric(normal, value.reshape(-1, 3))
     return np.asarray(-(jacobian * factor[:, :, None]).sum(axis=1))
 
 
-def shortened(steps: Floats, longest: float | Floats) -> Floats:
+def shorten_steps(steps: Floats, longest: float | Floats) -> Floats:
     """The (n, 3) steps, none of them longer than `longest`, one for all or (n,)."""
     size = np.linalg.norm(steps, axis=1)
     short: Floats = steps * np.minimum(1.0, longest / np.maximum(size, 1e-300))[:, None]
@@ -190,7 +190,7 @@ def crease_points(
     held = np.stack([one, two, np.full(len(one), -1)], axis=1)
     for _ in range(5):
         step = step_to_primitives(surface, point, held, loose)
-        point = point + shortened(step, 0.5 * surface.edge)
+        point = point + shorten_steps(step, 0.5 * surface.edge)
     field = surface.field.rows(ends[:, 0])
     least, third = field.nearest(point)
     tolerance = ON_SURFACE * surface.edge
@@ -198,7 +198,7 @@ def crease_points(
     held[buried, 2] = third[buried]
     for _ in range(6):
         step = step_to_primitives(surface, point[buried], held[buried], loose[buried])
-        point[buried] += shortened(step, 0.5 * surface.edge)
+        point[buried] += shorten_steps(step, 0.5 * surface.edge)
     value_one, gradient_one = distances_and_gradients(point, first)
     value_two, gradient_two = distances_and_gradients(point, second)
     good = np.einsum("ij,ij->i", gradient_one, gradient_two) < CREASE_COSINE

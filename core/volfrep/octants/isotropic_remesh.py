@@ -25,7 +25,7 @@ from .constrained_mesh import (
     Surface,
     between_samples,
     crease_points,
-    moved,
+    move_vertices,
     neighbour_mean,
     project,
 )
@@ -47,7 +47,7 @@ TIED = 1e-6
 BISECTIONS = 30
 
 
-def even_out(raw: Surface, gently: bool = False) -> tuple[Surface, Ints]:
+def remesh_evenly(raw: Surface, gently: bool = False) -> tuple[Surface, Ints]:
     """Remesh: even triangles with their edges on the creases, vertices on the exact surface.
 
     Args:
@@ -70,15 +70,15 @@ def even_out(raw: Surface, gently: bool = False) -> tuple[Surface, Ints]:
     for _ in range(3):
         surface, stay = _collapse(surface)
         origin = origin[stay]
-        surface = _relax(flipped(surface))
+        surface = _relax(flip_edges(surface))
     if surface.field.fillet <= 0.0:
         for _ in range(3):
-            surface = flipped(_sharpen(surface))
+            surface = flip_edges(_sharpen(surface))
             surface, stay = _collapse(surface)
             origin = origin[stay]
     for _ in range(3):
-        surface = _relax(flipped(surface))
-    return flipped(surface), origin
+        surface = _relax(flip_edges(surface))
+    return flip_edges(surface), origin
 
 
 def _relax(surface: Surface, *, border: bool = False, passes: int = 1) -> Surface:
@@ -147,7 +147,7 @@ def _collapse(surface: Surface) -> tuple[Surface, Ints]:
     return project(smaller), stay
 
 
-def flipped(surface: Surface) -> Surface:
+def flip_edges(surface: Surface) -> Surface:
     """Flips that make angles better, or that take an edge out of the way of a crease."""
     field, v = surface.field, surface.vertices
     nearest = field.nearest(v)[1]
@@ -275,7 +275,7 @@ def _snap(surface: Surface, ends: Ints, movable: Bools) -> Surface:
     pick = order[first]
     vertices, new_held = surface.vertices.copy(), surface.held.copy()
     vertices[vertex], new_held[vertex] = point[pick], held_by[pick]
-    return replace(moved(surface, vertices), held=new_held)
+    return replace(move_vertices(surface, vertices), held=new_held)
 
 
 def _first_end(surface: Surface, ends: Ints) -> Ints:

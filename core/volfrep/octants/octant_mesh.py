@@ -22,10 +22,10 @@ from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 from ..util.types import Floats, Ints
 from . import sdf
-from .batch import Batch, sampled
+from .batch import Batch, sample_all
 from .border_refinement import ROUNDS, finer_border
 from .constrained_mesh import Surface
-from .isotropic_remesh import even_out
+from .isotropic_remesh import remesh_evenly
 from .octant import (
     Octant,
     OctantKey,
@@ -36,7 +36,7 @@ from .pieces import Meshed
 from .refinement import all_stray, coarser, flipped_nearer, split_where_it_strays
 from .sdf import Primitives
 from .surface_fit import fit_border, fit_facets
-from .untangle import crossing_facets, untangled
+from .untangle import crossing_facets, untangle
 from .windows import sampled_finely_enough
 
 #: Samples are clamped to so many steps: farther from the surface only their sign matters.
@@ -99,7 +99,7 @@ def mesh_octants(
         for key in dict.fromkeys(keys)
     }
     groups: dict[bytes, list[OctantKey]] = {}
-    for key, samples in sampled(spec, primitives):
+    for key, samples in sample_all(spec, primitives):
         seen = np.clip(samples, -SEEN_STEPS * spec.step, SEEN_STEPS * spec.step)
         groups.setdefault(hashlib.blake2b(seen.tobytes()).digest(), []).append(key)
         monitor.tick()
@@ -142,14 +142,14 @@ def _meshed(spec: OctantSpec, batch: Batch) -> dict[OctantKey, Octant]:
     """
     result: dict[OctantKey, Octant] = {}
     farthest = DIVIDED_TO * spec.deviation
-    even = _bordered(*even_out(batch.surface), batch, farthest)
+    even = _bordered(*remesh_evenly(batch.surface), batch, farthest)
     gentle: Meshed | None = None
     left = np.ones(len(batch.keys), bool)
     # Facets that touch are better than none, where nothing keeps them apart.
     for exact, manner in itertools.product((True, False), _Manner):
         if manner is _Manner.GENTLE:
             if gentle is None:
-                gentle = _bordered(*even_out(batch.surface, gently=True), batch, farthest)
+                gentle = _bordered(*remesh_evenly(batch.surface, gently=True), batch, farthest)
             meshed = gentle
         else:
             meshed = even
@@ -161,7 +161,7 @@ def _meshed(spec: OctantSpec, batch: Batch) -> dict[OctantKey, Octant]:
         else:
             if manner is _Manner.FINE:
                 meshed = _refined(meshed, spec.deviation)
-            fitted, crossed = untangled(meshed.surface, meshed.home, exact)
+            fitted, crossed = untangle(meshed.surface, meshed.home, exact)
         bad = np.zeros(len(left), bool)
         bad[fitted.piece[fitted.triangles[crossed, 0]]] = True
         result.update(batch.split(replace(meshed, surface=fitted), left & ~bad))

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from ..mesh import remesh
 from ..util.ragged import rows_of
 from ..util.types import Bools, Floats, Ints
-from .constrained_mesh import Surface, crease_points, moved, shortened
+from .constrained_mesh import Surface, crease_points, move_vertices, shorten_steps
 from .isotropic_remesh import same_crease
 
 #: Where facets are looked at, in barycentric coordinates: at ten points inside, and the middles of
@@ -270,7 +270,7 @@ def with_vertices(
         held=held[order], field=surface.field.rows(parents[:, 0]),
         piece=surface.piece[parents[:, 0]],
     )  # fmt: skip
-    return moved(finer, finer.vertices), parents
+    return move_vertices(finer, finer.vertices), parents
 
 
 def _between(surface: Surface, ends: Ints) -> Floats:
@@ -282,7 +282,7 @@ def _between(surface: Surface, ends: Ints) -> Floats:
     for _ in range(3):
         value, gradient = field.values_and_gradients(points)
         size = np.maximum(np.einsum("ij,ij->i", gradient, gradient), 0.05)
-        points = points - shortened(gradient * (value / size)[:, None], 0.25 * surface.edge)
+        points = points - shorten_steps(gradient * (value / size)[:, None], 0.25 * surface.edge)
     if surface.field.fillet > 0.0:
         return points
     nearest = surface.field.nearest(surface.vertices)[1]

@@ -12,14 +12,14 @@ from __future__ import annotations
 import numpy as np
 
 from ..mesh import remesh
-from ..util.linalg import along, normalized, solved
+from ..util.linalg import along, normalize, solve_symmetric
 from ..util.types import Floats, Ints
 from .constrained_mesh import (
     Surface,
     between_samples,
-    moved,
+    move_vertices,
     neighbour_mean,
-    shortened,
+    shorten_steps,
     step_to_primitives,
 )
 from .sdf import Field
@@ -47,7 +47,7 @@ def fit_border(remeshed: Surface) -> Surface:
     """The border fitted, each vertex in its face, as the octant beyond does it.
 
     Args:
-        remeshed: what `volfrep.octants.isotropic_remesh.even_out` made.
+        remeshed: what `volfrep.octants.isotropic_remesh.remesh_evenly` made.
     """
     if not len(remeshed.triangles):
         return remeshed
@@ -93,7 +93,7 @@ def _offset_border(surface: Surface) -> Surface:
     if field.fillet <= 0.0:
         held[single, 0] = field.nearest(points)[1][single]
         for _ in range(2):
-            points = points + shortened(
+            points = points + shorten_steps(
                 step_to_primitives(surface, points, held, loose, level), 0.2 * surface.edge
             )
     else:
@@ -101,7 +101,7 @@ def _offset_border(surface: Surface) -> Surface:
             value, gradient = field.values_and_gradients(points)
             gradient = gradient * loose
             size = np.maximum(np.einsum("ij,ij->i", gradient, gradient), 0.05)
-            points = points - shortened(
+            points = points - shorten_steps(
                 gradient * ((value - level) / size)[:, None], 0.2 * surface.edge
             )
     on_edge = (~loose).sum(axis=1) == 2
@@ -109,7 +109,7 @@ def _offset_border(surface: Surface) -> Surface:
     points[on_edge] = np.clip(points[on_edge], low, high)
     vertices = surface.vertices.copy()
     vertices[index] = points
-    return moved(surface, vertices)
+    return move_vertices(surface, vertices)
 
 
 def _curvature(field: Field, points: Floats, held: Ints, edge: float) -> Floats:
@@ -162,14 +162,14 @@ def _fit(surface: Surface, farthest: float | None) -> Surface:
         for k in range(15):
             total[:, k] += np.bincount(triangles[:, corner], local[:, k], minlength=count)
     matrix, right, normal = total[:, :9].reshape(-1, 3, 3), total[:, 9:12], total[:, 12:]
-    normal = normalized(normal)
+    normal = normalize(normal)
     pairs = np.concatenate([triangles[:, :2], triangles[:, 1:], triangles[:, ::2]])
     mean, _ = neighbour_mean(count, pairs, surface.vertices)
     drift = mean - surface.vertices
     drift -= normal * np.einsum("ij,ij->i", normal, drift)[:, None]
     pull = DRIFT * np.trace(matrix, axis1=1, axis2=2) / 3.0
     matrix = matrix + (pull[:, None, None] + 1e-12) * np.eye(3)
-    step = solved(matrix, pull[:, None] * drift - right)
+    step = solve_symmetric(matrix, pull[:, None] * drift - right)
     step = np.where(surface.pinned.any(axis=1)[:, None], 0.0, step)
     # No vertex passes another one where edges are short.
     reach = np.full(count, 0.2 * surface.edge)
@@ -177,7 +177,7 @@ def _fit(surface: Surface, farthest: float | None) -> Surface:
         surface.vertices[pairs[:, 1]] - surface.vertices[pairs[:, 0]], axis=1
     )
     np.minimum.at(reach, pairs.ravel(), np.repeat(length, 2))
-    return moved(surface, surface.vertices + shortened(step, reach))
+    return move_vertices(surface, surface.vertices + shorten_steps(step, reach))
 
 
 def _sampled(surface: Surface) -> tuple[Floats, Floats, Floats]:
@@ -215,6 +215,6 @@ def _balance(surface: Surface) -> Surface:
     sums = [
         np.bincount(triangles.ravel(), np.repeat(flux[:, k], 3), minlength=count) for k in range(3)
     ]
-    normal = normalized(np.stack(sums, axis=1))
+    normal = normalize(np.stack(sums, axis=1))
     step = np.clip(amount, -limit, limit)[piece][:, None] * normal
-    return moved(surface, surface.vertices + np.where(free[:, None], step, 0.0))
+    return move_vertices(surface, surface.vertices + np.where(free[:, None], step, 0.0))

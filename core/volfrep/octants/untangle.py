@@ -18,7 +18,7 @@ from ..spatial.piercing import piercing_pairs
 from ..spatial.self_intersection import close_pairs, crossing_triangles
 from ..util.linalg import along
 from ..util.types import Bools, Floats, Ints
-from .constrained_mesh import Surface, moved, neighbour_mean
+from .constrained_mesh import Surface, move_vertices, neighbour_mean
 from .octant import STEPS
 
 #: Facets that stick through others by no more than this, in wanted edges, only touch.
@@ -62,7 +62,7 @@ def crossing_facets(surface: Surface, exact: bool = True, pieces: Bools | None =
     return crossing
 
 
-def untangled(surface: Surface, home: Floats, exact: bool = True) -> tuple[Surface, Bools]:
+def untangle(surface: Surface, home: Floats, exact: bool = True) -> tuple[Surface, Bools]:
     """The surface with facets that cross drawn apart, where that is possible.
 
     A vertex goes to the middle of its neighbours, off the exact surface by a part of a facet; and
@@ -95,7 +95,7 @@ def untangled(surface: Surface, home: Floats, exact: bool = True) -> tuple[Surfa
             target: Floats = neighbour_mean(count, pairs, surface.vertices)[0]
         else:
             target = 0.5 * (surface.vertices + home)
-        surface = moved(surface, np.where(goes, target, surface.vertices))
+        surface = move_vertices(surface, np.where(goes, target, surface.vertices))
         crossed = _wrong(surface, exact, pieces)
     return surface, crossed
 

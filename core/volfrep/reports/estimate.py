@@ -13,7 +13,7 @@ import numpy as np
 
 from ..design.memory_guard import rounded_up, smaller_block
 from ..design.spec import LatticeSpec
-from ..fem.beam_mesh import BeamModel
+from ..fem.beam_mesh import BeamMesh
 from ..fem.tet_mesh import (
     BYTES_PER_TRIANGLE,
     ELEMENTS_PER_TRIANGLE,
@@ -23,10 +23,10 @@ from ..fem.tet_mesh import (
 from ..fem.tet_mesh import MAX_TRIANGLES as MAX_TETRAHEDRA_TRIANGLES
 from ..grid.strut_graph import Wireframe
 from ..io.write.calculix import BYTES_PER_BEAM, SOLVE_SECONDS_PER_BEAM, WRITE_SECONDS_PER_BEAM
-from ..io.write.step_exact import predicted_exact
+from ..io.write.step_exact import predict_exact
 from ..io.write.step_faceted import MAX_TRIANGLES as MAX_PLANE_FACES
-from ..io.write.step_faceted import predicted_faceted
-from ..io.write.step_wireframe import predicted_wireframe
+from ..io.write.step_faceted import predict_faceted
+from ..io.write.step_wireframe import predict_wireframe
 from ..util.errors import VolfrepError
 
 #: Files that take longer to make, or are larger, are not made.
@@ -67,7 +67,7 @@ class Estimate:
 
 
 @dataclass(frozen=True)
-class Asked:
+class ExportChoice:
     """What the user can change to make a file smaller.
 
     Attributes:
@@ -94,7 +94,7 @@ class Asked:
         return smaller_block(self.count, excess)
 
 
-def estimate_faceted(triangles: int, asked: Asked | None = None) -> Estimate:
+def estimate_faceted(triangles: int, asked: ExportChoice | None = None) -> Estimate:
     """STEP with a plane face for every triangle.
 
     Args:
@@ -109,21 +109,21 @@ def estimate_faceted(triangles: int, asked: Asked | None = None) -> Estimate:
             f"{triangles:,} plane faces are more than the {MAX_PLANE_FACES:,} that any program "
             f"reads: choose {_coarser(asked, triangles / MAX_PLANE_FACES)}, or the exact form."
         )
-    seconds, megabytes = predicted_faceted(triangles)
+    seconds, megabytes = predict_faceted(triangles)
     # FreeCAD 0.20 took 211 seconds for 54,648 faces on two busy cores, more than in proportion
     # longer for 126,440.
     reading = f"FreeCAD reads it in about {_seconds(4e-3 * triangles)}"
     return Estimate(f"{triangles:,} plane faces", seconds, megabytes, reading)
 
 
-def estimate_axes(struts: int, asked: Asked | None = None) -> Estimate:
+def estimate_axes(struts: int, asked: ExportChoice | None = None) -> Estimate:
     """STEP of the struts' axes.
 
     Raises:
         VolfrepError: the file would be larger than `MOST_MEGABYTES`; the text names the nearest
             setting that fits.
     """
-    seconds, megabytes = predicted_wireframe(struts)
+    seconds, megabytes = predict_wireframe(struts)
     if megabytes > MOST_MEGABYTES:
         raise VolfrepError(
             f"The axes of {struts:,} struts would be {megabytes:,.0f} MB of STEP: choose "
@@ -135,7 +135,7 @@ def estimate_axes(struts: int, asked: Asked | None = None) -> Estimate:
 
 
 def estimate_exact(
-    lattice: Wireframe, asked: Asked | None = None, *, trimmed: bool = False
+    lattice: Wireframe, asked: ExportChoice | None = None, *, trimmed: bool = False
 ) -> Estimate:
     """Solids of cylinders, cones and spheres.
 
@@ -147,7 +147,7 @@ def estimate_exact(
     Raises:
         VolfrepError: absurdly long or large; the text names the nearest setting that fits.
     """
-    found = predicted_exact(lattice)
+    found = predict_exact(lattice)
     struts = len(lattice.struts)
     seconds = found.seconds
     excess = max(seconds / MOST_SECONDS, found.megabytes / MOST_MEGABYTES)
@@ -188,7 +188,7 @@ def refuse_inexact(spec: LatticeSpec) -> None:
         raise VolfrepError("Exact surfaces have no drain holes.")
 
 
-def estimate_beams(model: BeamModel, asked: Asked | None = None) -> Estimate:
+def estimate_beams(model: BeamMesh, asked: ExportChoice | None = None) -> Estimate:
     """Beams for CalculiX.
 
     Raises:
@@ -206,7 +206,7 @@ def estimate_beams(model: BeamModel, asked: Asked | None = None) -> Estimate:
     )
 
 
-def estimate_tetrahedra(triangles: int, asked: Asked | None = None) -> Estimate:
+def estimate_tetrahedra(triangles: int, asked: ExportChoice | None = None) -> Estimate:
     """Second-order tetrahedra for CalculiX, by Gmsh from the mesh.
 
     Args:
@@ -229,11 +229,11 @@ def estimate_tetrahedra(triangles: int, asked: Asked | None = None) -> Estimate:
     return Estimate(what, SECONDS_PER_TRIANGLE * triangles, 1e-6 * BYTES_PER_TRIANGLE * triangles)
 
 
-def _coarser(asked: Asked | None, excess: float) -> str:
+def _coarser(asked: ExportChoice | None, excess: float) -> str:
     return "a coarser deviation or larger cells" if asked is None else asked.coarser(excess)
 
 
-def _fewer(asked: Asked | None, excess: float) -> str:
+def _fewer(asked: ExportChoice | None, excess: float) -> str:
     return "larger cells" if asked is None else asked.fewer(excess)
 
 

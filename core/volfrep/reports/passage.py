@@ -11,9 +11,9 @@ from scipy import ndimage
 
 from ..design.cells import UnitCell
 from ..design.spec import LatticeSpec
+from ..tpms.solid import TpmsSolid
+from ..tpms.widths import measure_widths
 from ..util.types import Bools, Floats
-from ..walls.solid import WallSolid
-from ..walls.widths import wall_widths
 
 #: Places along a cell's edge. Windows of symmetric cells have their middles at whole numbers of
 #: twelfths, so that they are met exactly; the others are told too narrow by a step at most.
@@ -63,7 +63,7 @@ def ball_of(spec: LatticeSpec) -> float | None:
         return None
     size = spec.cell_size
     if spec.surface is not None:
-        solid = WallSolid.of(spec.surface, spec.wall, size)
+        solid = TpmsSolid.of(spec.surface, spec.wall, size)
         return _through(solid.samples(PLACES, 1.0)[:-1, :-1, :-1]) * size
     return max(largest_ball(spec.unit_cell(), spec.strut_radius / size) * size, 0.0)
 
@@ -79,7 +79,7 @@ def walls_of(spec: LatticeSpec) -> tuple[float | None, float | None]:
     known = spec.size_grading is None and spec.cell_map is None and spec.radius_grading is None
     if not known:
         return (spec.thicknesses[0] if spec.wall.is_sheet else None), None
-    found = wall_widths(WallSolid.of(spec.surface, spec.wall, spec.cell_size))
+    found = measure_widths(TpmsSolid.of(spec.surface, spec.wall, spec.cell_size))
     return found.thickness * spec.cell_size, found.gap * spec.cell_size
 
 

@@ -120,6 +120,6 @@ class Report:
         return json.dumps(self.as_dict(), indent=2)
 
 
-def told(report: Report, sentences: tuple[str, ...]) -> Report:
+def with_warnings(report: Report, sentences: tuple[str, ...]) -> Report:
     """The report with further sentences for the user."""
     return replace(report, warnings=report.warnings + sentences) if sentences else report

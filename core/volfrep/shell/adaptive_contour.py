@@ -36,7 +36,7 @@ LOOK_AT = ((0.5, 0.25, 0.25), (0.25, 0.5, 0.25), (0.25, 0.25, 0.5))
 
 
 @dataclass(frozen=True, eq=False)
-class Wall:
+class OffsetSurface:
     """A contoured surface.
 
     Attributes:
@@ -48,7 +48,7 @@ class Wall:
     facets: Facets
 
 
-def find_wall(field: DepthField) -> Wall:
+def find_offset_surface(field: DepthField) -> OffsetSurface:
     """The surface at exact depth, as near as cubes of a sixteenth of the coarsest size bring it.
 
     After the first round only the neighbourhood of the cubes that were halved is contoured and
@@ -170,7 +170,9 @@ def _with_new(known: _Known, field: DepthField, crossings: Crossings, new: Bools
     )
 
 
-def _contoured(field: DepthField, leaves: Leaves, crossings: Crossings, known: _Known) -> Wall:
+def _contoured(
+    field: DepthField, leaves: Leaves, crossings: Crossings, known: _Known
+) -> OffsetSurface:
     rows = find(known.names, crossings.edges.names)
     points, anchor, normal = known.points[rows], known.anchor[rows], known.normal[rows]
     low = leaves.corner[crossings.leaf_of_patch]
@@ -178,10 +180,10 @@ def _contoured(field: DepthField, leaves: Leaves, crossings: Crossings, known: _
     vertices = place_vertices(
         crossings, points, anchor, normal, field.point(low), field.point(high)
     )
-    return Wall(crossings, facets(crossings, vertices, anchor, normal))
+    return OffsetSurface(crossings, facets(crossings, vertices, anchor, normal))
 
 
-def _strays(wall: Wall, fresh: Bools, depth: Depth) -> Floats:
+def _strays(wall: OffsetSurface, fresh: Bools, depth: Depth) -> Floats:
     """(p,) how far the facets round each patch's vertex stray, if a fresh one (p,) is at them."""
     vertices, triangles = wall.facets.mesh.vertices, wall.facets.mesh.triangles
     result = np.zeros(len(vertices))

@@ -13,11 +13,11 @@ from scipy.sparse.csgraph import connected_components
 
 from ..mesh.booleans import from_library, to_library
 from ..mesh.triangle_mesh import TriangleMesh
-from ..spatial.uncrossing import Turns, uncrossed
+from ..spatial.resolve_crossings import Turns, resolve_fold_crossings
 from ..util.linalg import symmetric_eigen
 from ..util.progress import Monitor
 from ..util.types import Floats, Ints
-from .wall_crossings import crossed_along, judged
+from .surface_crossings import crossed_along, find_new_crossings
 
 #: So often what crosses is drawn apart, and what is left filled.
 ROUNDS = 5
@@ -44,18 +44,18 @@ def without_crossings(mesh: TriangleMesh, thickness: float, monitor: Monitor) ->
         The mesh itself where nothing crosses. After `ROUNDS` a few facets may still cross.
     """
     reach = BEYOND * thickness
-    known = judged(mesh, monitor)
+    known = find_new_crossings(mesh, monitor)
     best, fewest = mesh, len(known.pairs)
     for _ in range(ROUNDS):
         if not fewest:
             break
         monitor.count("times the wall was drawn apart", 1)
         turns = Turns(np.ones(len(mesh.triangles), bool), known.pairs)
-        mesh = uncrossed(mesh, monitor, turns=turns)[0]
-        known = judged(mesh, monitor, known)
+        mesh = resolve_fold_crossings(mesh, monitor, turns=turns)[0]
+        known = find_new_crossings(mesh, monitor, known)
         if len(known.pairs):
             mesh = monitor.call(partial(_less, mesh, *_boxes(mesh, known.pairs, reach)))
-            known = judged(mesh, monitor, known)
+            known = find_new_crossings(mesh, monitor, known)
             reach *= FARTHER
         if len(known.pairs) < fewest:
             best, fewest = mesh, len(known.pairs)

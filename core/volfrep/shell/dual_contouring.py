@@ -186,7 +186,7 @@ def _outward(triangles: Ints, rising: Bools) -> NDArray[np.int32]:
     return np.where(rising[:, None], triangles, triangles[:, ::-1]).astype(np.int32)
 
 
-def fanned(crossings: Crossings, plain: Facets, cut: Bools, points: Floats) -> Facets:
+def with_fans(crossings: Crossings, plain: Facets, cut: Bools, points: Floats) -> Facets:
     """With fans instead of some polygons, which have further vertices on some segments.
 
     A fan's triangles between its edge and cut segments each lie in one cube, with the vertex of

@@ -25,12 +25,12 @@ from ..spatial.rays import inside_points
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats
-from .adaptive_contour import find_wall
+from .adaptive_contour import find_offset_surface
+from .decimation import simplify
 from .depth import Depth
 from .open_depth import open_depth
-from .plain_regions import find_plain
 from .sampled_depth import DepthField, cube_grid
-from .wall_decimation import simplified
+from .smooth_regions import find_smooth_regions
 
 #: Edge of the coarsest cubes in units of the thickness; and the least number of them along the
 #: part's diagonal.
@@ -109,7 +109,9 @@ def inner_wall(
     elif is_open is None:
         grid = cube_grid(low, high, thickness, cube)
         most = MEMORY_LIMIT / BYTES_PER_CROSSED_CUBE / 2.0
-        plain = find_plain(solid, grid[0], cube, grid[2], thickness, spacing, most, monitor)
+        plain = find_smooth_regions(
+            solid, grid[0], cube, grid[2], thickness, spacing, most, monitor
+        )
         _refuse_too_thin(solid, thickness, plain.cubes, cube)
         sampled = (plain.samples, plain.owner)
         index = monitor.call(lambda: index_surface(solid, spacing, sampled))
@@ -119,9 +121,9 @@ def inner_wall(
         depth = open_depth(solid, is_open, thickness, spacing, monitor)
     field = DepthField(solid, depth, cube, plain)
     monitor.tick(0.1)
-    wall = find_wall(field)
+    wall = find_offset_surface(field)
     monitor.tick(0.8)
-    mesh = simplified(wall, field)
+    mesh = simplify(wall, field)
     monitor.tick(0.95)
     return _measured(without_small(mesh, (SMALLEST_POCKET * cube) ** 3), depth)
 

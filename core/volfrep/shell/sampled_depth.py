@@ -11,7 +11,7 @@ from ..util.linalg import along
 from ..util.types import Bools, Floats, Ints
 from .depth import Depth
 from .octree import CORNERS, Leaves, find, name, named
-from .plain_regions import Plain
+from .smooth_regions import SmoothRegions
 
 #: Whole numbers along a cube of the coarsest size: it can be halved three times, and the smallest
 #: cubes' edges still have whole middles.
@@ -53,7 +53,7 @@ class DepthField:
     """
 
     def __init__(
-        self, solid: TriangleMesh, depth: Depth, cube: float, plain: Plain | None = None
+        self, solid: TriangleMesh, depth: Depth, cube: float, plain: SmoothRegions | None = None
     ) -> None:
         """Prepare for cubes of this size (mm) and its halves; larger ones where it is plain."""
         self.depth = depth

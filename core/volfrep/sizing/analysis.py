@@ -148,7 +148,7 @@ class Changes:
     displacement_uses: Floats | None = None
 
 
-def analysed(
+def analyse(
     problem: Problem, radii: Floats, limits: Limits, *, with_changes: bool = False
 ) -> tuple[Analysis, Changes | None]:
     """Solve a design, and say how much it uses of the limits.

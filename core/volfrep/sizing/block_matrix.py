@@ -164,7 +164,7 @@ class Factored:
         return self.pattern.restored(result)
 
 
-def factored(pattern: BlockPattern, whole: sparse.csc_matrix, held: Bools) -> Factored:
+def factorise(pattern: BlockPattern, whole: sparse.csc_matrix, held: Bools) -> Factored:
     """Factor a stiffness.
 
     Args:
@@ -178,7 +178,7 @@ def factored(pattern: BlockPattern, whole: sparse.csc_matrix, held: Bools) -> Fa
     diagonal = whole.diagonal()
     # What nothing resists because nothing is there (nodes without struts) is held, too.
     free = (pattern.ordered(held.astype(float)) == 0.0) & (diagonal > 0)
-    matrix = masked(whole, free)
+    matrix = mask_fixed(whole, free)
     try:
         factor = _split(matrix)
     except RuntimeError as error:
@@ -213,7 +213,7 @@ def _loose() -> VolfrepError:
     )
 
 
-def masked(whole: sparse.csc_matrix, free: Bools, diagonal: float = 1.0) -> sparse.csc_matrix:
+def mask_fixed(whole: sparse.csc_matrix, free: Bools, diagonal: float = 1.0) -> sparse.csc_matrix:
     """A matrix with rows and columns that are not free as those of a multiple of the unit one."""
     kept = free.astype(float)
     column = np.repeat(kept, np.diff(whole.indptr))

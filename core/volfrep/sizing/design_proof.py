@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..design.cells import UnitCell
-from ..fem.beam_mesh import JOINT_STIFFNESS, BeamModel, beam_model, ends_law
+from ..fem.beam_mesh import JOINT_STIFFNESS, BeamMesh, beam_model, ends_law
 from ..fem.wedge_mesh import beyond_inner, wedge_mesh
 from ..grid.strut_graph import Wireframe
 from ..mechanics.frame import Ends
@@ -77,7 +77,7 @@ class Proved:
         return max(self.uses(limits, final).values(), default=0.0) <= PROVED
 
 
-def corrected(
+def correct_problem(
     problem: Problem, limits: Limits, final: Analysis, proof: Proved
 ) -> tuple[Problem, Limits]:
     """A problem and limits with which a design holds the given ones when CalculiX solves it.
@@ -107,7 +107,7 @@ def corrected(
     return problem, wanted
 
 
-def proved(
+def prove_design(
     model: SizingModel,
     cell: UnitCell | None,
     cell_size: float,
@@ -230,7 +230,7 @@ def doubts(figures: Mapping[str, Any], final: Analysis, names: Sequence[str]) ->
     """Why CalculiX does not confirm a design, in parts of a sentence; none where it does.
 
     Args:
-        figures: as `proved` has them.
+        figures: as `prove_design` has them.
         final: the design.
         names: of its load cases.
     """
@@ -263,7 +263,7 @@ def doubts(figures: Mapping[str, Any], final: Analysis, names: Sequence[str]) ->
     return result
 
 
-def with_arms(model: BeamModel, nodes: Ints, length: float) -> BeamModel:
+def with_arms(model: BeamMesh, nodes: Ints, length: float) -> BeamMesh:
     """Beams with three rigid arms at some nodes, along x, y and z; their tips are the last nodes.
 
     Whoever moves the tips moves and turns the node: in CalculiX the turn of a beam's node can be
@@ -288,7 +288,7 @@ def with_arms(model: BeamModel, nodes: Ints, length: float) -> BeamModel:
 
 
 def solid_skin(
-    skin: SkinModel, model: BeamModel, arms: Ints, material: SolidMaterial
+    skin: SkinModel, model: BeamMesh, arms: Ints, material: SolidMaterial
 ) -> tuple[SolidSkin, Floats]:
     """A skin of wedges, on whose pads struts stand; and nodes for what hangs on its other side.
 

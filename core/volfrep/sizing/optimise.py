@@ -18,7 +18,7 @@ from scipy.optimize import minimize
 
 from ..util.errors import VolfrepError
 from ..util.types import Floats
-from .analysis import Analysis, Changes, Limits, Problem, analysed
+from .analysis import Analysis, Changes, Limits, Problem, analyse
 
 #: No radius changes by more than this factor in a step.
 _MOVE = 1.25
@@ -135,7 +135,7 @@ def stiffest(
     best: Analysis | None = None
     best_value, since, stopped = np.inf, 0, "steps"
     for number in range(most_steps):
-        found, changes = analysed(problem, radii, none, with_changes=True)
+        found, changes = analyse(problem, radii, none, with_changes=True)
         assert changes is not None
         if not (found.compliance > 0.0).all():
             raise VolfrepError(
@@ -203,7 +203,7 @@ def lightest(
     best: list[tuple[float, Floats]] = []
     least, since, stopped = np.inf, 0, "steps"
     for number in range(most_steps):
-        found, changes = analysed(problem, radii, limits, with_changes=True)
+        found, changes = analyse(problem, radii, limits, with_changes=True)
         assert changes is not None
         factor = _factor(found)
         scaled = np.clip(radii * factor, problem.low, problem.high)
@@ -226,7 +226,7 @@ def lightest(
     tried = [scaled_to_limits(problem, limits, chosen) for _, chosen in best or [(0.0, radii)]]
     final, holds = min(tried, key=lambda entry: (not entry[1], entry[0].volume))
     if everything != limits:
-        final, holds = thickened(problem, everything, final.radii)
+        final, holds = thicken(problem, everything, final.radii)
     return Sized(final, tuple(steps), stopped, holds)
 
 
@@ -245,7 +245,7 @@ def scaled_to_limits(problem: Problem, limits: Limits, radii: Floats) -> tuple[A
 
     def at(log: float) -> Analysis:
         scaled = np.clip(radii * np.exp(log), problem.low, problem.high)
-        return analysed(problem, scaled, limits)[0]
+        return analyse(problem, scaled, limits)[0]
 
     # From radii that hold, or do not, to the other side in growing steps; then between the two.
     place, found = 0.0, at(0.0)
@@ -280,20 +280,20 @@ def scaled_to_limits(problem: Problem, limits: Limits, radii: Floats) -> tuple[A
     return found, found.most_used <= HOLDS
 
 
-def thickened(problem: Problem, limits: Limits, radii: Floats) -> tuple[Analysis, bool]:
+def thicken(problem: Problem, limits: Limits, radii: Floats) -> tuple[Analysis, bool]:
     """A design whose struts become thicker where limits ask for it, and whether it holds them.
 
     Where that is not enough, all become thicker by one factor; none becomes thinner. What cannot
     be held so is left as thick as it could be made there, and not everywhere.
     """
     low = replace(problem, low=np.maximum(problem.low, radii))
-    found = analysed(low, radii, limits)[0]
+    found = analyse(low, radii, limits)[0]
     for _ in range(_THICKENINGS):
         if found.most_used <= 1.0:
             return found, True
-        found, changes = analysed(low, found.radii, limits, with_changes=True)
+        found, changes = analyse(low, found.radii, limits, with_changes=True)
         assert changes is not None
-        found = analysed(low, low.smoothed(_lighter(low, found, changes, limits)), limits)[0]
+        found = analyse(low, low.smoothed(_lighter(low, found, changes, limits)), limits)[0]
     scaled, holds = scaled_to_limits(low, limits, found.radii)
     return (scaled, True) if holds else (found, False)
 

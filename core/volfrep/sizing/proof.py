@@ -22,7 +22,7 @@ from subprocess import CompletedProcess
 
 import numpy as np
 
-from ..fem.beam_mesh import BeamModel
+from ..fem.beam_mesh import BeamMesh
 from ..fem.wedge_mesh import WedgeMesh
 from ..io.write.calculix import SQUARE, width_of_ends
 from ..io.write.step import rows
@@ -93,7 +93,7 @@ class Proof:
 
 
 def prove(
-    model: BeamModel,
+    model: BeamMesh,
     material: Material,
     cases: Sequence[Case],
     *,
@@ -184,7 +184,7 @@ def prove(
     return Proof(moved, sections, frequencies, factors)
 
 
-def end_stresses(proof: Proof, model: BeamModel, beams: Beams, radii: Floats) -> Floats:
+def end_stresses(proof: Proof, model: BeamMesh, beams: Beams, radii: Floats) -> Floats:
     """(m, 2, cases) MPa, |pull| / A + |M| / W where struts leave their joints; nan where unknown.
 
     A moment is linear along a strut, and CalculiX's are right between equal elements: so it is
@@ -215,7 +215,7 @@ def end_stresses(proof: Proof, model: BeamModel, beams: Beams, radii: Floats) ->
     return result
 
 
-def _deck(nodes: Floats, model: BeamModel, material: Material) -> Iterator[bytes]:
+def _deck(nodes: Floats, model: BeamMesh, material: Material) -> Iterator[bytes]:
     """Nodes, elements and sections.
 
     CalculiX makes rigid knots where sections or directions change, which hinder a material's
@@ -260,7 +260,7 @@ def _deck(nodes: Floats, model: BeamModel, material: Material) -> Iterator[bytes
         ).encode()
 
 
-def _skin(skin: SolidSkin, model: BeamModel, material: Material) -> Iterator[bytes]:
+def _skin(skin: SolidSkin, model: BeamMesh, material: Material) -> Iterator[bytes]:
     """Wedges and what follows them, behind the beams."""
     mesh, first, number = skin.mesh, len(model.nodes), len(model.elements) + 1
     for name, chosen, factor in (("SKIN", ~mesh.is_pad, 1.0), ("PADS", mesh.is_pad, PAD_STIFFNESS)):

@@ -11,7 +11,7 @@ from scipy.spatial import cKDTree
 from ..mesh import remesh
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.proximity import closest_points
-from ..util.linalg import normalized
+from ..util.linalg import normalize
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
 
@@ -63,7 +63,7 @@ class _Creases:
         number = np.bincount(ends.ravel(), minlength=self.count)
         # On a crease of two edges that run straight on; a corner elsewhere.
         way = np.zeros((self.count, 3))
-        step = normalized(vertices[ends[:, 1]] - vertices[ends[:, 0]])
+        step = normalize(vertices[ends[:, 1]] - vertices[ends[:, 0]])
         np.add.at(way, ends[:, 0], step)
         np.add.at(way, ends[:, 1], -step)
         bent = np.linalg.norm(way, axis=1) > 0.7

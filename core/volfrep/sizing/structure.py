@@ -12,7 +12,7 @@ from scipy.linalg import eigh
 from scipy.sparse.linalg import LinearOperator, eigsh
 
 from ..util.types import Bools, Floats, Ints
-from .block_matrix import BlockPattern, Factored, definite, factored, masked
+from .block_matrix import BlockPattern, Factored, definite, factorise, mask_fixed
 from .strut_results import Columns
 from .tapered_beams import Beams
 
@@ -129,7 +129,7 @@ class Structure:
             VolfrepError: a part of the structure can move without resistance.
         """
         parts = self.beams.stiffness(self.beams.flexibility(radii))
-        return factored(self._pattern, self._assembled(parts, self._fixed("stiffness")), held)
+        return factorise(self._pattern, self._assembled(parts, self._fixed("stiffness")), held)
 
     def mass(self, radii: Floats) -> sparse.csc_matrix:
         """The consistent mass, t and t mm2, in the pattern's order."""
@@ -240,7 +240,7 @@ class Structure:
             VolfrepError: a part of the structure can move without resistance.
         """
         factor = factor or self.factored(radii, held)
-        mass = masked(self.mass(radii), factor.free, 0.0)
+        mass = mask_fixed(self.mass(radii), factor.free, 0.0)
         size = mass.shape[0]
         inverse = LinearOperator((size, size), lambda b: factor.solve(np.asarray(b, float)))
         start = np.where(factor.free, np.cos(np.arange(size)), 0.0)
@@ -280,7 +280,7 @@ class Structure:
         def at(place: float) -> tuple[sparse.csc_matrix, sparse.csc_matrix]:
             whole, change = columns.blocks(place, forces)
             stiffness = self._assembled(whole, self._fixed("stiffness"))
-            return masked(stiffness, free), masked(self._assembled(change), free, 0.0)
+            return mask_fixed(stiffness, free), mask_fixed(self._assembled(change), free, 0.0)
 
         place, solve, (matrix, change) = 0.0, factor.solve, at(0.0)
         vectors = np.where(free, np.cos(np.arange(len(free))), 0.0)[:, None]

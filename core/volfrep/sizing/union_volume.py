@@ -20,9 +20,9 @@ from scipy.sparse import csr_matrix
 from scipy.spatial import cKDTree
 
 from ..design.cells import joint_radius
+from ..graphs.clearance import segment_distances
 from ..grid.strut_graph import Graph
 from ..mesh.triangle_mesh import TriangleMesh
-from ..network.closeness import segment_distances
 from ..spatial.rays import inside_points, segment_crossings
 from ..util.progress import Monitor
 from ..util.ragged import spread

@@ -16,7 +16,7 @@ from ..mesh.triangle_mesh import TriangleMesh
 from ..util.progress import Monitor
 from ..util.threads import threads
 from ..util.types import Bools, Floats
-from .raster import PixelGrid, filled
+from .raster import PixelGrid, fill_pixels
 from .sections import Bodies, bodies_of, section_polygons
 
 if TYPE_CHECKING:
@@ -65,9 +65,9 @@ class Section:
         """(rows, columns) the pixels whose middles lie in it, rows from low y to high y."""
         groups = [[self.struts, self.joints], [one[None] for one in self.skin]]
         if self.clip is None:
-            return filled(groups, lambda held: held[0] | held[1], grid)
+            return fill_pixels(groups, lambda held: held[0] | held[1], grid)
         groups.append([one[None] for one in self.clip])
-        return filled(groups, lambda held: held[0] & held[2] | held[1], grid)
+        return fill_pixels(groups, lambda held: held[0] & held[2] | held[1], grid)
 
     def outline(self) -> manifold3d.CrossSection:
         """The union as the library's own polygons, without overlaps."""

@@ -72,7 +72,7 @@ def crossings(starts: Floats, ends: Floats, grid: PixelGrid) -> tuple[Ints, Bool
     return row * columns + column, down[edge]
 
 
-def filled(
+def fill_pixels(
     groups: Sequence[Sequence[Floats]],
     rule: Callable[[list[Bools]], Bools],
     grid: PixelGrid,

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from ..design.forecast import Forecast, forecast_fill
 from ..design.spec import LatticeSpec
 from ..jobs.preview import PartDepth, preview
-from ..jobs.rough_radius import roughly_aimed
+from ..jobs.rough_radius import solve_target_roughly
 from ..jobs.stiffness_target import ratio_of_stiffness
 from ..mechanics.catalogue import known_cell
 from ..mechanics.density import radius_of_density, relative_density
@@ -37,7 +37,7 @@ class Expectation:
     mass_g: float
 
 
-def expected(solid: TriangleMesh, spec: LatticeSpec, depth: PartDepth) -> Expectation:
+def expect(solid: TriangleMesh, spec: LatticeSpec, depth: PartDepth) -> Expectation:
     """What a design will come to.
 
     The volume within the skin is sampled (`preview.PartDepth`), the density that of the endless
@@ -60,7 +60,7 @@ def expected(solid: TriangleMesh, spec: LatticeSpec, depth: PartDepth) -> Expect
     skin = abs(solid.volume) - inside if spec.with_skin else 0.0
     if spec.output != "domain" and (spec.surface is not None or spec.network is not None):
         return _expected_otherwise(solid, spec, depth)
-    spec = aimed_roughly(spec, inside, skin)
+    spec = solve_design_roughly(spec, inside, skin)
     if spec.is_graded and spec.output != "domain":
         share = preview(solid, spec, depth).relative_density
     else:
@@ -87,7 +87,7 @@ def _expected_otherwise(solid: TriangleMesh, spec: LatticeSpec, depth: PartDepth
     )
 
 
-def aimed_roughly(spec: LatticeSpec, inside: float, skin: float) -> LatticeSpec:
+def solve_design_roughly(spec: LatticeSpec, inside: float, skin: float) -> LatticeSpec:
     """The specification with the radius that the endless lattice has at its target.
 
     Args:
@@ -131,10 +131,10 @@ def density_of(spec: LatticeSpec) -> float:
     return relative_density(cell, ratio, spec.fillet / spec.cell_size).value
 
 
-def planned(solid: TriangleMesh, spec: LatticeSpec) -> Forecast:
+def plan(solid: TriangleMesh, spec: LatticeSpec) -> Forecast:
     """What the job will come to, for the planning of many: nothing is sampled."""
     try:
-        spec = roughly_aimed(solid, spec)
+        spec = solve_target_roughly(solid, spec)
     except VolfrepError:
         return forecast_fill(solid, spec)  # the run itself will say that no radius meets the target
     return forecast_fill(solid, spec)

@@ -269,7 +269,7 @@ class Plot:
     svg: bytes
 
 
-def plotted(table: Table, study: Study) -> list[tuple[str, str]]:
+def choose_plots(table: Table, study: Study) -> list[tuple[str, str]]:
     """Pairs of columns worth a drawing: objectives first, then what is known against the mass."""
     known = {c for c in table.columns if np.isfinite(table.numbers(c)).sum() > 1}
     goals = [] if study.front is None else [n for n in study.front.objectives if n in known]
@@ -290,7 +290,7 @@ def plots_of(table: Table, study: Study, front: Sequence[str]) -> list[Plot]:
     except ImportError:
         return []
     chosen = np.isin(np.array(table.column("key"), str), np.array(front, str))
-    return [Plot(x, y, _drawn(table, x, y, chosen)) for x, y in plotted(table, study)]
+    return [Plot(x, y, _drawn(table, x, y, chosen)) for x, y in choose_plots(table, study)]
 
 
 def _drawn(table: Table, x: str, y: str, chosen: Bools) -> bytes:

@@ -62,7 +62,7 @@ def spread(figures: Floats) -> Floats:
     return result
 
 
-def chosen(figures: Floats, count: int | None) -> Ints:
+def choose(figures: Floats, count: int | None) -> Ints:
     """Rows of the Pareto front; or so many of the best.
 
     Args:
@@ -73,7 +73,7 @@ def chosen(figures: Floats, count: int | None) -> Ints:
     Returns:
         Rows in ascending order; none of them not finite.
 
-    >>> chosen(np.array([[1.0, 2.0], [2.0, 1.0], [2.0, 2.0]]), 3).tolist()
+    >>> choose(np.array([[1.0, 2.0], [2.0, 1.0], [2.0, 2.0]]), 3).tolist()
     [0, 1, 2]
     """
     finite = np.isfinite(figures).all(axis=1)

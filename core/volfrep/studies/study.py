@@ -9,8 +9,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from ..design.parameters.spec_file import KEYS, nearest_key, parsed, read_values, with_paths
-from ..design.parameters.specification import merged
+from ..design.parameters.spec_file import KEYS, nearest_key, parse_spec, read_values, with_paths
+from ..design.parameters.specification import merge_values
 from ..design.parameters.table import BY_NAME
 from ..design.parameters.values import SCALES, from_plain
 from ..io.solid import Solid
@@ -180,7 +180,7 @@ def read_study(path: str | os.PathLike[str]) -> Study:
     {'cell': ('BCC', 'CVC')}
     """
     path = Path(path)
-    data = parsed(path, "study")
+    data = parse_spec(path, "study")
     try:
         return _study(path.parent, data)
     except VolfrepError as error:
@@ -203,7 +203,7 @@ def _study(folder: Path, data: Mapping[str, Any]) -> Study:
     if "spec" in data:
         varied = {name for table in (vary, *rows) for name in table}
         base = read_values(folder / _text(data, "spec"))
-        fixed = merged(fixed, {name: v for name, v in base.items() if name not in varied})
+        fixed = merge_values(fixed, {name: v for name, v in base.items() if name not in varied})
     return Study(
         parts=tuple(str(folder / part) for part in parts),
         vary=vary,

@@ -25,7 +25,7 @@ from ..util.version import VERSION
 from . import pareto
 from .actions import ACTIONS, Asked, Loads
 from .designs import Design, Designs, Part, design_of, designs_of, named_part, read_part
-from .expectation import planned
+from .expectation import plan
 from .page import write_page
 from .records import damage_of, keep_part, prepare, read_record, record_path
 from .running.batches import Interpreter, Limits
@@ -240,7 +240,7 @@ def forecast_study(study: Study) -> tuple[Designs, float, float]:
     read = [read_part(part, study.unit) for part in study.parts]
     solids = {named_part(*pair).content: pair[1] for pair in read}
     found = designs_of(study, tuple(named_part(*pair) for pair in read))
-    plans = [planned(solids[design.part.content], design.spec) for design in found.designs]
+    plans = [plan(solids[design.part.content], design.spec) for design in found.designs]
     actions = {name: ACTIONS[name].meshed for name in study.do}
     seconds = sum(
         weight(design, plan.seconds, actions)
@@ -261,7 +261,7 @@ def _front(
     table = table_of(designs, records, study.do, {}, study.do)
     figures = losses(table, study.front)
     ranks = pareto.ranks(figures)
-    rows = pareto.chosen(figures, study.front.designs)
+    rows = pareto.choose(figures, study.front.designs)
     return {designs[row].key: int(ranks[row]) + 1 for row in rows}
 
 

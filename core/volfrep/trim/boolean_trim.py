@@ -27,10 +27,10 @@ from ..util.threads import threads
 from ..util.types import Bools, Floats, Ints
 from ..util.workers import at_once
 from .culling import KeptOctants, without_pinches
-from .group_cut import Group, Piece, cut, read_runs
-from .laid import InnerOctants, Laid
+from .group_cut import Group, Piece, cut_group, read_runs
+from .octant_groups import Groups, group_octants
+from .placed_lattice import InnerOctants, PlacedLattice
 from .trimmed_surface import TrimmedSurface, concatenated_at, equal_rows
-from .wall_groups import Groups, grouped
 
 if TYPE_CHECKING:
     import manifold3d
@@ -56,7 +56,7 @@ class Trimmed:
 
 def trim(
     domain: TriangleMesh,
-    laid: Laid,
+    laid: PlacedLattice,
     *,
     cavity: bool,
     monitor: Monitor,
@@ -85,7 +85,7 @@ def trim(
     monitor.tick(0.1)
     kept = laid.kept
     inner = InnerOctants(laid, kept.inside) if kept.inside.any() else None
-    groups = grouped(laid, domain, monitor, precision)
+    groups = group_octants(laid, domain, monitor, precision)
     found = _joined(groups, inner, cavity, monitor, executor, ahead)
     trimmed = TrimmedSurface(found.mesh, inner)
     if not trimmed.is_joined:
@@ -168,7 +168,7 @@ def _cut_beside(
             if following is None:
                 break
             try:
-                ahead.append((*following, executor.submit(cut, following[1])))
+                ahead.append((*following, executor.submit(cut_group, following[1])))
             except RuntimeError:  # it takes nothing more, as when a process of it was killed
                 executor = None
                 ahead.append((*following, None))
@@ -178,7 +178,7 @@ def _cut_beside(
         else:
             number, group = next(groups)
         if piece is None:
-            piece = cut(group, monitor)
+            piece = cut_group(group, monitor)
         for name, amount in piece.work.items():
             monitor.count(name, amount)
         monitor.tick(0.1 + 0.8 * (done + 1) / count)

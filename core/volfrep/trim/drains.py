@@ -115,7 +115,7 @@ def drain(
         added = [cylinder for own in chosen for cylinder in site.cylinders(own)]
         drilled = _drilled(drilled, added, monitor)
         found = drilled.inspected(monitor).found
-    warnings += trapped(found.quality.voids)
+    warnings += trapped_warnings(found.quality.voids)
     places = tuple((float(x), float(y), float(z)) for x, y, z in holes.start)
     before = part.inspected(monitor).found.quality.volume
     return Drained(drilled, places, before - found.quality.volume, tuple(warnings))
@@ -135,7 +135,7 @@ def _drilled(
     return cut_again(part, cylinders, less, monitor, keeps=False)
 
 
-def trapped(voids: int) -> tuple[str, ...]:
+def trapped_warnings(voids: int) -> tuple[str, ...]:
     """A sentence about closed voids, if there are any."""
     if not voids:
         return ()

@@ -2,7 +2,7 @@
 """What may leave the engine: a solid that every file holds as it is, and figures that are its own.
 
 Octants are proved not to run through themselves when they are meshed (`octant_mesh`), and
-the Boolean hands out what does not; `tidied` looks at what it changes after that. `finished` draws
+the Boolean hands out what does not; `tidy` looks at what it changes after that. `finish` draws
 apart what would cross in a file, and sends lines through what was moved.
 """
 
@@ -16,8 +16,8 @@ from ..mesh.float32_repair import edge_within, separate_vertices, without_sliver
 from ..mesh.precision import merging_vertices
 from ..mesh.quality import Quality
 from ..mesh.triangle_mesh import TriangleMesh, compact
+from ..spatial.resolve_crossings import resolve_fold_crossings, turns_of
 from ..spatial.self_intersection import about, crossing_triangles
-from ..spatial.uncrossing import turns_of, uncrossed
 from ..spatial.winding import Lines
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor, release_memory
@@ -36,7 +36,7 @@ MOST_CROSSED = 0.05
 MOST_MOVED = 1e-3
 
 
-def tidied(surface: TrimmedSurface, precision: float, monitor: Monitor) -> TrimmedSurface:
+def tidy(surface: TrimmedSurface, precision: float, monitor: Monitor) -> TrimmedSurface:
     """A surface from a Boolean, without slivers where they can go.
 
     Octants beside its mesh have none.
@@ -57,7 +57,7 @@ def tidied(surface: TrimmedSurface, precision: float, monitor: Monitor) -> Trimm
     if surface.octants is not None:
         near = surface.octants.reached(smooth.vertices[smooth.triangles[new]])
         if near.any() and result.has_inner_edges(new):  # that those octants may have, too
-            return tidied(surface.with_octants(near, monitor), precision, monitor)
+            return tidy(surface.with_octants(near, monitor), precision, monitor)
         part = replace(result, mesh=compact(part)).with_octants(near, monitor).mesh
         among = np.pad(among, (0, len(part.triangles) - len(among)))
     if monitor.call(lambda: crossing_triangles(part, among, precision)).any():
@@ -65,7 +65,7 @@ def tidied(surface: TrimmedSurface, precision: float, monitor: Monitor) -> Trimm
     return result
 
 
-def finished(
+def finish(
     surface: TrimmedSurface, quality: Quality, monitor: Monitor, moved: bool, cut: bool = True
 ) -> tuple[TrimmedSurface, Quality, tuple[str, ...]]:
     """A surface as it is handed out, its quality that of any file, and sentences for the user.
@@ -86,7 +86,7 @@ def finished(
     if apart is not mesh:
         wider = _with_reached(surface, apart, monitor)
         if wider is not surface:
-            return finished(wider, quality, monitor, moved, cut)
+            return finish(wider, quality, monitor, moved, cut)
         surface = replace(surface, mesh=apart)
         again = surface.inspected(monitor).found.quality
         if abs(again.volume - quality.volume) > MOST_MOVED * abs(quality.volume):
@@ -100,11 +100,11 @@ def finished(
             beside = len(surface.mesh.triangles)
             surface = _with_octants_about(surface, turns.pairs, monitor)
             turns = turns.followed_by(len(surface.mesh.triangles) - beside)
-        straight, place = uncrossed(surface.mesh, monitor, moved, turns)
+        straight, place = resolve_fold_crossings(surface.mesh, monitor, moved, turns)
     if straight is not surface.mesh:
         wider = _with_reached(surface, straight, monitor)
         if wider is not surface:
-            return finished(wider, quality, monitor, moved, cut)
+            return finish(wider, quality, monitor, moved, cut)
         surface = replace(surface, mesh=straight)
         quality = surface.inspected(monitor).found.quality
     refuse_no_solid(quality)
@@ -157,7 +157,7 @@ def _with_reached(surface: TrimmedSurface, mesh: TriangleMesh, monitor: Monitor)
     return surface.with_octants(surface.octants.reached(mesh.vertices[about]), monitor)
 
 
-def pieces_told(
+def piece_warnings(
     quality: Quality, removed: int, volume_removed: float, *, is_in_skin: bool
 ) -> tuple[str, ...]:
     """Sentences on pieces of a lattice without a skin that hang on nothing.

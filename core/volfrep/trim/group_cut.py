@@ -91,7 +91,7 @@ class Piece:
         return RuntimeError(f"not a manifold: {self.defect}")
 
 
-def cut(group: Group, monitor: Monitor | None = None) -> Piece:
+def cut_group(group: Group, monitor: Monitor | None = None) -> Piece:
     """Cut a group's octants at the wall, and the wall at them.
 
     Args:

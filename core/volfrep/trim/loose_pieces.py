@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.quality import Quality, measure, remaining
+from ..mesh.quality import Quality, measure, subtract_shells
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..octants.octant_spec import OctantSpec
 from ..spatial.rays import inside_points
@@ -93,7 +93,7 @@ def clear(
     left = replace(surface, mesh=rest)
     if found.quality.watertight and left.triangles:
         taken = measure(compact(TriangleMesh(mesh.vertices, mesh.triangles[goes])))
-        quality = remaining(found.quality, taken, left.bounds, volume[used & ~gone])
+        quality = subtract_shells(found.quality, taken, left.bounds, volume[used & ~gone])
     else:
         quality = left.inspected(monitor).found.quality
     pieces = loose & ~tiny

@@ -17,7 +17,7 @@ from ..design.cells import UnitCell
 from ..design.openings import lie_on
 from ..design.spec_parts import Boundary, Struts
 from ..grid.placement import Placement, graded_wireframe
-from ..grid.strut_graph import CellGraph, Wireframe, chosen, struts_of
+from ..grid.strut_graph import CellGraph, Wireframe, select_struts, struts_of
 from ..lattice.padded_grid import PaddedGrid
 from ..mesh.triangle_mesh import TriangleMesh
 from ..shell.domain import Domain
@@ -102,7 +102,7 @@ def prune(
     )
     inner = graph.row[tuple(slice(n, -n or None) for n in graph.first.tolist())]
     own = struts_of(graph, cell, inner[active])
-    return Pruned(graph, left, chosen(placed, own & left.kept))
+    return Pruned(graph, left, select_struts(placed, own & left.kept))
 
 
 def remaining(

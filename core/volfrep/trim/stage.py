@@ -23,7 +23,7 @@ from ..lattice.certificate import keeps_corners
 from ..lattice.strut_masks import without_struts
 from ..mesh.booleans import as_manifold
 from ..mesh.float32_repair import edge_within, shortest_edge
-from ..mesh.quality import combined, inspect, measure
+from ..mesh.quality import combine, inspect, measure
 from ..mesh.triangle_mesh import TriangleMesh, concatenate
 from ..octants.octant import OctantGrid, used_kinds
 from ..octants.octant_spec import OctantSpec
@@ -35,9 +35,9 @@ from ..util.types import Bools
 from .boolean_trim import Ahead, Trimmed, cut_again, trim
 from .culling import KeptOctants, OctantRoles, cull, keep_all
 from .drains import Drained, drain
-from .finish import tidied
-from .laid import Laid
+from .finish import tidy
 from .loose_pieces import Cleared, clear, smallest_shell
+from .placed_lattice import PlacedLattice
 from .prune import Pruned
 from .trimmed_surface import TrimmedSurface
 
@@ -75,7 +75,7 @@ def chosen_octants(
 
 
 def cut_lattice(
-    laid: Laid,
+    laid: PlacedLattice,
     solid: TriangleMesh,
     domain: Domain,
     octant_spec: OctantSpec,
@@ -163,7 +163,7 @@ def cleared_cut(
             raise _nothing_holds()
     del trimmed  # nobody else has it: the mesh before slivers go, in the way of that after
     release_memory()
-    surface = tidied(surface, precision, monitor)
+    surface = tidy(surface, precision, monitor)
     bodies = 0
     if not (has_skin or keep_pieces):
         bodies = max(1, inspect(solid).quality.bodies)
@@ -196,10 +196,10 @@ def cleared_cut(
         return cleared
     cut = cleared.surface
     both = replace(cut, mesh=concatenate(solid, cut.mesh))
-    return replace(cleared, surface=both, quality=combined(measure(solid), cleared.quality))
+    return replace(cleared, surface=both, quality=combine(measure(solid), cleared.quality))
 
 
-def _to_look_at(laid: Laid, wall: TriangleMesh) -> Bools:
+def _to_look_at(laid: PlacedLattice, wall: TriangleMesh) -> Bools:
     """(nx, ny, nz) bool, octants inside that are not right without a look at their triangles.
 
     Of the others files keep the vertices apart, and from what is new on the wall, and the surface
@@ -235,7 +235,7 @@ def drained_part(
     """
     part = cleared.surface
     drained = drain(part, solid, domain.mesh, frame, skin.deepest, drains, monitor)
-    clean = tidied(drained.surface, shortest_edge(solid), monitor)
+    clean = tidy(drained.surface, shortest_edge(solid), monitor)
     rest = clear(clean, smallest, monitor)
     specks = cleared.specks_removed + rest.specks_removed
     found = replace(cleared, surface=rest.surface, quality=rest.quality, specks_removed=specks)
@@ -259,7 +259,7 @@ def _opened(
         (lambda void: outside - void) if with_skin else (lambda lattice: lattice ^ outside),
         monitor, keeps=True, is_void=with_skin,
     )  # fmt: skip
-    surface = tidied(surface, precision, monitor)
+    surface = tidy(surface, precision, monitor)
     if keep_pieces:
         rest = clear(surface, smallest, monitor)
     elif with_skin:
@@ -288,7 +288,7 @@ def _on_skin(
 
 
 def uncut_lattice(
-    laid: Laid,
+    laid: PlacedLattice,
     solid: TriangleMesh,
     octant_spec: OctantSpec,
     monitor: Monitor,
@@ -298,7 +298,7 @@ def uncut_lattice(
     """The lattice of whole cells as it is, without loose pieces, and its quality."""
     everywhere = laid.kept.grid.kind >= 0
     mesh = laid.mesh(laid.facets(everywhere, monitor), everywhere, monitor)[0]
-    surface = tidied(TrimmedSurface(mesh), shortest_edge(mesh), monitor)
+    surface = tidy(TrimmedSurface(mesh), shortest_edge(mesh), monitor)
     bodies = 0 if keep_pieces else max(1, inspect(solid).quality.bodies)
     return clear(surface, smallest_shell(octant_spec), monitor, bodies=bodies)
 

@@ -21,7 +21,7 @@ from ..mesh.triangle_mesh import TriangleMesh, box_of, corners_among
 from ..spatial.winding import Lines, Windings, mesh_blocks
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
-from .laid import Caps, InnerOctants
+from .placed_lattice import Caps, InnerOctants
 
 #: Points are first told apart by what is left of their hashes by this.
 ASKED = 1 << 22

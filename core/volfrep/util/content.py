@@ -26,7 +26,7 @@ def content_of(*arrays: NDArray[np.generic]) -> bytes:
     return digest.digest()
 
 
-def held(values: ArrayLike, dtype: type[Scalar]) -> NDArray[Scalar]:
+def freeze(values: ArrayLike, dtype: type[Scalar]) -> NDArray[Scalar]:
     """A copy of an array that nobody can change any more."""
     result = np.array(values, dtype)
     result.flags.writeable = False

@@ -29,7 +29,7 @@ def times(vectors: Floats, matrix: Floats) -> Floats:
     return np.asarray(np.einsum("...j,jk->...k", vectors, matrix))
 
 
-def normalized(vectors: NDArray[Any]) -> Floats:
+def normalize(vectors: NDArray[Any]) -> Floats:
     """(n, 3) vectors of length 1 along (n, 3) vectors; zero along those of no length."""
     return np.asarray(vectors / np.maximum(np.linalg.norm(vectors, axis=1), 1e-300)[:, None])
 
@@ -40,7 +40,7 @@ def determinants(matrices: Floats) -> Floats:
     return np.asarray(np.einsum("...j,...j->...", first, np.cross(second, third)))
 
 
-def solved(matrices: Floats, right: Floats) -> Floats:
+def solve_symmetric(matrices: Floats, right: Floats) -> Floats:
     """(n, 3) the solutions of symmetric, positive definite systems, by L D L^T.
 
     Args:

@@ -28,7 +28,7 @@ from volfrep.io.solid import check_solid, read_solid
 from volfrep.io.write.stl import write_stl
 from volfrep.jobs.pipeline import fill as fill_solid
 from volfrep.mesh.quality import measure
-from volfrep.trim import boolean_trim, wall_groups
+from volfrep.trim import boolean_trim, octant_groups
 from volfrep.util import workers
 
 LATTICE = ["--cell", "CVC", "--cell-size", "8", "--strut-radius", "0.8"]
@@ -42,7 +42,7 @@ def _modules() -> list[str]:
 
 @pytest.fixture(autouse=True)
 def _small_groups(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(wall_groups, "GROUP_TRIANGLES", 12_000)
+    monkeypatch.setattr(octant_groups, "GROUP_TRIANGLES", 12_000)
 
 
 @pytest.fixture

@@ -12,7 +12,7 @@ import pytest
 
 from volfrep.cli import command as cli
 from volfrep.design.cell_files.catalogue_text import catalogue_entry, catalogue_names
-from volfrep.design.cell_files.tessellation import RULES, TESSELLATIONS, ruled
+from volfrep.design.cell_files.tessellation import RULES, TESSELLATIONS, tessellate
 from volfrep.design.cells import LIBRARY, find_cell, load_cell, make_cell
 from volfrep.design.drawn_cell import save_cell
 from volfrep.design.parameters.specification import specification, values_of
@@ -151,7 +151,7 @@ def test_what_is_wrong_with_a_cell_of_formulas(
     ],
 )
 def test_rules_make_the_librarys_cells(about: str, rules: list[str], name: str) -> None:
-    found = ruled({"about": about, "rules": rules}, CUBE, "cell")
+    found = tessellate({"about": about, "rules": rules}, CUBE, "cell")
     assert pairs(*found) == pairs(LIBRARY[name].nodes, LIBRARY[name].struts)
 
 
@@ -159,7 +159,7 @@ def test_every_tessellation_and_rule_makes_a_cell_whose_copies_meet() -> None:
     for about in TESSELLATIONS:
         edges = (1.0, 3**0.5, 1.0) if about == "hexagonal prisms" else CUBE
         for rule in RULES:
-            cell = make_cell("x", *ruled({"about": about, "rules": [rule]}, edges, "cell"))
+            cell = make_cell("x", *tessellate({"about": about, "rules": [rule]}, edges, "cell"))
             for axis in range(3):
                 low, high = cell.nodes[:, axis] == 0.0, cell.nodes[:, axis] == 1.0
                 others = [k for k in range(3) if k != axis]
@@ -167,7 +167,9 @@ def test_every_tessellation_and_rule_makes_a_cell_whose_copies_meet() -> None:
                     *(np.unique(cell.nodes[side][:, others], axis=0) for side in (low, high))
                 )
     hexagons = make_cell(
-        "x", *ruled({"about": "hexagonal prisms", "rules": ["edges"]}, edges, "cell"), edges=edges
+        "x",
+        *tessellate({"about": "hexagonal prisms", "rules": ["edges"]}, edges, "cell"),
+        edges=edges,
     )
     span = np.diff(hexagons.nodes[hexagons.struts] * np.array(edges), axis=1)[:, 0]
     lengths = np.linalg.norm(span, axis=1)

@@ -16,7 +16,7 @@ from volfrep import LatticeSpec
 from volfrep.design import cells, expression, grading, openings, scattered_field, spec, target
 from volfrep.design.cells import UnitCell
 from volfrep.design.grading import CellMap, Orientation, RadiusGrading, SizeGrading
-from volfrep.design.networks import CellNetwork, GivenNetwork, RandomNetwork, wanted
+from volfrep.design.graphs import GivenGraph, RandomGraph, StretchedCells, graph
 from volfrep.design.openings import DrainHoles, DrainPlace, OpenPatch, OpenPlane, SmoothFace
 from volfrep.design.profile import Profile
 from volfrep.design.scattered_field import PointField
@@ -24,20 +24,20 @@ from volfrep.design.skins import kept_bodies, own_faces
 from volfrep.design.skins.kept_bodies import KeptBody
 from volfrep.design.skins.own_faces import FaceSkin, KeptFace
 from volfrep.design.target import Target
-from volfrep.design.walls import PeriodicSurface, Wall, library
-from volfrep.design.walls import wanted as walls
+from volfrep.design.tpms import PeriodicSurface, TpmsSheet, library
+from volfrep.design.tpms import sheet as walls
 from volfrep.util.content import digest_of
 
 #: Where the classes are that a specification holds, for what their fields' types name.
 MODULES = (
-    cells, expression, grading, openings, scattered_field, spec, target, wanted, kept_bodies,
+    cells, expression, grading, openings, scattered_field, spec, target, graph, kept_bodies,
     own_faces, library, walls,
 )  # fmt: skip
 #: What is no content: where something was read, and what is said about it.
 TOLD_ONLY = {
     UnitCell: {"source", "use", "about", "also", "parameters", "values"},
     PeriodicSurface: {"about", "also"},
-    GivenNetwork: {"source", "thickness", "layers", "cell"},  # of which the nodes were made
+    GivenGraph: {"source", "thickness", "layers", "cell"},  # of which the nodes were made
     KeptBody: {"source", "name"},
 }
 POINTS, PATCH = np.eye(3), np.arange(9.0).reshape(1, 3, 3) ** 2
@@ -67,7 +67,7 @@ OTHERS = {
             "density": 2.0, "size_grading": SizeGrading(LINEAR),
             "radius_grading": RadiusGrading("skin", LINEAR), "cell_map": CellMap("cylindrical"),
             "orientation": Orientation(angle=30.0), "keep_radius": False,
-            "target": Target("mass", 5.0), "network": RandomNetwork(points=9), "wall": None,
+            "target": Target("mass", 5.0), "network": RandomGraph(points=9), "wall": None,
         },
     ),
     UnitCell: (
@@ -78,7 +78,7 @@ OTHERS = {
         },
     ),
     PeriodicSurface: (PeriodicSurface("Formula", "cos(x)"), {"name": "A", "formula": "cos(y)"}),
-    Wall: (Wall("skeleton"), {"kind": "complement", "offset": 0.2, "thickness": None}),
+    TpmsSheet: (TpmsSheet("skeleton"), {"kind": "complement", "offset": 0.2, "thickness": None}),
     SizeGrading: (SizeGrading(LINEAR), {"profile": STEEPER, "direction": (0, 1, 0)}),
     Profile: (LINEAR, {"kind": "quadratic", "start": 0.6, "end": 1.1, "expression": None}),
     RadiusGrading: (
@@ -112,28 +112,28 @@ OTHERS = {
         },
     ),
     DrainPlace: (DrainPlace((0, 0, 0)), {"point": (1, 0, 0), "direction": (0, 0, 1)}),
-    GivenNetwork: (
-        GivenNetwork(CORNERS, [(0, 1), (0, 2), (0, 3)], np.full((3, 2), 0.5), widths=np.ones(3)),
+    GivenGraph: (
+        GivenGraph(CORNERS, [(0, 1), (0, 2), (0, 3)], np.full((3, 2), 0.5), widths=np.ones(3)),
         {
             "nodes": 2.0 * CORNERS, "struts": [(0, 1), (1, 2), (1, 3)],
             "radii": np.full((3, 2), 0.6), "widths": np.full(3, 1.5),
         },
     ),
-    RandomNetwork: (
-        RandomNetwork(density="1 + s", field=FIELD),
+    RandomGraph: (
+        RandomGraph(density="1 + s", field=FIELD),
         {
             "kind": "delaunay", "points": 9, "seed": 2, "relax": 1, "density": "2 + s",
             "shortest": 0.5, "least_angle": 20.0, "field": OTHER_FIELD, "on_wall": True,
         },
     ),
-    CellNetwork: (CellNetwork(), {}),
+    StretchedCells: (StretchedCells(), {}),
 }  # fmt: skip
 #: Fields that cannot differ alone: a pair of values that do.
 PAIRS = {
     (LatticeSpec, "wall"): (
-        LatticeSpec(cell="Gyroid"), LatticeSpec(cell="Gyroid", wall=Wall("sheet", 2.0)),
+        LatticeSpec(cell="Gyroid"), LatticeSpec(cell="Gyroid", wall=TpmsSheet("sheet", 2.0)),
     ),
-    (Wall, "thickness"): (Wall("sheet", 1.0), Wall("sheet", 2.0)),
+    (TpmsSheet, "thickness"): (TpmsSheet("sheet", 1.0), TpmsSheet("sheet", 2.0)),
     (Profile, "expression"): (
         Profile("formula", expression="1 + s"), Profile("formula", expression="1 + s * s"),
     ),
@@ -198,7 +198,7 @@ def test_every_field_of_every_part_changes_the_digest(kind):
 
 def specs():
     """Specifications that hold each of the parts."""
-    given, random = OTHERS[GivenNetwork][0], OTHERS[RandomNetwork][0]
+    given, random = OTHERS[GivenGraph][0], OTHERS[RandomGraph][0]
     patch, body = OpenPatch(PATCH), KeptBody(CORNERS, FACETS)
     return {
         "plain": LatticeSpec(),
@@ -211,7 +211,7 @@ def specs():
         "points": LatticeSpec(network=random),
         "their field": LatticeSpec(network=replace(random, field=OTHER_FIELD)),
         "field": LatticeSpec(radius_grading=RadiusGrading("field", LINEAR, field=FIELD)),
-        "walls": LatticeSpec(cell="Gyroid", wall=Wall("skeleton", offset=0.1)),
+        "walls": LatticeSpec(cell="Gyroid", wall=TpmsSheet("skeleton", offset=0.1)),
         "faces": LatticeSpec(open_faces=(patch,), keep_solid=(body, KeptFace(PLANE, 1.0))),
         "target": LatticeSpec(target=Target("mass", 5.0)),
     }
@@ -233,8 +233,10 @@ def test_the_shape_does_not_depend_on_the_density_but_where_a_mass_is_aimed_at()
 
 
 def test_what_has_no_effect_does_not_count():
-    assert LatticeSpec(wall=Wall("sheet", 2.0)).digest() == LatticeSpec().digest()
-    sheets = [LatticeSpec(cell="Gyroid", wall=Wall("sheet", 1.0, offset)) for offset in (0.0, 0.3)]
+    assert LatticeSpec(wall=TpmsSheet("sheet", 2.0)).digest() == LatticeSpec().digest()
+    sheets = [
+        LatticeSpec(cell="Gyroid", wall=TpmsSheet("sheet", 1.0, offset)) for offset in (0.0, 0.3)
+    ]
     assert sheets[0].digest() == sheets[1].digest()
 
 

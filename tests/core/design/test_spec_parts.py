@@ -10,14 +10,14 @@ import pytest
 from volfrep import LatticeSpec, VolfrepError
 from volfrep.design.cells import LIBRARY, UnitCell
 from volfrep.design.grading import CellMap, Orientation, RadiusGrading, SizeGrading
-from volfrep.design.networks import RandomNetwork
+from volfrep.design.graphs import RandomGraph
 from volfrep.design.openings import DrainHoles, DrainPlace, OpenPatch, OpenPlane
 from volfrep.design.profile import Profile
 from volfrep.design.scattered_field import PointField
 from volfrep.design.skins.own_faces import FaceSkin, KeptFace
 from volfrep.design.spec_parts import Boundary, Grid, Resolution, Skin, Struts
 from volfrep.design.target import Target
-from volfrep.design.walls import Wall
+from volfrep.design.tpms import TpmsSheet
 
 POINTS = np.eye(3)
 FIELD = PointField(POINTS, np.array([1.0, 2.0, 3.0]))
@@ -130,8 +130,8 @@ OTHERS = [
             "orientation": Orientation(angle=30.0),
             "keep_radius": False,
             "target": Target("mass", 5.0),
-            "network": RandomNetwork(points=9),
-            "wall": Wall("sheet", 2.0),
+            "network": RandomGraph(points=9),
+            "wall": TpmsSheet("sheet", 2.0),
         },
     ),
 ]

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import samples
-from volfrep.fem.facet_grading import GRADIENT, LONGEST, graded
+from volfrep.fem.facet_grading import GRADIENT, LONGEST, grade_facets
 from volfrep.mesh.quality import measure
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
 from volfrep.mesh.well_shaped import angles_of
@@ -23,7 +23,7 @@ def ball_over_a_plate():
 
 @pytest.fixture(scope="module")
 def result(ball_over_a_plate):
-    return graded(ball_over_a_plate)
+    return grade_facets(ball_over_a_plate)
 
 
 def lengths(mesh):
@@ -63,8 +63,8 @@ def test_it_makes_no_needles_and_few_facets(ball_over_a_plate, result):
 def test_facets_of_like_size_stay():
     """Of equal edges, too: all of them are the longest there."""
     ball = samples.sphere(10.0, 3)
-    assert np.array_equal(graded(ball).triangles, ball.triangles)
+    assert np.array_equal(grade_facets(ball).triangles, ball.triangles)
     box = samples.box((10.0, 10.0, 10.0))
-    assert np.array_equal(graded(box).triangles, box.triangles)
+    assert np.array_equal(grade_facets(box).triangles, box.triangles)
     empty = TriangleMesh(np.zeros((0, 3)), np.zeros((0, 3), np.int32))
-    assert graded(empty) is empty
+    assert grade_facets(empty) is empty

@@ -14,7 +14,7 @@ from volfrep.fem import tet_mesh
 from volfrep.fem.calculix import solve
 from volfrep.fem.fins import folded_facets
 from volfrep.fem.model import StaticStep
-from volfrep.fem.tet_mesh import MAX_TRIANGLES, mended, nodes_on, tetrahedra
+from volfrep.fem.tet_mesh import MAX_TRIANGLES, mend_surface, nodes_on, tetrahedra
 from volfrep.io.write.calculix import sides, write_tetrahedra
 from volfrep.jobs.blocks import block
 from volfrep.jobs.pipeline import fill
@@ -133,11 +133,11 @@ def test_a_volume_that_mending_changed_is_told(monkeypatch):
     """Gmsh fills the mended mesh, and its volume is compared with that of the mesh as it was."""
     box = samples.box((10.0, 8.0, 2.0))
     thinner = TriangleMesh(box.vertices * (1.0, 1.0, 0.99), box.triangles)
-    monkeypatch.setattr(tet_mesh, "mended", lambda mesh, *_: (thinner, 0.02))
+    monkeypatch.setattr(tet_mesh, "mend_surface", lambda mesh, *_: (thinner, 0.02))
     filled = tetrahedra(box)
     assert filled.grown == pytest.approx(-0.01)
     assert "-1.00%" in filled.warnings[0]
-    monkeypatch.setattr(tet_mesh, "mended", lambda mesh, *_: (mesh, 0.0))
+    monkeypatch.setattr(tet_mesh, "mend_surface", lambda mesh, *_: (mesh, 0.0))
     assert tetrahedra(box).warnings == ()
 
 
@@ -150,7 +150,7 @@ def test_what_gmsh_finds_to_intersect_is_mended_less(monkeypatch):
         asked.append(places)
         return mesh, 0.01
 
-    monkeypatch.setattr(tet_mesh, "mended", mend)
+    monkeypatch.setattr(tet_mesh, "mend_surface", mend)
     monkeypatch.setattr(tet_mesh, "_filled", lambda *_: (said, None))
     with pytest.raises(VolfrepError, match="facet-facet intersection"):
         tetrahedra(samples.box((4.0, 4.0, 4.0)))
@@ -185,20 +185,20 @@ def test_what_would_cross_is_not_mended(monkeypatch):
     """Gmsh refuses a surface of which one facet is folded back onto the next, too."""
     solid = samples.box((15.0, 12.0, 12.0))
     mesh = fill(solid, LatticeSpec(cell="CVC", shell=1, resolution=8)).mesh
-    better, moved = mended(mesh, Monitor())
+    better, moved = mend_surface(mesh, Monitor())
     assert moved > 0.0
     assert is_bad(better.vertices[better.triangles]).sum() < 20
     assert not folded_facets(better).any()
     monkeypatch.setattr(tet_mesh, "TRIES", 1)
-    monkeypatch.setattr(tet_mesh, "well_shaped", lambda *_: better)
+    monkeypatch.setattr(tet_mesh, "mend_bad_facets", lambda *_: better)
     with monkeypatch.context() as one:
         one.setattr(tet_mesh, "without_fins", lambda mesh, _: mesh)
         one.setattr(
             tet_mesh, "folded_facets", lambda some: np.full(len(some.triangles), some is better)
         )
-        assert mended(mesh, Monitor()) == (better, moved), "needles are worse"
+        assert mend_surface(mesh, Monitor()) == (better, moved), "needles are worse"
     monkeypatch.setattr(tet_mesh, "crossing_triangles", lambda _, among, depth: among)
-    assert mended(mesh, Monitor()) == (mesh, 0.0)
+    assert mend_surface(mesh, Monitor()) == (mesh, 0.0)
 
 
 @needs_gmsh
@@ -226,12 +226,12 @@ def test_without_an_end_of_improving_the_tetrahedra_stay_as_they_are(monkeypatch
 def test_each_try_mends_less_and_farther_about_what_crosses(monkeypatch):
     asked = []
     monkeypatch.setattr(
-        tet_mesh, "well_shaped", lambda mesh, tolerance, _: asked.append(tolerance) or mesh
+        tet_mesh, "mend_bad_facets", lambda mesh, tolerance, _: asked.append(tolerance) or mesh
     )
     slender = samples.box((100.0, 1.0, 1.0))
     with monkeypatch.context() as one:
         one.setattr(tet_mesh, "crossing_triangles", lambda _, among, depth: among)
-        assert mended(slender, Monitor()) == (slender, 0.0)
+        assert mend_surface(slender, Monitor()) == (slender, 0.0)
     assert len(asked) == tet_mesh.TRIES
     assert [len(one.places) for one in asked] == list(range(tet_mesh.TRIES))
     reach = [one.reach / asked[0].reach for one in asked]
@@ -239,7 +239,7 @@ def test_each_try_mends_less_and_farther_about_what_crosses(monkeypatch):
     # What lies on its neighbour already is no reason for another try.
     asked.clear()
     monkeypatch.setattr(tet_mesh, "folded_facets", lambda mesh: np.arange(len(mesh.triangles)) < 2)
-    assert mended(slender, Monitor())[1] > 0.0
+    assert mend_surface(slender, Monitor())[1] > 0.0
     assert len(asked) == 1
 
 

@@ -9,7 +9,7 @@ import pytest
 from volfrep import LatticeSpec
 from volfrep.grid.congruent_joints import Joint, distinct_joints, joint_volume, refuse_overlaps
 from volfrep.grid.strut_graph import Wireframe
-from volfrep.io.write.step_exact import predicted_exact
+from volfrep.io.write.step_exact import predict_exact
 from volfrep.jobs.blocks import block
 from volfrep.util.errors import VolfrepError
 
@@ -133,9 +133,9 @@ def test_nearest_approach_against_brute_force():
 
 def test_a_graded_lattice_is_predicted_to_take_longer():
     frame = lattice(count=(6, 6, 6))
-    uniform = predicted_exact(frame)
+    uniform = predict_exact(frame)
     rng = np.random.default_rng(0)
-    graded = predicted_exact(
+    graded = predict_exact(
         dataclasses.replace(frame, radii=rng.uniform(1.5, 2.0, frame.radii.shape))
     )
     assert uniform.kinds == 27

@@ -13,8 +13,8 @@ import samples
 from volfrep import LatticeSpec
 from volfrep.grid.strut_graph import Wireframe
 from volfrep.io.write.step import quoted
-from volfrep.io.write.step_faceted import MAX_TRIANGLES, predicted_faceted, write_step_faceted
-from volfrep.io.write.step_wireframe import predicted_wireframe, write_step_wireframe
+from volfrep.io.write.step_faceted import MAX_TRIANGLES, predict_faceted, write_step_faceted
+from volfrep.io.write.step_wireframe import predict_wireframe, write_step_wireframe
 from volfrep.jobs.blocks import block
 from volfrep.mesh.brep import faceted_brep
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate, empty_mesh
@@ -110,7 +110,7 @@ def test_a_hundred_thousand_triangles_take_seconds(tmp_path: Path):
     start = time.process_time()
     write_step_faceted(ball, tmp_path / "ball.step")
     assert (time.process_time() - start) * 100_000 / len(ball.triangles) < 5
-    seconds, megabytes = predicted_faceted(len(ball.triangles))
+    seconds, megabytes = predict_faceted(len(ball.triangles))
     assert (tmp_path / "ball.step").stat().st_size / 1e6 == pytest.approx(megabytes, rel=0.1)
     assert seconds < 3
 
@@ -145,7 +145,7 @@ def test_many_axes_take_a_moment(tmp_path: Path):
     write_step_wireframe(frame, tmp_path / "axes.step")
     assert time.process_time() - start < 2
     assert (tmp_path / "axes.step").stat().st_size / 1e6 == pytest.approx(
-        predicted_wireframe(46_656)[1], rel=0.3
+        predict_wireframe(46_656)[1], rel=0.3
     )
 
 

@@ -26,7 +26,7 @@ from volfrep.io.write.stl_octants import write_surface_stl
 from volfrep.jobs import infill as infill_module
 from volfrep.jobs.infill import Infill
 from volfrep.mesh.triangle_mesh import TriangleMesh
-from volfrep.trim.laid import InnerOctants
+from volfrep.trim.placed_lattice import InnerOctants
 from volfrep.trim.trimmed_surface import TrimmedSurface
 from volfrep.util.errors import Cancelled
 from volfrep.util.progress import Monitor
@@ -181,6 +181,6 @@ def test_the_command_begins_a_file_and_a_refused_job_leaves_nothing(
         assert len(list(target.parent.iterdir())) == 2, "a file is begun"
         raise VolfrepError("Nothing is right.")
 
-    monkeypatch.setattr(infill_module, "finished", refused)
+    monkeypatch.setattr(infill_module, "finish", refused)
     assert fill(part, target, "--quiet") == 2
     assert "Nothing is right." in capsys.readouterr().err

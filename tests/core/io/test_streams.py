@@ -17,7 +17,7 @@ from contract import assert_same_quality
 from volfrep import LatticeSpec
 from volfrep.design.grading import Orientation
 from volfrep.io.write import STREAMED, write_mesh, write_surface
-from volfrep.io.write.numbered import numbered
+from volfrep.io.write.numbered import number_vertices
 from volfrep.io.write.threemf import write_3mf_beams
 from volfrep.jobs.infill import Infill
 from volfrep.mesh.quality import measure
@@ -131,7 +131,7 @@ def test_beams_and_triangles_in_one_file(tmp_path: Path, unmeshed: TrimmedSurfac
 
 def test_what_is_inside_is_numbered_a_layer_at_a_time(tmp_path: Path) -> None:
     surface = part(60.0).part.surface
-    given = numbered(surface, tmp_path / "part.ply", as_text=False)
+    given = number_vertices(surface, tmp_path / "part.ply", as_text=False)
     beside = surface.octants
     assert beside is not None
     held = 24 * beside.layout.count + 12 * beside.pieces.triangles

@@ -6,7 +6,7 @@ import pytest
 
 from volfrep import LatticeSpec
 from volfrep.jobs.blocks import block
-from volfrep.jobs.octant_guard import TOLD, straying
+from volfrep.jobs.octant_guard import TOLD, deviation_warnings
 from volfrep.octants import sdf
 from volfrep.octants.octant import octant_grid, octant_primitives
 from volfrep.octants.octant_mesh import mesh_octants, octant_spec
@@ -37,7 +37,7 @@ def test_facets_that_stray_farther_than_promised_are_told_by_how_much(cell, is_t
         off = np.abs(sdf.union(sdf.distances(points, exact), 0.0)).max()
         assert off <= 1.1 * octant.stray
         farthest = max(farthest, off)
-    told = straying(octants, wanted)
+    told = deviation_warnings(octants, wanted)
     assert bool(told) is is_told
     assert bool(farthest > TOLD * wanted.deviation) is is_told
     if is_told:
@@ -49,4 +49,4 @@ def test_facets_that_stray_farther_than_promised_are_told_by_how_much(cell, is_t
 
 def test_fillets_have_no_distances_to_tell():
     _, wanted, octants = meshed("CVC", 0.8, fillet=0.6)
-    assert not straying(octants, wanted)
+    assert not deviation_warnings(octants, wanted)

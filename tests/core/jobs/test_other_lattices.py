@@ -9,21 +9,21 @@ import pytest
 import samples
 from volfrep.design.cells import LIBRARY, make_cell
 from volfrep.design.grading import CellMap, RadiusGrading
-from volfrep.design.networks import RandomNetwork, make_network
+from volfrep.design.graphs import RandomGraph, make_network
 from volfrep.design.profile import Profile
 from volfrep.design.spec import LatticeSpec
 from volfrep.design.target import Target
-from volfrep.design.walls import Wall
+from volfrep.design.tpms import TpmsSheet
 from volfrep.io.solid import check_solid
 from volfrep.jobs.pipeline import fill
 from volfrep.jobs.preview import PartDepth, preview
-from volfrep.jobs.targets import aimed, aimed_block, filled
+from volfrep.jobs.targets import fill_with_target, solve_block_target, solve_target
 from volfrep.mesh.quality import inspect
 from volfrep.util.errors import VolfrepError
 
 BOX = check_solid(samples.box((24.0, 18.0, 16.0), (-12.0, -9.0, -8.0)), "box")
 DEPTH = PartDepth(BOX)
-BONE = RandomNetwork("voronoi", points=40)
+BONE = RandomGraph("voronoi", points=40)
 #: Struts along x, y and z through the box.
 GRID = np.stack(np.meshgrid([-16.0, -8, 0, 8, 16], [-8.0, 0, 8], [-8.0, 0, 8], indexing="ij"), -1)
 NODES = GRID.reshape(-1, 3)
@@ -34,8 +34,8 @@ OWN = make_network(NODES, STRUTS)
 @pytest.mark.parametrize(
     "more",
     [
-        {"cell": "Gyroid", "wall": Wall("sheet", 1.0)},
-        {"cell": "Schwarz P", "shell": 0.0, "wall": Wall("skeleton", offset=-0.5)},
+        {"cell": "Gyroid", "wall": TpmsSheet("sheet", 1.0)},
+        {"cell": "Schwarz P", "shell": 0.0, "wall": TpmsSheet("skeleton", offset=-0.5)},
         {"cell": "Gyroid", "target": Target("relative_density", 0.3)},
         {"cell": "Gyroid", "cell_map": CellMap("cylindrical")},
         {
@@ -67,14 +67,14 @@ def test_a_preview_has_the_figures_of_what_is_made(more: dict[str, object]) -> N
 @pytest.mark.slow
 def test_walls_that_are_too_many_are_not_shown() -> None:
     with pytest.raises(VolfrepError, match="too much to be shown"):
-        preview(BOX, LatticeSpec("Gyroid", 0.3, wall=Wall("sheet", 0.1)), DEPTH)
+        preview(BOX, LatticeSpec("Gyroid", 0.3, wall=TpmsSheet("sheet", 0.1)), DEPTH)
 
 
 @pytest.mark.parametrize("network", [BONE, OWN])
 @pytest.mark.parametrize("target", [Target("relative_density", 0.15), Target("mass", 3.5)])
 def test_a_network_in_a_part_meets_its_target(network: object, target: Target) -> None:
     spec = LatticeSpec(cell_size=8.0, shell=1.0, network=network, target=target)  # type: ignore[arg-type]
-    result, found = filled(BOX, spec)
+    result, found = fill_with_target(BOX, spec)
     reached = result.report.relative_density
     if target.aim == "mass":
         reached = result.report.volume_mm3 / 1000.0
@@ -89,7 +89,7 @@ def test_a_network_in_a_part_meets_its_target(network: object, target: Target) -
 def test_targets_that_a_network_cannot_meet_are_refused() -> None:
     spec = LatticeSpec(cell_size=8.0, network=OWN, target=Target("relative_density", 0.95))
     with pytest.raises(VolfrepError, match="No strut radius meets the target"):
-        aimed(BOX, spec)
+        solve_target(BOX, spec)
     with pytest.raises(VolfrepError, match="own radii say how thick"):
         LatticeSpec(
             network=make_network(NODES, STRUTS, np.ones(len(STRUTS))), target=Target("mass", 3.0)
@@ -99,4 +99,4 @@ def test_targets_that_a_network_cannot_meet_are_refused() -> None:
     flat = make_cell("Flat", LIBRARY["BCC"].nodes, LIBRARY["BCC"].struts, edges=(1.0, 1.0, 0.8))
     squat = LatticeSpec(flat, target=Target("mass", 3.0))
     with pytest.raises(VolfrepError, match="takes no target of mass"):
-        aimed_block(squat, (2, 2, 2))
+        solve_block_target(squat, (2, 2, 2))

@@ -12,7 +12,7 @@ from volfrep.design.grading import RadiusGrading
 from volfrep.design.profile import Profile
 from volfrep.design.spec import LatticeSpec
 from volfrep.jobs.infill import Infill
-from volfrep.jobs.sizing import Goal, size, solved
+from volfrep.jobs.sizing import Goal, size, solve_struts
 from volfrep.loads.load_cases import Force, LoadCase, LoadCases, Support
 from volfrep.loads.regions import InPlane
 from volfrep.mechanics.materials import find_material
@@ -39,12 +39,12 @@ def test_what_is_solved_is_what_was_designed():
     goal = Goal(limits=Limits(displacement=0.3), radius_min=0.3, radius_max=1.6)
     part = size(beam(), SPEC, bent(), goal, prove_it=False)
     assert part.sized.holds
-    model, analysis = solved(beam(), part.spec, bent())
+    model, analysis = solve_struts(beam(), part.spec, bent())
     assert analysis.largest == pytest.approx(part.sized.analysis.largest, rel=5e-4)
     (state,) = strut_states(model.problem, analysis)
     assert state.stress.max() == pytest.approx(part.sized.analysis.stress.max(), rel=5e-4)
     # Twice the force, twice the displacement.
-    _, doubled = solved(beam(), part.spec, bent(-400.0))
+    _, doubled = solve_struts(beam(), part.spec, bent(-400.0))
     assert doubled.largest == pytest.approx(2.0 * analysis.largest)
 
 
@@ -60,7 +60,7 @@ def test_a_design_can_be_sent_to_another_process(shell):
         strict=True,
     ):
         np.testing.assert_array_equal(sent.stress, here.stress)
-    model, analysis = pickle.loads(pickle.dumps(solved(beam(), part.spec, bent())))
+    model, analysis = pickle.loads(pickle.dumps(solve_struts(beam(), part.spec, bent())))
     assert strut_states(model.problem, analysis)
     steps = pickle.loads(pickle.dumps(part.sized.steps))
     assert len(steps) == len(part.sized.steps)
@@ -95,6 +95,8 @@ def test_a_graded_lattice_ends_at_the_wall_where_the_one_of_its_own_radius_does(
     graded = replace(plain, radius_grading=RadiusGrading("direction", Profile("linear", 0.5, 2.0)))
     ends = [len(Infill(solid, spec).axes.wireframe.struts) for spec in (plain, graded)]
     assert ends[0] != ends[1], "thinner struts end elsewhere"
-    one, other = (solved(solid, spec, bent())[0].problem.structure for spec in (plain, graded))
+    one, other = (
+        solve_struts(solid, spec, bent())[0].problem.structure for spec in (plain, graded)
+    )
     assert other.nodes == pytest.approx(one.nodes)
     assert (other.beams.struts == one.beams.struts).all()

@@ -22,8 +22,8 @@ from volfrep.io.solid import check_solid
 from volfrep.jobs import stiffness_target, targets
 from volfrep.jobs.blocks import block
 from volfrep.jobs.infill import Infill
-from volfrep.jobs.rough_radius import roughly_aimed
-from volfrep.jobs.targets import aimed, aimed_block
+from volfrep.jobs.rough_radius import solve_target_roughly
+from volfrep.jobs.targets import solve_block_target, solve_target
 from volfrep.lattice.strut_volume import points_inside, volume_by_radius
 from volfrep.mechanics.density import relative_density
 from volfrep.util.progress import Monitor
@@ -53,7 +53,7 @@ def density(value: float) -> Target:
 )
 def test_a_part_has_the_relative_density_asked_for(solid, settings) -> None:
     spec = LatticeSpec(cell_size=8.0, strut_radius=0.5, target=density(0.2), **settings)
-    infill = aimed(check_solid(solid, "part"), spec)
+    infill = solve_target(check_solid(solid, "part"), spec)
     mesh, report = infill.result.mesh, infill.result.report
     skin = solid.volume - report.domain_volume_mm3 if spec.with_skin else 0.0
     measured = (mesh.volume - skin) / report.domain_volume_mm3
@@ -76,7 +76,7 @@ def test_the_mass_is_that_of_the_finished_part_with_its_skin_and_holes() -> None
 def test_the_first_mesh_is_already_right_and_the_wall_is_found_once() -> None:
     spec = LatticeSpec(cell_size=8.0, strut_radius=0.5, target=density(0.2))
     solid = check_solid(samples.bracket(33.0), "part")
-    infill = aimed(solid, spec)
+    infill = solve_target(solid, spec)
     given = Infill(solid, dataclasses.replace(infill.spec, target=None))
     assert infill.result.report.work == given.result.report.work
     assert infill.result.report.work["walls found"] == 1
@@ -111,13 +111,13 @@ def test_a_graded_block_has_the_mass_asked_for() -> None:
 def test_a_lattice_that_is_pruned_or_deformed_has_the_density_asked_for(settings) -> None:
     spec = LatticeSpec(cell_size=8.0, strut_radius=0.5, shell=1.5, target=density(0.18), **settings)
     solid = check_solid(samples.box((44.0, 36.0, 28.0)), "part")
-    infill = aimed(solid, spec)
+    infill = solve_target(solid, spec)
     report = infill.result.report
     skin = solid.volume - report.domain_volume_mm3
     measured = (infill.result.mesh.volume - skin) / report.domain_volume_mm3
     assert measured == pytest.approx(0.18, rel=NEAR)
     assert report.work["walls found"] == 1
-    rough = roughly_aimed(solid, spec).strut_radius
+    rough = solve_target_roughly(solid, spec).strut_radius
     assert rough == pytest.approx(infill.spec.strut_radius, rel=0.12)
 
 
@@ -128,7 +128,7 @@ def test_a_job_is_forecast_with_about_the_radius_of_its_target() -> None:
         spec = LatticeSpec(
             cell="BCC", cell_size=8.0, strut_radius=0.5, density=2.67, target=target
         )  # fmt: skip
-        guess, found = roughly_aimed(solid, spec), aimed(solid, spec)
+        guess, found = solve_target_roughly(solid, spec), solve_target(solid, spec)
         assert guess.strut_radius == pytest.approx(found.spec.strut_radius, rel=0.12)
         told, known = forecast_fill(solid, guess), forecast_fill(solid, found.spec)
         assert told.triangles == pytest.approx(known.triangles, rel=0.3)
@@ -170,8 +170,8 @@ def test_a_cell_of_ones_own_is_homogenised_for_its_stiffness() -> None:
         dataclasses.replace(LIBRARY["BCC"], name="mine"), 6.0, 0.3,
         target=Target("stiffness", 0.02, (1.0, 1.0, 1.0)),
     )  # fmt: skip
-    own = aimed_block(spec, (1, 1, 1)).strut_radius
-    library = aimed_block(dataclasses.replace(spec, cell="BCC"), (1, 1, 1)).strut_radius
+    own = solve_block_target(spec, (1, 1, 1)).strut_radius
+    library = solve_block_target(dataclasses.replace(spec, cell="BCC"), (1, 1, 1)).strut_radius
     assert own == pytest.approx(library, rel=5e-3)
 
 
@@ -198,7 +198,7 @@ def test_a_part_that_misses_its_target_is_made_again(monkeypatch) -> None:
 
     monkeypatch.setattr(targets, "volume_by_radius", wrong)
     spec = LatticeSpec(cell_size=8.0, strut_radius=0.5, target=density(0.2))
-    report = aimed(check_solid(samples.box((32.0, 24.0, 20.0)), "part"), spec).result.report
+    report = solve_target(check_solid(samples.box((32.0, 24.0, 20.0)), "part"), spec).result.report
     assert report.relative_density == pytest.approx(0.2, rel=NEAR)
     assert report.work["walls found"] == 1
 

@@ -11,7 +11,14 @@ from volfrep import VolfrepError
 from volfrep.design.cells import LIBRARY
 from volfrep.mechanics.frame import CIRCLE, SQUARE_SECTION, Ends, PeriodicFrame, frame_tensor
 from volfrep.mechanics.joint_fit import fit_joint, periodic_frame
-from volfrep.mechanics.tensor import cubic, gibson_ashby, hashin_shtrikman, moduli, rotated, young
+from volfrep.mechanics.tensor import (
+    cubic,
+    gibson_ashby,
+    hashin_shtrikman,
+    moduli,
+    rotate_tensor,
+    young,
+)
 
 CATALOGUE = json.loads(Path(__file__).with_name("anisotropic_lattices.json").read_text())[
     "lattices"
@@ -106,8 +113,10 @@ def test_a_turned_tensor_is_as_stiff_along_turned_directions():
     )
     tensor = cubic(3.0, 1.0, 2.0)
     ways = np.random.default_rng(0).normal(size=(20, 3))
-    assert young(rotated(tensor, turn), ways @ turn.T) == pytest.approx(young(tensor, ways))
-    assert rotated(cubic(3.0, 1.0, 1.0), turn) == pytest.approx(cubic(3.0, 1.0, 1.0), abs=1e-12)
+    assert young(rotate_tensor(tensor, turn), ways @ turn.T) == pytest.approx(young(tensor, ways))
+    assert rotate_tensor(cubic(3.0, 1.0, 1.0), turn) == pytest.approx(
+        cubic(3.0, 1.0, 1.0), abs=1e-12
+    )
 
 
 def test_the_lines_to_compare_with():

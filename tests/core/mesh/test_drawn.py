@@ -5,19 +5,19 @@ import numpy as np
 import trimesh
 
 import samples
-from volfrep.mesh.drawn import (
+from volfrep.mesh.display_parts import (
     AT_ONCE,
     NOTHING,
     drawn_parts,
     facets_with_neighbours,
     in_pieces,
 )
-from volfrep.mesh.shading import shaded
+from volfrep.mesh.shading import shade
 from volfrep.mesh.triangle_mesh import TriangleMesh
 
 
 def test_pieces_are_the_same_triangles_in_their_order():
-    drawn = shaded(samples.sphere(20.0, 4))
+    drawn = shade(samples.sphere(20.0, 4))
     pieces = in_pieces(drawn, 700)
     assert len(pieces) == -(-len(drawn.triangles) // 700)
     corners = np.concatenate([points[index[:, :3]] for points, _, index in pieces])

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from contract import assert_same_quality
 from volfrep.mesh.pinches import pinched_vertices
-from volfrep.mesh.quality import measure, remaining, shape_statistics
+from volfrep.mesh.quality import measure, shape_statistics, subtract_shells
 from volfrep.mesh.triangle_mesh import TriangleMesh, compact, concatenate, empty_mesh
 from volfrep.util.errors import Cancelled
 from volfrep.util.progress import Monitor
@@ -66,7 +66,7 @@ def test_bodies_and_voids_and_genus_add_up() -> None:
 def test_what_stays_has_the_quality_of_the_whole_less_what_goes() -> None:
     stays = concatenate(box(4.0), box(1.0).reversed(), torus())
     goes = concatenate(box(0.5, (20, 0, 0)), torus().reversed())
-    rest = remaining(
+    rest = subtract_shells(
         measure(concatenate(stays, goes)), measure(goes), stays.bounds, np.array([64.0, -1.0, 1.0])
     )
     assert_same_quality(rest, measure(stays))

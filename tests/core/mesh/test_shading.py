@@ -5,13 +5,13 @@ import numpy as np
 import pytest
 
 import samples
-from volfrep.mesh.shading import CREASE_ANGLE, shaded, sharp_edges
+from volfrep.mesh.shading import CREASE_ANGLE, shade, sharp_edges
 from volfrep.mesh.triangle_mesh import TriangleMesh
 
 
 def test_every_corner_of_a_box_has_the_normal_of_its_face():
     box = samples.box((3.0, 2.0, 1.0))
-    drawn = shaded(box)
+    drawn = shade(box)
     a, b, c = box.corners()
     facet = np.cross(b - a, c - a)
     facet /= np.linalg.norm(facet, axis=1)[:, None]
@@ -22,7 +22,7 @@ def test_every_corner_of_a_box_has_the_normal_of_its_face():
 
 def test_a_ball_is_smooth():
     ball = samples.sphere(20.0, 4)
-    drawn = shaded(ball)
+    drawn = shade(ball)
     assert len(drawn.points) == len(ball.vertices)
     # A mean of facets strays from the sphere's normal by less than the angle between two facets.
     cosine = (drawn.normals * drawn.points / 20.0).sum(axis=1)
@@ -33,7 +33,7 @@ def test_a_ball_is_smooth():
 def test_normals_do_not_depend_on_how_triangles_are_numbered():
     box = samples.box()
     turned = TriangleMesh(box.vertices, np.roll(box.triangles[::-1], 1, axis=1))
-    one, two = shaded(box), shaded(turned)
+    one, two = shade(box), shade(turned)
     back = np.roll(two.normals[two.triangles], -1, axis=1)[::-1]
     assert one.normals[one.triangles] == pytest.approx(back)
 
@@ -47,7 +47,7 @@ def test_a_fold_is_an_edge_where_it_is_sharp(angle, edges):
     border = 4
     assert len(found) == border + edges
     assert sum({0, 1} == set(pair) for pair in found.tolist()) == edges
-    assert (len(shaded(fold).points) == 4) == (turn < CREASE_ANGLE)
+    assert (len(shade(fold).points) == 4) == (turn < CREASE_ANGLE)
 
 
 def test_the_edges_of_a_box_are_its_twelve():

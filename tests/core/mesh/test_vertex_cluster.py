@@ -8,20 +8,20 @@ import samples
 from volfrep.design.spec import LatticeSpec
 from volfrep.jobs.blocks import block
 from volfrep.jobs.pipeline import fill
-from volfrep.mesh.vertex_cluster import coarse_likeness, is_outside
+from volfrep.mesh.vertex_cluster import cluster_vertices, is_outside
 from volfrep.spatial.proximity import closest_points
 
 
 @pytest.mark.parametrize("most", [500, 2000, 10_000])
 def test_it_has_no_more_triangles_than_allowed_and_not_far_fewer(most):
     mesh = block(LatticeSpec(cell="BCC", cell_size=10.0, strut_radius=1.0), (2, 2, 2)).mesh
-    coarse = coarse_likeness(mesh, most)
+    coarse = cluster_vertices(mesh, most)
     assert most / 4 < len(coarse.triangles) <= most
 
 
 def test_it_lies_where_the_mesh_does():
     mesh = samples.sphere(20.0, 5)
-    coarse = coarse_likeness(mesh, 2000)
+    coarse = cluster_vertices(mesh, 2000)
     spacing = np.sqrt(4 * np.pi * 20.0**2 / 800)
     assert np.abs(coarse.bounds - mesh.bounds).max() < spacing
     assert closest_points(mesh, coarse.vertices)[1].max() < 0.2 * spacing
@@ -30,7 +30,7 @@ def test_it_lies_where_the_mesh_does():
 
 def test_a_small_mesh_stays_itself():
     mesh = samples.box()
-    assert coarse_likeness(mesh, 12) is mesh
+    assert cluster_vertices(mesh, 12) is mesh
 
 
 def test_the_outside_is_told_from_cavities():

@@ -11,7 +11,7 @@ from volfrep.mesh import remesh
 from volfrep.mesh import well_shaped as well_shaped_module
 from volfrep.mesh.quality import measure
 from volfrep.mesh.triangle_mesh import TriangleMesh
-from volfrep.mesh.well_shaped import Tolerance, angles_of, is_bad, well_shaped
+from volfrep.mesh.well_shaped import Tolerance, angles_of, is_bad, mend_bad_facets
 from volfrep.spatial.proximity import closest_points
 from volfrep.spatial.self_intersection import crossing_triangles
 
@@ -27,7 +27,7 @@ def trimmed(request):
 
 @pytest.fixture(scope="module")
 def better(trimmed):
-    return well_shaped(trimmed, Tolerance(TOLERANCE), 0.1)
+    return mend_bad_facets(trimmed, Tolerance(TOLERANCE), 0.1)
 
 
 def corners(mesh):
@@ -69,7 +69,7 @@ def test_it_does_not_grow_out_of_hand(trimmed, better):
 def test_a_mesh_without_needles_is_left_alone():
     mesh = block(LatticeSpec("CVC", cell_size=10, strut_radius=1), (1, 1, 1)).mesh
     assert not is_bad(corners(mesh)).any()
-    same = well_shaped(mesh, Tolerance(TOLERANCE), 0.1)
+    same = mend_bad_facets(mesh, Tolerance(TOLERANCE), 0.1)
     assert np.array_equal(corners(same), corners(mesh))
 
 
@@ -79,7 +79,7 @@ def test_a_wall_along_struts_leaves_no_needles(cell):
     spec = LatticeSpec(cell, cell_size=10, strut_radius=1, shell=0, deviation=0.05)
     mesh = fill(samples.box((10.0, 10.0, 10.0)), spec).mesh
     assert is_bad(corners(mesh)).sum() > 100
-    better = well_shaped(mesh, Tolerance(TOLERANCE), 0.1)
+    better = mend_bad_facets(mesh, Tolerance(TOLERANCE), 0.1)
     assert not is_bad(corners(better)).any()
     assert better.volume == pytest.approx(mesh.volume, rel=1e-3)
     assert not crossing_triangles(better, np.ones(len(better.triangles), bool), 1e-9).any()
@@ -107,7 +107,7 @@ def test_a_sharp_edge_stays_sharp():
     bottoms = [[0, k + 1, k] for k in range(1, size - 1)]
     mesh = TriangleMesh(points, np.array([*sides.tolist(), *lids, *bottoms], np.int32))
     assert measure(mesh).watertight
-    better = well_shaped(mesh, Tolerance(TOLERANCE), 0.1)
+    better = mend_bad_facets(mesh, Tolerance(TOLERANCE), 0.1)
     assert measure(better).watertight
     assert better.volume == pytest.approx(1000.0, rel=1e-9)
     assert is_bad(corners(better)).sum() < 0.05 * is_bad(corners(mesh)).sum()
@@ -134,5 +134,5 @@ def test_a_flip_makes_no_edge_that_others_have():
     """Where some facets about both its ends were not looked at, an edge was made twice."""
     spec = LatticeSpec("FCC", cell_size=10, strut_radius=1, shell=0, deviation=0.05)
     mesh = fill(samples.sphere(11.0), spec).mesh
-    better = well_shaped(mesh, Tolerance(0.03), 0.15)
+    better = mend_bad_facets(mesh, Tolerance(0.03), 0.15)
     assert measure(better).watertight

@@ -78,7 +78,9 @@ def test_a_step_to_primitives_may_stop_at_a_level():
 
 
 def test_steps_are_shortened_in_their_direction():
-    found = surface.shortened(np.array([[3.0, 4.0, 0.0], [0.3, 0.4, 0.0], [0.0, 0.0, 0.0]]), 1.0)
+    found = surface.shorten_steps(
+        np.array([[3.0, 4.0, 0.0], [0.3, 0.4, 0.0], [0.0, 0.0, 0.0]]), 1.0
+    )
     np.testing.assert_allclose(found, [[0.6, 0.8, 0.0], [0.3, 0.4, 0.0], [0.0, 0.0, 0.0]])
 
 
@@ -115,6 +117,6 @@ def test_a_vertex_on_an_edge_stays_between_its_samples():
 def test_a_vertex_stays_in_its_octant_and_off_its_faces(monkeypatch):
     monkeypatch.setattr(surface, "FACE_MARGIN", 0.01)
     inside = surface_of([[1.0, 2.0, 3.0]], [], BALL, size=5.0)
-    kept = surface.moved(inside, np.array([[-1.0, 2.5, 7.0]])).vertices
+    kept = surface.move_vertices(inside, np.array([[-1.0, 2.5, 7.0]])).vertices
     margin = 0.01 * inside.step
     np.testing.assert_allclose(kept, [[margin, 2.5, 5.0 - margin]])

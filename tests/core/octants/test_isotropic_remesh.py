@@ -18,7 +18,7 @@ CELLS = [*map(find_cell, PAPERS), SKEW]
 def pair(request):
     """The raw surface of an octant, the even one, and where its vertices come from."""
     raw = octant_surface(request.param)
-    return raw, *isotropic_remesh.even_out(raw)
+    return raw, *isotropic_remesh.remesh_evenly(raw)
 
 
 def angles(surface):
@@ -84,5 +84,5 @@ def test_nothing_comes_of_nothing():
         whole.field.rows(np.zeros(0, np.int64)), whole.edge, whole.step,
         whole.piece[:0], whole.size,
     )  # fmt: skip
-    found, origin = isotropic_remesh.even_out(none)
+    found, origin = isotropic_remesh.remesh_evenly(none)
     assert len(found.triangles) == len(origin) == 0

@@ -72,7 +72,7 @@ def test_octants_that_share_struts_are_sampled_as_each_alone():
 def test_octants_whose_facets_cross_are_evened_out_once(monkeypatch):
     """And once gently: the eight tries begin with what these two give."""
     evened, looked = [], []
-    even_out, crossing = octant_mesh.even_out, octant_mesh.crossing_facets
+    even_out, crossing = octant_mesh.remesh_evenly, octant_mesh.crossing_facets
 
     def counted(raw, gently=False):
         evened.append(gently)
@@ -82,14 +82,14 @@ def test_octants_whose_facets_cross_are_evened_out_once(monkeypatch):
         looked.append(exact)
         return np.ones(len(surface.triangles), bool) | crossing(surface, exact, pieces)
 
-    monkeypatch.setattr(octant_mesh, "even_out", counted)
+    monkeypatch.setattr(octant_mesh, "remesh_evenly", counted)
     monkeypatch.setattr(octant_mesh, "crossing_facets", crossed)
     key = OctantKey(0, ALL_ACTIVE)
     spec = OctantSpec(10.0, 1.0, 0.0, 8)
     assert len(mesh_octants(LIBRARY["BCC"], spec, [key], Monitor())[key].triangles)
     assert (evened, looked) == ([False], [True])
     monkeypatch.setattr(
-        octant_mesh, "untangled", lambda surface, *_: (surface, crossed(surface, True))
+        octant_mesh, "untangle", lambda surface, *_: (surface, crossed(surface, True))
     )
     with pytest.raises(octant_mesh.FacetsCross):
         mesh_octants(LIBRARY["BCC"], spec, [key], Monitor())

@@ -41,7 +41,7 @@ def missed(surface):
 @pytest.fixture(params=[*map(find_cell, PAPERS), SKEW], ids=lambda cell: cell.name, scope="module")
 def pair(request):
     """The even surface of an octant, and the fitted one."""
-    found, _ = isotropic_remesh.even_out(octant_surface(request.param))
+    found, _ = isotropic_remesh.remesh_evenly(octant_surface(request.param))
     return found, surface_fit.fit_facets(surface_fit.fit_border(found))
 
 
@@ -57,7 +57,7 @@ def test_the_facets_come_nearer_to_the_surface(pair):
 
 def test_even_facets_stray_as_the_border_is_told():
     """By e2 (k1 + k2) / 16 in the mean: on struts k1 = 1 / r, k2 = 0."""
-    found, _ = isotropic_remesh.even_out(octant_surface(LIBRARY["Box"], radius=1.5))
+    found, _ = isotropic_remesh.remesh_evenly(octant_surface(LIBRARY["Box"], radius=1.5))
     corners = found.vertices[found.triangles]
     edge2 = ((np.roll(corners, -1, axis=1) - corners) ** 2).sum(axis=2).mean()
     assert -missed(found)[0] == pytest.approx(edge2 / (16.0 * 1.5), rel=0.4)
@@ -74,8 +74,8 @@ def test_only_places_change_and_the_border_stays_in_its_faces(pair):
 
 def test_each_piece_is_right_by_itself():
     """Two octants in one mesh: what one of them misses, the other does not give."""
-    one, _ = isotropic_remesh.even_out(octant_surface(LIBRARY["Box"]))
-    two, _ = isotropic_remesh.even_out(octant_surface(LIBRARY["Box"], radius=1.4))
+    one, _ = isotropic_remesh.remesh_evenly(octant_surface(LIBRARY["Box"]))
+    two, _ = isotropic_remesh.remesh_evenly(octant_surface(LIBRARY["Box"], radius=1.4))
     count = len(one.vertices)
     field = type(one.field)
     primitives = one.field.primitives

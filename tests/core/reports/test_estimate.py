@@ -12,7 +12,7 @@ from volfrep.fem.beam_mesh import beam_model
 from volfrep.jobs.blocks import block_wireframe
 from volfrep.reports.estimate import (
     MOST_BEAMS,
-    Asked,
+    ExportChoice,
     estimate_axes,
     estimate_beams,
     estimate_exact,
@@ -40,16 +40,16 @@ def test_exact_surfaces_of_a_block_know_its_kinds_of_joints():
 
 def test_a_coarser_resolution_is_the_nearest_setting_that_fits():
     with pytest.raises(VolfrepError, match=r"4,000,000 plane faces.* resolution of 10, or"):
-        estimate_faceted(4_000_000, Asked(SPEC))
+        estimate_faceted(4_000_000, ExportChoice(SPEC))
     with pytest.raises(VolfrepError, match=r"the limit is 200,000\): choose a resolution of 12"):
-        estimate_tetrahedra(400_000, Asked(SPEC))
+        estimate_tetrahedra(400_000, ExportChoice(SPEC))
 
 
 def test_where_no_resolution_is_coarse_enough_there_must_be_fewer_cells():
     with pytest.raises(VolfrepError, match="cells of 47 mm, or"):
-        estimate_faceted(100_000_000, Asked(SPEC))
+        estimate_faceted(100_000_000, ExportChoice(SPEC))
     with pytest.raises(VolfrepError, match="a block of 10 x 10 x 5 cells"):
-        estimate_faceted(64_000_000, Asked(SPEC, (40, 40, 20)))
+        estimate_faceted(64_000_000, ExportChoice(SPEC, (40, 40, 20)))
     with pytest.raises(VolfrepError, match="choose larger cells"):
         estimate_axes(10_000_000)
 
@@ -57,7 +57,7 @@ def test_where_no_resolution_is_coarse_enough_there_must_be_fewer_cells():
 def test_what_is_named_fits():
     frame = block_wireframe(SPEC, (40, 40, 40))
     with pytest.raises(VolfrepError) as error:
-        estimate_exact(frame, Asked(SPEC, (40, 40, 40)))
+        estimate_exact(frame, ExportChoice(SPEC, (40, 40, 40)))
     count = re.search(r"a block of (\d+) x (\d+) x (\d+) cells", str(error.value))
     assert count
     estimate_exact(block_wireframe(SPEC, [int(n) for n in count.groups()]))
@@ -68,4 +68,4 @@ def test_beams_have_a_limit():
     assert "80 beams" in str(estimate_beams(model))
     many = replace(model, elements=np.tile(model.elements, (MOST_BEAMS // 40, 1)))
     with pytest.raises(VolfrepError, match=r"800,000 beam elements .*cells of 13 mm"):
-        estimate_beams(many, Asked(SPEC))
+        estimate_beams(many, ExportChoice(SPEC))

@@ -8,7 +8,7 @@ import pytest
 
 from volfrep.design.cells import UnitCell, find_cell
 from volfrep.design.grading import CellMap
-from volfrep.design.networks import RandomNetwork
+from volfrep.design.graphs import RandomGraph
 from volfrep.design.spec import LatticeSpec
 from volfrep.reports.passage import ball_of, largest_ball
 
@@ -49,6 +49,6 @@ def test_of_windows_that_differ_nothing_is_told():
     equal = LatticeSpec("Box", 10.0, 1.0)
     assert ball_of(equal) == pytest.approx(8.0)
     graded = replace(equal, cell_map=CellMap("spherical"))
-    network = replace(equal, network=RandomNetwork(points=20))
+    network = replace(equal, network=RandomGraph(points=20))
     assert ball_of(graded) is None
     assert ball_of(network) is None

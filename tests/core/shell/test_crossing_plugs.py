@@ -11,7 +11,7 @@ from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
 from volfrep.shell import crossing_plugs
 from volfrep.shell.crossing_plugs import without_crossings
 from volfrep.shell.offset import inner_wall
-from volfrep.shell.wall_crossings import crossed_along, judged
+from volfrep.shell.surface_crossings import crossed_along, find_new_crossings
 from volfrep.spatial.piercing import piercing_pairs
 from volfrep.util.progress import Monitor
 from walls import wall_errors
@@ -43,7 +43,9 @@ def test_a_housing_whose_walls_are_hardly_thicker_than_two_skins():
 
 def test_rounds_that_change_nothing_end_all_the_same(monkeypatch):
     mesh, monitor = overlapping_spheres(), Monitor()
-    monkeypatch.setattr(crossing_plugs, "uncrossed", lambda mesh, monitor, turns: (mesh, None))
+    monkeypatch.setattr(
+        crossing_plugs, "resolve_fold_crossings", lambda mesh, monitor, turns: (mesh, None)
+    )
     monkeypatch.setattr(crossing_plugs, "_less", lambda mesh, sizes, places: mesh)
     assert without_crossings(mesh, 10.0, monitor) is mesh
     assert monitor.work["times the wall was drawn apart"] == crossing_plugs.ROUNDS
@@ -51,11 +53,11 @@ def test_rounds_that_change_nothing_end_all_the_same(monkeypatch):
 
 def test_what_is_known_of_a_mesh_is_enough_to_judge_one_that_differs_little():
     mesh = overlapping_spheres()
-    before = judged(mesh, Monitor())
+    before = find_new_crossings(mesh, Monitor())
     moved = mesh.vertices.copy()
     moved[np.argmax(moved[:, 0])] += [0.3, 0.2, 0.1]
     other = TriangleMesh(moved, mesh.triangles[::-1])
-    again = judged(other, Monitor(), before)
+    again = find_new_crossings(other, Monitor(), before)
     assert len(before.pairs)
     assert np.array_equal(again.pairs, piercing_pairs(other))
 
@@ -79,7 +81,9 @@ def test_spheres_that_overlap_by_a_hair_are_drawn_apart():
 
 
 def test_what_cannot_be_drawn_apart_goes_with_a_little_of_the_room_about_it(monkeypatch):
-    monkeypatch.setattr(crossing_plugs, "uncrossed", lambda mesh, monitor, turns: (mesh, None))
+    monkeypatch.setattr(
+        crossing_plugs, "resolve_fold_crossings", lambda mesh, monitor, turns: (mesh, None)
+    )
     mesh = overlapping_spheres()
     plugged = without_crossings(mesh, 10.0, Monitor())
     assert len(piercing_pairs(mesh))

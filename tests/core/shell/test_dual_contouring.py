@@ -115,7 +115,7 @@ def test_fans_close_as_well(share):
     cut = np.random.default_rng(3).random(len(crossings.patches_of_segment)) < share
     edges = contour.fan_edges(crossings, cut)
     assert 0 < len(edges) <= len(points)
-    fanned = contour.fanned(crossings, made, cut, points[edges])
+    fanned = contour.with_fans(crossings, made, cut, points[edges])
     found = as_trimesh(fanned.mesh)
     assert found.is_watertight
     assert found.euler_number == 2
@@ -131,5 +131,5 @@ def test_without_cuts_there_are_no_fans():
     crossings, points, _, made = contoured(leaves(), ball_value, ball_plane)
     none = np.zeros(len(crossings.patches_of_segment), bool)
     assert len(contour.fan_edges(crossings, none)) == 0
-    fanned = contour.fanned(crossings, made, none, points[:0])
+    fanned = contour.with_fans(crossings, made, none, points[:0])
     np.testing.assert_array_equal(fanned.mesh.triangles, made.mesh.triangles)

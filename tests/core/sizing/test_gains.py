@@ -28,7 +28,7 @@ from volfrep.mechanics.materials import find_material
 from volfrep.mesh.booleans import as_manifold, as_mesh
 from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.reports.sizing_report import least_gain
-from volfrep.sizing.analysis import Limits, analysed
+from volfrep.sizing.analysis import Limits, analyse
 from volfrep.util.errors import VolfrepError
 
 WHOLE = {"cell_size": 10, "shell": 0, "boundary": "whole", "activation": "inside"}
@@ -99,7 +99,7 @@ def test_a_sized_cantilever_is_stiffer_than_one_radius_with_the_same_mesh_volume
         radius *= (volume / even) ** 0.52
     assert even == pytest.approx(volume, rel=2e-3)
     problem = made.model.problem
-    one, _ = analysed(problem, np.full(len(problem.low), radius), Limits())
+    one, _ = analyse(problem, np.full(len(problem.low), radius), Limits())
     gain = float(one.compliance[0] / made.sized.analysis.compliance[0])
     print(f"\n{cell}: {made.report['struts']} struts, {gain:.2f} times, {volume:,.0f} mm3")
     assert gain > 1.5

@@ -15,15 +15,15 @@ from volfrep.jobs.sizing import radius_field
 from volfrep.mechanics.catalogue import joint_law
 from volfrep.mechanics.frame import SQUARE_SECTION
 from volfrep.mesh.triangle_mesh import TriangleMesh
-from volfrep.sizing.analysis import Limits, Problem, analysed
-from volfrep.sizing.design_proof import Proved, corrected
+from volfrep.sizing.analysis import Limits, Problem, analyse
+from volfrep.sizing.design_proof import Proved, correct_problem
 from volfrep.sizing.node_radii import (
     NodeRadii,
     largest_radii,
     smoothing,
     whole_struts,
 )
-from volfrep.sizing.optimise import HOLDS, cheapest, lightest, stiffest, thickened, uniform
+from volfrep.sizing.optimise import HOLDS, cheapest, lightest, stiffest, thicken, uniform
 from volfrep.sizing.structure import Case, Structure
 from volfrep.sizing.tapered_beams import Elastic, beams_of, end_table
 from volfrep.sizing.union_volume import union_volume
@@ -137,10 +137,10 @@ def test_derivatives_are_those_of_differences():
     problem = replace(problem, cases=(problem.cases[0], heavy, problem.cases[2]))
     radii = radii * (1.0 + 0.3 * np.sin(np.arange(len(radii))) ** 2)
     limits = Limits(stress=100.0, displacement=1.0, frequency=100.0, frame_buckling=1.0)
-    found, changes = analysed(problem, radii, limits, with_changes=True)
+    found, changes = analyse(problem, radii, limits, with_changes=True)
     step = np.zeros(len(radii))
     step[23] = 1e-4
-    high, low = (analysed(problem, radii + sign * step, limits)[0] for sign in (1, -1))
+    high, low = (analyse(problem, radii + sign * step, limits)[0] for sign in (1, -1))
     assert changes.compliance[23] == pytest.approx(
         (high.compliance - low.compliance) / 2e-4, rel=1e-4
     )
@@ -162,7 +162,7 @@ def test_derivatives_are_those_of_differences():
 @pytest.mark.parametrize("cell", PAPERS)
 def test_a_sized_cantilever_is_much_stiffer_than_an_even_one_of_its_volume(cell):
     problem, radii = cantilever(cell)
-    even, _ = analysed(problem, radii, Limits())
+    even, _ = analyse(problem, radii, Limits())
     made = stiffest(problem, even.volume, radii)
     assert made.analysis.volume == pytest.approx(even.volume, rel=1e-3)
     assert (made.analysis.radii >= problem.low - 1e-12).all()
@@ -172,7 +172,7 @@ def test_a_sized_cantilever_is_much_stiffer_than_an_even_one_of_its_volume(cell)
 
 def test_the_lightest_design_holds_its_limits_and_saves_mass():
     problem, radii = cantilever(cases=2)
-    even, _ = analysed(problem, radii, Limits(stress=1.0, displacement=1.0))
+    even, _ = analyse(problem, radii, Limits(stress=1.0, displacement=1.0))
     limits = Limits(
         stress=float(even.stress.max()), displacement=even.uses["displacement"], buckling=2.0
     )
@@ -194,7 +194,7 @@ def test_nodes_that_move_alike_are_all_held():
     loads = np.zeros_like(case.loads)
     loads[tip, 0] = 2000.0 / tip.sum()
     problem = replace(problem, cases=(replace(case, loads=loads),))
-    even, _ = analysed(problem, radii, Limits(displacement=1.0))
+    even, _ = analyse(problem, radii, Limits(displacement=1.0))
     made = lightest(problem, Limits(displacement=even.uses["displacement"]), radii)
     assert made.holds
     assert made.stopped == "converged"
@@ -215,7 +215,7 @@ def test_a_search_ends_where_all_radii_are_the_least():
     problem, radii = cantilever(count=(3, 1, 1))
     low = np.full(len(radii), 0.7 * radii.min())
     problem = replace(problem, low=low)
-    thin, _ = analysed(problem, low, Limits(stress=1.0))
+    thin, _ = analyse(problem, low, Limits(stress=1.0))
     made = lightest(problem, Limits(stress=100.0 * thin.most_used), radii)
     assert made.holds
     assert made.stopped == "converged"
@@ -247,7 +247,7 @@ def test_a_search_that_is_stopped_keeps_the_best_so_far():
     assert len(made.steps) == 4
     assert made.analysis.compliance[0] == pytest.approx(
         min(step.compliance for step in made.steps) * made.steps[0].compliance
-        * analysed(problem, radii, Limits())[0].compliance[0]
+        * analyse(problem, radii, Limits())[0].compliance[0]
     )  # fmt: skip
 
 
@@ -271,9 +271,9 @@ def test_prices_of_shared_limits_give_the_least_cost():
 def test_a_design_is_corrected_where_calculix_finds_more():
     problem, radii = cantilever(count=(2, 1, 1))
     asked = Limits(stress=100.0, displacement=2.0, frequency=50.0)
-    own = analysed(problem, radii, asked)[0]
+    own = analyse(problem, radii, asked)[0]
     limits = Limits(own.stress.max(), own.largest[0] / 0.9, frequency=own.frequency)
-    final = analysed(problem, radii, limits)[0]
+    final = analyse(problem, radii, limits)[0]
     felt = np.ones(len(own.stress))
     felt[own.worst["stress"][1]] = 1.25
     proof = Proved(
@@ -283,17 +283,17 @@ def test_a_design_is_corrected_where_calculix_finds_more():
         {"stress": 1.25, "displacement": 0.945, "frequency": 1.25}
     )
     assert not proof.holds(limits, final)
-    there, stricter = corrected(problem, limits, final, proof)
+    there, stricter = correct_problem(problem, limits, final, proof)
     assert stricter.frequency == pytest.approx(1.25 * limits.frequency)
     assert (stricter.stress, stricter.displacement) == (limits.stress, limits.displacement)
-    assert analysed(there, radii, limits)[0].uses["stress"] == pytest.approx(1.25)
+    assert analyse(there, radii, limits)[0].uses["stress"] == pytest.approx(1.25)
     # No strut becomes thinner, and the limits are held by struts as stressed as CalculiX says.
-    thicker, holds = thickened(there, Limits(stress=limits.stress), radii)
+    thicker, holds = thicken(there, Limits(stress=limits.stress), radii)
     assert holds
     assert (thicker.radii >= radii).all()
     assert thicker.radii.max() > radii.max()
     assert thicker.uses["stress"] <= 1.0
     # What cannot be held is left as it is, but for the struts that are asked for.
-    most, holds = thickened(there, Limits(stress=1e-3 * limits.stress), radii)
+    most, holds = thicken(there, Limits(stress=1e-3 * limits.stress), radii)
     assert not holds
     assert (most.radii <= problem.high).all()

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from volfrep.grid.strut_graph import Graph
-from volfrep.sizing.analysis import Limits, Problem, analysed
+from volfrep.sizing.analysis import Limits, Problem, analyse
 from volfrep.sizing.node_radii import NodeRadii, whole_struts
 from volfrep.sizing.structure import Case, Structure
 from volfrep.sizing.strut_state import drawn_factor, strut_states, value_range
@@ -33,7 +33,7 @@ def states():
     radii = NodeRadii(whole_struts(struts, 3), filled)
     structure = Structure(nodes, beams_of(nodes, struts, Elastic(YOUNG)))
     problem = Problem(structure, cases, radii, low, 100 * low, np.ones(3, bool))
-    return strut_states(problem, analysed(problem, np.full(3, RADIUS), Limits())[0])
+    return strut_states(problem, analyse(problem, np.full(3, RADIUS), Limits())[0])
 
 
 def test_a_rod_says_what_the_closed_forms_say(states):

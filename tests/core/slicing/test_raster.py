@@ -4,7 +4,7 @@
 import numpy as np
 from skimage.measure import points_in_poly
 
-from volfrep.slicing.raster import PixelGrid, filled, pixel_grid
+from volfrep.slicing.raster import PixelGrid, fill_pixels, pixel_grid
 
 GRID = PixelGrid((0.0, 0.0), 0.25, (40, 60))
 
@@ -18,7 +18,7 @@ def middles(grid):
 
 def test_a_polygon_holds_the_middles_that_lie_in_it():
     polygon = np.array([[1.03, 0.9], [13.1, 2.2], [9.4, 8.8], [6.2, 4.1], [2.7, 9.3]])
-    found = filled([[polygon[None]]], lambda held: held[0], GRID)
+    found = fill_pixels([[polygon[None]]], lambda held: held[0], GRID)
     expected = points_in_poly(middles(GRID), polygon).reshape(GRID.shape)
     assert (found == expected).all()
     assert found.any()
@@ -27,24 +27,24 @@ def test_a_polygon_holds_the_middles_that_lie_in_it():
 def test_holes_are_left_out_and_overlaps_count_once():
     square = np.array([[1.0, 1], [9, 1], [9, 9], [1, 9]])
     hole = np.array([[3.0, 3], [3, 7], [7, 7], [7, 3]])
-    one = filled([[square[None], hole[None]]], lambda held: held[0], GRID)
+    one = fill_pixels([[square[None], hole[None]]], lambda held: held[0], GRID)
     assert one.sum() == (8 * 8 - 4 * 4) / 0.25**2
-    twice = filled([[square[None], square[None] + 0.5]], lambda held: held[0], GRID)
+    twice = fill_pixels([[square[None], square[None] + 0.5]], lambda held: held[0], GRID)
     assert twice.sum() == (8 * 8 * 2 - 7.5 * 7.5) / 0.25**2
 
 
 def test_groups_are_put_together_by_the_rule():
     square = np.array([[[1.0, 1], [9, 1], [9, 9], [1, 9]]])
-    both = filled([[square], [square + 4]], lambda held: held[0] & held[1], GRID)
+    both = fill_pixels([[square], [square + 4]], lambda held: held[0] & held[1], GRID)
     assert both.sum() == 4 * 4 / 0.25**2
 
 
 def test_what_reaches_beyond_the_picture_is_cut_off():
     square = np.array([[[-5.0, -5], [50, -5], [50, 50], [-5, 50]]])
-    found = filled([[square]], lambda held: held[0], GRID)
+    found = fill_pixels([[square]], lambda held: held[0], GRID)
     assert found[:, :-1].all()
-    assert filled([[square - 200]], lambda held: held[0], GRID).sum() == 0
-    assert filled([[]], lambda held: held[0], GRID).sum() == 0
+    assert fill_pixels([[square - 200]], lambda held: held[0], GRID).sum() == 0
+    assert fill_pixels([[]], lambda held: held[0], GRID).sum() == 0
 
 
 def test_the_grid_has_a_pixel_to_spare_on_every_side():

@@ -22,7 +22,7 @@ from volfrep import Study, VolfrepError
 from volfrep.io.solid import check_solid
 from volfrep.io.write.stl import write_stl
 from volfrep.studies import page
-from volfrep.studies.running import apart
+from volfrep.studies.running import child
 from volfrep.studies.running.batches import Interpreter
 
 BOX = check_solid(samples.box((24.0, 16.0, 16.0)), "box")
@@ -82,14 +82,14 @@ def test_a_process_that_dies_gets_its_run_again_and_then_is_at_fault(
     only_filled = replace(FILLED, do=("fill",))
     tried = []
 
-    def deadly(child: apart._Child, design: object) -> None:
+    def deadly(child: child._Child, design: object) -> None:
         tried.append(design)
         if len(tried) in deaths:
             child._process.kill()
         send(child, design)
 
-    send = apart._Child._send
-    monkeypatch.setattr(apart._Child, "_send", deadly)
+    send = child._Child._send
+    monkeypatch.setattr(child._Child, "_send", deadly)
     deaths = (2,)  # the first that is sent is the batch
     made = volfrep.sweep(only_filled, tmp_path / "once", workers=1, limit_hours=1.0)
     assert made.count("done") == 4
@@ -110,11 +110,11 @@ def test_a_process_ends_when_nobody_is_there_any_more(tmp_path: Path) -> None:
 
 
 def test_an_interpreter_is_asked_whether_it_runs_the_engine(tmp_path: Path) -> None:
-    assert apart.runs_engine(Interpreter(sys.executable, tuple(filter(None, sys.path))))
-    assert not apart.runs_engine(Interpreter(str(tmp_path / "python"), ()))
+    assert child.runs_engine(Interpreter(sys.executable, tuple(filter(None, sys.path))))
+    assert not child.runs_engine(Interpreter(str(tmp_path / "python"), ()))
     (tmp_path / "volfrep").mkdir()
     (tmp_path / "volfrep" / "__init__.py").touch()  # another engine, which has no studies
-    assert not apart.runs_engine(Interpreter(sys.executable, (str(tmp_path),)))
+    assert not child.runs_engine(Interpreter(sys.executable, (str(tmp_path),)))
 
 
 @pytest.mark.slow

@@ -17,7 +17,7 @@ import volfrep
 from volfrep import Front, Study
 from volfrep.io.solid import check_solid
 from volfrep.studies import page as page_module
-from volfrep.studies.page import plotted
+from volfrep.studies.page import choose_plots
 
 BOX = check_solid(samples.box((24.0, 16.0, 16.0)), "box")
 STUDY = Study(
@@ -121,7 +121,7 @@ def test_the_same_study_has_the_same_page_but_for_times(
 
 def test_only_figures_that_are_there_are_plotted(tmp_path: Path) -> None:
     study = dataclasses.replace(STUDY, do=("properties",), front=None)
-    assert plotted(volfrep.sweep(study, tmp_path).table, study) == []
+    assert choose_plots(volfrep.sweep(study, tmp_path).table, study) == []
 
 
 @pytest.mark.slow

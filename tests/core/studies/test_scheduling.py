@@ -12,7 +12,7 @@ import samples
 from volfrep import Study
 from volfrep.io.solid import check_solid
 from volfrep.studies.designs import Design, designs_of, named_part
-from volfrep.studies.running.scheduling import grouped
+from volfrep.studies.running.scheduling import group_designs
 
 PART = named_part("", check_solid(samples.box((60.0, 60.0, 60.0)), "box"))
 RADII = tuple(0.5 + 0.02 * k for k in range(20))
@@ -43,14 +43,14 @@ def test_no_worker_waits_longer_than_for_a_long_run_though_forecasts_are_wrong(
     for _ in range(50):
         told = {d.key: float(random.uniform(1.0, 3.0)) for d in found}
         taken = {key: value * float(random.uniform(0.7, 1.5)) for key, value in told.items()}
-        done = ends(grouped(found, told, workers, True), taken, workers)
+        done = ends(group_designs(found, told, workers, True), taken, workers)
         assert max(done) - min(done) <= 1.5 * max(taken.values())
 
 
 def test_every_design_is_in_one_batch_and_batches_get_shorter() -> None:
     found = designs((1.0, 2.0))
     for meshed in (False, True):
-        groups = grouped(found, {design.key: 1.0 for design in found}, 2, meshed)
+        groups = group_designs(found, {design.key: 1.0 for design in found}, 2, meshed)
         keys = [design.key for group in groups for design in group]
         assert sorted(keys) == sorted(design.key for design in found)
         sizes = [len(group) for group in groups]
@@ -61,7 +61,7 @@ def test_every_design_is_in_one_batch_and_batches_get_shorter() -> None:
 def test_what_shares_a_wall_is_side_by_side_the_longest_first() -> None:
     found = designs((1.0, 2.0))
     weights = {design.key: design.spec.strut_radius for design in found}
-    order = [design for group in grouped(found, weights, 2, True) for design in group]
+    order = [design for group in group_designs(found, weights, 2, True) for design in group]
     shells = [design.spec.shell for design in order]
     assert shells == sorted(shells)
     for shell in (1.0, 2.0):
@@ -71,6 +71,6 @@ def test_what_shares_a_wall_is_side_by_side_the_longest_first() -> None:
 
 def test_without_meshes_the_same_lattice_is_looked_at_once() -> None:
     found = designs((1.0, 2.0))
-    groups = grouped(found, {design.key: 1.0 for design in found}, 1, False)
+    groups = group_designs(found, {design.key: 1.0 for design in found}, 1, False)
     lattices = [(d.spec.unit_cell().name, d.spec.strut_radius) for group in groups for d in group]
     assert sum(a != b for a, b in pairwise(lattices)) + 1 == len(set(lattices))

@@ -23,7 +23,7 @@ from volfrep.io.write.stl import write_stl
 from volfrep.mechanics.materials import find_material
 from volfrep.studies import page
 from volfrep.studies.actions import ACTIONS
-from volfrep.studies.running import bench
+from volfrep.studies.running import evaluator
 
 BOX = check_solid(samples.box((24.0, 16.0, 16.0)), "box")
 QUICK = Study(
@@ -162,16 +162,16 @@ def test_a_run_that_fails_keeps_its_sentence_and_ends_nothing(tmp_path: Path) ->
 
 
 def test_behind_every_action_is_a_function() -> None:
-    assert list(bench.FIGURES) == list(ACTIONS)
+    assert list(evaluator.FIGURES) == list(ACTIONS)
 
 
 def test_a_defect_of_the_engine_is_told_and_ends_nothing(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def broken(_: bench.Bench) -> dict:
+    def broken(_: evaluator.Evaluator) -> dict:
         raise KeyError("no such thing")
 
-    monkeypatch.setitem(bench.FIGURES, "forecast", broken)
+    monkeypatch.setitem(evaluator.FIGURES, "forecast", broken)
     made = volfrep.sweep(QUICK, tmp_path, workers=1)
     assert made.count("failed") == 6
     assert "defect of VOLFREP" in made.table.column("error")[0]

@@ -23,11 +23,11 @@ from volfrep.octants.octant import ALL_ACTIVE, OctantGrid, OctantKey
 from volfrep.octants.octant_mesh import mesh_octants
 from volfrep.octants.octant_spec import OctantSpec
 from volfrep.spatial.seams import NotCertain
-from volfrep.trim import boolean_trim, group_cut, wall_groups
+from volfrep.trim import boolean_trim, group_cut, octant_groups
 from volfrep.trim.boolean_trim import trim
 from volfrep.trim.culling import cull, octant_roles
 from volfrep.trim.group_cut import open_vertices
-from volfrep.trim.laid import in_place
+from volfrep.trim.placed_lattice import in_place
 from volfrep.trim.trimmed_surface import TrimmedSurface
 from volfrep.util.errors import Cancelled
 from volfrep.util.progress import Monitor
@@ -163,7 +163,7 @@ def test_the_trimmed_lattice_has_the_genus_of_a_boolean_by_others():
 @pytest.fixture
 def small_groups(monkeypatch):
     """Groups of so few triangles that a sample has several, cut one after the other."""
-    monkeypatch.setattr(wall_groups, "GROUP_TRIANGLES", 12_000)
+    monkeypatch.setattr(octant_groups, "GROUP_TRIANGLES", 12_000)
     use_threads(1)
     yield
     use_threads(0)
@@ -172,13 +172,13 @@ def small_groups(monkeypatch):
 def joined_of(monkeypatch):
     """What is cut from here on is noted: how many groups there were, each time."""
     counts = []
-    each = wall_groups.Groups.each
+    each = octant_groups.Groups.each
 
     def noted(self, which, cavity, monitor):
         counts.append(len(which))
         return each(self, which, cavity, monitor)
 
-    monkeypatch.setattr(wall_groups.Groups, "each", noted)
+    monkeypatch.setattr(octant_groups.Groups, "each", noted)
     return counts
 
 
@@ -199,7 +199,7 @@ def test_groups_give_the_surface_that_one_boolean_gives(
     some = quality.measure(mesh_of(trimmed(domain, name, cavity=cavity)))
     assert len(counts) == 1  # none had to be cut again
     assert counts[0] > 3
-    monkeypatch.setattr(wall_groups, "GROUP_TRIANGLES", 10**9)
+    monkeypatch.setattr(octant_groups, "GROUP_TRIANGLES", 10**9)
     one = quality.measure(mesh_of(trimmed(domain, name, cavity=cavity)))
     assert counts[1:] == [1]
     assert some.watertight
@@ -211,13 +211,13 @@ def test_groups_give_the_surface_that_one_boolean_gives(
 
 def test_threads_of_this_process_cut_the_same(small_groups, monkeypatch):
     alone, cutting = mesh_of(trimmed(tilted_box())), set()
-    real = boolean_trim.cut
+    real = boolean_trim.cut_group
 
     def noted(group, monitor=None):
         cutting.add(get_ident())
         return real(group, monitor)
 
-    monkeypatch.setattr(boolean_trim, "cut", noted)
+    monkeypatch.setattr(boolean_trim, "cut_group", noted)
     use_threads(3)
     mesh = mesh_of(trimmed(tilted_box()))
     np.testing.assert_array_equal(mesh.vertices, alone.vertices)
@@ -234,7 +234,7 @@ def test_a_cancel_while_threads_cut_begins_no_more_groups(small_groups, monkeypa
         begun.append(group)
         waits.wait()
 
-    monkeypatch.setattr(boolean_trim, "cut", noted)
+    monkeypatch.setattr(boolean_trim, "cut_group", noted)
     try:
         with pytest.raises(Cancelled):
             trimmed(tilted_box(), monitor=Monitor(lambda *_: not begun))
@@ -272,7 +272,7 @@ def test_a_worker_that_is_gone_costs_time_and_nothing_else(small_groups):
 
 def test_groups_that_do_not_meet_are_cut_as_one(small_groups, monkeypatch):
     counts = joined_of(monkeypatch)
-    real, spoilt = boolean_trim.cut, []
+    real, spoilt = boolean_trim.cut_group, []
 
     def spoiling(group, monitor=None):
         piece = real(group, monitor)
@@ -283,7 +283,7 @@ def test_groups_that_do_not_meet_are_cut_as_one(small_groups, monkeypatch):
             return replace(piece, mesh=mesh, on_wall=piece.on_wall[:-1], rim=open_vertices(mesh))
         return piece
 
-    monkeypatch.setattr(boolean_trim, "cut", spoiling)
+    monkeypatch.setattr(boolean_trim, "cut_group", spoiling)
     found = quality.measure(mesh_of(trimmed(tilted_box())))
     assert found.watertight
     assert len(counts) == 2

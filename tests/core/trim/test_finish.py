@@ -15,9 +15,9 @@ from volfrep.jobs.pipeline import fill
 from volfrep.mesh.float32_repair import without_slivers
 from volfrep.mesh.quality import measure
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
+from volfrep.spatial.resolve_crossings import Turns
 from volfrep.spatial.self_intersection import crossing_triangles
-from volfrep.spatial.uncrossing import Turns
-from volfrep.trim.finish import finished, refuse_merging, tidied
+from volfrep.trim.finish import finish, refuse_merging, tidy
 from volfrep.trim.group_cut import open_vertices
 from volfrep.trim.loose_pieces import clear
 from volfrep.trim.trimmed_surface import TrimmedSurface
@@ -42,7 +42,7 @@ def test_bodies_that_nearly_touch_stay_two_in_every_file(tmp_path, extension, ga
     box = samples.box((10.0, 10.0, 10.0))
     # At the origin float32 tells more apart than decimals do; far from it, less.
     pair = concatenate(box, moved(box, (-10.0 - gap, 0.0, 0.0)), moved(box, (60.0, 70.0, 80.0)))
-    surface, quality, notes = finished(TrimmedSurface(pair), measure(pair), Monitor(), moved=False)
+    surface, quality, notes = finish(TrimmedSurface(pair), measure(pair), Monitor(), moved=False)
     path = tmp_path / f"a{extension}"
     write_mesh(surface.mesh, path)
     assert shells_read(path) == (quality.bodies, quality.voids, True) == (3, 0, True)
@@ -58,7 +58,7 @@ def test_vertices_that_no_file_can_tell_apart_are_refused_with_their_place():
 def test_what_encloses_nothing_is_refused():
     for mesh in (samples.box().reversed(), concatenate(samples.box(), samples.box().reversed())):
         with pytest.raises(VolfrepError, match="no solid"):
-            finished(TrimmedSurface(moved_apart(mesh)), measure(mesh), Monitor(), moved=False)
+            finish(TrimmedSurface(moved_apart(mesh)), measure(mesh), Monitor(), moved=False)
 
 
 def moved_apart(mesh):
@@ -163,7 +163,7 @@ def test_slivers_stay_where_facets_would_cross_without_them(monkeypatch):
         return TriangleMesh(vertices, mesh.triangles), np.ones(len(mesh.triangles), bool)
 
     monkeypatch.setattr("volfrep.trim.finish.without_slivers", bad)
-    assert tidied(TrimmedSurface(box), 1e-4, Monitor()).mesh is box
+    assert tidy(TrimmedSurface(box), 1e-4, Monitor()).mesh is box
 
 
 def test_slivers_away_from_all_octants_take_none_of_these_along(monkeypatch):

@@ -9,7 +9,7 @@ import pytest
 
 from volfrep import VolfrepError
 from volfrep.lattice.deform import Deformed
-from volfrep.trim.laid import FIRST_MARGIN, MOST_WIDENINGS, SPARE_MARGIN, lay
+from volfrep.trim.placed_lattice import FIRST_MARGIN, MOST_WIDENINGS, SPARE_MARGIN, lay
 from volfrep.util.progress import Monitor
 
 

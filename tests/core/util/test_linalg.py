@@ -49,7 +49,9 @@ def test_solutions_determinants_and_turns_are_numpys(symmetric):
     definite = symmetric + 1e-3 * np.eye(3)
     right = np.random.default_rng(4).normal(size=(len(definite), 3))
     expected = np.linalg.solve(definite, right[:, :, None])[:, :, 0]
-    np.testing.assert_allclose(linalg.solved(definite, right), expected, rtol=1e-10, atol=1e-10)
+    np.testing.assert_allclose(
+        linalg.solve_symmetric(definite, right), expected, rtol=1e-10, atol=1e-10
+    )
     maps = np.eye(3) + 0.2 * np.random.default_rng(5).normal(size=(200, 3, 3))
     np.testing.assert_allclose(linalg.determinants(maps), np.linalg.det(maps), rtol=1e-12)
     left, _, rest = np.linalg.svd(maps)

@@ -37,7 +37,7 @@ TESSELLATIONS = {
 SAME = 1e-7
 
 
-def ruled(data: Any, edges: tuple[float, float, float], where: str) -> tuple[Floats, Ints]:
+def tessellate(data: Any, edges: tuple[float, float, float], where: str) -> tuple[Floats, Ints]:
     """The nodes and struts of a cell by rules.
 
     Args:
@@ -52,7 +52,7 @@ def ruled(data: Any, edges: tuple[float, float, float], where: str) -> tuple[Flo
     Raises:
         VolfrepError: naming what is wrong, or what rules there are.
 
-    >>> nodes, struts = ruled({"about": "cubes", "rules": ["duals"]}, (1.0, 1.0, 1.0), "cell")
+    >>> nodes, struts = tessellate({"about": "cubes", "rules": ["duals"]}, (1.0, 1.0, 1.0), "cell")
     >>> len(nodes), len(struts)  # the Cross
     (7, 6)
     """

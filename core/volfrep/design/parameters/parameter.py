@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from ..walls.library import surface_name
+from ..tpms.library import surface_name
 
 #: Groups of parameters in the order of every list, and what the command's help calls them.
 GROUPS = {

@@ -33,7 +33,7 @@ def recipe_or_file(text: str | os.PathLike[str]) -> Path:
     return known
 
 
-def described(path: str | os.PathLike[str]) -> str:
+def describe_recipe(path: str | os.PathLike[str]) -> str:
     """What a recipe's file says of itself: its comments before the first entry."""
     lines = []
     for line in Path(path).read_text(encoding="utf-8").splitlines():

@@ -65,7 +65,7 @@ def read_values(path: str | os.PathLike[str]) -> dict[str, Any]:
         VolfrepError: the file cannot be read, or the first entry that makes no sense.
     """
     path = recipe_or_file(path)
-    return {name: _value(path, name, value) for name, value in parsed(path).items()}
+    return {name: _value(path, name, value) for name, value in parse_spec(path).items()}
 
 
 def write_values(values: Mapping[str, Any], path: str | os.PathLike[str]) -> None:
@@ -93,7 +93,7 @@ def _written(values: Mapping[str, Any], folder: Path) -> str:
     return "\n".join([*lines, ""])
 
 
-def parsed(path: Path, what: str = "specification") -> dict[str, Any]:
+def parse_spec(path: Path, what: str = "specification") -> dict[str, Any]:
     """What a TOML file holds, which should be so called.
 
     Raises:

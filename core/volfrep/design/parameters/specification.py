@@ -9,7 +9,7 @@ from typing import Any
 from ...util.errors import VolfrepError
 from ..cells import LIBRARY, UnitCell, find_cell
 from ..grading import CellMap, Orientation, RadiusGrading, SizeGrading, read_point_field
-from ..networks import GivenNetwork, RandomNetwork, read_network
+from ..graphs import GivenGraph, RandomGraph, read_network
 from ..openings import DrainHoles, DrainPlace, OpenFace, OpenPatch, OpenPlane, SmoothFace
 from ..profile import Profile
 from ..scattered_field import PointField, read_curve
@@ -18,7 +18,7 @@ from ..skins.own_faces import FaceSkin, KeptFace
 from ..spec import LatticeSpec
 from ..spec_parts import first_radius
 from ..target import AIMS, Target, read_stiffness, stiffness_text
-from ..walls import FORMULA, SURFACES, PeriodicSurface, Wall, find_surface, surface_name
+from ..tpms import FORMULA, SURFACES, PeriodicSurface, TpmsSheet, find_surface, surface_name
 from .parameter import Need, effective
 from .table import BY_NAME, PARAMETERS, TWO_ENDED
 from .values import field_file, is_file
@@ -93,7 +93,7 @@ def specification(values: Mapping[str, Any], say: Naming = in_file) -> LatticeSp
         keep_radius=used["keep_radius"],
         target=target,
         network=_network(used, say),
-        wall=Wall(used["wall_kind"], used["wall_thickness"], used["wall_offset"]),
+        wall=TpmsSheet(used["wall_kind"], used["wall_thickness"], used["wall_offset"]),
     )
 
 
@@ -109,7 +109,7 @@ def refuse_idle(values: Mapping[str, Any], say: Naming = in_file) -> None:
             raise VolfrepError(_useless(name, need, say))
 
 
-def merged(given: Mapping[str, Any], file: Mapping[str, Any]) -> dict[str, Any]:
+def merge_values(given: Mapping[str, Any], file: Mapping[str, Any]) -> dict[str, Any]:
     """The values of a file, with those that are given in their place.
 
     What of the file has no effect any more beside the given values is left out.
@@ -176,7 +176,7 @@ def values_of(spec: LatticeSpec) -> dict[str, Any]:
     if spec.orientation is not None:
         found["rotate"] = (*spec.orientation.axis, spec.orientation.angle)
         found["rotate_origin"] = spec.orientation.origin
-    if isinstance(spec.network, GivenNetwork):
+    if isinstance(spec.network, GivenGraph):
         if not spec.network.source or not is_file(spec.network.source):
             raise VolfrepError(
                 "The network has no file that could be named: save it as .json first."
@@ -185,7 +185,7 @@ def values_of(spec: LatticeSpec) -> dict[str, Any]:
         found["network_thickness"] = abs(spec.network.thickness)
         found["network_layers"] = spec.network.layers if spec.network.thickness else 0
         found["network_reversed"] = spec.network.thickness < 0.0
-    elif isinstance(spec.network, RandomNetwork):
+    elif isinstance(spec.network, RandomGraph):
         found |= {
             name: getattr(spec.network, attribute) for name, attribute in _NETWORK_VALUES.items()
         }
@@ -334,7 +334,7 @@ def _cell_map(used: Mapping[str, Any]) -> CellMap | None:
 #: What says how thick struts or walls are.
 _THICKNESS = ("strut_radius", "wall_thickness", "wall_offset")
 
-#: Parameters of random networks, and what `RandomNetwork` calls them.
+#: Parameters of random networks, and what `RandomGraph` calls them.
 _NETWORK_VALUES = {
     "network": "kind",
     "network_points": "points",
@@ -347,7 +347,7 @@ _NETWORK_VALUES = {
 }
 
 
-def _network(used: Mapping[str, Any], say: Naming) -> GivenNetwork | RandomNetwork | None:
+def _network(used: Mapping[str, Any], say: Naming) -> GivenGraph | RandomGraph | None:
     if used["network"] == "cells":
         return None
     if used["network"] == "file":
@@ -374,10 +374,10 @@ def _network(used: Mapping[str, Any], say: Naming) -> GivenNetwork | RandomNetwo
                 "Faces for a network to follow are picked in FreeCAD: give a file of hexahedra or "
                 f"of quadrilaterals as {say('network_file')}."
             )
-        laid: GivenNetwork = used["network_faces"]
+        laid: GivenGraph = used["network_faces"]
         return laid
     field = used["network_field"] or None
-    return RandomNetwork(
+    return RandomGraph(
         **{key: used[name] for name, key in _NETWORK_VALUES.items()},
         field=read_point_field(field) if isinstance(field, str) else field,
     )

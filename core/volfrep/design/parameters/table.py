@@ -7,7 +7,7 @@ windows: ``make translations`` reads them here.
 
 from __future__ import annotations
 
-from ..walls.library import FORMULA, SURFACES
+from ..tpms.library import FORMULA, SURFACES
 from .parameter import Need, Parameter
 
 #: The entry of the property `CellType` for a cell of the user's own, read from `CellFile`.

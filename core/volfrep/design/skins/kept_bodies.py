@@ -18,7 +18,7 @@ import numpy as np
 from ...mesh.booleans import as_manifold
 from ...mesh.quality import measure
 from ...mesh.triangle_mesh import TriangleMesh
-from ...util.content import content_of, held, rough
+from ...util.content import content_of, freeze, rough
 from ...util.errors import VolfrepError
 from ...util.types import Floats, Ints
 
@@ -48,8 +48,8 @@ class KeptBody:
     _content: bytes = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "vertices", held(self.vertices, np.float64))
-        object.__setattr__(self, "triangles", held(self.triangles, np.int32))
+        object.__setattr__(self, "vertices", freeze(self.vertices, np.float64))
+        object.__setattr__(self, "triangles", freeze(self.triangles, np.int32))
         if not len(self.triangles) or not np.isfinite(self.vertices).all():
             raise VolfrepError(f"'{self.name}' to keep solid holds no body: export it again.")
         if not measure(self.mesh).watertight or self.mesh.volume <= 0.0:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ...mesh.edge_table import areas_of, edges_of, pieces_of, place_text, plural
 from ...mesh.triangle_mesh import TriangleMesh, compact
-from ...util.linalg import along, normalized
+from ...util.linalg import along, normalize
 from ...util.types import Floats, Ints
 from .polygons import cut_loops, mean_normal
 from .weld import ROUNDING
@@ -74,7 +74,7 @@ def _flat_pieces(mesh: TriangleMesh, piece: Ints, pieces: int) -> NDArray[np.boo
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     largest = np.lexsort((-np.linalg.norm(normal, axis=1), piece))
     first = largest[np.unique(piece[largest], return_index=True)[1]]
-    unit = normalized(normal[first])
+    unit = normalize(normal[first])
     above = np.abs(np.einsum("nij,nj->ni", corners - corners[first[piece], :1], unit[piece]))
     bent = above.max(axis=1) > ROUNDING * float(np.ptp(mesh.bounds, axis=0).max())
     flat = np.ones(pieces, bool)

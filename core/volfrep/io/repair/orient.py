@@ -8,7 +8,7 @@ import numpy as np
 from ...mesh.edge_table import Edges, areas_of, pieces_of, place_text, plural
 from ...mesh.triangle_mesh import TriangleMesh
 from ...util.errors import VolfrepError
-from ...util.linalg import normalized
+from ...util.linalg import normalize
 from ...util.types import Bools, Ints
 
 
@@ -80,9 +80,9 @@ def _round_edges(mesh: TriangleMesh, sides: Ints, number: Ints, many: Ints) -> t
     """Pairs of sides on edges of many triangles, that bound the same wedge of material."""
     low, high = sides[many].min(axis=1), sides[many].max(axis=1)
     origin = mesh.vertices[low]
-    along = normalized(mesh.vertices[high] - origin)
+    along = normalize(mesh.vertices[high] - origin)
     across = np.eye(3)[np.abs(along).argmin(axis=1)]
-    u = normalized(np.cross(along, across))
+    u = normalize(np.cross(along, across))
     v = np.cross(along, u)
     third = mesh.triangles.ravel()[many // 3 * 3 + (many % 3 + 2) % 3]
     to_third = mesh.vertices[third] - origin

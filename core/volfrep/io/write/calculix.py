@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ...fem.beam_mesh import BeamModel
+from ...fem.beam_mesh import BeamMesh
 from ...fem.model import StaticStep
 from ...fem.tet_mesh import TetrahedralMesh
 from ...mechanics.frame import Ends
@@ -42,7 +42,7 @@ def sides(nodes: Floats) -> dict[str, Ints]:
 
 
 def write_beams(
-    model: BeamModel,
+    model: BeamMesh,
     path: str | os.PathLike[str],
     material: Material | None = None,
     *,
@@ -143,7 +143,7 @@ def width_of_ends(ends: Ends) -> float:
     return float(np.sqrt(ends.bending / ends.axial))
 
 
-def stiff_materials(model: BeamModel, name: str) -> list[tuple[str, float]]:
+def stiff_materials(model: BeamMesh, name: str) -> list[tuple[str, float]]:
     """For each section the name of its ends' material, and its E over the struts'."""
     factors = [f"{ends.axial**2 / ends.bending:.6g}" for ends in model.ends]
     kinds = list(dict.fromkeys(factors))
@@ -151,7 +151,7 @@ def stiff_materials(model: BeamModel, name: str) -> list[tuple[str, float]]:
     return [(f"{name}_END{number[factor]}", float(factor)) for factor in factors]
 
 
-def _groups(model: BeamModel) -> list[tuple[str, Ints, bool, int, str]]:
+def _groups(model: BeamMesh) -> list[tuple[str, Ints, bool, int, str]]:
     """Elements of one section, stiffness and normal: name, rows, stiff, section, normal."""
     # The normal of a section may be any direction but the beam's own: the axis farthest from it.
     # It must not change along a strut (rounding breaks ties): CalculiX would make a stiff knot.

@@ -79,7 +79,7 @@ class Numbered:
         yield from _blocks(self.mesh.triangles)
 
 
-def numbered(
+def number_vertices(
     surface: TrimmedSurface | TriangleMesh, path: str | os.PathLike[str], *, as_text: bool
 ) -> Numbered:
     """The vertices and triangles of a surface, for a file of single precision.

@@ -13,7 +13,7 @@ from ...mesh.triangle_mesh import TriangleMesh
 from ...trim.trimmed_surface import TrimmedSurface
 from ...util.files import replacing
 from ...util.progress import Monitor
-from .numbered import numbered
+from .numbered import number_vertices
 
 
 def write_obj(
@@ -26,7 +26,7 @@ def write_obj(
     Arguments and errors as of `stl.write_stl`; of a surface, octants beside its mesh are written
     as they are laid.
     """
-    given = numbered(surface, path, as_text=True)
+    given = number_vertices(surface, path, as_text=True)
     vertices = lines("v %.9g %.9g %.9g\n", given.decimals())
     faces = lines("f %d %d %d\n", (block + np.int32(1) for block in given.corners()))
     rows = given.vertices + given.triangles

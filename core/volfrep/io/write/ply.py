@@ -14,7 +14,7 @@ from ...mesh.triangle_mesh import TriangleMesh
 from ...trim.trimmed_surface import TrimmedSurface
 from ...util.files import replacing
 from ...util.progress import Monitor
-from .numbered import numbered
+from .numbered import number_vertices
 
 #: One triangle as it lies in the file.
 FACE = np.dtype([("corners", "u1"), ("index", "<i4", 3)])
@@ -42,7 +42,7 @@ def write_ply(
     Arguments and errors as of `stl.write_stl`; of a surface, octants beside its mesh are written
     as they are laid.
     """
-    given = numbered(surface, path, as_text=False)
+    given = number_vertices(surface, path, as_text=False)
     points = (block.astype("<f4") for block in given.points())
     chunks = _chunks(given.vertices, given.triangles, points, given.corners())
     with replacing(path, 12 * given.vertices + FACE.itemsize * given.triangles) as file:

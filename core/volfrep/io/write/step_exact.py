@@ -354,7 +354,7 @@ def _solids(
     return "".join(out) + product(number + 1, name, number) + CLOSING
 
 
-def predicted_exact(wireframe: Wireframe) -> Prediction:
+def predict_exact(wireframe: Wireframe) -> Prediction:
     """What fusing and writing a lattice will take."""
     joints = distinct_joints(wireframe)
     seconds = megabytes = 0.0

@@ -83,7 +83,7 @@ def write_step_faceted(
                 monitor.tick(written / total)
 
 
-def predicted_faceted(triangles: int) -> tuple[float, float]:
+def predict_faceted(triangles: int) -> tuple[float, float]:
     """Seconds and megabytes of the file of so many triangles."""
     return SECONDS_PER_TRIANGLE * triangles, 1e-6 * BYTES_PER_TRIANGLE * triangles
 

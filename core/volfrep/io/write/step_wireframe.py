@@ -49,6 +49,6 @@ def write_step_wireframe(wireframe: Wireframe, path: str | os.PathLike[str]) -> 
         file.write((text + product(representation + 1, name, representation) + CLOSING).encode())
 
 
-def predicted_wireframe(struts: int) -> tuple[float, float]:
+def predict_wireframe(struts: int) -> tuple[float, float]:
     """Seconds and megabytes of the file of so many struts."""
     return SECONDS_PER_STRUT * struts, 1e-6 * BYTES_PER_STRUT * struts

@@ -14,7 +14,7 @@ from contextlib import ExitStack, contextmanager
 from threading import Event
 from typing import BinaryIO
 
-from ...trim.laid import InnerOctants
+from ...trim.placed_lattice import InnerOctants
 from ...trim.trimmed_surface import TrimmedSurface
 from ...util.files import refuse_full, replacing
 from ...util.progress import POLL_SECONDS, Monitor

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from ...grid.motion import Motion
 from ...lattice.assembly import Layout, in_steps, numbers, placed
 from ...octants.octant import Octant, OctantGrid
-from ...trim.laid import InnerOctants
+from ...trim.placed_lattice import InnerOctants
 from ...trim.trimmed_surface import TrimmedSurface
 from ...util.progress import Monitor
 from ...util.types import Bools, Floats, Ints

@@ -28,7 +28,7 @@ from ...util.errors import VolfrepError
 from ...util.files import replacing
 from ...util.progress import Monitor
 from ...util.types import Floats
-from .numbered import Numbered, numbered
+from .numbered import Numbered, number_vertices
 
 if TYPE_CHECKING:
     from ...grid.strut_graph import BeamModel
@@ -95,7 +95,7 @@ def write_3mf(
             that lose a corner in float32; or the path cannot be written.
         Cancelled: when the monitor says so; no file is left behind.
     """
-    given = numbered(surface, path, as_text=True)
+    given = number_vertices(surface, path, as_text=True)
     _write(path, [_mesh_object(1, "part", given)], 1, _rows(given), monitor, figures)
 
 
@@ -134,16 +134,16 @@ def write_3mf_beams(
     if model.clip is not None:
         clip = 1
         prefix = "" if fallback is None else HIDING_PREFIX
-        given = numbered(model.clip, path, as_text=True)
+        given = number_vertices(model.clip, path, as_text=True)
         objects.append(_mesh_object(clip, "clip", given, prefix))
         rows += _rows(given)
     if model.skin is not None and fallback is None:
         skin = len(objects) + 1
-        given = numbered(model.skin, path, as_text=True)
+        given = number_vertices(model.skin, path, as_text=True)
         objects.append(_mesh_object(skin, "skin", given))
         rows += _rows(given)
     lattice = len(objects) + 1
-    more = None if fallback is None else numbered(fallback, path, as_text=True)
+    more = None if fallback is None else number_vertices(fallback, path, as_text=True)
     rows += 0 if more is None else _rows(more)
     objects.append(_beam_object(lattice, model.lattice, clip, more))
     if skin is not None:

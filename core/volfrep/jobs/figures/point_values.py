@@ -98,7 +98,7 @@ def point_values(
         return _in_range(values_in_space(solid, spec, quantity, points))
     if spec.surface is not None:
         raise VolfrepError(f"Walls have no struts to colour by '{quantity}'.")
-    from ..sizing import solved
+    from ..sizing import solve_struts
     from ..targets import infill_of
 
     if quantity == "Radius":
@@ -109,7 +109,7 @@ def point_values(
     else:
         if loads is None:
             raise VolfrepError(f"'{quantity}' needs loads: there are none.")
-        model, analysis = solved(solid, spec, loads, progress=progress, cache=cache)
+        model, analysis = solve_struts(solid, spec, loads, progress=progress, cache=cache)
         states = strut_states(model.problem, analysis)
         ends, lowest = states[0].ends, 0.0
         values = np.max([state.values(OF_LOADS[quantity]) for state in states], axis=0)

@@ -5,11 +5,11 @@ from __future__ import annotations
 
 from ...design.cells import UnitCell, find_cell
 from ...design.spec_parts import Grid
-from ...design.walls import KINDS, PeriodicSurface, Wall, find_surface
+from ...design.tpms import KINDS, PeriodicSurface, TpmsSheet, find_surface
 from ...mechanics.materials import SolidMaterial, find_material
 from ...mechanics.summary import CellProperties, cell_properties
 from ...util.errors import VolfrepError
-from ..walls.properties import wall_properties
+from ..tpms.properties import tpms_properties
 
 
 def lattice_properties(
@@ -73,7 +73,7 @@ def lattice_properties(
     if cell_values:
         raise VolfrepError("Surfaces have no values of their own: they are for cells of struts.")
     kind = wall_kind or KINDS[0]
-    wall = Wall(
+    wall = TpmsSheet(
         kind,
         1.0 if wall_thickness is None else wall_thickness,
         0.0 if wall_offset is None else wall_offset,
@@ -81,7 +81,7 @@ def lattice_properties(
     if given not in ([wall.called], ["relative density"]) or fillet:
         raise VolfrepError(f"Of a {kind} give the {wall.called} or the relative density alone.")
     solid = find_material(material) if isinstance(material, str) else material
-    return wall_properties(
+    return tpms_properties(
         surface, Grid(cell_size).size, wall, relative_density=relative_density, material=solid,
         along=along,
     )  # fmt: skip

@@ -6,7 +6,7 @@ from .removal import radius_field
 from .sizing import (
     SizedPart,
     size,
-    solved,
+    solve_struts,
     values_with_radii,
     write_radii,
 )
@@ -18,7 +18,7 @@ __all__ = [
     "goal_of",
     "radius_field",
     "size",
-    "solved",
+    "solve_struts",
     "values_with_radii",
     "write_radii",
 ]

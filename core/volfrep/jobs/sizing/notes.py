@@ -31,7 +31,7 @@ _REMEDIES = {
 }
 
 
-def not_held(problem: Problem, analysis: Analysis) -> str:
+def limit_not_held(problem: Problem, analysis: Analysis) -> str:
     """Which limit cannot be held, where, and what to do: of a design as thick as it can be."""
     uses = analysis.uses
     worst = max(uses, key=lambda name: uses[name])

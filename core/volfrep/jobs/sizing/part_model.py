@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...design.networks import CellNetwork
+from ...design.graphs import StretchedCells
 from ...design.spec import LatticeSpec
 from ...design.spec_parts import largest_radius
 from ...grid.strut_graph import Wireframe
@@ -21,9 +21,9 @@ from ...spatial.proximity import closest_points
 from ...util.cache import StageCache
 from ...util.errors import VolfrepError
 from ...util.types import Floats
+from ..graphs.frame import median_length
+from ..graphs.radius import THICKEST
 from ..infill import Infill
-from ..networks.frame import median_length
-from ..networks.radius import THICKEST
 from .goal import Goal
 
 #: Edges of the skin's triangles over the cell size, and over its thickness at least.
@@ -55,7 +55,7 @@ def part_model(
     if spec.fillet:
         raise VolfrepError("Struts with fillets cannot be sized: set the fillet to 0.")
     widths = getattr(spec.network, "widths", ())
-    if isinstance(spec.network, CellNetwork):
+    if isinstance(spec.network, StretchedCells):
         widths = spec.unit_cell().widths
     if len(widths):
         raise VolfrepError(

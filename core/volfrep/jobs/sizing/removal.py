@@ -65,7 +65,7 @@ class Thinned:
         return result
 
 
-def thinned(
+def without_thin_struts(
     infill: Infill,
     loads: LoadCases,
     goal: Goal,

@@ -17,33 +17,33 @@ from ...design.spec import LatticeSpec
 from ...loads.load_cases import LoadCases
 from ...mesh.triangle_mesh import TriangleMesh
 from ...reports.sizing_report import sizing_report
-from ...sizing.analysis import Analysis, Limits, Problem, analysed
-from ...sizing.design_proof import Proved, corrected, proved
+from ...sizing.analysis import Analysis, Limits, Problem, analyse
+from ...sizing.design_proof import Proved, correct_problem, prove_design
 from ...sizing.model import SizingModel
-from ...sizing.optimise import Sized, Step, Watch, lightest, stiffest, thickened, uniform
+from ...sizing.optimise import Sized, Step, Watch, lightest, stiffest, thicken, uniform
 from ...sizing.strut_state import StrutState, strut_states
 from ...util.cache import StageCache
 from ...util.errors import Cancelled, VolfrepError
 from ...util.files import replacing
 from ...util.progress import Monitor, ProgressCallback
 from ...util.types import Floats
+from ..graphs.frame import fixed_graph
 from ..infill import Infill
-from ..networks.frame import fixed_graph
-from ..targets import aimed, infill_of
+from ..targets import infill_of, solve_target
 from .goal import Goal
 from .notes import (
     free_motions,
     hardly_beams,
     left_out,
+    limit_not_held,
     not_confirmed,
-    not_held,
     stiff_skin,
     stressed_skin,
     too_dense,
     unproved,
 )
 from .part_model import given_radii, part_model, spacing
-from .removal import RADIUS_STEP, SLACK, Thinned, field_points, radius_field, thinned
+from .removal import RADIUS_STEP, SLACK, Thinned, field_points, radius_field, without_thin_struts
 
 #: So many times a design is made thicker because of what CalculiX finds.
 CORRECTIONS = 3
@@ -158,7 +158,7 @@ def size(
     if taken is not None:
         model, problem = taken.model, taken.model.problem
     if not sized.holds:
-        notes.append(not_held(problem, sized.analysis))
+        notes.append(limit_not_held(problem, sized.analysis))
     notes += stressed_skin(model, sized.analysis, goal.limits)
     notes += free_motions(model.problem)
     notes += left_out(spec) + stiff_skin(model, goal.limits)
@@ -170,7 +170,7 @@ def size(
     def solve_again(design: Analysis) -> Proved | None:
         cell, length = spec.fitted_cell, spacing(infill)
         solved_one = replace(model, problem=problem)
-        return proved(solved_one, cell, length, design, loads.material, notes, monitor)
+        return prove_design(solved_one, cell, length, design, loads.material, notes, monitor)
 
     proof = None
     if prove_it and sized.stopped != "cancelled":
@@ -181,8 +181,8 @@ def size(
                     if proof is None or proof.holds(goal.limits, final) or not sized.holds:
                         break
                     # Where CalculiX finds more than is allowed, struts become that much thicker.
-                    problem, stricter = corrected(problem, goal.limits, final, proof)
-                    found, holds = thickened(problem, stricter, final.radii)
+                    problem, stricter = correct_problem(problem, goal.limits, final, proof)
+                    found, holds = thicken(problem, stricter, final.radii)
                     final, proof = _stored(problem, found.radii, goal.limits), None
                     proof = solve_again(final)
                     if not holds:
@@ -210,7 +210,7 @@ def size(
         final.volume, np.full(len(first), 1e-3 * float(first.min())), full.high,
     )  # fmt: skip
     with _named(full):
-        before, _ = analysed(full, same, goal.limits)
+        before, _ = analyse(full, same, goal.limits)
     seconds["sizing"] = time.perf_counter() - start
     if taken is not None:
         spec, radii = taken.spec, taken.of_all(radii)
@@ -229,7 +229,7 @@ def size(
     return SizedPart(graded, points, radii, model, sized, before, even, report)
 
 
-def solved(
+def solve_struts(
     solid: TriangleMesh,
     spec: LatticeSpec,
     loads: LoadCases,
@@ -259,13 +259,13 @@ def solved(
     used = radii[radii > 0.0]
     goal = Goal(radius_min=0.999 * float(used.min()), radius_max=1.001 * float(used.max()))
     model = part_model(infill, loads, goal, cache)
-    return model, analysed(model.problem, np.maximum(radii, goal.radius_min or 0.0), Limits())[0]
+    return model, analyse(model.problem, np.maximum(radii, goal.radius_min or 0.0), Limits())[0]
 
 
 def _stored(problem: Problem, radii: Floats, limits: Limits) -> Analysis:
     """A design as files keep it: radii in whole steps, not thinner than they were."""
     steps = np.ceil(radii / RADIUS_STEP - 1e-6) * RADIUS_STEP
-    return analysed(problem, steps, limits)[0]
+    return analyse(problem, steps, limits)[0]
 
 
 def write_radii(part: SizedPart, path: str | os.PathLike[str]) -> None:
@@ -295,7 +295,7 @@ def _without_target(
     target = spec.target
     if target is None or spec.output == "domain":
         return replace(spec, target=None)
-    found = aimed(solid, spec, progress=progress, cache=cache, meshed=False).spec
+    found = solve_target(solid, spec, progress=progress, cache=cache, meshed=False).spec
     kept = "the limits now say how thick struts are"
     if not goal.limits.any:
         kept = "struts have their mass, distributed anew" if goal.volume is None else "it began so"
@@ -360,7 +360,7 @@ def _without_thin(
     reason = "none is as thin as allowed and carries little"
     for slack in SLACK:
         try:
-            taken = thinned(infill, loads, goal, model, whole, slack, first, cache)
+            taken = without_thin_struts(infill, loads, goal, model, whole, slack, first, cache)
             if taken is None:
                 continue
             found = _designed(

@@ -16,8 +16,8 @@ from ...util.errors import Cancelled, VolfrepError
 from ...util.progress import ProgressCallback
 from ...util.threads import threads
 from ...util.version import VERSION
-from .apart import run_apart
 from .batches import Batch, Ended, note
+from .child import run_in_child
 from .runs import run_in_turn
 
 #: How often the caller is told how far the runs are, s.
@@ -147,7 +147,7 @@ def run_batch(
             "install the same version."
         )
     if batch.apart or batch.limits.any:
-        run_apart((batch,), ended, progress)
+        run_in_child((batch,), ended, progress)
     else:
         run_in_turn((batch,), ended, progress)
     return len(batch.designs)
@@ -164,11 +164,11 @@ def run_here(batches: Sequence[Batch], tally: Tally) -> None:
         return tally.tell()
 
     limited = any(batch.limits.any for batch in batches)
-    (run_apart if limited else run_in_turn)(_asking(batches, ask), tally.ended, ask)
+    (run_in_child if limited else run_in_turn)(_asking(batches, ask), tally.ended, ask)
     tally.tell()
 
 
-def run_beside(batches: Sequence[Batch], tally: Tally) -> None:
+def run_in_background(batches: Sequence[Batch], tally: Tally) -> None:
     """Run batches in as many processes as the tally has workers.
 
     Raises:
@@ -178,7 +178,7 @@ def run_beside(batches: Sequence[Batch], tally: Tally) -> None:
     with ThreadPoolExecutor(tally.workers, "volfrep-study") as pool:
         try:
             futures = [
-                pool.submit(run_apart, _taken(left), tally.ended, tally.goes_on)
+                pool.submit(run_in_child, _taken(left), tally.ended, tally.goes_on)
                 for _ in range(tally.workers)
             ]
             _wait(futures, tally)

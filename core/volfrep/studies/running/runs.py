@@ -13,7 +13,7 @@ from ...util.progress import ProgressCallback
 from ..designs import Design
 from ..records import kept_part, write_record
 from .batches import Batch, Ended, record_of
-from .bench import FIGURES, Bench, Shared
+from .evaluator import FIGURES, Evaluator, Shared
 
 #: What is said of a run whose process ran out of memory.
 NO_MEMORY = "There was not enough memory for this run: use larger cells or a coarser resolution."
@@ -31,12 +31,12 @@ def run_in_turn(
     shared = Shared()
     for batch in batches:
         for design in batch.designs:
-            run_design(batch, design, bench_of(batch, design, shared, progress))
+            run_design(batch, design, evaluator_of(batch, design, shared, progress))
             if ended is not None:
                 ended(design.key)
 
 
-def run_design(batch: Batch, design: Design, bench: Bench) -> None:
+def run_design(batch: Batch, design: Design, bench: Evaluator) -> None:
     """Do what is missing of one design, and write its record.
 
     Raises:
@@ -70,15 +70,15 @@ def run_design(batch: Batch, design: Design, bench: Bench) -> None:
         write_record(batch.asked.folder, record)
 
 
-def bench_of(
+def evaluator_of(
     batch: Batch, design: Design, shared: Shared, progress: ProgressCallback | None = None
-) -> Bench:
+) -> Evaluator:
     """A design on the bench, its part read from the study's folder."""
     content = design.part.content
     if content not in shared.solids:
         shared.solids[content] = kept_part(batch.asked.folder, content)
     solid = shared.solids[content]
-    return Bench(design.key, solid, design.spec, _up(design), batch.asked, shared, progress)
+    return Evaluator(design.key, solid, design.spec, _up(design), batch.asked, shared, progress)
 
 
 def _up(design: Design) -> tuple[float, float, float]:

@@ -25,16 +25,16 @@ from ...util.version import VERSION
 from ...util.workers import at_once, dask_workers
 from ..actions import ACTIONS, Asked
 from ..designs import Design
-from ..expectation import planned
+from ..expectation import plan
 from ..records import Record, kept_part, read_record, record_path
 from .batches import Batch, Interpreter, Limits
 from .executors import (
     Tally,
     Words,
     fitting_workers,
-    run_beside,
     run_by,
     run_here,
+    run_in_background,
     told_state,
 )
 
@@ -114,7 +114,7 @@ class Job:
         for design in designs:
             _refuse_inputs(self._folder, design, names, self._asked)
         solids = {d.part.content: kept_part(self._folder, d.part.content) for d in designs}
-        plans = {d.key: planned(solids[d.part.content], d.spec) for d in designs}
+        plans = {d.key: plan(solids[d.part.content], d.spec) for d in designs}
         table = dict.fromkeys(names, meshed)
         weights = {d.key: weight(d, plans[d.key].seconds, table) for d in designs}
         memory = max(plan.memory_gb for plan in plans.values()) if meshed else 0.2
@@ -132,13 +132,13 @@ class Job:
             beside = executor is None and workers > 1
             batches = [
                 self._batch(group, names, workers if beside else 0)
-                for group in grouped(designs, weights, workers, meshed)
+                for group in group_designs(designs, weights, workers, meshed)
             ]
             tally = Tally(weights, workers, self._progress, how.words)
             if executor is not None:
                 run_by(executor, batches, tally)
             elif beside:
-                run_beside(batches, tally)
+                run_in_background(batches, tally)
             else:
                 run_here(batches, tally)
 
@@ -181,7 +181,7 @@ def weight(design: Design, seconds: float, actions: Mapping[str, bool]) -> float
     return total + QUICK
 
 
-def grouped(
+def group_designs(
     designs: Sequence[Design], weights: Mapping[str, float], workers: int, meshed: bool
 ) -> list[list[Design]]:
     """Designs in batches, in the order in which workers take them.

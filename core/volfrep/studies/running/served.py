@@ -18,8 +18,8 @@ from ...util.errors import VolfrepError
 from ...util.version import VERSION
 from ..designs import Design
 from .batches import DONE, Batch
-from .bench import Shared
-from .runs import bench_of, run_design
+from .evaluator import Shared
+from .runs import evaluator_of, run_design
 
 __all__ = ["VERSION", "serve"]
 
@@ -43,7 +43,7 @@ def serve() -> None:
         design = sent.get()
         assert isinstance(design, Design)
         try:
-            run_design(batch, design, bench_of(batch, design, shared))
+            run_design(batch, design, evaluator_of(batch, design, shared))
             answers.write(DONE)
         except VolfrepError as error:
             answers.write(str(error).replace("\n", " ").encode() + b"\n")

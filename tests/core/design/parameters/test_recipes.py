@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from volfrep.design.parameters.recipes import RECIPES, described, recipe_or_file
+from volfrep.design.parameters.recipes import RECIPES, describe_recipe, recipe_or_file
 from volfrep.design.parameters.spec_file import read_spec, write_spec
 from volfrep.util.errors import VolfrepError
 
@@ -13,7 +13,7 @@ from volfrep.util.errors import VolfrepError
 @pytest.mark.parametrize("name", RECIPES)
 def test_every_recipe_can_be_read_and_says_what_it_is(name: str, tmp_path: Path) -> None:
     spec = read_spec(name.upper())
-    assert len(described(RECIPES[name])) > 40
+    assert len(describe_recipe(RECIPES[name])) > 40
     write_spec(spec, tmp_path / "copy.toml")
     assert read_spec(tmp_path / "copy.toml") == spec
 

@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What is made solid beside a surface: a sheet of some thickness, or all of one side of it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from ...util.errors import VolfrepError
+from ...util.numbers import number
+
+#: A sheet about the surface; or all on the side where its formula is negative, or positive.
+SIDES = ("skeleton", "complement")
+KINDS = ("sheet", *SIDES)
+#: Facets along a cell where the user says nothing. The sheet is at least so many of them thick,
+#: so that none of its samples can miss it.
+AUTOMATIC_FACETS = 30
+FACETS_ACROSS = 1.8
+#: The strongest curvature of the library's surfaces is about this over L: of facets of edge e the
+#: mean deviation is e2 / 16 times it.
+CURVATURE = 6.0
+
+
+@dataclass(frozen=True)
+class TpmsSheet:
+    """What is made solid beside a surface.
+
+    Attributes:
+        kind: ``sheet``, ``skeleton`` (all where the surface's formula is negative) or
+            ``complement`` (all where it is positive).
+        thickness: of a sheet, measured across it, mm.
+        offset: by which a skeleton or complement is thicker than up to the surface, measured
+            across it; negative for a thinner one, mm.
+
+    >>> TpmsSheet("sheet", 0.8)
+    Wall(kind='sheet', thickness=0.8, offset=0.0)
+    """
+
+    kind: str = "sheet"
+    thickness: float = 1.0
+    offset: float = 0.0
+
+    def __post_init__(self) -> None:
+        if self.kind not in KINDS:
+            raise VolfrepError(
+                f"There is no kind of wall '{self.kind}': choose one of {', '.join(KINDS)}."
+            )
+        number("wall thickness", self.thickness, "mm", positive=True)
+        if not math.isfinite(self.offset):
+            raise VolfrepError(f"The wall offset must be a number of mm, not {self.offset}.")
+
+    @property
+    def is_sheet(self) -> bool:
+        """Whether it is a sheet and not a side."""
+        return self.kind == "sheet"
+
+    @property
+    def called(self) -> str:
+        """How a user calls what says how thick it is."""
+        return "wall thickness" if self.is_sheet else "wall offset"
+
+    def as_plain(self) -> dict[str, Any]:
+        """What counts of it as plain JSON values."""
+        size = {"thickness": self.thickness} if self.is_sheet else {"offset": self.offset}
+        return {"kind": self.kind, **size}
+
+    def identity(self) -> dict[str, Any]:
+        """What counts of it for `util.content.digest_of`."""
+        return self.as_plain()
+
+    def coarsest(self, cell_size: float, thinnest: float) -> int:
+        """Facets along a cell below which samples could miss a sheet of a thickness in mm."""
+        if not self.is_sheet:
+            return 8
+        return max(8, math.ceil(FACETS_ACROSS * cell_size / thinnest))
+
+
+def wanted_facets(cell_size: float, deviation: float | None) -> int:
+    """Facets along a cell for a deviation in mm; None: as many as the user leaves to us."""
+    if deviation is None:
+        return AUTOMATIC_FACETS
+    return math.ceil(cell_size / math.sqrt(16.0 * deviation * cell_size / CURVATURE))

@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Decimation of a contoured wall, which leaves no facets that run through each other."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import Any
+
+import manifold3d
+import numpy as np
+
+from ..mesh.booleans import from_library, to_library
+from ..mesh.triangle_mesh import TriangleMesh
+from ..util.types import Bools
+from .adaptive_contour import OffsetSurface
+from .crossing_plugs import without_crossings
+from .dual_contouring import Facets, fan_edges, with_fans
+from .sampled_depth import DepthField
+
+#: How far simplifying may move the wall, in units of the thickness.
+TOLERANCE = 0.005
+#: Rounds of false position on an edge that is crossed.
+SECANTS = 5
+
+
+def simplify(wall: OffsetSurface, field: DepthField) -> TriangleMesh:
+    """The wall with fewer facets, none of which run through each other.
+
+    Where two polygons would have the same two corners they are replaced by fans.
+    """
+    call, thickness = field.depth.monitor.call, field.depth.thickness
+    facets = _with_fans(wall, call(wall.crossings.doubled), field)
+    simple = call(partial(_simplify, facets.mesh, TOLERANCE * thickness))
+    return without_crossings(simple, thickness, field.depth.monitor)
+
+
+def _with_fans(wall: OffsetSurface, cut: Bools, field: DepthField) -> Facets:
+    """The wall's facets, with fans round the edges whose polygons have a cut segment."""
+    call, crossings = field.depth.monitor.call, wall.crossings
+    edges = call(lambda: fan_edges(crossings, cut))
+    low, high = (
+        crossings.edges.low[edges].astype(np.float64),
+        crossings.edges.high[edges].astype(np.float64),
+    )
+    a, b = field.sample(crossings.edges.low[edges])[0], field.sample(crossings.edges.high[edges])[0]
+    nodes = low
+    for _ in range(SECANTS):
+        share = np.clip(a / (a - b), 0.05, 0.95)[:, None]
+        nodes = low + share * (high - low)
+        value = field.depth.values(field.point(nodes))[0]
+        as_low = (value < 0) == (a < 0)
+        low, a = np.where(as_low[:, None], nodes, low), np.where(as_low, value, a)
+        high, b = np.where(as_low[:, None], high, nodes), np.where(as_low, b, value)
+    points = field.point(nodes)
+    return call(lambda: with_fans(crossings, wall.facets, cut, points))
+
+
+def _simplify(mesh: TriangleMesh, tolerance: float) -> TriangleMesh:
+    """The mesh with fewer triangles, moved by less than the tolerance, as a valid manifold."""
+    solid: Any = manifold3d.Manifold(to_library(mesh))
+    if solid.status() != manifold3d.Error.NoError:
+        raise RuntimeError(f"the inner wall is not manifold: {solid.status()}")
+    return from_library(solid.simplify(tolerance).to_mesh64())

@@ -1,0 +1,356 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Facets that run through each other once a file has rounded them, drawn apart.
+
+Where a wall grazes a strut two sheets of a surface enclose a wedge that is as thin as the steps of
+single precision, and where struts have next to no room between them facets fold over. Both have an
+edge at which the surface turns back, or one that is sharper than struts have it: only there, and in
+the triangles next to it, is looked.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+
+from ..mesh.precision import decimal_step, rounded
+from ..mesh.triangle_mesh import TriangleMesh, compact
+from ..util.linalg import normalize
+from ..util.progress import Monitor
+from ..util.types import Bools, Floats, Ints
+from .crossing_watch import CrossingWatch
+from .folds import find_folds, touching
+from .piercing import pairs_at_planes, piercing_among
+from .self_intersection import about
+
+#: Vertices of crossing triangles move by so much of the way to the middle of their neighbours, one
+#: share after the other; below 0 that far anywhere.
+SHARES = (1e-4, -1e-3, 1e-3, -1e-3, 0.01, -0.01, 0.03, -0.03, 0.1, -0.1, 0.2, -0.2, 0.3, -0.3,
+          0.5, -0.1, 0.5, -0.3, 0.5, -0.3)  # fmt: skip
+#: Facets that fold overlap by more than a hair.
+FOLDED_SHARES = (0.1, 0.3, 0.5, 0.5, 0.5, 0.5, -0.1, 0.5)
+#: Of a deformed mesh, facets that cross by less than so many steps of a file only graze each other,
+#: and so many rounds of `SHARES` are for them.
+GRAZING, GRAZED = 8.0, 4
+#: Places that cross are looked at with what lies nearer than so many of their triangles' edges;
+#: more places than these with everything.
+REACH, MOST_PLACES = 4.0, 200
+#: So many triangles of a deformed mesh are all looked at, which takes a fifth of a second.
+MOST_ANYWHERE = 40_000
+#: From this share on each place that is left gets a ring more every second time.
+DEEP = 0.1
+#: So many rings of triangles round those that cross move, at most.
+MOST_RINGS = 3
+#: With so many times fewer places that cross than at first only what is about them is watched.
+FEWER = 0.1
+#: Of many places a round that goes so far and leaves more than this part of them as they are is the
+#: last one: folds that are all alike may need more than a little way, all of them.
+FAR, STUCK = 0.5, 0.95
+
+
+@dataclass(frozen=True, eq=False)
+class Turns:
+    """Where a surface turns back on itself.
+
+    Attributes:
+        among: (m,) bool, triangles that have a corner at such an edge.
+        pairs: (k, 2) triangles, among these or beside them, that cross in a file.
+    """
+
+    among: Bools
+    pairs: Ints
+
+    def followed_by(self, more: int) -> Turns:
+        """The same, of a mesh to which so many triangles were added."""
+        return Turns(np.pad(self.among, (0, more)), self.pairs)
+
+
+def turns_of(mesh: TriangleMesh, monitor: Monitor, deformed: bool = False) -> Turns:
+    """Where a mesh turns back, and crosses itself there; as of `resolve_fold_crossings`.
+
+    Deformed struts of different joints may meet where nothing turns back: of a mesh that is no
+    larger than `MOST_ANYWHERE` all is looked at.
+    """
+    if deformed and len(mesh.triangles) <= MOST_ANYWHERE:
+        among = np.ones(len(mesh.triangles), bool)
+    else:
+        among = find_folds(mesh, deformed)
+    return Turns(among, _crossing(mesh, among, monitor))
+
+
+def resolve_fold_crossings(
+    mesh: TriangleMesh, monitor: Monitor, deformed: bool = False, turns: Turns | None = None
+) -> tuple[TriangleMesh, Floats | None]:
+    """The mesh with no triangles that cross where its surface turns back, as far as that goes.
+
+    Vertices of triangles that cross move a little towards the middle of their neighbours, or
+    anywhere, in turn. A move that leaves more crossings than before is taken back.
+
+    Args:
+        mesh: closed, or open where nothing turns back.
+        monitor: asked for a cancel.
+        deformed: whether vertices are elsewhere than they were meshed, so that facets may fold.
+        turns: of the mesh, where they are known.
+
+    Returns:
+        The mesh, the same one where nothing crosses; and (3,) where triangles still do, mm.
+    """
+    turns = turns or turns_of(mesh, monitor, deformed)
+    if not len(turns.pairs):
+        return mesh, None
+    before, pairs = mesh, turns.pairs
+    if deformed:
+        # What grazes needs steps of a file only; with as much as folds do it would cross deeper.
+        grazes = _depths(mesh, pairs) < GRAZING * decimal_step(mesh.vertices)
+        mesh, left = _drawn_apart(mesh, pairs[grazes], turns.among, SHARES[:GRAZED], monitor)
+        pairs = np.concatenate([pairs[~grazes], left])
+        mesh, pairs = _drawn_apart(mesh, pairs, turns.among, FOLDED_SHARES, monitor)
+    if not deformed or len(pairs) <= MOST_PLACES:
+        mesh, pairs = _drawn_apart(mesh, pairs, turns.among, SHARES, monitor)
+    if mesh is not before:  # what moved may have met what lies anywhere
+        moved = (mesh.vertices != before.vertices).any(axis=1)
+        went = touching(moved, mesh.triangles.T)
+        stay = turns.pairs[~went[turns.pairs].any(axis=1)]
+        now = _crossing(mesh, about(mesh, went), monitor, moved)
+        pairs = np.concatenate([stay, now])
+    if not len(pairs):
+        return mesh, None
+    return mesh, mesh.vertices[mesh.triangles[pairs[0, 0]]].mean(axis=0)
+
+
+def _drawn_apart(
+    mesh: TriangleMesh, pairs: Ints, among: Bools, shares: tuple[float, ...], monitor: Monitor
+) -> tuple[TriangleMesh, Ints]:
+    """The mesh after rounds of moves about pairs of triangles that cross; the pairs that are left.
+
+    Args:
+        mesh: any mesh, mm.
+        pairs: (k, 2) triangles that cross.
+        among: (m,) bool, triangles where the surface turns back, which they may meet.
+        shares: as `SHARES`, a round each.
+        monitor: asked for a cancel.
+    """
+    if not len(pairs):
+        return mesh, pairs
+    places = _Places.around(mesh, pairs, _about(mesh, pairs, among), monitor)
+    for share in shares:
+        if not len(places.pairs):
+            break
+        crossed = len(places.pairs)
+        places.move(share)
+        stuck = crossed > MOST_PLACES and len(places.pairs) > STUCK * crossed
+        if shares is FOLDED_SHARES and share >= FAR and stuck:
+            break
+    return places.mesh, places.found
+
+
+def _depths(mesh: TriangleMesh, pairs: Ints) -> Floats:
+    """(k,) how far pairs of triangles that cross reach through each other's planes, mm."""
+    corners = mesh.vertices[mesh.triangles[pairs]]
+    result = np.full(len(pairs), np.inf)
+    for one, other in ((0, 1), (1, 0)):
+        a, b, c = (corners[:, other, k] for k in range(3))
+        normal = normalize(np.cross(b - a, c - a))
+        height = np.einsum("nij,nj->ni", corners[:, one] - a[:, None], normal)
+        reach = np.minimum(height.max(axis=1), -height.min(axis=1))
+        result = np.minimum(result, reach)
+    return result
+
+
+class _Places:
+    """Where triangles of a mesh cross, with what lies about there; vertices that move.
+
+    Attributes:
+        pairs: (k, 2) of the part's triangles that cross now.
+    """
+
+    def __init__(
+        self, mesh: TriangleMesh, rows: Ints, pairs: Ints, free: Bools, monitor: Monitor
+    ) -> None:
+        """Triangles `rows` of a mesh, some of which cross; `free` vertices may move."""
+        self._whole, self._rows = mesh, rows
+        self._used = np.unique(mesh.triangles[rows])
+        number = np.zeros(len(mesh.vertices), np.int32)
+        number[self._used] = np.arange(len(self._used))
+        self._triangles = number[mesh.triangles[rows]]
+        self._corners = np.ascontiguousarray(self._triangles.T)
+        self._vertices = mesh.vertices[self._used]
+        self._free = free[self._used]
+        self.pairs = np.searchsorted(rows, pairs)
+        own = self._vertices[self._triangles[np.unique(self.pairs)]]
+        self._farthest = float(np.median((own.max(axis=1) - own.min(axis=1)).max(axis=1)))
+        # How many rings of vertices move about each that crosses.
+        self._rings = np.ones(len(self._used), np.int8)
+        self._deep = 0
+        self._random = np.random.default_rng(0)
+        self._monitor = monitor
+        self._watch = self._watched()
+
+    @classmethod
+    def around(cls, mesh: TriangleMesh, pairs: Ints, among: Bools, monitor: Monitor) -> _Places:
+        """With triangles among the chosen or beside them, and all that may move."""
+        near, corners = np.zeros(len(mesh.vertices), bool), np.ascontiguousarray(mesh.triangles.T)
+        near[mesh.triangles[pairs]] = True
+        for _ in range(MOST_RINGS):
+            near[mesh.triangles[touching(near, corners)]] = True
+        near[mesh.triangles[among]] = True
+        inside = touching(near, corners)
+        free = np.ones(len(mesh.vertices), bool)
+        free[mesh.triangles[~inside]] = False
+        return cls(mesh, np.flatnonzero(inside), pairs, free, monitor)
+
+    @property
+    def mesh(self) -> TriangleMesh:
+        """The whole mesh as it is now; the same one if nothing has moved."""
+        vertices = self._whole.vertices
+        if np.array_equal(vertices[self._used], self._vertices):
+            return self._whole
+        vertices = vertices.copy()
+        vertices[self._used] = self._vertices
+        return TriangleMesh(vertices, self._whole.triangles)
+
+    @property
+    def found(self) -> Ints:
+        """(k, 2) of the whole mesh's triangles that cross now."""
+        result: Ints = self._rows[self.pairs]
+        return result
+
+    def move(self, share: float) -> None:
+        """Vertices go so much of their way, or a random one below 0, where that helps."""
+        if len(self.pairs) < FEWER * self._watched_pairs:
+            self._watch = self._watched()
+        chosen = self._grown(MOST_RINGS) & self._free
+        rows = np.flatnonzero(chosen)
+        here = self._mesh_of(self._vertices)
+        way = _to_neighbours(here, rows, self._triangles[self._touching(chosen)])
+        long = np.linalg.norm(way, axis=1)
+        way *= np.minimum(1.0, self._farthest / np.maximum(long, 1e-300))[:, None]
+        if share < 0.0:
+            long = np.minimum(long, self._farthest)
+            way = self._random.normal(size=way.shape) * long[:, None]
+        vertices = self._vertices.copy()
+        vertices[rows] += abs(share) * way
+        left = self._watch.crossing(vertices, chosen)
+        worse = _got_worse(here, chosen, self.pairs, left)
+        if worse.any():  # each place by itself: what got worse there goes back
+            vertices[worse] = self._vertices[worse]
+            chosen &= ~worse
+            stays = ~self._touching(chosen)[self.pairs].any(axis=1)
+            left = np.concatenate([self.pairs[stays], self._watch.crossing(vertices, chosen)])
+        if len(left) <= len(self.pairs):
+            self._vertices, self.pairs = vertices, np.unique(left, axis=0)
+        self._deep += share >= DEEP
+        if share >= DEEP and not self._deep % 2:  # places that are left need more room
+            still = np.unique(self._triangles[self.pairs])
+            self._rings[still] = np.minimum(self._rings[still] + 1, MOST_RINGS + 1)
+
+    def _watched(self) -> CrossingWatch:
+        self._watched_pairs = len(self.pairs)
+        near = self._touching(self._grown(MOST_RINGS))
+        return CrossingWatch(self._mesh_of(self._vertices), near, self._monitor)
+
+    def _grown(self, most: int) -> Bools:
+        """(n,) the vertices of triangles that cross, and their rings, at most so many."""
+        level = np.zeros(len(self._used), np.int8)
+        some = np.unique(self._triangles[self.pairs])
+        level[some] = self._rings[some]
+        for _ in range(most):
+            if not (level > 1).any():
+                break
+            rows = self._triangles[self._touching(level > 1)]
+            np.maximum.at(level, rows.ravel(), np.repeat(level[rows].max(axis=1) - 1, 3))
+        return np.asarray(level > 0, np.bool_)
+
+    def _touching(self, near: Bools) -> Bools:
+        return touching(near, self._corners)
+
+    def _mesh_of(self, vertices: Floats) -> TriangleMesh:
+        return TriangleMesh(vertices, self._triangles)
+
+
+def _about(mesh: TriangleMesh, pairs: Ints, among: Bools) -> Bools:
+    """(m,) of some triangles those about pairs that cross; all of them where there are many."""
+    if not 0 < len(pairs) <= MOST_PLACES:
+        return among
+    rows = np.flatnonzero(among)
+    low, high = _ends(mesh, pairs.ravel())
+    low, high = low.reshape(-1, 2, 3), high.reshape(-1, 2, 3)
+    from_, to = low.min(axis=1), high.max(axis=1)
+    reach = REACH * (to - from_).max(axis=1)[:, None]
+    # Axis by axis, which numpy takes in faster than rows of three.
+    least, most = (np.ascontiguousarray(ends.T) for ends in _ends(mesh, rows))
+    meets = np.zeros(len(rows), bool)
+    for lowest, highest in zip(from_ - reach, to + reach, strict=True):
+        near = np.ones(len(rows), bool)
+        for axis in range(3):
+            near &= (least[axis] <= highest[axis]) & (most[axis] >= lowest[axis])
+        meets |= near
+    found = np.zeros(len(among), bool)
+    found[rows[meets]] = True
+    return found
+
+
+def _ends(mesh: TriangleMesh, rows: Ints) -> tuple[Floats, Floats]:
+    """(k, 3) lowest and highest corners of some triangles."""
+    corners = mesh.vertices[mesh.triangles[rows]]
+    return corners.min(axis=1), corners.max(axis=1)
+
+
+def _crossing(
+    mesh: TriangleMesh, among: Bools, monitor: Monitor, moved: Bools | None = None
+) -> Ints:
+    """(k, 2) triangles, chosen or beside such, that cross in a binary file or in one of text.
+
+    At least one of each two has a vertex that was moved, (n,) bool, where these are given.
+    """
+    near = np.zeros(len(mesh.vertices), bool)
+    near[mesh.triangles[among]] = True
+    rows = np.flatnonzero(touching(near, mesh.triangles.T))
+    if not len(rows):
+        return np.zeros((0, 2), np.int64)
+    step = decimal_step(mesh.vertices)
+    part = compact(TriangleMesh(mesh.vertices, mesh.triangles[rows]))
+    # Neither rounding moves a coordinate by more than a step: few pairs need an exact look, twice.
+    wanted = None if moved is None else touching(moved, mesh.triangles[rows].T)
+    close = pairs_at_planes(part, step, monitor, wanted)
+    found = [
+        piercing_among(TriangleMesh(vertices, part.triangles), close)
+        for vertices in (_single(part.vertices), _single(rounded(part.vertices, step)))
+    ]
+    pairs: Ints = np.unique(rows[np.concatenate(found)], axis=0)
+    return pairs
+
+
+def _single(vertices: Floats) -> Floats:
+    return vertices.astype(np.float32).astype(np.float64)
+
+
+def _got_worse(mesh: TriangleMesh, chosen: Bools, before: Ints, after: Ints) -> Bools:
+    """(n,) the chosen vertices of places where more triangles cross than before."""
+    t, size = mesh.triangles, len(mesh.vertices)
+    start, end = t.ravel(), np.roll(t, -1, axis=1).ravel()
+    both = chosen[start] & chosen[end]
+    pairs = (start[both], end[both])
+    graph = coo_matrix((np.ones(len(pairs[0]), np.int8), pairs), shape=(size, size))
+    count, place = connected_components(graph, directed=False)
+    crossing = []
+    for found in (before, after):
+        corners = t[found].reshape(len(found), 6)
+        where = np.where(chosen[corners], place[corners], -1).max(axis=1)
+        crossing.append(np.bincount(where[where >= 0], minlength=count))
+    return np.asarray(chosen & (crossing[1] > crossing[0])[place], np.bool_)
+
+
+def _to_neighbours(mesh: TriangleMesh, rows: Ints, near: Ints) -> Floats:
+    """(k, 3) the way from vertices, whose triangles are `near`, to their neighbours' middle."""
+    size = len(mesh.vertices)
+    here = np.tile(near.ravel(), 2)
+    there = np.concatenate([np.roll(near, -1, axis=1).ravel(), np.roll(near, 1, axis=1).ravel()])
+    degree = np.maximum(np.bincount(here, minlength=size)[rows], 1)
+    middle = np.stack(
+        [np.bincount(here, mesh.vertices[there, k], minlength=size)[rows] for k in range(3)], axis=1
+    )
+    result: Floats = middle / degree[:, None] - mesh.vertices[rows]
+    return result

@@ -1,0 +1,333 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A design on the bench, and what the actions of `actions` do with it."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from ...design.parameters.spec_file import write_values
+from ...design.spec import LatticeSpec
+from ...design.tpms import TpmsSheet
+from ...io.solid import Solid
+from ...io.write import mesh_writer
+from ...jobs.infill import Infill
+from ...jobs.preview import PartDepth
+from ...jobs.sizing.goal import goal_of
+from ...jobs.sizing.sizing import size, solve_struts, values_with_radii, write_radii
+from ...jobs.targets import solve_target
+from ...jobs.tpms.properties import tpms_properties
+from ...loads.load_cases import LoadCases
+from ...loads.load_file import read_load_cases
+from ...mechanics.catalogue import known_properties
+from ...mechanics.materials import SolidMaterial
+from ...mechanics.summary import MODULI, RATIOS, CellProperties, cell_properties
+from ...reports.mesh_report import mesh_report
+from ...reports.passage import walls_of
+from ...reports.picture import picture
+from ...reports.printability import print_report
+from ...sizing.analysis import Analysis
+from ...util.cache import StageCache
+from ...util.errors import Cancelled, VolfrepError
+from ...util.progress import ProgressCallback
+from ..actions import Asked, Figure
+from ..expectation import Expectation, expect
+
+#: Figures of the endless lattice, beside the moduli and ratios.
+LIMITS = ("strength", "shear_strength", "conductivity")
+#: Pixels of a study's pictures.
+PICTURE_SIZE = (900, 600)
+
+
+@dataclass
+class Shared:
+    """What the runs of one batch share, so that it is made once.
+
+    Attributes:
+        solids: the parts, by their content.
+        cache: the stages of the fill before, such as the wall of the same skin.
+        depths: of the parts, by their content and open faces.
+        properties: of endless lattices, by what they hang on.
+    """
+
+    solids: dict[str, Solid] = field(default_factory=dict)
+    cache: StageCache = field(default_factory=StageCache)
+    depths: dict[Any, PartDepth] = field(default_factory=dict)
+    properties: dict[Any, dict[str, Figure]] = field(default_factory=dict)
+
+
+@dataclass(eq=False)
+class Evaluator:
+    """A design on the bench: what its actions see, made when first looked at.
+
+    Attributes:
+        key: of the design.
+        solid: the part.
+        spec: what is made.
+        up: the build direction.
+        asked: by the study.
+        shared: with other runs.
+        progress: asked for a cancel.
+        notes: sentences for the user, by the names of actions.
+    """
+
+    key: str
+    solid: Solid
+    spec: LatticeSpec
+    up: tuple[float, float, float]
+    asked: Asked
+    shared: Shared
+    progress: ProgressCallback | None = None
+    notes: dict[str, list[str]] = field(default_factory=dict)
+
+    @cached_property
+    def expectation(self) -> Expectation:
+        """What it will come to."""
+        spec = self.spec
+        faces = (spec.open_faces, spec.face_skins, spec.keep_solid)
+        place = (id(self.solid), faces)
+        if place not in self.shared.depths:
+            self.shared.depths[place] = PartDepth(self.solid, *faces)
+        return expect(self.solid, self.spec, self.shared.depths[place])
+
+    @cached_property
+    def _infill(self) -> Infill | VolfrepError:
+        try:
+            made = solve_target(
+                self.solid, self.spec, progress=self.progress, cache=self.shared.cache
+            )
+            _ = made.result
+        except VolfrepError as error:
+            return error
+        return made
+
+    @property
+    def infill(self) -> Infill:
+        """The filled part; what hinders it is found once.
+
+        Raises:
+            VolfrepError: the specification does not fit the part.
+        """
+        if isinstance(self._infill, VolfrepError):
+            raise self._infill
+        return self._infill
+
+    @cached_property
+    def loads(self) -> LoadCases:
+        """What the part carries."""
+        assert self.asked.loads is not None, "the study was checked"
+        return read_load_cases(self.asked.loads.path, self.solid)
+
+    def one_radius(self) -> LatticeSpec:
+        """The specification with the radius that meets its target, if it has one."""
+        if self.spec.target is None:
+            return self.spec
+        return dataclasses.replace(self.infill.spec, target=None)
+
+    @property
+    def wall(self) -> TpmsSheet:
+        """The walls with the thickness or the offset that meets their target, if they have one."""
+        return self.spec.wall if self.spec.target is None else self.infill.spec.wall
+
+    def file(self, kind: str, suffix: str) -> Path:
+        """Where a file of this design goes, in a folder of its kind."""
+        folder = self.asked.folder / kind
+        folder.mkdir(exist_ok=True)
+        return folder / f"{self.key}{suffix}"
+
+
+def _forecast(bench: Evaluator) -> dict[str, Figure]:
+    found = bench.expectation
+    told = dataclasses.asdict(found.forecast)
+    told["strut_radius_mm"] = found.strut_radius
+    told["relative_density"] = found.relative_density
+    told["volume_mm3"], told["mass_g"] = found.volume_mm3, found.mass_g
+    return told
+
+
+def _properties(bench: Evaluator) -> dict[str, Figure]:
+    spec, material = bench.spec, bench.asked.material
+    if spec.is_graded:
+        raise VolfrepError(
+            "A lattice that is graded, mapped or turned has no one stiffness: leave 'properties' "
+            "out, or the grading."
+        )
+    if spec.network is not None:
+        raise VolfrepError(
+            "A network repeats nowhere, and so has no stiffness of its own: leave 'properties' out."
+        )
+    if spec.surface is not None:
+        wall = (spec.surface, bench.wall, spec.cell_size)
+        if wall not in bench.shared.properties:
+            found = tpms_properties(spec.surface, spec.cell_size, bench.wall, material=material)
+            bench.shared.properties[wall] = _told(found, "homogenised")
+        return dict(bench.shared.properties[wall])
+    cell, radius = spec.unit_cell(), bench.expectation.strut_radius
+    ratio, fillet = radius / spec.cell_size, spec.fillet / spec.cell_size
+    # Sizes of one shape differ in the last digits of r / L only.
+    place = (cell, float(f"{ratio:.9g}"), float(f"{fillet:.9g}"))
+    if place not in bench.shared.properties:
+        bench.shared.properties[place] = _endless(place, material)
+    return dict(bench.shared.properties[place])
+
+
+def _endless(place: tuple[Any, float, float], material: SolidMaterial | None) -> dict[str, Figure]:
+    """Read off the catalogue where it has the cell, else homogenised."""
+    cell, ratio, fillet = place
+    found = None if fillet else known_properties(cell, 1.0, ratio, material)
+    source = "catalogue" if found is not None else "homogenised"
+    if found is None:
+        found = cell_properties(cell, 1.0, ratio, fillet=fillet, material=material)
+    return _told(found, source)
+
+
+def _told(found: CellProperties, source: str) -> dict[str, Figure]:
+    told: dict[str, Figure] = {"relative_density": found.relative_density}
+    told |= {name: found.values[name] for name in (*MODULI, *RATIOS, *LIMITS)}
+    return {**told, "from": source}
+
+
+def _fill(bench: Evaluator) -> dict[str, Figure]:
+    report = bench.infill.result.report
+    bench.notes["fill"] = list(report.warnings)
+    return {
+        "strut_radius_mm": bench.infill.spec.strut_radius,
+        "relative_density": report.relative_density,
+        "volume_mm3": report.volume_mm3,
+        "mass_g": report.mass_g,
+        "area_mm2": report.area_mm2,
+        "cells": report.cells_active,
+        "struts": report.struts,
+        "triangles": report.triangles,
+        "bodies": report.bodies,
+        "voids": report.voids,
+        "genus": report.genus,
+        "watertight": report.watertight,
+        "warnings": len(report.warnings),
+    }
+
+
+def _measure(bench: Evaluator) -> dict[str, Figure]:
+    report = mesh_report(bench.infill.result.mesh)
+    return {
+        "printable": report.printable,
+        "open_edges": report.quality.open_edges,
+        "defects": len(report.defects),
+        "smallest_angle_deg": report.shapes.smallest_angle,
+        "shortest_edge_mm": report.shortest_edge,
+    }
+
+
+def _print(bench: Evaluator) -> dict[str, Figure]:
+    process = bench.asked.process
+    assert process is not None, "the study was checked"
+    infill = bench.infill
+    report = print_report(
+        infill.result.mesh,
+        infill.result.wireframe,
+        process,
+        build_direction=bench.up,
+        density=bench.spec.density,
+        domain=infill.cavity,
+        walls_mm=walls_of(bench.spec),
+    )
+    return {
+        "findings": len(report.findings),
+        "thinnest_strut_mm": report.thinnest_strut_mm,
+        "narrowest_gap_mm": report.narrowest_gap_mm,
+        "overhanging_share": report.overhanging_share,
+        "longest_overhang_mm": report.longest_overhang_mm,
+        "longest_bridge_mm": report.longest_bridge_mm,
+        "overhang_area_mm2": report.overhang_area_mm2,
+        "voids": report.voids,
+        "void_volume_mm3": report.void_volume_mm3,
+        "said": " ".join(report.findings),
+    }
+
+
+def _solve(bench: Evaluator) -> dict[str, Figure]:
+    loads = bench.loads
+    _, found = solve_struts(
+        bench.solid, bench.one_radius(), loads, progress=bench.progress, cache=bench.shared.cache
+    )
+    told = _carried(found, [case.name for case in loads.cases])
+    limit = loads.material.yield_stress
+    told["safety"] = None if limit is None else _rounded(limit / float(found.stress.max()))
+    return told
+
+
+def _size(bench: Evaluator) -> dict[str, Figure]:
+    loads = bench.loads
+    goal = goal_of(loads.material, bench.asked.goal, lambda name: f"size.{name}")
+    spec = dataclasses.replace(bench.one_radius(), density=loads.material.density)
+    made = size(
+        bench.solid, spec, loads, goal, prove_it=False, progress=bench.progress,
+        cache=bench.shared.cache,
+    )  # fmt: skip
+    if made.sized.stopped == "cancelled":
+        raise Cancelled("the study was cancelled")
+    path = bench.file("sized", ".toml")
+    radii = path.with_suffix(".csv")
+    write_radii(made, radii)
+    write_values(values_with_radii(made, radii), path)
+    report = made.report
+    bench.notes["size"] = list(report["notes"])
+    told: dict[str, Figure] = {
+        "holds": report["holds"],
+        "strut_mass_g": _rounded(report["strut_mass_g"]),
+        "thinnest_mm": _rounded(report["radii_mm"][0]),
+        "thickest_mm": _rounded(report["radii_mm"][1]),
+        **_carried(made.sized.analysis, [case.name for case in loads.cases]),
+        "stiffer": _rounded(min(report["same_mass"]["stiffer"])),
+    }
+    if "same_limits" in report:
+        told["mass_saved"] = _rounded(report["same_limits"]["mass_saved"])
+    return {**told, "file": f"sized/{path.name}"}
+
+
+def _carried(found: Analysis, cases: list[str]) -> dict[str, Figure]:
+    """What is largest in any load case, and in which."""
+    worst = int(found.largest.argmax())
+    return {
+        "displacement_mm": _rounded(found.largest[worst]),
+        "case": cases[worst],
+        "stress_mpa": _rounded(found.stress.max()),
+        "buckling": _rounded(found.buckling.max()),
+        "compliance_nmm": _rounded(found.compliance.max()),
+    }
+
+
+def _rounded(value: float) -> float:
+    """To six digits: the last ones hang on how many threads sum."""
+    return float(f"{value:.6g}")
+
+
+def _export(bench: Evaluator) -> dict[str, Figure]:
+    path = bench.file("files", bench.asked.export)
+    mesh_writer(path)(bench.infill.result.mesh, path, None)
+    return {"file": f"files/{path.name}", "bytes": path.stat().st_size}
+
+
+def _picture(bench: Evaluator) -> dict[str, Figure]:
+    path = bench.file("pictures", ".png")
+    infill = bench.infill
+    picture(infill.result.mesh, infill.spec, path, solid=bench.solid, size=PICTURE_SIZE)
+    return {"file": f"pictures/{path.name}"}
+
+
+#: What gives the figures of each action, by its name; not how long it took.
+FIGURES: dict[str, Callable[[Evaluator], dict[str, Figure]]] = {
+    "forecast": _forecast,
+    "properties": _properties,
+    "fill": _fill,
+    "measure": _measure,
+    "print": _print,
+    "solve": _solve,
+    "size": _size,
+    "export": _export,
+    "picture": _picture,
+}

@@ -1,0 +1,306 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Which struts of a trimmed lattice hang on nothing: told on their axes, before anything is meshed.
+
+Struts hold each other where they share a node, and where their material meets: those of a node
+just outside the wall still do, and so do struts that cross without a node.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
+
+from ..design.openings import lie_on
+from ..grid.strut_graph import Wireframe, select_struts
+from ..mesh.triangle_mesh import TriangleMesh
+from ..spatial.proximity import closest_points
+from ..util.errors import VolfrepError
+from ..util.ragged import spread
+from ..util.types import Bools, Floats, Ints
+from .clip_struts import AT_WALL, Clipped, Pieces, clip, pieces_inside
+from .tied_struts import drawn_together, nearest_places, tied, with_grazing
+
+#: Struts that are one body as a mesh and hang on nothing as beams are refused from this share of
+#: their volume on.
+MOST_LEFT_OUT = 0.03
+
+
+@dataclass(frozen=True, eq=False)
+class KeptStruts:
+    """The pieces of a lattice's struts, and which of them stay.
+
+    Attributes:
+        pieces: of the struts' axes inside the domain.
+        stays: (p,) bool.
+        loose: how many groups of pieces hang on nothing.
+        share: their part of the struts' volume, 0 to 1.
+        has_skin: whether a skin holds what the wall cuts.
+        bodies: without a skin, so many groups stay at most; None: all do.
+    """
+
+    pieces: Pieces
+    stays: Bools
+    loose: int
+    share: float
+    has_skin: bool
+    bodies: int | None
+
+    @property
+    def left(self) -> Pieces:
+        """Those that stay."""
+        pieces, stays = self.pieces, self.stays
+        return Pieces(pieces.owner[stays], pieces.low[stays], pieces.high[stays])
+
+    def without_loose(self, lattice: Wireframe) -> Wireframe:
+        """The lattice, whole, without the struts of which no piece stays.
+
+        A strut of which no piece lies inside may reach in with its side: it stays where a strut
+        that stays has a node of it.
+        """
+        if self.stays.all() and self.has_skin:
+            return lattice
+        return select_struts(lattice, self.whole(lattice))
+
+    def whole(self, lattice: Wireframe) -> Bools:
+        """(m,) the struts of the lattice that `without_loose` keeps."""
+        count = len(lattice.struts)
+        if self.stays.all() and self.has_skin:
+            return np.ones(count, bool)
+        stays = np.bincount(self.pieces.owner[self.stays], minlength=count) > 0
+        outside = np.bincount(self.pieces.owner, minlength=count) == 0
+        joined = np.zeros(len(lattice.nodes), bool)
+        joined[lattice.struts[stays]] = True
+        return np.asarray(stays | (outside & joined[lattice.struts].any(axis=1)))
+
+    @property
+    def told(self) -> tuple[str, ...]:
+        """A sentence on the struts that were left out."""
+        if not self.loose:
+            return ()
+        what = "piece that hangs" if self.loose == 1 else "pieces that hang"
+        return (
+            f"{self.loose:,} {what} on nothing left out, {100.0 * self.share:.2g} % of the "
+            "struts' volume: smaller cells or another origin may join them, and so does a skin.",
+        )
+
+
+def find_kept_struts(
+    lattice: Wireframe,
+    wall: TriangleMesh | None,
+    *,
+    has_skin: bool,
+    bodies: int = 1,
+    openings: TriangleMesh | None = None,
+    keep_all: bool = False,
+) -> KeptStruts:
+    """The pieces of a lattice that hang on something.
+
+    Args:
+        lattice: all its struts, mm.
+        wall: closed mesh that cuts them; None for none.
+        has_skin: whether a skin behind the wall holds what it cuts.
+        bodies: without a skin, so many of the largest pieces stay.
+        openings: faces of the wall that have no skin; None for none.
+        keep_all: all stay, whatever they hang on.
+    """
+    count = len(lattice.struts)
+    if wall is None:
+        pieces = Pieces(np.arange(count), np.zeros(count), np.ones(count))
+    else:
+        pieces = pieces_inside(lattice, wall)
+    if keep_all or not len(pieces.owner):
+        return KeptStruts(pieces, np.ones(len(pieces.owner), bool), 0, 0.0, has_skin, None)
+    sizes = _volumes(pieces, lattice)
+    group = _groups(pieces, lattice, None if has_skin else wall)
+    total = np.bincount(group, sizes)
+    keeps = np.zeros(len(total), bool)
+    if has_skin and wall is not None:
+        keeps[group[_on_skin(pieces, lattice, wall, openings)]] = True
+    else:
+        keeps[np.argsort(-total, kind="stable")[:bodies]] = True
+    stays = keeps[group]
+    lost = sizes[~stays].sum() / max(sizes.sum(), 1e-300)
+    return KeptStruts(pieces, stays, int((~keeps).sum()), float(lost), has_skin, bodies)
+
+
+def largest(pieces: Pieces, lattice: Wireframe, bodies: int) -> Bools:
+    """(p,) the pieces of a lattice without a skin that stay: those of its largest groups."""
+    group = _groups(pieces, lattice, None)
+    total = np.bincount(group, _volumes(pieces, lattice))
+    keeps = np.zeros(len(total), bool)
+    keeps[np.argsort(-total, kind="stable")[:bodies]] = True
+    return np.asarray(keeps[group])
+
+
+def axes_of(
+    lattice: Wireframe, wall: TriangleMesh | None, kept: KeptStruts, openings: TriangleMesh | None
+) -> Clipped:
+    """The axes of the struts that stay, cut where they leave the domain.
+
+    Args:
+        lattice: all its struts, mm.
+        wall: as for `held`, which `kept` comes from.
+        kept: the pieces that stay.
+        openings: faces of the wall that have no skin; None for none.
+
+    Raises:
+        VolfrepError: no axis lies inside the wall.
+    """
+    if wall is None:
+        frame = kept.without_loose(lattice)
+        owner = np.flatnonzero(kept.whole(lattice))
+        clipped = Clipped(
+            frame, np.zeros(len(frame.nodes), bool), owner, np.zeros(len(owner)),
+            np.ones(len(owner)), kept.told,
+        )  # fmt: skip
+    else:
+        clipped = replace(clip(lattice, wall, kept.left), warnings=kept.told)
+        if openings is not None:
+            frame = clipped.wireframe
+            free = lie_on(openings, frame.nodes, AT_WALL * frame.joint_radii)
+            clipped = replace(clipped, on_wall=clipped.on_wall & ~free)
+    if not len(clipped.wireframe.struts):
+        raise VolfrepError(
+            "No strut's axis lies inside the part: reduce the cell size or move the origin."
+        )
+    if kept.has_skin:
+        return clipped
+    if wall is not None:
+        grazing = _along(kept.left, lattice, wall)
+        clipped = drawn_together(with_grazing(clipped, lattice, wall, grazing), lattice)
+    clipped = tied(clipped)
+    return clipped if kept.bodies is None else _with_joints(clipped, kept.bodies)
+
+
+def _with_joints(clipped: Clipped, bodies: int) -> Clipped:
+    """The largest so many groups of axes that share nodes.
+
+    Raises:
+        VolfrepError: the others are more than `MOST_LEFT_OUT` of the struts' volume.
+    """
+    frame = clipped.wireframe
+    count = len(frame.struts)
+    whole = Pieces(np.arange(count), np.zeros(count), np.ones(count))
+    group = _joined(frame.struts.astype(np.int64), len(frame.nodes))[frame.struts[:, 0]]
+    sizes = _volumes(whole, frame)
+    total = np.bincount(group, sizes)
+    keeps = np.zeros(len(total), bool)
+    keeps[np.argsort(-total, kind="stable")[:bodies]] = True
+    stays = keeps[group]
+    if stays.all():
+        return clipped
+    gone = len(np.unique(group[~stays]))
+    share = float(sizes[~stays].sum() / sizes.sum())
+    left = (
+        f"{gone:,} group{'s' if gone > 1 else ''} of struts ({100.0 * share:.2g} % of their volume)"
+    )
+    if share > MOST_LEFT_OUT:
+        raise VolfrepError(
+            f"As beams {left} would hang on nothing, though the mesh is one body: choose "
+            "tetrahedra or the mesh, smaller cells, or another origin."
+        )
+    told = (f"{left} hang on the others by too little for beams, and are left out.",)
+    used = np.unique(frame.struts[stays])
+    return Clipped(
+        select_struts(frame, stays), clipped.on_wall[used], clipped.owner[stays],
+        clipped.low[stays], clipped.high[stays], clipped.warnings + told,
+    )  # fmt: skip
+
+
+def _volumes(pieces: Pieces, lattice: Wireframe) -> Floats:
+    """(p,) of the pieces as cylinders, mm3."""
+    radius = lattice.radii[pieces.owner].mean(axis=1)
+    return np.asarray(np.pi * radius**2 * pieces.lengths(lattice))
+
+
+def _on_skin(
+    pieces: Pieces, lattice: Wireframe, wall: TriangleMesh, openings: TriangleMesh | None
+) -> Bools:
+    """(p,) the pieces that a skin holds: it cuts them, or their material reaches it."""
+    start, end = _ends(pieces, lattice)
+    result = np.zeros(len(start), bool)
+    for point, cut, side in ((start, pieces.low > 0.0, 0), (end, pieces.high < 1.0, 1)):
+        reach = lattice.joint_radii[lattice.struts[pieces.owner, side]]
+        held_there = cut | (closest_points(wall, point)[1] < reach)
+        if openings is not None:
+            held_there &= ~lie_on(openings, point, reach)
+        result |= held_there
+    return result
+
+
+def _ends(pieces: Pieces, lattice: Wireframe) -> tuple[Floats, Floats]:
+    """(p, 3) where pieces begin and end, mm."""
+    first, last = lattice.nodes[lattice.struts[pieces.owner]].swapaxes(0, 1)
+    along = last - first
+    return first + pieces.low[:, None] * along, first + pieces.high[:, None] * along
+
+
+def _groups(pieces: Pieces, lattice: Wireframe, wall: TriangleMesh | None) -> Ints:
+    """(p,) the group of each piece; of one group are those whose material hangs together.
+
+    With a wall, struts that lie in it, or within their radius outside, join what they touch.
+    """
+    count, nodes = len(pieces.owner), len(lattice.nodes)
+    ends = lattice.struts[pieces.owner].astype(np.int64)
+    cut = np.stack([pieces.low > 0.0, pieces.high < 1.0], axis=1)
+    ends[cut] = nodes + np.arange(int(cut.sum()))
+    group = _joined(ends, nodes + int(cut.sum()))[ends[:, 0]]
+    if len(np.unique(group)) == 1:
+        return np.zeros(count, np.int64)
+    owner, low, high = pieces.owner, pieces.low, pieces.high
+    if wall is not None:
+        along = _along(pieces, lattice, wall)
+        own = group.max() + 1 + np.arange(len(along))
+        group = np.concatenate([group, own])
+        owner = np.concatenate([owner, along])
+        low, high = (
+            np.concatenate([values, np.full(len(along), end)])
+            for values, end in ((low, 0.0), (high, 1.0))
+        )
+    group = np.unique(group, return_inverse=True)[1].ravel()
+    return _meeting(Pieces(owner, low, high), lattice, group)[:count]
+
+
+def _joined(pairs: Ints, count: int) -> Ints:
+    """(count,) the group of each of so many things of which pairs belong together."""
+    links = coo_matrix((np.ones(len(pairs), bool), pairs.T), shape=(count, count))
+    return np.asarray(connected_components(links, directed=False)[1], np.int64)
+
+
+def _along(pieces: Pieces, lattice: Wireframe, wall: TriangleMesh) -> Ints:
+    """The struts without a piece inside whose nodes both lie in the wall or nearly so."""
+    outside = np.bincount(pieces.owner, minlength=len(lattice.struts)) == 0
+    asked = np.unique(lattice.struts[outside])
+    near = np.zeros(len(lattice.nodes), bool)
+    if len(asked):
+        near[asked] = closest_points(wall, lattice.nodes[asked])[1] < lattice.joint_radii[asked]
+    return np.flatnonzero(outside & near[lattice.struts].all(axis=1))
+
+
+def _meeting(pieces: Pieces, lattice: Wireframe, group: Ints) -> Ints:
+    """(p,) groups, those joined whose pieces' material meets."""
+    start, end = _ends(pieces, lattice)
+    radius = lattice.radii[pieces.owner].max(axis=1)
+    length = np.linalg.norm(end - start, axis=1)
+    # Every piece as points no farther apart than its radius; those of all but the largest group
+    # look for others near them.
+    samples = np.ceil(length / radius).astype(np.int64) + 1
+    piece, place = spread(samples)
+    share = place / np.maximum(samples[piece] - 1, 1)
+    points = start[piece] + share[:, None] * (end - start)[piece]
+    main = np.bincount(group, length).argmax()
+    asking = np.flatnonzero(group[piece] != main)
+    reach = 3.0 * radius.max()
+    near = cKDTree(points).query_ball_point(points[asking], reach, return_sorted=False)
+    found = np.fromiter((len(each) for each in near), np.int64, len(near))
+    other = piece[np.concatenate([*near, np.empty(0)]).astype(np.int64)]
+    pairs = np.stack([np.repeat(piece[asking], found), other], axis=1)
+    pairs = np.unique(np.sort(pairs[group[pairs[:, 0]] != group[pairs[:, 1]]], axis=1), axis=0)
+    a, b = pairs.T
+    gap = nearest_places(start[a], end[a], start[b], end[b])[1]
+    touch = pairs[gap < radius[a] + radius[b]]
+    return _joined(group[touch], int(group.max()) + 1)[group]

@@ -1,0 +1,355 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Groups of octants at the wall, each small enough to be cut alone, and the wall near each.
+
+Every triangle of the lattice and of the wall is given out by one group, which has all that
+touches it: a group's own octants are cut by all of the wall about them, and its own triangles of
+the wall by all octants that reach them, those of other groups too. So both sides of a seam have
+the same vertices, up to rounding.
+
+Triangles of the wall that reach into two groups are split, or one would draw a whole row of octants
+along.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ..lattice.assembly import Layout
+from ..mesh import remesh
+from ..mesh.booleans import from_library, to_library
+from ..mesh.triangle_mesh import TriangleMesh, compact
+from ..spatial.self_intersection import meeting_boxes
+from ..util.errors import VolfrepError
+from ..util.progress import Monitor
+from ..util.types import Bools, Floats, Ints
+from .culling import without_pinches
+from .group_cut import Group, Piece, open_vertices
+from .placed_lattice import PlacedLattice
+
+#: A group's octants have no more triangles than about so many.
+GROUP_TRIANGLES = 200_000
+#: Triangles of the wall that reach into more than one group are split until their sides are no
+#: longer than so many octants.
+LONGEST_SIDE = 1.0
+#: How far the wall is taken beyond what a group has, in octants: not a round number, since walls
+#: and octants like those.
+BEYOND = 0.1373
+#: Boxes that are nearer than this count as touching, in octants.
+NEAR = 1e-6
+
+
+@dataclass(frozen=True, eq=False)
+class Groups:
+    """Which group every octant at the wall and every triangle of the wall belongs to.
+
+    Attributes:
+        laid: all the octants.
+        wall: closed mesh, mm; of small triangles where groups meet.
+        places: (k, 3) the octants.
+        low, high: (k, 3) corners of their boxes, mm.
+        octant: (k,) the group of each.
+        triangle: (m,) the group of each triangle; -1 where no octant touches it.
+        touch: (t, 2) octants and triangles whose boxes touch.
+        count: of groups.
+        precision: slivers thinner than that go, mm.
+    """
+
+    laid: PlacedLattice
+    wall: TriangleMesh
+    places: Ints
+    low: Floats
+    high: Floats
+    octant: Ints
+    triangle: Ints
+    touch: Ints
+    count: int
+    precision: float
+
+    def merged(self, which: Ints) -> tuple[Groups, Ints]:
+        """With some of the groups as one; and (count,) the new number of each."""
+        number = np.arange(self.count)
+        number[which] = which.min()
+        left, number = np.unique(number, return_inverse=True)
+        triangle = np.where(self.triangle < 0, -1, number[self.triangle])
+        groups = Groups(
+            self.laid, self.wall, self.places, self.low, self.high, number[self.octant],
+            triangle, self.touch, len(left), self.precision,
+        )  # fmt: skip
+        return groups, number
+
+    @cached_property
+    def _by_triangle(self) -> tuple[Ints, Ints]:
+        """What touches, by the triangle's group."""
+        return _sorted(self.triangle[self.touch[:, 1]], self.count)
+
+    @cached_property
+    def _by_octant(self) -> tuple[Ints, Ints]:
+        """What touches, by the octant's group."""
+        return _sorted(self.octant[self.touch[:, 0]], self.count)
+
+    @property
+    def untouched(self) -> Piece:
+        """The triangles of the wall that no octant reaches, seen from the material."""
+        triangles = self.wall.triangles[self.triangle < 0, ::-1]
+        mesh = compact(TriangleMesh(self.wall.vertices, triangles))
+        return Piece(mesh, np.ones(len(triangles), bool), open_vertices(mesh))
+
+    def each(self, which: Ints, cavity: bool, monitor: Monitor) -> Iterator[tuple[int, Group]]:
+        """Some of the groups with their numbers, in any order, each made when its turn comes.
+
+        Raises:
+            VolfrepError: the wall is not a solid that can be cut.
+        """
+        alone = self.count == 1
+        octants = [self._octants(group) for group in which]
+        if alone:
+            whole = self.wall, np.ones(len(self.wall.triangles), bool)
+            walls = iter([(0, *whole)])
+        else:
+            owned = [np.flatnonzero(self.triangle == group) for group in which]
+            # All of a triangle of the wall goes in where an octant is cut by it: a part of it would
+            # be divided otherwise.
+            boxes = np.array([self._box(*each) for each in zip(which, octants, owned, strict=True)])
+            walls = _near(self.wall, boxes, owned, monitor)
+        going = self.laid.kept.border | self.laid.kept.inside
+        for k, wall, own_wall in walls:
+            group, rows = int(which[k]), octants[k]
+            placed, box = self.laid.cutting(self.places[rows])
+            low = np.array([part.start or 0 for part in box])
+            mine = np.zeros(placed.layout.grid.kind.shape, bool)
+            mine[tuple((self.places[self.octant == group] - low).T)] = True
+            every = placed.layout.grid.kind >= 0
+            follow = going[box] & ~every
+            made = Group(
+                placed, mine, every & ~mine, follow, wall, own_wall, cavity, alone, self.precision
+            )
+            yield group, made
+
+    def _octants(self, group: int) -> Ints:
+        """The rows of a group's octants and of those that touch its part of the wall.
+
+        As many more as it takes for no two of them to touch along an edge or a corner only.
+        """
+        chosen = self.octant == group
+        chosen[self.touch[_of(self._by_triangle, group), 0]] = True
+        border, periodic = self.laid.kept.border, self.laid.layout.grid.periodic
+        if self.count > 1:
+            low, high = self.places[chosen].min(axis=0), self.places[chosen].max(axis=0) + 1
+            low, high = np.maximum(low - 1, 0), np.minimum(high + 1, border.shape)
+            low = np.where(periodic, 0, low)
+            high = np.where(periodic, border.shape, high)
+            box = tuple(slice(a, b) for a, b in zip(low, high, strict=True))
+            mask = np.zeros(border[box].shape, bool)
+            mask[tuple((self.places[chosen] - low).T)] = True
+            mask = without_pinches(mask, border[box], periodic)
+            inside = ((self.places >= low) & (self.places < high)).all(axis=1)
+            rows = np.flatnonzero(inside)
+            chosen[rows] = mask[tuple((self.places[rows] - low).T)]
+        return np.flatnonzero(chosen)
+
+    def _box(self, group: int, octants: Ints, triangles: Ints) -> Floats:
+        """(2, 3) about a group's octants, its part of the wall and what cuts its own octants."""
+        cutting = self.touch[_of(self._by_octant, group), 1]
+        every = self.wall.triangles[np.concatenate([triangles, cutting])]
+        corners = self.wall.vertices[every].reshape(-1, 3)
+        beyond = BEYOND * _edge(self.low, self.high)
+        low = np.concatenate([self.low[octants], corners]).min(axis=0)
+        high = np.concatenate([self.high[octants], corners]).max(axis=0)
+        return np.array([low - beyond, high + beyond])
+
+
+def _sorted(group: Ints, count: int) -> tuple[Ints, Ints]:
+    """The rows of groups one after the other, and where each group's begin, (count + 1,)."""
+    order = np.argsort(group, kind="stable")
+    return order, np.searchsorted(group[order], np.arange(count + 1))
+
+
+def _of(rows: tuple[Ints, Ints], group: int) -> Ints:
+    order, first = rows
+    return order[first[group] : first[group + 1]]
+
+
+def group_octants(
+    laid: PlacedLattice, wall: TriangleMesh, monitor: Monitor, precision: float = 0.0
+) -> Groups:
+    """Octants and wall in groups.
+
+    Args:
+        laid: all the octants.
+        wall: closed mesh of what the lattice fills.
+        monitor: for progress and cancel.
+        precision: slivers thinner than that go, mm.
+    """
+    layout = laid.layout
+    if _triangles(layout, np.argwhere(laid.kept.border)).sum() <= GROUP_TRIANGLES:
+        places = np.argwhere(laid.kept.border)
+        nowhere = np.zeros((0, 3))
+        return Groups(
+            laid, wall, places, nowhere, nowhere, np.zeros(len(places), np.int64),
+            np.zeros(len(wall.triangles), np.int64), np.zeros((0, 2), np.int64), 1,
+            precision,
+        )  # fmt: skip
+    places, low, high = laid.boxes(laid.kept.border, monitor)
+    edge = _edge(low, high)
+    octant, count = _halved(places, _triangles(layout, places))
+    fine = _split(wall, LONGEST_SIDE * edge, *_bounds(low, high, octant, count))
+    touch = _touching(low, high, fine, NEAR * edge)
+    return Groups(
+        laid, fine, places, low, high, octant, _owners(touch, octant, count, len(fine.triangles)),
+        touch, count, precision,
+    )  # fmt: skip
+
+
+def _edge(low: Floats, high: Floats) -> float:
+    """The size of most octants' boxes, mm."""
+    return float(np.median((high - low).max(axis=1)))
+
+
+def _triangles(layout: Layout, places: Ints) -> Ints:
+    """(k,) how many triangles octants have."""
+    each = np.array([len(layout.octants[key].triangles) for key in layout.grid.keys])
+    result: Ints = each[layout.grid.kind[tuple(places.T)]]
+    return result
+
+
+def _halved(places: Ints, weight: Ints) -> tuple[Ints, int]:
+    """The group of each octant, by halves along the longest side, and how many there are."""
+    group = np.zeros(len(places), np.int64)
+    count, waiting = 0, [np.arange(len(places))]
+    while waiting:
+        rows = waiting.pop()
+        axis = int(np.ptp(places[rows], axis=0).argmax())
+        along = places[rows, axis]
+        order = np.argsort(along, kind="stable")
+        total = np.cumsum(weight[rows[order]])
+        middle = along[order[np.searchsorted(total, total[-1] / 2)]]
+        first = along < max(middle, int(along.min()) + 1)
+        if total[-1] <= GROUP_TRIANGLES or first.all():
+            group[rows] = count
+            count += 1
+        else:
+            waiting += [rows[~first], rows[first]]
+    return group, count
+
+
+def _bounds(low: Floats, high: Floats, group: Ints, count: int) -> tuple[Floats, Floats]:
+    """(count, 3) corners of the boxes about groups of boxes."""
+    least, most = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
+    np.minimum.at(least, group, low)
+    np.maximum.at(most, group, high)
+    return least, most
+
+
+def _split(mesh: TriangleMesh, longest: float, low: Floats, high: Floats) -> TriangleMesh:
+    """The same surface, of small triangles where it reaches into more than one box.
+
+    Args:
+        mesh: of any triangles.
+        longest: side of those, mm.
+        low: (k, 3) lowest corners of the boxes, mm.
+        high: (k, 3) highest ones, mm.
+    """
+    points, triangles = mesh.vertices, mesh.triangles.astype(np.int64)
+    while True:
+        # Axis by axis, which numpy takes in faster than rows of three.
+        corners = [[points[triangles[:, k], axis] for k in range(3)] for axis in range(3)]
+        squares = [[(a - b) ** 2 for a, b in zip(c, c[1:] + c[:1], strict=True)] for c in corners]
+        sides = np.stack([x + y + z for x, y, z in zip(*squares, strict=True)], axis=1)
+        rows = np.flatnonzero((sides > longest**2).any(axis=1))
+        spans = [
+            (np.minimum(np.minimum(a, b), c)[rows], np.maximum(np.maximum(a, b), c)[rows])
+            for a, b, c in corners
+        ]
+        met = np.zeros(len(rows), np.int64)
+        for least, most in zip(low, high, strict=True):
+            inside = np.ones(len(rows), bool)
+            for (first, last), begin, end in zip(spans, least, most, strict=True):
+                inside &= (first <= end) & (last >= begin)
+            met += inside
+        rows = rows[met > 1]
+        if not len(rows):
+            return TriangleMesh(points, triangles.astype(np.int32))
+        at = sides[rows].argmax(axis=1)
+        ends = np.stack([triangles[rows, at], triangles[rows, (at + 1) % 3]], axis=1)
+        size = np.int64(len(points))
+        wanted = np.unique(ends.min(axis=1) * size + ends.max(axis=1))
+        points, triangles = remesh.split(points, triangles, _among(wanted, size))
+
+
+def _among(wanted: Ints, size: np.int64) -> Callable[[Ints, Ints], Bools]:
+    def is_wanted(one: Ints, two: Ints) -> Bools:
+        return np.isin(np.minimum(one, two) * size + np.maximum(one, two), wanted)
+
+    return is_wanted
+
+
+def _touching(low: Floats, high: Floats, wall: TriangleMesh, near: float) -> Ints:
+    """(t, 2) boxes and triangles that touch, by their boxes and by the triangles' planes."""
+    corners = wall.vertices[wall.triangles]
+    first, last = corners.min(axis=1) - near, corners.max(axis=1) + near
+    a, b = meeting_boxes(low, high, first, last, float((high - low).max()))
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    above = np.einsum("ij,ij->i", 0.5 * (low[a] + high[a]) - corners[b, 0], normal[b])
+    reach = np.einsum("ij,ij->i", 0.5 * (high[a] - low[a]) + near, np.abs(normal[b]))
+    meets = np.abs(above) <= reach
+    pairs = np.unique(a[meets] * np.int64(len(corners)) + b[meets])
+    return np.stack(np.divmod(pairs, len(corners)), axis=1)
+
+
+def _owners(touch: Ints, octant: Ints, count: int, triangles: int) -> Ints:
+    """(m,) the group that most of the octants about each triangle belong to; -1 for none."""
+    pair, often = np.unique(touch[:, 1] * count + octant[touch[:, 0]], return_counts=True)
+    triangle, group = np.divmod(pair, count)
+    order = np.argsort(often, kind="stable")
+    owner = np.full(triangles, -1, np.int64)
+    owner[triangle[order]] = group[order]
+    return owner
+
+
+def _near(
+    wall: TriangleMesh, boxes: Floats, owned: list[Ints], monitor: Monitor
+) -> Iterator[tuple[int, TriangleMesh, Bools]]:
+    """The solid within the wall, cut to (k, 2, 3) boxes, and which triangles are those owned.
+
+    Each with its row, in any order.
+    """
+    import manifold3d
+
+    own_id = manifold3d.Manifold.reserve_ids(1)
+    source = to_library(
+        wall,
+        run_index=np.array([0, 3 * len(wall.triangles)], np.uint64),
+        run_original_id=np.array([own_id], np.uint32),
+        face_id=np.arange(len(wall.triangles), dtype=np.uint64),
+    )
+    whole = monitor.call(lambda: manifold3d.Manifold(source))
+    if whole.status() != manifold3d.Error.NoError:
+        raise VolfrepError(
+            f"The domain's surface cannot be cut ({whole.status().name}): repair the part's mesh."
+        )
+    # Halves of what is left of the wall, so that each cut is of a small mesh.
+    waiting = [(whole, np.arange(len(boxes)))]
+    while waiting:
+        solid, rows = waiting.pop()
+        low, high = boxes[rows, 0].min(axis=0), boxes[rows, 1].max(axis=0)
+        block = manifold3d.Manifold.cube(tuple(high - low)).translate(tuple(low))
+        solid = solid ^ block
+        if len(rows) > 1:
+            middle = boxes[rows].mean(axis=1)
+            order = np.argsort(middle[:, np.ptp(middle, axis=0).argmax()], kind="stable")
+            half = len(rows) // 2
+            waiting += [(solid, rows[order[half:]]), (solid, rows[order[:half]])]
+            continue
+        result = solid.to_mesh64()
+        origin = np.repeat(
+            np.asarray(result.run_original_id).astype(np.int64),
+            np.diff(np.asarray(result.run_index).astype(np.int64) // 3),
+        )
+        face = np.asarray(result.face_id).astype(np.int64)
+        mine = (origin == own_id) & np.isin(face, owned[rows[0]])
+        monitor.tick()
+        yield int(rows[0]), from_library(result), mine

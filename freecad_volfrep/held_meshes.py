@@ -33,7 +33,7 @@ class Keeper:
     def __init__(self) -> None:
         self.held: list[Any] = []
         alone = [object()]
-        self._alone = [sys.getrefcount(one) for one in alone][0]
+        self._alone = next(sys.getrefcount(one) for one in alone)
 
     def slotDeletedObject(self, obj: Any) -> None:  # noqa: N802
         """An object is about to go, or to become a step that can be undone."""

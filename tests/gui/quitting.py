@@ -9,6 +9,7 @@ import ctypes
 import os
 import sys
 import traceback
+from contextlib import suppress
 from pathlib import Path
 
 import FreeCAD as App
@@ -94,7 +95,8 @@ def saved(doc):
     """Keep a document, so that FreeCAD asks nothing; the view's own changes come late."""
     settle()
     doc.saveAs(str(HOME / f"{doc.Name}.FCStd"))
-    Gui.getDocument(doc.Name).Modified = False
+    with suppress(AttributeError):  # FreeCAD 0.20 asks, and is answered
+        Gui.getDocument(doc.Name).Modified = False
 
 
 def one():
@@ -129,7 +131,8 @@ def job():
     infill.StrutRadius = 1.2
     doc.recompute()
     wait_until(lambda: progress_bar() is not None)
-    Gui.getDocument(doc.Name).Modified = False
+    with suppress(AttributeError):  # FreeCAD 0.20 asks, and is answered
+        Gui.getDocument(doc.Name).Modified = False
 
 
 def undone():
@@ -182,6 +185,8 @@ def answer():
     xdotool("click", 1)
     if text == "Cancel":
         QtCore.QTimer.singleShot(500, lambda: guarded(again))
+    elif ANSWERS:
+        QtCore.QTimer.singleShot(500, answer)
 
 
 def again():

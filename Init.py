@@ -5,6 +5,8 @@ FreeCAD has by then put the add-on's folder on the module path, so that ``from f
 import make_lattice_infill`` works. Nothing that costs time is done.
 """
 
+from freecad_volfrep.held_meshes import hold_meshes
 from freecad_volfrep.revival import watch_documents
 
 watch_documents()
+hold_meshes()

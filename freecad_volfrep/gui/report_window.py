@@ -56,6 +56,7 @@ WORDS = marked(
     "What the lattice does", "relative density", "density", "E100", "E110", "E111", "G", "bulk",
     "nu", "zener", "strength", "shear strength", "conductivity", "E along x", "E along y",
     "E along z", "strength along x", "strength along y", "strength along z",
+    "least strength along x, y, z",
 )  # fmt: skip
 
 

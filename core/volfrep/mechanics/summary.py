@@ -137,7 +137,6 @@ class CellProperties:
         """Names and values, for people."""
         solid = self.material
         unit = "E of the solid" if solid is None else "MPa"
-        yields = solid is not None and solid.yield_stress is not None
         share = self.errors["relative_density"]
         rows = [
             ("cell", f"{self.cell}, L = {self.cell_size:g} mm, {self._sized()}"),
@@ -152,15 +151,12 @@ class CellProperties:
             # Means over the axes, and 2 C44 / (C11 - C12), say nothing of such a cell.
             rows += [(f"E along {axis}", self._along(axis, unit)) for axis in "xyz"]
             names = ("E110", "E111", "conductivity")
-            told = "MPa" if yields else "of the solid's yield stress"
-            limit = solid.yield_stress if solid is not None and solid.yield_stress else 1.0
-            strengths = [
-                (f"strength along {axis}", f"{limit / stress:.3g} {told}")
-                if np.isfinite(stress) and stress > 0.0
-                else (f"strength along {axis}", _NOTHING)
-                for axis, stress in ((axis, self.von_mises[2 * axis]) for axis in "xyz")
-            ]
-            rows += strengths
+            if self.von_mises:
+                rows += [(f"strength along {axis}", self._strength_along(axis)) for axis in "xyz"]
+            else:  # the catalogue keeps the least of them
+                is_none = self.values["strength"] <= _CARRIES
+                told = _NOTHING if is_none else self._told_strength("strength")
+                rows.append(("least strength along x, y, z", told))
         least = _CARRIES * float(np.abs(self.stiffness).max())
         for name in names:
             value, error = self.values[name], self.errors[name]
@@ -168,11 +164,30 @@ class CellProperties:
             if name in MODULI:
                 text = f"{text} {unit}" if value > least else _NOTHING
             elif "strength" in name:
-                text += " MPa" if yields else " of the solid's yield stress"
+                text = self._told_strength(name)
             elif name == "conductivity":
                 text += " of the solid's"
             rows.append((name.replace("_", " "), text))
         return rows
+
+    @property
+    def _yields(self) -> bool:
+        """Whether strengths are in MPa."""
+        return self.material is not None and self.material.yield_stress is not None
+
+    def _told_strength(self, name: str) -> str:
+        unit = "MPa" if self._yields else "of the solid's yield stress"
+        return f"{_with_error(self.values[name], self.errors[name])} {unit}"
+
+    def _strength_along(self, axis: str) -> str:
+        """The macroscopic stress along an axis at which the solid yields."""
+        stress = self.von_mises[2 * axis]
+        if not (np.isfinite(stress) and stress > 0.0):
+            return _NOTHING
+        limit = self.material.yield_stress if self.material is not None else None
+        return f"{(limit or 1.0) / stress:.3g} " + (
+            "MPa" if limit else "of the solid's yield stress"
+        )
 
     def _along(self, axis: str, unit: str) -> str:
         """Young's modulus along an axis, and its error, which is that of the stiffness there."""

@@ -2737,6 +2737,10 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
       <translation>Gitter</translation>
     </message>
     <message>
+      <source>least strength along x, y, z</source>
+      <translation>kleinste Festigkeit entlang x, y, z</translation>
+    </message>
+    <message>
       <source>load before buckling, times</source>
       <translation>Last bis zum Knicken, Vielfaches</translation>
     </message>

@@ -2737,6 +2737,10 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
       <translation>reticolo</translation>
     </message>
     <message>
+      <source>least strength along x, y, z</source>
+      <translation>resistenza minima lungo x, y, z</translation>
+    </message>
+    <message>
       <source>load before buckling, times</source>
       <translation>carico prima dell'instabilità, volte</translation>
     </message>

@@ -69,7 +69,11 @@ def test_cells_that_are_not_alike_along_x_y_and_z_keep_all_of_their_tensor(name)
     assert known.tensors[1][2, 2] < between[2, 2] < known.tensors[2][2, 2]
     found = known_properties(LIBRARY[name], 10.0, 0.5)
     assert found.stiffness.shape == found.errors["stiffness"].shape == (6, 6)
-    assert [row for row, _ in found.rows()][-1] == "conductivity"
+    rows = [row for row, _ in found.rows()]
+    assert rows[-1] == "conductivity"
+    assert "E along z" in rows
+    assert "zener" not in rows
+    assert "least strength along x, y, z" in rows
 
 
 def test_columns_carry_along_themselves_only_and_a_point_computed_again_is_that_shipped():

@@ -159,7 +159,7 @@ class LatticeInfillView:
 
     def getIcon(self) -> str:  # noqa: N802
         """Path of the tree's icon: another one for a mesh that is out of date."""
-        return str(ICONS / f"lattice_infill{'_stale' * self._is_stale}.svg")
+        return str(ICONS / ("lattice_infill_stale.svg" if self._is_stale else "lattice_infill.svg"))
 
     def doubleClicked(self, view: Any) -> bool:  # noqa: N802
         """Edit the infill in its task panel."""

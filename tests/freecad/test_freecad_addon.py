@@ -107,7 +107,7 @@ def test_the_start_of_freecad_imports_nothing_heavy():
         f"import sys, types; sys.path.insert(0, {str(ROOT)!r});"
         "app = sys.modules['FreeCAD'] = types.ModuleType('FreeCAD');"
         "observers = []; app.addDocumentObserver = observers.append;"
-        "exec(open('Init.py').read()); assert len(observers) == 1;"
+        "exec(open('Init.py').read()); assert len(observers) == 2;"
         "import freecad_volfrep; heavy = {'numpy', 'scipy', 'skimage', 'trimesh', 'volfrep'};"
         "sys.exit(str(heavy & set(sys.modules)) if heavy & set(sys.modules) else 0)"
     )

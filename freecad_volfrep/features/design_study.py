@@ -274,7 +274,8 @@ def run_study(obj: App.DocumentObject) -> bool:
         App.Console.PrintMessage(f"VOLFREP, {obj.Label}: {CANCELLED}\n")
         return False
     failed = dict.fromkeys(text for text in made.table.column("error") if text)
-    obj.Refused = [f"{count} x {text}" for text, count in made.refused.items()] + list(failed)
+    obj.Refused = [f"{count} x {text}" for text, count in made.refused.items()]
+    obj.Refused += [*failed, *made.damaged]
     obj.Designs = made.count("done")
     obj.Folder = str(made.page.parent)
     obj.Table = json.dumps(

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Design studies as objects of a document: run, opened again, and a design given to the infill."""
 
+from pathlib import Path
+
 import FreeCAD as App
 import pytest
 
@@ -94,6 +96,10 @@ def test_combinations_without_sense_are_told_and_passed_over(doc, infill):
     run_study(study)
     assert study.Designs == 1
     assert len(study.Refused) >= 2
+    next(Path(study.Folder).glob("records/*.json")).write_text("{")
+    run_study(study)
+    assert study.Designs == 1
+    assert "is damaged" in study.Refused[-1], "and its run was done anew"
 
 
 def test_what_a_study_refuses(doc, box, infill):

@@ -21,6 +21,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..design.parameters import BY_NAME
+from ..util import memory_limit
 from ..util.errors import VolfrepError
 from ..util.files import keeping_inputs
 from . import layers, material, printing_options, process, properties, sizing, solver_options, sweep
@@ -59,6 +60,7 @@ def run(arguments: Sequence[str]) -> int:
         refuse_old(arguments)
         options = _parser().parse_args(arguments)
         command: Command = options.command
+        memory_limit.keep_within()
         with keeping_inputs():
             status = command(options) or 0
             write_kept(options)
@@ -66,18 +68,14 @@ def run(arguments: Sequence[str]) -> int:
     except VolfrepError as error:
         print(f"volfrep: {error}", file=sys.stderr)
         return EXIT_BAD_INPUT
-    except MemoryError:
-        print(
-            "volfrep: There is not enough memory for this job: "
-            "use a coarser resolution or larger cells.",
-            file=sys.stderr,
-        )
-        return EXIT_BAD_INPUT
     except KeyboardInterrupt:
         return process.say_interrupted()
     except Exception as error:  # whatever it is, the user gets a sentence
         if process.is_interrupted():
             return process.say_interrupted()
+        if memory_limit.is_want_of_memory(error):
+            print(f"volfrep: {memory_limit.not_enough()}", file=sys.stderr)
+            return EXIT_BAD_INPUT
         print(
             f"volfrep: The engine failed with a {type(error).__name__} ({error}), which is a "
             f"defect of VOLFREP: please report it with the traceback in '{_logged()}'.",
@@ -190,7 +188,7 @@ def _fill(options: argparse.Namespace) -> None:
     _check_targets(options, spec)
     keep_specification(options, spec)
 
-    from ..design.forecast import forecast_fill
+    from ..design.forecast import forecast_fill, refuse_crossing
     from ..jobs.rough_radius import solve_target_roughly
     from ..jobs.targets import solve_target
 
@@ -198,7 +196,10 @@ def _fill(options: argparse.Namespace) -> None:
     solid = read_part(options, spec.cell_size)
     read_seconds = time.perf_counter() - start
     meshed = solver_options.is_meshed(options)
-    expected = forecast_fill(solid, solve_target_roughly(solid, spec), streamed=_is_plain(options))
+    rough = solve_target_roughly(solid, spec)
+    if meshed and spec.output != "domain" and options.threemf != "beams":
+        refuse_crossing(rough)
+    expected = forecast_fill(solid, rough, streamed=_is_plain(options))
     if not options.quiet:
         print(f"Expected: {expected if meshed else expected.of_axes}.", flush=True)
     is_cut = meshed and spec.network is None and spec.output != "domain"
@@ -235,7 +236,7 @@ def _block(options: argparse.Namespace) -> None:
     _check_targets(options, spec)
     keep_specification(options, spec)
 
-    from ..design.forecast import forecast_block
+    from ..design.forecast import forecast_block, refuse_crossing
     from ..jobs.blocks import block, write_block_stl
     from ..jobs.targets import solve_block_target
 
@@ -249,6 +250,7 @@ def _block(options: argparse.Namespace) -> None:
 
         printing_options.finish_beams(block_beams(spec, options.count), options, start)
         return
+    refuse_crossing(spec)
     streamed = _is_plain(options) and Path(options.output).suffix.lower() == ".stl"
     if not options.quiet:
         expected = forecast_block(spec, options.count, streamed=streamed)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import sys
 from collections.abc import Callable
 from typing import Any
 
@@ -16,6 +17,8 @@ from .files import check_files
 from .run_options import add_run_options
 from .telling import print_rows
 
+#: What takes longer is told before, s.
+LONG = 10.0
 _TEXT = "Tell density, stiffness, strength and conductance of a cell's lattice."
 _CELLS_TEXT = (
     "List the library of unit cells, or those of a catalogue's text; or take one out of it."
@@ -90,6 +93,14 @@ def _library_told() -> None:
     print(f"{FORMULA:<25}a formula of your own, of x, y and z")
 
 
+def _expected(seconds: float) -> None:
+    """Tell how long it will take, where somebody would wonder."""
+    if seconds > LONG:
+        from ..design.forecast import duration
+
+        print(f"Expected: about {duration(seconds)} more.", file=sys.stderr, flush=True)
+
+
 def _properties(options: argparse.Namespace) -> None:
     from ..jobs.figures.properties import lattice_properties
     from ..util.files import replacing
@@ -108,6 +119,7 @@ def _properties(options: argparse.Namespace) -> None:
         wall_thickness=options.wall_thickness,
         wall_offset=options.wall_offset,
         wall_formula=options.wall_formula,
+        told=_expected,
     )
     if options.json is not None:
         with replacing(options.json) as file:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -16,10 +17,11 @@ from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.even_points import even_points
 from ..spatial.proximity import neighbours
 from ..spatial.rays import inside_points, segment_crossings
+from ..util.errors import VolfrepError
 from ..util.linalg import frame_about, normalize, times
 from ..util.progress import Monitor
 from ..util.types import Floats
-from .cells import UnitCell
+from .cells import LIBRARY, UnitCell
 from .graphs import RandomGraph, StretchedCells
 from .spec import LatticeSpec
 
@@ -79,6 +81,18 @@ BYTES_PER_CUT_TRIANGLE = 220.0
 #: Bytes of a triangle where only its vertices are kept, each in a place of its own: 18.7 million of
 #: a bracket take 0.4 to 0.6 GB more than those of equal cells.
 BYTES_PER_PLACED_TRIANGLE = 30.0
+#: Octants of a cell without mirrors, or whose struts cross beside their nodes, where facets are
+#: divided and drawn apart: seconds for each triangle of a cell, and for each distance of a sample
+#: from a strut. Random cells of 10 to 57 struts took 0.5 to 2 times as long.
+SECONDS_PER_OWN_TRIANGLE = 1.5e-3
+SECONDS_PER_DISTANCE = 4e-8
+#: At least so much of a strut's surface is bare; struts whose angle has a smaller squared sine than
+#: this are parallel.
+LEAST_BARE = 0.05
+PARALLEL = 1e-9
+#: Cells whose octants take longer than this, s, or whose struts cross more often, are refused.
+LONGEST = 900.0
+MOST_CROSSING = 1000
 #: Bytes that a cell of a block takes whose octants are written as they are laid.
 BYTES_PER_STREAMED_CELL = 5000
 #: Bytes of a triangle in a binary STL file.
@@ -115,7 +129,7 @@ class Forecast:
         return (
             f"{self.of_axes}, {_rounded(self.triangles)} triangles, "
             f"{_rounded(self.memory_gb)} GB of memory, an STL file of {_rounded(self.stl_mb)} MB "
-            f"and {_duration(self.seconds)}"
+            f"and {duration(self.seconds)}"
         )
 
 
@@ -146,6 +160,9 @@ def forecast_fill(solid: TriangleMesh, spec: LatticeSpec, *, streamed: bool = Fa
     narrow = narrow_room(solid, spec)
     seconds = SECONDS + SECONDS_PER_BEND * bends + SECONDS_PER_NARROW * narrow
     seconds += SECONDS_PER_TRIANGLE * triangles
+    if spec.output != "domain":
+        # Within a part all cells are there: those of the octants that are not lie outside.
+        seconds += meshing_seconds(spec, 1.0)
     held = BYTES_PER_TRIANGLE * triangles
     if streamed and spec.streams:
         at_wall = expected_triangles(spec, min(inside, CUT_LAYER * spec.cell_size * area))
@@ -275,11 +292,85 @@ def forecast_block(spec: LatticeSpec, count: Sequence[int], *, streamed: bool = 
     triangles = cells * _triangles_of_cell(spec, shares)
     in_pieces = streamed and not spec.is_graded
     seconds = SECONDS + SECONDS_PER_BLOCK_TRIANGLE * triangles * (0.5 if in_pieces else 1.0)
+    seconds += meshing_seconds(spec, float(np.minimum(layers, 2.0).prod()))
     if in_pieces:
         per_triangle = BYTES_PER_STREAMED_CELL * cells / triangles
     else:
         per_triangle = BYTES_PER_BLOCK_TRIANGLE
     return _forecast(cells, shares, triangles, per_triangle, seconds)
+
+
+def meshing_seconds(spec: LatticeSpec, sets: float) -> float:
+    """What octants take to be meshed that are of no library cell, s.
+
+    0 for those of the library, and for cells with mirrors whose struts meet at nodes only.
+
+    Args:
+        spec: the lattice.
+        sets: how many different sets of a cell's eight octants there are.
+    """
+    if spec.surface is not None or spec.network is not None:
+        return 0.0
+    cell, radius = spec.unit_cell(), spec.template_radius / spec.cell_size
+    if LIBRARY.get(cell.name) == cell or (
+        cell.is_mirror_symmetric and not crossing_struts(cell, radius)
+    ):
+        return 0.0
+    ends = cell.nodes[cell.struts]
+    lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    # So much of a surface is bare where solids lie anywhere in each other (Boolean model).
+    bare = max(float(np.exp(-np.pi * radius**2 * lengths.sum())), LEAST_BARE)
+    facets = bare * _triangles_of_cell(spec, _shares_of(spec))
+    steps = 0.5 * max(spec.facets_along_cell, 1.0 / (0.75 * radius))
+    distances = 8.0 * steps**3 * len(lengths)
+    seconds = SECONDS_PER_OWN_TRIANGLE * facets + SECONDS_PER_DISTANCE * distances
+    return sets * seconds * (0.125 if cell.is_mirror_symmetric else 1.0)
+
+
+def refuse_crossing(spec: LatticeSpec) -> None:
+    """Refuse a cell of struts whose octants would take too long to mesh.
+
+    Raises:
+        VolfrepError: so they would.
+    """
+    seconds = meshing_seconds(spec, 1.0)
+    if seconds == 0.0:
+        return
+    cell = spec.unit_cell()
+    crossing = crossing_struts(cell, spec.template_radius / spec.cell_size)
+    if seconds <= LONGEST and crossing <= MOST_CROSSING:
+        return
+    if crossing > MOST_CROSSING:
+        why = f"run into each other beside their nodes at {crossing:,} places, of which"
+        why += f" {MOST_CROSSING:,} at most are meshed"
+    else:
+        why = f"would take about {duration(seconds)} to mesh in a single cell"
+    raise VolfrepError(
+        f"The {len(cell.struts):,} struts of the cell '{cell.name}' {why}: leave struts out, put "
+        "nodes where they cross, or choose thinner struts with a coarser resolution."
+    )
+
+
+@lru_cache(maxsize=16)
+def crossing_struts(cell: UnitCell, radius: float) -> int:
+    """How many pairs of a cell's struts of a radius, in units of L, meet beside their nodes."""
+    ends = cell.nodes[cell.struts]
+    start, way = ends[:, 0], ends[:, 1] - ends[:, 0]
+    count = 0
+    for k in range(len(ends) - 1):
+        w, apart = way[k + 1 :], start[k + 1 :] - start[k]
+        # Nearest places of two lines, as shares of their lengths.
+        a, b, c = way[k] @ way[k], w @ way[k], (w * w).sum(axis=1)
+        d, e = apart @ way[k], (apart * w).sum(axis=1)
+        determinant = a * c - b * b
+        skew = determinant > PARALLEL * a * c
+        with np.errstate(divide="ignore", invalid="ignore"):
+            t, u = (d * c - b * e) / determinant, (d * b - a * e) / determinant
+        inside = skew & (t > 0.0) & (t < 1.0) & (u > 0.0) & (u < 1.0)
+        gap = apart[inside] + u[inside, None] * w[inside] - t[inside, None] * way[k]
+        joined = (cell.struts[k + 1 :, :, None] == cell.struts[k]).any(axis=(1, 2))[inside]
+        count += int(((np.linalg.norm(gap, axis=1) < 2.0 * radius) & ~joined).sum())
+    return count
 
 
 def expected_triangles(spec: LatticeSpec, volume: float) -> float:
@@ -368,7 +459,8 @@ def _rounded(value: float) -> str:
     return f"{float(f'{value:.2g}'):,.15g}"
 
 
-def _duration(seconds: float) -> str:
+def duration(seconds: float) -> str:
+    """A time in s, min or h, to two figures."""
     if seconds < 90.0:
         return f"{_rounded(max(1.0, seconds))} s"
     if seconds < 5400.0:

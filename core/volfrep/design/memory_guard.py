@@ -10,6 +10,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ..util import memory_limit
 from ..util.errors import VolfrepError
 from .forecast import BYTES_PER_PLACED_TRIANGLE, expected_triangles
 from .spec import LatticeSpec
@@ -150,7 +151,11 @@ def rounded_up(value: float) -> float:
 
 
 def free_memory() -> float:
-    """Bytes of memory that are free, as far as the system tells."""
+    """Bytes of memory that are free, as far as the system tells, and that may be taken."""
+    return min(_free_memory(), memory_limit.left())
+
+
+def _free_memory() -> float:
     try:
         with open("/proc/meminfo", encoding="ascii") as file:
             for line in file:

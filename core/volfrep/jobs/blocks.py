@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from ..design.forecast import BYTES_PER_STREAMED_CELL
+from ..design.forecast import BYTES_PER_STREAMED_CELL, refuse_crossing
 from ..design.graphs import StretchedCells
 from ..design.memory_guard import BYTES_PER_STRUT, refuse_block, refuse_expected
 from ..design.spec import LatticeSpec
@@ -254,6 +254,7 @@ def _lay(spec: LatticeSpec, cells: CellGrid, placement: Placement, monitor: Moni
     active = np.ones(cells.shape, bool)
     if spec.surface is not None:
         return _lay_walls(spec, cells, placement, monitor)
+    refuse_crossing(spec)
     cell = spec.unit_cell()
     with monitor.stage("tile", 0.0, 0.4):
         grid = octant_grid(cell, active, spec.cell_size, cells.origin, cells.periodic)

@@ -13,6 +13,7 @@ from functools import cached_property, partial
 import numpy as np
 
 from ..design.cells import UnitCell
+from ..design.forecast import refuse_crossing
 from ..design.memory_guard import refuse_expected
 from ..design.spec import LatticeSpec
 from ..grid.placement import Placement, graded_wireframe, placement_in
@@ -308,6 +309,7 @@ class Infill:
     def _laid(self, *, is_cut: bool) -> PlacedLattice:
         """The octants laid in the part, as of a lattice that a wall cuts, or as they are."""
         if is_cut not in self._laid_octants:
+            refuse_crossing(self.spec)
             refuse_expected(self.spec, 0.0 if self._streamed else self.domain.mesh.volume)
             _ = self.struts  # refused before anything is meshed
             motion = self.placement.motion if self._keeps_places else None

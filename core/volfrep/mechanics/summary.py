@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..design.cells import UnitCell, find_cell
+from ..design.forecast import MOST_CROSSING, crossing_struts
 from ..design.spec_parts import Grid, Struts
 from ..design.tpms import TpmsSheet
 from ..util.errors import VolfrepError
@@ -31,6 +33,8 @@ RATIOS = ("nu", "zener")
 _CUBIC = 1e-3
 #: A modulus below this part of the largest stiffness is that of what carries nothing.
 _CARRIES = 1e-6
+#: Cells of more struts are refused: all copies near each body are looked at together.
+MOST_STRUTS = 500
 _NOTHING = "0: it carries nothing that way"
 
 
@@ -231,6 +235,7 @@ def cell_properties(
     fillet: float = 0.0,
     material: str | SolidMaterial | None = None,
     along: int | None = None,
+    told: Callable[[float], None] = lambda seconds: None,
 ) -> CellProperties:
     """What the endless lattice of a cell of struts does.
 
@@ -242,9 +247,10 @@ def cell_properties(
         fillet: radius of the round between struts, mm.
         material: the solid, by name, file or itself; None: figures in units of the solid's.
         along: voxels along L of the finest of three grids; None for what the radius asks for.
+        told: given how many seconds are left, about, as soon as that is known.
 
     Raises:
-        VolfrepError: a value makes no sense, or the cell carries no load.
+        VolfrepError: a value makes no sense, the cell carries no load, or it has too many struts.
 
     >>> found = cell_properties("BCC", 10, 1, material="PA12", along=16)
     >>> round(found.relative_density, 3), found.stiffness.shape
@@ -257,17 +263,36 @@ def cell_properties(
         raise VolfrepError("Give either a strut radius or a relative density.")
     solid = find_material(material) if isinstance(material, str) else material
     size = Grid(cell_size).size
+    _refuse_crowded(unit_cell, None if strut_radius is None else strut_radius / size)
     if strut_radius is None:
         _check(size, size * 1e-3, fillet)
         assert relative_density is not None
         strut_radius = size * radius_of_density(unit_cell, float(relative_density), fillet / size)
     _check(size, strut_radius, fillet)
-    return _summary(unit_cell, size, float(strut_radius), float(fillet), solid, along)
+    return _summary(unit_cell, size, float(strut_radius), float(fillet), solid, along, told)
 
 
 def _check(size: float, radius: float, fillet: float) -> None:
     """Refuse what no lattice can be made of; the number of facets does not matter here."""
     Struts(radius, fillet).refuse_too_thick(size)
+
+
+def _refuse_crowded(cell: UnitCell, ratio: float | None) -> None:
+    """Refuse a cell of very many struts, or that cross very often with that r / L, if it is known.
+
+    Raises:
+        VolfrepError: it is one.
+    """
+    struts, why = len(cell.struts), f"more than {MOST_STRUTS:,}"
+    if struts <= MOST_STRUTS:
+        crossing = 0 if ratio is None else crossing_struts(cell, ratio)
+        if crossing <= MOST_CROSSING:
+            return
+        why = f"which run into each other beside their nodes at {crossing:,} places"
+    raise VolfrepError(
+        f"The cell '{cell.name}' has {struts:,} struts, {why}: its properties are not computed. "
+        "Leave struts out, or put nodes where they cross."
+    )
 
 
 def _summary(
@@ -277,11 +302,18 @@ def _summary(
     fillet: float,
     solid: SolidMaterial | None,
     along: int | None,
+    told: Callable[[float], None],
 ) -> CellProperties:
     poisson = POISSON if solid is None else solid.poisson
     density = relative_density(cell, radius / size, fillet / size)
     found = homogenise(
-        cell, radius / size, fillet / size, poisson=poisson, along=along, density=density.value
+        cell,
+        radius / size,
+        fillet / size,
+        poisson=poisson,
+        along=along,
+        density=density.value,
+        told=told,
     )
     whole = figures_of(found, solid)
     whole.errors["relative_density"] = density.error

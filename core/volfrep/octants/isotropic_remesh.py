@@ -14,6 +14,7 @@ triangles of its own, with edges on the creases, in a few passes each:
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -47,13 +48,16 @@ TIED = 1e-6
 BISECTIONS = 30
 
 
-def remesh_evenly(raw: Surface, gently: bool = False) -> tuple[Surface, Ints]:
+def remesh_evenly(
+    raw: Surface, gently: bool = False, asked: Callable[[], None] = lambda: None
+) -> tuple[Surface, Ints]:
     """Remesh: even triangles with their edges on the creases, vertices on the exact surface.
 
     Args:
         raw: what marching cubes found.
         gently: inside, all triangles stay, and creases are not looked for; the border comes out
             the same.
+        asked: called in every round; what it raises ends the work.
 
     Returns:
         The surface, and which of the raw vertices its own were.
@@ -68,15 +72,18 @@ def remesh_evenly(raw: Surface, gently: bool = False) -> tuple[Surface, Ints]:
     if gently:
         return _relax(surface), origin
     for _ in range(3):
+        asked()
         surface, stay = _collapse(surface)
         origin = origin[stay]
         surface = _relax(flip_edges(surface))
     if surface.field.fillet <= 0.0:
         for _ in range(3):
+            asked()
             surface = flip_edges(_sharpen(surface))
             surface, stay = _collapse(surface)
             origin = origin[stay]
     for _ in range(3):
+        asked()
         surface = _relax(flip_edges(surface))
     return flip_edges(surface), origin
 

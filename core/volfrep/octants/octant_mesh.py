@@ -130,11 +130,11 @@ def _mesh(
     while todo:
         batch = Batch.of(spec, {key: primitives[key] for key in todo})
         todo = todo[len(batch.keys) :]
-        result.update(_meshed(spec, batch))
+        result.update(_meshed(spec, batch, monitor))
         monitor.tick(1.0 - len(todo) / len(primitives))
 
 
-def _meshed(spec: OctantSpec, batch: Batch) -> dict[OctantKey, Octant]:
+def _meshed(spec: OctantSpec, batch: Batch, monitor: Monitor) -> dict[OctantKey, Octant]:
     """The octants of a batch: those whose facets cross once more, in the next manner.
 
     Raises:
@@ -142,26 +142,27 @@ def _meshed(spec: OctantSpec, batch: Batch) -> dict[OctantKey, Octant]:
     """
     result: dict[OctantKey, Octant] = {}
     farthest = DIVIDED_TO * spec.deviation
-    even = _bordered(*remesh_evenly(batch.surface), batch, farthest)
+    even = _bordered(*remesh_evenly(batch.surface, asked=monitor.tick), batch, farthest)
     gentle: Meshed | None = None
     left = np.ones(len(batch.keys), bool)
     # Facets that touch are better than none, where nothing keeps them apart.
     for exact, manner in itertools.product((True, False), _Manner):
         if manner is _Manner.GENTLE:
             if gentle is None:
-                gentle = _bordered(*remesh_evenly(batch.surface, gently=True), batch, farthest)
+                evened = remesh_evenly(batch.surface, gently=True, asked=monitor.tick)
+                gentle = _bordered(*evened, batch, farthest)
             meshed = gentle
         else:
             meshed = even
         meshed = meshed.where(left[meshed.surface.piece])
         if manner is _Manner.COARSE_AND_FINE:
             # To draw facets apart moves them off the surface, and smaller ones less.
-            meshed = _refined(_coarsened(meshed, spec.deviation), spec.deviation)
+            meshed = _refined(_coarsened(meshed, spec.deviation), spec.deviation, monitor)
             fitted, crossed = meshed.surface, crossing_facets(meshed.surface, exact)
         else:
             if manner is _Manner.FINE:
-                meshed = _refined(meshed, spec.deviation)
-            fitted, crossed = untangle(meshed.surface, meshed.home, exact)
+                meshed = _refined(meshed, spec.deviation, monitor)
+            fitted, crossed = untangle(meshed.surface, meshed.home, exact, monitor.tick)
         bad = np.zeros(len(left), bool)
         bad[fitted.piece[fitted.triangles[crossed, 0]]] = True
         result.update(batch.split(replace(meshed, surface=fitted), left & ~bad))
@@ -201,7 +202,7 @@ def _coarsened(meshed: Meshed, deviation: float) -> Meshed:
     return meshed.of(fewer, stay)
 
 
-def _refined(meshed: Meshed, deviation: float) -> Meshed:
+def _refined(meshed: Meshed, deviation: float, monitor: Monitor) -> Meshed:
     """With more vertices where facets stray, which is where struts meet, until none does.
 
     A piece that strays however it is divided, as where a crease runs out, stays as it was before
@@ -214,6 +215,7 @@ def _refined(meshed: Meshed, deviation: float) -> Meshed:
     pieces = int(meshed.surface.piece[-1]) + 1 if len(meshed.surface.piece) else 0
     most = GROWTH * np.bincount(meshed.surface.piece[meshed.surface.triangles[:, 0]], None, pieces)
     while True:
+        monitor.tick()
         surface = meshed.surface
         owner = surface.piece[surface.triangles[:, 0]]
         stray = all_stray(surface, LOOKED_AT * farthest)

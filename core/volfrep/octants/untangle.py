@@ -8,6 +8,7 @@ over those of the next.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -62,7 +63,12 @@ def crossing_facets(surface: Surface, exact: bool = True, pieces: Bools | None =
     return crossing
 
 
-def untangle(surface: Surface, home: Floats, exact: bool = True) -> tuple[Surface, Bools]:
+def untangle(
+    surface: Surface,
+    home: Floats,
+    exact: bool = True,
+    asked: Callable[[], None] = lambda: None,
+) -> tuple[Surface, Bools]:
     """The surface with facets that cross drawn apart, where that is possible.
 
     A vertex goes to the middle of its neighbours, off the exact surface by a part of a facet; and
@@ -72,6 +78,7 @@ def untangle(surface: Surface, home: Floats, exact: bool = True) -> tuple[Surfac
         surface: its facets fitted.
         home: (n, 3) where marching cubes found its vertices, mm.
         exact: whether facets that only touch are drawn apart, as `crossing_facets` tells.
+        asked: called in every round; what it raises ends the work.
 
     Returns:
         The surface, and (m,) which facets still cross.
@@ -84,6 +91,7 @@ def untangle(surface: Surface, home: Floats, exact: bool = True) -> tuple[Surfac
     for turn in range(ROUNDS):
         if not crossed.any():
             break
+        asked()
         near = np.zeros(count, bool)
         near[triangles[crossed]] = True
         pieces[:] = False  # the others stay as they are

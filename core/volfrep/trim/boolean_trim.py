@@ -25,7 +25,7 @@ from ..util.errors import VolfrepError
 from ..util.progress import POLL_SECONDS, Monitor
 from ..util.threads import threads
 from ..util.types import Bools, Floats, Ints
-from ..util.workers import at_once
+from ..util.workers import Watch, at_once
 from .culling import KeptOctants, without_pinches
 from .group_cut import Group, Piece, cut_group, read_runs
 from .octant_groups import Groups, group_octants
@@ -160,6 +160,7 @@ def _cut_beside(
 ) -> Iterator[tuple[int, Piece]]:
     """As `_cut`, with this executor; None: here."""
     ahead: deque[tuple[int, Group, Future[Piece] | None]] = deque()
+    watch = Watch(executor)
     for done in range(count):
         piece = None
         # Some groups ahead, so that no worker waits; not all, so that they take no memory.
@@ -174,7 +175,7 @@ def _cut_beside(
                 ahead.append((*following, None))
         if ahead:
             number, group, future = ahead.popleft()
-            piece = None if future is None else _finished(future, monitor)
+            piece = None if future is None else _finished(future, watch, monitor)
         else:
             number, group = next(groups)
         if piece is None:
@@ -185,13 +186,14 @@ def _cut_beside(
         yield number, piece
 
 
-def _finished(future: Future[Piece], monitor: Monitor) -> Piece | None:
+def _finished(future: Future[Piece], watch: Watch, monitor: Monitor) -> Piece | None:
     """What a worker made; None where it was lost, as for want of memory.
 
     What is wrong with a group itself shows again where it is cut next. A cancel does not wait.
     """
     while not future.done():
         wait([future], POLL_SECONDS)
+        watch()
         monitor.tick()
     if future.cancelled() or future.exception() is not None:
         monitor.count("groups whose worker was lost", 1)

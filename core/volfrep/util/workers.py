@@ -7,6 +7,7 @@ Calls that hold Python's lock, such as those of the Boolean library, run side by
 from __future__ import annotations
 
 import signal
+import time
 from collections.abc import Iterator
 from concurrent.futures import Executor
 from contextlib import contextmanager
@@ -19,6 +20,8 @@ from .version import VERSION
 
 #: A scheduler that does not answer within so long is not there, s.
 PATIENCE = 20
+#: While it works, it is asked for its workers so often, s.
+ASKED_EVERY = 1.0
 
 
 @contextmanager
@@ -82,7 +85,7 @@ def _prepared(module: str, thread_count: int) -> None:
 def dask_workers(address: str) -> Iterator[Executor]:
     """The executor of a Dask scheduler; needs the package distributed.
 
-    Dask gives what a lost worker was doing to another one.
+    Dask gives what a lost worker was doing to another one; where there is none, see `Watch`.
 
     Args:
         address: of the scheduler, such as tcp://HOST:8786.
@@ -117,6 +120,36 @@ def dask_workers(address: str) -> Iterator[Executor]:
         # As the standard library's executors know it of themselves: see `at_once`.
         executor._max_workers = sum(client.nthreads().values())
         yield executor
+
+
+class Watch:
+    """Sees that an executor still has workers, where those can leave: of a Dask cluster."""
+
+    def __init__(self, executor: Executor | None) -> None:
+        self._client: Any = getattr(executor, "_client", None)
+        self._seen = self._asked = time.monotonic()
+
+    def __call__(self) -> None:
+        """Called again and again while waiting; asks the scheduler every `ASKED_EVERY` seconds.
+
+        Raises:
+            VolfrepError: since `PATIENCE` seconds there is no worker, or no scheduler.
+        """
+        now = time.monotonic()
+        if self._client is None or now < self._asked + ASKED_EVERY:
+            return
+        self._asked = now
+        try:
+            some = bool(self._client.nthreads())
+        except (OSError, TimeoutError):  # the scheduler has gone
+            some = False
+        if some:
+            self._seen = now
+        elif now > self._seen + PATIENCE:
+            raise VolfrepError(
+                f"The Dask scheduler has had no worker for {PATIENCE:g} s: the last one has ended, "
+                "as for want of memory. Start 'dask worker' anew, and run this again."
+            )
 
 
 def _refuse_other_versions(client: Any) -> None:

@@ -115,3 +115,52 @@ def test_warnings_of_libraries_are_not_for_the_user(tmp_path: Path) -> None:
         [sys.executable, "-c", code, *BLOCK], cwd=tmp_path, capture_output=True, check=False
     )
     assert (done.returncode, done.stderr) == (0, b"")
+
+
+@needs_unix
+@pytest.mark.parametrize(
+    ("limit", "told"),
+    [(300_000_000, b"may take 0.3 GB of address space"), (410_000_000, b"")],
+    ids=["too little", "one thread"],
+)
+def test_a_limit_of_the_address_space_is_told_before_numpy_is_loaded(
+    tmp_path: Path, limit: int, told: bytes
+) -> None:
+    code = "import os, resource, sys\n"
+    code += f"resource.setrlimit(resource.RLIMIT_AS, ({limit}, {limit}))\n"
+    code += f"os.execv(sys.executable, [sys.executable, '-m', 'volfrep', *{BLOCK!r}])"
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=tmp_path, capture_output=True, timeout=60
+    )
+    assert done.returncode == (2 if told else 0), done.stderr
+    assert told in done.stderr
+    assert done.stderr.count(b"\n") <= 1, "one sentence"
+    assert (tmp_path / "a.stl").exists() is not bool(told)
+    assert run(["--version"], tmp_path, capture_output=True).returncode == 0
+
+
+@needs_unix
+def test_memory_that_is_not_to_be_had_is_told_with_its_limit(tmp_path: Path) -> None:
+    """As of a job, of a thread that does not start, and of a library that finds no room."""
+    for raised in (
+        "MemoryError()",
+        'RuntimeError("can\'t start new thread")',
+        "ImportError('liblapack.so.3: failed to map segment from shared object')",
+    ):
+        code = "import resource, sys\nimport volfrep.cli.properties as told\n"
+        code += "resource.setrlimit(resource.RLIMIT_AS, (10**11, 10**11))\n"
+        code += f"def fails():\n    raise {raised}\n"
+        code += "told._library_told = fails\nfrom volfrep.cli.command import run\n"
+        code += "sys.exit(run(['cells']))"
+        done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True)
+        assert done.returncode == 2
+        assert b"not enough memory for this job within the 100 GB of address" in done.stderr
+        assert done.stderr.count(b"\n") == 1
+
+
+@needs_unix
+def test_free_memory_is_no_more_than_may_be_taken() -> None:
+    code = "import resource\nfrom volfrep.design.memory_guard import free_memory\n"
+    code += "resource.setrlimit(resource.RLIMIT_AS, (10**9, 10**9))\nprint(free_memory() < 0.95e9)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, check=True)
+    assert done.stdout == b"True\n"

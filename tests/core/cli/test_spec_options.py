@@ -65,6 +65,18 @@ def test_what_was_in_force_is_written_and_read_again(tmp_path: Path, file: Path)
     assert read_spec(again).strut_radius == 0.6
 
 
+def test_what_a_network_was_made_with_is_written_and_read_again(tmp_path: Path) -> None:
+    graph, spec = tmp_path / "graph.csv", tmp_path / "spec.toml"
+    graph.write_text("0,0,0,9,9,9\n9,9,9,18,0,0\n")
+    first, again = tmp_path / "first.stl", tmp_path / "again.stl"
+    given = ("--strut-radius", "0.7", "--deviation", "0.05", "--write-spec", spec)
+    assert run("network", graph, "-o", first, *given) == 0
+    found = read_spec(spec)
+    assert (found.strut_radius, found.deviation) == (0.7, 0.05)
+    assert run("network", graph, "-o", again, "--spec", spec) == 0
+    assert again.read_bytes() == first.read_bytes()
+
+
 def test_an_entry_without_effect_is_refused(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -7,6 +7,7 @@ import os
 import signal
 import subprocess
 import sys
+import time
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
@@ -190,3 +191,61 @@ def test_workers_that_are_killed_cost_time_and_nothing_else(
     alone = fill_solid(solid, SPEC)
     np.testing.assert_array_equal(made.result.mesh.vertices, alone.mesh.vertices)
     np.testing.assert_array_equal(made.result.mesh.triangles, alone.mesh.triangles)
+
+
+def test_workers_that_have_all_gone_are_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of an executor that has a Dask client; no other one is asked."""
+    answers: list[dict[str, int] | OSError] = []
+
+    class Client:
+        def nthreads(self) -> dict[str, int]:
+            answer = answers.pop(0)
+            if isinstance(answer, OSError):
+                raise answer
+            return answer
+
+    class ClientExecutor:
+        _client = Client()
+
+    now = iter([0.0, 0.5, 2.0, 15.0, 23.0]).__next__
+    monkeypatch.setattr(workers.time, "monotonic", now)
+    watch = workers.Watch(ClientExecutor())  # type: ignore[arg-type]
+    answers += [{"tcp://one": 1}, {}, OSError("no scheduler")]
+    watch()
+    assert len(answers) == 3, "not so soon again"
+    watch()
+    watch()
+    with pytest.raises(VolfrepError, match="has had no worker for 20 s"):
+        watch()
+    assert not answers
+    monkeypatch.undo()
+    workers.Watch(None)()
+
+
+@pytest.mark.slow
+def test_a_fill_whose_workers_have_all_gone_ends(
+    tmp_path: Path,
+    part: Path,
+    cluster: tuple[str, list[subprocess.Popen]],
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    address, programs = cluster
+    start = []
+
+    class Watch(workers.Watch):
+        def __init__(self, executor: object) -> None:
+            super().__init__(executor)  # type: ignore[arg-type]
+            for program in programs:
+                os.kill(program.pid, signal.SIGKILL)
+                program.wait()
+            start.append(time.monotonic())
+
+    monkeypatch.setattr(boolean_trim, "Watch", Watch)
+    monkeypatch.setattr(workers, "PATIENCE", 3)
+    out = tmp_path / "out.stl"
+    assert fill(part, out, "--scheduler", address, "--quiet") == 2
+    assert time.monotonic() - start[0] < 15.0
+    told = capsys.readouterr().err
+    assert "volfrep: The Dask scheduler has had no worker for 3 s" in told
+    assert not out.exists()

@@ -74,9 +74,9 @@ def test_octants_whose_facets_cross_are_evened_out_once(monkeypatch):
     evened, looked = [], []
     even_out, crossing = octant_mesh.remesh_evenly, octant_mesh.crossing_facets
 
-    def counted(raw, gently=False):
+    def counted(raw, gently=False, **asked):
         evened.append(gently)
-        return even_out(raw, gently)
+        return even_out(raw, gently, **asked)
 
     def crossed(surface, exact=True, pieces=None):
         looked.append(exact)

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from ...design.cells import UnitCell, find_cell
 from ...design.spec_parts import Grid
 from ...design.tpms import KINDS, PeriodicSurface, TpmsSheet, find_surface
@@ -26,6 +28,7 @@ def lattice_properties(
     wall_thickness: float | None = None,
     wall_offset: float | None = None,
     wall_formula: str = "",
+    told: Callable[[float], None] = lambda seconds: None,
 ) -> CellProperties:
     """What the endless lattice of a cell does.
 
@@ -43,6 +46,7 @@ def lattice_properties(
         wall_thickness: of a sheet, mm.
         wall_offset: of a skeleton or complement, mm.
         wall_formula: of the cell ``Formula``.
+        told: of struts, given how many seconds are left, about, as soon as that is known.
 
     Raises:
         VolfrepError: a value makes no sense, or the cell carries no load.
@@ -68,7 +72,7 @@ def lattice_properties(
             cell = find_cell(cell, cell_values)
         return cell_properties(
             cell, cell_size, strut_radius, relative_density=relative_density, fillet=fillet,
-            material=material, along=along,
+            material=material, along=along, told=told,
         )  # fmt: skip
     if cell_values:
         raise VolfrepError("Surfaces have no values of their own: they are for cells of struts.")

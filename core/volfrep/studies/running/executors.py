@@ -16,6 +16,7 @@ from ...util.errors import Cancelled, VolfrepError
 from ...util.progress import ProgressCallback
 from ...util.threads import threads
 from ...util.version import VERSION
+from ...util.workers import Watch
 from .batches import Batch, Ended, note
 from .child import run_in_child
 from .runs import run_in_turn
@@ -246,7 +247,7 @@ def _submitted(
             f"The executor takes no more runs ({error}): start it anew; what is done is kept."
         ) from error
     try:
-        _wait(futures, tally)
+        _wait(futures, tally, Watch(executor))
     except BaseException:
         for future in futures:
             future.cancel()
@@ -261,9 +262,12 @@ def _submitted(
     return lost
 
 
-def _wait(futures: Sequence[Future[Any]], tally: Tally) -> None:
+def _wait(
+    futures: Sequence[Future[Any]], tally: Tally, watch: Callable[[], None] = lambda: None
+) -> None:
     pending: set[Future[Any]] = set(futures)
     while pending:
+        watch()
         if not tally.tell():
             raise Cancelled("the study was cancelled")
         finished, pending = wait(pending, timeout=TELL)

@@ -10,7 +10,8 @@ progress indicator is not used: it cannot be cancelled by a click, its Escape as
 recompute holds it already.
 
 A modal window gets its input, whoever opens it: swallowing the answer to FreeCAD's question would
-hang it.
+hang it. A user who closes FreeCAD's window means it: the job is cancelled, and the window is closed
+again once nothing waits for a job any more.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from __future__ import annotations
 from collections.abc import Generator
 from typing import TYPE_CHECKING, Any
 
+import FreeCAD as App
 import FreeCADGui as Gui
 
 from freecad_volfrep.engines import engines, freecads
@@ -34,6 +36,8 @@ if TYPE_CHECKING:
 SHOW_AFTER = 700
 #: How often the window lives while a job is waited for, in s.
 BREATH = 0.02
+#: How often it is looked whether a window that was closed meanwhile can be closed now, in ms.
+CLOSING = 50
 _STEPS = 1000
 #: The engine's names of its stages, marked for translation.
 STAGES = marked(
@@ -138,7 +142,8 @@ class _Guard(QtCore.QObject):
     def eventFilter(self, target: QtCore.QObject, event: QtCore.QEvent) -> bool:  # noqa: N802
         kind = event.type()
         if kind == _EVENT.Close and target is Gui.getMainWindow():
-            event.ignore()  # FreeCAD stays until the job ends
+            event.ignore()  # FreeCAD cannot go before what waits for the job has come to its end
+            _close_later()
             return True
         if kind not in _INPUT or QtWidgets.QApplication.activeModalWidget() is not None:
             return False
@@ -149,9 +154,13 @@ class _Guard(QtCore.QObject):
         escape = pressed and event.key() == QtCore.Qt.Key_Escape
         clicked = kind == _EVENT.MouseButtonPress and self._bar.under_pointer()
         if escape or clicked:
-            self.cancels += 1
-            self._bar.show_cancelling()
+            self.cancel()
         return True
+
+    def cancel(self) -> None:
+        """Count it, and say that it has arrived."""
+        self.cancels += 1
+        self._bar.show_cancelling()
 
     def _turns(self, event: QtCore.QEvent) -> bool:
         """Whether an event is for a 3D view to turn what it shows."""
@@ -186,6 +195,35 @@ def is_waited_for() -> bool:
     return bool(_waited_for)
 
 
+_is_closing = False
+
+
+def _close_later() -> None:
+    """End all that is waited for, and close FreeCAD's window then, as the user has."""
+    global _is_closing
+    if not _is_closing:
+        _is_closing = True
+        _close_if_free()
+
+
+def _close_if_free() -> None:
+    """A command or a recompute may wait for one job after the other, or ask about the last.
+
+    One that gives the best that it has when it is cancelled ends when it is cancelled again.
+    """
+    global _is_closing
+    for progress in _waited_for:
+        progress.cancel()
+    asks = QtWidgets.QApplication.activeModalWidget() is not None
+    if _waited_for or asks or any(doc.Recomputing for doc in App.listDocuments().values()):
+        QtCore.QTimer.singleShot(CLOSING, _close_if_free)
+        return
+    _is_closing = False
+    # By Qt's own loop: FreeCAD asks, and closes its documents, with no call of ours around it.
+    queued = QtCore.Qt.QueuedConnection
+    QtCore.QMetaObject.invokeMethod(Gui.getMainWindow(), "close", queued)
+
+
 class _Progress:
     """One job that is waited for in the status bar."""
 
@@ -213,6 +251,10 @@ class _Progress:
     def cancels(self) -> int:
         """How often the user has."""
         return self._guard.cancels
+
+    def cancel(self) -> None:
+        """Cancel it, as the user can."""
+        self._guard.cancel()
 
     def refresh(self, fraction: float, stage: str) -> None:
         """Show how far the job is, and let the window live for a moment."""

@@ -6,63 +6,96 @@ it has to end with 0 and to leave nothing behind that its next start would offer
 """
 
 import os
+import re
 import subprocess
 import sys
 import tempfile
 import zipfile
 from pathlib import Path
+from typing import NamedTuple
 
 import FreeCADGui as Gui
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from driving import PATIENCE, check, comes_true, run_checks
+from driving import PATIENCE, check, comes_true, run_checks, shoot
 
 _SCRIPT = Path(__file__).with_name("quitting.py")
 
 
 def _quit(open_, by, *answers):
-    """Quit another FreeCAD; returns how many triangles' bytes each file of it has, by its name."""
+    """Quit another FreeCAD; returns what its files hold, by their names."""
     home = Path(os.environ["FREECAD_USER_HOME"])
     with tempfile.TemporaryDirectory() as folder:
         own = Path(folder)
         for name in ("Mod", "AdditionalPythonPackages"):
             (own / name).symlink_to(home / name)
         (own / "tmp").mkdir()
-        asked = {"QUIT_OPEN": open_, "QUIT_BY": by, "QUIT_ANSWERS": " ".join(answers)}
-        where = {"FREECAD_USER_HOME": folder, "TMPDIR": f"{folder}/tmp", "XDG_CACHE_HOME": folder}
-        Gui.getMainWindow().hide()  # the other one's comes to lie where this one is
-        with (own / "said").open("w+", encoding="utf-8") as said:
-            other = subprocess.Popen(
-                ["freecad", str(_SCRIPT)],
-                env={**os.environ, **asked, **where},
-                stdout=said,
-                stderr=subprocess.STDOUT,
-            )
-            if not comes_true(lambda: other.poll() is not None, 2 * PATIENCE):
-                other.kill()
-                other.wait()
-            Gui.getMainWindow().show()
-            said.seek(0)
-            check(
-                f"quitting by {by} ends with 0",
-                other.returncode == 0,
-                f"{other.returncode}: {said.read()[-1500:]}",
-            )
+        _start_and_quit(own, open_, by, answers)
         left = [path.name for path in own.rglob("FreeCAD_Doc_*")]
         check("nothing is left to recover", left == [], left)
-        return {path.stem: _mesh_bytes(path) for path in own.glob("*.FCStd")}
+        check("no process of the engine is left", comes_true(lambda: not _engines(own), 10))
+        return {path.stem: _held(path) for path in own.glob("*.FCStd")}
 
 
-def _mesh_bytes(path):
+def _start_and_quit(own, open_, by, answers):
+    """Start FreeCAD with a profile, and see it end well."""
+    asked = {"QUIT_OPEN": open_, "QUIT_BY": by, "QUIT_ANSWERS": " ".join(answers)}
+    where = {"FREECAD_USER_HOME": own, "TMPDIR": own / "tmp", "XDG_CACHE_HOME": own}
+    Gui.getMainWindow().hide()  # the other one's comes to lie where this one is
+    with (own / "said").open("w+", encoding="utf-8") as said:
+        other = subprocess.Popen(
+            ["freecad", str(_SCRIPT)],
+            env={**os.environ, **asked, **where},
+            stdout=said,
+            stderr=subprocess.STDOUT,
+        )
+        if not comes_true(lambda: other.poll() is not None, 2 * PATIENCE):
+            shoot(f"quit_{open_}")
+            other.kill()
+            other.wait()
+        Gui.getMainWindow().show()
+        said.seek(0)
+        check(
+            f"quitting {open_} by {by} ends with 0",
+            other.returncode == 0,
+            f"{other.returncode}: {said.read()[-1500:]}",
+        )
+
+
+def _engines(own):
+    """What is left of the engine's processes and their folders."""
+    running = []
+    for line in Path("/proc").glob("[0-9]*/cmdline"):
+        try:
+            running += [line.parent.name] if str(own).encode() in line.read_bytes() else []
+        except OSError:  # it has ended meanwhile
+            continue
+    return running + list(own.rglob("volfrep-engine-*"))
+
+
+class _Held(NamedTuple):
+    """What a file holds: bytes of meshes, and the text that has all other values."""
+
+    meshes: int = 0
+    values: str = ""
+
+
+def _held(path):
     with zipfile.ZipFile(path) as file:
-        sizes = [part.file_size for part in file.infolist() if part.filename.endswith(".bms")]
         check(f"{path.name} is whole", file.testzip() is None)
-    return sum(sizes)
+        sizes = [part.file_size for part in file.infolist() if part.filename.endswith(".bms")]
+        return _Held(sum(sizes), file.read("Document.xml").decode())
+
+
+def _radii(held):
+    found = re.findall(r'"StrutRadius"[^>]*>\s*<Float value="(.*?)"', held.values)
+    return [float(radius) for radius in found]
 
 
 def by_key():
     """One document, saved."""
-    check("the mesh is in the file", _quit("one", "key", "Discard").get("One", 0) > 1000)
+    held = _quit("one", "key", "Discard").get("One", _Held())
+    check("the mesh is in the file", held.meshes > 1000)
 
 
 def several_documents_by_menu():
@@ -72,8 +105,17 @@ def several_documents_by_menu():
 
 
 def during_a_job_by_window():
-    """The mesh of before stays in the file."""
-    check("the mesh is in the file", _quit("job", "window", "Discard").get("Job", 0) > 1000)
+    """A job beside the user: FreeCAD asks, and the mesh of before is saved with the new values."""
+    held = _quit("job", "window", "Save").get("Job", _Held())
+    check("the mesh is in the file", held.meshes > 1000)
+    check("it is asked and saved", 1.2 in _radii(held), _radii(held))
+
+
+def during_a_job_that_is_waited_for():
+    """The same of a job that a script waits for, which is cancelled first."""
+    held = _quit("waited_for", "window", "Save").get("Waited", _Held())
+    check("the mesh is in the file", held.meshes > 1000)
+    check("it is asked and saved", 1.2 in _radii(held), _radii(held))
 
 
 def after_undo():
@@ -83,8 +125,9 @@ def after_undo():
 
 def cancel_and_save():
     """FreeCAD asks; Cancel loses nothing, and what was done after it is saved."""
-    files = _quit("unsaved", "window", "Cancel", "Save")
-    check("the mesh is in the file", files.get("Unsaved", 0) > 1000, files)
+    held = _quit("unsaved", "window", "Cancel", "Save").get("Unsaved", _Held())
+    check("the mesh is in the file", held.meshes > 1000)
+    check("what came later, too", 'name="Later"' in held.values)
 
 
 run_checks(
@@ -93,6 +136,7 @@ run_checks(
         by_key: None,
         several_documents_by_menu: None,
         during_a_job_by_window: None,
+        during_a_job_that_is_waited_for: None,
         after_undo: None,
         cancel_and_save: None,
     },

@@ -18,18 +18,25 @@ from PySide import QtCore, QtGui
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from driving import (
+    Watch,
     comes_true,
     failures,
     jobs_that_never_end,
     middle,
     move_mouse,
     progress_bar,
+    select,
     settle,
+    start_by_click,
+    toolbar_button,
     wait,
     wait_until,
     xdotool,
 )
 from new_infill import filled
+
+from freecad_volfrep.gui.background import are_there_jobs
+from freecad_volfrep.gui.progress import is_waited_for
 
 HOME = Path(os.environ["FREECAD_USER_HOME"])
 ANSWERS = os.environ["QUIT_ANSWERS"].split()
@@ -108,9 +115,11 @@ def several():
     """Infills of a box and of an imported mesh, a print check, a mesh read in the console."""
     import Mesh
 
-    from freecad_volfrep import make_lattice_infill
+    from freecad_volfrep import make_lattice_infill, make_print_check
 
-    _, _, infill = filled("First")
+    first, _, infill = filled("First")
+    make_print_check(first, infill)
+    first.recompute()
     doc = App.newDocument("Second")
     part = doc.addObject("Mesh::Feature", "Part")
     part.Mesh = Mesh.createBox(20, 20, 20)
@@ -124,15 +133,35 @@ def several():
 
 
 def job():
-    """An infill whose next mesh is being made."""
-    doc, _, infill = filled("Job")
+    """An infill whose next mesh is being made, beside what the user does."""
+    infill = _about_to_change("Job")
+    start_by_click(toolbar_button("Update Lattice Infill"))
+    wait_until(lambda: progress_bar() is not None)
+    if not are_there_jobs() or is_waited_for() or not infill.Proxy.being_made:
+        raise AssertionError("no job runs beside the window")
+
+
+def waited_for():
+    """One whose mesh a script's recompute waits for: it is quit while that runs."""
+    infill = _about_to_change("Waited")
+    # The next one, too, is cancelled: FreeCAD closes nothing while it recomputes.
+    infill.Document.copyObject(infill)
+    Watch(lambda: progress_bar() is not None and (quit_now() or True), "the bar of a job")
+    infill.Document.recompute()
+    said = infill.Status
+    if not said.startswith("Cancelled"):
+        raise AssertionError(f"the recompute ends with {said}")
+    return True
+
+
+def _about_to_change(name):
+    """An infill, saved, whose next job never ends."""
+    doc, _, infill = filled(name)
     saved(doc)
+    select(infill)
     _never.__enter__()
     infill.StrutRadius = 1.2
-    doc.recompute()
-    wait_until(lambda: progress_bar() is not None)
-    with suppress(AttributeError):  # FreeCAD 0.20 asks, and is answered
-        Gui.getDocument(doc.Name).Modified = False
+    return infill
 
 
 def undone():
@@ -162,7 +191,7 @@ def unsaved():
 
 
 _never = jobs_that_never_end()
-OPEN = {f.__name__: f for f in (one, several, job, undone, unsaved)}
+OPEN = {f.__name__: f for f in (one, several, job, waited_for, undone, unsaved)}
 BY = {"key": press_keys, "menu": click_exit, "window": close_window}
 
 
@@ -221,10 +250,11 @@ def main():
     wait_until(Gui.getMainWindow().isVisible)
     Gui.activateWorkbench("VolfrepWorkbench")
     settle()
-    OPEN[os.environ["QUIT_OPEN"]]()
-    wait(300)
-    # xdotool is called from here, but what it sends is read when this is through.
-    quit_now()
+    has_quit = OPEN[os.environ["QUIT_OPEN"]]()
+    if not has_quit:
+        wait(300)
+        # xdotool is called from here, but what it sends is read when this is through.
+        quit_now()
 
 
 QtCore.QTimer.singleShot(0, lambda: guarded(main))

@@ -43,8 +43,7 @@ class _Server:
             try:
                 kind, number, value = receive(stream, self._folder, self._cache)
             except (EOFError, OSError):
-                shutil.rmtree(self._folder, ignore_errors=True)
-                os._exit(0)
+                self._leave()
             except Exception as error:  # such as a module that is not found here
                 self._asked.put((UNKNOWN, error))
                 continue
@@ -55,6 +54,13 @@ class _Server:
             else:
                 self._asked.put((number, value))
             del value
+
+    def _leave(self) -> None:
+        """End at once, and with this process the programs that a call runs, such as Gmsh."""
+        shutil.rmtree(self._folder, ignore_errors=True)
+        if hasattr(os, "killpg") and os.getpgrp() == os.getpid():
+            os.killpg(0, signal.SIGKILL)
+        os._exit(0)
 
     def serve(self) -> None:
         """Make the calls."""

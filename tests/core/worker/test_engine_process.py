@@ -288,6 +288,35 @@ def test_it_ends_with_the_process_that_started_it(tmp_path):
     assert left.is_set()
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="asks /proc")
+def test_a_call_and_its_programs_end_with_the_process_that_started_it(tmp_path):
+    import subprocess
+
+    told = tmp_path / "told"
+    text = (
+        f"import sys, os, time; sys.path[:0] = [{CORE!r}, {HERE!r}]\n"
+        "import engine_calls as calls\n"
+        "from volfrep.worker.engine_process import Call, Program\n"
+        "from volfrep.worker.engines import Engines\n"
+        f"engines = Engines([Program((sys.executable,), ({CORE!r}, {HERE!r}))])\n"
+        f"engines.begin(Call(calls.run_a_program, ({str(told)!r},), has_progress=False))\n"
+        f"told = {str(told)!r}\n"
+        "while not os.path.isfile(told) or not open(told).read().endswith('.'):\n"
+        "    time.sleep(0.01)\n"
+        "os._exit(0)\n"
+    )
+    subprocess.run([sys.executable, "-c", text], check=True, timeout=60)
+    number, folder = told.read_text().rstrip(".").split(" ", 1)
+    end = time.monotonic() + 60
+    while time.monotonic() < end and (runs(number) or Path(folder).exists()):
+        time.sleep(0.01)
+    still = runs(number)
+    if still:
+        os.kill(int(number), signal.SIGKILL)
+    assert not still
+    assert not Path(folder).exists()
+
+
 def begun(running: Running) -> None:
     """Wait until the call says that it has begun."""
     while running.state[1] != "begun":

@@ -183,7 +183,9 @@ class Colouring:
         self._legend.remove()
         part.uncolour()
         try:
-            solid, spec, cache = obj.Proxy.inputs(obj)
+            # Overhangs are of the mesh itself, whatever the values are by now.
+            is_of_mesh = quantity == "Overhang"
+            solid, spec, cache = (obj.Proxy.wanted if is_of_mesh else obj.Proxy.inputs)(obj)
             options: dict[str, Any] = {"cache": cache, "up": tuple(obj.BuildDirection)}
             if quantity in OF_LOADS:
                 options.update(_of_loads(obj, quantity))

@@ -163,6 +163,11 @@ def apart(one, other):
     return float((np.abs(one - other).max(axis=2) > 24).mean())
 
 
+def by_menu(menu, command):
+    """Click a command in FreeCAD's menu, under whatever name this FreeCAD gives it."""
+    click_menu(menu, Gui.Command.get(command).getInfo()["menuText"].replace("&", ""))
+
+
 def its_looks_outlive_undo_and_a_file():
     """Cut open and coloured, undone, refreshed, saved, closed and opened: it looks the same."""
     from freecad_volfrep.gui.filled_view import mesh_and_kinds
@@ -185,18 +190,18 @@ def its_looks_outlive_undo_and_a_file():
     check("thicker struts look otherwise", figures["thicker"] > 0.02, figures["thicker"])
 
     # Values and mesh are a step each: between them the mesh is out of date, and looks as ever.
-    click_menu("Edit", "Undo")
+    by_menu("Edit", "Std_Undo")
     check("one step brings the mesh back", obj.Mesh.CountFacets == facets, obj.Mesh.CountFacets)
     check("its state is told", "stale" in obj.ViewObject.Proxy.getIcon(), obj.Status)
     figures["between"] = apart(before, looks(obj, "fresh_between", camera))
     check("out of date it looks as before", figures["between"] < 0.005, figures["between"])
     check("and has its colours", not obj.ViewObject.Proxy.colouring.why)
-    click_menu("Edit", "Undo")
+    by_menu("Edit", "Std_Undo")
     check("the next its values", abs(obj.StrutRadius.Value - 1.0) < 1e-9, obj.StrutRadius)
     undone = looks(obj, "fresh_undone", camera)
     figures["undone"] = apart(before, undone)
     check("undone it looks as before", figures["undone"] < 0.005, figures["undone"])
-    click_menu("Edit", "Refresh")
+    by_menu("Edit", "Std_Refresh")
     again = looks(obj, "fresh_refreshed", camera)
     figures["refreshed"] = apart(before, again)
     check("and refreshed", figures["refreshed"] < 0.005, figures["refreshed"])
@@ -206,13 +211,13 @@ def its_looks_outlive_undo_and_a_file():
     path = OUT / "fresh.FCStd"
     path.unlink(missing_ok=True)
     answer_file_dialog(path, "fresh_save")
-    click_menu("File", "Save As...")
+    by_menu("File", "Std_SaveAs")
     check("it is saved", wait_until(path.exists))
-    click_menu("File", "Close")
+    by_menu("File", "Std_CloseActiveWindow")
     check("and closed", wait_until(lambda: not App.listDocuments()), App.listDocuments())
     check("its docks went", colours_dock() is None and not section_docks())
     answer_file_dialog(path, "fresh_open")
-    click_menu("File", "Open...")
+    by_menu("File", "Std_Open")
     wait_until(lambda: App.ActiveDocument is not None and not App.ActiveDocument.Restoring)
     settle()
     obj = App.ActiveDocument.getObject(name)
@@ -228,7 +233,7 @@ def its_looks_outlive_undo_and_a_file():
     scale = colours_dock().findChild(QtGui.QDoubleSpinBox, "To")
     check("its scale can be set", wait_until(scale.isEnabled) and scale.value() == 90.0)
     check("nothing is missing", not obj.ViewObject.Proxy.colouring.why)
-    click_menu("Edit", "Refresh")
+    by_menu("Edit", "Std_Refresh")
     check("it is up to date still", obj.Status == "Up to date", obj.Status)
 
 

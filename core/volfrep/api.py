@@ -211,7 +211,7 @@ def fill(
     from .jobs.targets import fill_with_target
 
     wanted = specified(spec, parameters, material)
-    solid = as_solid(part, unit)
+    solid = as_solid(part, unit, progress)
     cache = cache or StageCache()
     result, found = fill_with_target(
         solid, wanted, progress=progress, cache=cache, executor=executor
@@ -338,7 +338,7 @@ def slice_layers(
 
     wanted = specified(spec, parameters, material)
     return write_layers(
-        as_solid(part, unit), wanted, folder, layer=layer, pixel=pixel, form=form,
+        as_solid(part, unit, progress), wanted, folder, layer=layer, pixel=pixel, form=form,
         progress=progress, cache=cache,
     )  # fmt: skip
 
@@ -346,16 +346,18 @@ def slice_layers(
 def as_solid(
     part: str | os.PathLike[str] | TriangleMesh | MeshLike | tuple[ArrayLike, ArrayLike],
     unit: str | None = None,
+    progress: ProgressCallback | None = None,
 ) -> Solid:
     """A proved solid of a file, a mesh or its arrays; see `fill`.
 
     Raises:
         VolfrepError: it is none.
+        Cancelled: the callback said so while FreeCAD read a CAD file.
     """
     if isinstance(part, Solid):
         return part
     if isinstance(part, (str, os.PathLike)):
-        return read_solid(part, unit)
+        return read_solid(part, unit, progress=progress)
     if unit is not None:
         raise VolfrepError("A unit belongs to a file: give the arrays of a mesh in mm.")
     if isinstance(part, TriangleMesh):

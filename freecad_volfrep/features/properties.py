@@ -116,6 +116,7 @@ PROPERTIES = (
     _internal("App::PropertyFloatList", "SizedRadii", "That struts were sized to, mm", []),
     _internal("App::PropertyFloatList", "SizedStates", "What the sized struts carry", []),
     _internal("App::PropertyString", "SizedFor", "Of all that SizedStates are of", ""),
+    _internal("App::PropertyString", "SizedLoads", "Of what the struts were sized for", ""),
     _internal("App::PropertyString", "SizingReport", "What was asked and found, as JSON", ""),
     _internal("App::PropertyInteger", "SchemaVersion", "Of this table", SCHEMA_VERSION),
 )

@@ -2,7 +2,9 @@
 """What an infill's struts carry as they were sized: kept in the document, to be shown again.
 
 They are of the lattice that was sized, and of no other: once a value has changed on which that
-depends, they are not shown.
+depends, they are not shown. As long as the loads are those that it was sized for, they are what is
+shown: the design as it was held to its limits, and as CalculiX has proved it. Solved anew it would
+differ by some percent, because the skin's triangles follow the struts that it was sized with.
 """
 
 from __future__ import annotations
@@ -15,11 +17,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP
+from volfrep.util.content import digest_of
 from volfrep.util.errors import VolfrepError
 
 from .freshness import fingerprint_of, is_of
 
 if TYPE_CHECKING:
+    from volfrep.loads.load_cases import LoadCases
     from volfrep.sizing.strut_state import StrutState
 
 #: Why there is nothing to show.
@@ -35,12 +39,13 @@ _KEPT = ("Stress", "Buckling", "Displacement")
 _NUMBERS = 3 + len(_KEPT)
 
 
-def store_states(obj: App.DocumentObject, states: Sequence[StrutState]) -> None:
+def store_states(obj: App.DocumentObject, states: Sequence[StrutState], loads: LoadCases) -> None:
     """Keep what an infill's struts carry, whose radii were stored before.
 
     Args:
         obj: the infill.
         states: its struts in each load case, in the coordinates of the infill's group.
+        loads: what they were sized for.
 
     Raises:
         VolfrepError: a property of the infill makes no sense.
@@ -52,6 +57,7 @@ def store_states(obj: App.DocumentObject, states: Sequence[StrutState]) -> None:
     # In single precision, whose zeros a file of FreeCAD's packs to half the size.
     obj.SizedStates = kept.astype(np.float32).ravel().tolist()
     obj.SizedFor = fingerprint_of(obj, *obj.Proxy.read(obj))
+    obj.SizedLoads = digest_of(loads)
 
 
 def sized_states(
@@ -75,3 +81,8 @@ def why_no_states(obj: App.DocumentObject) -> str:
     except VolfrepError:
         return str(CHANGED)
     return "" if is_of(obj.SizedFor, obj, *values) else str(CHANGED)
+
+
+def is_sized_for(obj: App.DocumentObject, loads: LoadCases) -> bool:
+    """Whether what is kept is of the present values and of these loads."""
+    return obj.SizedLoads == digest_of(loads) and not why_no_states(obj)

@@ -17,7 +17,7 @@ from volfrep.util.errors import VolfrepError
 
 from .progress import job_title, run_job
 from .sized_radii import store_radii
-from .sized_states import store_states
+from .sized_states import is_sized_for, sized_states, store_states, why_no_states
 from .tables import Table
 
 if TYPE_CHECKING:
@@ -81,12 +81,14 @@ class Outcome:
         states: its struts in each load case.
         density: of the material, g/cm3.
         steps: rows of the table of steps.
+        loads: what it was sized for.
     """
 
     part: SizedPart
     states: tuple[StrutState, ...]
     density: float
     steps: tuple[tuple[str, ...], ...]
+    loads: LoadCases
 
     @property
     def holds(self) -> bool:
@@ -272,7 +274,7 @@ def store_outcome(obj: App.DocumentObject, outcome: Outcome) -> None:
         obj.NetworkShortest = shortest
     obj.RemoveBelow, obj.RemoveDangling = spec.remove_below, spec.remove_dangling
     obj.SizingReport = outcome.to_json()
-    store_states(obj, outcome.states)
+    store_states(obj, outcome.states, outcome.loads)
 
 
 def first_wish(obj: App.DocumentObject) -> Wish:
@@ -327,7 +329,7 @@ def size_struts(
     )
     steps.append(_row(len(steps), part.sized.last, density))
     states = part.states
-    return Outcome(part, states, density, tuple(steps))
+    return Outcome(part, states, density, tuple(steps), loads)
 
 
 def loads_of(obj: App.DocumentObject, analyses: Sequence[App.DocumentObject]) -> LoadCases:
@@ -342,6 +344,32 @@ def loads_of(obj: App.DocumentObject, analyses: Sequence[App.DocumentObject]) ->
     if not analyses:
         raise VolfrepError("No load case is chosen: tick at least one analysis.")
     return load_cases_of(analyses, parent_placement(obj))
+
+
+def carried_by(obj: App.DocumentObject, quantity: str) -> dict[str, Any]:
+    """What `volfrep.jobs.figures.point_values.point_values` is given to colour by loads.
+
+    What is kept of the lattice as it was sized, where the document has the loads of that or none
+    any more: the figures are then those that Size Lattice told. Else the document's loads.
+
+    Args:
+        obj: a lattice infill.
+        quantity: one of `OF_LOADS` there.
+
+    Raises:
+        VolfrepError: there is neither, or the loads make no sense.
+    """
+    try:
+        analyses = analyses_of(obj)
+    except VolfrepError:
+        if why_no_states(obj):
+            raise
+    else:
+        loads = loads_of(obj, analyses)
+        if not is_sized_for(obj, loads):
+            return {"loads": loads}
+    ends, states = sized_states(obj)
+    return {"carried": (ends, states[quantity])}
 
 
 def _goal(wish: Wish, loads: LoadCases) -> Any:

@@ -171,6 +171,7 @@ class Colouring:
     def _ask(self, quantity: str) -> None:
         """Have the values made beside the window."""
         from freecad_volfrep.features.progress import job_title
+        from freecad_volfrep.features.sizing import carried_by
         from volfrep.jobs.figures.point_values import OF_LOADS, point_values
         from volfrep.worker.engine_process import Call
 
@@ -183,10 +184,12 @@ class Colouring:
         self._legend.remove()
         part.uncolour()
         try:
-            solid, spec, cache = obj.Proxy.inputs(obj)
+            # Overhangs are of the mesh itself, whatever the values are by now.
+            is_of_mesh = quantity == "Overhang"
+            solid, spec, cache = (obj.Proxy.wanted if is_of_mesh else obj.Proxy.inputs)(obj)
             options: dict[str, Any] = {"cache": cache, "up": tuple(obj.BuildDirection)}
             if quantity in OF_LOADS:
-                options.update(_of_loads(obj, quantity))
+                options.update(carried_by(obj, quantity))
         except VolfrepError as error:
             self.why, self._asked = str(error), None
             tell_error(self.why)
@@ -211,22 +214,3 @@ class Colouring:
             then,
             is_wanted=lambda: self._asked == key and self._part is part,
         )
-
-
-def _of_loads(obj: Any, quantity: str) -> dict[str, Any]:
-    """What `point_values` is given: the document's loads, or what is kept of the lattice as sized.
-
-    Raises:
-        VolfrepError: there is neither, or the loads make no sense.
-    """
-    from freecad_volfrep.features.sized_states import sized_states, why_no_states
-    from freecad_volfrep.features.sizing import analyses_of, loads_of
-
-    try:
-        analyses = analyses_of(obj)
-    except VolfrepError:
-        if why_no_states(obj):
-            raise
-        ends, states = sized_states(obj)
-        return {"carried": (ends, states[quantity])}
-    return {"loads": loads_of(obj, analyses)}

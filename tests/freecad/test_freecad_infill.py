@@ -72,7 +72,7 @@ def test_properties_are_grouped_and_described(infill):
     read_only = {p.name for p in PROPERTIES if "ReadOnly" in infill.getTypeOfProperty(p.name)}
     assert read_only == {p.name for p in PROPERTIES if p.group == "Result"}
     hidden = {p.name for p in PROPERTIES if "Hidden" in infill.getTypeOfProperty(p.name)}
-    stored = {"SizedNodes", "SizedRadii", "SizedFor", "SizedStates", "SizingReport"}
+    stored = {"SizedNodes", "SizedRadii", "SizedFor", "SizedLoads", "SizedStates", "SizingReport"}
     assert hidden == {"Fingerprint", "SchemaVersion"} | stored
 
 

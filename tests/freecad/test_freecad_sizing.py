@@ -16,12 +16,13 @@ from freecad_volfrep.features.sizing import (
     GOALS,
     Wish,
     analyses_of,
+    carried_by,
     first_wish,
     size_struts,
     solve_struts,
     store_outcome,
 )
-from volfrep.jobs.figures.point_values import values_on_struts
+from volfrep.jobs.figures.point_values import point_values, values_on_struts
 from volfrep.util.errors import VolfrepError
 
 BEAM = {
@@ -160,6 +161,38 @@ def test_what_struts_carry_is_kept_with_the_document(infill, tmp_path):
         assert not LivePreview(again).show().is_sized
     finally:
         App.closeDocument(doc.Name)
+
+
+def test_colours_peak_where_the_design_does(infill, tmp_path):
+    """With a skin, whose triangles follow the struts it was sized with: one figure, not two."""
+    infill.ShellThickness = 1
+    analyses = [loaded(infill), loaded(infill, "light", 50.0)]
+    outcome = size_struts(infill, analyses, wish(safety=0, displacement=0.05))
+    store_outcome(infill, outcome)
+    told = max(row[1] for table in outcome.tables() for row in table.rows
+               if row[0] == "largest stress, MPa")  # fmt: skip
+
+    def peak(obj):
+        solid, spec, _ = obj.Proxy.wanted(obj)
+        middle = outcome.states[0].ends.mean(axis=1)
+        return point_values(
+            solid, spec, "Stress", middle, middle, **carried_by(obj, "Stress")
+        ).high  # fmt: skip
+
+    assert peak(infill) == pytest.approx(told, rel=1e-6)
+    path = str(tmp_path / "peak.FCStd")
+    infill.Document.saveCopy(path)
+    doc = App.openDocument(path)
+    try:
+        assert peak(doc.getObject(infill.Name)) == pytest.approx(told, rel=1e-6)
+    finally:
+        App.closeDocument(doc.Name)
+    # Other loads are another question, and what is kept is no answer to it.
+    (push,) = [one for one in analyses[0].Group if one.TypeId == "Fem::ConstraintForce"]
+    push.Force = 2.0 * push.Force
+    infill.Document.recompute()
+    assert "loads" in carried_by(infill, "Stress")
+    assert peak(infill) == pytest.approx(2.0 * told, rel=0.2)
 
 
 def test_the_stiffest_struts_of_a_mass_beat_one_radius(infill):

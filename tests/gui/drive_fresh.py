@@ -7,20 +7,34 @@ In the real FreeCAD window; see tools/run_gui.sh. Leaves with 0 when every check
 import sys
 from pathlib import Path
 
+import FreeCAD as App
 import FreeCADGui as Gui
+import numpy as np
 from PySide import QtGui
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from driving import (
+    OUT,
+    answer_file_dialog,
+    answer_panel,
     check,
+    click,
+    click_in_tree,
+    click_menu,
+    figures,
+    look_at_all,
+    panel,
     picture,
     run_checks,
+    section_docks,
     select,
     settle,
     start_by_click,
     toolbar_button,
+    type_value,
     wait_until,
     when_dialog,
+    xdotool,
 )
 from new_infill import filled
 
@@ -106,9 +120,127 @@ def an_undone_mesh_keeps_the_colour_of_its_wall():
     check("the lattice is the lattice", abs(after[1] - shares[1]) < 0.02 * shares[1], after)
 
 
+def colours_dock():
+    """The dock of Colour By, or None."""
+    found = Gui.getMainWindow().findChildren(QtGui.QDockWidget, "VolfrepColourBy")
+    return next((dock for dock in found if dock.isVisible()), None)
+
+
+def cut_and_coloured(obj):
+    """Cut open and coloured by overhangs, by clicks, and looked at."""
+    click_in_tree(obj.Label)
+    click(toolbar_button("Colour By"))
+    wait_until(lambda: colours_dock() is not None)
+    if obj.ViewObject.ColourBy != "Overhang":
+        quantity = colours_dock().findChild(QtGui.QComboBox, "Quantity")
+        wanted = quantity.findData("Overhang")
+        click(quantity)
+        wait_until(lambda: quantity.view().isVisible())
+        xdotool("type", "Over")
+        wait_until(lambda: quantity.view().currentIndex().row() == wanted)
+        xdotool("key", "Return")
+        wait_until(lambda: obj.ViewObject.ColourBy == "Overhang")
+    click(toolbar_button("Section View"))
+    wait_until(section_docks)
+
+
+def looks(obj, name, camera):
+    """The picture of the window, and the view alone from a camera, with nothing selected."""
+    Gui.Selection.clearSelection()
+    wait_until(lambda: obj.ViewObject.Proxy.colouring.range is not None)
+    picture(name)
+    # Of one size, whatever room docks and messages leave the view.
+    view = Gui.activeDocument().activeView()
+    view.setCamera(camera)
+    path = str(OUT / f"{name}_view.png")
+    view.saveImage(path, 900, 600, "White")
+    image = QtGui.QImage(path).convertToFormat(QtGui.QImage.Format_RGB32)
+    return np.frombuffer(image.constBits(), np.uint8).reshape(600, 900, 4)[:, :, :3].astype(int)
+
+
+def apart(one, other):
+    """Share of the pixels of two looks that differ; the background is the most of them."""
+    return float((np.abs(one - other).max(axis=2) > 24).mean())
+
+
+def by_menu(menu, command):
+    """Click a command in FreeCAD's menu, under whatever name this FreeCAD gives it."""
+    click_menu(menu, Gui.Command.get(command).getInfo()["menuText"].replace("&", ""))
+
+
+def its_looks_outlive_undo_and_a_file():
+    """Cut open and coloured, undone, refreshed, saved, closed and opened: it looks the same."""
+    from freecad_volfrep.gui.filled_view import mesh_and_kinds
+
+    _, _, obj = filled("Looked at")
+    cut_and_coloured(obj)
+    look_at_all()
+    camera = Gui.activeDocument().activeView().getCamera()
+    before, facets, name = looks(obj, "fresh_before", camera), obj.Mesh.CountFacets, obj.Name
+    kinds = np.bincount(mesh_and_kinds(obj)[1], minlength=3)
+
+    click_in_tree(obj.Label)
+    xdotool("click", "--repeat", 2, "--delay", 60, 1)
+    wait_until(lambda: panel() is not None)
+    type_value("StrutRadius", "1.6")
+    answer_panel("OK")
+    wait_until(lambda: panel() is None and obj.Mesh.CountFacets != facets)
+    thick = looks(obj, "fresh_thick", camera)
+    figures["thicker"] = apart(before, thick)
+    check("thicker struts look otherwise", figures["thicker"] > 0.02, figures["thicker"])
+
+    # Values and mesh are a step each: between them the mesh is out of date, and looks as ever.
+    by_menu("Edit", "Std_Undo")
+    check("one step brings the mesh back", obj.Mesh.CountFacets == facets, obj.Mesh.CountFacets)
+    check("its state is told", "stale" in obj.ViewObject.Proxy.getIcon(), obj.Status)
+    figures["between"] = apart(before, looks(obj, "fresh_between", camera))
+    check("out of date it looks as before", figures["between"] < 0.005, figures["between"])
+    check("and has its colours", not obj.ViewObject.Proxy.colouring.why)
+    by_menu("Edit", "Std_Undo")
+    check("the next its values", abs(obj.StrutRadius.Value - 1.0) < 1e-9, obj.StrutRadius)
+    undone = looks(obj, "fresh_undone", camera)
+    figures["undone"] = apart(before, undone)
+    check("undone it looks as before", figures["undone"] < 0.005, figures["undone"])
+    by_menu("Edit", "Std_Refresh")
+    again = looks(obj, "fresh_refreshed", camera)
+    figures["refreshed"] = apart(before, again)
+    check("and refreshed", figures["refreshed"] < 0.005, figures["refreshed"])
+    check("it is up to date", obj.Status == "Up to date", obj.Status)
+    check("and of the same mesh", obj.Mesh.CountFacets == facets, obj.Mesh.CountFacets)
+
+    path = OUT / "fresh.FCStd"
+    path.unlink(missing_ok=True)
+    answer_file_dialog(path, "fresh_save")
+    by_menu("File", "Std_SaveAs")
+    check("it is saved", wait_until(path.exists))
+    by_menu("File", "Std_CloseActiveWindow")
+    check("and closed", wait_until(lambda: not App.listDocuments()), App.listDocuments())
+    check("its docks went", colours_dock() is None and not section_docks())
+    answer_file_dialog(path, "fresh_open")
+    by_menu("File", "Std_Open")
+    wait_until(lambda: App.ActiveDocument is not None and not App.ActiveDocument.Restoring)
+    settle()
+    obj = App.ActiveDocument.getObject(name)
+    picture("fresh_opened")
+    check("a file keeps what it is coloured by", obj.ViewObject.ColourBy == "Overhang")
+    found = np.bincount(mesh_and_kinds(obj)[1], minlength=3)
+    check("skin, wall and lattice are the same", np.abs(found - kinds).max() <= 0.01 * kinds.sum(),
+          (kinds, found))  # fmt: skip
+    cut_and_coloured(obj)
+    opened = looks(obj, "fresh_opened_cut", camera)
+    figures["opened"] = apart(before, opened)
+    check("opened it looks as before", figures["opened"] < 0.005, figures["opened"])
+    scale = colours_dock().findChild(QtGui.QDoubleSpinBox, "To")
+    check("its scale can be set", wait_until(scale.isEnabled) and scale.value() == 90.0)
+    check("nothing is missing", not obj.ViewObject.Proxy.colouring.why)
+    by_menu("Edit", "Std_Refresh")
+    check("it is up to date still", obj.Status == "Up to date", obj.Status)
+
+
 run_checks(
     "fresh",
     {
+        its_looks_outlive_undo_and_a_file: None,
         a_stale_mesh_is_asked_about: None,
         an_undone_mesh_keeps_the_colour_of_its_wall: None,
     },

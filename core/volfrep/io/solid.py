@@ -21,6 +21,7 @@ from ..mesh.float32_repair import remove_slivers, separate_vertices, shortest_ed
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..spatial.winding import Windings, windings
 from ..util.errors import VolfrepError
+from ..util.progress import Monitor, ProgressCallback
 from ..util.types import Bools, Ints
 from .read import read_file
 from .read.units import UNITS, find_unit, size_text
@@ -68,19 +69,26 @@ class Solid(TriangleMesh):
         return (*(f"Repaired: {text}" for text in self.repairs), *self.warnings)
 
 
-def read_solid(path: str | os.PathLike[str], unit: str | None = None) -> Solid:
+def read_solid(
+    path: str | os.PathLike[str],
+    unit: str | None = None,
+    *,
+    progress: ProgressCallback | None = None,
+) -> Solid:
     """Read a closed solid from an STL, OBJ, PLY, 3MF, STEP, IGES or BREP file.
 
     Args:
         path: the file; STEP, IGES and BREP need FreeCAD on the PATH.
         unit: of its lengths, a name in `volfrep.io.read.units.UNITS`; None for what the file says,
             and mm where it says nothing.
+        progress: called while FreeCAD reads a CAD file; returning False cancels.
 
     Returns:
         The checked solid in mm, as `check_solid` returns it.
 
     Raises:
         VolfrepError: the file is missing, damaged, of another kind, or holds no closed solid.
+        Cancelled: the callback said so.
 
     >>> import tempfile, trimesh
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -90,7 +98,7 @@ def read_solid(path: str | os.PathLike[str], unit: str | None = None) -> Solid:
     >>> round(solid.volume, 3), solid.notes
     (6000.0, ())
     """
-    mesh, notes, states_unit = _in_mm(path, unit)
+    mesh, notes, states_unit = _in_mm(path, unit, progress)
     solid = check_solid(mesh, Path(path).name)
     return Solid(
         solid.vertices, solid.triangles, solid.repairs, (*notes, *solid.warnings), states_unit
@@ -103,10 +111,10 @@ def read_triangles(path: str | os.PathLike[str], unit: str | None = None) -> Tri
 
 
 def _in_mm(
-    path: str | os.PathLike[str], unit: str | None
+    path: str | os.PathLike[str], unit: str | None, progress: ProgressCallback | None = None
 ) -> tuple[TriangleMesh, tuple[str, ...], bool]:
     wanted = None if unit is None else find_unit(unit)
-    contents = read_file(path)
+    contents = read_file(path, Monitor(progress))
     notes = contents.warnings
     if wanted is not None and contents.unit not in (None, wanted):
         notes += (f"'{Path(path).name}' says {contents.unit}, and was taken as {wanted}.",)

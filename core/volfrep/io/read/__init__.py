@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from ...util.errors import VolfrepError
+from ...util.progress import Monitor
 from .cad import read_cad
 from .contents import Contents, read_bytes
 from .exchange import read_glb, read_off
@@ -29,11 +30,16 @@ READERS = {
 CAD_SUFFIXES = (".step", ".stp", ".iges", ".igs", ".brep", ".brp")
 
 
-def read_file(path: str | os.PathLike[str]) -> Contents:
+def read_file(path: str | os.PathLike[str], monitor: Monitor | None = None) -> Contents:
     """The triangles of a file as they are, nothing repaired.
+
+    Args:
+        path: the file.
+        monitor: asked for a cancel while FreeCAD reads a CAD file, which may take long.
 
     Raises:
         VolfrepError: the file is missing, damaged, or of another kind.
+        Cancelled: when the monitor says so.
     """
     file = Path(path)
     suffix = file.suffix.lower()
@@ -48,7 +54,10 @@ def read_file(path: str | os.PathLike[str]) -> Contents:
             "OFF, GLB, STEP, IGES or BREP file."
         )
     data = read_bytes(file)
-    contents = read_cad(data, file) if suffix in CAD_SUFFIXES else READERS[suffix](data, file.name)
+    if suffix in CAD_SUFFIXES:
+        contents = read_cad(data, file, monitor)
+    else:
+        contents = READERS[suffix](data, file.name)
     mesh = contents.mesh
     if not len(mesh.triangles):
         raise VolfrepError(f"'{file.name}' holds no triangles: export the solid again.")

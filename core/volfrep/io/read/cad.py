@@ -14,7 +14,8 @@ from pathlib import Path
 
 from ...mesh.edge_table import edges_of
 from ...util.errors import VolfrepError
-from ...util.subprocesses import FREECAD, NO_WINDOW, find_freecad
+from ...util.progress import Monitor
+from ...util.subprocesses import FREECAD, find_freecad, run_program
 from ..repair.weld import weld_equal
 from ..tessellation import ANGULAR_DEVIATION, MAX_DEVIATION, RELATIVE_DEVIATION
 from .contents import Contents
@@ -26,7 +27,7 @@ MACRO = Path(__file__).with_name("tessellate.FCMacro")
 MAX_SECONDS = 1800
 
 
-def read_cad(data: bytes, file: Path) -> Contents:
+def read_cad(data: bytes, file: Path, monitor: Monitor | None = None) -> Contents:
     """The solids of a CAD file, tessellated as FreeCAD's Lattice Infill does, in mm.
 
     FreeCAD runs with an empty profile and opens no document: nothing in the file is executed.
@@ -34,9 +35,11 @@ def read_cad(data: bytes, file: Path) -> Contents:
     Args:
         data: the whole file.
         file: where it is, for FreeCAD.
+        monitor: asked for a cancel while FreeCAD runs.
 
     Raises:
         VolfrepError: FreeCAD is not there, or cannot make solids of the file.
+        Cancelled: when the monitor says so; FreeCAD has been ended.
     """
     if file.suffix.lower() in STEP_SUFFIXES:
         refuse_damaged_step(data, file.name)
@@ -56,16 +59,14 @@ def read_cad(data: bytes, file: Path) -> Contents:
             "FREECAD_USER_HOME": folder,
         }
         try:
-            subprocess.run(
-                [program, str(MACRO)],
-                env={**os.environ, **given},
-                stdin=subprocess.DEVNULL,
-                stdout=subprocess.DEVNULL,
-                stderr=subprocess.DEVNULL,
-                creationflags=NO_WINDOW,
-                timeout=MAX_SECONDS,
-                check=False,
-            )
+            with (monitor or Monitor()).stage("reading", 0.0, 0.0) as watched:
+                run_program(
+                    [program, str(MACRO)],
+                    Path(folder),
+                    watched,
+                    {**os.environ, **given},
+                    MAX_SECONDS,
+                )
         except subprocess.TimeoutExpired as error:
             raise VolfrepError(
                 f"FreeCAD has not read '{file.name}' in {MAX_SECONDS / 60:.0f} minutes: export a "

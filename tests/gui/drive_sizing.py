@@ -335,7 +335,7 @@ def close_the_document(doc, obj):
 run_checks(
     "sizing",
     {
-        size_and_take: lambda: loaded(force=500.0),  # by 200 N all struts are as thin as allowed
+        size_and_take: loaded,
         size_a_network: network,
         cancel_the_panel: loaded,
         escape_keeps_the_best: lambda: loaded((120, 40, 40)),

@@ -15,14 +15,13 @@ TITANIUM = {
 }
 
 
-def loaded(size=(60, 20, 20), cell=10, shell=0.0, force=200.0, **values):
+def loaded(size=(60, 20, 20), cell=10, shell=0.0, **values):
     """A document with a lattice beam, held at one end, and two analyses of it.
 
     Args:
         size: of the beam, mm.
         cell: edge of its cells, mm; the struts' radius is 0.08 of it.
         shell: the skin, mm.
-        force: across its end in the first analysis, N; in the second less than half of it.
         values: of the infill's properties, in place of these.
     """
     from freecad_volfrep import make_lattice_infill
@@ -38,7 +37,7 @@ def loaded(size=(60, 20, 20), cell=10, shell=0.0, force=200.0, **values):
     faces = {face.CenterOfMass.x: k + 1 for k, face in enumerate(box.Shape.Faces)}
     edges = enumerate(box.Shape.Edges, 1)
     along_z = next(k for k, edge in edges if abs(edge.tangentAt(0).z) > 0.99)
-    for name, newton in (("bend", force), ("light", 0.4 * force)):
+    for name, force in (("bend", 200.0), ("light", 80.0)):
         analysis = ObjectsFem.makeAnalysis(doc, name)
         material = ObjectsFem.makeMaterialSolid(doc, "Material")
         material.Material = TITANIUM
@@ -46,7 +45,7 @@ def loaded(size=(60, 20, 20), cell=10, shell=0.0, force=200.0, **values):
         held.References = [(box, f"Face{faces[0.0]}")]
         push = ObjectsFem.makeConstraintForce(doc, "Force")
         push.References = [(box, f"Face{faces[float(size[0])]}")]
-        push.Force = newton if OLD else f"{newton} N"
+        push.Force = force if OLD else f"{force} N"
         push.Direction = (box, [f"Edge{along_z}"])
         for member in (material, held, push):
             analysis.addObject(member)

@@ -223,7 +223,8 @@ def refuse_spoiled(obj: App.DocumentObject) -> None:
     for name in out_of_range(obj):
         raise VolfrepError(
             f"The property {name} is at none of the values of its list, as after a change of the "
-            "file by another program: choose one in the property editor."
+            "file by another program: choose one in the property editor, or, where FreeCAD refuses "
+            "that, remove the property, and the next recompute adds it with its first value."
         )
     if obj.SchemaVersion > SCHEMA_VERSION:
         raise VolfrepError(

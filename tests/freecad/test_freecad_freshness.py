@@ -151,7 +151,10 @@ def test_a_choice_that_is_at_none_of_its_values_is_refused(doc, box, tmp_path):
             assert not obj.isValid()
             assert f"{name} is at none" in obj.Status
             assert obj.Mesh.CountFacets
-            setattr(obj, name, obj.getEnumerationsOfProperty(name)[0])
+            try:
+                setattr(obj, name, obj.getEnumerationsOfProperty(name)[0])
+            except ValueError:  # FreeCAD 1.1 takes no value then
+                obj.removeProperty(name)
             again.recompute()
             assert obj.isValid()
         finally:

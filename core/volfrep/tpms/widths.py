@@ -46,8 +46,8 @@ def measure_widths(solid: TpmsSolid) -> TpmsWidths:
     Both are told up to a fiftieth of a cell too large, for the surface is known at points; a
     sheet's thickness is exact.
 
-    >>> from volfrep.design.tpms import SURFACES, Wall
-    >>> sheet = WallSolid.of(SURFACES["Gyroid"], Wall("sheet", 1.0), 10.0)
+    >>> from volfrep.design.tpms import SURFACES, TpmsSheet
+    >>> sheet = TpmsSolid.of(SURFACES["Gyroid"], TpmsSheet("sheet", 1.0), 10.0)
     >>> round(measure_widths(sheet).thickness, 2)
     0.1
     """

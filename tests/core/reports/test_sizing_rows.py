@@ -19,7 +19,8 @@ def test_more_stress_is_called_more(less: float, says: str) -> None:
     report = {
         "radii_mm": [0.5, 1.0], "struts": 10, "strut_mass_g": 1.0, "skin_mass_g": 0.0,
         "material": {"name": "PLA"}, "uses": {}, "calculix": None, "cases": [CASE],
-        "same_mass": {"radius_mm": 0.7, "stiffer": [2.0], "less_stress": less},
+        "same_mass": {"radius_mm": 0.7, "stiffer": [2.0], "stiffer_at_least": [1.5],
+                      "less_stress": less},
     }  # fmt: skip
     told = dict(sizing_rows(report))["same mass"]
     assert says in told

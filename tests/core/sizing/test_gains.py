@@ -65,7 +65,7 @@ def bend_case():
     ("name", "cell", "radius", "least", "published"),
     [
         ("L", "BCC", 0.95, 2.2, 2.60),
-        ("L", "CVC", 1.28, 4.2, 2.60),
+        ("L", "CVC", 1.28, 3.4, 2.60),
         pytest.param("bend", "BCC", 0.72, 2.6, 3.82, marks=pytest.mark.slow),
         pytest.param("bend", "CVC", 0.85, 12.0, 3.82, marks=pytest.mark.slow),
     ],

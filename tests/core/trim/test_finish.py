@@ -146,7 +146,7 @@ def test_graded_struts_that_run_through_each_other_are_told_with_their_place(mon
     left = block(thick, (6, 5, 1))
     assert "facets run through each other" in left.report.warnings[-1]
     # As they come out of the grading:
-    monkeypatch.setattr("volfrep.trim.finish.uncrossed", lambda mesh, *_: (mesh, None))
+    monkeypatch.setattr("volfrep.trim.finish.resolve_fold_crossings", lambda mesh, *_: (mesh, None))
     result = block(spec, (6, 5, 1))
     assert crossing_triangles(result.mesh, every, 1e-2).any()
     assert "run through each other there" in result.report.warnings[-1]
@@ -211,7 +211,7 @@ def test_vertices_at_the_rim_of_octants_beside_the_mesh_take_these_along(monkeyp
         moved.append(len(rim))
         return TriangleMesh(vertices, mesh.triangles), None
 
-    monkeypatch.setattr("volfrep.trim.finish.uncrossed", nudged)
+    monkeypatch.setattr("volfrep.trim.finish.resolve_fold_crossings", nudged)
     result = fill(samples.box((36.0, 36.0, 36.0)), LatticeSpec("Box", 6.0, 0.5, shell=1.0))
     assert moved[0]
     assert result.report.watertight
@@ -233,7 +233,7 @@ def test_octants_about_facets_that_cross_go_along_and_the_others_stay_beside(mon
         return TriangleMesh(vertices, mesh.triangles), None
 
     monkeypatch.setattr("volfrep.trim.finish.turns_of", crossing)
-    monkeypatch.setattr("volfrep.trim.finish.uncrossed", nudged)
+    monkeypatch.setattr("volfrep.trim.finish.resolve_fold_crossings", nudged)
     result = fill(samples.box((36.0, 36.0, 36.0)), LatticeSpec("Box", 6.0, 0.5, shell=1.0))
     assert result.surface.octants is not None
     assert result.surface.is_joined

@@ -20,6 +20,7 @@ FIGURES = ("mechanics", "fem", "reports", "cli", "loads", "sizing")
 FIGURES_OF = (
     "jobs/preview.py",
     "jobs/rough_radius.py",
+    "jobs/sizing/notes.py",
     "design/forecast.py",
     "grid/congruent_joints.py",
 )

@@ -34,7 +34,7 @@ class TpmsSheet:
             across it; negative for a thinner one, mm.
 
     >>> TpmsSheet("sheet", 0.8)
-    Wall(kind='sheet', thickness=0.8, offset=0.0)
+    TpmsSheet(kind='sheet', thickness=0.8, offset=0.0)
     """
 
     kind: str = "sheet"

@@ -3,7 +3,8 @@
 
 What a new search finds becomes an explicit example of its test. No search is timed.
 
-Also which cases are slow: those that a mark stands beside, and those of slow_cases.txt.
+Also which cases of a parametrised test are slow: those that the mark `slow_cases` names beside it,
+or all but those that `slow_but` names.
 
 And the folders in which `make setup` puts pyvista, and what studies take, apart from what FreeCAD
 sees. The latter come last: what is Debian's stays so.
@@ -23,26 +24,26 @@ settings.register_profile("fixed", derandomize=True, database=None, deadline=Non
 settings.register_profile("random", deadline=None, print_blob=True, max_examples=300)
 settings.load_profile("fixed")
 
-_HERE = Path(__file__).resolve().parent
-_SLOW = {
-    line
-    for line in (_HERE / "slow_cases.txt").read_text(encoding="utf-8").splitlines()
-    if not line.startswith("#")
-}
-
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Mark the cases of slow_cases.txt, before pytest looks at marks.
+    """Mark what `slow_cases` names and `slow_but` does not, before pytest looks at marks.
 
     Raises:
-        pytest.UsageError: a line names a case that is none any more, of a file that was collected.
+        pytest.UsageError: a mark names a case that its test does not have.
     """
-    names = {item.nodeid.rpartition("tests/core/")[2]: item for item in items}
-    for name in _SLOW & names.keys():
-        names[name].add_marker("slow")
-    if not any("::" in argument for argument in config.invocation_params.args):
-        files = {name.partition("::")[0] for name in names}
-        gone = [line for line in sorted(_SLOW - names.keys()) if line.partition("::")[0] in files]
-        if gone:
-            raise pytest.UsageError(f"slow_cases.txt names {gone[0]}, which is no case any more.")
+    cases: dict[str, dict[str, pytest.Item]] = {}
+    for item in items:
+        if isinstance(item, pytest.Function) and hasattr(item, "callspec"):
+            cases.setdefault(item.nodeid.partition("[")[0], {})[item.callspec.id] = item
+    are_all_there = not any("::" in argument for argument in config.invocation_params.args)
+    for test, of_test in cases.items():
+        one = next(iter(of_test.values()))
+        for kind in ("slow_cases", "slow_but"):
+            for mark in one.iter_markers(kind):
+                gone = [name for name in mark.args if name not in of_test]
+                if gone and are_all_there:
+                    raise pytest.UsageError(f"{kind} of {test} names {gone[0]}, which is no case.")
+                for name, item in of_test.items():
+                    if (name in mark.args) == (kind == "slow_cases"):
+                        item.add_marker("slow")

@@ -59,6 +59,7 @@ def test_a_full_standard_output_is_told_by_every_command(tmp_path: Path, argumen
     assert done.returncode == 2
 
 
+@pytest.mark.slow_but("0 1 2")
 @needs_unix
 @pytest.mark.parametrize("closed", ["1", "2", "0 1 2"])
 def test_closed_streams_are_no_hindrance(tmp_path: Path, closed) -> None:

@@ -123,6 +123,7 @@ def random_spec(**more):
     return LatticeSpec(strut_radius=0.4, shell=1.5, network=RandomGraph(**wanted))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["voronoi", "delaunay"])
 def test_a_random_network_in_a_part_with_a_skin_is_one_body(kind):
     solid = samples.bracket(17.0)

@@ -88,6 +88,7 @@ def holds_the_contract(frame, sides=FEWEST_SIDES, within=0.005, points=100_000):
     return made
 
 
+@pytest.mark.slow_cases("18")
 @pytest.mark.parametrize(
     "number", [pytest.param(n, marks=pytest.mark.slow if n % 6 else ()) for n in range(20)]
 )
@@ -100,6 +101,7 @@ def test_a_random_graph_with_joints_of_two_to_twenty_struts(number):
     assert windings(made.mesh).odd < 1e-9 * made.mesh.volume
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["Octet", "Diamond"])
 def test_a_block_of_cells_is_the_one_made_of_octants(name):
     spec = LatticeSpec(name, 10.0, 0.5)

@@ -78,6 +78,7 @@ def write_begun(
         ahead.finish(surface, monitor)
 
 
+@pytest.mark.slow_cases("none goes-graded")
 @pytest.mark.parametrize("spec", [SPEC, GRADED], ids=["even", "graded"])
 @pytest.mark.parametrize("step", [0, 2, 7], ids=["none goes", "half go", "most go"])
 def test_the_file_is_the_same_begun_or_not(tmp_path: Path, spec: LatticeSpec, step: int) -> None:

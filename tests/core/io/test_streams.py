@@ -68,6 +68,7 @@ def rows(mesh: TriangleMesh) -> np.ndarray:
     return flat[np.lexsort(flat.T[::-1])]
 
 
+@pytest.mark.slow_but(".obj")
 @pytest.mark.parametrize("suffix", STREAMED)
 def test_a_part_is_read_as_its_mesh_is(
     suffix: str, tmp_path: Path, unmeshed: TrimmedSurface
@@ -90,6 +91,7 @@ def test_triangle_for_triangle(suffix: str, tmp_path: Path) -> None:
     np.testing.assert_array_equal(rows(one), rows(two))
 
 
+@pytest.mark.slow_cases(".3mf", ".stl")
 @pytest.mark.parametrize("suffix", STREAMED)
 def test_a_lattice_that_is_turned(suffix: str, tmp_path: Path) -> None:
     found = turned().part

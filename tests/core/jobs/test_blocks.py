@@ -40,6 +40,7 @@ def sorted_corners(facets):
     return rows[np.lexsort(rows.T)]
 
 
+@pytest.mark.slow_but("Box", "Octahedron", "CVC")
 @pytest.mark.parametrize("cell", [*map(find_cell, PAPERS), SKEW], ids=lambda cell: cell.name)
 def test_the_streamed_file_holds_the_facets_of_the_mesh(cell, tmp_path):
     file = tmp_path / "cell.json"

@@ -68,6 +68,13 @@ def test_later_stages_use_earlier_ones(solid):
     assert part.mesh.volume == pytest.approx(skin + lattice.mesh.volume, rel=1e-5)
 
 
+@pytest.mark.slow_cases(
+    "drains-octants-shell-tile-voxels",
+    "fillet-octants-shell-voxels",
+    "open_faces-tile",
+    "remove_dangling-octants-shell-tile-voxels",
+    "resolution-octants-shell-voxels",
+)
 @pytest.mark.parametrize(
     ("changes", "kept"),
     [
@@ -104,6 +111,7 @@ def test_another_solid_repeats_everything_but_the_octants_meshes(solid):
     assert "kinds of octants meshed" not in second.monitor.work
 
 
+@pytest.mark.slow_but("part")
 @pytest.mark.parametrize("output", ["part", "lattice", "domain"])
 def test_fill_is_one_call_on_top(solid, output):
     spec = replace(SPEC, output=output)
@@ -137,6 +145,7 @@ def test_whole_cells_are_cut_by_the_skin_only(solid):
     np.testing.assert_allclose(infill.part.mesh.bounds, solid.bounds)
 
 
+@pytest.mark.slow_but("changes0")
 @pytest.mark.parametrize("changes", [{}, {"remove_dangling": True}, {"shell": 0}])
 def test_mesh_struts_beams_and_axes_lie_in_the_same_place(solid, changes):
     """Against a block on the same grid, that nothing cuts and nothing moves."""

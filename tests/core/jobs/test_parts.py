@@ -85,6 +85,9 @@ def test_every_part_of_the_folder_has_settings():
     assert found == SETTINGS.keys() | STEP
 
 
+@pytest.mark.slow_cases(
+    "axom_naca0012.stl", "conrod_slevin48.stl", "ge_bracket.stl", "trimesh_angle_block.STL"
+)
 @needs_parts
 @pytest.mark.parametrize(
     "name",
@@ -107,6 +110,7 @@ MODELLED_SETTINGS = {
 }
 
 
+@pytest.mark.slow_but("ribbed_housing")
 @pytest.mark.parametrize(
     "name",
     [pytest.param(n, marks=pytest.mark.slow if n == "ribbed_housing" else ()) for n in MODELLED],
@@ -123,6 +127,7 @@ def test_a_modelled_part_keeps_its_bodies(name, tmp_path):
     np.testing.assert_allclose(result.mesh.bounds, solid.bounds, atol=1e-5)
 
 
+@pytest.mark.slow_cases("Octet")
 @needs_parts
 @pytest.mark.parametrize(
     "cell",

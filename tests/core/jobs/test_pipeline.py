@@ -20,6 +20,7 @@ from volfrep.mesh import quality
 SMALL = LatticeSpec(cell="CVC", cell_size=8, strut_radius=0.8, shell=2)
 
 
+@pytest.mark.slow_but("CVC")
 @pytest.mark.parametrize("cell", PAPERS)
 def test_a_part_is_one_body_with_skin_and_lattice(cell):
     solid = samples.bracket(20.0)

@@ -21,6 +21,7 @@ def both(solid, spec):
     return preview(solid, spec, PartDepth(solid, spec.open_faces)), fill(solid, spec).report
 
 
+@pytest.mark.slow_but("CVC")
 @pytest.mark.parametrize("cell", PAPERS)
 def test_its_figures_are_those_of_the_part(cell):
     spec = LatticeSpec(cell=cell, cell_size=8.0, strut_radius=0.8, shell=2.0, density=1.2)

@@ -48,6 +48,7 @@ def test_what_is_solved_is_what_was_designed():
     assert doubled.largest == pytest.approx(2.0 * analysis.largest)
 
 
+@pytest.mark.slow_cases("1.0")
 @pytest.mark.parametrize("shell", [0.0, 1.0])
 def test_a_design_can_be_sent_to_another_process(shell):
     goal = Goal(limits=Limits(displacement=0.3), radius_min=0.3, radius_max=1.6)

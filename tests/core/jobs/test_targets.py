@@ -37,6 +37,7 @@ def density(value: float) -> Target:
     return Target("relative_density", value)
 
 
+@pytest.mark.slow_but("fillets", "whole cells")
 @pytest.mark.parametrize(
     ("solid", "settings"),
     [
@@ -82,6 +83,7 @@ def test_the_first_mesh_is_already_right_and_the_wall_is_found_once() -> None:
     assert infill.result.report.work["walls found"] == 1
 
 
+@pytest.mark.slow_but("CVC-count2")
 @pytest.mark.parametrize("count", [(1, 1, 1), (2, 3, 4), (6, 1, 2)])
 @pytest.mark.parametrize("cell", ["Octet", "CVC"])
 def test_a_block_has_the_relative_density_asked_for(cell, count) -> None:
@@ -96,6 +98,7 @@ def test_a_graded_block_has_the_mass_asked_for() -> None:
     assert made.mesh.volume / 1000.0 == pytest.approx(0.5, rel=NEAR)
 
 
+@pytest.mark.slow_but("stubs")
 @pytest.mark.parametrize(
     "settings",
     [

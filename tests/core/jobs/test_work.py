@@ -22,6 +22,7 @@ def cube(cells):
     return fill(box((5.0 * cells,) * 3), spec).report
 
 
+@pytest.mark.slow_cases("FCC", "Octet")
 @pytest.mark.parametrize("cell", PAPERS)
 def test_a_block_takes_eight_kinds_of_octants_however_large_it_is(cell):
     """Of 27 patterns of neighbours: struts that end in a joint do not show beyond it."""

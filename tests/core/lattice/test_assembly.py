@@ -38,6 +38,7 @@ def monte_carlo_volume(cell, active, radius, samples=60_000):
     return box * share, box * np.sqrt(share * (1 - share) / samples)
 
 
+@pytest.mark.slow_cases("FCC", "Octet", "skew")
 @pytest.mark.parametrize("cell", [*map(find_cell, PAPERS), SKEW], ids=lambda c: c.name)
 def test_a_block_is_one_closed_surface_of_the_wireframes_genus(cell):
     active = np.ones((2, 2, 2), bool)
@@ -51,6 +52,7 @@ def test_a_block_is_one_closed_surface_of_the_wireframes_genus(cell):
     assert found.volume == pytest.approx(volume, abs=0.005 * volume + 3 * deviation)
 
 
+@pytest.mark.slow_but("Box", "Octahedron", "CVC")
 @pytest.mark.parametrize("cell", [*map(find_cell, PAPERS), SKEW], ids=lambda c: c.name)
 def test_scattered_cells_give_closed_surfaces_too(cell):
     active = np.random.default_rng(5).random((3, 3, 2)) < 0.5
@@ -74,6 +76,7 @@ def _pieces(nodes, struts):
     return connected_components(graph, directed=False)[0]
 
 
+@pytest.mark.slow_cases("FCC", "Octet")
 @pytest.mark.parametrize("name", PAPERS)
 def test_no_triangles_cross(name):
     mesh = lattice(LIBRARY[name], np.ones((2, 1, 1), bool))
@@ -120,6 +123,7 @@ def _pierces(first, second):
     return result
 
 
+@pytest.mark.slow_cases("FCC", "Octet")
 @pytest.mark.parametrize("name", PAPERS)
 def test_triangles_are_well_shaped(name):
     mesh = lattice(LIBRARY[name], np.ones((2, 2, 2), bool))
@@ -128,6 +132,9 @@ def test_triangles_are_well_shaped(name):
     assert shape.smallest_angle > 5.0
 
 
+@pytest.mark.slow_cases(
+    "15-0.03-FCC", "30-0.008-BCC", "30-0.008-Box", "30-0.008-FCC", "30-0.008-Octet"
+)
 @pytest.mark.parametrize("name", PAPERS)
 @pytest.mark.parametrize(("resolution", "allowed"), [(15, 0.03), (30, 0.008)])
 def test_facets_stray_little_and_to_both_sides_alike(name, resolution, allowed):
@@ -143,6 +150,7 @@ def test_facets_stray_little_and_to_both_sides_alike(name, resolution, allowed):
     assert abs(distance.mean()) < 0.1 * allowed
 
 
+@pytest.mark.slow_cases("Octet")
 @pytest.mark.parametrize("name", ["CVC", "Octet"])
 def test_the_volume_converges_with_resolution(name):
     cell, active = LIBRARY[name], np.ones((1, 1, 1), bool)

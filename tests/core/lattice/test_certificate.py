@@ -35,6 +35,7 @@ def layout_of(cell, active, radius=1.0, facets=12, size=10.0):
     return lay_out(grid, mesh_octants(cell, spec, grid.keys, monitor))
 
 
+@pytest.mark.slow_cases("0.4-BCC", "0.4-FCC", "0.4-Octet", "0.4-skew", "1.0-FCC", "1.0-skew")
 @pytest.mark.parametrize("cell", [*map(find_cell, PAPERS), SKEW], ids=lambda c: c.name)
 @pytest.mark.parametrize("share", [1.0, 0.4])
 def test_the_survey_agrees_with_the_measure(cell, share):
@@ -54,6 +55,7 @@ def test_the_survey_agrees_with_the_measure(cell, share):
     np.testing.assert_array_equal(surveyed.bounds, measured.bounds)
 
 
+@pytest.mark.slow_cases("Kagome-1.5877651511816147-8-1.0")
 @pytest.mark.parametrize(
     ("cell", "radius", "facets", "share"),
     [("Kagome", 1.5877651511816147, 8, 1.0), ("Kelvin", 1.5690050236742336, 15, 0.6)],

@@ -77,6 +77,24 @@ BLOCKS = [
 ]
 
 
+@pytest.mark.slow_cases(
+    "BCC, size",
+    "Box, size",
+    "CVC, cylindrical",
+    "CVC, radius, oblique",
+    "CVC, radius",
+    "CVC, size, oblique, and radius",
+    "CVC, size",
+    "FCC, size",
+    "Octahedron, cylindrical",
+    "Octahedron, radius, oblique",
+    "Octahedron, radius",
+    "Octahedron, size",
+    "Octahedron, spherical",
+    "Octahedron, turned and graded",
+    "Octet, size",
+    "skew, size",
+)
 @pytest.mark.parametrize(("cell", "grading"), BLOCKS)
 def test_blocks_hold_the_contract(cell, grading):
     asked, count = GRADINGS[grading]
@@ -196,6 +214,16 @@ FILLED = {
 }
 
 
+@pytest.mark.slow_cases(
+    "not convex-core",
+    "not convex-cylindrical",
+    "not convex-field",
+    "not convex-filleted",
+    "not convex-size, stretched",
+    "not convex-size",
+    "not convex-skin",
+    "not convex-spherical",
+)
 @pytest.mark.parametrize("grading", FILLED)
 @pytest.mark.parametrize(
     "make",
@@ -309,6 +337,7 @@ def random_grading(random, size):
     return asked
 
 
+@pytest.mark.slow_cases("1", "2", "3", "4")
 @pytest.mark.parametrize(
     "seed", [pytest.param(s, marks=pytest.mark.slow if s >= 5 else ()) for s in range(80)]
 )

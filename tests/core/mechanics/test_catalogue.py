@@ -119,6 +119,7 @@ def test_a_cell_whose_beams_miss_its_stiffness_says_so():
     assert fitted_beams(slender, None, LIBRARY["Re-entrant"], plates.SIZE)[1] == ()
 
 
+@pytest.mark.slow_but("Box-5")
 @pytest.mark.parametrize(("name", "row"), [("Box", 5), ("CVC", 6), ("Octahedron", 5)])
 def test_points_computed_again_are_those_shipped(name, row):
     known = catalogue()[name]
@@ -149,6 +150,7 @@ def test_fits_run_through_the_points_and_between_them(name):
     assert stiffness == pytest.approx((whole.E100, whole.G), rel=0.02)
 
 
+@pytest.mark.slow_cases("None")
 @pytest.mark.parametrize("material", [None, "AlSi10Mg"])
 def test_what_a_lattice_does_is_read_off_at_once_within_its_errors(material):
     """At a radius between those of the catalogue, beside the homogenised cell."""

@@ -43,6 +43,7 @@ def kelvin():
     return make_cell("Kelvin", nodes, pairs)
 
 
+@pytest.mark.slow_cases("0.2-0.03652-0.324-0.02468")
 @pytest.mark.parametrize(
     ("density", "young", "ratio", "shear"),
     [OCTET[1], *(pytest.param(*row, marks=pytest.mark.slow) for row in OCTET[::2])],

@@ -44,12 +44,14 @@ def test_angles_are_those_of_triangles_that_are_known():
     assert is_bad(flat).tolist() == [False, False, True]
 
 
+@pytest.mark.slow_cases("CVC")
 def test_few_needles_of_a_trimmed_part_are_left(trimmed, better):
     before, after = (is_bad(corners(mesh)).sum() for mesh in (trimmed, better))
     assert before > 100
     assert after < 0.02 * before
 
 
+@pytest.mark.slow_cases("CVC")
 def test_its_surface_stays(trimmed, better):
     was, now = measure(trimmed), measure(better)
     assert now.watertight
@@ -62,6 +64,7 @@ def test_its_surface_stays(trimmed, better):
     assert not crossing_triangles(better, np.ones(len(better.triangles), bool), 1e-9).any()
 
 
+@pytest.mark.slow_cases("CVC")
 def test_it_does_not_grow_out_of_hand(trimmed, better):
     assert len(better.triangles) < 2 * len(trimmed.triangles)
 

@@ -31,6 +31,7 @@ def border_of(octant):
     return octant.entity[order][on_border], octant.vertices[order][on_border]
 
 
+@pytest.mark.slow_but("CVC-1.0")
 @pytest.mark.parametrize("radius", [1.0, 1.7])
 @pytest.mark.parametrize("cell", [*map(find_cell, PAPERS), SKEW], ids=lambda cell: cell.name)
 def test_an_octant_that_shares_a_mesh_has_the_border_it_would_have_alone(cell, radius):

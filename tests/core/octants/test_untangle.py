@@ -35,6 +35,7 @@ def crowded_cell(seed=0):
     return UnitCell("crowded", nodes, np.array(sorted(ends)))
 
 
+@pytest.mark.slow_but("FCC-0.3", "BCC-0.3", "Octet-0.3", "Octahedron-0.3", "CVC-1.0")
 @pytest.mark.parametrize(
     ("name", "radius"),
     [
@@ -71,6 +72,7 @@ def test_struts_too_thin_for_any_facets_are_refused():
         LatticeSpec("Box", 10.0, 0.01, resolution=100)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("resolution", [24, 26])
 def test_struts_that_cross_anyhow_leave_no_facets_that_do(resolution):
     spec = LatticeSpec(crowded_cell(), 7.0, 0.4, resolution=resolution)

@@ -17,6 +17,7 @@ from volfrep.reports.passage import ball_of, largest_ball
 WINDOWS = {"Box": 0.5, "Octet": 0.5**0.5 / (2.0 * 3.0**0.5)}
 
 
+@pytest.mark.slow_but("Box-0.16")
 @pytest.mark.parametrize("ratio", [0.06, 0.16])
 @pytest.mark.parametrize("name", WINDOWS)
 def test_a_window_lets_its_inscribed_circle_through(name, ratio):

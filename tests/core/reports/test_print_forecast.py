@@ -27,6 +27,7 @@ def told(spec, process="LPBF", up=(0.0, 0.0, 1.0)):
     return print_forecast(spec, struts, (BOX.volume, shown.volume), find_process(process), up)
 
 
+@pytest.mark.slow_cases("FCC")
 @pytest.mark.parametrize("cell", ["CVC", "FCC"])
 def test_it_tells_what_the_report_finds(cell):
     spec = LatticeSpec(cell=cell, cell_size=10.0, strut_radius=0.5, shell=2.0, density=2.0)

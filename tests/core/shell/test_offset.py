@@ -120,6 +120,7 @@ def test_cancel_is_honoured_in_time():
     assert len(asked) == 8
 
 
+@pytest.mark.slow
 @needs_parts
 def test_the_industrial_bracket():
     solid = read_solid(PARTS / "ge_bracket.stl")
@@ -132,6 +133,7 @@ def test_the_industrial_bracket():
     assert len(wall.triangles) < 20_000
 
 
+@pytest.mark.slow_cases("ge_bracket.stl-5.0", "odri_lower_leg_v2.STL-2.0")
 @needs_parts
 @pytest.mark.parametrize(
     ("name", "thickness"),

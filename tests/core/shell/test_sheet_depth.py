@@ -84,6 +84,7 @@ def test_a_box_has_the_cavity_of_its_skins(skin: Skin, volume: float) -> None:
     assert _cavity(BOX, skin).volume == pytest.approx(volume, rel=1e-4)
 
 
+@pytest.mark.slow_cases("2.0-1.0")
 @pytest.mark.parametrize(("shell", "own"), [(1.0, 4.0), (2.0, 1.0)])
 def test_a_hole_has_a_bush_as_thick_as_its_skin(shell: float, own: float) -> None:
     at = SmoothFace((3.0, 0.0, 0.0))

@@ -52,6 +52,7 @@ def test_the_distance_to_a_surface_with_fewer_samples_is_right_where_the_wall_is
     assert np.mean(near - exact > 1e-9) < 0.02
 
 
+@pytest.mark.slow_cases("0.3")
 @pytest.mark.parametrize("skin", [pytest.param(0.15, marks=pytest.mark.slow), 0.3])
 def test_the_wall_of_a_sheet_is_right_round_a_small_hole_too(skin):
     solid = samples.sheet((30.0, 30.0, 3.0))

@@ -55,6 +55,7 @@ def cantilever(cell="CVC", count=(6, 2, 2), radius=0.6, cases=1, size=10.0):
     return problem, np.full(len(nodes), radius)
 
 
+@pytest.mark.slow_cases("BCC", "FCC")
 @pytest.mark.parametrize("cell", PAPERS)
 def test_struts_and_joints_have_the_volume_of_their_mesh(cell):
     """Of thick joints whose struts thin away from them, and the reverse."""
@@ -120,6 +121,7 @@ def test_struts_part_before_their_middles_at_the_largest_radius():
     assert largest_radii(nodes, pair, 1.0)[0] == 1.0
 
 
+@pytest.mark.slow_cases("FCC", "Octahedron", "Octet")
 @pytest.mark.parametrize("cell", PAPERS)
 def test_a_lattice_whose_radii_jump_between_their_bounds_has_a_mesh(cell):
     frame = block_wireframe(LatticeSpec(cell, cell_size=10.0, strut_radius=0.5), (2, 1, 1))
@@ -159,6 +161,7 @@ def test_derivatives_are_those_of_differences():
     )
 
 
+@pytest.mark.slow_cases("BCC", "FCC", "Octet")
 @pytest.mark.parametrize("cell", PAPERS)
 def test_a_sized_cantilever_is_much_stiffer_than_an_even_one_of_its_volume(cell):
     problem, radii = cantilever(cell)

@@ -251,6 +251,7 @@ def test_struts_are_those_of_the_homogenised_frame():
     assert 0.25 * 20 / moved[top, 2, 0].mean() == pytest.approx(tensor[2, 2] * 100, rel=1e-3)
 
 
+@pytest.mark.slow_cases("CVC-count0")
 @pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX (ccx) is not installed")
 @pytest.mark.parametrize(
     ("cell", "count"),

@@ -55,6 +55,7 @@ def test_slivers_and_points_have_distances_too():
     assert (edge >= 0).all()
 
 
+@pytest.mark.slow_cases("plate")
 @pytest.mark.parametrize(
     ("part", "inside"),
     [

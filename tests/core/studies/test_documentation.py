@@ -44,6 +44,7 @@ def test_every_action_has_its_row() -> None:
     assert re.findall(r"^\| `(\w+)` \|", table, re.MULTILINE) == list(ACTIONS)
 
 
+@pytest.mark.slow
 def test_an_optimiser_asks_and_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     optuna = pytest.importorskip("optuna", reason="needs the optional package optuna")
     optuna.logging.set_verbosity(optuna.logging.WARNING)

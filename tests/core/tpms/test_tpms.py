@@ -110,6 +110,7 @@ def across(mesh, chosen):
     return result
 
 
+@pytest.mark.slow_but("Gyroid")
 @pytest.mark.parametrize("name", GENUS)
 def test_an_endless_sheet_has_two_sides_of_the_genus_of_theory(name) -> None:
     found = certify(endless(octants(name)))
@@ -133,6 +134,7 @@ def test_blocks_of_gyroid_grow_by_a_genus_of_three_for_each_primitive_cell() -> 
     assert np.diff(euler, 3)[0] == 6 * 2 * 2 * (2 - 2 * 3)
 
 
+@pytest.mark.slow_cases("Neovius")
 @pytest.mark.parametrize(
     "name",
     [
@@ -162,6 +164,7 @@ def test_a_filled_part_does_not_run_through_itself() -> None:
     assert len(piercing_pairs(as_read(made.result.mesh))) == 0
 
 
+@pytest.mark.slow_cases("Gyroid")
 @pytest.mark.parametrize("name", ["Gyroid", pytest.param("Schwarz P", marks=pytest.mark.slow)])
 def test_a_blocks_density_is_that_of_a_point_count(name) -> None:
     report = block(LatticeSpec(name, SIZE, wall=TpmsSheet("sheet", 0.8)), (2, 2, 2)).report
@@ -191,6 +194,7 @@ def test_a_streamed_block_is_the_same_as_one_held_whole(tmp_path) -> None:
 _stages = StageCache()
 
 
+@pytest.mark.slow_cases("no skin", "skeleton")
 @pytest.mark.parametrize(
     "settings",
     [
@@ -243,6 +247,7 @@ def test_walls_about_an_axis_keep_the_contract() -> None:
     check_contract(check_solid(samples.box((30.0, 28.0, 18.0)), "box"), spec, ())
 
 
+@pytest.mark.slow_cases("target0-wall0")
 @pytest.mark.parametrize(
     ("target", "wall"),
     [

@@ -67,6 +67,7 @@ def mesh_of(found):
     return found.surface.whole(Monitor())
 
 
+@pytest.mark.slow_but("BCC", "CVC")
 @pytest.mark.parametrize("name", PAPERS)
 def test_lattice_and_cavity_share_the_domain_between_them(name):
     domain = samples.sphere(22.0)
@@ -87,6 +88,9 @@ def test_octants_inside_are_put_back_as_the_boolean_would_have_left_them():
     assert quality.measure(one).genus == quality.measure(two).genus
 
 
+@pytest.mark.slow_cases(
+    "False-FCC", "False-Octahedron", "False-Octet", "True-FCC", "True-Octahedron", "True-Octet"
+)
 @pytest.mark.parametrize("name", PAPERS)
 @pytest.mark.parametrize("cavity", [True, False])
 def test_what_is_proved_of_octants_inside_is_what_their_triangles_show(name, cavity):
@@ -189,6 +193,7 @@ def tilted_box():
     return TriangleMesh(np.asarray(box.vertices), box.faces.astype(np.int32))
 
 
+@pytest.mark.slow_but("flat-CVC-False", "flat-Box-False", "round-CVC-True")
 @pytest.mark.parametrize("cavity", [True, False])
 @pytest.mark.parametrize("name", ["CVC", "Box"])
 @pytest.mark.parametrize("domain", [tilted_box(), samples.sphere(22.0)], ids=["flat", "round"])
@@ -289,6 +294,7 @@ def test_groups_that_do_not_meet_are_cut_as_one(small_groups, monkeypatch):
     assert len(counts) == 2
 
 
+@pytest.mark.slow_cases("False")
 @pytest.mark.parametrize("cavity", [True, False])
 def test_what_is_not_certain_the_library_decides(cavity, small_groups, monkeypatch):
     """And its groups fit to those that were cut along their seams."""

@@ -40,6 +40,7 @@ def made(name: str) -> Result:
     return Infill(samples.box((30.0, 30.0, 30.0)), CASES[name]).result
 
 
+@pytest.mark.slow_but("a drain deep into the cells")
 @pytest.mark.parametrize("name", CASES)
 def test_it_is_what_the_whole_mesh_would_have_become(
     name: str, monkeypatch: pytest.MonkeyPatch
@@ -62,6 +63,7 @@ def test_it_is_what_the_whole_mesh_would_have_become(
     np.testing.assert_allclose(one.bounds, two.bounds)
 
 
+@pytest.mark.slow_cases("drains")
 @pytest.mark.parametrize("name", ["drains", "an open face"])
 def test_its_figures_are_those_of_its_triangles(name: str) -> None:
     found = made(name)

@@ -90,6 +90,7 @@ def test_a_hole_may_slant():
     assert lost[1] > lost[0] * 1.35
 
 
+@pytest.mark.slow_but("up0")
 @pytest.mark.parametrize("up", [(0.0, 0.0, 1.0), (0.0, 0.0, -2.0), (1.0, 0.0, 0.0)])
 def test_automatic_holes_are_at_the_lowest_places(up):
     solid = samples.box()

@@ -82,6 +82,7 @@ def test_flat_shells_that_go_leave_the_count_of_bodies_as_it_is():
     assert (cleared.quality.bodies, cleared.quality.voids) == (1, 0)
 
 
+@pytest.mark.slow_cases("whole-0.0")
 @pytest.mark.parametrize(
     ("boundary", "shell"),
     [

@@ -90,6 +90,7 @@ def test_a_wall_just_below_the_nodes_leaves_them_joined():
     assert left.kept.tolist() == [False, True, False, False]  # the one outside is cut away
 
 
+@pytest.mark.slow_cases("BCC-centre", "Octet-centre")
 @pytest.mark.parametrize(
     ("cell", "activation"),
     [
@@ -245,6 +246,7 @@ def test_graded_lattices_lose_free_ends_too():
         assert quality.measure(as_read(result.mesh)).watertight
 
 
+@pytest.mark.slow_cases("0")
 @pytest.mark.parametrize(
     "seed", [pytest.param(s, marks=pytest.mark.slow if s >= 1 else ()) for s in range(12)]
 )

@@ -34,7 +34,7 @@ class VolfrepWorkbench(Gui.Workbench):
         import FreeCAD as App
 
         from freecad_volfrep.deps import explain_missing, missing_packages
-        from freecad_volfrep.gui.commands import EXAMPLES, TOOLBARS, register_commands
+        from freecad_volfrep.gui.commands.table import EXAMPLES, TOOLBARS, register_commands
         from freecad_volfrep.translation import QT_TRANSLATE_NOOP
 
         register_commands()
@@ -49,7 +49,7 @@ class VolfrepWorkbench(Gui.Workbench):
 
     def ContextMenu(self, recipient):  # noqa: N802
         """Offer the commands that apply in the context menu of the view and the tree."""
-        from freecad_volfrep.gui.commands import applicable_commands
+        from freecad_volfrep.gui.commands.table import applicable_commands
 
         self.appendContextMenu("VOLFREP", applicable_commands())
 

@@ -45,7 +45,7 @@ def main() -> None:
     """Make everything, or raise."""
     from freecad_volfrep import export_mesh, make_lattice_infill, make_solid
     from freecad_volfrep.examples import make_bracket, make_piston_rod
-    from freecad_volfrep.features.faceted_solid import export_step
+    from freecad_volfrep.features.export.faceted_solid import export_step
 
     OUT.mkdir(parents=True, exist_ok=True)
 

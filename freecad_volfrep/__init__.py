@@ -23,15 +23,15 @@ if _CORE not in sys.path:
     sys.path.insert(0, _CORE)
 
 _EXPORTS = {
-    "make_lattice_infill": "freecad_volfrep.features.factory",
-    "make_solid": "freecad_volfrep.features.faceted_solid",
-    "export_mesh": "freecad_volfrep.features.export",
-    "make_print_check": "freecad_volfrep.features.print_check",
-    "make_design_study": "freecad_volfrep.features.design_study",
-    "run_study": "freecad_volfrep.features.design_study",
-    "apply_design": "freecad_volfrep.features.design_study",
-    "make_fem_analysis": "freecad_volfrep.features.fem_analysis",
-    "size_lattice": "freecad_volfrep.features.sizing",
+    "make_lattice_infill": "freecad_volfrep.features.infill.factory",
+    "make_solid": "freecad_volfrep.features.export.faceted_solid",
+    "export_mesh": "freecad_volfrep.features.export.mesh_file",
+    "make_print_check": "freecad_volfrep.features.reports.print_check",
+    "make_design_study": "freecad_volfrep.features.study.design_study",
+    "run_study": "freecad_volfrep.features.study.design_study",
+    "apply_design": "freecad_volfrep.features.study.design_study",
+    "make_fem_analysis": "freecad_volfrep.features.export.fem_analysis",
+    "size_lattice": "freecad_volfrep.features.sizing.sizing",
 }
 __all__ = [
     "ICONS",

@@ -62,18 +62,18 @@ def revive(doc: App.Document) -> list[App.DocumentObject]:
     for obj in [obj for kind in _TYPES for obj in doc.findObjects(kind)]:
         names = set(obj.PropertiesList)
         if names >= _INFILL:
-            from freecad_volfrep.features.lattice_infill import LatticeInfill, revive_infill
-            from freecad_volfrep.features.properties import has_lost_results
+            from .features.infill.lattice_infill import LatticeInfill, revive_infill
+            from .features.infill.properties import has_lost_results
 
             kind, bring_back = LatticeInfill, revive_infill
             if has_lost_results(obj):
                 obj.touch()
         elif names >= _PRINT_CHECK:
-            from freecad_volfrep.features.print_check import PrintCheck, revive_print_check
+            from .features.reports.print_check import PrintCheck, revive_print_check
 
             kind, bring_back = PrintCheck, revive_print_check
         elif names >= _STUDY:
-            from freecad_volfrep.features.design_study import DesignStudy, revive_study
+            from .features.study.design_study import DesignStudy, revive_study
 
             kind, bring_back = DesignStudy, revive_study
         else:

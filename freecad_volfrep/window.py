@@ -7,7 +7,7 @@ from typing import Any
 
 import FreeCAD as App
 
-from .features.screen import Screen, register_screen
+from .features.jobs.screen import Screen, register_screen
 
 
 def register() -> None:
@@ -20,19 +20,19 @@ def register() -> None:
 
 
 def _update(obj: App.DocumentObject, asked: Any) -> None:
-    from .gui.updating import Update
+    from .gui.jobs.updating import Update
 
     Update(obj, asked)
 
 
 def _wait_for(title: str, call: Any, in_freecad: bool) -> Any:
-    from .gui.progress import wait_for
+    from .gui.jobs.progress import wait_for
 
     return wait_for(title, call, in_freecad)
 
 
 def _go_through(title: str, steps: Any) -> Any:
-    from .gui.progress import go_through
+    from .gui.jobs.progress import go_through
 
     return go_through(title, steps)
 

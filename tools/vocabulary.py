@@ -42,9 +42,9 @@ import os, sys, traceback
 try:
     sys.path[:0] = [{root!r}, {core!r}]
     import FreeCAD as App
-    from freecad_volfrep.features.design_study import make_design_study
-    from freecad_volfrep.features.factory import make_lattice_infill
-    from freecad_volfrep.features.print_check import make_print_check
+    from freecad_volfrep.features.study.design_study import make_design_study
+    from freecad_volfrep.features.infill.factory import make_lattice_infill
+    from freecad_volfrep.features.reports.print_check import make_print_check
     doc = App.newDocument("Vocabulary")
     infill = make_lattice_infill(doc, None)
     kinds = {{

@@ -9,7 +9,7 @@ from typing import Any
 
 import FreeCAD as App
 
-from freecad_volfrep.features.factory import make_lattice_infill
+from freecad_volfrep.features.infill.factory import make_lattice_infill
 
 from .bracket import make_bracket
 from .piston_rod import make_piston_rod

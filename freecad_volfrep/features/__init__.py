@@ -4,8 +4,8 @@
 Saved files name the proxies' classes by this package: keep the names below importable from here.
 """
 
-from .design_study import DesignStudy
-from .lattice_infill import LatticeInfill
-from .print_check import PrintCheck
+from .infill.lattice_infill import LatticeInfill
+from .reports.print_check import PrintCheck
+from .study.design_study import DesignStudy
 
 __all__ = ["DesignStudy", "LatticeInfill", "PrintCheck"]

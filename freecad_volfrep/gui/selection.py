@@ -117,7 +117,7 @@ def selected_with_edges() -> list[App.DocumentObject] | None:
 
 def selected_or_all_infills() -> list[App.DocumentObject] | None:
     """The selected lattice infills, or all of the document's where none is selected."""
-    from freecad_volfrep.features.statistics import infills_of
+    from freecad_volfrep.features.reports.statistics import infills_of
 
     if App.ActiveDocument is None:
         return None

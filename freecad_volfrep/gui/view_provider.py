@@ -15,20 +15,20 @@ import FreeCAD as App
 import FreeCADGui as Gui
 
 from freecad_volfrep import ICONS, preferences
-from freecad_volfrep.features.freshness import STALE, why_stale
-from freecad_volfrep.features.lattice_infill import UP_TO_DATE
-from freecad_volfrep.features.skin import is_just_made
-from freecad_volfrep.features.statistics import infills_of
+from freecad_volfrep.features.infill.freshness import STALE, why_stale
+from freecad_volfrep.features.infill.lattice_infill import UP_TO_DATE
+from freecad_volfrep.features.infill.skin import is_just_made
+from freecad_volfrep.features.reports.statistics import infills_of
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 from volfrep.util.errors import VolfrepError
 
-from . import drawing
-from .coarse_view import COARSE, show_likeness
-from .colouring import Colouring, add_properties
-from .filled_view import FILLED, FilledPart, show_filled
-from .in_steps import do_in_steps, drop_steps
+from .colours.colouring import Colouring, add_properties
+from .draw import drawing
+from .jobs.in_steps import do_in_steps, drop_steps
 from .qt import QtCore, QtGui
-from .simplified_view import SIMPLIFIED, SimplifiedPart
+from .view.coarse_view import COARSE, show_likeness
+from .view.filled_view import FILLED, FilledPart, show_filled
+from .view.simplified_view import SIMPLIFIED, SimplifiedPart
 
 #: The modes beside those of every mesh, and what fills a node for each.
 _MODES = {FILLED: show_filled, COARSE: show_likeness, SIMPLIFIED: SimplifiedPart}
@@ -113,7 +113,7 @@ class LatticeInfillView:
         if name == "DisplayMode":
             self._colour_shown()
         if self._is_cut and name in ("DisplayMode", "Transparency"):
-            from .section_view import refresh_section
+            from .view.section_view import refresh_section
 
             refresh_section(self.object)
 
@@ -168,7 +168,7 @@ class LatticeInfillView:
 
     def setEdit(self, view: Any, mode: int = 0) -> bool:  # noqa: N802
         """Open the task panel."""
-        from .task_panel import TaskPanel
+        from .panel.task_panel import TaskPanel
 
         Gui.Control.showDialog(
             TaskPanel(view.Object, translate("VOLFREP_Edit", "Edit Lattice Infill"))
@@ -197,7 +197,7 @@ class LatticeInfillView:
 
     def setupContextMenu(self, view: Any, menu: Any) -> None:  # noqa: N802
         """Offer the commands that apply, where another workbench than ours is in front."""
-        from .commands import COMMANDS, applicable_commands
+        from .commands.table import COMMANDS, applicable_commands
 
         if Gui.activeWorkbench().name() == "VolfrepWorkbench":
             return  # which offers them itself
@@ -356,7 +356,7 @@ class DesignStudyView:
 
     def setEdit(self, view: Any, mode: int = 0) -> bool:  # noqa: N802
         """Open the panel."""
-        from .study_panel import open_study
+        from .study.study_panel import open_study
 
         return open_study(view.Object)
 

@@ -30,7 +30,9 @@ SECTIONS = ("## Description", "## Usage")
 
 def table() -> dict[str, tuple[str, str, str]]:
     """Icon, menu text and shortcut of each command, by its name."""
-    source = (ROOT / "freecad_volfrep" / "gui" / "commands.py").read_text(encoding="utf-8")
+    source = (ROOT / "freecad_volfrep" / "gui" / "commands" / "table.py").read_text(
+        encoding="utf-8"
+    )
     found = {}
     for call in ast.walk(ast.parse(source)):
         if not isinstance(call, ast.Call) or not isinstance(call.func, ast.Name):

@@ -15,8 +15,40 @@ from test_layers import says_why_it_is_long
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGE = "freecad_volfrep"
 #: Low to high: what stands here imports from itself and from what stands before it. Modules beside
-#: the folders, which only look at FreeCAD and the engine, are the lowest.
-LAYERS = ("", "bridge", "exact_job", "features", "revival", "examples", "gui", "window")
+#: the folders, which only look at FreeCAD and the engine, are the lowest; those beside
+#: the rooms of a folder stand where the folder does.
+LAYERS = (
+    "",
+    "bridge",
+    "exact_job",
+    # How a job is run; what a property is; the infill; what looks at one and what is made of one.
+    "features.jobs",
+    "features.properties",
+    "features.infill",
+    "features.reports",
+    "features.sizing",
+    "features.export",
+    "features.study",
+    "features",
+    "revival",
+    "examples",
+    # Parts without a subject, the 3D view, jobs, then a room for each subject, and the commands.
+    "gui",
+    "gui.widgets",
+    "gui.windows",
+    "gui.draw",
+    "gui.view",
+    "gui.jobs",
+    "gui.colours",
+    "gui.cells",
+    "gui.panel",
+    "gui.sizing",
+    "gui.study",
+    "gui.commands",
+    "gui.view_provider",
+    "gui.revived_view",
+    "window",
+)
 
 
 def modules() -> dict[str, Path]:
@@ -45,9 +77,16 @@ def imports(name: str, path: Path, known: dict[str, Path]) -> Iterator[str]:
 
 
 def layer(name: str) -> int:
-    """Where a module stands in `LAYERS`."""
-    part = name.split(".")[1] if "." in name else ""
-    return LAYERS.index(part) if part in LAYERS else 0
+    """Where a module stands in `LAYERS`: by its room, else its folder, else at the bottom."""
+    parts = name.split(".")[1:]
+    places = [".".join(parts[:n]) for n in (2, 1) if len(parts) >= n]
+    return LAYERS.index(next((place for place in places if place in LAYERS), ""))
+
+
+def test_every_folder_is_a_room_with_a_row() -> None:
+    rooms = {".".join(p.parent.relative_to(ROOT / PACKAGE).parts) for p in modules().values()}
+    assert rooms <= set(LAYERS)
+    assert all(row in rooms or f"{PACKAGE}.{row}" in modules() for row in LAYERS)
 
 
 def test_a_layer_imports_from_those_before_it_only() -> None:
@@ -59,7 +98,7 @@ def test_a_layer_imports_from_those_before_it_only() -> None:
         if layer(target) > layer(name)
     ]
     assert back == []
-    assert any("bridge" in target for target in imports_of("features.print_check", known))
+    assert any("bridge" in target for target in imports_of("features.reports.print_check", known))
 
 
 def imports_of(name: str, known: dict[str, Path]) -> set[str]:
@@ -80,9 +119,25 @@ def test_no_imports_go_round() -> None:
 
 def test_objects_are_shown_by_what_the_window_registers() -> None:
     known = modules()
-    assert f"{PACKAGE}.features.screen" in imports_of("window", known)
+    assert f"{PACKAGE}.features.jobs.screen" in imports_of("window", known)
     assert any(target.startswith(f"{PACKAGE}.gui") for target in imports_of("window", known))
 
 
 def test_a_long_module_says_why() -> None:
     assert [n for n, p in modules().items() if not says_why_it_is_long(p.read_text("utf-8"))] == []
+
+
+def test_the_classes_that_documents_name_are_where_they_look() -> None:
+    """Documents of every release hold these paths; the view providers' is also pinned in them."""
+    known = modules()
+    saved = {
+        f"{PACKAGE}.features": {"LatticeInfill", "PrintCheck", "DesignStudy"},
+        f"{PACKAGE}.gui.view_provider": {"LatticeInfillView", "PrintCheckView", "DesignStudyView"},
+    }
+    for module, classes in saved.items():
+        tree = ast.parse(known[module].read_text("utf-8"))
+        names = {node.name for node in tree.body if isinstance(node, ast.ClassDef)}
+        for node in tree.body:
+            if isinstance(node, ast.ImportFrom):
+                names |= {alias.name for alias in node.names}
+        assert classes <= names

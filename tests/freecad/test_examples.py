@@ -8,7 +8,7 @@ import MeshPart
 import pytest
 
 from freecad_volfrep.examples import make_bracket, make_piston_rod
-from freecad_volfrep.features.mesh_check import check_mesh
+from freecad_volfrep.features.reports.mesh_check import check_mesh
 
 EXAMPLES = {
     "bracket": (make_bracket, "BracketSizes", (178.5, 62.5, 108.3)),

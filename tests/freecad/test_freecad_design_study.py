@@ -10,7 +10,7 @@ from conftest import SMALL
 from freecad_volfrep import apply_design, make_design_study, make_lattice_infill, run_study
 from freecad_volfrep.engine import require_engine
 from freecad_volfrep.features import DesignStudy
-from freecad_volfrep.features.design_study import designs_of_study
+from freecad_volfrep.features.study.design_study import designs_of_study
 from volfrep.util.errors import VolfrepError
 
 

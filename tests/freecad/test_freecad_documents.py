@@ -10,12 +10,13 @@ import pytest
 
 from conftest import said_without_packages
 from freecad_volfrep import make_lattice_infill, preferences
-from freecad_volfrep.features import LatticeInfill, lattice_infill
-from freecad_volfrep.features.lattice_infill import LARGE, UP_TO_DATE
-from freecad_volfrep.features.migration import RENAMED, TURNED
-from freecad_volfrep.features.properties import PROPERTIES, SCHEMA_VERSION
-from freecad_volfrep.features.quantities import density_of, mass_of, set_value, supported
-from freecad_volfrep.features.values import specification_of
+from freecad_volfrep.features import LatticeInfill
+from freecad_volfrep.features.infill import lattice_infill
+from freecad_volfrep.features.infill.lattice_infill import LARGE, UP_TO_DATE
+from freecad_volfrep.features.infill.properties import PROPERTIES, SCHEMA_VERSION
+from freecad_volfrep.features.infill.values import specification_of
+from freecad_volfrep.features.properties.migration import RENAMED, TURNED
+from freecad_volfrep.features.properties.quantities import density_of, mass_of, set_value, supported
 from volfrep.design.grading import CellMap, Orientation, RadiusGrading, SizeGrading
 from volfrep.design.profile import Profile
 from volfrep.design.spec import LatticeSpec

@@ -9,8 +9,8 @@ import pytest
 
 from conftest import SMALL
 from freecad_volfrep import make_fem_analysis, make_lattice_infill
-from freecad_volfrep.features.fem_analysis import vertices
-from freecad_volfrep.features.solver_files import axes_of
+from freecad_volfrep.features.export.fem_analysis import vertices
+from freecad_volfrep.features.export.solver_files import axes_of
 from volfrep.util.errors import Cancelled, VolfrepError
 
 needs_calculix = pytest.mark.skipif(
@@ -111,7 +111,7 @@ def test_a_cancel_leaves_nothing_behind(doc, infill, monkeypatch, last):
             next(steps)
         steps.throw(Cancelled())
 
-    monkeypatch.setattr("freecad_volfrep.features.fem_analysis.go_through", cancelled)
+    monkeypatch.setattr("freecad_volfrep.features.export.fem_analysis.go_through", cancelled)
     before = [obj.Name for obj in doc.Objects]
     with pytest.raises(Cancelled):
         make_fem_analysis(doc, infill)

@@ -10,17 +10,17 @@ import pytest
 
 from conftest import SMALL
 from freecad_volfrep import make_lattice_infill
-from freecad_volfrep.features.export import export_mesh
-from freecad_volfrep.features.faceted_solid import make_solid
-from freecad_volfrep.features.freshness import (
+from freecad_volfrep.features.export.faceted_solid import make_solid
+from freecad_volfrep.features.export.mesh_file import export_mesh
+from freecad_volfrep.features.infill.freshness import (
     _earlier_fingerprint,
     fingerprint_of,
     is_of,
     why_stale,
 )
-from freecad_volfrep.features.lattice_infill import UP_TO_DATE
-from freecad_volfrep.features.mesh_check import check_mesh
-from freecad_volfrep.features.statistics import statistics
+from freecad_volfrep.features.infill.lattice_infill import UP_TO_DATE
+from freecad_volfrep.features.reports.mesh_check import check_mesh
+from freecad_volfrep.features.reports.statistics import statistics
 
 CELL = {
     "nodes": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],

@@ -10,8 +10,8 @@ import pytest
 from conftest import SMALL
 from freecad_volfrep import make_lattice_infill
 from freecad_volfrep.bridge.fem_fields import field_of_result
-from freecad_volfrep.features.lattice_infill import UP_TO_DATE
-from freecad_volfrep.features.properties import PROPERTIES
+from freecad_volfrep.features.infill.lattice_infill import UP_TO_DATE
+from freecad_volfrep.features.infill.properties import PROPERTIES
 from volfrep.design.parameters.table import CUSTOM_CELL
 from volfrep.util.errors import VolfrepError
 

@@ -8,10 +8,11 @@ import pytest
 
 from conftest import SMALL
 from freecad_volfrep import make_lattice_infill
-from freecad_volfrep.features import LatticeInfill, lattice_infill
-from freecad_volfrep.features.factory import suggested_sizes
-from freecad_volfrep.features.infill_results import loaded
-from freecad_volfrep.features.lattice_infill import (
+from freecad_volfrep.features import LatticeInfill
+from freecad_volfrep.features.infill import lattice_infill
+from freecad_volfrep.features.infill.factory import suggested_sizes
+from freecad_volfrep.features.infill.infill_results import loaded
+from freecad_volfrep.features.infill.lattice_infill import (
     BEING_MADE,
     CANCELLED,
     CANCELLED_FIRST,
@@ -19,8 +20,8 @@ from freecad_volfrep.features.lattice_infill import (
     OUT_OF_DATE,
     UP_TO_DATE,
 )
-from freecad_volfrep.features.properties import PROPERTIES, SCHEMA_VERSION, ensure_properties
-from freecad_volfrep.features.quantities import mass_of, set_value
+from freecad_volfrep.features.infill.properties import PROPERTIES, SCHEMA_VERSION, ensure_properties
+from freecad_volfrep.features.properties.quantities import mass_of, set_value
 from volfrep.design.cells import PAPERS
 from volfrep.util.errors import Cancelled, VolfrepError
 

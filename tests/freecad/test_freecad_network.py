@@ -8,8 +8,8 @@ import Part
 import pytest
 
 from freecad_volfrep import make_lattice_infill
-from freecad_volfrep.features.live_preview import LivePreview
-from freecad_volfrep.features.solver_files import write_solver_file
+from freecad_volfrep.features.export.solver_files import write_solver_file
+from freecad_volfrep.features.infill.live_preview import LivePreview
 
 
 @pytest.fixture
@@ -131,7 +131,7 @@ def sector(doc):
 
 def radii_of(obj):
     """Of the nodes of the network, from the tube's axis."""
-    from freecad_volfrep.features.values import specification_of
+    from freecad_volfrep.features.infill.values import specification_of
 
     nodes = specification_of(obj).network.nodes
     return (nodes[:, 0] ** 2 + nodes[:, 1] ** 2) ** 0.5
@@ -211,7 +211,7 @@ def wing(doc):
 def ends_from(obj, face):
     """How far each node of the lattice that is made lies from a face, by FreeCAD, mm."""
     from freecad_volfrep.bridge.solids import mesh_of_shape
-    from freecad_volfrep.features.values import specification_of
+    from freecad_volfrep.features.infill.values import specification_of
     from volfrep.jobs.targets import infill_of
 
     struts = infill_of(mesh_of_shape(obj.Base.Shape, "wing"), specification_of(obj)).struts

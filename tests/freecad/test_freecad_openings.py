@@ -6,7 +6,7 @@ import pytest
 
 from conftest import SMALL, top_of
 from freecad_volfrep import make_lattice_infill
-from freecad_volfrep.features.openings import open_faces
+from freecad_volfrep.features.infill.openings import open_faces
 
 
 @pytest.fixture

@@ -7,7 +7,7 @@ import pytest
 from conftest import SMALL
 from freecad_volfrep import make_lattice_infill
 from freecad_volfrep.bridge.picked import direction_of, point_of
-from freecad_volfrep.features.picking import pick, pickable, unpick
+from freecad_volfrep.features.infill.picking import pick, pickable, unpick
 from volfrep.util.errors import VolfrepError
 
 

@@ -5,8 +5,8 @@ import FreeCAD as App
 import pytest
 
 from freecad_volfrep import engine, make_lattice_infill, preferences
-from freecad_volfrep.features.factory import preferred_values, suggested_sizes
-from freecad_volfrep.features.quantities import density_of
+from freecad_volfrep.features.infill.factory import preferred_values, suggested_sizes
+from freecad_volfrep.features.properties.quantities import density_of
 from freecad_volfrep.preferences import PREFERENCES, Colour, colour, read, write
 
 EXTENT = (178.5, 62.5, 108.3)

@@ -6,8 +6,8 @@ import pytest
 
 from conftest import SMALL
 from freecad_volfrep import make_lattice_infill
-from freecad_volfrep.features.live_preview import LivePreview
-from freecad_volfrep.features.quantities import mass_of
+from freecad_volfrep.features.infill.live_preview import LivePreview
+from freecad_volfrep.features.properties.quantities import mass_of
 from volfrep.util.errors import VolfrepError
 
 

@@ -9,8 +9,8 @@ import Part
 import pytest
 
 from freecad_volfrep.engines import freecads, programs
-from freecad_volfrep.features.progress import run_job
-from freecad_volfrep.features.screen import is_asked_by_user
+from freecad_volfrep.features.jobs.progress import run_job
+from freecad_volfrep.features.jobs.screen import is_asked_by_user
 from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.util.errors import VolfrepError
 from volfrep.util.threads import threads

@@ -5,10 +5,10 @@ import FreeCAD as App
 import pytest
 
 from freecad_volfrep import make_lattice_infill
-from freecad_volfrep.features import screen
-from freecad_volfrep.features.properties import PROPERTIES, TYPES
-from freecad_volfrep.features.quantities import FALLBACK, density_of, supported
-from freecad_volfrep.features.values import specification_of
+from freecad_volfrep.features.infill.properties import PROPERTIES, TYPES
+from freecad_volfrep.features.infill.values import specification_of
+from freecad_volfrep.features.jobs import screen
+from freecad_volfrep.features.properties.quantities import FALLBACK, density_of, supported
 from volfrep.design.parameters import BY_NAME, PARAMETERS
 from volfrep.design.parameters.specification import specification
 from volfrep.design.spec import LatticeSpec

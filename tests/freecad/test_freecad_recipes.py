@@ -5,8 +5,8 @@ import pytest
 
 from conftest import SMALL
 from freecad_volfrep import make_lattice_infill
-from freecad_volfrep.features import recipes
-from freecad_volfrep.features.curve_points import (
+from freecad_volfrep.features.infill import recipes
+from freecad_volfrep.features.infill.curve_points import (
     PRESETS,
     added,
     formula_of,
@@ -16,10 +16,10 @@ from freecad_volfrep.features.curve_points import (
     taken_over,
     without,
 )
-from freecad_volfrep.features.live_preview import LivePreview
-from freecad_volfrep.features.print_figures import print_rows
-from freecad_volfrep.features.recipes import apply_recipe, known_recipes, save_recipe
-from freecad_volfrep.features.values import specification_of
+from freecad_volfrep.features.infill.live_preview import LivePreview
+from freecad_volfrep.features.infill.recipes import apply_recipe, known_recipes, save_recipe
+from freecad_volfrep.features.infill.values import specification_of
+from freecad_volfrep.features.reports.print_figures import print_rows
 from volfrep.design.parameters.recipes import RECIPES
 from volfrep.design.parameters.spec_file import read_spec
 from volfrep.design.profile import Profile

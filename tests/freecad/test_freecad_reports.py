@@ -12,10 +12,10 @@ import pytest
 
 from conftest import SMALL
 from freecad_volfrep import make_lattice_infill
-from freecad_volfrep.features.mesh_check import check_mesh
-from freecad_volfrep.features.quantities import mass_of, set_value
-from freecad_volfrep.features.statistics import infills_of, statistics
-from freecad_volfrep.features.tables import Table, as_csv, as_html
+from freecad_volfrep.features.properties.quantities import mass_of, set_value
+from freecad_volfrep.features.reports.mesh_check import check_mesh
+from freecad_volfrep.features.reports.statistics import infills_of, statistics
+from freecad_volfrep.features.reports.tables import Table, as_csv, as_html
 from freecad_volfrep.translation import TRANSLATIONS
 from volfrep.util.errors import VolfrepError
 
@@ -76,7 +76,7 @@ def test_statistics_tell_what_walls_do(doc, infill, monkeypatch):
         asked.append(call.arguments)
         return call.function(*call.arguments, **call.keywords, along=16)
 
-    monkeypatch.setattr("freecad_volfrep.features.statistics.run_job", coarse)
+    monkeypatch.setattr("freecad_volfrep.features.reports.statistics.run_job", coarse)
     infill.CellType = "Gyroid"
     infill.WallThickness = 1.5
     doc.recompute()

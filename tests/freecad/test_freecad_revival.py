@@ -12,8 +12,8 @@ import pytest
 
 from freecad_volfrep import make_print_check
 from freecad_volfrep.features import LatticeInfill, PrintCheck
-from freecad_volfrep.features.lattice_infill import REVIVED, UP_TO_DATE
-from freecad_volfrep.features.properties import SCHEMA_VERSION, SPOILED
+from freecad_volfrep.features.infill.lattice_infill import REVIVED, UP_TO_DATE
+from freecad_volfrep.features.infill.properties import SCHEMA_VERSION, SPOILED
 from freecad_volfrep.revival import revive
 
 PROXY = 'module="freecad_volfrep.features" class="LatticeInfill"'

@@ -7,7 +7,7 @@ import pytest
 
 from conftest import SMALL
 from freecad_volfrep import make_lattice_infill
-from freecad_volfrep.features.sized_radii import store_radii
+from freecad_volfrep.features.infill.sized_radii import store_radii
 from volfrep.jobs.infill import Infill
 
 THIN = {**SMALL, "CellType": "BCC", "StrutRadius": 0.8, "ShellThickness": 1.0}

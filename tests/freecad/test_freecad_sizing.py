@@ -10,9 +10,9 @@ import pytest
 from test_freecad_fem_loads import add, analysis_of, face_at
 
 from freecad_volfrep import make_lattice_infill, size_lattice
-from freecad_volfrep.features.live_preview import LivePreview
-from freecad_volfrep.features.sized_states import sized_states, why_no_states
-from freecad_volfrep.features.sizing import (
+from freecad_volfrep.features.infill.live_preview import LivePreview
+from freecad_volfrep.features.sizing.sized_states import sized_states, why_no_states
+from freecad_volfrep.features.sizing.sizing import (
     GOALS,
     Wish,
     analyses_of,

@@ -6,7 +6,7 @@ import pytest
 
 from conftest import SMALL, top_of
 from freecad_volfrep import make_lattice_infill
-from freecad_volfrep.features.picking import pick, unpick
+from freecad_volfrep.features.infill.picking import pick, unpick
 from volfrep.util.errors import VolfrepError
 
 

@@ -10,9 +10,9 @@ import pytest
 
 from conftest import SMALL
 from freecad_volfrep import export_mesh, make_lattice_infill
-from freecad_volfrep.features.quantities import set_value
-from freecad_volfrep.features.solids import KINDS, kinds_of, make_kind
-from freecad_volfrep.features.solver_files import CONTENTS, estimate_file
+from freecad_volfrep.features.export.solids import KINDS, kinds_of, make_kind
+from freecad_volfrep.features.export.solver_files import CONTENTS, estimate_file
+from freecad_volfrep.features.properties.quantities import set_value
 from volfrep.util.errors import VolfrepError
 
 needs_gmsh = pytest.mark.skipif(shutil.which("gmsh") is None, reason="Gmsh is not installed")
@@ -79,7 +79,9 @@ def test_plane_faces_where_opencascade_does_not_manage(doc, infill, monkeypatch)
 
     monkeypatch.setattr("freecad_volfrep.bridge.worker_calls._exact", fails)
     said = []
-    monkeypatch.setattr("freecad_volfrep.features.solids.warn", lambda _, text: said.extend(text))
+    monkeypatch.setattr(
+        "freecad_volfrep.features.export.solids.warn", lambda _, text: said.extend(text)
+    )
     infill.CellType, infill.Resolution = "Box", 5
     doc.recompute()
     solid = make_kind(doc, infill, "exact")
@@ -89,7 +91,7 @@ def test_plane_faces_where_opencascade_does_not_manage(doc, infill, monkeypatch)
         "OpenCASCADE lost a strut. The solid has plane faces instead of exact surfaces."
     ]
     # FreeCAD's window would stand still while it draws more faces.
-    monkeypatch.setattr("freecad_volfrep.features.faceted_solid.LONGEST_DRAWING", 0.1)
+    monkeypatch.setattr("freecad_volfrep.features.export.faceted_solid.LONGEST_DRAWING", 0.1)
     assert not make_kind(doc, infill, "faceted").Visibility
 
 

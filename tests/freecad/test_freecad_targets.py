@@ -7,10 +7,10 @@ import FreeCAD as App
 import pytest
 
 from freecad_volfrep import make_lattice_infill
-from freecad_volfrep.features.live_preview import LivePreview
-from freecad_volfrep.features.materials import advice, for_solver, process_of
-from freecad_volfrep.features.print_check import make_print_check
-from freecad_volfrep.features.quantities import (
+from freecad_volfrep.features.infill.live_preview import LivePreview
+from freecad_volfrep.features.infill.materials import advice, for_solver, process_of
+from freecad_volfrep.features.infill.values import specification_of
+from freecad_volfrep.features.properties.quantities import (
     density_of,
     is_driven,
     mass_of,
@@ -18,7 +18,7 @@ from freecad_volfrep.features.quantities import (
     set_expression,
     set_value,
 )
-from freecad_volfrep.features.values import specification_of
+from freecad_volfrep.features.reports.print_check import make_print_check
 from volfrep.design.target import Target
 from volfrep.util.errors import VolfrepError
 
@@ -153,7 +153,7 @@ def test_a_saved_target_is_up_to_date_when_it_is_opened(doc, box, tmp_path):
 def test_files_and_analyses_have_the_struts_that_were_found(doc, box, tmp_path):
     obj = driven(doc, box, "Relative density", TargetDensity=0.2, PrintMaterial="Ti-6Al-4V")
     doc.recompute()
-    from freecad_volfrep.features.solver_files import axes_of, write_solver_file
+    from freecad_volfrep.features.export.solver_files import axes_of, write_solver_file
 
     assert axes_of(obj).wireframe.radii == pytest.approx(obj.StrutRadius.Value)
     write_solver_file(obj, tmp_path / "deck.inp", "beam deck")

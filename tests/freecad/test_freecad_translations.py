@@ -6,7 +6,7 @@ from xml.etree import ElementTree
 import pytest
 from PySide import QtCore
 
-from freecad_volfrep.features.progress import job_title
+from freecad_volfrep.features.jobs.progress import job_title
 from freecad_volfrep.translation import TRANSLATIONS, spaced, translate
 
 FILES = sorted(TRANSLATIONS.glob("volfrep_*.ts"))

@@ -7,7 +7,7 @@ import FreeCAD as App
 import pytest
 
 from freecad_volfrep import make_lattice_infill, make_print_check
-from freecad_volfrep.features.live_preview import LivePreview
+from freecad_volfrep.features.infill.live_preview import LivePreview
 
 HIDDEN = "Hidden"
 

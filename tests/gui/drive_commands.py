@@ -94,7 +94,7 @@ def close(name):
 
 def every_command_is_known():
     """FreeCAD knows each, with icon, texts and a help page; no shortcut of its own is taken."""
-    from freecad_volfrep.gui.commands import COMMANDS
+    from freecad_volfrep.gui.commands.table import COMMANDS
 
     others = {}
     for name in Gui.Command.listAll():
@@ -209,7 +209,7 @@ def row_of(editor, name):
 @slow
 def type_a_radius(doc, obj):
     """A radius that is typed into the property editor makes a new mesh, once."""
-    from freecad_volfrep.gui import progress
+    from freecad_volfrep.gui.jobs import progress
 
     quick, progress.SHOW_AFTER = progress.SHOW_AFTER, 0  # the bar must not take the editor's focus
     try:
@@ -592,7 +592,7 @@ def ask_whats_this():
 
 def take_away_what_is_previewed(doc, obj):
     """A preview goes with its infill and with its document, and shows the solid again."""
-    from freecad_volfrep.gui.preview_only import toggle_preview
+    from freecad_volfrep.gui.view.preview_only import toggle_preview
 
     base = obj.Base
     base.Visibility = True

@@ -50,8 +50,8 @@ from driving import (
 )
 from new_analysis import loaded
 
-from freecad_volfrep.gui.background import are_there_jobs
-from freecad_volfrep.gui.progress import _Progress, is_waited_for
+from freecad_volfrep.gui.jobs.background import are_there_jobs
+from freecad_volfrep.gui.jobs.progress import _Progress, is_waited_for
 
 ESCAPES = int(os.environ.get("ESCAPES", "1"))
 SEED = int(os.environ.get("SEED", "19"))

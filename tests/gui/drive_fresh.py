@@ -41,7 +41,7 @@ from new_infill import filled
 
 def reports():
     """The windows with a report that are open."""
-    from freecad_volfrep.gui.report_window import ReportWindow
+    from freecad_volfrep.gui.windows.report_window import ReportWindow
 
     found = Gui.getMainWindow().findChildren(ReportWindow)
     return [window for window in found if window.isVisible()]
@@ -94,7 +94,7 @@ def a_stale_mesh_is_asked_about():
 
 
 def an_undone_mesh_keeps_the_colour_of_its_wall():
-    from freecad_volfrep.gui.filled_view import mesh_and_kinds
+    from freecad_volfrep.gui.view.filled_view import mesh_and_kinds
     from volfrep.reports.facet_roles import LATTICE, WALL
 
     doc, _, obj = filled("Undone")
@@ -170,7 +170,7 @@ def by_menu(menu, command):
 
 def its_looks_outlive_undo_and_a_file():
     """Cut open and coloured, undone, refreshed, saved, closed and opened: it looks the same."""
-    from freecad_volfrep.gui.filled_view import mesh_and_kinds
+    from freecad_volfrep.gui.view.filled_view import mesh_and_kinds
 
     _, _, obj = filled("Looked at")
     cut_and_coloured(obj)

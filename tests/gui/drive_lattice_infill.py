@@ -265,7 +265,7 @@ def choose(name, text):
 @slow
 def drive_the_radius(doc, obj):
     """Density, mass and stiffness in place of the radius: the preview shows the one found."""
-    from freecad_volfrep.features.quantities import is_driven, number_of
+    from freecad_volfrep.features.properties.quantities import is_driven, number_of
 
     open_to_edit(obj)
     shown = panel_part("StrutRadius")
@@ -341,7 +341,7 @@ def drive_the_radius(doc, obj):
 
 def run_a_job():
     """A job has a process of its own, the window lives meanwhile, and what is raised arrives."""
-    from freecad_volfrep.features.progress import run_job
+    from freecad_volfrep.features.jobs.progress import run_job
     from volfrep.worker.engine_process import Call
 
     beats = []

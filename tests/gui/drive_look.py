@@ -209,7 +209,7 @@ def look_alike_in_any_order(doc, obj):
 def fill_cut_faces_in_every_mode(doc, obj):
     """Ours fill what is cut; so does FreeCAD's own, opaque."""
     view = obj.ViewObject
-    from freecad_volfrep.gui.section_view import open_section
+    from freecad_volfrep.gui.view.section_view import open_section
 
     for mode in (OURS, "Coarse", "Simplified", "Shaded"):
         view.DisplayMode = mode

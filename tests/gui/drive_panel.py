@@ -59,7 +59,7 @@ def choose(name, value):
 
 def see_why_commands_are_grey(doc, box):
     """The tip of every greyed command says what it needs; that of others does not."""
-    from freecad_volfrep.gui.commands import COMMANDS, TOOLBARS
+    from freecad_volfrep.gui.commands.table import COMMANDS, TOOLBARS
 
     select()
     names = [name for names in TOOLBARS.values() for name in names]
@@ -164,7 +164,7 @@ def type_a_sum(doc, box):
 
 def start_from_a_recipe(doc, box):
     """A shipped recipe sets the fields; settings are saved under a name, and applied elsewhere."""
-    from freecad_volfrep.features.recipes import known_recipes, recipe_folder
+    from freecad_volfrep.features.infill.recipes import known_recipes, recipe_folder
 
     for file in recipe_folder().glob("*.toml"):
         file.unlink()
@@ -287,7 +287,8 @@ def drag_a_curve(doc, box):
 def install_what_is_missing(doc, box):
     """Where packages are missing, a window installs them, or copies the command."""
     from freecad_volfrep import deps
-    from freecad_volfrep.gui import command, install_window
+    from freecad_volfrep.gui.commands import command
+    from freecad_volfrep.gui.windows import install_window
 
     kept = command.missing_packages, install_window.install_arguments, install_window.find_installed
     says = "import sys; print('Collecting trimesh'); sys.exit(0)"

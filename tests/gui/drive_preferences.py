@@ -70,7 +70,7 @@ def set_use_and_read_back():
 
 def use():
     """The command makes an infill of what was set."""
-    from freecad_volfrep.gui.infill_commands import make_suitable_infill
+    from freecad_volfrep.gui.commands.infill_commands import make_suitable_infill
 
     doc = App.newDocument("Drive")
     box = doc.addObject("Part::Box", "Block")

@@ -78,7 +78,7 @@ def texts_of(actions):
 
 def every_command_can_be_reached():
     """By the menu each; by a button all but the help and the examples."""
-    from freecad_volfrep.gui.commands import COMMANDS, EXAMPLES
+    from freecad_volfrep.gui.commands.table import COMMANDS, EXAMPLES
 
     bar = Gui.getMainWindow().menuBar()
     ours = [action for action in bar.actions() if action.text().replace("&", "") == "VOLFREP"]

@@ -71,7 +71,7 @@ def study_of(doc):
 
 def rows_of(doc):
     """Its designs."""
-    from freecad_volfrep.features.design_study import designs_of_study
+    from freecad_volfrep.features.study.design_study import designs_of_study
 
     return designs_of_study(study_of(doc))
 

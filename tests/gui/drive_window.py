@@ -69,7 +69,7 @@ def boxed():
 @contextmanager
 def meshes_held_back():
     """Meshes are made, and wait to be installed."""
-    from freecad_volfrep.gui.updating import Update
+    from freecad_volfrep.gui.jobs.updating import Update
 
     is_time, held = Update._is_time, [True]
     Update._is_time = lambda update: not held and is_time(update)
@@ -386,7 +386,7 @@ def answers_meanwhile(doc, obj):
 
     A large one is first a likeness, and then drawn in pieces; in the end all of it is there.
     """
-    from freecad_volfrep.gui import updating
+    from freecad_volfrep.gui.jobs import updating
 
     beats, likenesses = [], []
     obj.CellSize, obj.StrutRadius = 4, 0.5
@@ -448,7 +448,7 @@ def drawn_triangles(obj):
 
 
 def _has_ended():
-    from freecad_volfrep.gui import background
+    from freecad_volfrep.gui.jobs import background
 
     jobs = background._jobs[0]._jobs
     return bool(jobs) and jobs[0]._running is not None and jobs[0]._running.wait(0)

@@ -24,7 +24,7 @@ import FreeCADGui as Gui
 import numpy as np
 from PySide import QtCore, QtGui
 
-from freecad_volfrep.gui.background import are_there_jobs
+from freecad_volfrep.gui.jobs.background import are_there_jobs
 
 OUT = Path(os.environ["GUI_OUT"])
 #: Of what must come, in s: only what never comes takes so long.
@@ -701,7 +701,7 @@ def fold_sections(as_usual=True):
 
     Told before the panel is opened.
     """
-    from freecad_volfrep.gui.sections import FOLDED
+    from freecad_volfrep.gui.widgets.sections import FOLDED
     from freecad_volfrep.preferences import keep_folded
 
     for section in FOLDED:

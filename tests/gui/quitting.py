@@ -35,8 +35,8 @@ from driving import (
 )
 from new_infill import filled
 
-from freecad_volfrep.gui.background import are_there_jobs
-from freecad_volfrep.gui.progress import is_waited_for
+from freecad_volfrep.gui.jobs.background import are_there_jobs
+from freecad_volfrep.gui.jobs.progress import is_waited_for
 
 HOME = Path(os.environ["FREECAD_USER_HOME"])
 ANSWERS = os.environ["QUIT_ANSWERS"].split()

@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A lattice infill's mesh and figures: what was asked for, and how it comes into the document."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import FreeCAD as App
+
+from freecad_volfrep.features.properties.quantities import is_driven, number_of, set_value
+
+from .properties import PROPERTIES
+
+if TYPE_CHECKING:
+    import Mesh
+
+    from volfrep import LatticeSpec
+    from volfrep.jobs.pipeline import FilledMesh
+    from volfrep.reports.report import Report
+    from volfrep.worker.engine_process import Call
+
+
+@dataclass(frozen=True, eq=False)
+class Asked:
+    """A mesh that is to be made.
+
+    Attributes:
+        spec: how.
+        fingerprint: of all that it depends on.
+        title: of the job.
+        call: of the engine.
+    """
+
+    spec: LatticeSpec
+    fingerprint: str
+    title: str
+    call: Call
+
+
+def loaded(filled: FilledMesh) -> Mesh.Mesh:
+    """FreeCAD's mesh of what has come.
+
+    Raises:
+        VolfrepError: FreeCAD did not take every triangle.
+    """
+    from freecad_volfrep.bridge.meshes import to_freecad, with_neighbours
+
+    if filled.shown is None:
+        return to_freecad(filled.mesh)
+    return with_neighbours(filled.mesh.vertices, filled.shown.facets)
+
+
+def install(obj: App.DocumentObject, asked: Asked, filled: FilledMesh, mesh: Mesh.Mesh) -> None:
+    """Give an infill the mesh that was asked for, and its figures."""
+    from .skin import made_of
+
+    made = with_radius(asked.spec, filled.report.target)
+    obj.Proxy.made = made_of(filled)
+    placement = obj.Placement
+    obj.Mesh = mesh
+    obj.Placement = placement  # assigning a mesh also assigns the mesh's placement
+    _write_results(obj, filled.report)
+    if asked.spec.target is not None:
+        tell_driven(obj, *_thickness(made))
+    obj.Fingerprint = asked.fingerprint
+
+
+def with_radius(spec: LatticeSpec, found: dict[str, Any] | None) -> LatticeSpec:
+    """The specification with the radius that a report says was found, in place of its target."""
+    if spec.target is None or found is None:
+        return spec
+    if spec.surface is None:
+        return replace(spec, strut_radius=found["strut_radius_mm"], target=None)
+    name = "thickness" if spec.wall.is_sheet else "offset"
+    return replace(spec, wall=replace(spec.wall, **{name: found[f"wall_{name}_mm"]}), target=None)
+
+
+def _thickness(spec: LatticeSpec) -> tuple[str, float]:
+    """The property that says how thick struts or walls are, and what it is."""
+    if spec.surface is None:
+        return "StrutRadius", spec.strut_radius
+    if spec.wall.is_sheet:
+        return "WallThickness", spec.wall.thickness
+    return "WallOffset", spec.wall.offset
+
+
+def tell_driven(obj: App.DocumentObject, name: str, value: float) -> None:
+    """Show in a property what drives it has come to; what an expression drives stays."""
+    plain = name in ("Density", "WallOffset")
+    before = number_of(obj, name) if plain else getattr(obj, name).Value
+    if not is_driven(obj, name) and before != value:
+        set_value(obj, name, value)
+
+
+def _write_results(obj: App.DocumentObject, report: Report) -> None:
+    values = {
+        "CellsTotal": report.cells_total,
+        "CellsActive": report.cells_active,
+        "Nodes": report.nodes,
+        "Struts": report.struts,
+        "CellEdges": report.cell_edges_mm,
+        "StrutLengths": report.strut_lengths_mm,
+        "StrutRadii": report.strut_radii_mm,
+        "Triangles": report.triangles,
+        "Bodies": report.bodies,
+        "Voids": report.voids,
+        "DrainHoles": [App.Vector(*hole) for hole in report.drain_holes],
+        "Genus": report.genus,
+        "Volume": report.volume_mm3,
+        "RelativeDensity": report.relative_density,
+        "Mass": report.mass_g,
+        "DanglingRemoved": report.struts_dangling_removed,
+        "StubsRemoved": report.stubs_removed,
+        "PiecesRemoved": report.pieces_removed,
+        "Watertight": report.watertight,
+        "Seconds": sum(report.stages.values()),
+        "Report": report.to_json(),
+        "Warnings": list(report.warnings),
+    }
+    results = {prop.name for prop in PROPERTIES if prop.group == "Result"} - {"Status", "Expected"}
+    assert values.keys() == results, "the table of properties and the report have drifted apart"
+    for name, value in values.items():
+        set_value(obj, name, value)
+    for sentence in report.warnings:
+        App.Console.PrintWarning(f"VOLFREP, {obj.Label}: {sentence}\n")
+    App.Console.PrintMessage(
+        f"VOLFREP, {obj.Label}: {report.cells_active} of {report.cells_total} cells, "
+        f"{report.triangles} triangles, {report.mass_g:.4g} g in {obj.Seconds:.1f} s\n"
+    )

@@ -1,0 +1,439 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Sizing an infill's struts for the analyses of its document, and solving them as they are."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, fields, replace
+from typing import TYPE_CHECKING, Any
+
+import FreeCAD as App
+import numpy as np
+from numpy.typing import NDArray
+
+from freecad_volfrep.features.infill.sized_radii import store_radii
+from freecad_volfrep.features.jobs.progress import job_title, run_job
+from freecad_volfrep.features.reports.tables import Table
+from freecad_volfrep.translation import QT_TRANSLATE_NOOP, marked, translate
+from volfrep.util.errors import VolfrepError
+
+from .sized_states import is_sized_for, sized_states, store_states, why_no_states
+
+if TYPE_CHECKING:
+    from volfrep.jobs.sizing import SizedPart
+    from volfrep.loads.load_cases import LoadCases
+    from volfrep.sizing.optimise import Step
+    from volfrep.sizing.strut_state import StrutState
+
+#: Goals by name, and what the panel calls them.
+GOALS = {
+    "mass": QT_TRANSLATE_NOOP("VolfrepSizePanel", "Least mass"),
+    "stiffness": QT_TRANSLATE_NOOP("VolfrepSizePanel", "Most stiffness"),
+}
+#: The limits' names, marked for translation.
+LIMIT_NAMES = marked(
+    "VolfrepSizePanel", "stress", "displacement", "buckling", "frame buckling", "frequency"
+)
+#: What a new wish begins with: safety against yield; radii over the present one.
+FIRST_SAFETY, SMALLEST, LARGEST = 1.5, 0.5, 2.0
+NO_ANALYSIS = (
+    "The document has no analysis with loads: make one with the FEM workbench, with a material and "
+    "constraints on the solid's faces, edges or vertices."
+)
+
+
+@dataclass(frozen=True)
+class Wish:
+    """What is asked of a lattice; a limit of 0 is none.
+
+    Attributes:
+        goal: one of `GOALS`.
+        safety: yield stress over the largest von Mises stress.
+        displacement: the largest, mm.
+        buckling: how many times the load may be.
+        frequency: the lowest, Hz.
+        mass: of the struts, g, for the goal stiffness.
+        smallest: radius, mm.
+        largest: radius, mm.
+        prove: let CalculiX solve the design, where it is installed.
+        remove: take away struts that end as thin as they may be and carry little.
+    """
+
+    goal: str
+    safety: float
+    displacement: float
+    buckling: float
+    frequency: float
+    mass: float
+    smallest: float
+    largest: float
+    prove: bool = True
+    remove: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class Outcome:
+    """What came of a wish.
+
+    Attributes:
+        part: the sized lattice, in the coordinates of the infill's group.
+        states: its struts in each load case.
+        density: of the material, g/cm3.
+        steps: rows of the table of steps.
+        loads: what it was sized for.
+    """
+
+    part: SizedPart
+    states: tuple[StrutState, ...]
+    density: float
+    steps: tuple[tuple[str, ...], ...]
+    loads: LoadCases
+
+    @property
+    def holds(self) -> bool:
+        """Whether all limits are held."""
+        return self.part.sized.holds
+
+    @property
+    def mass(self) -> float:
+        """Of the struts, g."""
+        return _mass(self.part.sized.analysis.volume, self.density)
+
+    def summary(self) -> str:
+        """Sentences for the panel: what was found, and whether another solver agrees."""
+        proof = self.part.report["calculix"]
+        if proof is None:
+            said = " ".join(self.part.report["notes"])
+        else:
+            off = 100.0 * max(proof["displacements_off"])
+            said = (
+                translate(
+                    "VolfrepSizePanel",
+                    "CalculiX's displacements of the same beams and skin differ by {off:.2g} %.",
+                )
+                if proof["with_the_skin"]
+                else translate(
+                    "VolfrepSizePanel",
+                    "CalculiX's displacements of the same beams differ by {off:.2g} %.",
+                )
+            ).format(off=off)
+            if not proof["confirmed"]:
+                refused = translate(
+                    "VolfrepSizePanel", "CalculiX does not confirm this design: see its notes."
+                )
+                said = f"{said} {refused}"
+        return f"{self._found()} {said}".strip()
+
+    def _found(self) -> str:
+        """What was found, in a sentence."""
+        from volfrep.reports.sizing_report import least_gain
+
+        sized, before, even = self.part.sized.analysis, self.part.before, self.part.even
+        if not self.holds:
+            there = (self.part.report["calculix"] or {}).get("uses", {})
+            uses = {name: max(use, there.get(name, 0.0)) for name, use in sized.uses.items()}
+            worst = max(uses, key=lambda name: uses[name])
+            return translate(
+                "VolfrepSizePanel",
+                "The limit of {limit} cannot be held between these radii: {use:.0%} of it is used. "
+                "Allow thicker struts, or larger cells.",
+            ).format(limit=translate("VolfrepSizePanel", worst), use=uses[worst])
+        if even is None:
+            gain = float(before.compliance.sum() / sized.compliance.sum())
+            return translate(
+                "VolfrepSizePanel",
+                "Struts of {mass:.4g} g, {least:.3g} to {gain:.3g} times as stiff as struts of one "
+                "radius and the same mass.",
+            ).format(mass=self.mass, least=least_gain(gain), gain=gain)
+        analysis, held = even
+        if not held:
+            return translate(
+                "VolfrepSizePanel",
+                "Struts of {mass:.4g} g hold all limits; no one radius between these does.",
+            ).format(mass=self.mass)
+        return translate(
+            "VolfrepSizePanel",
+            "Struts of {mass:.4g} g hold all limits; of one radius they would weigh {even:.4g} g.",
+        ).format(mass=self.mass, even=_mass(analysis.volume, self.density))
+
+    def tables(self) -> list[Table]:
+        """Before and after, case by case, and the steps: English, as saved tables are."""
+        sized, before, even = self.part.sized.analysis, self.part.before, self.part.even
+        columns = [("sized", sized), ("one radius, same mass", before)]
+        if even is not None:
+            name = "one radius, same limits" if even[1] else "one radius, as near as it gets"
+            columns.append((name, even[0]))
+        rows: list[tuple[Any, ...]] = [
+            ("mass of the struts, g", *(_mass(a.volume, self.density) for _, a in columns)),
+            ("smallest radius, mm", *(float(a.radii.min()) for _, a in columns)),
+            ("largest radius, mm", *(float(a.radii.max()) for _, a in columns)),
+        ]
+        rows += [
+            (f"{name}, % of its limit", *(100.0 * a.uses[name] for _, a in columns))
+            for name in sized.uses
+        ]
+        tables = [Table("Struts", tuple(rows), ("", *(name for name, _ in columns)))]
+        for k, state in enumerate(self.states):
+            rows = [
+                ("work of the loads, N mm", *(float(a.compliance[k]) for _, a in columns)),
+                ("largest displacement, mm", *(float(a.largest[k]) for _, a in columns)),
+                ("largest stress, MPa", *(float(a.stress[..., k].max()) for _, a in columns)),
+                ("load before buckling, times", *(_margin(a.buckling[:, k]) for _, a in columns)),
+            ]
+            if np.isfinite(sized.factors[k]):
+                together = (a.factors[k] for _, a in columns)
+                told = (float(one) if np.isfinite(one) else "-" for one in together)
+                rows.append(("load before struts buckle together, times", *told))
+            worst = int(np.argmax(state.stress.max(axis=1)))
+            place = "{:.4g}, {:.4g}, {:.4g}".format(*state.ends[worst].mean(axis=0))
+            rows.append(("most stressed strut, at x, y, z", place))
+            tables.append(Table(f"Load case {state.name}", tuple(rows), tables[0].header))
+        proof = self.part.report["calculix"]
+        if proof is not None:
+            off = 100.0 * max(proof["displacements_off"])
+            figures: list[tuple[Any, ...]] = [
+                ("confirmed", "yes" if proof["confirmed"] else "no"),
+                ("displacements differ by, %", off),
+            ]
+            if proof["worst_strut_compared"]:
+                figures.append(("largest stress there over here", proof["largest_stress"]))
+            if "lowest_frequency" in proof:
+                figures.append(("lowest frequency there over here", proof["lowest_frequency"]))
+            known = [factor for factor in proof.get("buckling_factors", ()) if factor is not None]
+            if known:
+                figures.append(("lowest load before they buckle together, times", min(known)))
+            tables.append(Table("The same beams in CalculiX", tuple(figures)))
+        notes = tuple((note,) for note in self.part.report["notes"])
+        if notes:
+            tables.append(Table("Notes", notes))
+        header = ("step", "mass, g", "work of the loads, N mm", "most used limit")
+        return [*tables, Table("Steps", self.steps, header)]
+
+    def to_json(self) -> str:
+        """All figures, as the infill keeps them."""
+        return json.dumps(self.part.report)
+
+
+def _mass(volume: float, density: float) -> float:
+    return volume * density / 1000.0
+
+
+def _margin(shares: NDArray[np.float64]) -> float:
+    """How many times the load may be until struts buckle, one alone or together."""
+    return float(1.0 / max(float(shares.max(initial=0.0)), 1e-12))
+
+
+def analyses_of(obj: App.DocumentObject) -> list[App.DocumentObject]:
+    """The analyses of an infill's document that may be load cases.
+
+    Raises:
+        VolfrepError: there is none.
+    """
+    from freecad_volfrep.bridge.fem_loads import has_loads, is_analysis
+
+    found = [one for one in obj.Document.Objects if is_analysis(one) and has_loads(one)]
+    if not found:
+        raise VolfrepError(NO_ANALYSIS)
+    return found
+
+
+def size_lattice(
+    obj: App.DocumentObject,
+    analyses: Sequence[App.DocumentObject] | None = None,
+    **wish: Any,
+) -> Outcome:
+    """Size an infill's struts and store the radii; ``doc.recompute()`` then makes the mesh.
+
+    Args:
+        obj: a lattice infill.
+        analyses: of the FEM workbench, the load cases; None for all of the document.
+        **wish: attributes of a `Wish`, in place of those that the panel begins with: such as
+            ``goal="stiffness"``, ``safety=2``, ``displacement=0.1``, ``smallest=0.4``.
+
+    Raises:
+        VolfrepError: there is no such attribute, or as `size_struts`.
+        Cancelled: as `size_struts`.
+    """
+    unknown = wish.keys() - {part.name for part in fields(Wish)}
+    if unknown:
+        names = ", ".join(part.name for part in fields(Wish))
+        raise VolfrepError(f"A wish has no '{min(unknown)}': choose from {names}.")
+    asked = replace(first_wish(obj), **wish)
+    outcome = size_struts(obj, analyses_of(obj) if analyses is None else analyses, asked)
+    store_outcome(obj, outcome)
+    return outcome
+
+
+def store_outcome(obj: App.DocumentObject, outcome: Outcome) -> None:
+    """Give an infill the radii that were found, and what is to be known of them."""
+    store_radii(obj, outcome.part.points, outcome.part.radii)
+    spec = outcome.part.spec
+    shortest = getattr(spec.network, "shortest", 0.0)
+    if shortest:  # other radii would draw other struts together
+        obj.NetworkShortest = shortest
+    obj.RemoveBelow, obj.RemoveDangling = spec.remove_below, spec.remove_dangling
+    obj.SizingReport = outcome.to_json()
+    store_states(obj, outcome.states, outcome.loads)
+
+
+def first_wish(obj: App.DocumentObject) -> Wish:
+    """What the panel begins with."""
+    radius = obj.StrutRadius.Value
+    return Wish("mass", FIRST_SAFETY, 0.0, 0.0, 0.0, 0.0, SMALLEST * radius, LARGEST * radius)
+
+
+def size_struts(
+    obj: App.DocumentObject,
+    analyses: Sequence[App.DocumentObject],
+    wish: Wish,
+    told: Callable[[tuple[str, ...]], None] | None = None,
+) -> Outcome:
+    """Size an infill's struts; the infill stays as it is (see `sized_radii.store_radii`).
+
+    Args:
+        obj: a lattice infill.
+        analyses: of the FEM workbench, the load cases.
+        wish: what is wanted.
+        told: called on another thread with each step's row of the table of steps.
+
+    Raises:
+        VolfrepError: no analysis is chosen, or what is asked for makes no sense or cannot be.
+        Cancelled: in the window, by the user, before there was a design; afterwards a cancel keeps
+            the best.
+    """
+    from volfrep.jobs.sizing import size
+    from volfrep.worker.engine_process import Call
+
+    solid, spec, cache = obj.Proxy.wanted(obj)
+    loads = loads_of(obj, analyses)
+    goal = _goal(wish, loads)
+    density = loads.material.density
+    steps: list[tuple[str, ...]] = []
+
+    def watch(number: int, step: Step) -> bool:
+        steps.append(_row(number, step, density))
+        if told is not None:
+            told(steps[-1])
+        return True
+
+    part = run_job(
+        job_title("Sizing {label}", obj),
+        Call(
+            size,
+            (solid, spec, loads, goal),
+            {"prove_it": wish.prove, "cache": cache},
+            heard={"watch": watch},
+            keeps_best=True,
+        ),
+    )
+    steps.append(_row(len(steps), part.sized.last, density))
+    states = part.states
+    return Outcome(part, states, density, tuple(steps), loads)
+
+
+def loads_of(obj: App.DocumentObject, analyses: Sequence[App.DocumentObject]) -> LoadCases:
+    """What analyses say that an infill carries.
+
+    Raises:
+        VolfrepError: there is none, or what they say makes no sense.
+    """
+    from freecad_volfrep.bridge.fem_loads import load_cases_of
+    from freecad_volfrep.bridge.solids import parent_placement
+
+    if not analyses:
+        raise VolfrepError("No load case is chosen: tick at least one analysis.")
+    return load_cases_of(analyses, parent_placement(obj))
+
+
+def carried_by(obj: App.DocumentObject, quantity: str) -> dict[str, Any]:
+    """What `volfrep.jobs.figures.point_values.point_values` is given to colour by loads.
+
+    What is kept of the lattice as it was sized, where the document has the loads of that or none
+    any more: the figures are then those that Size Lattice told. Else the document's loads.
+
+    Args:
+        obj: a lattice infill.
+        quantity: one of `OF_LOADS` there.
+
+    Raises:
+        VolfrepError: there is neither, or the loads make no sense.
+    """
+    try:
+        analyses = analyses_of(obj)
+    except VolfrepError:
+        if why_no_states(obj):
+            raise
+    else:
+        loads = loads_of(obj, analyses)
+        if not is_sized_for(obj, loads):
+            return {"loads": loads}
+    ends, states = sized_states(obj)
+    return {"carried": (ends, states[quantity])}
+
+
+def _goal(wish: Wish, loads: LoadCases) -> Any:
+    """What the engine is asked for.
+
+    Raises:
+        VolfrepError: least mass without a limit, a safety without a yield stress, or radii that
+            make no sense.
+    """
+    from volfrep.jobs.sizing import Goal
+    from volfrep.sizing.analysis import Limits
+
+    if not 0.0 < wish.smallest < wish.largest:
+        raise VolfrepError(
+            f"The smallest radius must be above 0 and below the largest, not {wish.smallest:g} and "
+            f"{wish.largest:g} mm."
+        )
+    radii: dict[str, Any] = {"radius_min": wish.smallest, "radius_max": wish.largest}
+    radii["remove_thin"] = wish.remove
+    if wish.goal == "stiffness":
+        volume = 1000.0 * wish.mass / loads.material.density if wish.mass else None
+        return Goal(volume=volume, **radii)
+    stress = None
+    if wish.safety:
+        limit = loads.material.yield_stress
+        if limit is None:
+            raise VolfrepError(
+                f"The material '{loads.material.name}' has no YieldStrength, which a safety "
+                "against yield needs: edit it, or set the safety to 0."
+            )
+        stress = limit / wish.safety
+    limits = Limits(
+        stress, wish.displacement or None, wish.buckling or None, wish.frequency or None
+    )
+    if not limits.any:
+        raise VolfrepError(
+            "Least mass needs a limit: of stress, displacement, buckling, frequency."
+        )
+    return Goal(limits=limits, **radii)
+
+
+def _row(number: int, step: Step, density: float) -> tuple[str, ...]:
+    """A row of the table of steps."""
+    worst = max(step.uses, key=lambda name: step.uses[name], default=None)
+    used = "" if worst is None else f"{worst} {step.uses[worst]:.0%}"
+    mass = _mass(step.volume, density)
+    return str(number + 1), f"{mass:.4g}", f"{step.compliance:.4g}", used
+
+
+def solve_struts(obj: App.DocumentObject) -> tuple[StrutState, ...]:
+    """The struts of an infill as they are, under every analysis of its document.
+
+    Raises:
+        VolfrepError: there is no analysis, or it or the infill makes no sense.
+        Cancelled: in the window, by the user.
+    """
+    from volfrep.jobs.sizing import solve_struts
+    from volfrep.sizing.strut_state import strut_states
+    from volfrep.worker.engine_process import Call
+
+    loads = loads_of(obj, analyses_of(obj))
+    solid, spec, cache = obj.Proxy.wanted(obj)
+    model, analysis = run_job(
+        job_title("Struts of {label}", obj),
+        Call(solve_struts, (solid, spec, loads), {"cache": cache}),
+    )
+    return strut_states(model.problem, analysis)

@@ -1,0 +1,365 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The window of unit cells: pictures and figures, cells of one's own, and a cell for an infill."""
+
+from __future__ import annotations
+
+import html
+from pathlib import Path
+from typing import Any
+
+import FreeCADGui as Gui
+
+from freecad_volfrep.gui.messages import WRONG, file_name
+from freecad_volfrep.gui.qt import QtCore, QtWidgets
+from freecad_volfrep.gui.selection import selected_infill, selected_with_edges
+from freecad_volfrep.gui.undo import undo_step
+from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
+from volfrep.design.cells import LIBRARY, UnitCell, load_cell
+from volfrep.design.parameters.table import CUSTOM_CELL
+from volfrep.design.tpms import SURFACES, PeriodicSurface
+from volfrep.mechanics.endless import strains_held
+from volfrep.util.errors import VolfrepError
+
+from .cell_entry import USES, Entry
+from .cell_properties import CellProperties
+
+#: Of the list's pictures and of the large one, px.
+SMALL, LARGE = 84, 220
+#: Height of the sentences on a cell, px.
+NOTES = 56
+_CONTEXT = "VolfrepCells"
+FILTER = QT_TRANSLATE_NOOP("VolfrepCells", "Unit cell (*.json)")
+_STRETCHING = QT_TRANSLATE_NOOP("VolfrepCells", "stretching")
+_BENDING = QT_TRANSLATE_NOOP("VolfrepCells", "bending")
+_ENTRY = QtCore.Qt.UserRole
+
+
+class CellLibrary(QtWidgets.QDialog):
+    """Browse cells, load one, make one of what is drawn, save it, apply it."""
+
+    def __init__(self) -> None:
+        super().__init__(Gui.getMainWindow())
+        self.setObjectName("VolfrepCellLibrary")
+        self.setWindowTitle(translate("VOLFREP_CellLibrary", "Cell Library"))
+        self.setAttribute(QtCore.Qt.WA_DeleteOnClose)
+        self._list = self._picker()
+        self._use = self._chooser()
+        self._picture, self._figures, self._note = (QtWidgets.QLabel() for _ in range(3))
+        self._does = CellProperties()
+        self._picture.setFixedSize(LARGE, LARGE)
+        self._figures.setObjectName("Figures")
+        self._note.setObjectName("Note")
+        self._note.setWordWrap(True)
+        # Many sentences are scrolled: they would push the pictures under each other.
+        self._notes = QtWidgets.QScrollArea()
+        self._notes.setWidget(self._note)
+        self._notes.setWidgetResizable(True)
+        self._notes.setFrameShape(QtWidgets.QFrame.NoFrame)
+        self._notes.setFixedHeight(NOTES)
+        self._buttons = {
+            name: self._button(name, tip, act)
+            for name, tip, act in (
+                (
+                    QT_TRANSLATE_NOOP("VolfrepCells", "Load..."),
+                    QT_TRANSLATE_NOOP("VolfrepCells", "Read a cell of your own from a JSON file"),
+                    self._ask_and_load,
+                ),
+                (
+                    QT_TRANSLATE_NOOP("VolfrepCells", "From Selection"),
+                    QT_TRANSLATE_NOOP(
+                        "VolfrepCells",
+                        "Make a cell of the straight edges of the selected sketches, wires or "
+                        "shapes; the cube about them is the cell",
+                    ),
+                    self.make_from_selection,
+                ),
+                (
+                    QT_TRANSLATE_NOOP("VolfrepCells", "Save As..."),
+                    QT_TRANSLATE_NOOP("VolfrepCells", "Write the picked cell to a JSON file"),
+                    self._ask_and_save,
+                ),
+                (
+                    QT_TRANSLATE_NOOP("VolfrepCells", "Apply"),
+                    QT_TRANSLATE_NOOP(
+                        "VolfrepCells", "Give the picked cell to the selected lattice infill"
+                    ),
+                    self.apply,
+                ),
+                (QT_TRANSLATE_NOOP("VolfrepCells", "Close"), "", self.close),
+            )
+        }
+        self._lay_out()
+        for cell in (*LIBRARY.values(), *SURFACES.values()):
+            self._add(Entry(cell))
+        self._list.currentItemChanged.connect(lambda *_: self._show())
+        self._list.setCurrentRow(0)
+        self._pick_that_of(selected_infill())
+        Gui.Selection.addObserver(self)
+
+    # FreeCAD's selection tells its observers by these names.
+    def addSelection(self, *_: Any) -> None:  # noqa: N802
+        """Something more is selected."""
+        self._enable()
+
+    def removeSelection(self, *_: Any) -> None:  # noqa: N802
+        """Something is selected no more."""
+        self._enable()
+
+    def setSelection(self, *_: Any) -> None:  # noqa: N802
+        """Something else is selected."""
+        self._enable()
+
+    def clearSelection(self, *_: Any) -> None:  # noqa: N802
+        """Nothing is selected."""
+        self._enable()
+
+    def done(self, result: int) -> None:
+        """Close, and hear no more of the selection."""
+        Gui.Selection.removeObserver(self)
+        super().done(result)
+
+    def closeEvent(self, event: Any) -> None:  # noqa: N802
+        """The window's own cross closes as the button does."""
+        self.done(0)
+
+    def load(self, path: str) -> None:
+        """Add the cell of a JSON file and pick it; says here what is wrong with it."""
+        try:
+            cell = load_cell(path)
+        except VolfrepError as error:
+            self._say(str(error), wrong=True)
+            return
+        self._add(Entry(cell, str(Path(path).resolve())), pick=True)
+
+    def make_from_selection(self) -> None:
+        """Add the cell that the selected edges draw and pick it; says what cannot be a strut."""
+        from freecad_volfrep.bridge.drawn_lines import drawn_lines
+        from volfrep.design.drawn_cell import cell_from_lines
+
+        objects = selected_with_edges() or []
+        try:
+            drawn = cell_from_lines(self._free_name(objects), drawn_lines(objects))
+        except VolfrepError as error:
+            self._say(str(error), wrong=True)
+            return
+        size = translate(
+            _CONTEXT, "Drawn with L = {size:g} mm; every L can be given to an infill."
+        ).format(size=drawn.size)
+        self._add(Entry(drawn.cell, notes=(size, *drawn.warnings)), pick=True)
+
+    def save(self, path: str) -> bool:
+        """Write the picked cell; returns whether that was done, says here why not."""
+        from freecad_volfrep.features.export.input_files import refuse_inputs_of_all
+        from volfrep.design.drawn_cell import save_cell
+
+        entry = self._entry()
+        assert isinstance(entry.cell, UnitCell), "the button is off"
+        try:
+            refuse_inputs_of_all(path, but=("CellFile",))  # a cell may replace a cell
+            save_cell(entry.cell, path)
+        except VolfrepError as error:
+            self._say(str(error), wrong=True)
+            return False
+        if entry.is_own:
+            entry.path = str(Path(path).resolve())
+        self._show()
+        self._say(translate("VolfrepMessages", "{path} written").format(path=path))
+        return True
+
+    def apply(self) -> None:
+        """Give the picked cell to the selected infill; one that has no file yet is saved first."""
+        infill, entry = selected_infill(), self._entry()
+        if infill is None or (entry.is_own and entry.path is None and not self._ask_and_save()):
+            return
+        with undo_step(infill.Document, translate(_CONTEXT, "Set Unit Cell")):
+            if entry.is_own:
+                infill.CellFile = entry.path
+                infill.CellType = CUSTOM_CELL
+            else:
+                infill.CellType = entry.cell.name
+            infill.Document.recompute()
+        self._say(f"{infill.Label}: {infill.Status}", wrong=not infill.isValid())
+
+    def _picker(self) -> Any:
+        picker = QtWidgets.QListWidget()
+        picker.setObjectName("Cells")
+        picker.setViewMode(QtWidgets.QListView.IconMode)
+        picker.setIconSize(QtCore.QSize(SMALL, SMALL))
+        picker.setMovement(QtWidgets.QListView.Static)
+        picker.setResizeMode(QtWidgets.QListView.Adjust)
+        picker.setGridSize(QtCore.QSize(SMALL + 32, SMALL + 46))
+        picker.setWordWrap(True)
+        picker.setMinimumSize(3 * (SMALL + 28), 2 * (SMALL + 44))
+        return picker
+
+    def _chooser(self) -> Any:
+        """What the shown cells are for."""
+        chooser = QtWidgets.QComboBox()
+        chooser.setObjectName("Use")
+        chooser.addItem(translate(_CONTEXT, "All cells"), "")
+        for use, text in USES.items():
+            chooser.addItem(translate(_CONTEXT, text), use)
+        chooser.currentIndexChanged.connect(lambda _: self._filter())
+        return chooser
+
+    def _filter(self) -> None:
+        """Show the library's cells for the chosen use, and all of one's own."""
+        use = self._use.currentData()
+        for row in range(self._list.count()):
+            item = self._list.item(row)
+            entry: Entry = item.data(_ENTRY)
+            item.setHidden(bool(use) and not entry.is_own and entry.use != use)
+        if self._list.currentItem() is not None and self._list.currentItem().isHidden():
+            shown = (self._list.item(row) for row in range(self._list.count()))
+            self._list.setCurrentItem(next(item for item in shown if not item.isHidden()))
+
+    def _button(self, name: str, tip: str, act: Any) -> Any:
+        button = QtWidgets.QPushButton(translate(_CONTEXT, name))
+        button.setObjectName(name)
+        button.setToolTip(translate(_CONTEXT, tip))
+        button.setAutoDefault(False)
+        button.clicked.connect(lambda _=False: act())
+        return button
+
+    def _lay_out(self) -> None:
+        right = QtWidgets.QVBoxLayout()
+        right.addWidget(self._picture)
+        right.addWidget(self._figures)
+        right.addWidget(self._does)
+        right.addStretch()
+        left = QtWidgets.QVBoxLayout()
+        left.addWidget(self._use)
+        left.addWidget(self._list, 1)
+        both = QtWidgets.QHBoxLayout()
+        both.addLayout(left, 1)
+        both.addLayout(right)
+        line = QtWidgets.QHBoxLayout()
+        for button in self._buttons.values():
+            line.addWidget(button)
+        column = QtWidgets.QVBoxLayout(self)
+        column.addLayout(both, 1)
+        column.addWidget(self._notes)
+        column.addLayout(line)
+        self.resize(880, 720)
+
+    def _add(self, entry: Entry, pick: bool = False) -> None:
+        item = QtWidgets.QListWidgetItem(entry.icon(SMALL), entry.cell.name, self._list)
+        item.setData(_ENTRY, entry)
+        if pick:
+            self._list.setCurrentItem(item)
+
+    def _pick_that_of(self, infill: Any) -> None:
+        """Pick the cell that an infill has; one from a file is added."""
+        if infill is not None:
+            self._does.begin_with(infill)
+        name = "CVC" if infill is None else infill.CellType
+        if name == CUSTOM_CELL and infill.CellFile:
+            self.load(infill.CellFile)
+            return
+        for item in self._list.findItems(name, QtCore.Qt.MatchExactly):
+            self._list.setCurrentItem(item)
+            self._list.scrollToItem(item)
+
+    def _entry(self) -> Entry:
+        entry: Entry = self._list.currentItem().data(_ENTRY)
+        return entry
+
+    def _show(self) -> None:
+        entry = self._entry()
+        cell = entry.cell
+        self._picture.setPixmap(entry.icon(LARGE).pixmap(LARGE, LARGE))
+        lines = "".join(
+            "<tr><td>{}&nbsp;&nbsp;</td><td>{}</td></tr>".format(
+                name, html.escape(str(value)).replace("\n", "<br>")
+            )
+            for name, value in self._rows(entry)
+        )
+        self._figures.setText(f"<b>{html.escape(cell.name)}</b><table>{lines}</table>")
+        self._does.show_cell(cell)
+        self._say("\n".join(entry.notes))
+        self._enable()
+
+    def _rows(self, entry: Entry) -> tuple[tuple[str, Any], ...]:
+        """What is told of a cell at once."""
+        cell = entry.cell
+        good_for = (
+            translate(_CONTEXT, "Good for"),
+            translate(_CONTEXT, USES[entry.use]) if entry.use else "-",
+        )
+        also = (translate(_CONTEXT, "Also known as"), "\n".join(cell.also) or "-")
+        if isinstance(cell, PeriodicSurface):
+            return good_for, also
+        return (
+            (translate(_CONTEXT, "Nodes"), len(cell.nodes)),
+            (translate(_CONTEXT, "Struts"), len(cell.struts)),
+            (translate(_CONTEXT, "Maxwell number"), cell.maxwell_number),
+            (
+                translate(_CONTEXT, "Carries load by"),
+                translate(_CONTEXT, _STRETCHING if strains_held(cell) == 6 else _BENDING),
+            ),
+            good_for,
+            also,
+            (
+                translate(_CONTEXT, "File"),
+                Path(entry.path).name
+                if entry.path
+                else translate(_CONTEXT, "not saved") * entry.is_own or "-",
+            ),
+        )
+
+    def _say(self, text: str, wrong: bool = False) -> None:
+        self._note.setStyleSheet(WRONG if wrong else "")
+        self._note.setText(text)
+
+    def _enable(self) -> None:
+        infill = selected_infill()
+        self._buttons["Apply"].setEnabled(infill is not None)
+        text = translate(_CONTEXT, "Apply")
+        if infill is not None:
+            text = translate(_CONTEXT, "Apply to {label}").format(label=infill.Label)
+        self._buttons["Apply"].setText(text)
+        self._buttons["From Selection"].setEnabled(bool(selected_with_edges()))
+        self._buttons["Save As..."].setEnabled(not self._entry().is_wall)
+
+    def _free_name(self, objects: list[Any]) -> str:
+        taken = {self._list.item(row).text() for row in range(self._list.count())}
+        name, number = objects[0].Label, 2
+        while name in taken:
+            name, number = f"{objects[0].Label} {number}", number + 1
+        return str(name)
+
+    def _ask_and_load(self) -> None:
+        path, _ = QtWidgets.QFileDialog.getOpenFileName(
+            self,
+            translate(_CONTEXT, "Load Cell"),
+            str(Path.home()),
+            cell_files(),
+        )
+        if path:
+            self.load(path)
+
+    def _ask_and_save(self) -> bool:
+        proposed = Path.home() / f"{file_name(self._entry().cell.name)}.json"
+        path, _ = QtWidgets.QFileDialog.getSaveFileName(
+            self, translate(_CONTEXT, "Save Cell"), str(proposed), cell_files()
+        )
+        if not path:
+            return False
+        return self.save(path if Path(path).suffix else f"{path}.json")
+
+
+def cell_files() -> str:
+    """The kinds of files that hold a cell, as Qt's file dialog takes them."""
+    return str(translate(_CONTEXT, FILTER))
+
+
+def show_cell_library() -> CellLibrary:
+    """Open the window, or bring the one that is open to the front."""
+    for window in Gui.getMainWindow().findChildren(QtWidgets.QDialog, "VolfrepCellLibrary"):
+        if window.isVisible():
+            window.raise_()
+            window.activateWindow()
+            return window
+    window = CellLibrary()
+    window.show()
+    return window

@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Makes an infill's mesh beside what the user does, and installs it as one undo step."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING
+
+import FreeCAD as App
+import FreeCADGui as Gui
+
+from freecad_volfrep.features.infill.infill_results import loaded
+from freecad_volfrep.gui.qt import QtWidgets
+from freecad_volfrep.gui.view.proxy_mesh import ProxyMesh
+from freecad_volfrep.translation import translate
+
+from .background import Job, begin
+from .in_steps import Stillness
+
+if TYPE_CHECKING:
+    import Mesh
+
+    from freecad_volfrep.features.infill.infill_results import Asked
+    from volfrep.jobs.pipeline import FilledMesh
+
+#: FreeCAD takes a mesh of more triangles while the user does nothing: it does so in one call, of
+#: 0.2 s for each million, and the window is to answer within 0.1 s.
+LARGE = 400_000
+#: That is for so long; and what is waited for at most, ms.
+STILL, LONGEST = 700, 10_000
+
+#: Called once, with whether the mesh is there; or with None where nobody wants it any more,
+#: because the infill or its document has gone, or it was asked for anew.
+Ended = Callable[["bool | None"], None]
+
+
+class Update:
+    """A mesh that is being made, by the name of the infill; `begin_update` makes it.
+
+    Attributes:
+        is_in_panel: whether the infill's panel is open, and its transaction takes the mesh in.
+        ended: what is done at the end.
+    """
+
+    def __init__(
+        self,
+        obj: App.DocumentObject,
+        asked: Asked,
+        is_in_panel: bool = False,
+        ended: Ended = lambda _: None,
+    ) -> None:
+        self._obj, self._doc, self._asked = obj, obj.Document, asked
+        self.is_in_panel, self.ended = is_in_panel, ended
+        self._likeness: ProxyMesh | None = None
+        self._mesh: Mesh.Mesh = None
+        self._job: Job = begin(
+            asked.title,
+            asked.call,
+            self._arrive,
+            prepare=self._take_over,
+            is_wanted=self._is_wanted,
+            is_time=self._is_time,
+            dropped=self._drop,
+        )
+
+    def cancel(self) -> None:
+        """End it; the infill says that it was cancelled."""
+        self._job.cancel()
+
+    def drop(self) -> None:
+        """End it without a word."""
+        self._obj.Proxy.being_made = None
+
+    def _drop(self) -> None:
+        if self._likeness is not None:
+            self._likeness.remove()
+        self.ended(None)
+
+    def is_as_wanted(self) -> bool:
+        """Whether it makes the mesh of the present values."""
+        return self._is_wanted() and not self._obj.Proxy.differs(self._obj, self._asked)
+
+    def _is_wanted(self) -> bool:
+        try:
+            return self._obj.Proxy.being_made is self._asked
+        except (ReferenceError, AttributeError):  # deleted, or its document closed
+            return False
+
+    def _is_time(self) -> bool:
+        """FreeCAD has one transaction a document: ours would end what a panel has begun."""
+        return self.is_in_panel or not self._doc.HasPendingTransaction
+
+    def _take_over(self, filled: FilledMesh) -> Iterator[None]:
+        """Make FreeCAD's mesh; a large one when the user does nothing, after its likeness."""
+        if len(filled.mesh.triangles) > LARGE:
+            self._likeness = ProxyMesh(self._obj, filled)
+            stillness = Stillness(QtWidgets.QApplication.instance())
+            try:
+                yield
+                while not stillness.is_there(STILL, LONGEST):
+                    yield
+            finally:
+                stillness.end()
+        self._mesh = loaded(filled)
+        yield
+
+    def _arrive(self, filled: FilledMesh | None, error: BaseException | None) -> None:
+        if self._likeness is not None:
+            self._likeness.remove()
+        step = translate("VolfrepCommands", "Mesh of {label}").format(label=self._obj.Label)
+        has_step = error is None and not self.is_in_panel
+        if has_step:
+            self._doc.openTransaction(step)
+        try:
+            come = None if filled is None else (filled, self._mesh)
+            is_there = self._obj.Proxy.arrive(self._obj, come, error)
+        finally:
+            if has_step:
+                self._doc.commitTransaction()
+        self.ended(is_there)
+
+
+def begin_update(
+    obj: App.DocumentObject, *, is_in_panel: bool = False, ended: Ended = lambda _: None
+) -> Update | None:
+    """Make an infill's mesh for its present values, AutoUpdate or not, and return at once.
+
+    One that is being made for other values is not wanted any more.
+
+    Args:
+        obj: the infill.
+        is_in_panel: whether its panel's transaction is to take the mesh in.
+        ended: what is to be done then.
+
+    Returns:
+        None where there is nothing to make: the mesh fits the values, or these make no sense, and
+        the object is invalid.
+    """
+    asked = obj.Proxy.begin(obj)
+    return None if asked is None else Update(obj, asked, is_in_panel, ended)
+
+
+def show_mesh(obj: App.DocumentObject) -> None:
+    """Show an infill in place of its solid, and select it unless something else is."""
+    obj.Visibility = True
+    if obj.Base is not None:
+        obj.Base.Visibility = False
+    if not Gui.Selection.getSelection():
+        Gui.Selection.addSelection(obj)

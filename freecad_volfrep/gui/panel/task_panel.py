@@ -1,0 +1,405 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The task panel of a lattice infill: its values, a preview while they change, OK and Cancel."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import suppress
+from typing import Any
+
+import FreeCAD as App
+import FreeCADGui as Gui
+
+from freecad_volfrep.features.infill.expressions import follow_expressions
+from freecad_volfrep.features.infill.live_preview import TARGETS, LivePreview, Shown
+from freecad_volfrep.features.properties.quantities import set_value
+from freecad_volfrep.gui.jobs.updating import Update, begin_update, show_mesh
+from freecad_volfrep.gui.messages import WRONG
+from freecad_volfrep.gui.qt import OK_CANCEL, QtCore, QtWidgets
+from freecad_volfrep.gui.view.preview_only import end_preview
+from freecad_volfrep.gui.view.preview_view import PreviewView
+from freecad_volfrep.gui.view.section_view import close_section, open_section
+from freecad_volfrep.gui.widgets.panel_manners import (
+    allow_ok,
+    entitle,
+    fits_any_width,
+    keep_space,
+    leave_the_wheel,
+)
+from freecad_volfrep.gui.widgets.sections import (
+    CURVES,
+    FOLDED,
+    GROUPS,
+    Rows,
+    Section,
+    give_accelerators,
+)
+from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
+from volfrep.util.errors import VolfrepError
+
+from .colour_field import colour_field
+from .pick_box import PickBox
+from .print_panel import PrintFigures
+from .property_fields import PropertyFields, direction_text, is_read_only, label_of, said_property
+from .recipe_row import RecipeRow
+
+#: The preview waits until no value has changed for so long, ms: less where the last one was made
+#: within `PROMPT`, so that it keeps up with what is typed.
+SETTLED, SOON, PROMPT = 120, 20, 60
+#: The switches of what is shown in the view.
+PREVIEW = QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Preview")
+CELLS = QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Cells")
+#: Above this group are the figures: what is used most is seen without scrolling.
+SECOND = "Boundary"
+PRINT = QT_TRANSLATE_NOOP("VolfrepTaskPanel", "To print")
+#: Least width of a field, px: the panel must fit beside FreeCAD's tree.
+FIELD = 82
+_HIDDEN = "Hidden"
+
+
+#: Previews that panels show, or have left, by names of document and infill.
+_shown_views: dict[tuple[str, str], PreviewView] = {}
+
+
+class TaskPanel:
+    """Edits an infill inside one transaction, which Cancel takes back as a whole.
+
+    Args:
+        obj: the infill.
+        transaction: name of the undo step; opened by whoever made the object, or here.
+    """
+
+    def __init__(self, obj: App.DocumentObject, transaction: str | None = None) -> None:
+        end_preview(obj)  # the panel shows one of its own
+        was_cut = close_section(obj)
+        self._obj, self._doc = obj, obj.Document
+        if transaction is not None:
+            self._doc.openTransaction(transaction)
+        self._live = LivePreview(obj)
+        self._key = obj.Document.Name, obj.Name
+        end_shown(self._key)
+        self._view = _shown_views[self._key] = PreviewView(obj)
+        self._was_visible = {
+            shown: shown.ViewObject.Visibility for shown in (obj, obj.Base) if shown is not None
+        }
+        for shown in self._was_visible:
+            shown.ViewObject.Visibility = False
+        self._fields = PropertyFields(obj, self._value_changed, self._refuse)
+        self._refusal = ""
+        self._rows: dict[str, tuple[Any, Any]] = {}
+        self._boxes: list[tuple[Section, Rows, tuple[str, ...]]] = []
+        self._shown: Shown | None = None
+        self._update: Update | None = None
+        self._is_open = True
+        self.form = self._build()
+        self._pause = SETTLED
+        self._timer = QtCore.QTimer(self.form)
+        self._timer.setSingleShot(True)
+        self._timer.timeout.connect(self.refresh)
+        self._show_rows()
+        self.refresh()
+        if was_cut:
+            open_section(obj, self._view)
+
+    def getStandardButtons(self) -> int:  # noqa: N802
+        """OK and Cancel."""
+        return OK_CANCEL
+
+    def accept(self) -> bool:
+        """Keep the values and close; the mesh comes while the user goes on.
+
+        Stays open where the values make no sense.
+        """
+        if not self._begin(is_in_panel=False, ended=self._show_result) and self._is_wrong():
+            return False
+        is_coming = self._update is not None
+        self._doc.commitTransaction()
+        self._close()
+        Gui.Selection.clearSelection()
+        if not is_coming:
+            self._show_result(True)
+        return True
+
+    def reject(self) -> bool:
+        """Close and take back every change; an infill that was made for this panel is gone."""
+        if self._update is not None:
+            self._update.drop()
+        self._picking.end()  # as long as the infill is there
+        self._show_again()
+        self._doc.abortTransaction()  # to end the editing would commit it
+        self._close()
+        end_shown(self._key)
+        self._doc.recompute()
+        return True
+
+    def compute(self) -> None:
+        """Make the mesh of the present values, and stay; says what is wrong with them."""
+        if not self._begin(is_in_panel=True, ended=self._show_computed) and not self._is_wrong():
+            self._show_computed(True)
+
+    def _begin(self, is_in_panel: bool, ended: Callable[[bool | None], None]) -> bool:
+        """Have the mesh of the present values made; whether there is anything to make.
+
+        One that is being made for the same values already is left to come.
+        """
+        self._timer.stop()
+        made = self._update
+        if made is not None and made.is_as_wanted():
+            made.is_in_panel, made.ended = is_in_panel, ended
+            return True
+        self._update = begin_update(self._obj, is_in_panel=is_in_panel, ended=ended)
+        self._say(self._obj.Status, wrong=self._is_wrong())
+        return self._update is not None
+
+    def _is_wrong(self) -> bool:
+        """Whether the values make no sense."""
+        return not self._obj.isValid()
+
+    def _show_computed(self, is_there: bool | None) -> None:
+        """In the panel: the mesh that has come, or why there is none."""
+        if is_there is None:
+            return
+        self._update = None
+        self._say(self._obj.Status, wrong=not is_there)
+        self._tell_radius(self._obj.StrutRadius.Value)
+        self._obj.ViewObject.Visibility = is_there
+        if is_there:
+            self._view.clear()
+            self._tell_print()
+
+    def _show_result(self, is_there: bool | None) -> None:
+        """After the panel: the mesh in place of the preview, or what was shown before."""
+        end_shown(self._key)
+        if is_there is None:
+            return
+        self._show_again()
+        if is_there:
+            show_mesh(self._obj)
+
+    def _show_again(self) -> None:
+        """Show what was shown before the panel was opened."""
+        for shown, visible in self._was_visible.items():
+            with suppress(ReferenceError):  # deleted while the mesh was made
+                shown.ViewObject.Visibility = visible
+
+    def refresh(self) -> None:
+        """Bring the preview and the figures up to the present values."""
+        clock = QtCore.QElapsedTimer()
+        clock.start()
+        self._show_present()
+        self._pause = SOON if clock.elapsed() < PROMPT else SETTLED
+
+    def _show_present(self) -> None:
+        try:
+            follow_expressions(self._obj)
+            shown = self._live.show()
+        except VolfrepError as error:
+            self._shown = None
+            self._view.show_solid_only()
+            has_none = self._has_no_preview()
+            self._say(str(error), wrong=not has_none)
+            self._print.show_none()
+            self._allow_ok(has_none)
+            return
+        self._allow_ok(True)
+        self._shown = shown
+        self._tell_radius(shown.preview.spec.strut_radius)
+        if self._preview.isChecked():
+            self._view.show(shown, self._grid.isChecked())
+        else:
+            self._view.clear()
+        self._say(self._refusal or shown.text, wrong=bool(self._refusal))
+        self._print.tell(self._obj, shown)
+
+    def _tell_print(self) -> None:
+        """Once a mesh has come: what was foretold is measured now."""
+        with suppress(VolfrepError):  # of values that were changed meanwhile
+            self._print.tell(self._obj, self._live.show())
+
+    def _refuse(self, text: str) -> None:
+        """Say why something that was typed or chosen is not taken, until a value changes."""
+        self._refusal = text
+        self._say(text, wrong=True)
+
+    def _show_all(self) -> None:
+        """Show what was set elsewhere than in the fields: by a recipe."""
+        for name, (_, widget) in self._rows.items():
+            self._fields.show(name, widget)
+        self._fields.show_cell()
+        self._refusal = ""
+        self._show_rows()
+        self._timer.start(0)
+
+    def _allow_ok(self, is_allowed: bool) -> None:
+        """Let OK be pressed, or not: once FreeCAD has put the panel up."""
+        self._ok_is_allowed = is_allowed
+        QtCore.QTimer.singleShot(0, self._show_ok)
+
+    def _show_ok(self) -> None:
+        if self._is_open:
+            allow_ok(self._ok_is_allowed)
+
+    def _has_no_preview(self) -> bool:
+        """Whether values that cannot be shown, as of a network or of walls, may be computed."""
+        try:
+            spec = self._obj.Proxy.read(self._obj)[0]
+        except VolfrepError:
+            return False
+        return spec.network is not None or spec.surface is not None
+
+    def _build(self) -> Any:
+        form = QtWidgets.QWidget()
+        form.setObjectName("VolfrepTaskPanel")
+        entitle(form, self._obj.Label)
+        column = QtWidgets.QVBoxLayout(form)
+        column.setContentsMargins(0, 0, 0, 0)
+        self._recipes = RecipeRow(self._obj, self._show_all, self._refuse)
+        column.addWidget(self._recipes)
+        picker = self._fields.cell_picker()
+        sections = [Section("Cell", label_of("CellType"), picker)]
+        column.addWidget(sections[0])
+        for title, names in GROUPS.items():
+            if title == SECOND:
+                self._add_figures(column)
+            section = self._section(title, names)
+            sections.append(section)
+            column.addWidget(section)
+        self._print = PrintFigures()
+        sections.append(Section("Print", translate("VolfrepTaskPanel", PRINT), self._print))
+        column.addWidget(sections[-1])
+        fields = [widget for _, widget in self._rows.values()]
+        lists = [
+            self._recipes.list,
+            *(curve.shapes for curve in self._fields.curves.values()),
+            *form.findChildren(QtWidgets.QComboBox, "ColourBy"),
+            *self._picking.lists,
+        ]
+        titles = [section.title for section in sections]
+        leave_the_wheel(form, [*fields, *lists])
+        keep_space(form, [*fields, *lists, *titles, *self._buttons, self._recipes.save, picker])
+        give_accelerators([*self._buttons, *titles, self._recipes.save])
+        QtCore.QTimer.singleShot(0, picker.setFocus)
+        return form
+
+    def _section(self, title: str, names: tuple[str, ...]) -> Section:
+        """The fields of a group."""
+        rows = Rows()
+        for name in names:
+            label, widget = QtWidgets.QLabel(label_of(name)), self._fields.field(name)
+            widget.setObjectName(name)
+            widget.setMinimumWidth(FIELD)
+            widget.setToolTip(said_property(self._obj.getDocumentationOfProperty(name)))
+            widget.setAccessibleName(label_of(name))
+            label.setBuddy(widget)
+            rows.add(name, label, widget)
+            self._rows[name] = label, widget
+            if name in CURVES:
+                rows.add(name, self._fields.curve_of(name, widget))
+        section = Section(title, said_property(title), rows, title in FOLDED)
+        self._boxes.append((section, rows, names))
+        return section
+
+    def _add_figures(self, column: Any) -> None:
+        self._figures = QtWidgets.QLabel()
+        self._figures.setObjectName("Figures")
+        fits_any_width(self._figures)
+        column.addWidget(self._figures)
+        line = QtWidgets.QHBoxLayout()
+        self._preview = self._check_box(PREVIEW, True, line)
+        self._grid = self._check_box(CELLS, False, line)
+        button = QtWidgets.QPushButton(translate("VolfrepTaskPanel", "Compute"))
+        button.setObjectName("Compute")
+        button.setToolTip(
+            translate(
+                "VolfrepTaskPanel", "Make the mesh of these values now and stay in this panel"
+            )
+        )
+        button.clicked.connect(lambda _=False: self.compute())
+        section = QtWidgets.QPushButton(translate("VolfrepTaskPanel", "Section"))
+        section.setObjectName("Section")
+        section.setToolTip(
+            translate(
+                "VolfrepTaskPanel",
+                "Cut the part open on the screen, along a plane that can be moved; once more "
+                "shows it whole",
+            )
+        )
+        section.clicked.connect(self._toggle_section)
+        self._buttons = [button, section, self._preview, self._grid]
+        column.addLayout(line)
+        column.addWidget(colour_field(self._obj.ViewObject, lambda: self._timer.start(0)))
+        self._picking = PickBox(self._obj, self._picked, lambda text: self._say(text, wrong=True))
+        column.addWidget(self._picking)
+        line = QtWidgets.QHBoxLayout()
+        line.addWidget(section)
+        line.addWidget(button)
+        column.addLayout(line)
+
+    def _check_box(self, text: str, checked: bool, line: Any) -> Any:
+        box = QtWidgets.QCheckBox(translate("VolfrepTaskPanel", text))
+        box.setObjectName(text)
+        box.setChecked(checked)
+        box.toggled.connect(lambda _: self._timer.start(0))
+        line.addWidget(box)
+        return box
+
+    def _toggle_section(self) -> None:
+        if not close_section(self._obj):
+            open_section(self._obj, self._view)
+
+    def _picked(self, name: str) -> None:
+        """Show what was picked in its field too, if it has one."""
+        if name in self._rows:
+            self._rows[name][1].setText(direction_text(getattr(self._obj, name)))
+        self._value_changed(name)
+
+    def _value_changed(self, name: str) -> None:
+        """Show what applies now, and a new preview once nothing changes any more."""
+        if name == "RadiusDrivenBy":
+            self._begin_target(self._obj.RadiusDrivenBy)
+        self._refusal = ""
+        self._show_rows()
+        self._picking.show_picked()
+        self._timer.start(self._pause)
+
+    def _show_rows(self) -> None:
+        """Hide what does not apply, as the property editor does."""
+        for box, rows, names in self._boxes:
+            shown = [name for name in names if _HIDDEN not in self._obj.getEditorMode(name)]
+            rows.show_only(shown)
+            box.setVisible(bool(shown))
+        self._picking.show_applicable()
+        self._rows["StrutRadius"][1].setEnabled(not is_read_only(self._obj, "StrutRadius"))
+
+    def _begin_target(self, driver: str) -> None:
+        """Begin with what the lattice that is shown comes to: it stays as it is at first."""
+        name = TARGETS.get(driver)
+        value = None if name is None or self._shown is None else self._shown.figure(driver)
+        if value is None:
+            return
+        set_value(self._obj, name, float(f"{value:.3g}"))
+        self._fields.show(name, self._rows[name][1])
+
+    def _tell_radius(self, radius: float) -> None:
+        """Show the radius that was found where something else drives it."""
+        if self._obj.RadiusDrivenBy != "Radius":
+            self._rows["StrutRadius"][1].setProperty("rawValue", radius)
+
+    def _say(self, text: str, wrong: bool = False) -> None:
+        self._figures.setStyleSheet(WRONG if wrong else "")
+        self._figures.setText(text)
+
+    def _close(self) -> None:
+        self._is_open = False
+        self._timer.stop()
+        self._picking.end()
+        Gui.Control.closeDialog()
+        if Gui.ActiveDocument is not None:
+            Gui.ActiveDocument.resetEdit()
+
+
+def end_shown(key: tuple[str, str]) -> None:
+    """Take the preview of a panel out of the view; it stays after OK until the mesh is there."""
+    view = _shown_views.pop(key, None)
+    if view is not None:
+        view.remove()

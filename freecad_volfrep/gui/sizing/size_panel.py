@@ -1,0 +1,358 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The task panel of Size Lattice: load cases, what is wanted, limits, bounds, and the steps."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import FreeCAD as App
+import FreeCADGui as Gui
+
+from freecad_volfrep.features.sizing.sizing import (
+    GOALS,
+    Outcome,
+    Wish,
+    analyses_of,
+    first_wish,
+    size_struts,
+    store_outcome,
+)
+from freecad_volfrep.gui.colours.strut_view import close_struts, open_struts
+from freecad_volfrep.gui.jobs.updating import begin_update
+from freecad_volfrep.gui.messages import WRONG
+from freecad_volfrep.gui.qt import OK_CANCEL, QtCore, QtWidgets
+from freecad_volfrep.gui.widgets.panel_manners import entitle, fits_any_width, leave_the_wheel
+from freecad_volfrep.gui.windows.plot_window import show_plot
+from freecad_volfrep.gui.windows.report_window import show_report
+from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
+from volfrep.util.errors import Cancelled, VolfrepError
+
+#: The table of steps is brought up to date so often while they are made, ms.
+TICK = 150
+#: Least width of a field and most height of the list of cases, px.
+FIELD, CASES = 82, 62
+HEADER = (
+    QT_TRANSLATE_NOOP("VolfrepSizePanel", "Step"),
+    QT_TRANSLATE_NOOP("VolfrepSizePanel", "Mass, g"),
+    QT_TRANSLATE_NOOP("VolfrepSizePanel", "Work, N mm"),
+    QT_TRANSLATE_NOOP("VolfrepSizePanel", "Limit"),
+)
+#: Fields of a wish: name, label, decimals, unit, what it means.
+FIELDS = (
+    (
+        "safety",
+        QT_TRANSLATE_NOOP("VolfrepSizePanel", "Yield safety"),
+        "",
+        QT_TRANSLATE_NOOP(
+            "VolfrepSizePanel",
+            "Yield stress over the largest von Mises stress in a strut; 0 for no limit",
+        ),
+    ),
+    (
+        "displacement",
+        QT_TRANSLATE_NOOP("VolfrepSizePanel", "Displacement"),
+        "mm",
+        QT_TRANSLATE_NOOP(
+            "VolfrepSizePanel", "The largest of any point under any case; 0 for no limit"
+        ),
+    ),
+    (
+        "buckling",
+        QT_TRANSLATE_NOOP("VolfrepSizePanel", "Buckling safety"),
+        "",
+        QT_TRANSLATE_NOOP(
+            "VolfrepSizePanel",
+            "How many times the load may be before struts buckle, one alone or together; 0 for "
+            "no limit",
+        ),
+    ),
+    (
+        "frequency",
+        QT_TRANSLATE_NOOP("VolfrepSizePanel", "Frequency, Hz"),
+        "",
+        QT_TRANSLATE_NOOP(
+            "VolfrepSizePanel", "The lowest natural one, held as in the first case; 0 for no limit"
+        ),
+    ),
+    (
+        "mass",
+        QT_TRANSLATE_NOOP("VolfrepSizePanel", "Mass, g"),
+        "",
+        QT_TRANSLATE_NOOP(
+            "VolfrepSizePanel",
+            "What the stiffest struts weigh together; 0 for what struts of StrutRadius do",
+        ),
+    ),
+    (
+        "smallest",
+        QT_TRANSLATE_NOOP("VolfrepSizePanel", "Smallest radius"),
+        "mm",
+        QT_TRANSLATE_NOOP("VolfrepSizePanel", "The thinnest strut that the process prints"),
+    ),
+    (
+        "largest",
+        QT_TRANSLATE_NOOP("VolfrepSizePanel", "Largest radius"),
+        "mm",
+        QT_TRANSLATE_NOOP(
+            "VolfrepSizePanel", "Nodes whose struts would grow together stay below it"
+        ),
+    ),
+)
+#: Which fields say something for a goal.
+OF_GOAL = {
+    "mass": ("safety", "displacement", "buckling", "frequency", "smallest", "largest"),
+    "stiffness": ("mass", "smallest", "largest"),
+}
+
+
+class SizePanel:
+    """Sizes an infill's struts inside one transaction, which Cancel takes back as a whole.
+
+    Args:
+        obj: the infill.
+
+    Raises:
+        VolfrepError: at construction: the document has no analysis with loads.
+    """
+
+    def __init__(self, obj: App.DocumentObject) -> None:
+        self._obj, self._doc = obj, obj.Document
+        self._analyses = analyses_of(obj)
+        self._doc.openTransaction(translate("VOLFREP_SizeLattice", "Size Lattice"))
+        self._steps: list[tuple[str, ...]] = []
+        self._outcome: Outcome | None = None
+        close_struts(obj)
+        self.form = self._build(first_wish(obj))
+        self._timer = QtCore.QTimer(self.form)
+        self._timer.timeout.connect(self._show_steps)
+        self._show_fields()
+
+    def getStandardButtons(self) -> int:  # noqa: N802
+        """OK and Cancel."""
+        return OK_CANCEL
+
+    def accept(self) -> bool:
+        """Keep the radii that were found, and close; their mesh comes while the user goes on.
+
+        Stays open without any.
+        """
+        if self._outcome is None and not self.size():
+            return False
+        outcome = self._outcome
+        assert outcome is not None
+        close_struts(self._obj)
+        store_outcome(self._obj, outcome)
+        begin_update(self._obj, ended=self._show_mesh)
+        if not self._obj.isValid():
+            self._say(self._obj.Status, wrong=True)
+            return False
+        self._doc.commitTransaction()
+        self._close()
+        title = translate("VolfrepSizePanel", "Size Lattice: {label}").format(label=self._obj.Label)
+        show_report(title, f"{self._obj.Label} sizing", outcome.tables())
+        return True
+
+    def _show_mesh(self, is_there: bool | None) -> None:
+        if is_there:
+            self._obj.ViewObject.Visibility = True
+
+    def reject(self) -> bool:
+        """Close and leave the infill as it was."""
+        close_struts(self._obj)
+        self._doc.abortTransaction()  # to end the editing would commit it
+        self._close()
+        self._doc.recompute()
+        return True
+
+    def size(self) -> bool:
+        """Size the struts now; a cancel keeps the best design so far. Says what is wrong."""
+        self._steps.clear()
+        self._show_steps()
+        self._outcome = None
+        self._plot.setEnabled(False)
+        self._timer.start(TICK)
+        try:
+            self._outcome = size_struts(self._obj, self._chosen(), self._wish(), self._steps.append)
+        except VolfrepError as error:
+            self._say(str(error), wrong=True)
+            return False
+        except Cancelled:
+            self._say(translate("VolfrepSizePanel", "Cancelled before the first step."))
+            return False
+        finally:
+            self._timer.stop()
+            self._show_steps()
+        self._plot.setEnabled(True)
+        self._say(self._outcome.summary(), wrong=not self._outcome.holds)
+        open_struts(self._obj, self._outcome.states)
+        return True
+
+    def _show_plot(self) -> None:
+        """The steps as a plot."""
+        from volfrep.reports.sizing_plot import sizing_plot
+
+        if self._outcome is not None:
+            title = translate("VolfrepSizePanel", "Steps of {label}")
+            show_plot(title.format(label=self._obj.Label), sizing_plot(self._outcome.part.report))
+
+    def _build(self, wish: Wish) -> Any:
+        form = QtWidgets.QWidget()
+        form.setObjectName("VolfrepSizePanel")
+        title = translate("VolfrepSizePanel", "Size Lattice: {label}")
+        entitle(form, title.format(label=self._obj.Label))
+        column = QtWidgets.QVBoxLayout(form)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.addWidget(self._cases_box())
+        column.addWidget(self._wish_box(wish))
+        self._table = QtWidgets.QTableWidget(0, len(HEADER))
+        self._table.setObjectName("Steps")
+        self._table.setHorizontalHeaderLabels(
+            [translate("VolfrepSizePanel", text) for text in HEADER]
+        )
+        self._table.verticalHeader().setVisible(False)
+        self._table.setEditTriggers(QtWidgets.QAbstractItemView.NoEditTriggers)
+        self._table.horizontalHeader().setStretchLastSection(True)
+        self._table.setMinimumHeight(160)
+        self._said = QtWidgets.QLabel()
+        self._said.setObjectName("Said")
+        fits_any_width(self._said)
+        button = QtWidgets.QPushButton(translate("VolfrepSizePanel", "Size"))
+        button.setObjectName("Size")
+        button.setToolTip(
+            translate(
+                "VolfrepSizePanel",
+                "Find the radii now and stay in this panel; Cancel in the status bar keeps the "
+                "best design so far",
+            )
+        )
+        button.clicked.connect(lambda _=False: self.size())
+        self._plot = QtWidgets.QPushButton(translate("VolfrepSizePanel", "Plot"))
+        self._plot.setObjectName("Plot")
+        self._plot.setToolTip(
+            translate("VolfrepSizePanel", "How mass and limits went, step by step")
+        )
+        self._plot.setEnabled(False)
+        self._plot.clicked.connect(lambda _=False: self._show_plot())
+        for widget in (button, self._said, self._table, self._plot):
+            column.addWidget(widget)
+        leave_the_wheel(form, [self._goal, *(field for _, field in self._fields.values())])
+        return form
+
+    def _cases_box(self) -> Any:
+        box = QtWidgets.QGroupBox(translate("VolfrepSizePanel", "Load cases"))
+        self._cases = QtWidgets.QListWidget()
+        self._cases.setObjectName("Cases")
+        self._cases.setMaximumHeight(CASES)
+        for analysis in self._analyses:
+            item = QtWidgets.QListWidgetItem(analysis.Label, self._cases)
+            item.setFlags(item.flags() | QtCore.Qt.ItemIsUserCheckable)
+            item.setCheckState(QtCore.Qt.Checked)
+        column = QtWidgets.QVBoxLayout(box)
+        column.setContentsMargins(6, 4, 6, 4)
+        column.addWidget(self._cases)
+        self._cases.setToolTip(
+            translate("VolfrepSizePanel", "Analyses of the FEM workbench: each is a load case")
+        )
+        return box
+
+    def _wish_box(self, wish: Wish) -> Any:
+        box = QtWidgets.QGroupBox(translate("VolfrepSizePanel", "What is wanted"))
+        rows = QtWidgets.QFormLayout(box)
+        rows.setContentsMargins(6, 4, 6, 4)
+        self._goal = QtWidgets.QComboBox()
+        self._goal.setObjectName("Goal")
+        for goal, text in GOALS.items():
+            self._goal.addItem(translate("VolfrepSizePanel", text), goal)
+        self._goal.setCurrentIndex(self._goal.findData(wish.goal))
+        self._goal.currentIndexChanged.connect(lambda _: self._show_fields())
+        rows.addRow(QtWidgets.QLabel(translate("VolfrepSizePanel", "Goal")), self._goal)
+        self._prove = _switch(
+            "Prove",
+            wish.prove,
+            translate("VolfrepSizePanel", "Check with CalculiX"),
+            translate(
+                "VolfrepSizePanel",
+                "Let CalculiX solve the design, where it is installed, and say how far it agrees; "
+                "where it finds more than a limit allows, the struts are made thicker",
+            ),
+        )
+        self._fields: dict[str, tuple[Any, Any]] = {}
+        for name, text, unit, tip in FIELDS:
+            spin = Gui.UiLoader().createWidget("Gui::QuantitySpinBox")
+            spin.setProperty("unit", unit)
+            spin.setProperty("minimum", 0.0)
+            spin.setProperty("rawValue", getattr(wish, name))
+            spin.setObjectName(name)
+            spin.setToolTip(translate("VolfrepSizePanel", tip))
+            spin.setMinimumWidth(FIELD)
+            label = QtWidgets.QLabel(translate("VolfrepSizePanel", text))
+            rows.addRow(label, spin)
+            self._fields[name] = label, spin
+        self._remove = _switch(
+            "Remove",
+            wish.remove,
+            translate("VolfrepSizePanel", "Remove thin struts that carry little"),
+            translate(
+                "VolfrepSizePanel",
+                "Take away struts that end as thin as the smallest radius and size the rest again; "
+                "kept if that is lighter, or stiffer at the same mass",
+            ),
+        )
+        for row in (self._prove, self._remove):
+            rows.addRow(row)
+        return box
+
+    def _show_fields(self) -> None:
+        """Hide what says nothing for the goal."""
+        shown = OF_GOAL[self._goal.currentData()]
+        for name, row in self._fields.items():
+            for widget in row:
+                widget.setVisible(name in shown)
+
+    def _chosen(self) -> list[App.DocumentObject]:
+        return [
+            analysis
+            for k, analysis in enumerate(self._analyses)
+            if self._cases.item(k).checkState() == QtCore.Qt.Checked
+        ]
+
+    def _wish(self) -> Wish:
+        numbers = {
+            name: float(spin.property("rawValue")) for name, (_, spin) in self._fields.items()
+        }
+        return Wish(
+            goal=self._goal.currentData(),
+            **numbers,
+            prove=self._prove.isChecked(),
+            remove=self._remove.isChecked(),
+        )
+
+    def _show_steps(self) -> None:
+        """Bring the table up to the steps that were made."""
+        if self._table.rowCount() > len(self._steps):
+            self._table.setRowCount(0)
+        for row in range(self._table.rowCount(), len(self._steps)):
+            self._table.insertRow(row)
+            for column, text in enumerate(self._steps[row]):
+                self._table.setItem(row, column, QtWidgets.QTableWidgetItem(text))
+        self._table.resizeColumnsToContents()
+        self._table.scrollToBottom()
+
+    def _say(self, text: str, wrong: bool = False) -> None:
+        self._said.setStyleSheet(WRONG if wrong else "")
+        self._said.setText(text)
+
+    def _close(self) -> None:
+        self._timer.stop()
+        Gui.Control.closeDialog()
+        if Gui.ActiveDocument is not None:
+            Gui.ActiveDocument.resetEdit()
+
+
+def _switch(name: str, is_on: bool, text: str, tip: str) -> Any:
+    """A box to tick, by its object's name."""
+    result = QtWidgets.QCheckBox(text)
+    result.setObjectName(name)
+    result.setChecked(is_on)
+    result.setToolTip(tip)
+    return result

@@ -1,0 +1,241 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The task panel of a design study: what varies, its start, its plot, a design for the infill."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import FreeCAD as App
+import FreeCADGui as Gui
+
+from freecad_volfrep import ICONS
+from freecad_volfrep.features.study.design_study import (
+    apply_design,
+    designs_of_study,
+    run_study,
+    values_about,
+    variable,
+    varied_of_study,
+)
+from freecad_volfrep.gui.messages import WRONG, tell_error
+from freecad_volfrep.gui.qt import CLOSE, QtCore, QtGui, QtWidgets
+from freecad_volfrep.gui.undo import undo_step
+from freecad_volfrep.gui.widgets.panel_manners import entitle, fits_any_width, leave_the_wheel
+from freecad_volfrep.translation import spaced, translate
+from volfrep.util.errors import VolfrepError
+
+from .study_plot import StudyPlot
+
+#: Rows of properties that vary.
+ROWS = 3
+#: What a plot shows first, where the table has it.
+FIRST = (("fill.mass_g", "forecast.mass_g"), ("properties.E100", "forecast.seconds"))
+
+
+class StudyPanel:
+    """Runs a study and shows its designs; every change of the document is an undo step.
+
+    Args:
+        obj: the design study.
+    """
+
+    def __init__(self, obj: App.DocumentObject) -> None:
+        self._obj, self._doc = obj, obj.Document
+        self._picked: dict[str, Any] | None = None
+        self.form = self._build()
+        self._show_table()
+
+    def getStandardButtons(self) -> int:  # noqa: N802
+        """Close."""
+        return CLOSE
+
+    def reject(self) -> bool:
+        """Close."""
+        Gui.Control.closeDialog()
+        gui = Gui.getDocument(self._doc.Name)
+        if gui is not None and gui.getInEdit() is not None:
+            gui.resetEdit()
+        return True
+
+    def start(self) -> None:
+        """Run what is missing of the study that the panel shows, as one undo step."""
+        self._say("")
+        try:
+            with undo_step(self._doc, translate("VOLFREP_DesignStudy", "Design Study")):
+                self._write()
+                done = run_study(self._obj)
+        except VolfrepError as error:
+            self._say(str(error), wrong=True)
+            return
+        self._show_table()
+        if not done or self._obj.Refused:
+            self._say("\n".join([self._obj.Status, *self._obj.Refused[:3]]), wrong=not done)
+
+    def apply(self) -> None:
+        """Give the design that was picked to the infill, as one undo step."""
+        if self._picked is None:
+            return
+        step = translate("VOLFREP_DesignStudy", "Apply Design")
+        try:
+            with undo_step(self._doc, step):
+                went_well = apply_design(self._obj, self._picked["key"])
+        except VolfrepError as error:
+            self._say(str(error), wrong=True)
+            return
+        self._say(self._obj.Infill.Status, wrong=not went_well)
+
+    def open_page(self) -> None:
+        """Show the study's page in the browser."""
+        page = Path(self._obj.Folder) / "index.html"
+        QtGui.QDesktopServices.openUrl(QtCore.QUrl.fromLocalFile(str(page)))
+
+    def _build(self) -> Any:
+        form = QtWidgets.QWidget()
+        form.setObjectName("VolfrepStudyPanel")
+        entitle(form, self._obj.Label)
+        form.setWindowIcon(QtGui.QIcon(str(ICONS / "design_study.svg")))
+        column = QtWidgets.QVBoxLayout(form)
+        column.setContentsMargins(0, 0, 0, 0)
+        box = QtWidgets.QGroupBox(translate("VolfrepStudy", "What varies"))
+        rows = QtWidgets.QGridLayout(box)
+        rows.setContentsMargins(6, 4, 6, 4)
+        self._known = {p.property_name: p for p in variable(self._obj.Infill)}
+        self._rows = [self._row(rows, number) for number in range(ROWS)]
+        column.addWidget(box)
+        self._fill = QtWidgets.QCheckBox(translate("VolfrepStudy", "Make every design (slow)"))
+        self._fill.setObjectName("Fill")
+        self._fill.setChecked(self._obj.Fill)
+        line = QtWidgets.QHBoxLayout()
+        line.addWidget(self._fill, 1)
+        self._button(line, "Start", translate("VolfrepStudy", "Start"), self.start)
+        column.addLayout(line)
+        self._plot = StudyPlot(self._pick)
+        column.addWidget(self._plot, 1)
+        line = QtWidgets.QHBoxLayout()
+        self._across, self._up = (self._axis(line, name) for name in ("Across", "Up"))
+        column.addLayout(line)
+        self._text = QtWidgets.QLabel()
+        self._text.setObjectName("Picked")
+        fits_any_width(self._text)
+        column.addWidget(self._text)
+        line = QtWidgets.QHBoxLayout()
+        self._applies = self._button(line, "Apply", translate("VolfrepStudy", "Apply"), self.apply)
+        self._applies.setToolTip(
+            translate("VolfrepStudy", "Give this design to the infill, as one undo step")
+        )
+        self._page = self._button(line, "Page", translate("VolfrepStudy", "Page"), self.open_page)
+        self._page.setToolTip(
+            translate("VolfrepStudy", "Show the table and all plots in the browser")
+        )
+        column.addLayout(line)
+        leave_the_wheel(form, [self._across, self._up, *(name for name, _ in self._rows)])
+        return form
+
+    def _row(self, rows: Any, number: int) -> tuple[Any, Any]:
+        """A property and its values."""
+        name, values = QtWidgets.QComboBox(), QtWidgets.QLineEdit()
+        name.setObjectName(f"Property{number + 1}")
+        values.setObjectName(f"Values{number + 1}")
+        name.setSizeAdjustPolicy(QtWidgets.QComboBox.AdjustToMinimumContentsLengthWithIcon)
+        name.setMinimumContentsLength(7)
+        values.setToolTip(translate("VolfrepStudy", "Values: 6, 8, 10, or 6 to 10 in 5"))
+        name.addItem("", "")
+        for known in self._known:
+            name.addItem(spaced(translate("App::Property", known)), known)
+        if number < len(self._obj.Vary):
+            varied, _, text = (part.strip() for part in self._obj.Vary[number].partition(":"))
+            name.setCurrentIndex(max(0, name.findData(varied)))
+            values.setText(text)
+        name.currentIndexChanged.connect(lambda _: self._suggest(name, values))
+        rows.addWidget(name, number, 0)
+        rows.addWidget(values, number, 1)
+        rows.setColumnStretch(1, 1)
+        return name, values
+
+    def _suggest(self, name: Any, values: Any) -> None:
+        """Values about the present one, for a property that was chosen now."""
+        parameter = self._known.get(name.currentData())
+        values.setText("" if parameter is None else values_about(self._obj.Infill, parameter))
+
+    def _axis(self, line: Any, name: str) -> Any:
+        choice = QtWidgets.QComboBox()
+        choice.setObjectName(name)
+        choice.setSizeAdjustPolicy(QtWidgets.QComboBox.AdjustToMinimumContentsLengthWithIcon)
+        choice.setMinimumContentsLength(7)
+        choice.currentIndexChanged.connect(lambda _: self._show_plot())
+        line.addWidget(choice, 1)
+        return choice
+
+    def _button(self, line: Any, name: str, text: str, act: Any) -> Any:
+        button = QtWidgets.QPushButton(text)
+        button.setObjectName(name)
+        button.setAutoDefault(False)
+        button.clicked.connect(lambda _=False: act())
+        line.addWidget(button)
+        return button
+
+    def _write(self) -> None:
+        """What the panel shows, into the object."""
+        lines = [
+            f"{name.currentData()}: {values.text()}"
+            for name, values in self._rows
+            if name.currentData()
+        ]
+        more = self._obj.Vary[ROWS:]  # written by hand, and not shown
+        self._obj.Vary = lines + list(more)
+        self._obj.Fill = self._fill.isChecked()
+
+    def _show_table(self) -> None:
+        """The axes that the table has figures for, and the plot."""
+        rows = designs_of_study(self._obj)
+        numeric = [
+            name
+            for name in (rows[0] if rows else ())
+            if "." in name and any(isinstance(row[name], (int, float)) for row in rows)
+        ]
+        for choice, wanted in zip((self._across, self._up), FIRST, strict=True):
+            before = choice.currentText()
+            choice.blockSignals(True)
+            choice.clear()
+            choice.addItems(numeric)
+            shown = [name for name in (before, *wanted) if name in numeric]
+            choice.setCurrentText(shown[0] if shown else "")
+            choice.blockSignals(False)
+        self._picked = None
+        self._applies.setEnabled(False)
+        self._page.setEnabled((Path(self._obj.Folder or "/none") / "index.html").is_file())
+        self._say(self._obj.Status)
+        self._show_plot()
+
+    def _show_plot(self) -> None:
+        words = [name for name in varied_of_study(self._obj) if name == "cell"]
+        colour = words[0] if words else ""
+        rows = designs_of_study(self._obj)
+        self._plot.show_rows(rows, self._across.currentText(), self._up.currentText(), colour)
+
+    def _pick(self, row: dict[str, Any]) -> None:
+        self._picked = row
+        self._applies.setEnabled(True)
+        values = [f"{name} {_shown(row[name])}" for name in varied_of_study(self._obj)]
+        axes = (self._across.currentText(), self._up.currentText())
+        self._say(", ".join(values + [f"{name} {_shown(row[name])}" for name in axes]))
+
+    def _say(self, text: str, wrong: bool = False) -> None:
+        self._text.setStyleSheet(WRONG if wrong else "")
+        self._text.setText(text)
+
+
+def open_study(obj: App.DocumentObject) -> bool:
+    """Open the panel of a study; False, and why, where it has no infill any more."""
+    if obj.Infill is None:
+        tell_error(
+            translate("VolfrepStudy", "The infill of this study has gone: choose another one.")
+        )
+        return False
+    Gui.Control.showDialog(StudyPanel(obj))
+    return True
+
+
+def _shown(value: Any) -> str:
+    return f"{value:.4g}" if isinstance(value, float) else str(value)

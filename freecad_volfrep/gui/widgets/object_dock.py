@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A dock that shows something of one object until it is closed, or the object is gone."""
+
+from __future__ import annotations
+
+from typing import Any, TypeVar
+
+import FreeCAD as App
+import FreeCADGui as Gui
+
+from freecad_volfrep.gui.qt import QtCore, QtWidgets
+
+_Dock = TypeVar("_Dock", bound="ObjectDock")
+
+
+class ObjectDock(QtWidgets.QDockWidget):
+    """What docks of one object have in common; those of a kind have its `NAME`.
+
+    Args:
+        obj: the object.
+        title: of the dock.
+    """
+
+    NAME = ""
+
+    def __init__(self, obj: App.DocumentObject, title: str) -> None:
+        super().__init__(Gui.getMainWindow())
+        self.setObjectName(self.NAME)
+        self.setAttribute(QtCore.Qt.WA_DeleteOnClose)
+        self.setWindowTitle(title)
+        self._obj, self._doc = obj, obj.Document
+
+    def put_up(self) -> None:
+        """Show it below the view, and follow the object from now on."""
+        App.addDocumentObserver(self)
+        Gui.getMainWindow().addDockWidget(QtCore.Qt.BottomDockWidgetArea, self)
+
+    def shows(self, obj: App.DocumentObject) -> bool:
+        """Whether this is the dock of the object."""
+        return bool(self._obj == obj)
+
+    def closeEvent(self, event: Any) -> None:  # noqa: N802
+        """Take away what was shown."""
+        App.removeDocumentObserver(self)
+        self.take_away()
+        super().closeEvent(event)
+
+    def slotDeletedObject(self, obj: App.DocumentObject) -> None:  # noqa: N802
+        """Called by FreeCAD: there is nothing to show any more."""
+        if obj == self._obj:
+            self.forget(document_too=False)
+            self.close_later()
+
+    def slotDeletedDocument(self, doc: App.Document) -> None:  # noqa: N802
+        """Called by FreeCAD as well."""
+        if doc == self._doc:
+            self.forget(document_too=True)
+            self.close_later()
+
+    def close_later(self) -> None:
+        """Closing takes the observer away that FreeCAD is calling just now."""
+        QtCore.QTimer.singleShot(0, self.close)
+
+    def take_away(self) -> None:
+        """Undo what the dock has done to the view; for each kind to say."""
+        raise NotImplementedError
+
+    def forget(self, document_too: bool) -> None:
+        """Leave alone what is gone with the object, or with its document; for each kind to say."""
+        raise NotImplementedError
+
+
+def docks_of(kind: type[_Dock]) -> list[_Dock]:
+    """Those of a kind that are open."""
+    found = Gui.getMainWindow().findChildren(QtWidgets.QDockWidget, kind.NAME)
+    return [dock for dock in found if isinstance(dock, kind) and dock.isVisible()]
+
+
+def close_docks(kind: type[_Dock], obj: App.DocumentObject | None = None) -> bool:
+    """Close those of a kind, or those of an object only; returns whether there were any."""
+    shown = [dock for dock in docks_of(kind) if obj is None or dock.shows(obj)]
+    for dock in shown:
+        dock.close()
+    return bool(shown)

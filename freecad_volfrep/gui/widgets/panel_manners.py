@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""How our task panels behave beside FreeCAD's: the wheel, titles, what OK may do."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import FreeCADGui as Gui
+
+from freecad_volfrep.gui.qt import QtCore, QtWidgets
+
+#: The longest title: FreeCAD widens a panel until its title has room.
+LONGEST_TITLE = 28
+
+
+class _LeaveTheWheel(QtCore.QObject):
+    """Leaves the wheel to what a field is in, unless the field was clicked into before."""
+
+    def eventFilter(self, field: QtCore.QObject, event: QtCore.QEvent) -> bool:  # noqa: N802
+        if event.type() != QtCore.QEvent.Wheel or field.hasFocus():
+            return False
+        event.ignore()  # so that it goes on to the parent
+        return True
+
+
+def leave_the_wheel(form: Any, fields: Iterable[Any]) -> None:
+    """Let the wheel scroll a panel, and not change the fields that it comes over.
+
+    The fields are given: to look for FreeCAD's own spoils Qt's wrappers of them.
+    """
+    leaves = _LeaveTheWheel(form)
+    for field in fields:
+        field.setFocusPolicy(QtCore.Qt.StrongFocus)
+        field.installEventFilter(leaves)
+
+
+class _KeepSpace(QtCore.QObject):
+    """Leaves Space to the button or list in focus: FreeCAD hides what is selected by it."""
+
+    def eventFilter(self, widget: QtCore.QObject, event: QtCore.QEvent) -> bool:  # noqa: N802
+        is_space = event.type() == QtCore.QEvent.ShortcutOverride and (
+            event.key() == QtCore.Qt.Key_Space
+        )
+        if is_space:
+            event.accept()
+        return bool(is_space)
+
+
+def keep_space(form: Any, widgets: Iterable[Any]) -> None:
+    """Let Space press the buttons of a panel, and open its lists."""
+    keeps = _KeepSpace(form)
+    for widget in widgets:
+        widget.installEventFilter(keeps)
+
+
+def narrow(choice: Any) -> None:
+    """Let a list be narrower than its entries: the panel must fit beside FreeCAD's tree."""
+    choice.setMinimumContentsLength(4)
+    choice.setSizeAdjustPolicy(type(choice).AdjustToMinimumContentsLengthWithIcon)
+
+
+def entitle(form: Any, title: str) -> None:
+    """Give a panel a title, shortened in its middle where it is long: the tree has all of it."""
+    ends = LONGEST_TITLE // 2 - 1
+    short = title if len(title) <= LONGEST_TITLE else f"{title[:ends]}\u2026{title[-ends:]}"
+    form.setWindowTitle(short)
+
+
+def fits_any_width(label: Any) -> None:
+    """Let a label of sentences be as narrow as its panel, whatever long word is in them."""
+    label.setWordWrap(True)
+    label.setSizePolicy(QtWidgets.QSizePolicy.Ignored, QtWidgets.QSizePolicy.Preferred)
+
+
+def allow_ok(is_allowed: bool) -> None:
+    """Let the open task panel's OK be pressed, or not.
+
+    To ask a panel for its parents would spoil Qt's wrappers of FreeCAD's own fields in it.
+    """
+    for box in Gui.getMainWindow().findChildren(QtWidgets.QDialogButtonBox):
+        button = box.button(QtWidgets.QDialogButtonBox.Ok)
+        if button is not None and box.isVisible():
+            button.setEnabled(is_allowed)

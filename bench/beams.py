@@ -24,11 +24,11 @@ from volfrep import LatticeSpec
 from volfrep.design.cells import PAPERS
 from volfrep.fem.beam_mesh import JOINT_LENGTH, beam_model
 from volfrep.fem.calculix import solve
+from volfrep.fem.deck import write_beams, write_tetrahedra
 from volfrep.fem.joint_loads import balls_of, joint_displacements, joint_step
 from volfrep.fem.model import StaticStep
 from volfrep.fem.tet_mesh import TetrahedralMesh, tetrahedra
 from volfrep.grid.strut_graph import Wireframe
-from volfrep.io.write.calculix import write_beams, write_tetrahedra
 from volfrep.jobs.blocks import block, block_wireframe
 
 ROOT = Path(__file__).resolve().parent.parent

@@ -37,9 +37,9 @@ from volfrep.design.cells import LIBRARY
 from volfrep.design.grading import CellMap, Orientation, RadiusGrading, SizeGrading
 from volfrep.design.profile import Profile
 from volfrep.fem.calculix import solve
+from volfrep.fem.deck import write_tetrahedra
 from volfrep.fem.joint_loads import balls_of, joint_step
 from volfrep.fem.tet_mesh import tetrahedra
-from volfrep.io.write.calculix import write_tetrahedra
 from volfrep.jobs.blocks import block, block_wireframe
 from volfrep.mesh.triangle_mesh import TriangleMesh
 

@@ -13,8 +13,8 @@ import numpy as np
 
 from volfrep import LatticeSpec, VolfrepError
 from volfrep.fem.beam_mesh import BeamMesh, beam_model
+from volfrep.fem.deck import sides, write_beams, write_tetrahedra
 from volfrep.fem.tet_mesh import TetrahedralMesh, tetrahedra
-from volfrep.io.write.calculix import sides, write_beams, write_tetrahedra
 from volfrep.jobs.blocks import block, block_wireframe
 from volfrep.mechanics.materials import Material
 from volfrep.mesh.booleans import as_manifold, as_mesh

@@ -137,8 +137,8 @@ def test_beams_solved_by_freecad_and_by_our_own_deck(doc, tmp_path):
     from volfrep.design.cells import LIBRARY
     from volfrep.fem.beam_mesh import fitted_beams
     from volfrep.fem.calculix import solve
+    from volfrep.fem.deck import write_beams
     from volfrep.fem.model import StaticStep
-    from volfrep.io.write.calculix import write_beams
     from volfrep.mechanics.materials import Material
 
     infill = block(doc, Resolution=8)
@@ -187,9 +187,9 @@ def test_the_skin_holds_the_lattice(doc, infill, tmp_path):
 def test_tetrahedra_solved_by_freecad_and_by_our_own_deck(doc, tmp_path):
     from freecad_volfrep.bridge.solids import mesh_in_document
     from volfrep.fem.calculix import solve
+    from volfrep.fem.deck import sides, write_tetrahedra
     from volfrep.fem.model import StaticStep
     from volfrep.fem.tet_mesh import tetrahedra
-    from volfrep.io.write.calculix import sides, write_tetrahedra
     from volfrep.mechanics.materials import Material
 
     infill = block(doc, (16, 14, 14), CellSize=10, StrutRadius=1, ShellThickness=2, Resolution=8)

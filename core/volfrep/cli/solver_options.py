@@ -161,7 +161,7 @@ def write_axes(
         start: when the job began, of `time.perf_counter`.
     """
     from ..fem.beam_mesh import fitted_beams
-    from ..io.write.calculix import write_beams
+    from ..fem.deck import write_beams
     from ..io.write.step_wireframe import write_step_wireframe
     from ..reports.estimate import estimate_axes, estimate_beams
     from ..trim.beam_model import deformed_struts
@@ -241,9 +241,9 @@ def _write_tetrahedra(
     infill: Infill | None,
     progress: ProgressCallback,
 ) -> tuple[str, ...]:
+    from ..fem.deck import write_tetrahedra
     from ..fem.joint_loads import side_joints
     from ..fem.tet_mesh import nodes_on, tetrahedra
-    from ..io.write.calculix import write_tetrahedra
     from ..reports.estimate import estimate_tetrahedra
     from ..util.progress import Monitor
 

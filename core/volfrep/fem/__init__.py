@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Elements for a solver: beams with stiff ends, tetrahedra, loads at joints."""
+"""Finite elements: meshes for a solver, CalculiX decks, its runs and results."""

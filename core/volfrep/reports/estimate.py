@@ -14,6 +14,7 @@ import numpy as np
 from ..design.memory_guard import rounded_up, smaller_block
 from ..design.spec import LatticeSpec
 from ..fem.beam_mesh import BeamMesh
+from ..fem.deck import BYTES_PER_BEAM, SOLVE_SECONDS_PER_BEAM, WRITE_SECONDS_PER_BEAM
 from ..fem.tet_mesh import (
     BYTES_PER_TRIANGLE,
     ELEMENTS_PER_TRIANGLE,
@@ -22,7 +23,6 @@ from ..fem.tet_mesh import (
 )
 from ..fem.tet_mesh import MAX_TRIANGLES as MAX_TETRAHEDRA_TRIANGLES
 from ..grid.strut_graph import Wireframe
-from ..io.write.calculix import BYTES_PER_BEAM, SOLVE_SECONDS_PER_BEAM, WRITE_SECONDS_PER_BEAM
 from ..io.write.step_exact import predict_exact
 from ..io.write.step_faceted import MAX_TRIANGLES as MAX_PLANE_FACES
 from ..io.write.step_faceted import predict_faceted

@@ -8,10 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import csr_matrix
 
+from ..fem.model import Case
 from ..util.errors import VolfrepError
 from ..util.types import Bools, Floats, Ints
 from .node_radii import NodeRadii
-from .structure import Case, Structure
+from .structure import Structure
 from .strut_results import buckling_loads, columns_of, stresses
 from .tapered_beams import energies
 

@@ -14,6 +14,7 @@ from scipy.spatial import cKDTree
 
 from ..design.cells import UnitCell
 from ..fem.beam_mesh import ends_law
+from ..fem.model import Case
 from ..grid.strut_graph import Graph, Wireframe
 from ..loads.load_cases import LoadCase
 from ..loads.nodal_loads import ROUNDING, Body, nodal_case
@@ -29,7 +30,7 @@ from ..util.types import Bools, Floats, Ints
 from .analysis import Problem
 from .node_radii import NodeRadii, largest_radii
 from .skin import NO_FEET, Feet, SkinModel, ties_to
-from .structure import NO_TIES, Case, Structure
+from .structure import NO_TIES, Structure
 from .tapered_beams import Elastic, beams_of, end_table
 from .union_volume import union_volume
 

@@ -1,190 +1,235 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The same beams and skin solved by CalculiX: how far the two agree.
+"""The final design proved by CalculiX, and limits by which it holds the given ones there.
 
-The deck has the same struts, joints, supports and loads; a cone is steps there, beams are expanded
-into solid elements, and a skin is of second-order wedges. Its files go to a temporary folder.
-
-CalculiX makes rigid knots where sections or directions change, and with Poisson's ratio a stepped
-cone is too stiff: so the deck has none, and gives the shear modulus by itself with an orientation
-along each strut.
+The deck has the same struts, joints, supports and loads as the design (`fem/solved_frame`).
 """
 
 from __future__ import annotations
 
-import os
-import re
-import shutil
-import tempfile
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from pathlib import Path
-from subprocess import CompletedProcess
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
-from ..fem.beam_mesh import BeamMesh
-from ..fem.wedge_mesh import WedgeMesh
-from ..io.write.calculix import SQUARE, width_of_ends
-from ..io.write.step import rows
-from ..mechanics.frame import SQUARE_SECTION
-from ..mechanics.materials import Material
-from ..util.errors import VolfrepError
+from ..design.cells import UnitCell
+from ..fem.beam_mesh import JOINT_STIFFNESS, BeamMesh, beam_model, ends_law
+from ..fem.calculix import find_calculix
+from ..fem.model import Case
+from ..fem.solved_frame import SolidSkin, SolvedFrame, solve_frame
+from ..fem.wedge_mesh import beyond_inner, wedge_mesh
+from ..grid.strut_graph import Wireframe
+from ..mechanics.frame import Ends
+from ..mechanics.materials import SolidMaterial
 from ..util.progress import Monitor
-from ..util.subprocesses import run_program
-from ..util.threads import threads
 from ..util.types import Bools, Floats, Ints
-from .structure import Case
-from .tapered_beams import Beams
+from .analysis import Analysis, Limits, Problem
+from .model import SizingModel
+from .skin import SkinModel
+from .strut_results import stresses
+from .tapered_beams import Beams, cross_matrix
 
-_BLOCK = re.compile(r"^ displacements .*?\n\n((?: +\d+(?: +\S+){3}\n)*)", re.MULTILINE)
-#: The first row of its table of load factors.
-_FIRST = re.compile(r"^ +1 +(\S+)$", re.MULTILINE)
-#: CalculiX sees no load factors below 1, and those far above it badly: what it is given is scaled
-#: so that it finds about this one.
-_FACTOR = 10.0
-_ROW = 12
-#: Struts whose directions differ by less share an orientation.
-DIRECTION = 1e-6
-#: Shear modulus of a single square element over what makes it twist and slide as the square does.
-SQUARE_SHEAR = 0.5 * (SQUARE_SECTION.torsion + SQUARE_SECTION.shear)
-#: How much stiffer the skin is where struts stand on it, through its whole thickness: with it
-#: skinned boxes bend as their tetrahedra do.
-PAD_STIFFNESS = 1.5
-
-
-@dataclass(frozen=True, eq=False)
-class SolidSkin:
-    """Wedges, whose nodes follow those of the beams in a deck, and what hangs on them.
-
-    Attributes:
-        mesh: the wedges.
-        followers: (q,) nodes of the deck that follow others.
-        leaders: (q, w) nodes of the deck; what there are fewer is filled with weights of 0.
-        weights: (q, w, 3, 3) of each leader's displacement.
-        springs: (p, 2) nodes of the deck that are held together.
-        stiffness: N/mm of every spring in every direction.
-    """
-
-    mesh: WedgeMesh
-    followers: Ints
-    leaders: Ints
-    weights: Floats
-    springs: Ints
-    stiffness: float
+#: Beams of more struts are not solved by CalculiX unless it is asked for.
+MOST_PROVED = 6_000
+#: Radius of a rigid arm over its length.
+_THIN = 0.1
+#: Both sides of what is solid are held together by so many times their thickness' stiffness.
+HELD_TOGETHER = 100.0
+#: Struts count as more stressed in CalculiX where they have this share of the largest stress there.
+TELLING = 0.5
+#: A limit that CalculiX finds used more than this makes the design a little thicker.
+PROVED = 1.003
+#: A design is confirmed where nothing that both solutions say differs by more than this part.
+AGREES = 0.15
 
 
 @dataclass(frozen=True, eq=False)
-class Proof:
-    """What CalculiX says of a frame.
+class Proved:
+    """What CalculiX says of a design.
 
     Attributes:
-        displacements: (nodes, 3, cases) of all nodes of the deck, mm.
-        sections: (nodes, 3, cases) the pull in the beams, N, and the moments about the two axes of
-            their section, N mm: at nodes between equal elements of a strut.
-        frequencies: (modes,) Hz.
-        factors: (cases,) how many times the loads may be before the frame buckles; nan where that
-            was not asked for.
+        figures: how far the two agree, as plain JSON values.
+        felt: (m,) how many times as stressed as their beams say the struts are there, 1 or more:
+            of those that are stressed most.
     """
 
-    displacements: Floats
-    sections: Floats
-    frequencies: Floats
-    factors: Floats
+    figures: dict[str, Any]
+    felt: Floats
+
+    def uses(self, limits: Limits, final: Analysis) -> dict[str, float]:
+        """By the name of each limit that CalculiX has a figure for, the share of it used there."""
+        result = {}
+        felt = self.figures["largest_stress"]
+        if limits.stress is not None and felt is not None:
+            use = final.uses["stress"] * felt
+            # Without the strut that governs it is the least that there may be.
+            if self.figures["worst_strut_compared"] or use > PROVED:
+                result["stress"] = use
+        if limits.displacement is not None:
+            there = final.largest * np.array(self.figures["largest_displacement"])
+            result["displacement"] = float(there.max()) / limits.displacement
+        if limits.frequency is not None:
+            result["frequency"] = final.uses["frequency"] / self.figures["lowest_frequency"]
+        factors = [one for one in self.figures.get("buckling_factors", ()) if one is not None]
+        if limits.frame_buckling is not None and factors:
+            result["frame buckling"] = limits.frame_buckling / min(factors)
+        return result
+
+    def holds(self, limits: Limits, final: Analysis) -> bool:
+        """Whether the design holds the limits in CalculiX, too."""
+        return max(self.uses(limits, final).values(), default=0.0) <= PROVED
 
 
-def prove(
-    model: BeamMesh,
-    material: Material,
-    cases: Sequence[Case],
-    *,
-    skin: SolidSkin | None = None,
-    more_nodes: Floats | None = None,
-    modes: int = 0,
-    expected: Floats | None = None,
-    monitor: Monitor | None = None,
-) -> Proof:
-    """Solve beams by CalculiX.
+def correct_problem(
+    problem: Problem, limits: Limits, final: Analysis, proof: Proved
+) -> tuple[Problem, Limits]:
+    """A problem and limits with which a design holds the given ones when CalculiX solves it.
+
+    Stress is a strut's own: each counts as stressed as CalculiX finds it. Displacement, frequency
+    and buckling together are all struts', and their limits become that much stricter.
 
     Args:
-        model: the beams.
+        problem: as `final` solved it.
+        limits: that are to be held.
+        final: the design.
+        proof: what CalculiX says of it.
+    """
+    used, wanted = proof.uses(limits, final), limits
+    if used.get("stress", 0.0) > PROVED:
+        before = 1.0 if problem.felt is None else problem.felt
+        problem = replace(problem, felt=np.maximum(before, proof.felt))
+    if limits.displacement is not None and used["displacement"] > PROVED:
+        ratio = used["displacement"] / final.uses["displacement"]
+        wanted = replace(wanted, displacement=limits.displacement / ratio)
+    if limits.frequency is not None and used["frequency"] > PROVED:
+        ratio = used["frequency"] / final.uses["frequency"]
+        wanted = replace(wanted, frequency=limits.frequency * ratio)
+    if limits.frame_buckling is not None and used.get("frame buckling", 0.0) > PROVED:
+        ratio = used["frame buckling"] / final.uses["frame buckling"]
+        wanted = replace(wanted, frame_buckling=limits.frame_buckling * ratio)
+    return problem, wanted
+
+
+def prove_design(
+    model: SizingModel,
+    cell: UnitCell | None,
+    cell_size: float,
+    final: Analysis,
+    material: SolidMaterial,
+    notes: list[str],
+    monitor: Monitor,
+) -> Proved | None:
+    """How far CalculiX agrees on the final design, with its skin.
+
+    Args:
+        model: what was solved.
+        cell: the unit cell, whose joints stiffen the beams' ends; None for a network.
+        cell_size: L, mm.
+        final: the design.
         material: of the struts.
-        cases: what they carry; their nodes are the beams' and those of the skin.
-        skin: about them; None for none.
-        more_nodes: (h, 3) nodes behind those of the skin, which only follow others, mm.
-        modes: how many frequencies, with the first case's supports.
-        expected: (cases,) near which load factor each case buckles, nan where that is not asked
-            for; None for nowhere.
+        notes: is added a sentence where CalculiX is not asked.
         monitor: asked for a cancel while CalculiX runs.
 
+    Returns:
+        How far displacements are off in each case, and over the design's own the largest
+        displacements, stress and lowest frequency; of how many struts' ends the stress is known
+        there, and whether of the most stressed one (the largest stress is that of those that are
+        known; None where none is); whether CalculiX confirms the design, and if not, why. None
+        where CalculiX is not installed, or there are more than `MOST_PROVED` struts.
+
     Raises:
-        VolfrepError: CalculiX is not installed, or does not solve it.
+        VolfrepError: CalculiX does not solve it.
         Cancelled: when the monitor says so.
     """
-    program = shutil.which("ccx")
-    if program is None:
-        raise VolfrepError(
-            "CalculiX (ccx) is not installed: install it ('apt-get install calculix-ccx')."
+    problem = model.problem
+    beams, count = problem.structure.beams, model.frame_nodes
+    if find_calculix() is None:
+        notes.append("CalculiX (ccx) is not installed: no other solver has proved this design.")
+        return None
+    if len(beams.struts) > MOST_PROVED:
+        notes.append(
+            f"CalculiX was not asked: it takes minutes for more than {MOST_PROVED:,} struts."
         )
-    alike: list[list[int]] = []
-    for k, case in enumerate(cases):
-        same = next((g for g in alike if np.array_equal(cases[g[0]].held, case.held)), None)
-        alike.append([k]) if same is None else same.append(k)
-    nodes = model.nodes
-    if skin is not None:
-        nodes = np.concatenate([nodes, skin.mesh.nodes])
-    if more_nodes is not None:
-        nodes = np.concatenate([nodes, more_nodes])
-    moved = np.zeros((len(nodes), 3, len(cases)))
-    sections = np.zeros((len(nodes), 3, len(cases)))
-    frequencies = np.zeros(0)
-    factors = np.full(len(cases), np.nan)
-    environment = {**os.environ, "OMP_NUM_THREADS": str(threads())}
-    with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        for group in alike:
-            steps = [_static(cases[k]) for k in group]
-            if modes and 0 in group:
-                steps.append(f"*STEP\n*FREQUENCY\n{modes}\n*END STEP\n")
-            held = _held(cases[group[0]].held)
+        return None
+    of_struts = problem.radii.of_struts(final.radii)
+    nodes = problem.structure.nodes[:count]
+    joints = np.zeros(count)
+    for end in (0, 1):
+        np.maximum.at(joints, beams.struts[:, end], of_struts[:, end])
+    frame = Wireframe(nodes, beams.struts.astype(np.int32), of_struts, joints)
+    law = ends_law(cell, cell_size, "square")
+    deck = beam_model(
+        frame, None if beams.joined.all() else _free_ends(beams.joined, beams.struts, count),
+        joint_law=law, elements_per_strut=8 if model.skin is None else 4, radius_tolerance=0.003,
+    )  # fmt: skip
+    solid, more = None, None
+    place, there = np.arange(len(problem.structure.nodes)), problem.watched.copy()
+    if model.skin is not None:
+        arms = np.flatnonzero(model.on_wall)
+        deck = with_arms(deck, arms, float(of_struts.mean()))
+        solid, more = solid_skin(model.skin, deck, arms, material)
+        # What is held and loaded is the outside; nodes of struts on a wall follow it.
+        place[count:] = len(deck.nodes) + solid.mesh.outer
+        there[count:] &= solid.mesh.outer >= 0
+    total = len(deck.nodes) + (0 if solid is None else len(solid.mesh.nodes))
+    total += 0 if more is None else len(more)
+    empty = ~_used(beams.struts, count)
+    cases = []
+    for case in problem.cases:
+        held, loads, moved = (np.zeros((total, 6), kind) for kind in (bool, float, float))
+        held[place[there]], loads[place[there]] = case.held[there], case.loads[there]
+        held[:count][empty] = True
+        if case.moved is not None:
+            moved[place[there]] = case.moved[there]
+        if solid is not None:
+            _on_solid(solid, len(deck.nodes), held, loads, moved)
+        x, y, z = case.acceleration
+        cases.append(Case(held, loads, moved if moved.any() else None, (x, y, z)))
+    modes = 3 if "frequency" in final.uses else 0
+    # Of a skin only the stiffness is known, here; and what is moved is no load.
+    expected = None
+    if solid is None and all(case.moved is None for case in cases):
+        expected = np.where(np.isfinite(final.factors), final.factors, np.nan)
+    found = solve_frame(
+        deck, material.for_solver(), cases, skin=solid, more_nodes=more, modes=modes,
+        expected=expected, monitor=monitor,
+    )  # fmt: skip
+    mine = final.displacements[:, :3][there]
+    theirs = found.displacements[place[there]]
+    off = np.linalg.norm(theirs - mine, axis=(0, 1)) / np.linalg.norm(theirs, axis=(0, 1))
+    own = stresses(beams, of_struts, final.forces)
+    alone = np.abs(own.axial) + own.bending
+    summed = alone if problem.felt is None else alone * problem.felt[:, None, None]
+    felt = end_stresses(found, deck, beams, of_struts)
+    known = np.isfinite(felt)
+    there_most = np.where(known, felt, 0.0).max(axis=(1, 2))
+    more = there_most / np.maximum(alone.max(axis=(1, 2)), 1e-300)
+    more = np.where(there_most > TELLING * there_most.max(initial=0.0), np.maximum(more, 1.0), 1.0)
+    worst = float(felt[known].max() / summed.max()) if known.any() else None
+    compared = bool(known.ravel()[int(summed.argmax())])
+    result: dict[str, Any] = {
+        "displacements_off": [float(value) for value in off],
+        "largest_displacement": (
+            np.linalg.norm(theirs, axis=1).max(axis=0) / np.linalg.norm(mine, axis=1).max(axis=0)
+        ).tolist(),
+        "largest_stress": worst,
+        "struts_compared": float(known.mean()),
+        "worst_strut_compared": compared,
+        "with_the_skin": model.skin is not None,
+    }
+    if modes:
+        result["frequencies_hz"] = found.frequencies.tolist()
+        result["lowest_frequency"] = float(found.frequencies[0] / final.frequency)
+    if np.isfinite(found.factors).any():
+        result["buckling_factors"] = [
+            float(factor) if np.isfinite(factor) else None for factor in found.factors
+        ]
+    result["doubts"] = doubts(result, final, [case.name for case in problem.cases])
+    result["confirmed"] = not result["doubts"]
+    return Proved(result, more)
 
-            def solved(steps: Sequence[str], held: str = held) -> CompletedProcess[str]:
-                with (folder / "job.inp").open("wb") as deck:
-                    deck.writelines(_deck(nodes, model, material))
-                    if skin is not None:
-                        deck.writelines(_skin(skin, model, material))
-                    deck.write(held.encode())
-                    deck.writelines(step.encode() for step in steps)
-                return run_program([program, "-i", "job"], folder, monitor, environment)
 
-            said = solved(steps)
-            printed = folder / "job.dat"
-            text = printed.read_text(errors="replace") if printed.is_file() else ""
-            blocks = _BLOCK.findall(text)
-            if said.returncode or len(blocks) < len(group):
-                reason = [line for line in said.stdout.splitlines() if "ERROR" in line]
-                detail = f": {reason[0].strip().rstrip('.')}" if reason else ""
-                raise VolfrepError(f"CalculiX did not solve the frame{detail}.")
-            for k, block in zip(group, blocks, strict=False):
-                table = np.array(block.split(), np.float64).reshape(-1, 4)
-                moved[table[:, 0].astype(np.int64) - 1, :, k] = table[:, 1:]
-            for k, table in zip(group, _section_forces(folder / "job.frd"), strict=False):
-                number = table[:, 0].astype(np.int64) - 1
-                sections[number, :, k] = table[:, [3, 5, 6]]
-            if modes and 0 in group:
-                frequencies = _frequencies(text)[:modes]
-            for k in group:
-                near = np.nan if expected is None else float(expected[k])
-                if np.isfinite(near):
-                    scale = near / _FACTOR
-                    solved([_buckling(cases[k], scale)])
-                    found = _FIRST.search(printed.read_text(errors="replace"))
-                    if found is None:
-                        raise VolfrepError("CalculiX found no load at which the frame buckles.")
-                    factors[k] = scale * float(found[1])
-    return Proof(moved, sections, frequencies, factors)
-
-
-def end_stresses(proof: Proof, model: BeamMesh, beams: Beams, radii: Floats) -> Floats:
+def end_stresses(solved: SolvedFrame, model: BeamMesh, beams: Beams, radii: Floats) -> Floats:
     """(m, 2, cases) MPa, |pull| / A + |M| / W where struts leave their joints; nan where unknown.
 
     A moment is linear along a strut, and CalculiX's are right between equal elements: so it is
@@ -196,7 +241,7 @@ def end_stresses(proof: Proof, model: BeamMesh, beams: Beams, radii: Floats) -> 
     inner[0] = False
     before = np.flatnonzero(inner)  # elements that begin between two flexible ones
     strut = model.strut[before]
-    result = np.full((len(radii), 2, proof.sections.shape[2]), np.nan)
+    result = np.full((len(radii), 2, solved.sections.shape[2]), np.nan)
     edge = np.flatnonzero(np.append(True, strut[1:] != strut[:-1]))
     last = np.append(edge[1:], len(strut)) - 1
     many = last > edge
@@ -207,7 +252,7 @@ def end_stresses(proof: Proof, model: BeamMesh, beams: Beams, radii: Floats) -> 
     stiff, length = beams.stiff_lengths(radii)[own], beams.length[own]
     for end, place in ((0, stiff[:, 0]), (1, length - stiff[:, 1])):
         share = ((place - near) / (far - near))[:, None, None]
-        felt = proof.sections[first] * (1.0 - share) + proof.sections[last] * share
+        felt = solved.sections[first] * (1.0 - share) + solved.sections[last] * share
         along = (place / length)[:, None]
         radius = radii[own, :1] * (1.0 - along) + radii[own, 1:] * along
         pull = np.abs(felt[:, 0]) / (np.pi * radius**2)
@@ -215,154 +260,157 @@ def end_stresses(proof: Proof, model: BeamMesh, beams: Beams, radii: Floats) -> 
     return result
 
 
-def _deck(nodes: Floats, model: BeamMesh, material: Material) -> Iterator[bytes]:
-    """Nodes, elements and sections.
+def doubts(figures: Mapping[str, Any], final: Analysis, names: Sequence[str]) -> list[str]:
+    """Why CalculiX does not confirm a design, in parts of a sentence; none where it does.
 
-    CalculiX makes rigid knots where sections or directions change, which hinder a material's
-    lateral contraction: with Poisson's ratio, ten steps of a cone are 6 % too stiff. So there is
-    none here, and the modulus of shear is given by itself, which takes an orientation along the
-    strut. A square of one element has the torsion of its polar moment and no shear coefficient:
-    both go into that modulus, too.
+    Args:
+        figures: as `prove_design` has them.
+        final: the design.
+        names: of its load cases.
     """
-    yield b"*NODE,NSET=NALL\n"
-    yield from rows("%d,%.12g,%.12g,%.12g\n", np.arange(1, len(nodes) + 1), nodes)
-    ends = model.nodes[model.elements]
-    along = ends[:, 1] - ends[:, 0]
-    along /= np.linalg.norm(along, axis=1)[:, None]
-    names = np.round(along / DIRECTION).astype(np.int64)
-    key = np.column_stack([names, model.section, model.is_joint])
-    _, first, group = np.unique(key, axis=0, return_index=True, return_inverse=True)
-    order = np.argsort(group.ravel(), kind="stable")
-    for k, chosen in enumerate(np.split(order, np.cumsum(np.bincount(group.ravel()))[:-1])):
-        yield f"*ELEMENT,TYPE=B31,ELSET=E{k}\n".encode()
-        yield from rows("%d,%d,%d\n", chosen + 1, model.elements[chosen] + 1)
-    yield b"*ELSET,ELSET=EALL\n"
-    yield "".join(f"E{k}\n" for k in range(len(first))).encode()
-    section_area = SQUARE**2 / np.pi
-    shear = material.young / (2.0 * (1.0 + material.poisson)) * SQUARE_SHEAR
-    for k, row in enumerate(first.tolist()):
-        axis = along[row]
-        aside = np.cross(axis, np.eye(3)[np.argmin(np.abs(names[row]))])
-        aside /= np.linalg.norm(aside)
-        fitted, side = model.ends[model.section[row]], SQUARE * model.radii[model.section[row]]
-        factor, wide = 1.0, 1.0
-        if model.is_joint[row]:
-            factor, wide = fitted.axial**2 / fitted.bending, width_of_ends(fitted)
-        young, weight = material.young * factor, material.density * 1e-9 / section_area / wide**2
-        x, y = (",".join(f"{value:.12g}" for value in way) for way in (axis, aside))
-        yield (
-            f"*ORIENTATION,NAME=O{k}\n{x},{y}\n*MATERIAL,NAME=M{k}\n"
-            f"*ELASTIC,TYPE=ENGINEERING CONSTANTS\n{young:.10g},{young:.10g},{young:.10g},0,0,0,"
-            f"{shear * factor:.10g},{shear * factor:.10g}\n{shear * factor:.10g},294.\n"
-            f"*DENSITY\n{weight:.10g}\n"
-            f"*BEAM SECTION,ELSET=E{k},MATERIAL=M{k},SECTION=RECT,ORIENTATION=O{k}\n"
-            f"{side * wide:.10g},{side * wide:.10g}\n{y}\n"
-        ).encode()
+    result = []
+    ratio, off = figures["largest_displacement"], figures["displacements_off"]
+    apart = [max(one, abs(other - 1.0)) for one, other in zip(off, ratio, strict=True)]
+    k = int(np.argmax(apart))
+    if not apart[k] <= AGREES:
+        result.append(
+            f"displacements differ by {off[k]:.0%} in case '{names[k]}', where the largest one is "
+            f"{ratio[k]:.3g} times the design's own"
+        )
+    felt = figures["largest_stress"]
+    if "stress" in final.uses:
+        if not figures["worst_strut_compared"]:
+            result.append(
+                "the most stressed strut is too short to be compared, as are "
+                f"{1.0 - figures['struts_compared']:.0%} of the struts' ends"
+            )
+        elif not abs(felt - 1.0) <= AGREES:
+            result.append(f"its largest stress is {felt:.3g} times the design's own")
+    if "frequency" in final.uses and not abs(figures["lowest_frequency"] - 1.0) <= AGREES:
+        times = figures["lowest_frequency"]
+        result.append(f"its lowest frequency is {times:.3g} times the design's own")
+    factors = zip(figures.get("buckling_factors", ()), final.factors.tolist(), strict=False)
+    times = [there / own for there, own in factors if there is not None]
+    if times and not max(abs(one - 1.0) for one in times) <= AGREES:
+        worst = max(times, key=lambda one: abs(one - 1.0))
+        result.append(f"its load factor of buckling together is {worst:.3g} times the design's own")
+    return result
 
 
-def _skin(skin: SolidSkin, model: BeamMesh, material: Material) -> Iterator[bytes]:
-    """Wedges and what follows them, behind the beams."""
-    mesh, first, number = skin.mesh, len(model.nodes), len(model.elements) + 1
-    for name, chosen, factor in (("SKIN", ~mesh.is_pad, 1.0), ("PADS", mesh.is_pad, PAD_STIFFNESS)):
-        if not chosen.any():
-            continue
-        yield f"*ELEMENT,TYPE=C3D15,ELSET={name}\n".encode()
-        table = mesh.elements[chosen] + first + 1
-        line = "%d" + ",%d" * 11 + "\n" + "%d" + ",%d" * 3 + "\n"
-        yield from rows(line, number + np.arange(len(table)), table)
-        number += len(table)
-        yield (
-            f"*MATERIAL,NAME={name}\n*ELASTIC\n{material.young * factor:.10g},"
-            f"{material.poisson:.10g}\n*DENSITY\n{material.density * 1e-9:.10g}\n"
-            f"*SOLID SECTION,ELSET={name},MATERIAL={name}\n*ELSET,ELSET=EALL\n{name}\n"
-        ).encode()
-    for follower, leaders, weights in zip(
-        (skin.followers + 1).tolist(), skin.leaders + 1, skin.weights, strict=True
-    ):
-        for axis in range(3):
-            row, column = np.nonzero(weights[:, axis])
-            terms = [f"{follower},{axis + 1},-1."]
-            terms += [
-                f"{node},{way + 1},{value:.12g}"
-                for node, way, value in zip(
-                    leaders[row].tolist(), column.tolist(), weights[row, axis, column], strict=True
-                )
-            ]
-            lines = [",".join(terms[k : k + 4]) for k in range(0, len(terms), 4)]
-            yield f"*EQUATION\n{len(terms)}\n".encode() + "\n".join(lines).encode() + b"\n"
-    for axis in (1, 2, 3) if len(skin.springs) else ():
-        yield f"*ELEMENT,TYPE=SPRING2,ELSET=S{axis}\n".encode()
-        yield from rows("%d,%d,%d\n", number + np.arange(len(skin.springs)), skin.springs + 1)
-        number += len(skin.springs)
-        yield f"*SPRING,ELSET=S{axis}\n{axis},{axis}\n{skin.stiffness:.10g}\n".encode()
+def with_arms(model: BeamMesh, nodes: Ints, length: float) -> BeamMesh:
+    """Beams with three rigid arms at some nodes, along x, y and z; their tips are the last nodes.
 
-
-def _held(held: Bools) -> str:
-    lines = ["*BOUNDARY\n"]
-    for axis in range(6):
-        lines += [f"{node + 1},{axis + 1},{axis + 1}\n" for node in np.flatnonzero(held[:, axis])]
-    return "".join(lines)
-
-
-def _static(case: Case) -> str:
-    lines = ["*STEP\n*STATIC\n"]
-    if case.moved is not None:
-        lines.append("*BOUNDARY,OP=MOD\n")
-        for node, axis in np.argwhere(case.held):
-            value = case.moved[node, axis]
-            lines.append(f"{node + 1},{axis + 1},{axis + 1},{value:.12g}\n")
-    lines += _loads(case, 1.0)
-    lines.append(
-        "*NODE PRINT,NSET=NALL\nU\n*NODE FILE,OUTPUT=2D\nU\n*EL FILE,SECTION FORCES\nS\n*END STEP\n"
+    Whoever moves the tips moves and turns the node: in CalculiX the turn of a beam's node can be
+    given about the axes of the beam's section only.
+    """
+    count, own = len(model.nodes), len(nodes)
+    tips = np.repeat(model.nodes[nodes], 3, axis=0) + length * np.tile(np.eye(3), (own, 1))
+    elements = np.stack([np.repeat(nodes, 3), count + np.arange(3 * own)], axis=1)
+    strut = model.strut.max() + 1 + np.arange(3 * own)
+    # Thin, so that they weigh next to nothing, and of something that much stiffer.
+    rigid = Ends(1.0, JOINT_STIFFNESS / _THIN**4, JOINT_STIFFNESS / _THIN**4)
+    return replace(
+        model,
+        nodes=np.concatenate([model.nodes, tips]),
+        elements=np.concatenate([model.elements, elements]),
+        strut=np.concatenate([model.strut, strut]),
+        section=np.concatenate([model.section, np.full(3 * own, len(model.radii))]),
+        radii=np.append(model.radii, _THIN * length),
+        is_joint=np.concatenate([model.is_joint, np.ones(3 * own, bool)]),
+        ends=(*model.ends, rigid),
     )
-    return "".join(lines)
 
 
-def _loads(case: Case, scale: float) -> list[str]:
-    lines = ["*CLOAD,OP=NEW\n"]
-    for node, axis in np.argwhere((case.loads != 0.0) & ~case.held):
-        lines.append(f"{node + 1},{axis + 1},{scale * case.loads[node, axis]:.12g}\n")
-    lines.append("*DLOAD,OP=NEW\n")
-    if any(case.acceleration):
-        size = float(np.linalg.norm(case.acceleration))
-        way = ",".join(f"{value / size:.12g}" for value in case.acceleration)
-        lines.append(f"EALL,GRAV,{scale * size:.12g},{way}\n")
-    return lines
+def solid_skin(
+    skin: SkinModel, model: BeamMesh, arms: Ints, material: SolidMaterial
+) -> tuple[SolidSkin, Floats]:
+    """A skin of wedges, on whose pads struts stand; and nodes for what hangs on its other side.
+
+    Args:
+        skin: the shells.
+        model: the beams, with `arms` at their nodes on the skin.
+        arms: those nodes.
+        material: of the skin.
+    """
+    mesh = wedge_mesh(skin.outside.vertices, skin.inside, skin.shells.triangles, skin.pads)
+    first = len(model.nodes)
+    tips = first - 3 * len(arms) + np.arange(3 * len(arms))
+    vertex = np.repeat(skin.pad_of(model.nodes[arms]), 3)
+    # A tip moves as the pad's inner border does on the whole: each of its nodes has an equal part
+    # of a force, and of a moment what a turn about their middle would give.
+    order = np.argsort(mesh.ring[:, 0], kind="stable")
+    pad, border = mesh.ring[order].T
+    low, high = np.searchsorted(pad, vertex), np.searchsorted(pad, vertex, "right")
+    most = int((high - low).max(initial=1))
+    column = low[:, None] + np.arange(most)
+    is_there = column < high[:, None]
+    leaders = border[np.minimum(column, len(border) - 1)]
+    number = np.maximum(is_there.sum(axis=1), 1)[:, None]
+    places = mesh.nodes[leaders]
+    middle = (places * is_there[:, :, None]).sum(axis=1) / number
+    arm = np.where(is_there[:, :, None], places - middle[:, None], 0.0)
+    inertia = (arm**2).sum(axis=(1, 2))[:, None, None] * np.eye(3)
+    inertia -= np.einsum("qwi,qwj->qij", arm, arm)
+    lever = cross_matrix(model.nodes[tips] - middle) @ np.linalg.inv(inertia)
+    turned = lever[:, None] @ cross_matrix(arm.reshape(-1, 3)).reshape(*arm.shape, 3)
+    weights = np.where(is_there, 1.0 / number, 0.0)[:, :, None, None] * np.eye(3) - turned
+
+    own = mesh.inner[skin.joined.vertices]
+    own = own[own >= 0]
+    own, beyond, shares = beyond_inner(mesh, own)
+    more = mesh.nodes[own]
+    behind = first + len(mesh.nodes) + np.arange(len(more))
+    width = max(most, 15)
+    led = np.zeros((len(tips) + len(more), width), np.int64)
+    led[: len(tips), :most], led[len(tips) :, :15] = leaders, beyond
+    by = np.zeros((*led.shape, 3, 3))
+    by[: len(tips), :most] = weights
+    by[len(tips) :, :15] = shares[:, :, None, None] * np.eye(3)
+    solid = SolidSkin(
+        mesh,
+        np.concatenate([tips, behind]),
+        led + first,
+        by,
+        np.stack([own + first, behind], axis=1),
+        HELD_TOGETHER * material.young * float(skin.shells.thickness.mean()),
+    )
+    return solid, more
 
 
-def _buckling(case: Case, scale: float) -> str:
-    return "".join(["*STEP\n*BUCKLE\n4\n", *_loads(case, scale), "*END STEP\n"])
+def _on_solid(skin: SolidSkin, first: int, held: Bools, loads: Floats, moved: Floats) -> None:
+    """Brings what is held and loaded on the outside to solid elements, in place."""
+    mesh = skin.mesh
+    used = np.flatnonzero((mesh.outer >= 0) & (mesh.inner >= 0))
+    above, below = first + mesh.outer[used], first + mesh.inner[used]
+    felt = np.zeros((len(mesh.outer), 3))
+    felt[used] = loads[above, :3]
+    loads[first : first + len(mesh.nodes), :3] = mesh.spread(felt)
+    # A moment becomes a pair of forces across the skin.
+    arm = mesh.nodes[mesh.outer[used]] - mesh.nodes[mesh.inner[used]]
+    pair = np.cross(loads[above, 3:], arm) / (arm**2).sum(axis=1)[:, None]
+    loads[above, :3] += pair
+    loads[below, :3] -= pair
+    # Between two vertices that are held the skin is, too.
+    row = np.full(mesh.edges.max() + 1, -1, np.int64)
+    row[used] = above
+    ends = row[mesh.edges]
+    both = (ends >= 0).all(axis=1)
+    middle, ends = first + mesh.middles[both], ends[both]
+    held[middle] = held[ends].all(axis=1)
+    moved[middle] = moved[ends].mean(axis=1) * held[middle]
+    held[first:, 3:] = False
+    loads[first:, 3:] = 0.0
 
 
-def _frequencies(text: str) -> Floats:
-    """Hz, of CalculiX's table of eigenvalues."""
-    start = text.index("E I G E N V A L U E   O U T P U T")
-    rows = []
-    for line in text[start:].splitlines()[1:]:
-        parts = line.split()
-        if len(parts) == 5 and parts[0].isdigit():
-            rows.append(float(parts[3]))
-        elif rows:
-            break
-    return np.array(rows)
+def _used(struts: Ints, count: int) -> Bools:
+    """(n,) nodes that have a strut."""
+    result = np.zeros(count, bool)
+    result[struts.ravel()] = True
+    return result
 
 
-def _section_forces(path: Path) -> list[Floats]:
-    """For every static step (n, 7): node, and the six components of its section forces."""
-    tables: list[Floats] = []
-    found: list[list[float]] = []
-    inside = False
-    with path.open(encoding="ascii", errors="replace") as lines:
-        for line in lines:
-            if line.startswith(" -4  STRESS"):
-                inside, found = True, []
-            elif inside and line.startswith(" -1"):
-                values = line[13:].rstrip("\n")
-                found.append(
-                    [float(line[3:13])]
-                    + [float(values[k : k + _ROW]) for k in range(0, 6 * _ROW, _ROW)]
-                )
-            elif inside and line.startswith(" -3"):
-                tables.append(np.array(found))
-                inside = False
-    return tables
+def _free_ends(joined: Bools, struts: Ints, count: int) -> Bools:
+    """(n,) nodes at which a strut ends that no joint stiffens."""
+    result = np.zeros(count, bool)
+    result[struts[~joined]] = True
+    return result

@@ -11,6 +11,7 @@ from scipy import sparse
 from scipy.linalg import eigh
 from scipy.sparse.linalg import LinearOperator, eigsh
 
+from ..fem.model import Case
 from ..util.types import Bools, Floats, Ints
 from .block_matrix import BlockPattern, Factored, definite, factorise, mask_fixed
 from .strut_results import Columns
@@ -23,25 +24,6 @@ _NEAR_BUCKLING, _SHIFTS = 0.15, 12
 _LOOSE = 1e-3
 #: Matrices of no more rows are solved as full ones.
 _FEW = 120
-
-
-@dataclass(frozen=True, eq=False)
-class Case:
-    """Loads that act together, on the nodes.
-
-    Attributes:
-        held: (n, 6) bool, which displacements (x, y, z) and turns are given.
-        loads: (n, 6) forces, N, and moments, N mm.
-        moved: (n, 6) mm and radians, how what is held is moved; None for not at all.
-        acceleration: (3,) mm/s2, what pulls at all that has a mass.
-        name: for messages and reports.
-    """
-
-    held: Bools
-    loads: Floats
-    moved: Floats | None = None
-    acceleration: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    name: str = "load"
 
 
 @dataclass(frozen=True, eq=False)

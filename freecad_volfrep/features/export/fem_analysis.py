@@ -104,7 +104,7 @@ def _beam_steps(
 ) -> Generator[float, None, Any]:
     """The analysis of beams: the share that is done after each step, and the analysis."""
     from freecad_volfrep.bridge.fem_meshes import beam_mesh, points_shape, runs_of
-    from volfrep.io.write.calculix import sides, stiff_materials, width_of_ends
+    from volfrep.fem.deck import sides, stiff_materials, width_of_ends
 
     runs = runs_of(model)
     if len(runs.section) > MOST_EDGES:
@@ -166,8 +166,8 @@ def _tetrahedral_steps(
         placed,
         resolve_base,
     )
+    from volfrep.fem.deck import sides
     from volfrep.fem.tet_mesh import nodes_on
-    from volfrep.io.write.calculix import sides
 
     solid, spec, _ = inputs_of(obj)
     solid = placed(solid, place_in_document(obj))

@@ -155,7 +155,7 @@ def _write_axes(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
 
 
 def _write_beams(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
-    from volfrep.io.write.calculix import write_beams
+    from volfrep.fem.deck import write_beams
     from volfrep.reports.estimate import estimate_beams
 
     model, on_wall = beams_of(obj)
@@ -194,8 +194,8 @@ def beams_of(obj: App.DocumentObject, **options: Any) -> tuple[BeamMesh, np.ndar
 def _write_tetrahedra(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
     from freecad_volfrep.bridge.beams import place_in_document
     from freecad_volfrep.bridge.solids import placed
+    from volfrep.fem.deck import write_tetrahedra
     from volfrep.fem.tet_mesh import nodes_on
-    from volfrep.io.write.calculix import write_tetrahedra
     from volfrep.worker.engine_process import Call
 
     solid = placed(inputs_of(obj)[0], place_in_document(obj))

@@ -10,9 +10,9 @@ import pytest
 from volfrep import LatticeSpec
 from volfrep.fem.beam_mesh import JOINT_LENGTH, beam_model, fitted_beams
 from volfrep.fem.calculix import solve
+from volfrep.fem.deck import sides, write_beams
 from volfrep.fem.model import StaticStep
 from volfrep.grid.strut_graph import Wireframe
-from volfrep.io.write.calculix import sides, write_beams
 from volfrep.jobs.blocks import block, block_wireframe
 from volfrep.mechanics.materials import Material
 from volfrep.util.errors import VolfrepError
@@ -185,19 +185,6 @@ def total_force(path: Path) -> float:
     start = next(k for k, line in enumerate(lines) if "total force" in line)
     values = next(line.split() for line in lines[start + 1 :] if line.strip())
     return float(values[0])
-
-
-@needs_calculix
-def test_calculix_says_what_is_wrong(tmp_path: Path):
-    (tmp_path / "bad.inp").write_text("*NODE\n1,0,0,0\n*STEP\n*STATIC\n*END STEP\n")
-    with pytest.raises(VolfrepError, match="did not solve"):
-        solve(tmp_path / "bad.inp")
-
-
-def test_without_calculix(tmp_path: Path, monkeypatch):
-    monkeypatch.setenv("PATH", str(tmp_path))
-    with pytest.raises(VolfrepError, match="not installed"):
-        solve(tmp_path / "any.inp")
 
 
 @pytest.mark.parametrize(("radius", "told"), [(1.5, False), (1.6, True)])

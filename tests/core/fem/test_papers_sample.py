@@ -16,11 +16,11 @@ from volfrep import LatticeSpec
 from volfrep.design.cells import LIBRARY
 from volfrep.fem.beam_mesh import beam_model
 from volfrep.fem.calculix import solve
+from volfrep.fem.deck import write_beams, write_tetrahedra
 from volfrep.fem.joint_loads import balls_of, joint_displacements, joint_step, side_joints
 from volfrep.fem.model import StaticStep
 from volfrep.fem.tet_mesh import TetrahedralMesh, tetrahedra
 from volfrep.io.freecad_process import write_exact_step
-from volfrep.io.write.calculix import write_beams, write_tetrahedra
 from volfrep.jobs.blocks import block, block_wireframe
 from volfrep.mechanics.catalogue import joint_law
 from volfrep.util.errors import VolfrepError

@@ -12,10 +12,10 @@ import samples
 from volfrep import LatticeSpec
 from volfrep.fem import tet_mesh
 from volfrep.fem.calculix import solve
+from volfrep.fem.deck import sides, write_tetrahedra
 from volfrep.fem.fins import folded_facets
 from volfrep.fem.model import StaticStep
 from volfrep.fem.tet_mesh import MAX_TRIANGLES, mend_surface, nodes_on, tetrahedra
-from volfrep.io.write.calculix import sides, write_tetrahedra
 from volfrep.jobs.blocks import block
 from volfrep.jobs.pipeline import fill
 from volfrep.mechanics.materials import Material

@@ -16,7 +16,7 @@ import pytest
 
 from volfrep.design.cells import LIBRARY, joint_radius
 from volfrep.fem import tet_mesh
-from volfrep.io.write.calculix import write_tetrahedra
+from volfrep.fem.deck import write_tetrahedra
 from volfrep.mechanics.density import radius_of_density
 from volfrep.mechanics.homogenise import homogenise
 from volfrep.mechanics.materials import Material

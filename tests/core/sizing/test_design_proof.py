@@ -17,7 +17,7 @@ from volfrep.loads.regions import InPlane
 from volfrep.mechanics.materials import find_material
 from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.sizing.analysis import Limits
-from volfrep.sizing.design_proof import Proved, doubts
+from volfrep.sizing.proof import Proved, doubts
 
 needs_calculix = pytest.mark.skipif(
     shutil.which("ccx") is None, reason="CalculiX (ccx) is not installed"

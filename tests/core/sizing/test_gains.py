@@ -15,11 +15,11 @@ import trimesh
 from volfrep import LatticeSpec
 from volfrep.design.cells import PAPERS
 from volfrep.fem.calculix import solve
+from volfrep.fem.deck import write_tetrahedra
 from volfrep.fem.joint_loads import balls_of
 from volfrep.fem.model import StaticStep
 from volfrep.fem.tet_mesh import tetrahedra
 from volfrep.io.solid import check_solid
-from volfrep.io.write.calculix import write_tetrahedra
 from volfrep.jobs.infill import Infill
 from volfrep.jobs.sizing import Goal, size
 from volfrep.loads.load_cases import Force, LoadCase, LoadCases, Support

@@ -6,6 +6,7 @@ import pytest
 import trimesh
 from manifold3d import CrossSection, Manifold
 
+from volfrep.fem.model import Case
 from volfrep.fem.wedge_mesh import corner_angles, upright, vertex_planes
 from volfrep.loads.load_cases import Force, LoadCase, Support
 from volfrep.loads.nodal_loads import Body, nodal_case
@@ -16,7 +17,7 @@ from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.sizing.shell_elements import shells_of
 from volfrep.sizing.skin import Feet, skin_model, ties_to
 from volfrep.sizing.skin_mesh import even_surface
-from volfrep.sizing.structure import Case, Structure
+from volfrep.sizing.structure import Structure
 from volfrep.sizing.tapered_beams import Elastic, beams_of
 from volfrep.spatial.proximity import closest_points
 

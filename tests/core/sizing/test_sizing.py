@@ -9,6 +9,7 @@ import trimesh
 
 from volfrep import LatticeSpec
 from volfrep.design.cells import LIBRARY, PAPERS
+from volfrep.fem.model import Case
 from volfrep.grid.strut_graph import Graph
 from volfrep.jobs.blocks import block, block_wireframe
 from volfrep.jobs.sizing import radius_field
@@ -16,7 +17,6 @@ from volfrep.mechanics.catalogue import joint_law
 from volfrep.mechanics.frame import SQUARE_SECTION
 from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.sizing.analysis import Limits, Problem, analyse
-from volfrep.sizing.design_proof import Proved, correct_problem
 from volfrep.sizing.node_radii import (
     NodeRadii,
     largest_radii,
@@ -24,7 +24,8 @@ from volfrep.sizing.node_radii import (
     whole_struts,
 )
 from volfrep.sizing.optimise import HOLDS, cheapest, lightest, stiffest, thicken, uniform
-from volfrep.sizing.structure import Case, Structure
+from volfrep.sizing.proof import Proved, correct_problem
+from volfrep.sizing.structure import Structure
 from volfrep.sizing.tapered_beams import Elastic, beams_of, end_table
 from volfrep.sizing.union_volume import union_volume
 from volfrep.util.errors import VolfrepError

@@ -10,13 +10,15 @@ from scipy.optimize import brentq
 from volfrep import LatticeSpec
 from volfrep.design.cells import LIBRARY, PAPERS
 from volfrep.fem.beam_mesh import beam_model
+from volfrep.fem.model import Case
+from volfrep.fem.solved_frame import solve_frame
 from volfrep.grid.strut_graph import Wireframe
 from volfrep.jobs.blocks import block_wireframe
 from volfrep.mechanics.catalogue import joint_law
 from volfrep.mechanics.frame import SQUARE_SECTION, PeriodicFrame, Section, frame_tensor
 from volfrep.mechanics.materials import Material
-from volfrep.sizing.proof import end_stresses, prove
-from volfrep.sizing.structure import Case, Structure, Ties
+from volfrep.sizing.proof import end_stresses
+from volfrep.sizing.structure import Structure, Ties
 from volfrep.sizing.strut_results import buckling_loads, columns_of, stresses
 from volfrep.sizing.tapered_beams import (
     Elastic,
@@ -275,7 +277,7 @@ def test_tapered_lattices_move_swing_and_are_stressed_as_calculix_says(cell, cou
     moved, _ = structure.displacements(radii, [case])
     swings, _ = structure.modes(radii, held, 6)
     model = beam_model(frame, joint_law=law, elements_per_strut=12, radius_tolerance=0.002)
-    found = prove(model, Material("STEEL", 210_000.0, 0.3, 7.85), [case], modes=6)
+    found = solve_frame(model, Material("STEEL", 210_000.0, 0.3, 7.85), [case], modes=6)
     theirs = found.displacements[: len(frame.nodes), :, 0]
     off = np.linalg.norm(theirs - moved[:, :3, 0]) / np.linalg.norm(theirs)
     assert off < 0.01

@@ -4,10 +4,11 @@
 import numpy as np
 import pytest
 
+from volfrep.fem.model import Case
 from volfrep.grid.strut_graph import Graph
 from volfrep.sizing.analysis import Limits, Problem, analyse
 from volfrep.sizing.node_radii import NodeRadii, whole_struts
-from volfrep.sizing.structure import Case, Structure
+from volfrep.sizing.structure import Structure
 from volfrep.sizing.strut_state import drawn_factor, strut_states, value_range
 from volfrep.sizing.tapered_beams import Elastic, beams_of
 from volfrep.sizing.union_volume import union_volume

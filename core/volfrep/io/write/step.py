@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import datetime
-from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,8 +11,6 @@ from numpy.typing import NDArray
 #: A real number as STEP wants it: with a point, and a capital E where it has an exponent.
 REAL = "%#.10G"
 POINT = f"({REAL},{REAL},{REAL})"
-#: Values that are put into one piece of text.
-VALUES = 1 << 19
 
 #: The first number that is free after `opening`, and what it defines: the context that
 #: representations refer to, and a placement that changes nothing.
@@ -77,24 +74,6 @@ def quoted(text: str) -> str:
         else:
             out.append(f"\\X4\\{ord(character):08X}\\X0\\")
     return "".join(out)
-
-
-def rows(template: str, *columns: NDArray[np.generic]) -> Iterator[bytes]:
-    """The template once for every row of the columns, in pieces of about `VALUES` values.
-
-    Each column is (n,) or (n, k) and fills one or k places of the template in their order.
-    """
-    wide = [column.reshape(len(column), -1) for column in columns]
-    width = sum(column.shape[1] for column in wide)
-    step = max(1, VALUES // width)
-    for start in range(0, len(wide[0]), step):
-        parts = [column[start : start + step] for column in wide]
-        table = np.empty((len(parts[0]), width), object)
-        filled = 0
-        for part in parts:
-            table[:, filled : filled + part.shape[1]] = part
-            filled += part.shape[1]
-        yield ((template * len(table)) % tuple(table.ravel())).encode("ascii")
 
 
 def references(numbers: NDArray[np.int64]) -> str:

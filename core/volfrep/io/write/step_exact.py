@@ -25,8 +25,9 @@ from ...grid.strut_graph import Wireframe
 from ...util.errors import VolfrepError
 from ...util.files import replacing
 from ...util.progress import Monitor
+from ...util.text_rows import rows
 from ...util.types import Floats, Ints
-from .step import CLOSING, CONTEXT, FIRST_FREE, PLACEMENT, opening, product, references, rows
+from .step import CLOSING, CONTEXT, FIRST_FREE, PLACEMENT, opening, product, references
 
 #: Joints must meet within this, mm.
 TOLERANCE = 1e-6

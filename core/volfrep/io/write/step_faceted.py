@@ -18,19 +18,9 @@ from ...mesh.triangle_mesh import TriangleMesh, compact
 from ...util.errors import VolfrepError
 from ...util.files import replacing
 from ...util.progress import Monitor
+from ...util.text_rows import rows
 from ...util.types import Ints
-from .step import (
-    CLOSING,
-    CONTEXT,
-    FIRST_FREE,
-    PLACEMENT,
-    POINT,
-    REAL,
-    opening,
-    product,
-    references,
-    rows,
-)
+from .step import CLOSING, CONTEXT, FIRST_FREE, PLACEMENT, POINT, REAL, opening, product, references
 
 #: No program reads more of these faces in reasonable time (FreeCAD: a minute for a tenth).
 MAX_TRIANGLES = 1_000_000

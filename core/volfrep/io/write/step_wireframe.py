@@ -11,7 +11,8 @@ import numpy as np
 from ...grid.strut_graph import Wireframe
 from ...util.errors import VolfrepError
 from ...util.files import replacing
-from .step import CLOSING, CONTEXT, FIRST_FREE, PLACEMENT, POINT, opening, product, references, rows
+from ...util.text_rows import rows
+from .step import CLOSING, CONTEXT, FIRST_FREE, PLACEMENT, POINT, opening, product, references
 
 #: Bytes and seconds of a file, per strut; measured on lattices of 5,000 to 500,000 struts.
 BYTES_PER_STRUT = 60

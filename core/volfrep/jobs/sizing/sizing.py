@@ -18,9 +18,9 @@ from ...loads.load_cases import LoadCases
 from ...mesh.triangle_mesh import TriangleMesh
 from ...reports.sizing_report import sizing_report
 from ...sizing.analysis import Analysis, Limits, Problem, analyse
-from ...sizing.design_proof import Proved, correct_problem, prove_design
 from ...sizing.model import SizingModel
 from ...sizing.optimise import Sized, Step, Watch, lightest, stiffest, thicken, uniform
+from ...sizing.proof import Proved, correct_problem, prove_design
 from ...sizing.strut_state import StrutState, strut_states
 from ...util.cache import StageCache
 from ...util.errors import Cancelled, VolfrepError

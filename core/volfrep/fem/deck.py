@@ -9,14 +9,14 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ...fem.beam_mesh import BeamMesh
-from ...fem.model import StaticStep
-from ...fem.tet_mesh import TetrahedralMesh
-from ...mechanics.frame import Ends
-from ...mechanics.materials import Material
-from ...util.files import replacing
-from ...util.types import Floats, Ints
-from .step import rows
+from ..mechanics.frame import Ends
+from ..mechanics.materials import Material
+from ..util.files import replacing
+from ..util.text_rows import rows
+from ..util.types import Floats, Ints
+from .beam_mesh import BeamMesh
+from .model import StaticStep
+from .tet_mesh import TetrahedralMesh
 
 #: Side of the square whose second moment of area is that of a circle of radius 1.
 SQUARE = (3.0 * np.pi) ** 0.25
@@ -29,6 +29,8 @@ BYTES_PER_BEAM = 57
 WRITE_SECONDS_PER_BEAM = 1e-6
 SOLVE_SECONDS_PER_BEAM = 4e-4
 _PER_LINE = 10
+#: Numbers a line of an element; its other nodes stand on the next one.
+_ENTRIES = 12
 
 
 def sides(nodes: Floats) -> dict[str, Ints]:
@@ -79,8 +81,7 @@ def write_beams(
     with replacing(path) as file:
         file.writelines(_opening("beams with stiff ends", model.nodes, sets))
         for name, chosen, _, _, _ in groups:
-            file.write(f"*ELEMENT,TYPE=B31,ELSET={name}\n".encode())
-            file.writelines(rows("%d,%d,%d\n", chosen + 1, model.elements[chosen] + 1))
+            file.writelines(element_block("B31", name, chosen, model.elements[chosen]))
         for whole, stiff in (("STRUTS", False), ("ENDS", True)):
             own = [name for name, _, is_joint, _, _ in groups if is_joint == stiff]
             if own:
@@ -124,15 +125,28 @@ def write_tetrahedra(
     """
     material = material or Material()
     named = {**sides(mesh.nodes), **(sets or {})}
-    number = np.arange(1, len(mesh.elements) + 1)
+    number = np.arange(len(mesh.elements))
     with replacing(path) as file:
         file.writelines(_opening("second-order tetrahedra", mesh.nodes, named))
-        file.write(b"*ELEMENT,TYPE=C3D10,ELSET=EALL\n")
-        file.writelines(rows("%d" + ",%d" * 10 + "\n", number, mesh.elements + 1))
+        file.writelines(element_block("C3D10", "EALL", number, mesh.elements))
         file.write(_material(material, 1.0, material.name))
         file.write(f"*SOLID SECTION,ELSET=EALL,MATERIAL={material.name}\n".encode())
         if step is not None:
             file.writelines(_step(step, rotations=False))
+
+
+def node_block(nodes: Floats) -> Iterator[bytes]:
+    """All nodes, mm, numbered from 1."""
+    yield b"*NODE,NSET=NALL\n"
+    yield from rows("%d,%.12g,%.12g,%.12g\n", np.arange(1, len(nodes) + 1), nodes)
+
+
+def element_block(kind: str, name: str, numbers: Ints, nodes: Ints) -> Iterator[bytes]:
+    """A set of elements of one kind; (e,) and (e, k) both count from 0 here, from 1 in the deck."""
+    yield f"*ELEMENT,TYPE={kind},ELSET={name}\n".encode()
+    entries = ["%d"] * (1 + nodes.shape[1])
+    lines = [",".join(entries[k : k + _ENTRIES]) for k in range(0, len(entries), _ENTRIES)]
+    yield from rows("\n".join(lines) + "\n", numbers + 1, nodes + 1)
 
 
 def width_of_ends(ends: Ends) -> float:
@@ -178,8 +192,8 @@ def _groups(model: BeamMesh) -> list[tuple[str, Ints, bool, int, str]]:
 
 
 def _opening(title: str, nodes: Floats, sets: Mapping[str, Ints]) -> Iterator[bytes]:
-    yield f"*HEADING\nVOLFREP, {title}; mm, N, MPa, t/mm3\n*NODE,NSET=NALL\n".encode()
-    yield from rows("%d,%.12g,%.12g,%.12g\n", np.arange(1, len(nodes) + 1), nodes)
+    yield f"*HEADING\nVOLFREP, {title}; mm, N, MPa, t/mm3\n".encode()
+    yield from node_block(nodes)
     for name, chosen in sets.items():
         if len(chosen):
             yield f"*NSET,NSET={name}\n".encode()

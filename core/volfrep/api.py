@@ -28,7 +28,7 @@ from .design.cells import find_cell
 from .design.graphs import make_network, read_network
 from .design.spec import LatticeSpec
 from .design.spec_parts import first_radius
-from .design.target import AIMS, Target, read_stiffness
+from .design.target import AIMS, THICKNESSES, read_target
 from .design.tpms import FORMULA, TpmsSheet, find_surface, surface_name
 from .grid.strut_graph import Wireframe
 from .io.solid import Solid, check_solid, read_solid
@@ -408,7 +408,7 @@ def specified(
         solid = find_material(material)
         young = solid.young
         parameters = {"density": solid.density, **parameters}
-    parameters = _with_target(_with_wall(parameters, spec), spec, young)
+    parameters = _with_wall(_with_target(parameters, spec, young), spec)
     if spec is None:
         return LatticeSpec(**parameters)
     return dataclasses.replace(spec, **parameters) if parameters else spec
@@ -439,21 +439,12 @@ def _with_target(
     parameters: dict[str, Any], spec: LatticeSpec | None, young: float
 ) -> dict[str, Any]:
     """The parameters with a `Target` in place of what one is given by."""
-    given = [name for name in ("strut_radius", *AIMS, "target") if parameters.get(name) is not None]
-    if len(given) > 1:
-        raise VolfrepError(
-            f"{', '.join(given[:-1])} and {given[-1]} each say how thick the struts are: give one "
-            "of them."
-        )
+    target = read_target(parameters, young)
     rest = {name: value for name, value in parameters.items() if name not in AIMS}
-    if given == ["strut_radius"] and spec is not None:
+    if target is not None:
+        usual = spec or LatticeSpec()
+        size, fillet = (parameters.get(n, getattr(usual, n)) for n in ("cell_size", "fillet"))
+        rest |= {"target": target, "strut_radius": first_radius(size, fillet)}
+    elif spec is not None and any(rest.get(name) is not None for name in THICKNESSES):
         rest["target"] = None
-    if not given or given[0] not in AIMS:
-        return rest
-    aim = given[0]
-    value = parameters[aim]
-    rest["target"] = read_stiffness(value, young) if aim == "stiffness" else Target(aim, value)
-    usual = spec or LatticeSpec()
-    size, fillet = (parameters.get(n, getattr(usual, n)) for n in ("cell_size", "fillet"))
-    rest["strut_radius"] = first_radius(size, fillet)
     return rest

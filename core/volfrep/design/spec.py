@@ -294,6 +294,15 @@ class LatticeSpec:
         """Whether skin and lattice are asked for as one part."""
         return self.output == "part" and self.skin is not None
 
+    def skin_volume(self, whole: float, inside: float) -> float:
+        """Volume of the skin that is asked for with the lattice, mm3; 0 where none is.
+
+        Args:
+            whole: volume of the solid, mm3.
+            inside: of what lies within the skin, mm3.
+        """
+        return abs(whole) - inside if self.with_skin else 0.0
+
     @property
     def is_cut(self) -> bool:
         """Whether a wall cuts what is asked for."""

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,6 +13,8 @@ from ..util.numbers import number
 
 #: What can be aimed at, as parameters and files call it.
 AIMS = ("relative_density", "mass", "stiffness")
+#: What says how thick struts or walls are in place of a target.
+THICKNESSES = ("strut_radius", "wall_thickness", "wall_offset")
 _AXES = {"100": (1.0, 0.0, 0.0), "110": (1.0, 1.0, 0.0), "111": (1.0, 1.0, 1.0)}
 
 
@@ -77,6 +80,42 @@ class Target:
             result["direction"] = list(self.direction)
             result["unit"] = "the solid's Young's modulus" if self.young == 1.0 else "MPa"
         return result
+
+
+def read_target(
+    values: Mapping[str, Any], young: float = 1.0, say: Callable[[str], str] = str
+) -> Target | None:
+    """The target that is among values by name; None where none is.
+
+    Args:
+        values: by the names of `AIMS`, of which a stiffness is a text as `read_stiffness` takes it
+            or its modulus and direction, and of `THICKNESSES`; `target` is one that is made
+            already. None stands for a value that is not given.
+        young: the solid's Young's modulus, MPa; 1 where a stiffness is in units of it.
+        say: how to call a value in an error.
+
+    Raises:
+        VolfrepError: it makes no sense, or several values say how thick struts or walls are.
+
+    >>> read_target({"mass": 20.0, "strut_radius": None}).value
+    20.0
+    """
+    given = [n for n in (*THICKNESSES, *AIMS, "target") if values.get(n) is not None]
+    if not given or given[-1] in THICKNESSES:
+        return None
+    if len(given) > 1:
+        both = f"{', '.join(say(name) for name in given[:-1])} and {say(given[-1])}"
+        what = "walls" if any("wall" in name for name in given) else "struts"
+        raise VolfrepError(f"{both} each say how thick the {what} are: give one of them.")
+    aim, value = given[0], values[given[0]]
+    if isinstance(value, Target):
+        return value
+    if aim != "stiffness":
+        return Target(aim, float(value))
+    if isinstance(value, tuple):
+        modulus, direction = value
+        return Target(aim, modulus, direction, young)
+    return read_stiffness(value, young)
 
 
 def read_stiffness(text: str, young: float = 1.0) -> Target:

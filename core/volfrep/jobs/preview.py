@@ -120,7 +120,7 @@ def _shown(
     # Of struts of the radius 1 mm, as it would be if they did not meet.
     bare = float(np.pi * (length * piece_radii.prod(axis=1)).sum()) / spec.template_radius**2
     domain = depth.volume_below(spec.shell)
-    skin = abs(solid.volume) - domain if spec.output == "part" else 0.0
+    skin = spec.skin_volume(solid.volume, domain)
     if spec.network is not None:
         lattice = graph_volume(frame, spec, depth.points_below(spec.shell), domain)
     else:
@@ -144,7 +144,7 @@ def _aimed_network(
     target, domain = spec.target, depth.volume_below(spec.shell)
     assert target is not None
     points = depth.points_below(spec.shell)
-    skin = abs(solid.volume) - domain if spec.with_skin else 0.0
+    skin = spec.skin_volume(solid.volume, domain)
     wanted = target.lattice_volume(spec.density, domain, skin)
     weights = np.full(len(points), domain / max(len(points), 1))
     return with_radius(

@@ -99,7 +99,7 @@ def solve_target_roughly(solid: TriangleMesh, spec: LatticeSpec) -> LatticeSpec:
     # Struts that are deformed with their cells keep their share of them.
     one = cell_volume(spec) if spec.keep_radius else size**3
     bare = float(np.pi * length * inside / one)
-    skin = whole - inside if spec.with_skin else 0.0
+    skin = spec.skin_volume(whole, inside)
     volume = target.lattice_volume(spec.density, inside, skin)
     low, high = radius_range(spec)
     # What the skin takes is known about only: the forecast refuses nothing.

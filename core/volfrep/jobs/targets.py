@@ -115,7 +115,7 @@ def solve_target(
     monitor, domain = infill.monitor, infill.domain.mesh.volume
     frame = infill.struts
     with monitor.stage("target", 0.4, 0.4):
-        skin = abs(solid.volume) - domain if spec.with_skin else 0.0
+        skin = spec.skin_volume(solid.volume, domain)
 
         def table(fineness: int, largest: float) -> VolumeByRadius:
             if spec.is_cut:

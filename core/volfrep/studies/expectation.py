@@ -57,7 +57,7 @@ def expect(solid: TriangleMesh, spec: LatticeSpec, depth: PartDepth) -> Expectat
             f"The part is nowhere thicker than two walls of {spec.shell:g} mm, so that nothing is "
             "left to fill: reduce the shell thickness."
         )
-    skin = abs(solid.volume) - inside if spec.with_skin else 0.0
+    skin = spec.skin_volume(solid.volume, inside)
     if spec.output != "domain" and (spec.surface is not None or spec.network is not None):
         return _expected_otherwise(solid, spec, depth)
     spec = solve_design_roughly(spec, inside, skin)

@@ -79,6 +79,7 @@ def apply_recipe(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
         VolfrepError: the file cannot be read or makes no sense; nothing is changed.
     """
     from volfrep.design.parameters.spec_file import read_spec, read_values
+    from volfrep.design.target import read_target
 
     values = read_values(path)
     read_spec(path)  # says what makes no sense
@@ -86,16 +87,15 @@ def apply_recipe(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
     if cell.lower().endswith(".json"):
         values["cell_file"], cell = cell, CUSTOM_CELL
     _set(obj, "CellType", _known_cell(obj, cell))
-    driver = next((aim for aim in _TARGETS if aim in values), None)
-    _set(obj, "RadiusDrivenBy", "Radius" if driver is None else _TARGETS[driver][0])
-    if driver == "stiffness":
-        from volfrep.design.target import read_stiffness
-
-        aim = read_stiffness(values[driver])
-        _set(obj, "TargetStiffness", aim.value)
-        _set(obj, "StiffnessDirection", App.Vector(*aim.direction))
-    elif driver is not None:
-        _set(obj, _TARGETS[driver][1], values[driver])
+    target = read_target(values)
+    if target is None:
+        _set(obj, "RadiusDrivenBy", "Radius")
+    else:
+        driver, name = _TARGETS[target.aim]
+        _set(obj, "RadiusDrivenBy", driver)
+        _set(obj, name, target.value)
+    if target is not None and target.direction is not None:
+        _set(obj, "StiffnessDirection", App.Vector(*target.direction))
     for parameter in PARAMETERS:
         if parameter.in_freecad and (parameter.in_command or parameter.name == "cell_file"):
             _apply(obj, parameter, values)

@@ -34,6 +34,11 @@ _LOOKED_UP = ("link", "faces", "points", "lengths")
 _DECIMALS = 9
 
 
+#: What holds the target of what drives the radius.
+_DRIVEN_BY = {
+    "relative density": "target_density", "mass": "target_mass", "stiffness": "target_stiffness",
+}  # fmt: skip
+
 #: The properties that say the values.
 SOURCES = frozenset(
     name
@@ -114,23 +119,20 @@ def _target(values: dict[str, Any], material: SolidMaterial | None) -> Target | 
     Raises:
         VolfrepError: it makes no sense, or a stiffness has no material.
     """
-    from volfrep.design.target import Target
+    from volfrep.design.target import read_target
     from volfrep.util.errors import VolfrepError
 
     driver = values["radius_driven_by"]
     if driver == "radius":
         return None
-    if driver == "relative density":
-        return Target("relative_density", values["target_density"])
-    if driver == "mass":
-        return Target("mass", values["target_mass"])
-    if material is None:
-        raise VolfrepError(
-            "A stiffness that drives the radius is that of a material: choose a PrintMaterial."
-        )
-    return Target(
-        "stiffness", values["target_stiffness"], values["stiffness_direction"], material.young
-    )
+    value, young = values[_DRIVEN_BY[driver]], 1.0
+    if driver == "stiffness":
+        if material is None:
+            raise VolfrepError(
+                "A stiffness that drives the radius is that of a material: choose a PrintMaterial."
+            )
+        value, young = (value, values["stiffness_direction"]), material.young
+    return read_target({driver.replace(" ", "_"): value}, young)
 
 
 def _plain(obj: App.DocumentObject, parameter: Parameter) -> Any:

@@ -17,7 +17,7 @@ from ..skins.kept_bodies import KeptBody, read_body
 from ..skins.own_faces import FaceSkin, KeptFace
 from ..spec import LatticeSpec
 from ..spec_parts import first_radius
-from ..target import AIMS, Target, read_stiffness, stiffness_text
+from ..target import THICKNESSES, Target, read_target, stiffness_text
 from ..tpms import FORMULA, SURFACES, PeriodicSurface, TpmsSheet, find_surface, surface_name
 from .parameter import Need, effective
 from .table import BY_NAME, PARAMETERS, TWO_ENDED
@@ -194,10 +194,10 @@ def values_of(spec: LatticeSpec) -> dict[str, Any]:
     if spec.target is not None:
         aim = spec.target.aim
         found[aim] = stiffness_text(spec.target) if aim == "stiffness" else spec.target.value
-        for name in _THICKNESS:
+        for name in THICKNESSES:
             found.pop(name, None)
     _, idle = effective(PARAMETERS, found)
-    always = ("cell", "cell_size", "shell", *(name for name in _THICKNESS if name not in idle))
+    always = ("cell", "cell_size", "shell", *(name for name in THICKNESSES if name not in idle))
     return {
         name: value
         for name, value in found.items()
@@ -212,25 +212,17 @@ def _target(values: Mapping[str, Any], used: Mapping[str, Any], say: Naming) -> 
     Raises:
         VolfrepError: several values say how thick struts are, or there are none to be chosen.
     """
-    given = [name for name in (*_THICKNESS, *AIMS) if values.get(name) is not None]
-    aims = [name for name in given if name in AIMS]
-    if not aims:
+    target = read_target(values, say=say)
+    if target is None:
         return None
-    if len(given) > 1:
-        both = f"{', '.join(say(name) for name in given[:-1])} and {say(given[-1])}"
-        what = "walls" if "wall" in both else "struts"
-        raise VolfrepError(f"{both} each say how thick the {what} are: give one of them.")
-    aim = aims[0]
     for other, word in (("radius_grading", "none"), ("make", None)):
         value = used[other]
         if value != word and (word or value == "domain"):
             raise VolfrepError(
-                f"{say(aim)} chooses one radius for all struts, and has no effect with "
+                f"{say(target.aim)} chooses one radius for all struts, and has no effect with "
                 f"{say(other)} {value}: leave one of them out."
             )
-    if aim == "stiffness":
-        return read_stiffness(used[aim])
-    return Target(aim, float(used[aim]))
+    return target
 
 
 def _useless(name: str, need: Need, say: Naming) -> str:
@@ -330,9 +322,6 @@ def _cell_map(used: Mapping[str, Any]) -> CellMap | None:
         used["cell_map"], used["map_centre"], used["map_axis"], used["map_around"] or None
     )
 
-
-#: What says how thick struts or walls are.
-_THICKNESS = ("strut_radius", "wall_thickness", "wall_offset")
 
 #: Parameters of random networks, and what `RandomGraph` calls them.
 _NETWORK_VALUES = {

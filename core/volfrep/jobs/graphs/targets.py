@@ -36,7 +36,7 @@ def solve_graph_target(
     """
     spec, monitor = infill.spec, infill.monitor
     domain = infill.domain.mesh
-    skin = abs(infill.solid.volume) - domain.volume if spec.with_skin else 0.0
+    skin = spec.skin_volume(infill.solid.volume, domain.volume)
     wanted = WantedVolume(target, spec.density, domain.volume, skin)
 
     def room(frame: Wireframe) -> tuple[Floats, Floats]:

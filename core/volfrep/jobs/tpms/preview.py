@@ -65,7 +65,7 @@ def preview_tpms(
     where = _Where(spec, placement, grid, usable)
     sides = where.sided(points)
     domain = depth.volume_below(spec.shell)
-    skin = abs(solid.volume) - domain if spec.output == "part" else 0.0
+    skin = spec.skin_volume(solid.volume, domain)
     if spec.target is not None and spec.target.aim == "stiffness":
         spec = solve_tpms_stiffness(spec, spec.target, rough=True)
     elif spec.target is not None:

@@ -54,7 +54,7 @@ def solve_tpms_target(
         else:
             levels = part_levels(inside, start, solid, spec.cell_size, mapping)
         table = level_table(levels, weights)
-    skin = abs(infill.solid.volume) - domain.volume if spec.with_skin else 0.0
+    skin = spec.skin_volume(infill.solid.volume, domain.volume)
     wanted = WantedVolume(target, spec.density, domain.volume, skin)
 
     def make(volume: float) -> Infill:

@@ -372,7 +372,7 @@ def sized(folder: str) -> None:
     loads = read_load_cases(Path(__file__).with_name("bracket_loads.toml"), bracket)
     spec = LatticeSpec("CVC", cell_size=15, strut_radius=1.5, shell=3)
     assert loads.material.yield_stress is not None
-    goal = Goal(Limits(stress=loads.material.yield_stress / 1.5), radius_min=0.75)
+    goal = Goal(Limits(stress=loads.material.yield_stress / 1.5), thinnest=0.75)
     made = size(bracket, spec, loads, goal)
     for name, value in made.report.items():
         if name != "steps":

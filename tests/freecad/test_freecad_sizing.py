@@ -3,7 +3,6 @@
 
 import json
 import shutil
-from dataclasses import replace
 
 import FreeCAD as App
 import pytest
@@ -14,10 +13,10 @@ from freecad_volfrep.features.infill.live_preview import LivePreview
 from freecad_volfrep.features.sizing.sized_states import sized_states, why_no_states
 from freecad_volfrep.features.sizing.sizing import (
     GOALS,
-    Wish,
+    ONLY_OF,
     analyses_of,
     carried_by,
-    first_wish,
+    first_numbers,
     size_struts,
     solve_struts,
     store_outcome,
@@ -64,9 +63,10 @@ def upright(box):
     raise AssertionError
 
 
-def wish(**values):
+def sized(infill, analyses, told=None, *, goal="mass", prove=False, **numbers):
     """Least mass at half the yield stress, and no other solver, unless it says otherwise."""
-    return Wish(**{**vars(Wish("mass", 2.0, 0, 0, 0, 0, 0.3, 1.6, prove=False)), **values})
+    asked = {"safety": 2.0, "thinnest": 0.3, "thickest": 1.6, **numbers}
+    return size_struts(infill, analyses, asked, told, goal=goal, prove=prove)
 
 
 @pytest.mark.slow
@@ -75,8 +75,8 @@ def test_thin_struts_are_removed_and_stay_so_in_the_document(infill):
     analysis = analysis_of(doc, "one end")  # nothing is done to the other
     add(analysis, "Fixed", [(box, face_at(box, (20, 10, 0)))])
     add(analysis, "Force", [(box, face_at(box, (0, 10, 10)))], Force=600.0)
-    wished = {"safety": 4, "smallest": 0.4, "largest": 1.6, "prove": False}
-    outcome = size_lattice(infill, [analysis], **wished, remove=True)
+    wished = {"safety": 4, "thinnest": 0.4, "thickest": 1.6, "prove": False}
+    outcome = size_lattice(infill, [analysis], **wished, remove_thin=True)
     assert outcome.holds
     assert infill.RemoveBelow.Value > 0.4
     assert infill.RemoveDangling
@@ -91,9 +91,7 @@ def test_struts_are_sized_stored_and_stay_within_their_limits(infill):
     analyses = [loaded(infill)]
     assert analyses_of(infill) == analyses
     steps = []
-    outcome = size_struts(
-        infill, analyses, wish(displacement=0.3, buckling=1.0, prove=True), steps.append
-    )
+    outcome = sized(infill, analyses, steps.append, max_displacement=0.3, buckling=1.0, prove=True)
     assert outcome.holds
     assert len(steps) + 1 == len(outcome.steps) > 3
     stress = max(state.stress.max() for state in outcome.states)
@@ -138,7 +136,7 @@ def test_struts_are_sized_stored_and_stay_within_their_limits(infill):
 
 def test_what_struts_carry_is_kept_with_the_document(infill, tmp_path):
     analysis = loaded(infill)
-    outcome = size_struts(infill, [analysis], wish())
+    outcome = sized(infill, [analysis])
     store_outcome(infill, outcome)
     name, path = infill.Name, str(tmp_path / "sized.FCStd")
     infill.Document.saveCopy(path)
@@ -167,7 +165,7 @@ def test_colours_peak_where_the_design_does(infill, tmp_path):
     """With a skin, whose triangles follow the struts it was sized with: one figure, not two."""
     infill.ShellThickness = 1
     analyses = [loaded(infill), loaded(infill, "light", 50.0)]
-    outcome = size_struts(infill, analyses, wish(safety=0, displacement=0.05))
+    outcome = sized(infill, analyses, safety=0, max_displacement=0.05)
     store_outcome(infill, outcome)
     told = max(row[1] for table in outcome.tables() for row in table.rows
                if row[0] == "largest stress, MPa")  # fmt: skip
@@ -197,12 +195,12 @@ def test_colours_peak_where_the_design_does(infill, tmp_path):
 
 def test_the_stiffest_struts_of_a_mass_beat_one_radius(infill):
     analyses = [loaded(infill)]
-    outcome = size_struts(infill, analyses, wish(goal="stiffness"))
+    outcome = sized(infill, analyses, goal="stiffness")
     before, after = outcome.part.before, outcome.part.sized.analysis
     assert after.volume == pytest.approx(before.volume, rel=2e-3)
     assert before.compliance[0] > 1.3 * after.compliance[0]
     assert "times as stiff" in outcome.summary()
-    heavier = size_struts(infill, analyses, wish(goal="stiffness", mass=1.5 * outcome.mass))
+    heavier = sized(infill, analyses, goal="stiffness", strut_mass=1.5 * outcome.mass)
     assert heavier.mass == pytest.approx(1.5 * outcome.mass, rel=5e-3)
 
 
@@ -211,7 +209,7 @@ def test_every_analysis_is_a_case(infill):
     states = solve_struts(infill)
     assert [state.name for state in states] == ["bend", "light"]
     assert states[0].stress == pytest.approx(4.0 * states[1].stress, rel=1e-6)
-    outcome = size_struts(infill, analyses[1:], wish())
+    outcome = sized(infill, analyses[1:])
     assert [state.name for state in outcome.states] == ["light"]
 
 
@@ -220,28 +218,28 @@ def test_what_cannot_be_sized_is_told(doc, infill):
         analyses_of(infill)
     analysis = loaded(infill)
     with pytest.raises(VolfrepError, match="No load case is chosen"):
-        size_struts(infill, [], wish())
+        sized(infill, [])
     with pytest.raises(VolfrepError, match="Least mass needs a limit"):
-        size_struts(infill, [analysis], wish(safety=0))
+        sized(infill, [analysis], safety=0)
     with pytest.raises(VolfrepError, match="must be above 0 and below the largest"):
-        size_struts(infill, [analysis], wish(smallest=2.0))
+        sized(infill, [analysis], thinnest=2.0)
     (material,) = [o for o in analysis.Group if o.isDerivedFrom("App::MaterialObject")]
     material.Material = {k: v for k, v in material.Material.items() if k != "YieldStrength"}
-    with pytest.raises(VolfrepError, match="has no YieldStrength, which a safety"):
-        size_struts(infill, [analysis], wish())
-    outcome = size_struts(infill, [analysis], wish(safety=0, displacement=1e-5))
+    with pytest.raises(VolfrepError, match="has no yield stress for safety"):
+        sized(infill, [analysis])
+    outcome = sized(infill, [analysis], safety=0, max_displacement=1e-5)
     assert not outcome.holds
     assert "The limit of displacement cannot be held" in outcome.summary()
 
 
 def test_a_script_sizes_in_one_call(infill):
     loaded(infill)
-    outcome = size_lattice(infill, safety=2, smallest=0.3, largest=1.6, prove=False)
+    outcome = size_lattice(infill, safety=2, thinnest=0.3, thickest=1.6, prove=False)
     assert outcome.holds
     assert infill.RadiusGrading == "Field"
     assert list(infill.SizedRadii) == pytest.approx(outcome.part.radii)
     assert json.loads(infill.SizingReport)["holds"] is True
-    with pytest.raises(VolfrepError, match="A wish has no 'safty': choose from goal, safety"):
+    with pytest.raises(VolfrepError, match="There is no goal 'safty': choose from max_stress"):
         size_lattice(infill, safty=2)
 
 
@@ -268,7 +266,7 @@ def test_a_random_network_is_sized_as_cells_are(doc):
 def test_a_target_gives_the_mass_that_is_distributed(infill):
     loaded(infill)
     infill.RadiusDrivenBy, infill.TargetDensity = "Relative density", 0.05
-    outcome = size_lattice(infill, goal="stiffness", smallest=0.3, largest=1.6, prove=False)
+    outcome = size_lattice(infill, goal="stiffness", thinnest=0.3, thickest=1.6, prove=False)
     assert "asks for struts of" in outcome.part.report["notes"][0]
     assert infill.RadiusDrivenBy == "Radius"
     assert infill.Proxy.update(infill), infill.Status
@@ -278,6 +276,6 @@ def test_a_target_gives_the_mass_that_is_distributed(infill):
 def test_an_infill_stays_as_it_is_until_radii_are_stored(infill):
     before = infill.Fingerprint, infill.RadiusGrading
     analysis = loaded(infill)
-    size_struts(infill, [analysis], replace(first_wish(infill), prove=False))
+    size_struts(infill, [analysis], first_numbers(infill), prove=False)
     assert (infill.Fingerprint, infill.RadiusGrading) == before
-    assert set(GOALS) == {"mass", "stiffness"}
+    assert set(GOALS) == set(ONLY_OF) == {"mass", "stiffness"}

@@ -76,8 +76,11 @@ def size_and_take(doc, obj):
     cases = part("Cases", QtGui.QListWidget)
     check("both analyses are offered", [cases.item(k).text() for k in range(cases.count())]
           == ["bend", "light"])  # fmt: skip
-    shown = {name: part(name).isVisible() for name in ("safety", "mass")}
-    check("the mass is asked for the most stiffness only", shown == {"safety": True, "mass": False})
+    shown = {name: part(name).isVisible() for name in ("safety", "strut_mass")}
+    check(
+        "the mass is asked for the most stiffness only",
+        shown == {"safety": True, "strut_mass": False},
+    )
     # So much that the thinnest struts alone do not bear it: else one radius is all that is found.
     click(part("safety"))
     xdotool("key", "ctrl+a")
@@ -199,8 +202,8 @@ def cancel_the_panel(doc, obj):
     goal = part("Goal", QtGui.QComboBox)
     goal.setCurrentIndex(goal.findData("stiffness"))
     settle()
-    shown = {name: part(name).isVisible() for name in ("safety", "mass")}
-    check("limits go with another goal", shown == {"safety": False, "mass": True}, shown)
+    shown = {name: part(name).isVisible() for name in ("safety", "strut_mass")}
+    check("limits go with another goal", shown == {"safety": False, "strut_mass": True}, shown)
     click(part("Prove"))
     check("a check by CalculiX may be left out", not part("Prove").isChecked())
     click(part("Size"))
@@ -220,7 +223,7 @@ def cancel_the_panel(doc, obj):
 def escape_keeps_the_best(doc, obj):
     """Escape ends a long search, and the best design so far can be taken."""
     open_panel(obj)
-    field = part("displacement")
+    field = part("max_displacement")
     click(field)
     xdotool("key", "ctrl+a")
     xdotool("type", "2")

@@ -4,8 +4,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, fields, replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import FreeCAD as App
@@ -21,8 +21,9 @@ from volfrep.util.errors import VolfrepError
 from .sized_states import is_sized_for, sized_states, store_states, why_no_states
 
 if TYPE_CHECKING:
-    from volfrep.jobs.sizing import SizedPart
+    from volfrep.jobs.sizing import Goal, SizedPart
     from volfrep.loads.load_cases import LoadCases
+    from volfrep.mechanics.materials import SolidMaterial
     from volfrep.sizing.optimise import Step
     from volfrep.sizing.strut_state import StrutState
 
@@ -31,11 +32,16 @@ GOALS = {
     "mass": QT_TRANSLATE_NOOP("VolfrepSizePanel", "Least mass"),
     "stiffness": QT_TRANSLATE_NOOP("VolfrepSizePanel", "Most stiffness"),
 }
+#: What says something for one of them only, by the names of `volfrep.jobs.sizing.GOALS`.
+ONLY_OF = {
+    "mass": ("max_stress", "safety", "max_displacement", "buckling", "min_frequency"),
+    "stiffness": ("strut_mass",),
+}
 #: The limits' names, marked for translation.
 LIMIT_NAMES = marked(
     "VolfrepSizePanel", "stress", "displacement", "buckling", "frame buckling", "frequency"
 )
-#: What a new wish begins with: safety against yield; radii over the present one.
+#: What the panel begins with: safety against yield; radii over the present one.
 FIRST_SAFETY, SMALLEST, LARGEST = 1.5, 0.5, 2.0
 NO_ANALYSIS = (
     "The document has no analysis with loads: make one with the FEM workbench, with a material and "
@@ -43,38 +49,9 @@ NO_ANALYSIS = (
 )
 
 
-@dataclass(frozen=True)
-class Wish:
-    """What is asked of a lattice; a limit of 0 is none.
-
-    Attributes:
-        goal: one of `GOALS`.
-        safety: yield stress over the largest von Mises stress.
-        displacement: the largest, mm.
-        buckling: how many times the load may be.
-        frequency: the lowest, Hz.
-        mass: of the struts, g, for the goal stiffness.
-        smallest: radius, mm.
-        largest: radius, mm.
-        prove: let CalculiX solve the design, where it is installed.
-        remove: take away struts that end as thin as they may be and carry little.
-    """
-
-    goal: str
-    safety: float
-    displacement: float
-    buckling: float
-    frequency: float
-    mass: float
-    smallest: float
-    largest: float
-    prove: bool = True
-    remove: bool = False
-
-
 @dataclass(frozen=True, eq=False)
 class Outcome:
-    """What came of a wish.
+    """What came of it.
 
     Attributes:
         part: the sized lattice, in the coordinates of the infill's group.
@@ -241,26 +218,31 @@ def analyses_of(obj: App.DocumentObject) -> list[App.DocumentObject]:
 def size_lattice(
     obj: App.DocumentObject,
     analyses: Sequence[App.DocumentObject] | None = None,
-    **wish: Any,
+    *,
+    goal: str = "mass",
+    prove: bool = True,
+    remove_thin: bool = False,
+    **numbers: float,
 ) -> Outcome:
     """Size an infill's struts and store the radii; ``doc.recompute()`` then makes the mesh.
 
     Args:
         obj: a lattice infill.
         analyses: of the FEM workbench, the load cases; None for all of the document.
-        **wish: attributes of a `Wish`, in place of those that the panel begins with: such as
-            ``goal="stiffness"``, ``safety=2``, ``displacement=0.1``, ``smallest=0.4``.
+        goal: one of `GOALS`.
+        prove: let CalculiX solve the design, where it is installed.
+        remove_thin: take away struts that end as thin as they may be and carry little.
+        **numbers: by the names of `volfrep.jobs.sizing.GOALS`, in place of those that the panel
+            begins with: such as ``safety=2``, ``max_displacement=0.1``, ``thinnest=0.4``.
 
     Raises:
-        VolfrepError: there is no such attribute, or as `size_struts`.
+        VolfrepError: there is no goal of such a name, or as `size_struts`.
         Cancelled: as `size_struts`.
     """
-    unknown = wish.keys() - {part.name for part in fields(Wish)}
-    if unknown:
-        names = ", ".join(part.name for part in fields(Wish))
-        raise VolfrepError(f"A wish has no '{min(unknown)}': choose from {names}.")
-    asked = replace(first_wish(obj), **wish)
-    outcome = size_struts(obj, analyses_of(obj) if analyses is None else analyses, asked)
+    outcome = size_struts(
+        obj, analyses_of(obj) if analyses is None else analyses, {**first_numbers(obj), **numbers},
+        goal=goal, prove=prove, remove_thin=remove_thin,
+    )  # fmt: skip
     store_outcome(obj, outcome)
     return outcome
 
@@ -277,25 +259,33 @@ def store_outcome(obj: App.DocumentObject, outcome: Outcome) -> None:
     store_states(obj, outcome.states, outcome.loads)
 
 
-def first_wish(obj: App.DocumentObject) -> Wish:
-    """What the panel begins with."""
+def first_numbers(obj: App.DocumentObject) -> dict[str, float]:
+    """What the panel begins with, by the names of `volfrep.jobs.sizing.GOALS`."""
     radius = obj.StrutRadius.Value
-    return Wish("mass", FIRST_SAFETY, 0.0, 0.0, 0.0, 0.0, SMALLEST * radius, LARGEST * radius)
+    return {"safety": FIRST_SAFETY, "thinnest": SMALLEST * radius, "thickest": LARGEST * radius}
 
 
 def size_struts(
     obj: App.DocumentObject,
     analyses: Sequence[App.DocumentObject],
-    wish: Wish,
+    numbers: Mapping[str, float],
     told: Callable[[tuple[str, ...]], None] | None = None,
+    *,
+    goal: str = "mass",
+    prove: bool = True,
+    remove_thin: bool = False,
 ) -> Outcome:
     """Size an infill's struts; the infill stays as it is (see `sized_radii.store_radii`).
 
     Args:
         obj: a lattice infill.
         analyses: of the FEM workbench, the load cases.
-        wish: what is wanted.
+        numbers: by the names of `volfrep.jobs.sizing.GOALS`; 0 is none. Limits say nothing for
+            the most stiffness, a mass nothing for the least.
         told: called on another thread with each step's row of the table of steps.
+        goal: one of `GOALS`.
+        prove: let CalculiX solve the design, where it is installed.
+        remove_thin: take away struts that end as thin as they may be and carry little.
 
     Raises:
         VolfrepError: no analysis is chosen, or what is asked for makes no sense or cannot be.
@@ -307,8 +297,8 @@ def size_struts(
 
     solid, spec, cache = obj.Proxy.wanted(obj)
     loads = loads_of(obj, analyses)
-    goal = _goal(wish, loads)
     density = loads.material.density
+    wanted = _wanted(goal, numbers, remove_thin, loads.material)
     steps: list[tuple[str, ...]] = []
 
     def watch(number: int, step: Step) -> bool:
@@ -321,8 +311,8 @@ def size_struts(
         job_title("Sizing {label}", obj),
         Call(
             size,
-            (solid, spec, loads, goal),
-            {"prove_it": wish.prove, "cache": cache},
+            (solid, spec, loads, wanted),
+            {"prove_it": prove, "cache": cache},
             heard={"watch": watch},
             keeps_best=True,
         ),
@@ -372,43 +362,24 @@ def carried_by(obj: App.DocumentObject, quantity: str) -> dict[str, Any]:
     return {"carried": (ends, states[quantity])}
 
 
-def _goal(wish: Wish, loads: LoadCases) -> Any:
+def _wanted(
+    goal: str, numbers: Mapping[str, float], remove_thin: bool, material: SolidMaterial
+) -> Goal:
     """What the engine is asked for.
 
     Raises:
-        VolfrepError: least mass without a limit, a safety without a yield stress, or radii that
-            make no sense.
+        VolfrepError: least mass without a limit, or as `volfrep.jobs.sizing.goal_of`.
     """
-    from volfrep.jobs.sizing import Goal
-    from volfrep.sizing.analysis import Limits
+    from volfrep.jobs.sizing import goal_of
 
-    if not 0.0 < wish.smallest < wish.largest:
-        raise VolfrepError(
-            f"The smallest radius must be above 0 and below the largest, not {wish.smallest:g} and "
-            f"{wish.largest:g} mm."
-        )
-    radii: dict[str, Any] = {"radius_min": wish.smallest, "radius_max": wish.largest}
-    radii["remove_thin"] = wish.remove
-    if wish.goal == "stiffness":
-        volume = 1000.0 * wish.mass / loads.material.density if wish.mass else None
-        return Goal(volume=volume, **radii)
-    stress = None
-    if wish.safety:
-        limit = loads.material.yield_stress
-        if limit is None:
-            raise VolfrepError(
-                f"The material '{loads.material.name}' has no YieldStrength, which a safety "
-                "against yield needs: edit it, or set the safety to 0."
-            )
-        stress = limit / wish.safety
-    limits = Limits(
-        stress, wish.displacement or None, wish.buckling or None, wish.frequency or None
-    )
-    if not limits.any:
+    idle = {name for kind, names in ONLY_OF.items() if kind != goal for name in names}
+    asked = {name: value for name, value in numbers.items() if value and name not in idle}
+    wanted = goal_of(material, asked)
+    if goal == "mass" and not wanted.limits.any:
         raise VolfrepError(
             "Least mass needs a limit: of stress, displacement, buckling, frequency."
         )
-    return Goal(limits=limits, **radii)
+    return replace(wanted, remove_thin=remove_thin)
 
 
 def _row(number: int, step: Step, density: float) -> tuple[str, ...]:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import FreeCAD as App
@@ -10,10 +11,10 @@ import FreeCADGui as Gui
 
 from freecad_volfrep.features.sizing.sizing import (
     GOALS,
+    ONLY_OF,
     Outcome,
-    Wish,
     analyses_of,
-    first_wish,
+    first_numbers,
     size_struts,
     store_outcome,
 )
@@ -37,7 +38,7 @@ HEADER = (
     QT_TRANSLATE_NOOP("VolfrepSizePanel", "Work, N mm"),
     QT_TRANSLATE_NOOP("VolfrepSizePanel", "Limit"),
 )
-#: Fields of a wish: name, label, decimals, unit, what it means.
+#: Fields: name of `volfrep.jobs.sizing.GOALS`, label, unit, what it means.
 FIELDS = (
     (
         "safety",
@@ -49,7 +50,7 @@ FIELDS = (
         ),
     ),
     (
-        "displacement",
+        "max_displacement",
         QT_TRANSLATE_NOOP("VolfrepSizePanel", "Displacement"),
         "mm",
         QT_TRANSLATE_NOOP(
@@ -67,7 +68,7 @@ FIELDS = (
         ),
     ),
     (
-        "frequency",
+        "min_frequency",
         QT_TRANSLATE_NOOP("VolfrepSizePanel", "Frequency, Hz"),
         "",
         QT_TRANSLATE_NOOP(
@@ -75,7 +76,7 @@ FIELDS = (
         ),
     ),
     (
-        "mass",
+        "strut_mass",
         QT_TRANSLATE_NOOP("VolfrepSizePanel", "Mass, g"),
         "",
         QT_TRANSLATE_NOOP(
@@ -84,13 +85,13 @@ FIELDS = (
         ),
     ),
     (
-        "smallest",
+        "thinnest",
         QT_TRANSLATE_NOOP("VolfrepSizePanel", "Smallest radius"),
         "mm",
         QT_TRANSLATE_NOOP("VolfrepSizePanel", "The thinnest strut that the process prints"),
     ),
     (
-        "largest",
+        "thickest",
         QT_TRANSLATE_NOOP("VolfrepSizePanel", "Largest radius"),
         "mm",
         QT_TRANSLATE_NOOP(
@@ -98,11 +99,6 @@ FIELDS = (
         ),
     ),
 )
-#: Which fields say something for a goal.
-OF_GOAL = {
-    "mass": ("safety", "displacement", "buckling", "frequency", "smallest", "largest"),
-    "stiffness": ("mass", "smallest", "largest"),
-}
 
 
 class SizePanel:
@@ -122,7 +118,7 @@ class SizePanel:
         self._steps: list[tuple[str, ...]] = []
         self._outcome: Outcome | None = None
         close_struts(obj)
-        self.form = self._build(first_wish(obj))
+        self.form = self._build(first_numbers(obj))
         self._timer = QtCore.QTimer(self.form)
         self._timer.timeout.connect(self._show_steps)
         self._show_fields()
@@ -172,7 +168,15 @@ class SizePanel:
         self._plot.setEnabled(False)
         self._timer.start(TICK)
         try:
-            self._outcome = size_struts(self._obj, self._chosen(), self._wish(), self._steps.append)
+            self._outcome = size_struts(
+                self._obj,
+                self._chosen(),
+                self._numbers(),
+                self._steps.append,
+                goal=self._goal.currentData(),
+                prove=self._prove.isChecked(),
+                remove_thin=self._remove.isChecked(),
+            )
         except VolfrepError as error:
             self._say(str(error), wrong=True)
             return False
@@ -195,7 +199,7 @@ class SizePanel:
             title = translate("VolfrepSizePanel", "Steps of {label}")
             show_plot(title.format(label=self._obj.Label), sizing_plot(self._outcome.part.report))
 
-    def _build(self, wish: Wish) -> Any:
+    def _build(self, first: Mapping[str, float]) -> Any:
         form = QtWidgets.QWidget()
         form.setObjectName("VolfrepSizePanel")
         title = translate("VolfrepSizePanel", "Size Lattice: {label}")
@@ -203,7 +207,7 @@ class SizePanel:
         column = QtWidgets.QVBoxLayout(form)
         column.setContentsMargins(0, 0, 0, 0)
         column.addWidget(self._cases_box())
-        column.addWidget(self._wish_box(wish))
+        column.addWidget(self._goal_box(first))
         self._table = QtWidgets.QTableWidget(0, len(HEADER))
         self._table.setObjectName("Steps")
         self._table.setHorizontalHeaderLabels(
@@ -255,7 +259,7 @@ class SizePanel:
         )
         return box
 
-    def _wish_box(self, wish: Wish) -> Any:
+    def _goal_box(self, first: Mapping[str, float]) -> Any:
         box = QtWidgets.QGroupBox(translate("VolfrepSizePanel", "What is wanted"))
         rows = QtWidgets.QFormLayout(box)
         rows.setContentsMargins(6, 4, 6, 4)
@@ -263,12 +267,11 @@ class SizePanel:
         self._goal.setObjectName("Goal")
         for goal, text in GOALS.items():
             self._goal.addItem(translate("VolfrepSizePanel", text), goal)
-        self._goal.setCurrentIndex(self._goal.findData(wish.goal))
         self._goal.currentIndexChanged.connect(lambda _: self._show_fields())
         rows.addRow(QtWidgets.QLabel(translate("VolfrepSizePanel", "Goal")), self._goal)
         self._prove = _switch(
             "Prove",
-            wish.prove,
+            True,
             translate("VolfrepSizePanel", "Check with CalculiX"),
             translate(
                 "VolfrepSizePanel",
@@ -281,7 +284,7 @@ class SizePanel:
             spin = Gui.UiLoader().createWidget("Gui::QuantitySpinBox")
             spin.setProperty("unit", unit)
             spin.setProperty("minimum", 0.0)
-            spin.setProperty("rawValue", getattr(wish, name))
+            spin.setProperty("rawValue", first.get(name, 0.0))
             spin.setObjectName(name)
             spin.setToolTip(translate("VolfrepSizePanel", tip))
             spin.setMinimumWidth(FIELD)
@@ -290,7 +293,7 @@ class SizePanel:
             self._fields[name] = label, spin
         self._remove = _switch(
             "Remove",
-            wish.remove,
+            False,
             translate("VolfrepSizePanel", "Remove thin struts that carry little"),
             translate(
                 "VolfrepSizePanel",
@@ -304,10 +307,11 @@ class SizePanel:
 
     def _show_fields(self) -> None:
         """Hide what says nothing for the goal."""
-        shown = OF_GOAL[self._goal.currentData()]
+        goal = self._goal.currentData()
+        hidden = {name for kind, names in ONLY_OF.items() if kind != goal for name in names}
         for name, row in self._fields.items():
             for widget in row:
-                widget.setVisible(name in shown)
+                widget.setVisible(name not in hidden)
 
     def _chosen(self) -> list[App.DocumentObject]:
         return [
@@ -316,16 +320,8 @@ class SizePanel:
             if self._cases.item(k).checkState() == QtCore.Qt.Checked
         ]
 
-    def _wish(self) -> Wish:
-        numbers = {
-            name: float(spin.property("rawValue")) for name, (_, spin) in self._fields.items()
-        }
-        return Wish(
-            goal=self._goal.currentData(),
-            **numbers,
-            prove=self._prove.isChecked(),
-            remove=self._remove.isChecked(),
-        )
+    def _numbers(self) -> dict[str, float]:
+        return {name: float(spin.property("rawValue")) for name, (_, spin) in self._fields.items()}
 
     def _show_steps(self) -> None:
         """Bring the table up to the steps that were made."""

@@ -36,7 +36,7 @@ def bent(force=-200.0):
 
 
 def test_what_is_solved_is_what_was_designed():
-    goal = Goal(limits=Limits(displacement=0.3), radius_min=0.3, radius_max=1.6)
+    goal = Goal(limits=Limits(displacement=0.3), thinnest=0.3, thickest=1.6)
     part = size(beam(), SPEC, bent(), goal, prove_it=False)
     assert part.sized.holds
     model, analysis = solve_struts(beam(), part.spec, bent())
@@ -51,7 +51,7 @@ def test_what_is_solved_is_what_was_designed():
 @pytest.mark.slow_cases("1.0")
 @pytest.mark.parametrize("shell", [0.0, 1.0])
 def test_a_design_can_be_sent_to_another_process(shell):
-    goal = Goal(limits=Limits(displacement=0.3), radius_min=0.3, radius_max=1.6)
+    goal = Goal(limits=Limits(displacement=0.3), thinnest=0.3, thickest=1.6)
     wanted = replace(SPEC, shell=shell)
     part = size(beam(), wanted, bent(), goal, prove_it=False)
     there = pickle.loads(pickle.dumps(part))
@@ -74,7 +74,7 @@ def test_a_cancelled_search_keeps_the_best_and_asks_no_other_solver():
         asked.append(stage)
         return asked.count("sizing") < 5
 
-    goal = Goal(limits=Limits(displacement=0.3), radius_min=0.3, radius_max=1.6)
+    goal = Goal(limits=Limits(displacement=0.3), thinnest=0.3, thickest=1.6)
     part = size(beam(), SPEC, bent(), goal, progress=progress)
     assert part.sized.stopped == "cancelled"
     assert 1 <= len(part.sized.steps) < 5

@@ -78,7 +78,7 @@ def test_a_pressed_column_buckles_in_calculix_no_sooner_than_it_is_sized_for(cel
     spec = LatticeSpec(
         cell, cell_size=10, strut_radius=0.5, shell=0, boundary="whole", activation="inside"
     )
-    made = size(solid, spec, loads, Goal(Limits(buckling=2.0), radius_min=0.1, radius_max=1.2))
+    made = size(solid, spec, loads, Goal(Limits(buckling=2.0), thinnest=0.1, thickest=1.2))
     assert made.sized.holds
     assert made.sized.analysis.factors[0] > 1.999
     assert made.report["calculix"]["buckling_factors"][0] > 0.99 * 2.0

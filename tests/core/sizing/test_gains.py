@@ -74,7 +74,7 @@ def test_published_cases_gain_as_much_as_told(name, cell, radius, least, publish
     solid, case = (ell(), ell_case()) if name == "L" else (block(100, 50, 50), bend_case())
     loads = LoadCases(find_material("PLA"), (case,))
     spec = LatticeSpec(cell, strut_radius=radius, **WHOLE)
-    made = size(solid, spec, loads, Goal(radius_min=0.3 * radius), prove_it=False)
+    made = size(solid, spec, loads, Goal(thinnest=0.3 * radius), prove_it=False)
     gain = made.report["same_mass"]["stiffer"][0]
     density = made.sized.analysis.volume / solid.volume
     print(f"\n{name} {cell}: density {density:.3f}, {gain:.2f} times (published {published})")
@@ -89,7 +89,7 @@ def test_a_sized_cantilever_is_stiffer_than_one_radius_with_the_same_mesh_volume
     case = LoadCase("down", (Support(wall),), (Force(tip, (0, 0, -200.0)),))
     loads = LoadCases(find_material("Ti-6Al-4V"), (case,))
     spec = LatticeSpec(cell, strut_radius=0.6, **WHOLE)
-    made = size(solid, spec, loads, Goal(radius_max=1.2), prove_it=False)
+    made = size(solid, spec, loads, Goal(thickest=1.2), prove_it=False)
     volume = Infill(solid, made.spec).part.report.volume_mm3
     radius = float(made.before.radii.mean())
     for _ in range(3):  # one radius whose mesh has the same volume
@@ -136,7 +136,7 @@ def test_solids_leave_as_much_of_a_gain_as_is_told(tmp_path):
     case = LoadCase("down", (Support(wall),), (Force(tip, force),))
     loads = LoadCases(find_material("Ti-6Al-4V"), (case,))
     spec = LatticeSpec(cell, strut_radius=0.6, **WHOLE)
-    made = size(solid, spec, loads, Goal(radius_max=1.2), prove_it=False)
+    made = size(solid, spec, loads, Goal(thickest=1.2), prove_it=False)
     infill, radius = Infill(solid, made.spec), float(made.before.radii.mean())
     volume = infill.part.report.volume_mm3
     for _ in range(4):  # one radius whose mesh has the same volume

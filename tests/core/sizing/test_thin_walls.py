@@ -57,7 +57,7 @@ def made(part):
     solid, held, (axis, value) = part
     case = LoadCase("bend", (Support(on_plane(held, 0.0)),), (Force(on_plane(axis, value), FORCE),))
     spec = LatticeSpec("CVC", cell_size=12, strut_radius=1.2, shell=2)
-    goal = Goal(radius_min=1.19, radius_max=1.2)
+    goal = Goal(thinnest=1.19, thickest=1.2)
     return size(solid, spec, LoadCases(TITANIUM, (case,)), goal, most_steps=1)
 
 
@@ -102,7 +102,7 @@ def test_beams_do_not_confirm_beams_where_struts_make_the_part_solid():
     solid = check_solid(as_mesh(shape), "box")
     case = LoadCase("bend", (Support(on_plane(0, 0.0)),), (Force(on_plane(0, 96.0), FORCE),))
     spec = LatticeSpec("CVC", cell_size=12, strut_radius=3.2, shell=2)
-    goal = Goal(Limits(displacement=1e-3), radius_min=3.19, radius_max=3.2)
+    goal = Goal(Limits(displacement=1e-3), thinnest=3.19, thickest=3.2)
     loads = LoadCases(TITANIUM, (case,))
     design = size(solid, spec, loads, goal, most_steps=1)
     proof, ours = design.report["calculix"], float(design.sized.analysis.largest[0])

@@ -24,8 +24,8 @@ class Goal:
     Attributes:
         limits: none is gone beyond; without any, stiffness is what is wanted.
         volume: mm3 of struts for the most stiffness; None for that of the specification's radius.
-        radius_min: mm, the thinnest strut that may be; None for half the specification's radius.
-        radius_max: mm, the thickest; None for what the cell bears.
+        thinnest: mm, the thinnest strut that may be; None for half the specification's radius.
+        thickest: mm, the thickest; None for what the cell bears.
         smooth: share that a node's neighbours have in its radius, from 0 to 0.9.
         remove_thin: take away struts that end as thin as they may be, and size the rest again.
         weights: of the load cases, for stiffness; None for all alike.
@@ -33,8 +33,8 @@ class Goal:
 
     limits: Limits = field(default_factory=Limits)
     volume: float | None = None
-    radius_min: float | None = None
-    radius_max: float | None = None
+    thinnest: float | None = None
+    thickest: float | None = None
     smooth: float = 0.0
     weights: tuple[float, ...] | None = None
     remove_thin: bool = False
@@ -72,7 +72,8 @@ def goal_of(
         if material.yield_stress is None:
             raise VolfrepError(
                 f"The material '{material.name}' has no yield stress for {named('safety')}: give "
-                f"{named('max_stress')}, or yield_stress in the load file."
+                f"it one (yield_stress in the load file, YieldStrength in FreeCAD), or "
+                f"{named('max_stress')} in its place."
             )
         stress = material.yield_stress / given["safety"]
     volume = None

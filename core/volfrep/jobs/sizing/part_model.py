@@ -73,7 +73,7 @@ def part_model(
         if np.array_equal(plain.struts.struts, wireframe.struts):
             clipped = plain.axes
     own = float(np.median(wireframe.radii))
-    least = goal.radius_min if goal.radius_min is not None else 0.5 * own
+    least = goal.thinnest if goal.thinnest is not None else 0.5 * own
     length, borne = spacing(infill), 0.0
     if spec.network is None:
         usual = bears = 0.98 * largest_radius(spec.cell_size, spec.fillet)
@@ -81,7 +81,7 @@ def part_model(
         # Where a network's struts leave each other no room they are united.
         bears = max(THICKEST * length, own)
         usual, borne = min(bears, TIMES_THICKER * own), own
-    most = usual if goal.radius_max is None else min(goal.radius_max, bears)
+    most = usual if goal.thickest is None else min(goal.thickest, bears)
     if not 0.0 < least <= most:
         raise VolfrepError(
             f"Radii from {least:.4g} to {most:.4g} mm make no sense: the smallest must be above 0 "

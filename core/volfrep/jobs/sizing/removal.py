@@ -116,7 +116,7 @@ def without_thin_struts(
     if not gone:
         return None
     rows = cKDTree(model.wireframe.nodes).query(part.struts.nodes)[1]
-    bounds = replace(goal, radius_min=least)
+    bounds = replace(goal, thinnest=least)
     left = part_model(part, loads, bounds, cache, reach[rows])
     is_thin, high = thin[rows], left.problem.high
     low = np.where(is_thin, kept[rows], np.minimum(_THICKER * limit, high))

@@ -114,119 +114,218 @@ def size(
             part is not held, or the goal cannot be.
         Cancelled: the callback said so before there was a design.
     """
-    goal = goal or Goal()
-    if goal.limits.frame_buckling is None:  # no struts buckle, neither one nor many together
-        limits = replace(goal.limits, frame_buckling=goal.limits.buckling)
-        goal = replace(goal, limits=limits)
-    monitor = monitor or Monitor(progress)
+    monitor, cache = monitor or Monitor(progress), cache or StageCache()
+    start = time.perf_counter()
+    task = _prepare(solid, spec, loads, _checked(goal or Goal()), monitor, cache, progress)
+    seconds = {"model": time.perf_counter() - start}
+    start = time.perf_counter()
+    search = _search(task, most_steps, watch)
+    task.notes.extend(_notes_of(task, search))
+    sized, proof = _prove(task, search, prove_it)
+    before = _of_one_radius(task, sized.analysis)
+    seconds["sizing"] = time.perf_counter() - start
+    return _record(task, replace(search, sized=sized), proof, before, seconds)
+
+
+@dataclass(frozen=True, eq=False)
+class _Task:
+    """What is sized.
+
+    Attributes:
+        infill: the part, with the specification's own radius.
+        loads: material and cases.
+        goal: with all its limits.
+        model: as it is solved.
+        first: (n,) radii to begin with, mm.
+        notes: what the user is told, so far.
+        monitor: of the whole job.
+        cache: of the part's stages.
+    """
+
+    infill: Infill
+    loads: LoadCases
+    goal: Goal
+    model: SizingModel
+    first: Floats
+    notes: list[str]
+    monitor: Monitor
+    cache: StageCache
+
+
+@dataclass(frozen=True, eq=False)
+class _Search:
+    """What a search ended with.
+
+    Attributes:
+        model: what was solved last: without the struts that were taken away.
+        sized: the design.
+        whole: the design with all struts.
+        even: one radius for all that holds the limits, and whether it does; None without limits.
+        taken: what is left of the struts; None where none was taken away.
+    """
+
+    model: SizingModel
+    sized: Sized
+    whole: Sized
+    even: tuple[Analysis, bool] | None
+    taken: Thinned | None
+
+
+def _checked(goal: Goal) -> Goal:
+    """The goal, whose limit of buckling is one of struts together, too.
+
+    Raises:
+        VolfrepError: it asks for two things at once, or its smoothing makes no sense.
+    """
+    if goal.limits.frame_buckling is None:
+        goal = replace(goal, limits=replace(goal.limits, frame_buckling=goal.limits.buckling))
     if goal.limits.any and goal.volume is not None:
         raise VolfrepError("Give limits for the least mass, or a volume for the most stiffness.")
     if not 0.0 <= goal.smooth <= 0.9:
         raise VolfrepError(f"The smoothing must be from 0 to 0.9, not {goal.smooth:g}.")
-    start = time.perf_counter()
-    cache = cache or StageCache()
+    return goal
+
+
+def _prepare(
+    solid: TriangleMesh,
+    spec: LatticeSpec,
+    loads: LoadCases,
+    goal: Goal,
+    monitor: Monitor,
+    cache: StageCache,
+    progress: ProgressCallback | None,
+) -> _Task:
+    """The part's struts and skin as elements, their supports and loads."""
     notes: list[str] = []
     spec = _without_target(solid, spec, goal, cache, progress, notes)
     spec = replace(fixed_graph(spec), remove_below=0.0)  # all are sized; which go is decided anew
     infill = infill_of(solid, spec, monitor=monitor, cache=cache)
     model = part_model(infill, loads, goal, cache)
-    problem = model.problem
-    shape = problem.radii
-    first = np.clip(given_radii(model.wireframe), problem.low, problem.high)
-    seconds = {"model": time.perf_counter() - start}
-    start = time.perf_counter()
+    first = np.clip(given_radii(model.wireframe), model.problem.low, model.problem.high)
+    return _Task(infill, loads, goal, model, first, notes, monitor, cache)
+
+
+def _search(task: _Task, most_steps: int, watch: Callable[[int, Step], bool] | None) -> _Search:
+    """The design with all struts, and with those that carry little taken away where that is asked.
+
+    Raises:
+        Cancelled: by the monitor, before there was a design; afterwards it ends the search.
+    """
+    goal, problem = task.goal, task.model.problem
 
     def told(number: int, step: Step) -> bool:
         try:
-            monitor.tick((number + 1) / most_steps / (2 if goal.remove_thin else 1))
+            task.monitor.tick((number + 1) / most_steps / (2 if goal.remove_thin else 1))
         except Cancelled:
             return False  # there is a design: the best so far is kept
         return watch is None or watch(number, step)
 
-    taken: Thinned | None = None
-    with monitor.stage("sizing", 0.4, 0.95):
+    with task.monitor.stage("sizing", 0.4, 0.95):
         with _named(problem):
-            sized = whole = _designed(problem, goal, first, most_steps, told)
+            whole = _designed(problem, goal, task.first, most_steps, told)
             even = uniform(problem, goal.limits) if goal.limits.any else None
         if even is not None:
-            sized = whole = _no_worse(sized, even)
-        if goal.remove_thin and sized.stopped != "cancelled":
-            taken, sized = _without_thin(
-                infill, loads, goal, model, sized, first, most_steps, told, cache, notes
-            )
-    unthinned = model
-    if taken is not None:
-        model, problem = taken.model, taken.model.problem
-    if not sized.holds:
-        notes.append(limit_not_held(problem, sized.analysis))
-    notes += stressed_skin(model, sized.analysis, goal.limits)
+            whole = _no_worse(whole, even)
+        sized, taken = whole, None
+        if goal.remove_thin and whole.stopped != "cancelled":
+            taken, sized = _without_thin(task, whole, most_steps, told)
+    return _Search(task.model if taken is None else taken.model, sized, whole, even, taken)
+
+
+def _notes_of(task: _Task, search: _Search) -> list[str]:
+    """What the user is told of a search's end."""
+    limits, model, sized = task.goal.limits, search.model, search.sized
+    notes = [] if sized.holds else [limit_not_held(model.problem, sized.analysis)]
+    notes += stressed_skin(model, sized.analysis, limits)
     notes += free_motions(model.problem)
-    notes += left_out(spec) + stiff_skin(model, goal.limits)
+    notes += left_out(task.infill.spec) + stiff_skin(model, limits)
     if sized.stopped == "cancelled":
         notes.append("The search was cancelled: this is the best design so far.")
-    with _named(problem):
-        final = _stored(problem, sized.analysis.radii, goal.limits)
+    return notes
 
-    def solve_again(design: Analysis) -> Proved | None:
-        cell, length = spec.fitted_cell, spacing(infill)
+
+def _prove(task: _Task, search: _Search, prove_it: bool) -> tuple[Sized, dict[str, Any] | None]:
+    """The design as files keep it, held to its limits by CalculiX; and CalculiX's figures."""
+    model, sized, limits, notes = search.model, search.sized, task.goal.limits, task.notes
+    cell, length = task.infill.spec.fitted_cell, spacing(task.infill)
+    problem = model.problem
+    with _named(problem):
+        final = _stored(problem, sized.analysis.radii, limits)
+
+    def solve_again(problem: Problem, design: Analysis) -> Proved | None:
         solved_one = replace(model, problem=problem)
-        return prove_design(solved_one, cell, length, design, loads.material, notes, monitor)
+        return prove_design(
+            solved_one, cell, length, design, task.loads.material, notes, task.monitor
+        )
 
     proof = None
     if prove_it and sized.stopped != "cancelled":
         try:
-            with monitor.stage("proof", 0.95, 1.0):
-                proof = solve_again(final)
+            with task.monitor.stage("proof", 0.95, 1.0):
+                proof = solve_again(problem, final)
                 for _ in range(CORRECTIONS):
-                    if proof is None or proof.holds(goal.limits, final) or not sized.holds:
+                    if proof is None or proof.holds(limits, final) or not sized.holds:
                         break
                     # Where CalculiX finds more than is allowed, struts become that much thicker.
-                    problem, stricter = correct_problem(problem, goal.limits, final, proof)
+                    problem, stricter = correct_problem(problem, limits, final, proof)
                     found, holds = thicken(problem, stricter, final.radii)
-                    final, proof = _stored(problem, found.radii, goal.limits), None
-                    proof = solve_again(final)
+                    final, proof = _stored(problem, found.radii, limits), None
+                    proof = solve_again(problem, final)
                     if not holds:
                         break
-                if proof is not None and sized.holds and not proof.holds(goal.limits, final):
+                if proof is not None and sized.holds and not proof.holds(limits, final):
                     sized = replace(sized, holds=False)
-                    notes.append(unproved(problem, proof.uses(goal.limits, final), final))
+                    notes.append(unproved(problem, proof.uses(limits, final), final))
         except Cancelled:
             proof = None
             notes.append("CalculiX was cancelled: no other solver has proved this design.")
         except VolfrepError as error:  # minutes of work are not lost to another program
             proof = None
             notes.append(f"{error} No other solver has proved this design.")
+    figures = None
     if proof is not None:
         doubts = proof.figures["doubts"]
-        doubts += too_dense(infill, model, final.radii)  # beams are no proof of beams there
+        doubts += too_dense(task.infill, model, final.radii)  # beams are no proof of beams there
         proof.figures["confirmed"] = not doubts
         notes += not_confirmed(doubts)
-    notes += hardly_beams(infill, model, final.radii, spacing(infill))
-    radii = final.radii
-    sized = replace(sized, analysis=final)
-    full = unthinned.problem
-    same = shape.scaled_to(
+        figures = {**proof.figures, "uses": proof.uses(limits, final)}
+    notes += hardly_beams(task.infill, model, final.radii, length)
+    return replace(sized, analysis=final), figures
+
+
+def _of_one_radius(task: _Task, final: Analysis) -> Analysis:
+    """All struts of one radius, of the design's volume."""
+    problem, first = task.model.problem, task.first
+    same = problem.radii.scaled_to(
         np.full(len(first), float(first.mean())),
-        final.volume, np.full(len(first), 1e-3 * float(first.min())), full.high,
+        final.volume, np.full(len(first), 1e-3 * float(first.min())), problem.high,
     )  # fmt: skip
-    with _named(full):
-        before, _ = analyse(full, same, goal.limits)
-    seconds["sizing"] = time.perf_counter() - start
+    with _named(problem):
+        return analyse(problem, same, task.goal.limits)[0]
+
+
+def _record(
+    task: _Task,
+    search: _Search,
+    proof: dict[str, Any] | None,
+    before: Analysis,
+    seconds: dict[str, float],
+) -> SizedPart:
+    """The design as a graded lattice, and its report."""
+    taken, radii = search.taken, search.sized.analysis.radii
+    spec = task.infill.spec
     if taken is not None:
         spec, radii = taken.spec, taken.of_all(radii)
-    points = field_points(infill, unthinned)
+    points = field_points(task.infill, task.model)
     graded = replace(
         spec, strut_radius=float(np.median(radii)), radius_grading=radius_field(points, radii)
     )  # fmt: skip
-    figures = None
-    if proof is not None:
-        figures = {**proof.figures, "uses": proof.uses(goal.limits, final)}
     report = sizing_report(
-        loads, model, sized, before, even, figures,
-        seconds=seconds, notes=tuple(notes),
-        unthinned=None if taken is None else (whole.analysis, taken.struts),
+        task.loads, search.model, search.sized, before, search.even, proof,
+        seconds=seconds, notes=tuple(task.notes),
+        unthinned=None if taken is None else (search.whole.analysis, taken.struts),
     )  # fmt: skip
-    return SizedPart(graded, points, radii, model, sized, before, even, report)
+    return SizedPart(graded, points, radii, search.model, search.sized, before, search.even, report)
 
 
 def solve_struts(
@@ -257,9 +356,9 @@ def solve_struts(
     radii = np.zeros(len(frame.nodes))
     radii[frame.struts] = frame.radii
     used = radii[radii > 0.0]
-    goal = Goal(radius_min=0.999 * float(used.min()), radius_max=1.001 * float(used.max()))
+    goal = Goal(thinnest=0.999 * float(used.min()), thickest=1.001 * float(used.max()))
     model = part_model(infill, loads, goal, cache)
-    return model, analyse(model.problem, np.maximum(radii, goal.radius_min or 0.0), Limits())[0]
+    return model, analyse(model.problem, np.maximum(radii, goal.thinnest or 0.0), Limits())[0]
 
 
 def _stored(problem: Problem, radii: Floats, limits: Limits) -> Analysis:
@@ -343,24 +442,17 @@ def _no_worse(sized: Sized, even: tuple[Analysis, bool]) -> Sized:
 
 
 def _without_thin(
-    infill: Infill,
-    loads: LoadCases,
-    goal: Goal,
-    model: SizingModel,
-    sized: Sized,
-    first: Floats,
-    most_steps: int,
-    watch: Watch,
-    cache: StageCache,
-    notes: list[str],
+    task: _Task, sized: Sized, most_steps: int, watch: Watch
 ) -> tuple[Thinned | None, Sized]:
     """The design without its thin struts, where it is better; else the design as it is."""
-    whole, before = sized.analysis, len(sized.steps)
+    goal, whole, before = task.goal, sized.analysis, len(sized.steps)
     wanted = goal if goal.limits.any else replace(goal, volume=whole.volume)
     reason = "none is as thin as allowed and carries little"
     for slack in SLACK:
         try:
-            taken = without_thin_struts(infill, loads, goal, model, whole, slack, first, cache)
+            taken = without_thin_struts(
+                task.infill, task.loads, goal, task.model, whole, slack, task.first, task.cache
+            )
             if taken is None:
                 continue
             found = _designed(
@@ -379,5 +471,5 @@ def _without_thin(
         reason = "the lattice would be no better without them"
         if found.stopped == "cancelled":
             break
-    notes.append(f"No struts were taken away: {reason}.")
+    task.notes.append(f"No struts were taken away: {reason}.")
     return None, sized

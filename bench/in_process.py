@@ -33,8 +33,8 @@ def changes(part: str, cell: str, out: str) -> dict[str, Any]:
     Reading the part is not in it, writing the file is.
     """
     from volfrep import LatticeSpec, StageCache, read_solid
-    from volfrep.io.write import write_mesh
     from volfrep.jobs.pipeline import fill
+    from volfrep.output.meshes import write_mesh
 
     solid, cache = read_solid(part), StageCache()
     runs = []

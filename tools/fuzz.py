@@ -42,12 +42,12 @@ from volfrep.design.grading import CellMap, Orientation, RadiusGrading, SizeGrad
 from volfrep.design.openings import DrainHoles
 from volfrep.design.profile import Profile
 from volfrep.io.solid import check_solid, read_triangles
-from volfrep.io.write import write_mesh
 from volfrep.io.write.stl import as_read
 from volfrep.jobs.infill import Infill
 from volfrep.mesh.float32_repair import shortest_edge
 from volfrep.mesh.quality import measure
 from volfrep.mesh.triangle_mesh import TriangleMesh
+from volfrep.output.meshes import write_mesh
 from volfrep.spatial.piercing import piercing_pairs
 from volfrep.spatial.self_intersection import crossing_triangles
 

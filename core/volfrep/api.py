@@ -43,6 +43,7 @@ if TYPE_CHECKING:
     import trimesh
 
     from .jobs.slices import Layers
+    from .output.sources import Source
     from .reports.printability import PrintReport
 
 #: What of a `Wall` a parameter of a call, an option or an entry of a file says.
@@ -70,12 +71,14 @@ class Part:
         spec: what was asked for.
         solid: what was filled; None for a block.
         cache: holds the stages, so that what is asked for later is not computed anew.
+        source: what files are written from.
     """
 
     result: Result
     spec: LatticeSpec
     solid: Solid | None
     cache: StageCache
+    source: Source
 
     @cached_property
     def mesh(self) -> trimesh.Trimesh:
@@ -95,16 +98,55 @@ class Part:
         """The figures: cells, struts, triangles, volume, mass, seconds, warnings."""
         return self.result.report
 
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the mesh in the format that the extension names (.stl, .3mf, .ply, .obj, ...).
+    def save(
+        self,
+        path: str | os.PathLike[str],
+        form: str | None = None,
+        *,
+        material: str | None = None,
+        layer: float | None = None,
+        pixel: float | None = None,
+    ) -> tuple[str, ...]:
+        """Write the part in the form that the extension names (.stl, .3mf, .step, .inp, ...).
+
+        Args:
+            path: of the file, or of a folder for layers; what was there before stays if anything
+                goes wrong.
+            form: which of several: for .3mf "mesh", "beams" or "both"; for .step "faceted",
+                "exact" (by an installed FreeCAD) or "wireframe"; for .inp "beams" or
+                "tetrahedra" (by Gmsh); for a folder of layers "png", "svg" or "cli". None for the
+                first of these.
+            material: of an .inp file: a name of the table in docs/cells.md, a file, or
+                "NAME,E,NU" in MPa.
+            layer: height of a layer, mm.
+            pixel: edge of a picture's pixel, mm; None for the height of a layer.
+
+        Returns:
+            Sentences on the file, such as that it holds plane faces in place of exact surfaces.
 
         Raises:
-            VolfrepError: an unknown extension, or the path cannot be written; what was there
-                before stays.
-        """
-        from .io.write import write_surface
+            VolfrepError: there is no such form, it does not suit the part, or the path cannot be
+                written.
 
-        write_surface(self.result.surface, path, figures=self.report.figures)
+        >>> import tempfile, volfrep
+        >>> part = volfrep.block((1, 1, 1), cell="BCC", cell_size=10, strut_radius=1)
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     said = part.save(f"{folder}/cell.3mf", "beams")
+        >>> "beam lattice extension" in said[0]
+        True
+        """
+        from .mechanics.materials import Material, find_material
+        from .output.form import find_form
+        from .output.writer import Settings, writer_of
+
+        found = find_form(path, form)
+        deck = Material(density=self.spec.density)
+        if material is not None:
+            deck = find_material(material).for_solver(self.spec.density)
+        settings = Settings(deck, layer, pixel)
+        found.refuse(self.spec)
+        writer, settled = writer_of(found).settle(self.source)
+        return settled + writer.write(self.source, path, settings).warnings
 
     def check(
         self, process: str, build_direction: tuple[float, float, float] = (0.0, 0.0, 1.0)
@@ -118,9 +160,8 @@ class Part:
         Raises:
             VolfrepError: there is no such process, or the direction is none.
         """
+        from .jobs.figures.print_check import check_print
         from .jobs.pipeline import fill
-        from .reports.passage import ball_of, walls_of
-        from .reports.printability import print_report
         from .reports.processes import find_process
 
         limits = find_process(process)
@@ -128,15 +169,8 @@ class Part:
         if self.solid is not None:
             inner = dataclasses.replace(self.spec, output="domain", drains=None)
             domain = fill(self.solid, inner, cache=self.cache).mesh
-        return print_report(
-            self.result.mesh,
-            self.struts,
-            limits,
-            build_direction=build_direction,
-            density=self.spec.density,
-            domain=domain,
-            ball_mm=ball_of(self.spec),
-            walls_mm=walls_of(self.spec),
+        return check_print(
+            self.result.mesh, self.struts, domain, self.spec, limits, build_direction
         )
 
     def plot(
@@ -208,15 +242,14 @@ def fill(
     >>> part.report.cells_active
     8
     """
-    from .jobs.targets import fill_with_target
+    from .jobs.targets import solve_target
+    from .output.sources import FilledPart
 
     wanted = specified(spec, parameters, material)
     solid = as_solid(part, unit, progress)
     cache = cache or StageCache()
-    result, found = fill_with_target(
-        solid, wanted, progress=progress, cache=cache, executor=executor
-    )
-    return Part(result, found, solid, cache)
+    infill = solve_target(solid, wanted, progress=progress, cache=cache, executor=executor)
+    return Part(infill.result, infill.spec, solid, cache, FilledPart(infill, cache))
 
 
 def block(
@@ -246,11 +279,12 @@ def block(
     >>> cube.report.struts - cube.report.nodes + 1 == cube.report.genus
     True
     """
-    from .jobs.blocks import block as make_block
     from .jobs.targets import solve_block_target
+    from .output.sources import Block
 
     wanted = solve_block_target(specified(spec, parameters, material), count, progress=progress)
-    return Part(make_block(wanted, count, progress=progress), wanted, None, StageCache())
+    made = Block(wanted, count, progress)
+    return Part(made.result, wanted, None, StageCache(), made)
 
 
 def mesh_network(
@@ -281,7 +315,7 @@ def mesh_network(
     >>> made.report.genus, made.report.bodies
     (1, 1)
     """
-    from .jobs.graphs.free_space import mesh_graph_alone
+    from .output.sources import FreeGraph
 
     if isinstance(graph, tuple):
         found = make_network(*graph)
@@ -289,7 +323,8 @@ def mesh_network(
         cell = parameters.get("cell", None if spec is None else spec.cell)
         found = read_network(graph, find_cell(cell) if isinstance(cell, str) else cell)
     wanted = specified(spec, {**parameters, "network": found}, None)
-    return Part(mesh_graph_alone(wanted, progress=progress), wanted, None, StageCache())
+    made = FreeGraph(wanted, progress)
+    return Part(made.result, wanted, None, StageCache(), made)
 
 
 def slice_layers(

@@ -14,14 +14,14 @@ ENGINE = Path(__file__).resolve().parents[2] / "core" / "volfrep"
 ROOMS = (
     "util", "worker", "mesh", "spatial", "design", "shell", "grid", "octants", "lattice", "tpms",
     "graphs", "mechanics", "trim", "fem", "slicing", "io", "loads", "sizing", "reports", "jobs",
-    "studies", "cli",
+    "output", "studies", "cli",
 )  # fmt: skip
 #: A module has one subject, and as many lines as that takes. One of more lines than these says in
 #: its docstring why it is long; no other number of lines, or of modules in a folder, is a rule.
 LONG = 700
 #: Modules one of which imports the next, wherever in it the import stands; of rooms as well.
-LONGEST_CHAIN = 25
-LONGEST_CHAIN_OF_ROOMS = 13
+LONGEST_CHAIN = 26
+LONGEST_CHAIN_OF_ROOMS = 14
 
 
 def modules() -> dict[str, Path]:

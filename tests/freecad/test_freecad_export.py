@@ -13,6 +13,7 @@ from conftest import SMALL
 from freecad_volfrep import export_mesh, make_lattice_infill, make_solid
 from freecad_volfrep.bridge.faceted import faceted_solid
 from freecad_volfrep.bridge.meshes import from_freecad, to_freecad, with_neighbours
+<<<<<<< HEAD
 from freecad_volfrep.features.export.faceted_solid import export_step, predict_solid
 from freecad_volfrep.features.export.input_files import refuse_inputs_of_all
 from freecad_volfrep.features.export.layer_export import (
@@ -28,9 +29,17 @@ from freecad_volfrep.features.export.mesh_file import (
 )
 from freecad_volfrep.features.export.solver_files import CONTENTS
 from volfrep.io.write import MESH_WRITERS
+=======
+from freecad_volfrep.features.export import FORMATS, chosen_format, estimate_export, formats_of
+from freecad_volfrep.features.faceted_solid import export_step, predict_solid
+from freecad_volfrep.features.input_files import refuse_inputs_of_all
+from freecad_volfrep.features.layer_export import estimate_layers, export_layers, layers_folder
+from freecad_volfrep.features.solver_files import CONTENTS
+>>>>>>> 1e8523b (Forms of output: one table for the command, Part.save and studies; options of a command are typed and read once)
 from volfrep.jobs.slices import FORMATS as FORMS_OF_LAYERS
 from volfrep.mesh.display_parts import facets_with_neighbours
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
+from volfrep.output.form import suffixes
 from volfrep.util.errors import VolfrepError
 
 
@@ -163,7 +172,7 @@ def test_the_formats_on_offer(doc, box, infill):
         "mesh", "beams", "both", "layers", *CONTENTS,
     }  # fmt: skip
     layers = {f".{form}" for form in FORMS_OF_LAYERS}
-    assert {form.suffix for form in offered} == MESH_WRITERS.keys() - {".stp"} | {".inp"} | layers
+    assert {form.suffix for form in offered} == set(suffixes()) - {".stp"} | layers
     assert len({form.filter for form in offered}) == len(offered)
 
 

@@ -15,8 +15,7 @@ import tempfile
 import time
 import traceback
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import AbstractContextManager, contextmanager, nullcontext
-from functools import partial
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -24,23 +23,21 @@ from ..design.parameters import BY_NAME
 from ..util import memory_limit
 from ..util.errors import VolfrepError
 from ..util.files import keeping_inputs
-from . import layers, material, printing_options, process, properties, sizing, solver_options, sweep
-from .files import check_files, read_part
-from .parameter_options import add_parameters, keep_specification, set_parameter, write_kept
+from . import layers, process, properties, sizing, sweep
+from .files import read_part
+from .options import FillOptions, MeshOptions, block_options, fill_options, network_options
+from .parameter_options import add_parameters
 from .parser import Parser, Version, refuse_old
-from .run_options import add_run_options, refuse_extensions
-from .telling import Progress, print_rows, print_summary
+from .run_options import add_run_options
+from .telling import Progress, print_rows, print_summary, print_warnings, write_report
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
 
-    from ..design.spec import LatticeSpec
-    from ..grid.strut_graph import BeamModel
-    from ..io.write.stl_ahead import StlAhead
-    from ..mesh.triangle_mesh import TriangleMesh
-    from ..reports.result import Result
-    from ..trim.placed_lattice import InnerOctants
-    from .solver_options import Writer
+    from ..output.sources import FilledPart, Free
+    from ..reports.estimate import Estimate
+    from ..reports.printability import PrintReport
+    from ..reports.report import Report
 
 #: A command ends with what it returns; None is 0.
 Command = Callable[[argparse.Namespace], "int | None"]
@@ -62,9 +59,7 @@ def run(arguments: Sequence[str]) -> int:
         command: Command = options.command
         memory_limit.keep_within()
         with keeping_inputs():
-            status = command(options) or 0
-            write_kept(options)
-            return status
+            return command(options) or 0
     except VolfrepError as error:
         print(f"volfrep: {error}", file=sys.stderr)
         return EXIT_BAD_INPUT
@@ -142,7 +137,7 @@ def _parser() -> argparse.ArgumentParser:
 
 
 @contextmanager
-def _workers(options: argparse.Namespace, triangles: int) -> Iterator[Executor | None]:
+def _workers(options: FillOptions, triangles: int) -> Iterator[Executor | None]:
     """Those that the options ask for; where they do not, as many as so many triangles are worth."""
     from ..util.workers import dask_workers, processes
 
@@ -165,213 +160,141 @@ def _workers(options: argparse.Namespace, triangles: int) -> Iterator[Executor |
         yield executor
 
 
-def _ahead(options: argparse.Namespace) -> AbstractContextManager[StlAhead | None]:
-    """The file to write where it may be begun before all of it is known; else None."""
-    if Path(options.output).suffix.lower() != ".stl":
-        return nullcontext()
-    from ..io.write.stl_ahead import stl_ahead  # with what cuts, which no other file needs here
-
-    return stl_ahead(options.output)
-
-
-def _are_cut(executor: Executor | None, ahead: StlAhead | None, inner: InnerOctants) -> None:
-    """All groups are cut: workers may go, and a file may begin."""
-    from ..util.workers import let_go
-
-    let_go(executor)
-    if ahead is not None:
-        ahead.begin(inner)
-
-
-def _fill(options: argparse.Namespace) -> None:
-    spec = material.with_material_density(options)
-    _check_targets(options, spec)
-    keep_specification(options, spec)
+def _fill(given: argparse.Namespace) -> None:
+    options = fill_options(given)
 
     from ..design.forecast import forecast_fill, refuse_crossing
     from ..jobs.rough_radius import solve_target_roughly
     from ..jobs.targets import solve_target
+    from ..output.sources import FilledPart
+    from ..util.workers import let_go
 
+    spec, meshed = options.spec, options.form.meshed
     start = time.perf_counter()
-    solid = read_part(options, spec.cell_size)
+    solid = read_part(options.part, options.unit, spec.cell_size)
     read_seconds = time.perf_counter() - start
-    meshed = solver_options.is_meshed(options)
     rough = solve_target_roughly(solid, spec)
-    if meshed and spec.output != "domain" and options.threemf != "beams":
+    if meshed and spec.output != "domain":
         refuse_crossing(rough)
-    expected = forecast_fill(solid, rough, streamed=_is_plain(options))
+    expected = forecast_fill(solid, rough, streamed=options.is_plain)
     if not options.quiet:
         print(f"Expected: {expected if meshed else expected.of_axes}.", flush=True)
     is_cut = meshed and spec.network is None and spec.output != "domain"
     cut = expected.triangles if is_cut else 0
-    with (
-        _workers(options, cut) as executor,
-        Progress(options.quiet) as progress,
-        _ahead(options) as ahead,
-    ):
+    with _workers(options, cut) as executor, Progress(options.quiet) as progress:
         infill = solve_target(
             solid, spec, progress=progress, meshed=meshed, executor=executor,
-            streamed=_is_plain(options),
+            streamed=options.is_plain,
         )  # fmt: skip
-        spec = infill.spec
-        if solver_options.fill_axes(infill, options, start):
-            return
-        if options.threemf == "beams":
-            printing_options.finish_beams(infill.beams, options, start)
-            return
-        solver_options.settle_step(infill, options)
-        beams = infill.beams if options.threemf == "both" else None
-        infill.ahead = partial(_are_cut, executor, ahead)
-        result = infill.result
-        domain = None
-        if options.print_report is not None:
-            domain = infill.cavity
-        write = solver_options.writer(options, spec, infill, progress)
-        _finish(result, options, spec, {"read": read_seconds}, beams, domain, write, ahead)
-        _picture(result, options, spec, solid)
+        infill.ahead = lambda _: let_go(executor)  # all groups are cut
+        _make(FilledPart(infill, progress=progress), options, start, {"read": read_seconds})
 
 
-def _block(options: argparse.Namespace) -> None:
-    spec = material.with_material_density(options)
-    _check_targets(options, spec)
-    keep_specification(options, spec)
+def _block(given: argparse.Namespace) -> None:
+    options = block_options(given)
 
     from ..design.forecast import forecast_block, refuse_crossing
-    from ..jobs.blocks import block, write_block_stl
+    from ..jobs.blocks import write_block_stl
     from ..jobs.targets import solve_block_target
+    from ..output.sources import Block
+
+    start, count, meshed = time.perf_counter(), options.count, options.form.meshed
+    spec = solve_block_target(options.spec, count, meshed=meshed)
+    streamed = options.is_plain and options.form.name == "stl"
+    if meshed:
+        refuse_crossing(spec)
+        if not options.quiet:
+            expected = forecast_block(spec, count, streamed=streamed)
+            print(f"Expected: {expected}.", flush=True)
+    with Progress(options.quiet) as progress:
+        if not streamed:
+            _make(Block(spec, count, progress), options, start, {})
+            return
+        # Octant by octant, without a surface in between.
+        report = write_block_stl(spec, count, options.output, progress=progress)
+        _tell(report, options)
+
+
+def _network(given: argparse.Namespace) -> None:
+    options = network_options(given)
+
+    from ..output.sources import FreeGraph
 
     start = time.perf_counter()
-    meshed = solver_options.is_meshed(options)
-    spec = solve_block_target(spec, options.count, meshed=meshed)
-    if solver_options.block_axes(spec, options, start):
-        return
-    if options.threemf == "beams":
-        from ..jobs.beam_part import block_beams
-
-        printing_options.finish_beams(block_beams(spec, options.count), options, start)
-        return
-    refuse_crossing(spec)
-    streamed = _is_plain(options) and Path(options.output).suffix.lower() == ".stl"
-    if not options.quiet:
-        expected = forecast_block(spec, options.count, streamed=streamed)
-        print(f"Expected: {expected}.", flush=True)
-    beams = None
-    if options.threemf == "both":
-        from ..jobs.beam_part import block_beams
-
-        beams = block_beams(spec, options.count)
     with Progress(options.quiet) as progress:
-        if streamed:
-            print_summary(
-                write_block_stl(spec, options.count, options.output, progress=progress), options
-            )
-            return
-        result = block(spec, tuple(options.count), progress=progress)
-        write = solver_options.writer(options, spec, None, progress)
-        _finish(result, options, spec, {}, beams, write=write)
-        _picture(result, options, spec)
+        _make(FreeGraph(options.spec, progress), options, start, {})
 
 
-def _network(options: argparse.Namespace) -> None:
-    from ..grid.strut_graph import BeamModel
-    from ..jobs.graphs.free_space import frame_alone, mesh_graph_alone
-
-    set_parameter(options, "network", "file")
-    set_parameter(options, "network_file", options.file)
-    spec = material.with_material_density(options)
-    _check_targets(options, spec)
-    keep_specification(options, spec)
-    start = time.perf_counter()
-    if solver_options.needs_axes(options):
-        solver_options.write_axes(frame_alone(spec)[0], None, spec, options, start)
-        return
-    with Progress(options.quiet) as progress:
-        result = mesh_graph_alone(spec, progress=progress)
-        beams = None if options.threemf is None else BeamModel(result.wireframe)
-        if options.threemf == "beams" and beams is not None:
-            printing_options.finish_beams(beams, options, start)
-            return
-        write = solver_options.writer(options, spec, None, progress)
-        _finish(result, options, spec, {}, beams, write=write)
-        _picture(result, options, spec)
-
-
-def _picture(
-    result: Result,
-    options: argparse.Namespace,
-    spec: LatticeSpec,
-    solid: TriangleMesh | None = None,
+def _make(
+    part: FilledPart | Free, options: MeshOptions, start: float, before: dict[str, float]
 ) -> None:
-    """Write the picture that was asked for."""
-    if options.picture is not None:
-        from ..reports.picture import picture
+    """Write a part in its form; tell what was made.
 
-        picture(result.mesh, spec, options.picture, solid=solid)
-
-
-def _is_plain(options: argparse.Namespace) -> bool:
-    """Whether nothing but a file was asked for, which holds a surface without a mesh of it all."""
-    from ..io.write import STREAMED
-
-    more = (options.print_report, options.picture)
-    plain = all(option is None for option in more)
-    return plain and Path(options.output).suffix.lower() in STREAMED
-
-
-def _check_targets(options: argparse.Namespace, spec: LatticeSpec) -> None:
-    """Refuse before the work what could not be written after it."""
-    from ..io.write import mesh_writer
-
-    check_files(options)
-    out = Path(options.output)
-    refuse_extensions(options, "fill", out)
-    if not solver_options.is_deck(out):
-        mesh_writer(out)
-    printing_options.check(options, out)
-    solver_options.check(options, out, spec)
-
-
-def _finish(
-    result: Result,
-    options: argparse.Namespace,
-    spec: LatticeSpec,
-    before: dict[str, float],
-    beams: BeamModel | None,
-    domain: TriangleMesh | None = None,
-    write: Writer | None = None,
-    ahead: StlAhead | None = None,
-) -> None:
-    """Write the mesh, with its beams if there are any; tell what was made.
-
-    `domain` is what the lattice fills, for the print report; `write` writes the file where it is
-    not a mesh, `ahead` where it is an STL that may be begun.
+    Args:
+        part: what is written.
+        options: of the command.
+        start: when the job began, of `time.perf_counter`.
+        before: seconds of stages that are over.
     """
-    from ..io.write import write_surface
-    from ..io.write.threemf import write_3mf_beams
+    from ..output.writer import Settings, writer_of
     from ..util.progress import peak_memory_mb
 
+    def announce(estimate: Estimate) -> None:
+        if not options.quiet:
+            print(f"{options.output}: {estimate}", flush=True)
+
+    out, form = options.output, options.form
+    settings = Settings(material=options.material, tell=announce)
+    writer, notes = writer_of(form).settle(part)
+    print_warnings(notes)
+    if not form.meshed:
+        written = writer.write(part, out, settings)
+        print_warnings(written.warnings)
+        if not options.quiet:
+            print_rows(
+                ("file", f"{out}, {Path(out).stat().st_size / 1e6:.1f} MB"),
+                *written.rows,
+                ("time", f"{time.perf_counter() - start:.2f} s"),
+            )
+        _keep(options)
+        return
+    result = part.result
     start = time.perf_counter()
-    warnings = result.report.warnings
-    if beams is not None:
-        warnings = tuple(dict.fromkeys((*warnings, *beams.warnings)))
-    if write is not None:
-        warnings += write(result)
-    elif ahead is not None:
-        ahead.finish(result.surface)
-    elif beams is None:
-        write_surface(result.surface, options.output, figures=result.report.figures)
-    else:
-        figures = result.report.figures
-        write_3mf_beams(beams, options.output, result.surface, figures=figures)
+    written = writer.write(part, out, settings)
+    if written.rows and not options.quiet:
+        print_rows(*written.rows)
     report = dataclasses.replace(
         result.report,
         stages={**before, **result.report.stages, "write": time.perf_counter() - start},
         peak_memory_mb=peak_memory_mb(),
+        warnings=tuple(dict.fromkeys((*result.report.warnings, *written.warnings))),
     )
     printing = None
-    if options.print_report is not None:
-        printing = printing_options.report_of(result, options, spec, domain)
-    print_summary(dataclasses.replace(report, warnings=warnings), options, printing)
+    if options.process is not None:
+        from ..jobs.figures.print_check import check_print
+
+        printing = check_print(
+            result.mesh, result.wireframe, part.cavity, part.spec, options.process,
+            options.build_direction,
+        )  # fmt: skip
+    _tell(report, options, printing)
+    if options.picture is not None:
+        from ..reports.picture import picture
+
+        picture(result.mesh, part.spec, options.picture, solid=part.solid)
+
+
+def _tell(report: Report, options: MeshOptions, printing: PrintReport | None = None) -> None:
+    """Say what was made, and write its figures and the specification."""
+    if options.report is not None:
+        write_report(report, options.report, printing)
+    print_summary(report, options.output, printing, quiet=options.quiet)
+    _keep(options)
+
+
+def _keep(options: MeshOptions) -> None:
+    if options.kept is not None:
+        options.kept.write()
 
 
 def _check(options: argparse.Namespace) -> None:

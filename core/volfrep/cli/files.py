@@ -4,8 +4,9 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..util.errors import VolfrepError
 from .run_options import INPUTS, OUTPUTS
@@ -14,11 +15,14 @@ if TYPE_CHECKING:
     from ..io.solid import Solid
 
 
-def check_files(options: argparse.Namespace, *, folder: bool = False) -> None:
+def check_files(
+    options: argparse.Namespace, named: Mapping[str, str] | None = None, *, folder: bool = False
+) -> None:
     """Refuse, before any work, files that could not be written or that would replace an input.
 
     Args:
         options: of the command.
+        named: files that parameters name, by the names of these.
         folder: whether the output is a folder, which its writer looks at.
 
     Raises:
@@ -26,7 +30,8 @@ def check_files(options: argparse.Namespace, *, folder: bool = False) -> None:
     """
     from ..util.files import check_writable, note_input, refuse_input, same_file
 
-    inputs, outputs = _given(options, INPUTS), _given(options, OUTPUTS)
+    given = vars(options) | dict(named or {})
+    inputs, outputs = _given(given, INPUTS), _given(given, OUTPUTS)
     for called, suffixes in (("cell file", (".json",)), ("material file", (".toml", ".json"))):
         if not inputs.get(called, "").lower().endswith(suffixes):
             inputs.pop(called, None)  # a name, of the library or the table
@@ -46,11 +51,12 @@ def check_files(options: argparse.Namespace, *, folder: bool = False) -> None:
                 )
 
 
-def read_part(options: argparse.Namespace, cell_size: float) -> Solid:
-    """The solid that the options name, proved.
+def read_part(file: str, unit: str | None, cell_size: float) -> Solid:
+    """The solid of a file, proved.
 
     Args:
-        options: with `part` and `unit`.
+        file: its path.
+        unit: of its lengths; None for what it says.
         cell_size: L in mm; a part of a file without a unit must be of a size that goes with it.
 
     Raises:
@@ -59,14 +65,14 @@ def read_part(options: argparse.Namespace, cell_size: float) -> Solid:
     from ..io.read.units import refuse_scale
     from ..io.solid import read_solid
 
-    part = Path(options.part)
-    solid = read_solid(part, options.unit)
+    part = Path(file)
+    solid = read_solid(part, unit)
     if not solid.states_unit:
         refuse_scale(solid.bounds, cell_size, part.name)
     return solid
 
 
-def _given(options: argparse.Namespace, table: dict[str, str]) -> dict[str, str]:
+def _given(options: Mapping[str, Any], table: dict[str, str]) -> dict[str, str]:
     """The files of the options that are there and were given, by what they are called."""
-    given = ((called, getattr(options, name, None)) for name, called in table.items())
+    given = ((called, options.get(name)) for name, called in table.items())
     return {called: str(Path(path)) for called, path in given if path is not None}

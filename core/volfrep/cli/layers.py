@@ -10,9 +10,9 @@ import argparse
 from collections.abc import Callable
 from typing import Any
 
-from . import material
-from .files import check_files, read_part
-from .parameter_options import add_parameters, keep_specification
+from .files import read_part
+from .options import slice_options
+from .parameter_options import add_parameters
 from .run_options import add_run_options
 from .telling import Progress, print_rows, print_warnings
 
@@ -22,7 +22,6 @@ _TEXT = "Write a filled part in layers along z, straight from its struts: no mes
 def add_command(add: Callable[[str, Callable[[argparse.Namespace], None], str], Any]) -> None:
     """Add the command with `cli`'s own function for that."""
     parser = add("slice", _slice, _TEXT)
-    parser.set_defaults(process=None)
     parser.add_argument(
         "part", metavar="PART", help="the closed solid, as it stands on the build plate"
     )
@@ -30,19 +29,19 @@ def add_command(add: Callable[[str, Callable[[argparse.Namespace], None], str], 
     add_parameters(parser)
 
 
-def _slice(options: argparse.Namespace) -> None:
-    spec = material.with_material_density(options)
-    check_files(options, folder=True)
-    keep_specification(options, spec)
+def _slice(given: argparse.Namespace) -> None:
+    options = slice_options(given)
 
     from ..jobs.slices import write_layers
 
-    solid = read_part(options, spec.cell_size)
+    solid = read_part(options.part, options.unit, options.spec.cell_size)
     with Progress(options.quiet) as progress:
         made = write_layers(
-            solid, spec, options.output, layer=options.layer, pixel=options.pixel,
-            form=options.format, progress=progress,
+            solid, options.spec, options.output, layer=options.layer, pixel=options.pixel,
+            form=options.form.word, progress=progress,
         )  # fmt: skip
     print_warnings(made.warnings)
     if not options.quiet:
         print_rows(("folder", options.output), *made.rows())
+    if options.kept is not None:
+        options.kept.write()

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 from ..design.parameters import BY_NAME, GROUPS, PARAMETERS, Parameter
 from ..design.parameters.parameter import REPEATED, SHAPES
@@ -42,17 +43,33 @@ def add_parameters(
                 _add(into, parameter)
 
 
-def set_parameter(options: argparse.Namespace, name: str, value: object) -> None:
-    """Give a parameter a value that no option gave it."""
-    setattr(options, _PLACE + name, value)
+@dataclass(frozen=True)
+class Specified:
+    """What the options and the file of a specification say.
+
+    Attributes:
+        spec: the specification.
+        values: of parameters, as they were given.
+        build_direction: which the print report wants too.
+    """
+
+    spec: LatticeSpec
+    values: Mapping[str, Any]
+    build_direction: tuple[float, float, float]
+
+    @property
+    def files(self) -> dict[str, str]:
+        """The files that parameters name, by the names of these."""
+        named = ("cell", "radius_field", "network_file", "network_field")
+        return {name: self.values[name] for name in named if self.values.get(name) is not None}
 
 
-def specification(options: argparse.Namespace) -> LatticeSpec:
+def specified(options: argparse.Namespace, fixed: Mapping[str, object] | None = None) -> Specified:
     """The specification of the file and the options.
 
-    Sets ``options.build_direction``, which the print report wants too, and, as they were given or
-    None, ``options.density``, ``options.cell``, ``options.radius_field``,
-    ``options.network_file`` and ``options.network_field``.
+    Args:
+        options: of the command.
+        fixed: values of parameters that the command itself gives.
 
     Raises:
         VolfrepError: a value that makes no sense, or an option that would have no effect.
@@ -64,7 +81,7 @@ def specification(options: argparse.Namespace) -> LatticeSpec:
         key.removeprefix(_PLACE): tuple(value) if isinstance(value, list) else value
         for key, value in vars(options).items()
         if key.startswith(_PLACE) and value is not None
-    }
+    } | dict(fixed or {})
     values = given
     if options.spec is not None:
         file = read_values(options.spec)
@@ -78,12 +95,7 @@ def specification(options: argparse.Namespace) -> LatticeSpec:
     spec = made.specification(values, option_named)
     _refuse_idle_cell(given, spec)
     direction = BY_NAME["build_direction"]
-    options.build_direction = values.get(direction.name, direction.default)
-    options.density = values.get("density")
-    options.cell, options.radius_field = values.get("cell"), values.get("radius_field")
-    options.network_file = values.get("network_file")
-    options.network_field = values.get("network_field")
-    return spec
+    return Specified(spec, values, values.get(direction.name, direction.default))
 
 
 def _noted(file: str) -> str:
@@ -126,29 +138,20 @@ def _refuse_idle_cell(given: Mapping[str, object], spec: LatticeSpec) -> None:
         )
 
 
-def keep_specification(options: argparse.Namespace, spec: LatticeSpec) -> None:
-    """Keep what is in force, where it is to be written: `write_kept` does so when all is done.
+def values_to_keep(
+    spec: LatticeSpec, build_direction: tuple[float, float, float]
+) -> dict[str, Any]:
+    """What is in force, as a file of a specification says it.
 
     Raises:
         VolfrepError: it holds what no file can say.
     """
-    if options.write_spec is None:
-        return
     from ..design.parameters.specification import values_of
 
     values = values_of(spec)
-    if options.build_direction != BY_NAME["build_direction"].default:
-        values["build_direction"] = options.build_direction
-    options.kept_specification = values
-
-
-def write_kept(options: argparse.Namespace) -> None:
-    """Write the specification of a command that has ended well."""
-    values = getattr(options, "kept_specification", None)
-    if values is not None:
-        from ..design.parameters.spec_file import write_values
-
-        write_values(values, options.write_spec)
+    if build_direction != BY_NAME["build_direction"].default:
+        values["build_direction"] = build_direction
+    return values
 
 
 def option_named(name: str) -> str:

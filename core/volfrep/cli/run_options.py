@@ -8,12 +8,13 @@ do from `design.parameters`. Read without numpy, so that ``--help`` answers at o
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from ..design.parameters.recipes import RECIPES
+from ..output.form import suffixes, suffixes_of, words
 from ..util.errors import VolfrepError
 from .parser import shard, three_whole_numbers
 
@@ -76,13 +77,19 @@ class RunOption:
         return self.place or self.name.replace("-", "_")
 
 
+def listed(names: Sequence[str]) -> str:
+    """With commas, and `or` before the last."""
+    return f"{', '.join(names[:-1])} or {names[-1]}"
+
+
 RUN_OPTIONS = (
     RunOption(
-        "output", MESHED, "what to write: .stl, .3mf, .ply, .obj, .step or .inp",
+        "output", MESHED, f"what to write: {listed(suffixes())}",
         "FILE", required=True, writes="output", short="o",
     ),
     RunOption(
-        "output", ("size",), "the part with its sized lattice: .stl, .3mf, .ply or .obj",
+        "output", ("size",),
+        f"the part with its sized lattice: {listed(suffixes(meshes=True))}",
         "FILE", required=True, writes="output", short="o",
     ),
     RunOption(
@@ -130,20 +137,20 @@ RUN_OPTIONS = (
         "3mf", MESHED,
         "what a 3MF file holds: the part as triangles (default), its lattice as beams of the beam "
         "lattice extension (small, and made without a mesh), or both",
-        "WORD", choices=("mesh", "beams", "both"), extensions=(".3mf",), place="threemf",
+        "WORD", choices=words("3mf"), extensions=suffixes_of("3mf"), place="threemf",
     ),
     RunOption(
         "step", MESHED,
         "what a .step file holds: a plane face for every triangle (faceted, default); cylinders, "
         "cones and spheres (exact, by an installed FreeCAD); or the struts' axes (wireframe)",
-        "WORD", FORM_GROUP, choices=("faceted", "exact", "wireframe"),
-        extensions=(".step", ".stp"),
+        "WORD", FORM_GROUP, choices=words("step"), extensions=suffixes_of("step"),
     ),
     RunOption(
         "inp", MESHED,
         "what an .inp file for CalculiX holds: struts as beams with stiff ends (beams, default), "
         "or the part as second-order tetrahedra by Gmsh (tetrahedra)",
-        "WORD", FORM_GROUP, choices=("beams", "tetrahedra"), extensions=(".inp",),
+        "WORD", FORM_GROUP, choices=words("inp"),
+        extensions=suffixes_of("inp"),
     ),
     RunOption(
         "material", MESHED,
@@ -185,7 +192,7 @@ RUN_OPTIONS = (
         "format", ("slice",),
         "a picture of one bit a pixel a layer, for resin printers (default); a drawing a layer; or "
         "one file of the common layer interface, for metal printers",
-        "WORD", choices=("png", "svg", "cli"), default="png",
+        "WORD", choices=words("format"), default=words("format")[0],
     ),
     RunOption(
         "loads", ("size",), "load cases, see docs/loads.md",

@@ -15,14 +15,14 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
-from pathlib import Path
 from types import FrameType
 from typing import TYPE_CHECKING, Any
 
 from ..util.errors import Cancelled, VolfrepError
 from ..util.progress import ProgressCallback
-from .files import check_files, read_part
-from .parameter_options import add_parameters, specification
+from .files import read_part
+from .options import SizeOptions, size_options
+from .parameter_options import add_parameters
 from .run_options import add_run_options
 from .telling import Progress, print_rows, print_summary, print_warnings
 
@@ -43,62 +43,47 @@ def add_command(add: Callable[[str, Callable[[argparse.Namespace], int | None], 
     add_parameters(parser)
 
 
-def _size(options: argparse.Namespace) -> int | None:
-    spec = specification(options)
-    if options.write_spec is not None and options.radii is None:  # which the specification names
-        options.radii = str(Path(options.write_spec).with_suffix(".radii.csv"))
-    check_files(options)
-    out = Path(options.output)
+def _size(given: argparse.Namespace) -> int | None:
+    options = size_options(given)
 
-    from ..io.write import mesh_writer, write_mesh
-
-    mesh_writer(out)
-    if options.picture is not None:
-        from ..reports.picture import check_picture
-
-        check_picture(options.picture)
-    elif options.colour or options.case or options.deformed is not None:
-        raise VolfrepError("--colour, --case and --deformed say what --picture shows: give it.")
-    if options.plot is not None:
-        from ..reports.sizing_plot import check_plot
-
-        check_plot(options.plot)
-    if options.steps < 1:
-        raise VolfrepError(f"There must be at least one step, not {options.steps}.")
-
-    from ..jobs.sizing import GOALS, goal_of, size, write_radii
+    from ..jobs.sizing import goal_of, size, write_radii
     from ..jobs.targets import infill_of
     from ..loads.load_file import read_load_cases
+    from ..output.sources import FilledPart
+    from ..output.writer import Settings, writer_of
     from ..reports.sizing_report import sizing_rows
     from ..util.cache import StageCache
     from ..util.files import replacing
 
-    solid = read_part(options, spec.cell_size)
+    spec = options.spec
+    solid = read_part(options.part, options.unit, spec.cell_size)
     loads = read_load_cases(options.loads, solid)
     if spec.density != loads.material.density:
         spec = replace(spec, density=loads.material.density)
-    asked = {name: getattr(options, name) for name in GOALS}
-    goal = goal_of(loads.material, asked, lambda name: f"--{name.replace('_', '-')}")
+    goal = goal_of(loads.material, options.goal, lambda name: f"--{name.replace('_', '-')}")
     goal = replace(goal, remove_thin=options.remove_thin)
     cache = StageCache()
     start = time.perf_counter()
     with Progress(options.quiet) as progress:
         with _stopping(progress) as told:
             made = size(
-                solid, spec, loads, goal, most_steps=options.steps, prove_it=not options.no_proof,
+                solid, spec, loads, goal, most_steps=options.steps, prove_it=options.prove,
                 progress=told, cache=cache, watch=_teller(options.quiet),
             )  # fmt: skip
         seconds = time.perf_counter() - start
-        result = infill_of(solid, made.spec, progress=progress, cache=cache).result
-    write_mesh(result.mesh, out)
+        infill = infill_of(
+            solid, made.spec, progress=progress, cache=cache, streamed=options.form.streamed
+        )
+        part = FilledPart(infill, cache, progress)
+        report = part.result.report
+        writer_of(options.form).write(part, options.output, Settings())
     if options.radii is not None:
         write_radii(made, options.radii)
         _write_specification(options, made)
     if options.report is not None:
-        figures = {"sizing": made.report, "part": result.report.as_dict()}
+        figures = {"sizing": made.report, "part": report.as_dict()}
         with replacing(options.report) as file:
             file.write(json.dumps(figures, indent=2).encode() + b"\n")
-        options.report = None
     if options.plot is not None:
         from ..reports.sizing_plot import write_sizing_plot
 
@@ -106,7 +91,7 @@ def _size(options: argparse.Namespace) -> int | None:
     if options.picture is not None:
         _picture(options, made)
     print_warnings(made.report["notes"])
-    print_summary(result.report, options, before=seconds)
+    print_summary(report, options.output, quiet=options.quiet, before=seconds)
     if not options.quiet:
         print_rows(*sizing_rows(made.report), ("time of sizing", f"{seconds:.1f} s of it"))
     return None if made.sized.holds else EXIT_NOT_HELD
@@ -157,8 +142,8 @@ def _teller(quiet: bool) -> Callable[[int, Step], bool] | None:
     return tell_step
 
 
-def _write_specification(options: argparse.Namespace, made: SizedPart) -> None:
-    if options.write_spec is None:
+def _write_specification(options: SizeOptions, made: SizedPart) -> None:
+    if options.write_spec is None or options.radii is None:
         return
     from ..design.parameters.spec_file import write_values
     from ..jobs.sizing import values_with_radii
@@ -166,7 +151,8 @@ def _write_specification(options: argparse.Namespace, made: SizedPart) -> None:
     write_values(values_with_radii(made, options.radii), options.write_spec)
 
 
-def _picture(options: argparse.Namespace, made: SizedPart) -> None:
+def _picture(options: SizeOptions, made: SizedPart) -> None:
+    assert options.picture is not None
     from ..reports.sizing_picture import sizing_picture
 
     names = [case.name for case in made.model.problem.cases]
@@ -175,7 +161,7 @@ def _picture(options: argparse.Namespace, made: SizedPart) -> None:
             f"There is no load case '{options.case}': choose one of {', '.join(names)}."
         )
     sizing_picture(
-        made.model, made.sized.analysis, options.picture, colour=options.colour or "radius",
+        made.model, made.sized.analysis, options.picture, colour=options.colour,
         case=names.index(options.case) if options.case is not None else 0,
-        deformed=options.deformed or 0.0,
+        deformed=options.deformed,
     )  # fmt: skip

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import argparse
 import json
 import sys
 from collections.abc import Sequence
@@ -40,30 +39,34 @@ class Progress:
             self._shown = text
 
 
-def print_summary(
-    report: Report,
-    options: argparse.Namespace,
-    printing: PrintReport | None = None,
-    *,
-    before: float = 0.0,
-) -> None:
-    """Write the report, and say what was made; `before` it so many seconds went by."""
+def write_report(report: Report, path: str, printing: PrintReport | None = None) -> None:
+    """Write the figures as JSON."""
     from ..util.files import replacing
 
-    if options.report is not None:
-        figures = report.as_dict()
-        if printing is not None:
-            figures["print_report"] = printing.as_dict()
-        with replacing(options.report) as file:
-            file.write(json.dumps(figures, indent=2).encode() + b"\n")
+    figures = report.as_dict()
+    if printing is not None:
+        figures["print_report"] = printing.as_dict()
+    with replacing(path) as file:
+        file.write(json.dumps(figures, indent=2).encode() + b"\n")
+
+
+def print_summary(
+    report: Report,
+    output: str,
+    printing: PrintReport | None = None,
+    *,
+    quiet: bool = False,
+    before: float = 0.0,
+) -> None:
+    """Say what was made; `before` it so many seconds went by."""
     print_warnings(report.warnings)
-    if options.quiet:
+    if quiet:
         return
-    size = Path(options.output).stat().st_size / 1e6
+    size = Path(output).stat().st_size / 1e6
     grid = " x ".join(str(n) for n in report.grid)
     seconds = before + sum(report.stages.values())
     print_rows(
-        ("file", f"{options.output}, {size:.1f} MB"),
+        ("file", f"{output}, {size:.1f} MB"),
         ("cells", f"{report.cells_active:,} active of {report.cells_total:,} ({grid})"),
         _lattice(report),
         *_sizes(report),

@@ -12,8 +12,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from ..io.write import MESH_WRITERS
 from ..mechanics.materials import SolidMaterial
+from ..output.form import suffixes
 from ..reports.picture import drawing_library
 from ..reports.processes import Process, find_process
 from ..util.errors import VolfrepError
@@ -139,9 +139,9 @@ def check_actions(
             raise VolfrepError(
                 f"The action '{name}' needs what the part carries: loads = \"loads.toml\"."
             )
-    if "export" in names and export.lower() not in MESH_WRITERS:
+    if "export" in names and export.lower() not in suffixes():
         raise VolfrepError(
-            f"Nothing is written as '{export}': choose {', '.join(sorted(MESH_WRITERS))}."
+            f"Nothing is written as '{export}': choose {', '.join(sorted(suffixes()))}."
         )
     if "picture" in names:
         drawing_library()

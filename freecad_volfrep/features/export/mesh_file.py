@@ -120,8 +120,8 @@ def export_mesh(
     """
     require_engine()
     from freecad_volfrep.bridge.solids import mesh_in_document
-    from volfrep.io.write import write_mesh
     from volfrep.io.write.threemf import BEAMS_ONLY, write_3mf_beams
+    from volfrep.output.meshes import write_mesh
     from volfrep.util.files import beside
     from volfrep.worker.engine_process import Call
 

@@ -168,7 +168,7 @@ def test_places_that_cannot_be_written(
     def fill_to(out: object, *more: object) -> str:
         return refused(capsys, "fill", part, "-o", out, *LATTICE, "--shell", "2", *more)
 
-    assert "'.xyz' is not a known mesh format" in fill_to(tmp_path / "out.xyz")
+    assert "'.xyz' is not a known format" in fill_to(tmp_path / "out.xyz")
     assert "name without an extension" in fill_to(tmp_path / "out")
     assert "there is no folder" in fill_to(tmp_path / "none" / "out.stl")
     assert "is not a file" in fill_to(tmp_path)

@@ -9,7 +9,7 @@ import pytest
 
 import samples
 from volfrep.cli import command as cli
-from volfrep.io.write import write_mesh
+from volfrep.output.meshes import write_mesh
 
 LATTICE = ("--cell", "CVC", "--cell-size", "10", "--strut-radius", "1")
 

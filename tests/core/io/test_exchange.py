@@ -10,7 +10,7 @@ import trimesh
 
 import samples
 from volfrep.io.solid import read_solid
-from volfrep.io.write import write_mesh
+from volfrep.output.meshes import write_mesh
 from volfrep.util.errors import VolfrepError
 
 

@@ -15,9 +15,9 @@ import samples
 from volfrep.cli import command as cli
 from volfrep.io.read.units import refuse_scale
 from volfrep.io.solid import read_solid, read_triangles
-from volfrep.io.write import write_mesh
 from volfrep.io.write.step_faceted import write_step_faceted
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
+from volfrep.output.meshes import write_mesh
 from volfrep.util.errors import VolfrepError
 
 needs_freecad = pytest.mark.skipif(

@@ -25,9 +25,9 @@ import trimesh
 
 import samples
 from volfrep.io.solid import read_solid, read_triangles
-from volfrep.io.write import write_mesh
 from volfrep.mesh.quality import measure
 from volfrep.mesh.triangle_mesh import concatenate
+from volfrep.output.meshes import write_mesh
 from volfrep.util.errors import VolfrepError
 from winding import disagreement
 

@@ -9,12 +9,12 @@ import samples
 from bench.parts import NO_PARTS, PARTS
 from slicers import cura_resources, cura_volume, prusa_info, prusa_slicer, prusa_volume
 from volfrep import LatticeSpec, Result, StageCache, read_solid
-from volfrep.io.write import write_mesh
 from volfrep.io.write.threemf import write_3mf_beams
 from volfrep.jobs.beam_part import beam_model
 from volfrep.jobs.blocks import block
 from volfrep.jobs.pipeline import fill
 from volfrep.mesh.triangle_mesh import TriangleMesh
+from volfrep.output.meshes import write_mesh
 
 needs_prusa_slicer = pytest.mark.skipif(not prusa_slicer(), reason="PrusaSlicer is not installed")
 needs_cura = pytest.mark.skipif(

@@ -11,10 +11,10 @@ import pytest
 import trimesh
 
 from volfrep.io.solid import read_triangles
-from volfrep.io.write import mesh_writer, write_mesh
 from volfrep.io.write.stl import as_read, merge_corners, write_stl
 from volfrep.mesh.quality import measure
 from volfrep.mesh.triangle_mesh import TriangleMesh, empty_mesh
+from volfrep.output.meshes import mesh_form, write_mesh
 from volfrep.util.errors import Cancelled, VolfrepError
 from volfrep.util.files import replacing
 from volfrep.util.progress import Monitor
@@ -176,7 +176,7 @@ def test_the_file_is_replaced_behind_a_link_and_keeps_its_mode(tmp_path: Path) -
 def test_the_extension_picks_the_format(tmp_path: Path) -> None:
     write_mesh(ball(1), tmp_path / "ball.STL")
     assert len(read_back(tmp_path / "ball.STL").triangles) == len(ball(1).triangles)
-    with pytest.raises(VolfrepError, match=r"'\.foo' is not a known mesh format, use \.stl"):
-        mesh_writer("part.foo")
+    with pytest.raises(VolfrepError, match=r"'\.foo' is not a known format, use \.stl"):
+        mesh_form("part.foo")
     with pytest.raises(VolfrepError, match="a name without an extension"):
-        mesh_writer("part")
+        mesh_form("part")

@@ -16,16 +16,18 @@ import samples
 from contract import assert_same_quality
 from volfrep import LatticeSpec
 from volfrep.design.grading import Orientation
-from volfrep.io.write import STREAMED, write_mesh, write_surface
 from volfrep.io.write.numbered import number_vertices
 from volfrep.io.write.threemf import write_3mf_beams
 from volfrep.jobs.infill import Infill
 from volfrep.mesh.quality import measure
 from volfrep.mesh.triangle_mesh import TriangleMesh
+from volfrep.output.form import FORMS
+from volfrep.output.meshes import write_mesh
 from volfrep.trim import stage
 from volfrep.trim.trimmed_surface import TrimmedSurface
 from volfrep.util.progress import Monitor
 
+STREAMED = [form.suffixes[0] for form in FORMS if form.streamed and form.bytes_by]
 SPEC = LatticeSpec("CVC", 5.0, 0.5, shell=1.0, resolution=8)
 TURNED = replace(SPEC, orientation=Orientation((1.0, 2.0, 3.0), 40.0))
 
@@ -75,7 +77,7 @@ def test_a_part_is_read_as_its_mesh_is(
 ) -> None:
     assert unmeshed.octants is not None
     path = tmp_path / f"part{suffix}"
-    write_surface(unmeshed, path)
+    write_mesh(unmeshed, path)
     found, wanted = measure(read(path)), part().part.report
     assert found.watertight
     assert (found.triangles, found.vertices) == (wanted.triangles, wanted.vertices)
@@ -85,7 +87,7 @@ def test_a_part_is_read_as_its_mesh_is(
 
 @pytest.mark.parametrize("suffix", [".stl", ".ply"])
 def test_triangle_for_triangle(suffix: str, tmp_path: Path) -> None:
-    write_surface(part().part.surface, tmp_path / f"streamed{suffix}")
+    write_mesh(part().part.surface, tmp_path / f"streamed{suffix}")
     write_mesh(part().part.mesh, tmp_path / f"meshed{suffix}")
     one, two = (read(tmp_path / f"{name}{suffix}") for name in ("streamed", "meshed"))
     np.testing.assert_array_equal(rows(one), rows(two))
@@ -100,7 +102,7 @@ def test_a_lattice_that_is_turned(suffix: str, tmp_path: Path) -> None:
     whole = measure(found.mesh)
     assert_same_quality(found.surface.inspected(Monitor()).found.quality, whole)
     np.testing.assert_array_equal(found.surface.bounds, whole.bounds)
-    write_surface(found.surface, tmp_path / f"part{suffix}")
+    write_mesh(found.surface, tmp_path / f"part{suffix}")
     seen = measure(read(tmp_path / f"part{suffix}"))
     assert seen.watertight
     assert (seen.triangles, seen.vertices, seen.genus) == (

@@ -17,13 +17,13 @@ from exact import DENSITY
 from volfrep import LatticeSpec
 from volfrep.cli import command as cli
 from volfrep.grid.strut_graph import Wireframe
-from volfrep.io.write import write_mesh
 from volfrep.io.write.threemf import write_3mf, write_3mf_beams
 from volfrep.jobs.beam_part import beam_model, block_beams
 from volfrep.jobs.blocks import block
 from volfrep.jobs.pipeline import fill
 from volfrep.mesh.quality import measure
 from volfrep.mesh.triangle_mesh import TriangleMesh
+from volfrep.output.meshes import write_mesh
 from volfrep.trim.beam_model import BeamModel
 from volfrep.util.errors import Cancelled, VolfrepError
 from volfrep.util.progress import Monitor

@@ -10,11 +10,12 @@ import trimesh
 
 import samples
 from volfrep import LatticeSpec
-from volfrep.io.write import MESH_WRITERS, write_mesh
 from volfrep.jobs.blocks import block
 from volfrep.mesh.precision import decimal_step, lines, rounded
 from volfrep.mesh.quality import measure
 from volfrep.mesh.triangle_mesh import TriangleMesh, empty_mesh
+from volfrep.output.form import suffixes
+from volfrep.output.meshes import write_mesh
 from volfrep.util.errors import Cancelled, VolfrepError
 from volfrep.util.files import replacing
 from volfrep.util.progress import Monitor
@@ -41,7 +42,7 @@ def test_a_mesh_comes_back_as_it_was(tmp_path: Path, suffix: str, lattice: Trian
     assert back.euler_number == 2 * (1 - measure(lattice).genus)
 
 
-@pytest.mark.parametrize("suffix", MESH_WRITERS)
+@pytest.mark.parametrize("suffix", suffixes(meshes=True))
 def test_no_writer_leaves_a_file_that_is_not_whole(tmp_path: Path, suffix: str) -> None:
     path = tmp_path / f"ball{suffix}"
     with pytest.raises(VolfrepError, match="mesh is empty"):
@@ -62,7 +63,7 @@ def test_what_single_precision_cannot_hold_is_refused(tmp_path: Path, suffix: st
     assert os.listdir(tmp_path) == []
 
 
-@pytest.mark.parametrize("suffix", MESH_WRITERS)
+@pytest.mark.parametrize("suffix", suffixes(meshes=True))
 def test_every_writer_tells_its_progress(tmp_path: Path, suffix: str, monkeypatch) -> None:
     monkeypatch.setattr("volfrep.io.write.stl.BLOCK_FACETS", 100)
     for module in ("mesh.precision", "io.write.numbered", "io.write.obj", "io.write.threemf"):

@@ -9,12 +9,12 @@ import samples
 from volfrep.design.cells import make_cell
 from volfrep.design.grading import CellMap
 from volfrep.design.spec import LatticeSpec
-from volfrep.io.write import write_mesh
 from volfrep.jobs.blocks import block
 from volfrep.jobs.pipeline import fill
 from volfrep.mesh.float32_repair import without_slivers
 from volfrep.mesh.quality import measure
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
+from volfrep.output.meshes import write_mesh
 from volfrep.spatial.resolve_crossings import Turns
 from volfrep.spatial.self_intersection import crossing_triangles
 from volfrep.trim.finish import finish, refuse_merging, tidy

@@ -13,11 +13,11 @@ from contract import assert_same_quality
 from volfrep.design.grading import RadiusGrading
 from volfrep.design.profile import Profile
 from volfrep.design.spec import LatticeSpec
-from volfrep.io.write import write_surface
 from volfrep.jobs.infill import Infill
 from volfrep.lattice.assembly import numbers
 from volfrep.mesh.quality import measure
 from volfrep.mesh.triangle_mesh import TriangleMesh
+from volfrep.output.meshes import write_mesh
 from volfrep.spatial.winding import Lines, windings
 from volfrep.trim.trimmed_surface import TrimmedSurface
 from volfrep.util.errors import Cancelled
@@ -51,7 +51,7 @@ def test_what_is_found_of_moved_octants_is_what_their_triangles_show():
 @pytest.mark.parametrize("suffix", [".stl", ".ply", ".obj", ".3mf"])
 def test_a_file_holds_what_the_mesh_does(suffix, tmp_path):
     surface, path = graded().part.surface, tmp_path / f"part{suffix}"
-    write_surface(surface, path)
+    write_mesh(surface, path)
     loaded = trimesh.load(path, process=suffix == ".stl", force="mesh")
     read = measure(TriangleMesh(np.asarray(loaded.vertices, float), loaded.faces.astype(np.int32)))
     mesh = measure(surface.whole(Monitor()))

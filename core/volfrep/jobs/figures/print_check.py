@@ -11,6 +11,31 @@ from ...reports.printability import PrintReport, overhanging_facets, print_repor
 from ...reports.processes import Process
 
 
+def check_print(
+    mesh: TriangleMesh,
+    lattice: Wireframe,
+    domain: TriangleMesh | None,
+    spec: LatticeSpec,
+    process: Process,
+    build_direction: tuple[float, float, float],
+) -> PrintReport:
+    """The report alone; arguments as of `print_check`, with None for a block's domain.
+
+    Raises:
+        VolfrepError: the build direction is no direction.
+    """
+    return print_report(
+        mesh,
+        lattice,
+        process,
+        build_direction=build_direction,
+        density=spec.density,
+        domain=domain,
+        ball_mm=ball_of(spec),
+        walls_mm=walls_of(spec),
+    )
+
+
 def print_check(
     mesh: TriangleMesh,
     lattice: Wireframe,
@@ -32,15 +57,6 @@ def print_check(
     Raises:
         VolfrepError: the build direction is no direction.
     """
-    report = print_report(
-        mesh,
-        lattice,
-        process,
-        build_direction=build_direction,
-        density=spec.density,
-        domain=domain,
-        ball_mm=ball_of(spec),
-        walls_mm=walls_of(spec),
-    )
+    report = check_print(mesh, lattice, domain, spec, process, build_direction)
     hanging = overhanging_facets(mesh, unit_direction(build_direction), process.inclination)
     return report, compact(TriangleMesh(mesh.vertices, mesh.triangles[hanging]))

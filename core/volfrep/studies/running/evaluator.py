@@ -14,7 +14,7 @@ from ...design.parameters.spec_file import write_values
 from ...design.spec import LatticeSpec
 from ...design.tpms import TpmsSheet
 from ...io.solid import Solid
-from ...io.write import mesh_writer
+from ...jobs.figures.print_check import check_print
 from ...jobs.infill import Infill
 from ...jobs.preview import PartDepth
 from ...jobs.sizing.goal import goal_of
@@ -24,12 +24,13 @@ from ...jobs.tpms.properties import tpms_properties
 from ...loads.load_cases import LoadCases
 from ...loads.load_file import read_load_cases
 from ...mechanics.catalogue import known_properties
-from ...mechanics.materials import SolidMaterial
+from ...mechanics.materials import Material, SolidMaterial
 from ...mechanics.summary import MODULI, RATIOS, CellProperties, cell_properties
+from ...output.form import find_form
+from ...output.sources import FilledPart
+from ...output.writer import Settings, writer_of
 from ...reports.mesh_report import mesh_report
-from ...reports.passage import walls_of
 from ...reports.picture import picture
-from ...reports.printability import print_report
 from ...sizing.analysis import Analysis
 from ...util.cache import StageCache
 from ...util.errors import Cancelled, VolfrepError
@@ -226,14 +227,8 @@ def _print(bench: Evaluator) -> dict[str, Figure]:
     process = bench.asked.process
     assert process is not None, "the study was checked"
     infill = bench.infill
-    report = print_report(
-        infill.result.mesh,
-        infill.result.wireframe,
-        process,
-        build_direction=bench.up,
-        density=bench.spec.density,
-        domain=infill.cavity,
-        walls_mm=walls_of(bench.spec),
+    report = check_print(
+        infill.result.mesh, infill.result.wireframe, infill.cavity, bench.spec, process, bench.up
     )
     return {
         "findings": len(report.findings),
@@ -308,7 +303,14 @@ def _rounded(value: float) -> float:
 
 def _export(bench: Evaluator) -> dict[str, Figure]:
     path = bench.file("files", bench.asked.export)
-    mesh_writer(path)(bench.infill.result.mesh, path, None)
+    form, material = find_form(path), bench.asked.material
+    deck = Material() if material is None else material.for_solver(bench.spec.density)
+    form.refuse(bench.spec)
+    part = FilledPart(bench.infill, bench.shared.cache, bench.progress)
+    writer, settled = writer_of(form).settle(part)
+    written = writer.write(part, path, Settings(material=deck))
+    if said := [*settled, *written.warnings]:
+        bench.notes["export"] = said
     return {"file": f"files/{path.name}", "bytes": path.stat().st_size}
 
 

@@ -1,0 +1,366 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What a command that makes a lattice was asked for: read once from argparse, and frozen.
+
+Everything that can be refused before any work is refused here. numpy and the engine are imported
+inside the functions, as in `command`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ..output.form import Form, find_form, suffixes_of
+from ..util.errors import VolfrepError
+from .files import check_files
+from .parameter_options import Specified, specified, values_to_keep
+from .run_options import refuse_extensions
+from .telling import print_warnings
+
+if TYPE_CHECKING:
+    from ..design.spec import LatticeSpec
+    from ..mechanics.materials import Material, SolidMaterial
+    from ..reports.processes import Process
+
+#: The files that a material of a solver's own goes into.
+DECK = "inp"
+
+
+@dataclass(frozen=True)
+class Kept:
+    """A specification to write when all is done.
+
+    Attributes:
+        values: of parameters.
+        path: of the file.
+    """
+
+    values: Mapping[str, Any]
+    path: str
+
+    def write(self) -> None:
+        """Write it."""
+        from ..design.parameters.spec_file import write_values
+
+        write_values(dict(self.values), self.path)
+
+
+@dataclass(frozen=True)
+class LatticeOptions:
+    """What every command that makes a lattice is told.
+
+    Attributes:
+        spec: what to make, with the density of the material where none is given.
+        output: the file, or the folder of layers.
+        quiet: print nothing but errors.
+        kept: the specification in force, where it is to be written.
+    """
+
+    spec: LatticeSpec
+    output: str
+    quiet: bool
+    kept: Kept | None
+
+
+@dataclass(frozen=True)
+class MeshOptions(LatticeOptions):
+    """What `fill`, `block` and `network` are told beside it.
+
+    Attributes:
+        form: of the output.
+        report: file for the figures; None for none.
+        picture: file for a picture; None for none.
+        process: of the print report; None for none.
+        build_direction: of it, from the build plate up.
+        material: of a solver's deck.
+    """
+
+    form: Form
+    report: str | None
+    picture: str | None
+    process: Process | None
+    build_direction: tuple[float, float, float]
+    material: Material
+
+    @property
+    def is_plain(self) -> bool:
+        """Whether nothing but a file is wanted, which holds a surface without a mesh of it all."""
+        return self.form.streamed and self.process is None and self.picture is None
+
+
+@dataclass(frozen=True)
+class FillOptions(MeshOptions):
+    """Of `fill`.
+
+    Attributes:
+        part: file of the solid.
+        unit: of its lengths; None for what it says.
+        workers: processes that cut; None for as many as it is worth.
+        scheduler: of Dask, in their stead.
+    """
+
+    part: str
+    unit: str | None
+    workers: int | None
+    scheduler: str | None
+
+
+@dataclass(frozen=True)
+class BlockOptions(MeshOptions):
+    """Of `block`.
+
+    Attributes:
+        count: cells along x, y, z.
+    """
+
+    count: tuple[int, int, int]
+
+
+@dataclass(frozen=True)
+class SliceOptions(LatticeOptions):
+    """Of `slice`.
+
+    Attributes:
+        part: file of the solid.
+        unit: of its lengths; None for what it says.
+        form: of the layers.
+        layer: height of a layer, mm.
+        pixel: edge of a pixel, mm; None for the height of a layer.
+    """
+
+    part: str
+    unit: str | None
+    form: Form
+    layer: float
+    pixel: float | None
+
+
+@dataclass(frozen=True)
+class SizeOptions(LatticeOptions):
+    """Of `size`.
+
+    Attributes:
+        part: file of the solid.
+        unit: of its lengths; None for what it says.
+        form: of the output.
+        loads: file of load cases.
+        goal: what is wanted, by its names in `jobs.sizing.GOALS`.
+        remove_thin: take away the thinnest struts, and size again.
+        steps: of the search, at most.
+        prove: whether CalculiX solves the final design.
+        radii: file for the radii; None for none.
+        write_spec: file for the specification with these radii; None for none.
+        report: file for the figures; None for none.
+        plot: file for mass and limits; None for none.
+        picture: file for a picture; None for none.
+        colour: what its colour tells.
+        case: load case of the picture; None for the first.
+        deformed: displacements drawn so many times as large.
+    """
+
+    part: str
+    unit: str | None
+    form: Form
+    loads: str
+    goal: Mapping[str, float | None]
+    remove_thin: bool
+    steps: int
+    prove: bool
+    radii: str | None
+    write_spec: str | None
+    report: str | None
+    plot: str | None
+    picture: str | None
+    colour: str
+    case: str | None
+    deformed: float
+
+
+def fill_options(given: argparse.Namespace) -> FillOptions:
+    """What `fill` is asked for.
+
+    Raises:
+        VolfrepError: it makes no sense, or could not be written.
+    """
+    common = _mesh_options(given, specified(given))
+    return FillOptions(
+        **common, part=given.part, unit=given.unit, workers=given.workers,
+        scheduler=given.scheduler,
+    )  # fmt: skip
+
+
+def block_options(given: argparse.Namespace) -> BlockOptions:
+    """What `block` is asked for; see `fill_options`."""
+    return BlockOptions(**_mesh_options(given, specified(given)), count=given.count)
+
+
+def network_options(given: argparse.Namespace) -> MeshOptions:
+    """What `network` is asked for; see `fill_options`."""
+    found = specified(given, {"network": "file", "network_file": given.file})
+    return MeshOptions(**_mesh_options(given, found))
+
+
+def slice_options(given: argparse.Namespace) -> SliceOptions:
+    """What `slice` is asked for; see `fill_options`."""
+    found = specified(given)
+    solid = _solid_material(given.material)
+    if solid is not None and "," in given.material:
+        raise _no_density(given.output)
+    check_files(given, found.files, folder=True)
+    return SliceOptions(
+        **_lattice_options(given, found, solid), part=given.part, unit=given.unit,
+        form=find_form(given.output, given.format), layer=given.layer, pixel=given.pixel,
+    )  # fmt: skip
+
+
+def size_options(given: argparse.Namespace) -> SizeOptions:
+    """What `size` is asked for; see `fill_options`."""
+    from ..jobs.sizing import GOALS
+    from ..output.meshes import mesh_form
+
+    found = specified(given)
+    if given.write_spec is not None and given.radii is None:  # which the specification names
+        radii = str(Path(given.write_spec).with_suffix(".radii.csv"))
+        given = argparse.Namespace(**{**vars(given), "radii": radii})
+    check_files(given, found.files)
+    form = mesh_form(given.output)
+    if given.picture is not None:
+        from ..reports.picture import check_picture
+
+        check_picture(given.picture)
+    elif given.colour or given.case or given.deformed is not None:
+        raise VolfrepError("--colour, --case and --deformed say what --picture shows: give it.")
+    if given.plot is not None:
+        from ..reports.sizing_plot import check_plot
+
+        check_plot(given.plot)
+    if given.steps < 1:
+        raise VolfrepError(f"There must be at least one step, not {given.steps}.")
+    return SizeOptions(
+        spec=found.spec, output=given.output, quiet=given.quiet, kept=None,
+        part=given.part, unit=given.unit, form=form, loads=given.loads,
+        goal={name: getattr(given, name) for name in GOALS}, remove_thin=given.remove_thin,
+        steps=given.steps, prove=not given.no_proof, radii=given.radii,
+        write_spec=given.write_spec, report=given.report, plot=given.plot, picture=given.picture,
+        colour=given.colour or "radius", case=given.case, deformed=given.deformed or 0.0,
+    )  # fmt: skip
+
+
+def _mesh_options(given: argparse.Namespace, found: Specified) -> dict[str, Any]:
+    """The fields of `MeshOptions`."""
+    out = Path(given.output)
+    refuse_extensions(given, "fill", out)
+    form = find_form(out, given.threemf or given.step or given.inp)
+    solid = _solid_material(given.material)
+    if solid is not None and "," in given.material and "material" not in form.takes:
+        # Without a density it says something about a deck only.
+        raise _no_density(given.output)
+    process = _print_process(given, form, solid)
+    fields = _lattice_options(given, found, solid)
+    check_files(given, found.files)
+    _check_reports(given, form)
+    if process is not None:
+        from ..reports.printability import unit_direction
+
+        unit_direction(found.build_direction)
+    form.refuse(fields["spec"])
+    return fields | {
+        "form": form,
+        "report": given.report,
+        "picture": given.picture,
+        "process": process,
+        "build_direction": found.build_direction,
+        "material": _deck_material(solid, _density(found, given.material, solid)),
+    }
+
+
+def _lattice_options(
+    given: argparse.Namespace, found: Specified, solid: SolidMaterial | None
+) -> dict[str, Any]:
+    """The fields of `LatticeOptions`."""
+    spec, density = found.spec, _density(found, given.material, solid)
+    if density is not None:
+        spec = dataclasses.replace(spec, density=density)
+    if solid is not None and spec.target is not None and spec.target.aim == "stiffness":
+        target = dataclasses.replace(spec.target, young=solid.young)
+        spec = dataclasses.replace(spec, target=target)
+    kept = None
+    if given.write_spec is not None:
+        kept = Kept(values_to_keep(spec, found.build_direction), given.write_spec)
+    return {"spec": spec, "output": given.output, "quiet": given.quiet, "kept": kept}
+
+
+def _solid_material(named: str | None) -> SolidMaterial | None:
+    if named is None:
+        return None
+    from ..mechanics.materials import find_material
+
+    return find_material(named)
+
+
+def _density(found: Specified, named: str | None, solid: SolidMaterial | None) -> float | None:
+    """What was given, else the material's, which one without a density does not say; g/cm3."""
+    density: float | None = found.values.get("density")
+    if density is not None or solid is None or named is None or "," in named:
+        return density
+    return solid.density
+
+
+def _no_density(out: str) -> VolfrepError:
+    return VolfrepError(
+        f"'{out}' cannot hold what --material asks for: give it the extension "
+        f"{suffixes_of(DECK)[0]}, or name a material with a density."
+    )
+
+
+def _deck_material(solid: SolidMaterial | None, density: float | None) -> Material:
+    from ..mechanics.materials import Material
+
+    if solid is not None:
+        return solid.for_solver(density)
+    return Material() if density is None else Material(density=density)
+
+
+def _print_process(
+    given: argparse.Namespace, form: Form, solid: SolidMaterial | None
+) -> Process | None:
+    """The process of a print report, if one is wanted; it is told if it does not suit."""
+    if given.process is None and given.print_report is None:
+        return None
+    from ..reports.processes import find_process
+
+    told = given.print_report
+    if given.process is not None:
+        process = find_process(given.process)
+        if told is None and form.meshed:
+            told = process.name
+        if solid is not None and solid.processes and process.name not in solid.processes:
+            print_warnings(
+                [
+                    f"{solid.name} is printed by {' or '.join(solid.processes)}, not by "
+                    f"{process.name}."
+                ]
+            )
+    return None if told is None else find_process(told)
+
+
+def _check_reports(given: argparse.Namespace, form: Form) -> None:
+    """Refuse what is made of a mesh where there is none."""
+    if given.picture is not None:
+        from ..reports.picture import check_picture
+
+        check_picture(given.picture)
+        if not form.meshed:
+            raise VolfrepError(
+                "A picture is made of the mesh, which beams do without: leave it out."
+            )
+    if form.meshed or not (given.report or given.print_report):
+        return
+    instead = f"use {form.alternative}" if form.option == "3mf" else "leave one of them out"
+    raise VolfrepError(
+        f"A report is made of the mesh, which --{form.option} {form.word} does without: {instead}."
+    )

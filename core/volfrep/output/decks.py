@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Decks for CalculiX: struts as beams with stiff ends, or the part as tetrahedra."""
+
+from __future__ import annotations
+
+import os
+
+from ..fem.beam_mesh import fitted_beams
+from ..fem.joint_loads import side_joints
+from ..fem.tet_mesh import nodes_on, tetrahedra
+from ..fem.deck import write_beams, write_tetrahedra
+from ..reports.estimate import Estimate, estimate_beams, estimate_tetrahedra
+from ..trim.beam_model import deformed_struts
+from .step import choice_of
+from .writer import Settings, Source, Writer, Written
+
+
+class BeamDeckWriter(Writer):
+    """Beams along the struts' axes."""
+
+    def estimate(self, source: Source) -> Estimate:
+        """As of `Writer`."""
+        from ..fem.beam_mesh import beam_model
+
+        axes = source.axes
+        return estimate_beams(beam_model(axes.wireframe, axes.on_wall), choice_of(source))
+
+    def write(self, source: Source, path: str | os.PathLike[str], settings: Settings) -> Written:
+        """As of `Writer`."""
+        spec, axes = source.spec, source.axes
+        frame = axes.wireframe
+        model, warnings = fitted_beams(frame, axes.on_wall, spec.fitted_cell, spec.cell_size)
+        settings.tell(estimate_beams(model, choice_of(source)))
+        write_beams(model, path, settings.material, on_wall=axes.on_wall)
+        warnings = axes.warnings + warnings + deformed_struts(spec.grid, spec.struts)
+        row = ("struts", f"{len(frame.struts):,} between {len(frame.nodes):,} nodes, as beams")
+        return Written(warnings, (row,))
+
+
+class TetrahedraWriter(Writer):
+    """Second-order tetrahedra by Gmsh."""
+
+    def estimate(self, source: Source) -> Estimate:
+        """As of `Writer`."""
+        return estimate_tetrahedra(len(source.mesh.triangles), choice_of(source))
+
+    def write(self, source: Source, path: str | os.PathLike[str], settings: Settings) -> Written:
+        """As of `Writer`."""
+        settings.tell(self.estimate(source))
+        filled = tetrahedra(source.mesh, source.monitor)
+        sides, outside, sets = source.sides, source.outside, {}
+        if sides is not None:
+            sets = side_joints(filled, sides)
+        if outside is not None:
+            sets["SKIN"] = nodes_on(filled, outside)
+        write_tetrahedra(filled, path, settings.material, sets=sets)
+        return Written(filled.warnings)

@@ -1,0 +1,292 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What a form is written from: a filled part, a block, or a strut graph in free space.
+
+Every attribute is made when it is first read, so that a form costs what it needs only.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from ..design.spec import LatticeSpec
+from ..grid.strut_graph import BeamModel, Wireframe
+from ..io.solid import Solid
+from ..mesh.triangle_mesh import TriangleMesh
+from ..trim.trimmed_surface import TrimmedSurface
+from ..util.errors import VolfrepError
+from ..util.progress import Monitor, ProgressCallback
+from .writer import Axes, ExactStruts
+
+if TYPE_CHECKING:
+    from ..jobs.infill import Infill
+    from ..jobs.slices import Layers
+    from ..reports.result import Result
+    from ..util.cache import StageCache
+
+
+class FilledPart:
+    """A filled solid.
+
+    Args:
+        infill: its stages.
+        cache: keeps them for layers, whose radius is given then.
+        progress: called with the fraction done and the stage; returning False cancels.
+    """
+
+    count = None
+
+    def __init__(
+        self,
+        infill: Infill,
+        cache: StageCache | None = None,
+        progress: ProgressCallback | None = None,
+    ) -> None:
+        self.infill, self._cache, self._progress = infill, cache, progress
+        self.spec, self.solid = infill.spec, infill.solid
+        self.monitor = Monitor(progress)
+
+    @property
+    def result(self) -> Result:
+        """The mesh and its figures."""
+        return self.infill.result
+
+    @property
+    def surface(self) -> TrimmedSurface | TriangleMesh:
+        """As of `Source`."""
+        return self.result.surface
+
+    @property
+    def mesh(self) -> TriangleMesh:
+        """As of `Source`."""
+        return self.result.mesh
+
+    @property
+    def figures(self) -> Mapping[str, str]:
+        """As of `Source`."""
+        return self.result.report.figures
+
+    @property
+    def volume(self) -> float:
+        """As of `Source`."""
+        return self.result.report.volume_mm3
+
+    @property
+    def cavity(self) -> TriangleMesh | None:
+        """The surface of what the lattice fills."""
+        return self.infill.cavity
+
+    @property
+    def beams(self) -> BeamModel:
+        """As of `Source`."""
+        return self.infill.beams
+
+    @property
+    def axes(self) -> Axes:
+        """As of `Source`."""
+        cut = self.infill.axes
+        return Axes(cut.wireframe, cut.on_wall, cut.warnings)
+
+    @property
+    def exact(self) -> ExactStruts:
+        """As of `Source`."""
+        lattice = self.infill.lattice_beams.lattice
+        if not self.spec.is_cut:
+            return ExactStruts(lattice)
+        outer = self.solid if self.spec.with_skin else None
+        return ExactStruts(lattice, self.infill.cavity, outer)
+
+    @property
+    def sides(self) -> Wireframe | None:
+        """As of `Source`."""
+        return None if self.infill.placement.is_cut else self.result.wireframe
+
+    @property
+    def outside(self) -> TriangleMesh | None:
+        """As of `Source`."""
+        return self.infill.cavity if self.spec.output == "lattice" else self.solid
+
+    def layers(
+        self, folder: str | os.PathLike[str], form: str, layer: float, pixel: float | None
+    ) -> Layers:
+        """As of `Source`."""
+        from ..jobs.slices import write_layers
+
+        return write_layers(
+            self.solid, replace(self.spec, target=None), folder, layer=layer, pixel=pixel,
+            form=form, progress=self._progress, cache=self._cache,
+        )  # fmt: skip
+
+
+class Free:
+    """A lattice in free space.
+
+    Args:
+        spec: what is made.
+        progress: called with the fraction done and the stage; returning False cancels.
+    """
+
+    count: Sequence[int] | None = None
+    cavity: TriangleMesh | None = None
+    solid: Solid | None = None
+
+    def __init__(self, spec: LatticeSpec, progress: ProgressCallback | None = None) -> None:
+        self.spec, self._progress = spec, progress
+        self.monitor = Monitor(progress)
+
+    @cached_property
+    def result(self) -> Result:
+        """The mesh and its figures."""
+        raise NotImplementedError
+
+    @property
+    def beams(self) -> BeamModel:
+        """As of `Source`."""
+        raise NotImplementedError
+
+    @property
+    def axes(self) -> Axes:
+        """As of `Source`."""
+        raise NotImplementedError
+
+    @property
+    def surface(self) -> TrimmedSurface | TriangleMesh:
+        """As of `Source`."""
+        return self.result.surface
+
+    @property
+    def mesh(self) -> TriangleMesh:
+        """As of `Source`."""
+        return self.result.mesh
+
+    @property
+    def figures(self) -> Mapping[str, str]:
+        """As of `Source`."""
+        return self.result.report.figures
+
+    @property
+    def volume(self) -> float:
+        """As of `Source`."""
+        return self.result.report.volume_mm3
+
+    @property
+    def exact(self) -> ExactStruts:
+        """As of `Source`."""
+        return ExactStruts(self.result.wireframe)
+
+    @property
+    def sides(self) -> Wireframe | None:
+        """As of `Source`."""
+        return self.result.wireframe
+
+    @property
+    def outside(self) -> TriangleMesh | None:
+        """As of `Source`."""
+        return None
+
+    def layers(
+        self, folder: str | os.PathLike[str], form: str, layer: float, pixel: float | None
+    ) -> Layers:
+        """As of `Source`.
+
+        Raises:
+            VolfrepError: always.
+        """
+        raise VolfrepError(
+            "Layers are cut of a filled part: fill a box, or write the mesh and slice it with the "
+            "printer's own program."
+        )
+
+
+class Block(Free):
+    """A free-standing block.
+
+    Args:
+        spec: what is made, with the radius of its target.
+        count: cells along x, y, z.
+        progress: as of `FilledPart`.
+    """
+
+    def __init__(
+        self,
+        spec: LatticeSpec,
+        count: Sequence[int],
+        progress: ProgressCallback | None = None,
+    ) -> None:
+        super().__init__(spec, progress)
+        self.count: Sequence[int] = count
+
+    @cached_property
+    def result(self) -> Result:
+        """The mesh and its figures."""
+        from ..jobs.blocks import block
+
+        return block(self.spec, self.count, progress=self._progress)
+
+    @property
+    def beams(self) -> BeamModel:
+        """As of `Source`."""
+        from ..jobs.beam_part import block_beams
+
+        return block_beams(self.spec, self.count)
+
+    @property
+    def axes(self) -> Axes:
+        """As of `Source`."""
+        from ..jobs.blocks import block_wireframe
+
+        return Axes(block_wireframe(self.spec, self.count), None)
+
+
+class FreeGraph(Free):
+    """A strut graph as it is, in free space."""
+
+    @cached_property
+    def result(self) -> Result:
+        """The mesh and its figures."""
+        from ..jobs.graphs.free_space import mesh_graph_alone
+
+        return mesh_graph_alone(self.spec, progress=self._progress)
+
+    @property
+    def beams(self) -> BeamModel:
+        """As of `Source`."""
+        return BeamModel(self._wireframe)
+
+    @property
+    def axes(self) -> Axes:
+        """As of `Source`."""
+        return Axes(self._wireframe, None)
+
+    @property
+    def _wireframe(self) -> Wireframe:
+        from ..jobs.graphs.free_space import frame_alone
+
+        return frame_alone(self.spec)[0]
+
+
+@dataclass(frozen=True, eq=False)
+class Given:
+    """A part whose pieces are there already, as FreeCAD has them; what a form needs is given.
+
+    Attributes:
+        spec: what was made.
+        given: pieces by their names in `Source`.
+    """
+
+    spec: LatticeSpec
+    given: Mapping[str, object]
+    count: Sequence[int] | None = None
+
+    @property
+    def monitor(self) -> Monitor:
+        """Of a run that nobody watches."""
+        return Monitor()
+
+    def __getattr__(self, name: str) -> object:
+        if name.startswith("__") or name not in self.given:
+            raise AttributeError(name)
+        return self.given[name]

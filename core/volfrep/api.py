@@ -43,7 +43,7 @@ if TYPE_CHECKING:
     import trimesh
 
     from .jobs.slices import Layers
-    from .output.sources import Source
+    from .output.writer import Source
     from .reports.printability import PrintReport
 
 #: What of a `Wall` a parameter of a call, an option or an entry of a file says.

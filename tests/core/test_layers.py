@@ -20,8 +20,8 @@ ROOMS = (
 #: its docstring why it is long; no other number of lines, or of modules in a folder, is a rule.
 LONG = 700
 #: Modules one of which imports the next, wherever in it the import stands; of rooms as well.
-LONGEST_CHAIN = 26
-LONGEST_CHAIN_OF_ROOMS = 14
+LONGEST_CHAIN = 27
+LONGEST_CHAIN_OF_ROOMS = 13
 
 
 def modules() -> dict[str, Path]:

@@ -13,7 +13,6 @@ from conftest import SMALL
 from freecad_volfrep import export_mesh, make_lattice_infill, make_solid
 from freecad_volfrep.bridge.faceted import faceted_solid
 from freecad_volfrep.bridge.meshes import from_freecad, to_freecad, with_neighbours
-<<<<<<< HEAD
 from freecad_volfrep.features.export.faceted_solid import export_step, predict_solid
 from freecad_volfrep.features.export.input_files import refuse_inputs_of_all
 from freecad_volfrep.features.export.layer_export import (
@@ -28,14 +27,6 @@ from freecad_volfrep.features.export.mesh_file import (
     formats_of,
 )
 from freecad_volfrep.features.export.solver_files import CONTENTS
-from volfrep.io.write import MESH_WRITERS
-=======
-from freecad_volfrep.features.export import FORMATS, chosen_format, estimate_export, formats_of
-from freecad_volfrep.features.faceted_solid import export_step, predict_solid
-from freecad_volfrep.features.input_files import refuse_inputs_of_all
-from freecad_volfrep.features.layer_export import estimate_layers, export_layers, layers_folder
-from freecad_volfrep.features.solver_files import CONTENTS
->>>>>>> 1e8523b (Forms of output: one table for the command, Part.save and studies; options of a command are typed and read once)
 from volfrep.jobs.slices import FORMATS as FORMS_OF_LAYERS
 from volfrep.mesh.display_parts import facets_with_neighbours
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate

@@ -6,9 +6,9 @@ from __future__ import annotations
 import os
 
 from ..fem.beam_mesh import fitted_beams
+from ..fem.deck import write_beams, write_tetrahedra
 from ..fem.joint_loads import side_joints
 from ..fem.tet_mesh import nodes_on, tetrahedra
-from ..fem.deck import write_beams, write_tetrahedra
 from ..reports.estimate import Estimate, estimate_beams, estimate_tetrahedra
 from ..trim.beam_model import deformed_struts
 from .step import choice_of

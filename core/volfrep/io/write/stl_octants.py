@@ -57,8 +57,7 @@ def write_surface_stl(
 ) -> None:
     """Write a surface: the octants inside, as they are laid, then what is in its mesh.
 
-    An octant inside that is in the mesh leaves its place in the file to facets of the mesh, so
-    that octants can be written before it is known which of them stay (`stl_ahead`).
+    An octant inside that is in the mesh leaves its place in the file to facets of the mesh.
 
     Args:
         surface: in mm.

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Run by FreeCAD at its start, with or without windows.
 
-FreeCAD has by then put the add-on's folder on the module path, so that ``from freecad_volfrep
-import make_lattice_infill`` works. Nothing that costs time is done.
+Scripts import ``from freecad.volfrep import make_lattice_infill`` from then on. Nothing that costs
+time is done.
 """
 
 from freecad_volfrep.held_meshes import hold_meshes

@@ -1,26 +1,25 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The VOLFREP workbench: everything that knows FreeCAD.
 
-Importing this package costs nothing: the engine (`volfrep`, in the folder ``core`` beside this
-one) and its packages are imported by the first thing that computes.
+Importing this package costs nothing: the engine (`volfrep`) and its packages are imported by the
+first thing that computes.
 """
 
 from __future__ import annotations
 
-import sys
 from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-#: The add-on's folder: what FreeCAD puts on the module path.
-ROOT = Path(__file__).resolve().parent.parent
-ICONS = Path(__file__).resolve().parent / "resources" / "icons"
+from . import checkout  # noqa: F401  (left out of archives)
+from .saved_names import register_names
 
-_CORE = str(ROOT / "core")
-if _CORE not in sys.path:
-    # In front, so that the workbench runs the engine it was shipped with; the folder holds
-    # nothing but the package `volfrep`.
-    sys.path.insert(0, _CORE)
+_HERE = Path(__file__).resolve().parent
+ICONS = _HERE / "resources" / "icons"
+#: Pages of help: inside the package as it is installed, beside it in a checkout.
+DOCS = next(folder / "docs" for folder in (_HERE, _HERE.parent) if (folder / "docs").is_dir())
+
+register_names()
 
 _EXPORTS = {
     "make_lattice_infill": "freecad_volfrep.features.infill.factory",
@@ -34,8 +33,8 @@ _EXPORTS = {
     "size_lattice": "freecad_volfrep.features.sizing.sizing",
 }
 __all__ = [
+    "DOCS",
     "ICONS",
-    "ROOT",
     "apply_design",
     "export_mesh",
     "make_design_study",

@@ -56,13 +56,16 @@ def engine_folders() -> tuple[str, ...]:
 
     FreeCAD's own folders are not among them: they hide packages of the same name.
     """
-    folders = {}
-    for module in ("volfrep", *PACKAGES):
-        spec = importlib.util.find_spec(module)
-        if spec is not None and spec.origin is not None:
-            place = Path(spec.origin).parent
-            folders[str(place.parent if spec.submodule_search_locations else place)] = None
-    return tuple(folders)
+    found = (find_home(module) for module in ("volfrep.util", *PACKAGES))
+    return tuple(dict.fromkeys(folder for folder in found if folder is not None))
+
+
+def find_home(module: str) -> str | None:
+    """The folder from which Python imports a module by its whole name; None where it cannot."""
+    spec = importlib.util.find_spec(module)
+    if spec is None or spec.origin is None:
+        return None
+    return str(Path(spec.origin).parents[module.count(".") + bool(spec.submodule_search_locations)])
 
 
 def install_arguments(packages: list[str]) -> list[str]:

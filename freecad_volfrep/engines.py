@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import importlib.util
 import os
 import sys
 from pathlib import Path
@@ -11,9 +10,8 @@ from typing import TYPE_CHECKING
 
 import FreeCAD as App
 
-from . import ROOT
 from .compat import package_folder
-from .deps import PACKAGES, python_executable
+from .deps import PACKAGES, find_home, python_executable
 from .preferences import THREADS, read
 
 if TYPE_CHECKING:
@@ -55,7 +53,8 @@ def programs(threads: int) -> list[Program]:
     from volfrep.worker.engine_process import Program
 
     use = f"from volfrep.util.threads import use_threads; use_threads({threads})"
-    front = str(ROOT / "core")
+    front = find_home("volfrep.worker")
+    assert front is not None
     python = Program((python_executable(),), (front,), _package_folders(), use, _WARM)
     found = [python]
     console = _freecad(threads)
@@ -74,19 +73,15 @@ def _freecad(threads: int) -> Program | None:
         "from freecad_volfrep.engine import require_engine; require_engine(); "
         f"from volfrep.util.threads import use_threads; use_threads({threads})"
     )
-    return Program((console,), (str(ROOT),), tuple(sys.path), whole, _WARM)
+    home = find_home(__name__)
+    assert home is not None
+    return Program((console,), (home,), tuple(sys.path), whole, _WARM)
 
 
 def _package_folders() -> tuple[str, ...]:
     """Where this FreeCAD finds the engine's packages: its own folders hold other things, too."""
-    folders = [str(package_folder())]
-    for name in PACKAGES:
-        spec = importlib.util.find_spec(name)
-        if spec is not None and spec.origin is not None:
-            folders.append(
-                str(Path(spec.origin).parents[1 if spec.submodule_search_locations else 0])
-            )
-    return tuple(dict.fromkeys(folders))
+    found = (find_home(name) for name in PACKAGES)
+    return tuple(dict.fromkeys([str(package_folder()), *filter(None, found)]))
 
 
 def _console() -> str | None:

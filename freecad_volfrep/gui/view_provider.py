@@ -19,6 +19,7 @@ from freecad_volfrep.features.infill.freshness import STALE, why_stale
 from freecad_volfrep.features.infill.lattice_infill import UP_TO_DATE
 from freecad_volfrep.features.infill.skin import is_just_made
 from freecad_volfrep.features.reports.statistics import infills_of
+from freecad_volfrep.saved_names import saved_module
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 from volfrep.util.errors import VolfrepError
 
@@ -375,6 +376,6 @@ class DesignStudyView:
 
 
 # Saved files find the classes under these names.
-DesignStudyView.__module__ = "freecad_volfrep.gui.view_provider"
-PrintCheckView.__module__ = "freecad_volfrep.gui.view_provider"
-LatticeInfillView.__module__ = "freecad_volfrep.gui.view_provider"
+DesignStudyView.__module__ = saved_module("gui.view_provider")
+PrintCheckView.__module__ = saved_module("gui.view_provider")
+LatticeInfillView.__module__ = saved_module("gui.view_provider")

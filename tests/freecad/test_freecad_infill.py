@@ -301,7 +301,7 @@ def test_saving_and_reopening_computes_nothing(doc, infill, runs, tmp_path):
 
 
 def test_saved_files_name_the_class_by_its_package():
-    assert LatticeInfill.__module__ == "freecad_volfrep.features"
+    assert LatticeInfill.__module__ == "freecad.volfrep.features"
     assert LatticeInfill.__new__(LatticeInfill).dumps() is None
 
 

@@ -16,7 +16,7 @@ from freecad_volfrep.features.infill.lattice_infill import REVIVED, UP_TO_DATE
 from freecad_volfrep.features.infill.properties import SCHEMA_VERSION, SPOILED
 from freecad_volfrep.revival import revive
 
-PROXY = 'module="freecad_volfrep.features" class="LatticeInfill"'
+PROXY = 'module="freecad.volfrep.features" class="LatticeInfill"'
 
 
 @pytest.fixture
@@ -117,9 +117,9 @@ def test_what_was_changed_there_is_followed(doc, infill, tmp_path, opened):
     "proxy",
     [
         "",
-        'module="freecad_volfrep.features" class="LatticeInfil"',
+        'module="freecad.volfrep.features" class="LatticeInfil"',
         'module="no_such_module" class="LatticeInfill"',
-        'module="freecad_volfrep.features" class="PrintCheck"',
+        'module="freecad.volfrep.features" class="PrintCheck"',
         'module="argparse" class="Namespace"',
     ],
 )
@@ -223,3 +223,14 @@ def test_an_object_of_a_later_version_keeps_its_mesh_and_its_number(doc, infill,
     assert "later version of VOLFREP" in obj.Status
     assert obj.Mesh.CountFacets == before
     assert obj.SchemaVersion == SCHEMA_VERSION + 2
+
+
+@pytest.mark.parametrize("package", ["freecad_volfrep", "freecad.volfrep"])
+def test_documents_open_whichever_way_the_workbench_was_installed(
+    doc, infill, tmp_path, opened, package
+):
+    other = PROXY.replace("freecad.volfrep", package)
+    again = opened(rewritten(doc, tmp_path / "other.FCStd", (PROXY, other)))
+    obj = again.getObject(infill.Name)
+    assert isinstance(obj.Proxy, LatticeInfill)
+    assert obj.Status == UP_TO_DATE

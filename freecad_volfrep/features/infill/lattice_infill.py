@@ -14,6 +14,7 @@ from freecad_volfrep.features.jobs.progress import job_title, run_job
 from freecad_volfrep.features.jobs.screen import attach_view, is_asked_by_user, revive_view, screen
 from freecad_volfrep.features.properties.quantities import set_value
 from freecad_volfrep.preferences import largest_automatic, triangles_drawn
+from freecad_volfrep.saved_names import saved_module
 
 from .applicable import CONTROLS, show_applicable
 from .freshness import fingerprint_of, is_of
@@ -332,7 +333,7 @@ class LatticeInfill:
 
 
 # Saved files find the class under this name, wherever the file it is written in moves to.
-LatticeInfill.__module__ = "freecad_volfrep.features"
+LatticeInfill.__module__ = saved_module("features")
 
 
 def revive_infill(obj: App.DocumentObject) -> None:

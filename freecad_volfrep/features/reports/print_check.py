@@ -14,6 +14,7 @@ from freecad_volfrep.features.jobs.progress import job_title, run_job
 from freecad_volfrep.features.jobs.screen import attach_view, revive_view
 from freecad_volfrep.features.properties.property_table import Property, add_missing, result
 from freecad_volfrep.features.properties.quantities import set_value
+from freecad_volfrep.saved_names import saved_module
 from volfrep.util.errors import VolfrepError
 
 if TYPE_CHECKING:
@@ -138,7 +139,7 @@ class PrintCheck:
 
 
 # Saved files find the class under this name.
-PrintCheck.__module__ = "freecad_volfrep.features"
+PrintCheck.__module__ = saved_module("features")
 
 
 def revive_print_check(obj: App.DocumentObject) -> None:

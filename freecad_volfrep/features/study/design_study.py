@@ -21,6 +21,7 @@ from freecad_volfrep.features.jobs.progress import job_title, run_job
 from freecad_volfrep.features.jobs.screen import attach_view, revive_view
 from freecad_volfrep.features.properties.property_table import Property, add_missing, result
 from freecad_volfrep.features.properties.quantities import set_value
+from freecad_volfrep.saved_names import saved_module
 from freecad_volfrep.translation import translate
 from volfrep.design.cells import LIBRARY
 from volfrep.design.parameters import BY_NAME, PARAMETERS, Parameter
@@ -94,7 +95,7 @@ class DesignStudy:
 
 
 # Saved files find the class under this name.
-DesignStudy.__module__ = "freecad_volfrep.features"
+DesignStudy.__module__ = saved_module("features")
 
 
 def revive_study(obj: App.DocumentObject) -> None:

@@ -7,12 +7,12 @@ from pathlib import Path
 
 import FreeCADGui as Gui
 
-from freecad_volfrep import ROOT
+from freecad_volfrep import DOCS
 from freecad_volfrep.gui.qt import QtCore, QtWidgets
 from freecad_volfrep.translation import translate
 
 #: A page for each command, by the command's name, and one that lists them.
-PAGES = ROOT / "docs" / "commands"
+PAGES = DOCS / "commands"
 INDEX = PAGES / "README.md"
 #: Of the window, px: as wide as the pages' pictures and their margins.
 SIZE = (860, 780)

@@ -9,6 +9,7 @@ import Part
 import pytest
 
 from freecad_volfrep.engines import freecads, programs
+from freecad_volfrep.features.jobs.job import Job, State
 from freecad_volfrep.features.jobs.progress import run_job
 from freecad_volfrep.features.jobs.screen import is_asked_by_user
 from volfrep.mesh.triangle_mesh import TriangleMesh
@@ -80,3 +81,16 @@ def test_a_recompute_of_the_users_is_told_from_a_scripts():
     proxy.execute(None)
     exec(compile("proxy.execute(None)", "<string>", "exec"), {"proxy": proxy})
     assert asked == [False, True]
+
+
+def test_a_job_goes_from_state_to_state_and_no_other_way():
+    job = Job("A job", Call(tell, ("",)))
+    assert job.state is State.WAITING
+    for state in (State.RUNNING, State.CANCELLING, State.ARRIVING):
+        job.go(state)
+        assert job.is_under_way
+    job.go(State.CANCELLED)
+    assert not job.is_under_way
+    with pytest.raises(ValueError, match="a job that is cancelled cannot be running next"):
+        job.go(State.RUNNING)
+    assert Job().state is State.IDLE

@@ -82,7 +82,7 @@ def meshes_held_back():
 
 def is_being_made(obj):
     """Whether the infill's mesh is on its way."""
-    return obj.Proxy.being_made is not None
+    return obj.Proxy.job.is_under_way
 
 
 def camera():
@@ -189,9 +189,9 @@ def go_on_after_a_refresh(doc, obj):
         check("the mesh is on its way", wait_until(lambda: is_being_made(obj)))
         check("the last one is there", obj.Mesh.CountFacets == before)
         check("the view turns", turn_the_view())
-        first, obj.StrutRadius = obj.Proxy.being_made, 1.2
+        first, obj.StrutRadius = obj.Proxy.job, 1.2
         start_by_click(refresh_button())
-        check("another takes its place", wait_until(lambda: obj.Proxy.being_made is not first))
+        check("another takes its place", wait_until(lambda: obj.Proxy.job is not first))
         check("it is on its way", is_being_made(obj) and "not there yet" in obj.Status, obj.Status)
         wait_until(lambda: progress_bar() is not None)
         start_by_click(progress_bar().button)
@@ -314,7 +314,8 @@ def go_on_after_ok(doc, boxes):
 def answer_by_click(text):
     """Really click a button of the task panel, without waiting for what comes of it."""
     for button in Gui.getMainWindow().findChildren(QtGui.QPushButton):
-        if button.isVisible() and button.text().replace("&", "") == text:
+        is_of_job = button.objectName() == "VolfrepCancel"  # in the status bar
+        if button.isVisible() and not is_of_job and button.text().replace("&", "") == text:
             start_by_click(button)
             return
     raise LookupError(f"no button {text}")

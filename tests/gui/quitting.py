@@ -137,7 +137,7 @@ def job():
     infill = _about_to_change("Job")
     start_by_click(toolbar_button("Update Lattice Infill"))
     wait_until(lambda: progress_bar() is not None)
-    if not are_there_jobs() or is_waited_for() or not infill.Proxy.being_made:
+    if not are_there_jobs() or is_waited_for() or not infill.Proxy.job.is_under_way:
         raise AssertionError("no job runs beside the window")
 
 

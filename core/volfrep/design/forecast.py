@@ -179,8 +179,12 @@ def skin_bends(solid: TriangleMesh, spec: LatticeSpec) -> float:
     That is what the wall of the skin takes to be found, and its facets: where the surface is flat
     large cubes do. 0 without a skin.
     """
-    if spec.shell <= 0.0:
-        return 0.0
+    return _bending(solid) / spec.shell if spec.shell > 0.0 else 0.0
+
+
+@lru_cache(maxsize=4)
+def _bending(solid: TriangleMesh) -> float:
+    """The angles across a surface's edges times these' lengths, mm."""
     across = neighbours(solid)
     a, b, c = solid.corners()
     normal = normalize(np.cross(b - a, c - a))
@@ -189,7 +193,7 @@ def skin_bends(solid: TriangleMesh, spec: LatticeSpec) -> float:
         cosine = np.einsum("ij,ij->i", normal, normal[across[:, k]])
         angle = np.arccos(np.clip(cosine, -1.0, 1.0))
         total += 0.5 * float((np.linalg.norm(end - start, axis=1) * angle).sum())
-    return total / spec.shell
+    return total
 
 
 def narrow_room(solid: TriangleMesh, spec: LatticeSpec) -> float:
@@ -199,9 +203,12 @@ def narrow_room(solid: TriangleMesh, spec: LatticeSpec) -> float:
     room as wide as the skin has: as many cubes as wide as the room would lie along it. Told by
     `NARROW_LINES` straight into the solid. 0 without a skin.
     """
-    skin = spec.shell
-    if skin <= 0.0:
-        return 0.0
+    return _narrow_room(solid, spec.shell) if spec.shell > 0.0 else 0.0
+
+
+@lru_cache(maxsize=8)
+def _narrow_room(solid: TriangleMesh, skin: float) -> float:
+    """As `narrow_room`, of a skin of one thickness, mm."""
     a, b, c = solid.corners()
     normal = np.cross(b - a, c - a)
     twice = np.linalg.norm(normal, axis=1)

@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..design.forecast import Forecast, forecast_fill
 from ..design.spec import LatticeSpec
 from ..io.solid import check_solid
 from ..mesh.display_parts import DrawnPart, drawn_parts, facets_with_neighbours
@@ -22,6 +23,7 @@ from ..reports.report import Report
 from ..reports.result import Result
 from ..util.cache import StageCache
 from ..util.progress import ProgressCallback
+from .rough_radius import solve_target_roughly
 from .targets import fill_with_target
 
 
@@ -114,6 +116,38 @@ def filled_mesh(
     kinds = kinds_of_triangles(mesh, checked, spec)
     shown = None if show is None else _shown(mesh, kinds, *show)
     return FilledMesh(mesh, result.report, kinds, triangles_digest(mesh), shown)
+
+
+def forecast_and_fill(
+    solid: TriangleMesh,
+    name: str,
+    spec: LatticeSpec,
+    *,
+    most: float | None = None,
+    show: tuple[int, int] | None = None,
+    progress: ProgressCallback | None = None,
+    cache: StageCache | None = None,
+) -> tuple[Forecast, FilledMesh | None]:
+    """What a solid's part will come to, and as `filled_mesh` unless that is too much.
+
+    Args:
+        solid: as it came, mm.
+        name: of the solid.
+        spec: what to make.
+        most: expected triangles above which nothing is made; None: it is made in any case.
+        show: as of `filled_mesh`.
+        progress: as of `fill`.
+        cache: as of `fill`.
+
+    Raises:
+        VolfrepError: as `filled_mesh`.
+        Cancelled: the callback said so.
+    """
+    forecast = forecast_fill(solid, solve_target_roughly(solid, spec))
+    if most is not None and forecast.triangles > most:
+        return forecast, None
+    filled = filled_mesh(solid, name, spec, show=show, progress=progress, cache=cache)
+    return forecast, filled
 
 
 def _shown(mesh: TriangleMesh, kinds: NDArray[np.uint8], most: int, likeness: int) -> ShownMesh:

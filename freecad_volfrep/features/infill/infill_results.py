@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A lattice infill's mesh and figures: what was asked for, and how it comes into the document."""
+"""A lattice infill's mesh and figures: what is made, and how it comes into the document."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import FreeCAD as App
 
+from freecad_volfrep.features.jobs.job import Job
 from freecad_volfrep.features.properties.quantities import is_driven, number_of, set_value
 
 from .properties import PROPERTIES
@@ -21,21 +22,25 @@ if TYPE_CHECKING:
     from volfrep.worker.engine_process import Call
 
 
-@dataclass(frozen=True, eq=False)
-class Asked:
-    """A mesh that is to be made.
+class MeshJob(Job):
+    """An infill's mesh that is made.
 
-    Attributes:
-        spec: how.
-        fingerprint: of all that it depends on.
+    Args:
         title: of the job.
-        call: of the engine.
+        call: of the engine, for what `volfrep.jobs.pipeline.forecast_and_fill` returns.
+        spec: how it is made.
+        fingerprint: of all that it depends on.
+        said: `Status` of the infill meanwhile.
     """
 
-    spec: LatticeSpec
-    fingerprint: str
-    title: str
-    call: Call
+    #: Whether a recompute of the user's has asked for it, so that the next one may replace it.
+    follows = False
+
+    def __init__(
+        self, title: str, call: Call, spec: LatticeSpec, fingerprint: str, said: str
+    ) -> None:
+        super().__init__(title, call)
+        self.spec, self.fingerprint, self.said = spec, fingerprint, said
 
 
 def loaded(filled: FilledMesh) -> Mesh.Mesh:
@@ -51,19 +56,19 @@ def loaded(filled: FilledMesh) -> Mesh.Mesh:
     return with_neighbours(filled.mesh.vertices, filled.shown.facets)
 
 
-def install(obj: App.DocumentObject, asked: Asked, filled: FilledMesh, mesh: Mesh.Mesh) -> None:
+def install(obj: App.DocumentObject, job: MeshJob, filled: FilledMesh, mesh: Mesh.Mesh) -> None:
     """Give an infill the mesh that was asked for, and its figures."""
     from .skin import made_of
 
-    made = with_radius(asked.spec, filled.report.target)
+    made = with_radius(job.spec, filled.report.target)
     obj.Proxy.made = made_of(filled)
     placement = obj.Placement
     obj.Mesh = mesh
     obj.Placement = placement  # assigning a mesh also assigns the mesh's placement
     _write_results(obj, filled.report)
-    if asked.spec.target is not None:
+    if job.spec.target is not None:
         tell_driven(obj, *_thickness(made))
-    obj.Fingerprint = asked.fingerprint
+    obj.Fingerprint = job.fingerprint
 
 
 def with_radius(spec: LatticeSpec, found: dict[str, Any] | None) -> LatticeSpec:

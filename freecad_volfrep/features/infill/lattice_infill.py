@@ -10,15 +10,18 @@ from typing import TYPE_CHECKING, Any
 import FreeCAD as App
 
 from freecad_volfrep.engine import require_engine
+from freecad_volfrep.features.jobs.job import Job, State
 from freecad_volfrep.features.jobs.progress import job_title, run_job
 from freecad_volfrep.features.jobs.screen import attach_view, is_asked_by_user, revive_view, screen
 from freecad_volfrep.features.properties.quantities import set_value
 from freecad_volfrep.preferences import largest_automatic, triangles_drawn
 from freecad_volfrep.saved_names import saved_module
+from volfrep.util.errors import Cancelled, VolfrepError
 
 from .applicable import CONTROLS, show_applicable
+from .expressions import follow_expressions
 from .freshness import fingerprint_of, is_of
-from .infill_results import Asked, install, loaded, tell_driven, with_radius
+from .infill_results import MeshJob, install, loaded, tell_driven, with_radius
 from .properties import (
     ensure_properties,
     is_spoiled,
@@ -31,11 +34,15 @@ from .values import specification_of
 if TYPE_CHECKING:
     import Mesh
 
-    from freecad_volfrep.features.jobs.screen import Screen
     from volfrep import LatticeSpec
+    from volfrep.design.forecast import Forecast
     from volfrep.jobs.pipeline import FilledMesh
     from volfrep.mesh.triangle_mesh import TriangleMesh
     from volfrep.util.cache import StageCache
+
+    #: What a job comes to: what was expected, the mesh, and FreeCAD's of it; or no mesh, where it
+    #: is larger than what is made unasked.
+    Come = tuple[Forecast, FilledMesh | None, Mesh.Mesh | None]
 
 UP_TO_DATE = "Up to date"
 OUT_OF_DATE = "Out of date: AutoUpdate is off, use Update Lattice Infill"
@@ -61,14 +68,10 @@ class LatticeInfill:
     """
 
     # Of a proxy that FreeCAD has made of a damaged file, without a call of ours.
-    _forced = False
+    job: Job = Job()
     _reader: Any = None
     _cache: Any = None
-    _is_to_begin = False
-    _arrived: Any = None
-    being_made: Asked | None = None
-    _beside: Asked | None = None
-    was_cancelled = False
+    _error: BaseException | None = None
 
     def __init__(self, obj: App.DocumentObject) -> None:
         self._forget()
@@ -80,73 +83,78 @@ class LatticeInfill:
 
         In the window a recompute of the user's returns at once, and the mesh comes later; a
         script's waits for it. A cancelled job is no error: the last mesh stays, and `Status` says
-        so.
+        so. A mesh that arrives is in the document already.
 
         Raises:
             VolfrepError: one sentence; the object turns Invalid and its last mesh stays.
         """
-        from volfrep.util.errors import Cancelled, VolfrepError
-
         if is_spoiled(obj):
             ensure_properties(obj)
-        forced, self._forced = self._forced, False
-        self.was_cancelled = False
-        beside = screen() if is_asked_by_user() else None
-        obj.Status = FAILED  # what stays if something fails that is not the input's fault
+        job = self.job
+        if job.state is State.ARRIVING:
+            return
+        window = screen() if is_asked_by_user() else None
         try:
-            self._run(obj, forced, beside)
-        except VolfrepError as error:
-            message = str(error)
-        except Cancelled:
-            self.was_cancelled = True
-            obj.Status = CANCELLED if obj.Mesh.CountFacets else CANCELLED_FIRST
-            App.Console.PrintMessage(f"VOLFREP, {obj.Label}: {obj.Status}\n")
-            return
-        except MemoryError:
-            message = "Not enough memory: choose larger cells or a coarser deviation."
-        except Exception as error:  # whatever it is, the user gets a sentence and keeps the mesh
-            App.Console.PrintLog(f"VOLFREP, {obj.Label}:\n{traceback.format_exc()}\n")
-            message = (
-                f"The engine failed with a {type(error).__name__} ({error}), which is a defect of "
-                "VOLFREP: please report it with the traceback in the report view's log messages."
-            )
-        else:
-            return
-        obj.Status = message
-        App.Console.PrintError(f"VOLFREP, {obj.Label}: {message}\n")
-        raise VolfrepError(message)
+            if self._error is not None:
+                raise self._error
+            if job.is_under_way and not (window and job.follows and self.differs(obj, job)):
+                obj.Status = job.said
+                return
+            obj.Status = FAILED  # what stays if something fails that is not the input's fault
+            self.job = self._job_of(obj, forced=False)
+            if self.job.is_under_way and window is not None:
+                self.job.follows, obj.Status = True, self.job.said
+                window.update(obj, self.job)
+            elif self.job.is_under_way:
+                self._take(obj, self._made())
+                self.job.go(State.IDLE)
+        except Exception as error:
+            self._end(obj, error)
 
     def update(self, obj: App.DocumentObject) -> bool:
         """Compute now, AutoUpdate or not; returns whether the mesh fits the properties then.
 
-        What is being made beside is not wanted any more.
+        What is being made in background is not wanted any more.
         """
-        self.being_made = None
-        self._forced, self.was_cancelled = True, False
-        obj.touch()
-        obj.Document.recompute()
-        self._forced = False  # where a failing base kept the object from being executed
-        return bool(obj.isValid()) and not self.was_cancelled
+        if self.begin(obj) is None:
+            return bool(obj.isValid())
+        try:
+            come = self._made()
+        except Exception as error:
+            return self.arrive(obj, None, error)
+        return self.arrive(obj, come, None)
 
-    def begin(self, obj: App.DocumentObject) -> Asked | None:
+    def begin(self, obj: App.DocumentObject) -> MeshJob | None:
         """Ask for the mesh of the present values, AutoUpdate or not, without waiting for it.
 
         Whoever asks has it made and lets it `arrive`; until then a recompute leaves the infill as
         it is. Returns None where there is nothing to make: the mesh fits the values, or they make
         no sense, and the object is invalid.
         """
-        self.being_made, self.was_cancelled = None, False
-        self._forced = self._is_to_begin = True
-        obj.touch()
-        obj.Document.recompute()
-        self._forced = self._is_to_begin = False
-        return self.being_made
+        self.job = Job()
+        sources = obj.OutListRecursive
+        if any("Touched" in source.State for source in sources):
+            obj.Document.recompute(sources)
+        try:
+            follow_expressions(obj)
+            job = self._job_of(obj, forced=True)
+        except Exception as error:
+            self._fail(obj, error)
+            return None
+        is_base_wrong = any("Invalid" in source.State for source in sources)
+        self.job = Job() if is_base_wrong else job
+        if is_base_wrong or not obj.isValid():
+            obj.touch()  # FreeCAD is to see that the values are good, or that the base is not
+            obj.Document.recompute()
+        else:
+            obj.purgeTouched()
+        if not self.job.is_under_way:
+            return None
+        obj.Status = job.said
+        return job
 
     def arrive(
-        self,
-        obj: App.DocumentObject,
-        come: tuple[FilledMesh, Mesh.Mesh] | None,
-        error: BaseException | None,
+        self, obj: App.DocumentObject, come: Come | None, error: BaseException | None
     ) -> bool:
         """Install what `begin` has asked for, or say why there is none.
 
@@ -158,16 +166,23 @@ class LatticeInfill:
             come: what has come, and FreeCAD's mesh of it (`infill_results.loaded`).
             error: why nothing has.
         """
-        asked, self.being_made = self.being_made, None
-        assert asked is not None
-        self.was_cancelled, self._arrived = False, (asked, come, error)
-        obj.touch()
-        obj.Document.recompute()
-        self._arrived = None
-        if error is None and self.differs(obj, asked):
+        job = self.job
+        try:
+            if error is not None:
+                raise error
+            assert come is not None
+            self._take(obj, come)
+        except Exception as failure:
+            self._fail(obj, failure)
+            return False
+        if job.state is State.ARRIVING:
+            obj.touch()  # it is valid again, and what depends on it follows
+            obj.Document.recompute()
+        job.go(State.IDLE)
+        if self.differs(obj, job):
             obj.Status = CHANGED
             obj.touch()
-        return bool(obj.isValid()) and error is None
+        return bool(obj.isValid()) and come[1] is not None
 
     def onChanged(self, obj: App.DocumentObject, name: str) -> None:  # noqa: N802
         """Show the properties that apply now, and no others."""
@@ -183,7 +198,6 @@ class LatticeInfill:
             VolfrepError: the mesh does not fit the properties.
         """
         from volfrep.io.solid import check_solid
-        from volfrep.util.errors import VolfrepError
 
         require_engine()
         spec, solid = self.read(obj)
@@ -210,8 +224,6 @@ class LatticeInfill:
         A file that was written without windows has no view: it gets one where there are windows.
         What cannot be computed says so at once.
         """
-        from volfrep.util.errors import VolfrepError
-
         ensure_properties(obj)
         try:
             refuse_spoiled(obj)
@@ -231,49 +243,77 @@ class LatticeInfill:
     __setstate__ = loads
 
     def _forget(self) -> None:
-        self._forced = False
+        self.job = Job()
         self._reader: Any = None
         self._cache: Any = None
+        self._error = None
         self.made: Any = None
-        self._is_to_begin, self._arrived = False, None
-        self.being_made, self._beside = None, None
-        self.was_cancelled = False
 
-    def _run(self, obj: App.DocumentObject, forced: bool, beside: Screen | None) -> None:
-        if self._arrived is not None:
-            asked, come, error = self._arrived
-            if error is not None:
-                raise error
-        elif self.being_made is not None and not (beside and self._is_stale(obj)):
-            obj.Status = BEING_MADE
-            return
+    def _made(self) -> Come:
+        """What the job comes to, waited for."""
+        job = self.job
+        job.go(State.RUNNING)
+        forecast, filled = run_job(job.title, job.call)
+        return forecast, filled, None if filled is None else loaded(filled)
+
+    def _take(self, obj: App.DocumentObject, come: Come) -> None:
+        """Take what has come into the document."""
+        forecast, filled, mesh = come
+        obj.Expected = str(forecast)
+        if filled is not None:
+            self.job.go(State.ARRIVING)
+            install(obj, self.job, filled, mesh)
+            obj.Status = UP_TO_DATE
+        elif not obj.AutoUpdate:
+            obj.Status = OUT_OF_DATE
         else:
-            self.being_made = None
-            asked = self._asked(obj, forced)
-            if asked is None:
-                return
-            if self._is_to_begin or beside is not None:
-                self.being_made, obj.Status = asked, BEING_MADE
-                if beside is not None:
-                    self._beside = asked
-                    beside.update(obj, asked)
-                return
-            filled = run_job(asked.title, asked.call)
-            come = filled, loaded(filled)
-        install(obj, asked, *come)
-        obj.Status = UP_TO_DATE
+            obj.Status = LARGE
+            App.Console.PrintMessage(f"VOLFREP, {obj.Label}: {LARGE}; {forecast}\n")
 
-    def _is_stale(self, obj: App.DocumentObject) -> bool:
-        """Whether a recompute has asked for what is being made, for values that have changed."""
-        known = self.being_made
-        return known is not None and known is self._beside and self.differs(obj, known)
+    def _fail(self, obj: App.DocumentObject, error: Exception) -> None:
+        """Say why there is no mesh; a recompute tells FreeCAD of what is no cancel."""
+        if isinstance(error, Cancelled):
+            self._end(obj, error)
+            return
+        if self.job.is_under_way:
+            self.job.go(State.FAILED)
+        self._error = error
+        obj.touch()
+        obj.Document.recompute()
+        self._error = None
 
-    def _asked(self, obj: App.DocumentObject, forced: bool) -> Asked | None:
-        """What is to be made now; None for nothing, and `Status` says why."""
+    def _end(self, obj: App.DocumentObject, error: Exception) -> None:
+        """Say in `Status` why there is no mesh.
+
+        Raises:
+            VolfrepError: it was not cancelled.
+        """
+        is_cancelled = isinstance(error, Cancelled)
+        if self.job.is_under_way:
+            self.job.go(State.CANCELLED if is_cancelled else State.FAILED)
+        if is_cancelled:
+            obj.Status = CANCELLED if obj.Mesh.CountFacets else CANCELLED_FIRST
+            App.Console.PrintMessage(f"VOLFREP, {obj.Label}: {obj.Status}\n")
+            return
+        if isinstance(error, VolfrepError):
+            message = str(error)
+        elif isinstance(error, MemoryError):
+            message = "Not enough memory: choose larger cells or a coarser deviation."
+        else:  # whatever it is, the user gets a sentence and keeps the mesh
+            told = "".join(traceback.format_exception(None, error, error.__traceback__))
+            App.Console.PrintLog(f"VOLFREP, {obj.Label}:\n{told}\n")
+            message = (
+                f"The engine failed with a {type(error).__name__} ({error}), which is a defect of "
+                "VOLFREP: please report it with the traceback in the report view's log messages."
+            )
+        obj.Status = message
+        App.Console.PrintError(f"VOLFREP, {obj.Label}: {message}\n")
+        raise VolfrepError(message) from error
+
+    def _job_of(self, obj: App.DocumentObject, forced: bool) -> Job:
+        """The job of the mesh of the present values; an idle one where it is there."""
         require_engine()
-        from volfrep.design.forecast import forecast_fill
-        from volfrep.jobs.pipeline import filled_mesh
-        from volfrep.jobs.rough_radius import solve_target_roughly
+        from volfrep.jobs.pipeline import forecast_and_fill
         from volfrep.worker.engine_process import Call
 
         spec, solid = self.read(obj)
@@ -283,30 +323,21 @@ class LatticeInfill:
             obj.Fingerprint = fingerprint  # which was an earlier release's
             set_value(obj, "Mass", obj.Volume.Value * spec.density / 1000.0)
             obj.Status = UP_TO_DATE
-            return None
-        forecast = forecast_fill(solid, solve_target_roughly(solid, spec))
-        obj.Expected = str(forecast)
-        if not obj.AutoUpdate and not forced:
-            obj.Status = OUT_OF_DATE
-            return None
-        if forecast.triangles > largest_automatic() and not forced:
-            obj.Status = LARGE
-            App.Console.PrintMessage(f"VOLFREP, {obj.Label}: {LARGE}; {forecast}\n")
-            return None
-        options = {"cache": self._cache, "show": triangles_drawn()}
-        call = Call(filled_mesh, (solid, obj.Base.Label, spec), options)
-        return Asked(spec, fingerprint, job_title("Filling {label}", obj.Base), call)
+            return Job()
+        most = None if forced else largest_automatic() if obj.AutoUpdate else 0
+        options = {"cache": self._cache, "show": triangles_drawn(), "most": most}
+        call = Call(forecast_and_fill, (solid, obj.Base.Label, spec), options)
+        said = BEING_MADE if forced or obj.AutoUpdate else OUT_OF_DATE
+        return MeshJob(job_title("Filling {label}", obj.Base), call, spec, fingerprint, said)
 
-    def differs(self, obj: App.DocumentObject, asked: Asked) -> bool:
-        """Whether the present values are others than those of a mesh that was asked for."""
-        from volfrep.util.errors import VolfrepError
-
+    def differs(self, obj: App.DocumentObject, job: MeshJob) -> bool:
+        """Whether the present values are others than those that a job makes a mesh of."""
         try:
             spec, solid = self.read(obj)
         except VolfrepError:
             return True
         now = fingerprint_of(obj, spec, solid)
-        return bool(spec.density != asked.spec.density or now != asked.fingerprint)
+        return bool(spec.density != job.spec.density or now != job.fingerprint)
 
     def solid_identity(self, solid: TriangleMesh) -> tuple[Any, ...]:
         """What counts of the solid that `read` has returned last, for a digest."""
@@ -321,7 +352,6 @@ class LatticeInfill:
         """
         from freecad_volfrep.bridge.solids import SolidReader, parent_placement
         from volfrep.util.cache import StageCache
-        from volfrep.util.errors import VolfrepError
 
         refuse_spoiled(obj)
         spec = specification_of(obj)
@@ -338,8 +368,6 @@ LatticeInfill.__module__ = saved_module("features")
 
 def revive_infill(obj: App.DocumentObject) -> None:
     """Make a lattice infill of an object that has its properties, but has lost its proxy."""
-    from volfrep.util.errors import VolfrepError
-
     LatticeInfill(obj)
     obj.Status = REVIVED
     try:

@@ -10,6 +10,7 @@ import FreeCAD as App
 from freecad_volfrep.engine import require_engine
 from freecad_volfrep.features.infill.lattice_infill import LatticeInfill
 from freecad_volfrep.features.infill.materials import process_of
+from freecad_volfrep.features.jobs.job import State
 from freecad_volfrep.features.jobs.progress import job_title, run_job
 from freecad_volfrep.features.jobs.screen import attach_view, revive_view
 from freecad_volfrep.features.properties.property_table import Property, add_missing, result
@@ -56,7 +57,7 @@ class PrintCheck:
     Its mesh is what of the infill's hangs over: red on the infill, which is translucent.
     """
 
-    was_cancelled = False
+    state = State.IDLE
 
     def __init__(self, obj: App.DocumentObject) -> None:
         obj.Proxy = self
@@ -72,16 +73,19 @@ class PrintCheck:
         """
         from volfrep.util.errors import Cancelled
 
-        self.was_cancelled = False
+        self.state = State.RUNNING
         try:
             self._run(obj)
         except VolfrepError as error:
+            self.state = State.FAILED
             App.Console.PrintError(f"VOLFREP, {obj.Label}: {error}\n")
             raise
         except Cancelled:
-            self.was_cancelled = True
+            self.state = State.CANCELLED
             obj.Text = CANCELLED
             App.Console.PrintMessage(f"VOLFREP, {obj.Label}: {CANCELLED}\n")
+        else:
+            self.state = State.IDLE
 
     def onDocumentRestored(self, obj: App.DocumentObject) -> None:  # noqa: N802
         """Bring an object of an older file up to the present table of properties."""

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from freecad_volfrep.features.jobs.job import Job
 from freecad_volfrep.gui.draw.coloured_struts import colours_of
 from freecad_volfrep.gui.draw.legend import Legend
 from freecad_volfrep.gui.jobs.background import begin
@@ -207,8 +208,10 @@ class Colouring:
                 raise error
 
         begin(
-            job_title("Colours of {label}", obj),
-            Call(point_values, (solid, spec, quantity, *arrays), options),
+            Job(
+                job_title("Colours of {label}", obj),
+                Call(point_values, (solid, spec, quantity, *arrays), options),
+            ),
             then,
             is_wanted=lambda: self._asked == key and self._part is part,
         )

@@ -6,6 +6,7 @@ from __future__ import annotations
 import FreeCAD as App
 import FreeCADGui as Gui
 
+from freecad_volfrep.features.jobs.job import State
 from freecad_volfrep.gui.messages import errors_shown
 from freecad_volfrep.gui.undo import undo_step
 from freecad_volfrep.translation import translate
@@ -19,7 +20,7 @@ def check_print(infill: App.DocumentObject) -> None:
     with undo_step(doc, translate("VOLFREP_PrintCheck", "Print Check")):
         check = make_print_check(doc, infill)
         doc.recompute()
-        cancelled = check.Proxy.was_cancelled
+        cancelled = check.Proxy.state is State.CANCELLED
         if cancelled:
             doc.removeObject(check.Name)
     if cancelled:

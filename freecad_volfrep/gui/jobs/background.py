@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import FreeCADGui as Gui
 
 from freecad_volfrep.engines import engines
+from freecad_volfrep.features.jobs.job import Job, State
 from freecad_volfrep.gui.qt import QtCore, QtWidgets
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP
 from volfrep.util.errors import Cancelled
@@ -17,7 +18,6 @@ from .in_steps import are_there_steps
 from .progress import SHOW_AFTER, Bar, is_waited_for
 
 if TYPE_CHECKING:
-    from volfrep.worker.engine_process import Call
     from volfrep.worker.engines import Running
 
 #: Jobs are looked at so often, ms.
@@ -32,60 +32,61 @@ Then = Callable[[Any, "BaseException | None"], None]
 Prepare = Callable[[Any], Iterator[None]]
 
 
-class Job:
-    """A call that was asked for.
+class Run:
+    """A job on its way: begun in its turn, looked at, its result handed on.
 
     Args:
-        title: in the status bar.
-        call: of the engine.
+        job: what is made.
         then: is given the result, or the error.
         prepare: what is done with the result before, in steps: one each time it is looked at.
-        is_wanted: asked all the time; without it the call is cancelled, and `then` not called.
+        is_wanted: asked all the time; without it the call is ended, and `then` not called.
         is_time: whether `then` may be called now.
         dropped: called where it is not wanted any more.
     """
 
     def __init__(
         self,
-        title: str,
-        call: Call,
+        job: Job,
         then: Then,
         prepare: Prepare,
         is_wanted: Callable[[], bool],
         is_time: Callable[[], bool],
         dropped: Callable[[], None],
     ) -> None:
-        self._call, self._then, self._dropped = call, then, dropped
+        self._job, self._then, self._dropped = job, then, dropped
         self._prepare = prepare
         self._steps: Iterator[None] | None = None
         self._is_wanted, self._is_time = is_wanted, is_time
         self._running: Running | None = None
-        self._bar = Bar(title)
+        self._bar = Bar(job.title)
         self._bar.button.clicked.connect(self.cancel)
         self._since = QtCore.QElapsedTimer()
         self._since.start()
-        self._is_cancelled = False
 
     def cancel(self) -> None:
         """End it; `then` is given the error."""
-        self._is_cancelled = True
+        if self._job.is_under_way and self._job.state is not State.CANCELLING:
+            self._job.go(State.CANCELLING)
         self._bar.show_cancelling()
         if self._running is not None:
             self._running.cancel()
 
     def go_on(self) -> bool:
         """Look at it; whether it is over."""
-        if not self._is_wanted():
+        job = self._job
+        if not (job.is_under_way and self._is_wanted()):
             if self._running is not None:
                 self._running.cancel()
             self._steps = None
-            self._bar.leave()
+            self._end(State.IDLE)
             self._dropped()
             return True
         if self._running is None:
-            self._running = engines().begin(self._call)
-            if self._is_cancelled:
+            self._running = engines().begin(job.call)
+            if job.state is State.CANCELLING:
                 self._running.cancel()
+            else:
+                job.go(State.RUNNING)
         if not self._running.wait(0.0):
             self._show(*self._running.state)
             return False
@@ -93,7 +94,7 @@ class Job:
             return False
         try:
             result = self._running.result()
-            if self._is_cancelled and self._steps is not None:
+            if job.state is State.CANCELLING and self._steps is not None:
                 raise Cancelled("cancelled while it was taken over")
             self._steps = self._prepare(result) if self._steps is None else self._steps
             if next(self._steps, self) is not self:
@@ -102,10 +103,18 @@ class Job:
         except Exception as error:
             self._bar.leave()
             self._then(None, error)
+            self._end(State.CANCELLED if isinstance(error, Cancelled) else State.FAILED)
         else:
             self._bar.leave()
             self._then(result, None)
+            self._end(State.IDLE)
         return True
+
+    def _end(self, state: State) -> None:
+        """Be in a last state, unless whoever took the result has said so."""
+        self._bar.leave()
+        if self._job.is_under_way:
+            self._job.go(state)
 
     def show_waiting(self) -> None:
         """Say that others come first."""
@@ -114,7 +123,7 @@ class Job:
     def _show(self, fraction: float, stage: str) -> None:
         if self._bar.isHidden() and self._since.elapsed() > SHOW_AFTER:
             self._bar.appear()
-        if not self._is_cancelled:
+        if self._job.state is not State.CANCELLING:
             self._bar.show_state(fraction, stage)
 
 
@@ -123,7 +132,7 @@ class _Jobs(QtCore.QObject):
 
     def __init__(self) -> None:
         super().__init__()
-        self._jobs: list[Job] = []
+        self._jobs: list[Run] = []
         self._timer = QtCore.QTimer(self)
         self._timer.timeout.connect(self._look)
 
@@ -131,7 +140,7 @@ class _Jobs(QtCore.QObject):
     def are_there(self) -> bool:
         return bool(self._jobs)
 
-    def add(self, job: Job) -> None:
+    def add(self, job: Run) -> None:
         if not self._jobs:
             QtWidgets.QApplication.instance().installEventFilter(self)
             self._timer.start(TICK)
@@ -171,20 +180,18 @@ _jobs: list[_Jobs] = []
 
 
 def begin(
-    title: str,
-    call: Call,
+    job: Job,
     then: Then,
     *,
     prepare: Prepare = lambda _: iter(()),
     is_wanted: Callable[[], bool] = lambda: True,
     is_time: Callable[[], bool] = lambda: True,
     dropped: Callable[[], None] = lambda: None,
-) -> Job:
-    """Make a call of the engine, after those that were asked for before, and return at once.
+) -> None:
+    """Make a job of the engine, after those that were asked for before, and return at once.
 
     Args:
-        title: in the status bar.
-        call: of the engine.
+        job: what is made; once it is idle, it is ended without a word.
         then: is given the result, or the error, by Qt's loop: when nothing is open that waits for
             an answer.
         prepare: done with the result before, a step at a time, between which the window answers.
@@ -194,9 +201,7 @@ def begin(
     """
     if not _jobs:
         _jobs.append(_Jobs())
-    job = Job(title, call, then, prepare, is_wanted, is_time, dropped)
-    _jobs[0].add(job)
-    return job
+    _jobs[0].add(Run(job, then, prepare, is_wanted, is_time, dropped))
 
 
 def are_there_jobs() -> bool:

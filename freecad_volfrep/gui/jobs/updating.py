@@ -10,17 +10,19 @@ import FreeCAD as App
 import FreeCADGui as Gui
 
 from freecad_volfrep.features.infill.infill_results import loaded
+from freecad_volfrep.features.jobs.job import State
 from freecad_volfrep.gui.qt import QtWidgets
 from freecad_volfrep.gui.view.proxy_mesh import ProxyMesh
 from freecad_volfrep.translation import translate
 
-from .background import Job, begin
+from .background import begin
 from .in_steps import Stillness
 
 if TYPE_CHECKING:
     import Mesh
 
-    from freecad_volfrep.features.infill.infill_results import Asked
+    from freecad_volfrep.features.infill.infill_results import MeshJob
+    from volfrep.design.forecast import Forecast
     from volfrep.jobs.pipeline import FilledMesh
 
 #: FreeCAD takes a mesh of more triangles while the user does nothing: it does so in one call, of
@@ -45,17 +47,16 @@ class Update:
     def __init__(
         self,
         obj: App.DocumentObject,
-        asked: Asked,
+        job: MeshJob,
         is_in_panel: bool = False,
         ended: Ended = lambda _: None,
     ) -> None:
-        self._obj, self._doc, self._asked = obj, obj.Document, asked
+        self._obj, self._doc, self._job = obj, obj.Document, job
         self.is_in_panel, self.ended = is_in_panel, ended
         self._likeness: ProxyMesh | None = None
         self._mesh: Mesh.Mesh = None
-        self._job: Job = begin(
-            asked.title,
-            asked.call,
+        begin(
+            job,
             self._arrive,
             prepare=self._take_over,
             is_wanted=self._is_wanted,
@@ -63,13 +64,10 @@ class Update:
             dropped=self._drop,
         )
 
-    def cancel(self) -> None:
-        """End it; the infill says that it was cancelled."""
-        self._job.cancel()
-
     def drop(self) -> None:
         """End it without a word."""
-        self._obj.Proxy.being_made = None
+        if self._job.is_under_way:
+            self._job.go(State.IDLE)
 
     def _drop(self) -> None:
         if self._likeness is not None:
@@ -78,11 +76,11 @@ class Update:
 
     def is_as_wanted(self) -> bool:
         """Whether it makes the mesh of the present values."""
-        return self._is_wanted() and not self._obj.Proxy.differs(self._obj, self._asked)
+        return self._is_wanted() and not self._obj.Proxy.differs(self._obj, self._job)
 
     def _is_wanted(self) -> bool:
         try:
-            return self._obj.Proxy.being_made is self._asked
+            return self._job.is_under_way and self._obj.Proxy.job is self._job
         except (ReferenceError, AttributeError):  # deleted, or its document closed
             return False
 
@@ -90,8 +88,11 @@ class Update:
         """FreeCAD has one transaction a document: ours would end what a panel has begun."""
         return self.is_in_panel or not self._doc.HasPendingTransaction
 
-    def _take_over(self, filled: FilledMesh) -> Iterator[None]:
+    def _take_over(self, come: tuple[Forecast, FilledMesh | None]) -> Iterator[None]:
         """Make FreeCAD's mesh; a large one when the user does nothing, after its likeness."""
+        filled = come[1]
+        if filled is None:
+            return
         if len(filled.mesh.triangles) > LARGE:
             self._likeness = ProxyMesh(self._obj, filled)
             stillness = Stillness(QtWidgets.QApplication.instance())
@@ -104,16 +105,18 @@ class Update:
         self._mesh = loaded(filled)
         yield
 
-    def _arrive(self, filled: FilledMesh | None, error: BaseException | None) -> None:
+    def _arrive(
+        self, come: tuple[Forecast, FilledMesh | None] | None, error: BaseException | None
+    ) -> None:
         if self._likeness is not None:
             self._likeness.remove()
         step = translate("VolfrepCommands", "Mesh of {label}").format(label=self._obj.Label)
-        has_step = error is None and not self.is_in_panel
+        has_step = self._mesh is not None and error is None and not self.is_in_panel
         if has_step:
             self._doc.openTransaction(step)
         try:
-            come = None if filled is None else (filled, self._mesh)
-            is_there = self._obj.Proxy.arrive(self._obj, come, error)
+            with_mesh = None if come is None else (*come, self._mesh)
+            is_there = self._obj.Proxy.arrive(self._obj, with_mesh, error)
         finally:
             if has_step:
                 self._doc.commitTransaction()
@@ -136,8 +139,8 @@ def begin_update(
         None where there is nothing to make: the mesh fits the values, or these make no sense, and
         the object is invalid.
     """
-    asked = obj.Proxy.begin(obj)
-    return None if asked is None else Update(obj, asked, is_in_panel, ended)
+    job = obj.Proxy.begin(obj)
+    return None if job is None else Update(obj, job, is_in_panel, ended)
 
 
 def show_mesh(obj: App.DocumentObject) -> None:

@@ -85,6 +85,10 @@ class Parameter:
         position_of: the rotation in whose placement, in FreeCAD, this point is the position.
         switch: of a point whose default is None: what a second property, ``Use`` and its name,
             chooses between.
+        field: where a `LatticeSpec` holds it: one of its fields, or of a part's, as
+            ``cell_map.axis``; empty where it takes more than to copy it
+            (`volfrep.design.parameters.specification`).
+        is_none: whether the field is None where the value is 0 or empty.
         in_command: whether it is an option of the command, and a key of a file.
         in_freecad: whether it is a property in FreeCAD.
         of_block: whether a free-standing block has it too.
@@ -105,6 +109,8 @@ class Parameter:
     freecad_name: str = ""
     position_of: str = ""
     switch: str = ""
+    field: str = ""
+    is_none: bool = False
     in_command: bool = True
     in_freecad: bool = True
     of_block: bool = True

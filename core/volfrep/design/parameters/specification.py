@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Specifications made of values by name, and taken apart into them."""
+"""Specifications made of values by name, and taken apart into them.
+
+A row of the table that names a field goes there and comes back from there by itself (`_fields`,
+`_held`); only what takes more than copying is spelled out: cells, targets, faces, files.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +13,7 @@ from typing import Any
 from ...util.errors import VolfrepError
 from ..cells import LIBRARY, UnitCell, find_cell
 from ..grading import CellMap, Orientation, RadiusGrading, SizeGrading, read_point_field
-from ..graphs import GivenGraph, RandomGraph, read_network
+from ..graphs import GivenGraph, RandomGraph, StretchedCells, read_network
 from ..openings import DrainHoles, DrainPlace, OpenFace, OpenPatch, OpenPlane, SmoothFace
 from ..profile import Profile
 from ..scattered_field import PointField, read_curve
@@ -19,7 +23,7 @@ from ..spec import LatticeSpec
 from ..spec_parts import first_radius
 from ..target import THICKNESSES, Target, read_target, stiffness_text
 from ..tpms import FORMULA, SURFACES, PeriodicSurface, TpmsSheet, find_surface, surface_name
-from .parameter import Need, effective
+from .parameter import Need, Parameter, effective
 from .table import BY_NAME, PARAMETERS, TWO_ENDED
 from .values import field_file, is_file
 
@@ -67,34 +71,46 @@ def specification(values: Mapping[str, Any], say: Naming = in_file) -> LatticeSp
             f"{say('cell_values')} are for cells by name or file, not for one that is given whole: "
             "leave them out."
         )
+    parts = _fields(used)
     return LatticeSpec(
-        cell=cell,
-        cell_size=used["cell_size"],
-        strut_radius=radius,
-        shell=used["shell"],
-        fillet=used["fillet"],
-        origin=used["origin"],
-        activation=used["activation"],
-        boundary=used["boundary"],
-        remove_dangling=used["remove_dangling"],
-        keep_pieces=used["keep_pieces"],
-        shortest_stub=used["shortest_stub"],
+        **parts[""] | {"strut_radius": radius},
         **_skin_of(used),
-        remove_below=used["remove_below"],
-        drains=_drains(used),
-        resolution=used["resolution"] or None,
-        deviation=used["deviation"] or None,
-        output=used["make"],
-        density=used["density"],
-        size_grading=_size_grading(used),
-        radius_grading=_radius_grading(used, say),
-        cell_map=_cell_map(used),
-        orientation=_orientation(used),
-        keep_radius=used["keep_radius"],
+        cell=cell,
+        drains=_drains(parts["drains"], used),
+        size_grading=_size_grading(parts),
+        radius_grading=_radius_grading(parts, used, say),
+        cell_map=CellMap(**parts["cell_map"]) if used["cell_map"] != "cartesian" else None,
+        orientation=_orientation(used["rotate"], parts["orientation"]),
         target=target,
-        network=_network(used, say),
-        wall=TpmsSheet(used["wall_kind"], used["wall_thickness"], used["wall_offset"]),
+        network=_network(parts["network"], used, say),
+        wall=TpmsSheet(**parts["wall"]),
     )
+
+
+def _fields(used: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
+    """The values as the rows of the table say where they belong: by part, then by field.
+
+    What is a field of the specification itself has the part "".
+    """
+    parts: dict[str, dict[str, Any]] = {}
+    for row in PARAMETERS:
+        if row.field:
+            part, _, name = row.field.rpartition(".")
+            value = used[row.name]
+            parts.setdefault(part, {})[name] = None if row.is_none and not value else value
+    return parts
+
+
+def _held(spec: LatticeSpec, row: Parameter) -> Any:
+    """What a specification holds of a row's value; None where there is no such part of it."""
+    value: Any = spec
+    for name in row.field.split("."):
+        if isinstance(value, (GivenGraph, StretchedCells)):  # which have other values
+            return None
+        value = getattr(value, name, None)
+    if value is None or row.name not in _AS_VALUE:
+        return value
+    return _AS_VALUE[row.name](value)
 
 
 def refuse_idle(values: Mapping[str, Any], say: Naming = in_file) -> None:
@@ -138,59 +154,17 @@ def values_of(spec: LatticeSpec) -> dict[str, Any]:
                 f"The cell '{cell.name}' has no file that could be named: save it as .json first."
             )
         cell = cell.source if own else cell.name
-    walls: dict[str, Any] = {}
     if isinstance(cell, PeriodicSurface):
-        walls = {
-            "wall_kind": spec.wall.kind,
-            "wall_thickness": spec.wall.thickness,
-            "wall_offset": spec.wall.offset,
-            "wall_formula": cell.formula,
-        }
+        values = {"wall_formula": cell.formula}
         cell = cell.name if SURFACES.get(cell.name) == cell else FORMULA
-    found: dict[str, Any] = {
-        "cell": cell, "cell_size": spec.cell_size, "strut_radius": spec.strut_radius,
-        "shell": spec.shell, "fillet": spec.fillet, "origin": spec.origin,
-        "activation": spec.activation, "boundary": spec.boundary,
-        "remove_dangling": spec.remove_dangling, "shortest_stub": spec.shortest_stub,
-        "remove_below": spec.remove_below, "keep_pieces": spec.keep_pieces,
-        "resolution": spec.resolution, "deviation": spec.deviation, "make": spec.output,
-        "density": spec.density, "keep_radius": spec.keep_radius, **walls, **values,
-    }  # fmt: skip
-    found |= _skin_values(spec)
+    found = {row.name: _held(spec, row) for row in PARAMETERS if row.field}
+    found |= {"cell": cell, **values, **_skin_values(spec)}
     if spec.drains is not None:
-        found["drain_diameter"] = spec.drains.diameter
         found["drain"] = tuple((*p.point, *(p.direction or ())) for p in spec.drains.places)
-        found["drain_count"] = spec.drains.count
-        found["build_direction"] = spec.drains.build_direction
-    if spec.size_grading is not None:
-        profile = spec.size_grading.profile
-        found["size_grading"] = _word(profile)
-        found["lambda_start"], found["lambda_end"] = profile.start, profile.end
-        found["lambda_formula"] = profile.expression
-        found["grading_direction"] = spec.size_grading.direction
-    if spec.radius_grading is not None:
-        found |= _radius_values(spec.radius_grading)
-    if spec.cell_map is not None:
-        found["cell_map"], found["map_centre"] = spec.cell_map.kind, spec.cell_map.centre
-        found["map_axis"], found["map_around"] = spec.cell_map.axis, spec.cell_map.around
     if spec.orientation is not None:
         found["rotate"] = (*spec.orientation.axis, spec.orientation.angle)
-        found["rotate_origin"] = spec.orientation.origin
     if isinstance(spec.network, GivenGraph):
-        if not spec.network.source or not is_file(spec.network.source):
-            raise VolfrepError(
-                "The network has no file that could be named: save it as .json first."
-            )
-        found["network"], found["network_file"] = "file", spec.network.source
-        found["network_thickness"] = abs(spec.network.thickness)
-        found["network_layers"] = spec.network.layers if spec.network.thickness else 0
-        found["network_reversed"] = spec.network.thickness < 0.0
-    elif isinstance(spec.network, RandomGraph):
-        found |= {
-            name: getattr(spec.network, attribute) for name, attribute in _NETWORK_VALUES.items()
-        }
-        if spec.network.field is not None:
-            found["network_field"] = field_file(spec.network.field, "the points' density follows")
+        found |= _file_values(spec.network)
     if spec.target is not None:
         aim = spec.target.aim
         found[aim] = stiffness_text(spec.target) if aim == "stiffness" else spec.target.value
@@ -236,107 +210,76 @@ def _useless(name: str, need: Need, say: Naming) -> str:
     return f"{say(name)} has no effect without {what}: add that or leave it."
 
 
-def _drains(used: Mapping[str, Any]) -> DrainHoles | None:
-    if not used["drain_diameter"]:
+def _drains(own: Mapping[str, Any], used: Mapping[str, Any]) -> DrainHoles | None:
+    if not own["diameter"]:
         return None
-    places = [*(used["drain_points"] or ()), *(used["drain"] or ())]
-    return DrainHoles(
-        used["drain_diameter"],
-        tuple(
-            DrainPlace((x, y, z), (way[0], way[1], way[2]) if way else None)
-            for x, y, z, *way in places
-        ),
-        used["drain_count"],
-        used["build_direction"],
+    places = tuple(
+        DrainPlace((x, y, z), (way[0], way[1], way[2]) if way else None)
+        for x, y, z, *way in (*(used["drain_points"] or ()), *(used["drain"] or ()))
     )
+    return DrainHoles(places=places, **own)
 
 
-def _profile(kind: str, start: float, end: float | None, formula: str | None) -> Profile:
+def _profile(kind: str, start: float, end: float | None, expression: str | None) -> Profile:
     if kind == "formula":
-        return Profile("expression", expression=formula or "")
+        return Profile("expression", expression=expression or "")
     return Profile(kind, start, start if end is None else end)
 
 
-def _word(profile: Profile) -> str:
-    """A profile's kind as users call it."""
-    return "formula" if profile.kind == "expression" else profile.kind
-
-
-def _size_grading(used: Mapping[str, Any]) -> SizeGrading | None:
-    kind = used["size_grading"]
-    if kind == "none":
+def _size_grading(parts: Mapping[str, Any]) -> SizeGrading | None:
+    profile = parts["size_grading.profile"]
+    if profile["kind"] == "none":
         return None
-    profile = _profile(kind, used["lambda_start"], used["lambda_end"], used["lambda_formula"])
-    return SizeGrading(profile, used["grading_direction"])
+    return SizeGrading(_profile(**profile), **parts["size_grading"])
 
 
-def _radius_grading(used: Mapping[str, Any], say: Naming) -> RadiusGrading | None:
-    by = used["radius_grading"]
-    if by == "none":
+def _radius_grading(
+    parts: Mapping[str, Any], used: Mapping[str, Any], say: Naming
+) -> RadiusGrading | None:
+    own, wanted = dict(parts["radius_grading"]), parts["radius_grading.profile"]
+    if own["by"] == "none":
         return None
     # Both are read now, so that what is wrong with them is said before the work.
-    curve = read_curve(used["radius_curve"]) if used["radius_curve"].strip() else ()
-    field, column = used["radius_field"], used["radius_column"] or None
-    if isinstance(field, str):
-        field = read_point_field(field, column)
-    profile, kind = Profile(), used["radius_profile"]  # a curve needs none
-    if not curve:
+    own["curve"] = read_curve(own["curve"]) if own["curve"].strip() else ()
+    if isinstance(own["field"], str):
+        own["field"] = read_point_field(own["field"], own["column"])
+    profile = Profile()  # a curve needs none
+    if not own["curve"]:
         cell = used["cell"]
         of_walls = isinstance(cell, str) and surface_name(cell) is not None
         usual = used["wall_thickness" if of_walls else "strut_radius"]
-        ends = (used["radius_start"], used["radius_end"])
-        if kind in TWO_ENDED and ends == (0.0, 0.0):
+        start, end = wanted["start"], wanted["end"]
+        if wanted["kind"] in TWO_ENDED and start == end == 0.0:
             raise VolfrepError(
                 f"A radius grading needs {say('radius_start')} or {say('radius_end')}: without "
                 "both, every strut has the strut radius."
             )
-        profile = _profile(kind, ends[0] or usual, ends[1] or usual, used["radius_formula"])
-    return RadiusGrading(
-        by, profile, used["radius_direction"], used["radius_reach"], field, column, curve
-    )
+        profile = _profile(**wanted | {"start": start or usual, "end": end or usual})
+    return RadiusGrading(profile=profile, **own)
 
 
-def _radius_values(grading: RadiusGrading) -> dict[str, Any]:
-    field = grading.field
-    if isinstance(field, PointField):
-        field = field_file(field, "the radius follows")
-    curve = ", ".join(f"{value!r}:{radius!r}" for value, radius in grading.curve)
-    return {
-        "radius_grading": grading.by,
-        "radius_field": field,
-        "radius_column": grading.column or "",
-        "radius_curve": curve,
-        "radius_profile": _word(grading.profile),
-        "radius_start": grading.profile.start,
-        "radius_end": grading.profile.end,
-        "radius_formula": grading.profile.expression,
-        "radius_direction": grading.direction,
-        "radius_reach": grading.reach,
-    }
+def _word(kind: str) -> str:
+    """A profile's kind as users call it."""
+    return "formula" if kind == "expression" else kind
 
 
-def _cell_map(used: Mapping[str, Any]) -> CellMap | None:
-    if used["cell_map"] == "cartesian":
-        return None
-    return CellMap(
-        used["cell_map"], used["map_centre"], used["map_axis"], used["map_around"] or None
-    )
+def _radius_file(field: PointField | str) -> str:
+    return field if isinstance(field, str) else field_file(field, "the radius follows")
 
 
-#: Parameters of random networks, and what `RandomGraph` calls them.
-_NETWORK_VALUES = {
-    "network": "kind",
-    "network_points": "points",
-    "network_seed": "seed",
-    "network_relax": "relax",
-    "network_density": "density",
-    "network_shortest": "shortest",
-    "network_angle": "least_angle",
-    "network_on_wall": "on_wall",
+#: Of rows whose value is not what their field holds: the value that stands for it.
+_AS_VALUE: dict[str, Callable[[Any], Any]] = {
+    "size_grading": _word,
+    "radius_profile": _word,
+    "radius_field": _radius_file,
+    "radius_curve": lambda curve: ", ".join(f"{value!r}:{radius!r}" for value, radius in curve),
+    "network_field": lambda field: field_file(field, "the points' density follows"),
 }
 
 
-def _network(used: Mapping[str, Any], say: Naming) -> GivenGraph | RandomGraph | None:
+def _network(
+    own: Mapping[str, Any], used: Mapping[str, Any], say: Naming
+) -> GivenGraph | RandomGraph | None:
     if used["network"] == "cells":
         return None
     if used["network"] == "file":
@@ -365,18 +308,33 @@ def _network(used: Mapping[str, Any], say: Naming) -> GivenGraph | RandomGraph |
             )
         laid: GivenGraph = used["network_faces"]
         return laid
-    field = used["network_field"] or None
+    field = own["field"]
     return RandomGraph(
-        **{key: used[name] for name, key in _NETWORK_VALUES.items()},
-        field=read_point_field(field) if isinstance(field, str) else field,
+        **{**own, "field": read_point_field(field) if isinstance(field, str) else field}
     )
 
 
-def _orientation(used: Mapping[str, Any]) -> Orientation | None:
-    if used["rotate"] is None:
+def _file_values(network: GivenGraph) -> dict[str, Any]:
+    """The values by name that `_network` reads the same network by.
+
+    Raises:
+        VolfrepError: it has no file.
+    """
+    if not network.source or not is_file(network.source):
+        raise VolfrepError("The network has no file that could be named: save it as .json first.")
+    return {
+        "network": "file", "network_file": network.source,
+        "network_thickness": abs(network.thickness),
+        "network_layers": network.layers if network.thickness else 0,
+        "network_reversed": network.thickness < 0.0,
+    }  # fmt: skip
+
+
+def _orientation(rotate: tuple[float, ...] | None, own: Mapping[str, Any]) -> Orientation | None:
+    if rotate is None:
         return None
-    *axis, angle = used["rotate"]
-    return Orientation((axis[0], axis[1], axis[2]), angle, used["rotate_origin"])
+    *axis, angle = rotate
+    return Orientation((axis[0], axis[1], axis[2]), angle, **own)
 
 
 def _skin_of(used: Mapping[str, Any]) -> dict[str, Any]:

@@ -75,7 +75,7 @@ PARAMETERS = (
     Parameter(
         "cell_size", "length", "Lattice",
         "L: edge length of the cubic cell",
-        default=10.0, in_panel=True,
+        default=10.0, in_panel=True, field="cell_size",
     ),
     Parameter(
         "radius_driven_by", "choice", "Lattice",
@@ -112,7 +112,7 @@ PARAMETERS = (
         "strut_radius", "length", "Lattice",
         "r: radius of the struts",
         default=1.0, needs=(OF_STRUTS,), in_panel=True,
-        instead_of=("relative_density", "mass", "stiffness"),
+        instead_of=("relative_density", "mass", "stiffness"), field="strut_radius",
     ),
     Parameter(
         "relative_density", "number", "Lattice",
@@ -134,32 +134,32 @@ PARAMETERS = (
     Parameter(
         "shell", "length", "Lattice",
         "Thickness of the closed skin; 0 for none: the lattice is cut at the outer surface",
-        default=2.0, freecad_name="ShellThickness", of_block=False, in_panel=True,
+        default=2.0, freecad_name="ShellThickness", of_block=False, in_panel=True, field="shell",
     ),
     Parameter(
         "fillet", "length", "Lattice",
         "Radius of the round between struts where they meet; 0 for none",
-        default=0.0, needs=(OF_STRUTS,), freecad_name="JointFillet", in_panel=True,
+        default=0.0, needs=(OF_STRUTS,), freecad_name="JointFillet", in_panel=True, field="fillet",
     ),
     Parameter(
         "wall_kind", "choice", "Walls",
         "sheet: a wall about the surface; skeleton: all where its formula is negative; "
         "complement: all where it is positive",
         default="sheet", choices=("sheet", "skeleton", "complement"), needs=(OF_WALLS,),
-        in_panel=True,
+        in_panel=True, field="wall.kind",
     ),
     Parameter(
         "wall_thickness", "length", "Walls",
         "Thickness of a sheet, measured across it",
         default=1.0, needs=(OF_WALLS, Need(("wall_kind",), ("sheet",))), in_panel=True,
-        instead_of=("relative_density", "mass"),
+        instead_of=("relative_density", "mass"), field="wall.thickness",
     ),
     Parameter(
         "wall_offset", "number", "Walls",
         "By how many mm a skeleton or complement is thicker than up to the surface; negative for "
         "a thinner one",
         default=0.0, needs=(OF_WALLS, Need(("wall_kind",), ("skeleton", "complement"))),
-        in_panel=True, instead_of=("relative_density", "mass"),
+        in_panel=True, instead_of=("relative_density", "mass"), field="wall.offset",
     ),
     Parameter(
         "wall_formula", "text", "Walls",
@@ -173,6 +173,7 @@ PARAMETERS = (
         "What the lattice consists of: cells, the Voronoi or the Delaunay edges of random points, "
         "the nodes and struts of a file, or layers of cells that follow faces picked in FreeCAD",
         default="cells", choices=("cells", *RANDOM, "file", "faces"), of_block=False,
+        field="network.kind",
     ),
     Parameter(
         "network_file", "file", "Network",
@@ -205,44 +206,46 @@ PARAMETERS = (
     Parameter(
         "network_points", "integer", "Network",
         "How many points lie in the part; 0 for as many as lie a cell size apart",
-        default=0, needs=_RANDOM, of_block=False,
+        default=0, needs=_RANDOM, of_block=False, field="network.points",
     ),
     Parameter(
         "network_seed", "integer", "Network",
         "Another seed draws other points",
-        default=1, needs=_RANDOM, of_block=False,
+        default=1, needs=_RANDOM, of_block=False, field="network.seed",
     ),
     Parameter(
         "network_relax", "integer", "Network",
         "How often each point moves to the middle of its cell, which evens them out",
-        default=2, needs=_RANDOM, of_block=False,
+        default=2, needs=_RANDOM, of_block=False, field="network.relax",
     ),
     Parameter(
         "network_density", "text", "Network",
         "Density of the points as a formula of s, 0 at the wall and 1 at the deepest place, such "
         "as '3 - 2 * s'; empty for an even one",
-        default="", needs=_RANDOM, of_block=False,
+        default="", needs=_RANDOM, of_block=False, field="network.density",
     ),
     Parameter(
         "network_field", "file", "Network",
         "A field that the density of the points follows in place of the depth: s is 0 at its "
         "smallest value and 1 at its largest (files as of a radius field, of one column)",
         needs=(*_RANDOM, Need(("network_density",))), of_block=False,
+        field="network.field", is_none=True,
     ),
     Parameter(
         "network_on_wall", "flag", "Network",
         "Struts run along the wall, too, where it cuts the faces of the points' cells",
         default=False, needs=(Need(("network",), ("voronoi",)),), of_block=False,
+        field="network.on_wall",
     ),
     Parameter(
         "network_shortest", "length", "Network",
         "Struts shorter than this are drawn together into one node; 0 for four radii",
-        default=0.0, needs=_RANDOM, of_block=False,
+        default=0.0, needs=_RANDOM, of_block=False, field="network.shortest",
     ),
     Parameter(
         "network_angle", "number", "Network",
         "Of two struts that meet at less than so many degrees the longer one goes",
-        default=25.0, needs=_RANDOM, of_block=False,
+        default=25.0, needs=_RANDOM, of_block=False, field="network.least_angle",
     ),
     Parameter(
         "origin", "point", "Lattice",
@@ -251,33 +254,35 @@ PARAMETERS = (
         switch="Put a corner of a cell at Origin; otherwise the cells start at the corner of the "
         "solid",
         otherwise="the corner of the part's box; of a file 0, 0, 0", needs=GIVEN, of_block=False,
+        field="origin",
     ),
     Parameter(
         "activation", "choice", "Boundary",
         "Which cells hold a lattice: those that touch the inside, whose centre lies inside, or "
         "that lie wholly inside",
         default="touching", choices=("touching", "centre", "inside"), of_block=False, in_panel=True,
+        field="activation",
     ),
     Parameter(
         "boundary", "choice", "Boundary",
         "trim: the lattice is cut at the wall; whole: cells stay whole, and a skin joins what "
         "reaches it",
-        default="trim", choices=("trim", "whole"), of_block=False, in_panel=True,
+        default="trim", choices=("trim", "whole"), of_block=False, in_panel=True, field="boundary",
     ),
     Parameter(
         "remove_dangling", "flag", "Boundary",
         "Take away struts with a free end, again and again until there are none",
-        default=False, needs=(OF_STRUTS,), of_block=False, in_panel=True,
+        default=False, needs=(OF_STRUTS,), of_block=False, in_panel=True, field="remove_dangling",
     ),
     Parameter(
         "shortest_stub", "length", "Boundary",
         "Take away struts with a free end that are shorter than this; 0 for none",
-        default=0.0, needs=(OF_STRUTS,), of_block=False, in_panel=True,
+        default=0.0, needs=(OF_STRUTS,), of_block=False, in_panel=True, field="shortest_stub",
     ),
     Parameter(
         "keep_pieces", "flag", "Boundary",
         "Keep pieces of the lattice that hang on nothing; otherwise they are left out, and told",
-        default=False, of_block=False,
+        default=False, of_block=False, field="keep_pieces",
     ),
     Parameter(
         "open_faces", "faces", "Openings",
@@ -328,7 +333,7 @@ PARAMETERS = (
     Parameter(
         "drain_diameter", "length", "Openings",
         "Diameter of the holes that let powder or resin out of the skin; 0 for none",
-        default=0.0, of_block=False,
+        default=0.0, of_block=False, field="drains.diameter",
     ),
     Parameter(
         "drain_points", "points", "Openings",
@@ -349,65 +354,69 @@ PARAMETERS = (
     Parameter(
         "drain_count", "integer", "Openings",
         "Holes for each void that is still closed, at its lowest places along the build direction",
-        default=0, needs=_DRAINED, of_block=False,
+        default=0, needs=_DRAINED, of_block=False, field="drains.count",
     ),
     Parameter(
         "build_direction", "direction", "Openings",
         "From the build plate up",
-        default=(0.0, 0.0, 1.0),
+        default=(0.0, 0.0, 1.0), field="drains.build_direction",
     ),
     Parameter(
         "size_grading", "choice", "Cell size",
         "Cells that grow along a direction: the profile of lambda (section 2.5 of the method)",
         default="none", choices=("none", *PROFILES), in_panel=True,
+        field="size_grading.profile.kind",
     ),
     Parameter(
         "lambda_start", "number", "Cell size",
         "lambda at the near end, s = 0",
         default=1.0, needs=(Need(("size_grading",), PROFILES[:-1]),), in_panel=True,
+        field="size_grading.profile.start",
     ),
     Parameter(
         "lambda_end", "number", "Cell size",
         "lambda at the far end, s = 1",
         needs=(Need(("size_grading",), TWO_ENDED),), required=True, initial=2.0, in_panel=True,
+        field="size_grading.profile.end",
     ),
     Parameter(
         "lambda_formula", "formula", "Cell size",
         "lambda as a formula of s",
         needs=(Need(("size_grading",), ("formula",)),), required=True, initial="1 + s",
-        in_panel=True,
+        in_panel=True, field="size_grading.profile.expression",
     ),
     Parameter(
         "grading_direction", "direction", "Cell size",
         "Cells grow along it",
-        default=(1.0, 0.0, 0.0), needs=(Need(("size_grading",)),),
+        default=(1.0, 0.0, 0.0), needs=(Need(("size_grading",)),), field="size_grading.direction",
     ),
     Parameter(
         "cell_map", "choice", "Cell map",
         "Cells along straight axes, about an axis, or about a centre",
         default="cartesian", choices=("cartesian", "cylindrical", "spherical"),
+        field="cell_map.kind",
     ),
     Parameter(
         "map_centre", "point", "Cell map",
         "A point of the axis, or the centre",
         switch="Put the axis through MapCentre; otherwise through the middle of the solid's box",
-        otherwise="the middle of the part's box", needs=_MAPPED,
+        otherwise="the middle of the part's box", needs=_MAPPED, field="cell_map.centre",
     ),
     Parameter(
         "map_axis", "direction", "Cell map",
         "Axis that the cells lie about",
-        default=(0.0, 0.0, 1.0), needs=_MAPPED,
+        default=(0.0, 0.0, 1.0), needs=_MAPPED, field="cell_map.axis",
     ),
     Parameter(
         "map_around", "integer", "Cell map",
         "Cells around the full turn; 0 for as many as make them L wide half-way out",
-        default=0, needs=_MAPPED,
+        default=0, needs=_MAPPED, field="cell_map.around", is_none=True,
     ),
     Parameter(
         "keep_radius", "flag", "Cell size",
         "Where cells are stretched or bent, struts stay straight and round; otherwise they are "
         "deformed with their cells, as published",
-        default=True, needs=(OF_STRUTS, Need(("size_grading", "cell_map")),),
+        default=True, needs=(OF_STRUTS, Need(("size_grading", "cell_map")),), field="keep_radius",
     ),
     Parameter(
         "rotate", "rotation", "Orientation",
@@ -422,17 +431,19 @@ PARAMETERS = (
         "box",
         otherwise="the middle of the part's box, or a cell map's centre",
         needs=(Need(("rotate",)),), freecad_name="RotationOrigin", position_of="rotate",
+        field="orientation.origin",
     ),
     Parameter(
         "radius_grading", "choice", "Strut radius",
         "Struts whose radius varies: along a direction, by the depth below the skin (s = 1 at the "
         "skin, or at the core), or by a field of values",
         default="none", choices=("none", *BY_PLACE, "field"), needs=(_OWN_RADIUS,), in_panel=True,
+        field="radius_grading.by",
     ),
     Parameter(
         "radius_field", "file", "Strut radius",
         "File of points and values: .csv, .txt, .vtu, .vtk",
-        needs=_BY_FIELD, in_panel=True,
+        needs=_BY_FIELD, in_panel=True, field="radius_grading.field",
     ),
     Parameter(
         "radius_result", "link", "Strut radius",
@@ -442,66 +453,72 @@ PARAMETERS = (
     Parameter(
         "radius_column", "text", "Strut radius",
         "Which values of the file or the FEM result; empty for the only ones, or for vonMises",
-        default="", needs=_BY_FIELD, in_panel=True,
+        default="", needs=_BY_FIELD, in_panel=True, field="radius_grading.column", is_none=True,
     ),
     Parameter(
         "radius_curve", "curve", "Strut radius",
         "Values and their radii in mm, such as '0:0.5, 120:1.2', in place of the start and the end",
         default="", needs=_BY_FIELD, instead_of=("radius_start", "radius_end"), in_panel=True,
+        field="radius_grading.curve",
     ),
     Parameter(
         "radius_profile", "choice", "Strut radius",
         "Profile of the radius over s",
         default="linear", choices=PROFILES[1:], needs=(Need(("radius_grading",), BY_PLACE),),
-        in_panel=True,
+        in_panel=True, field="radius_grading.profile.kind",
     ),
     Parameter(
         "radius_start", "length", "Strut radius",
         "Radius at s = 0, or where the field is smallest; 0 for the strut radius",
         default=0.0, needs=_RADIUS_ENDS, instead_of=("radius_curve",), in_panel=True,
+        field="radius_grading.profile.start",
     ),
     Parameter(
         "radius_end", "length", "Strut radius",
         "Radius at s = 1, or where the field is largest; 0 for the strut radius",
         default=0.0, needs=_RADIUS_ENDS, instead_of=("radius_curve",), in_panel=True,
+        field="radius_grading.profile.end",
     ),
     Parameter(
         "radius_formula", "formula", "Strut radius",
         "Radius in mm as a formula of s",
         needs=(Need(("radius_profile",), ("formula",)),), required=True, initial="0.8 + 0.4 * s",
-        in_panel=True,
+        in_panel=True, field="radius_grading.profile.expression",
     ),
     Parameter(
         "radius_direction", "direction", "Strut radius",
         "The radius varies along it",
         default=(1.0, 0.0, 0.0), needs=(Need(("radius_grading",), ("direction",)),),
+        field="radius_grading.direction",
     ),
     Parameter(
         "radius_reach", "length", "Strut radius",
         "Depth at which the profile ends",
         default=5.0, needs=(Need(("radius_grading",), BY_DEPTH),), in_panel=True,
+        field="radius_grading.reach",
     ),
     Parameter(
         "remove_below", "length", "Strut radius",
         "Take away struts that are nowhere thicker than this radius; 0 for none",
         default=0.0, needs=(OF_STRUTS, Need(("radius_grading",))), of_block=False, in_panel=True,
+        field="remove_below",
     ),
     Parameter(
         "resolution", "integer", "Mesh",
         "Facets along the edge of a cell; 0 to choose it by the deviation",
-        default=0, instead_of=("deviation",),
+        default=0, instead_of=("deviation",), field="resolution", is_none=True,
     ),
     Parameter(
         "deviation", "length", "Mesh",
         "Largest distance between a facet and the exact struts and joints, kept within 1.5 times; "
         "0 for a thirty-fifth of the radius",
-        default=0.0, instead_of=("resolution",),
+        default=0.0, instead_of=("resolution",), field="deviation", is_none=True,
     ),
     Parameter(
         "make", "choice", "Mesh",
         "part: skin and lattice; lattice: without the skin; domain: what the lattice fills",
         default="part", choices=("part", "lattice", "domain"), freecad_name="Output",
-        of_block=False,
+        of_block=False, field="output",
     ),
     Parameter(
         "auto_update", "flag", "Mesh",
@@ -533,7 +550,7 @@ PARAMETERS = (
     Parameter(
         "density", "density", "Material",
         "Density of the material in g/cm3",
-        default=1.0,
+        default=1.0, field="density",
     ),
 )  # fmt: skip
 

@@ -122,8 +122,8 @@ def export_mesh(
     from freecad_volfrep.bridge.solids import mesh_in_document
     from volfrep.io.write.threemf import BEAMS_ONLY, write_3mf_beams
     from volfrep.output.meshes import write_mesh
+    from volfrep.process.worker import Call
     from volfrep.util.files import beside
-    from volfrep.worker.engine_process import Call
 
     if not obj.isDerivedFrom("Mesh::Feature") or not obj.Mesh.CountFacets:
         raise VolfrepError(f"'{obj.Label}' has no mesh to export: update it first.")

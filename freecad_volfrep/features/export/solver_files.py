@@ -49,7 +49,7 @@ def axes_of(obj: App.DocumentObject) -> Clipped:
     solid, spec, cache = inputs_of(obj)
     from freecad_volfrep.bridge.beams import place_in_document, placed_lattice
     from volfrep.jobs.beam_part import clipped_infill
-    from volfrep.worker.engine_process import Call
+    from volfrep.process.worker import Call
 
     clipped = run_job(
         job_title("Struts of {label}", obj),
@@ -119,8 +119,8 @@ def _write_exact(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
     from freecad_volfrep.bridge.trimmed import check_volume
     from freecad_volfrep.bridge.worker_calls import write_exact_lattice, write_exact_part
     from volfrep.io.write.step_faceted import write_step_faceted
+    from volfrep.process.worker import Call
     from volfrep.reports.estimate import estimate_faceted
-    from volfrep.worker.engine_process import Call
 
     made_of = checked_ingredients(obj)
     place, title = place_in_document(obj), exact_title(obj)
@@ -175,8 +175,8 @@ def beams_of(obj: App.DocumentObject, **options: Any) -> tuple[BeamMesh, np.ndar
         Cancelled: in the window, by the user.
     """
     from volfrep.fem.beam_mesh import fitted_beams
+    from volfrep.process.worker import Call
     from volfrep.trim.beam_model import deformed_struts
-    from volfrep.worker.engine_process import Call
 
     clipped = axes_of(obj)
     spec = inputs_of(obj)[1]
@@ -196,7 +196,7 @@ def _write_tetrahedra(obj: App.DocumentObject, path: str | os.PathLike[str]) -> 
     from freecad_volfrep.bridge.solids import placed
     from volfrep.fem.deck import write_tetrahedra
     from volfrep.fem.tet_mesh import nodes_on
-    from volfrep.worker.engine_process import Call
+    from volfrep.process.worker import Call
 
     solid = placed(inputs_of(obj)[0], place_in_document(obj))
     filled = tetrahedra_of(obj)
@@ -218,7 +218,7 @@ def tetrahedra_of(obj: App.DocumentObject) -> TetrahedralMesh:
     """
     from freecad_volfrep.bridge.solids import mesh_in_document
     from volfrep.jobs.beam_part import tetrahedra_of as made
-    from volfrep.worker.engine_process import Call
+    from volfrep.process.worker import Call
 
     title = job_title("Tetrahedra of {label}", obj)
     filled: TetrahedralMesh = run_job(title, Call(made, (mesh_in_document(obj),)))

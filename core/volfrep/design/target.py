@@ -152,3 +152,13 @@ def stiffness_text(target: Target) -> str:
     """What `read_stiffness` reads the target of."""
     assert target.direction is not None
     return f"{target.value!r}:{','.join(repr(float(part)) for part in target.direction)}"
+
+
+def modulus_out_of_reach(what: str, target: Target, least: float, most: float) -> VolfrepError:
+    """What is wrong where no thickness has a modulus."""
+    unit = "of the solid's" if target.young == 1.0 else "MPa"
+    return VolfrepError(
+        f"No {what} a modulus of {target.value:.4g} {unit} along this direction: choose one from "
+        f"{least:.3g} to {most:.3g} {unit}"
+        + (", or name the solid's material." if target.young == 1.0 else ".")
+    )

@@ -13,12 +13,13 @@ from functools import lru_cache
 import numpy as np
 
 from ..design.cells import UnitCell
-from ..design.target import Target
+from ..design.target import Target, modulus_out_of_reach
 from ..mechanics.catalogue import CatalogueCell, known_cell
 from ..mechanics.endless import endless_cell
 from ..mechanics.homogenise import grid_sizes, homogenise
-from ..mechanics.tensor import young
+from ..mechanics.tensor import modulus_along
 from ..util.errors import VolfrepError
+from ..util.search import Rising, make_until_met
 from ..util.types import Floats
 
 #: r / L between which a cell that is not in the catalogue is looked at, and at how many radii.
@@ -27,6 +28,8 @@ RADII = 7
 #: Voxels along a radius of the coarse grids, and along L at least and, without mirrors and with, at
 #: most.
 _VOXELS, _FEWEST, _FINEST = 2.5, 20, (32, 64)
+#: How near a modulus has to come that is read off a curve.
+_EXACT = 1e-10
 #: How near the modulus of a homogenised cell has to come, and in how many steps.
 _CLOSE = 4e-3
 _STEPS = 4
@@ -43,7 +46,7 @@ def modulus(cell: UnitCell, ratio: float, target: Target, fillet: float = 0.0) -
     """
     known = known_cell(cell) if not fillet else None
     tensor = known.tensor(ratio) if known else _tensor(cell, ratio, fillet)
-    return _along(tensor, target)
+    return modulus_along(tensor, target)
 
 
 def ratio_of_stiffness(
@@ -65,32 +68,26 @@ def ratio_of_stiffness(
         ratios, moduli = known.ratios, _catalogue_moduli(known, target)
     else:
         ratios, moduli = coarse_ratios(fillet), _coarse_moduli(cell, target, fillet)
-    least, most = float(np.log(ratios[0])), float(np.log(ratios[-1]))
-    softest, stiffest = (float(np.exp(moduli(place))) for place in (least, most))
-    if not softest <= target.value <= stiffest:
-        unit = "of the solid's" if target.young == 1.0 else "MPa"
-        raise VolfrepError(
-            f"No strut radius gives the cell '{cell.name}' a modulus of {target.value:.4g} {unit} "
-            f"along this direction: choose one from {softest:.3g} to {stiffest:.3g} {unit}"
-            + (", or name the solid's material." if target.young == 1.0 else ".")
+    about = Rising(moduli, float(ratios[0]), float(ratios[-1]), close=_EXACT)
+    least, most = about.span
+    if not least <= target.value <= most:
+        raise modulus_out_of_reach(
+            f"strut radius gives the cell '{cell.name}'", target, least, most
         )
 
-    from scipy.optimize import brentq  # slow to load, and every job loads this module
+    def ratio_of(value: float) -> float:
+        # Without the digits that hang on the solver's number of threads.
+        return float(f"{about.level_of(min(max(value, least), most)):.6g}")
 
-    def place_of(value: float) -> float:
-        wanted = np.clip(np.log(value), moduli(least), moduli(most))
-        return float(brentq(lambda place: moduli(place) - wanted, least, most, xtol=1e-9))
-
-    place = place_of(target.value)
     if known or rough:
-        return _rounded(place)
+        return ratio_of(target.value)
+
+    def missing(ratio: float) -> float:
+        return target.value - modulus(cell, ratio, target, fillet)
+
+    enough = _CLOSE * target.value
     # By how much the fine grids differ from the coarse hardly hangs on the radius.
-    for _ in range(_STEPS):
-        fine = modulus(cell, float(np.exp(place)), target, fillet)
-        if abs(fine / target.value - 1.0) < _CLOSE:
-            break
-        place = place_of(target.value * float(np.exp(moduli(place))) / fine)
-    return _rounded(place)
+    return make_until_met(ratio_of, missing, target.value, enough=enough, times=_STEPS)
 
 
 def coarse_ratios(fillet: float) -> Floats:
@@ -103,22 +100,19 @@ def coarse_ratios(fillet: float) -> Floats:
 
 
 def _catalogue_moduli(known: CatalogueCell, target: Target) -> Callable[[float], float]:
-    """The logarithm of the modulus over that of r / L, by the catalogue."""
-    return lambda place: float(np.log(_along(known.tensor(float(np.exp(place))), target)))
+    """The modulus over r / L, by the catalogue."""
+    first, last = float(known.ratios[0]), float(known.ratios[-1])
+    return lambda ratio: modulus_along(known.tensor(min(max(ratio, first), last)), target)
 
 
 def _coarse_moduli(cell: UnitCell, target: Target, fillet: float) -> Callable[[float], float]:
-    """The logarithm of the modulus over that of r / L, by the coarse grids."""
+    """The modulus over r / L, by the coarse grids."""
     from scipy.interpolate import CubicSpline  # slow to load, and every job loads this module
 
     ratios = coarse_ratios(fillet)
-    found = [_along(_tensor(cell, float(ratio), fillet, True), target) for ratio in ratios]
+    found = [modulus_along(_tensor(cell, float(ratio), fillet, True), target) for ratio in ratios]
     spline = CubicSpline(np.log(ratios), np.log(found), bc_type="natural")
-    return lambda place: float(spline(place))
-
-
-def _along(tensor: Floats, target: Target) -> float:
-    return target.young * float(young(tensor, np.array([target.direction]))[0])
+    return lambda ratio: float(np.exp(spline(np.log(ratio))))
 
 
 @lru_cache(maxsize=64)
@@ -134,8 +128,3 @@ def _tensor(cell: UnitCell, ratio: float, fillet: float, coarse: bool = False) -
 
 def _even(number: float) -> int:
     return 2 * round(float(number) / 2.0)
-
-
-def _rounded(place: float) -> float:
-    """The ratio at a logarithm, without the digits that hang on the solver's number of threads."""
-    return float(f"{np.exp(place):.6g}")

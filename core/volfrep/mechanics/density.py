@@ -21,6 +21,7 @@ from ..octants import sdf as frep
 from ..octants.sdf import Primitives
 from ..spatial.even_points import even_points
 from ..util.errors import VolfrepError
+from ..util.search import OutOfReachError, Rising
 from ..util.types import Floats, Ints
 from .endless import EndlessCell, endless_cell, own_primitives, refuse_odd
 
@@ -32,9 +33,8 @@ POINTS = 2**POINTS_LOG2
 _CHUNK = 2_000_000
 #: Standard errors that the error tells.
 _SURE = 3.0
-#: A radius is found when its density is this near, relative; and in so many steps.
+#: A radius is found when its density is this near, relative.
 _CLOSE = 1e-5
-_STEPS = 30
 
 
 @dataclass(frozen=True)
@@ -89,27 +89,19 @@ def radius_of_density(cell: UnitCell, density: float, fillet: float = 0.0) -> fl
     most = np.sqrt(0.25 + 0.4999 - fillet) - 0.5 if fillet < 0.4999 else 0.0
     if most <= 0.0:
         raise VolfrepError(f"A fillet of {fillet:.4g} L is too large for a cell.")
-    lengths = endless_cell(cell).lengths.sum()
-    low, high = np.log(min(1e-3, most / 10)), np.log(most)
-    # Nearly a power law: the secant in logarithms arrives in a few steps.
-    place = float(np.clip(0.5 * np.log(max(density, 1e-12) / np.pi / lengths), low, high))
-    rate, before = 1.9, None
-    for _ in range(_STEPS):
-        value = float(np.log(relative_density(cell, float(np.exp(place)), fillet).value))
-        missing = np.log(density) - value
-        if abs(missing) < _CLOSE:
-            return float(np.exp(place))
-        if (place == high and missing > 0) or (place == low and missing < 0):
-            break
-        if before is not None:
-            rate = (value - before[1]) / (place - before[0])
-        before = (place, value)
-        place = float(np.clip(place + missing / rate, low, high))
-    lowest, highest = (relative_density(cell, float(np.exp(p)), fillet).value for p in (low, high))
-    raise VolfrepError(
-        f"No strut radius gives the cell '{cell.name}' a relative density of {density:.4g}: "
-        f"choose one from {lowest:.2g} to {highest:.3g}."
-    )
+    rods = np.pi * endless_cell(cell).lengths.sum()
+    found = Rising(
+        lambda radius: relative_density(cell, radius, fillet).value,
+        min(1e-3, most / 10), float(most), close=_CLOSE,
+        start=float(np.sqrt(max(density, 1e-12) / rods)), slope=1.9,
+    )  # fmt: skip
+    try:
+        return found.level_of(density)
+    except OutOfReachError as reach:
+        raise VolfrepError(
+            f"No strut radius gives the cell '{cell.name}' a relative density of {density:.4g}: "
+            f"choose one from {reach.least:.2g} to {reach.most:.3g}."
+        ) from reach
 
 
 def _shares(endless: EndlessCell, radius: float, fillet: float) -> Floats:

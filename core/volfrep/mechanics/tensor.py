@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..design.target import Target
 from ..util.types import Floats
 
 _VOIGT = ((0, 0), (1, 1), (2, 2), (1, 2), (0, 2), (0, 1))
@@ -126,3 +127,8 @@ def gibson_ashby(density: Floats) -> tuple[Floats, Floats, Floats]:
     """
     density = np.asarray(density, float)
     return density**2, 0.375 * density**2, 0.3 * density**1.5
+
+
+def modulus_along(tensor: Floats, target: Target) -> float:
+    """Young's modulus of a (6, 6) stiffness over the solid's E along a target's direction."""
+    return target.young * float(young(tensor, np.array([target.direction]))[0])

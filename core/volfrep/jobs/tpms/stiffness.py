@@ -7,19 +7,16 @@ coarse grids until one is met, then on fine ones for what the coarse are off.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 from functools import lru_cache
 
-import numpy as np
-
 from ...design.spec import LatticeSpec
-from ...design.target import Target
+from ...design.target import Target, modulus_out_of_reach
 from ...design.tpms import PeriodicSurface, TpmsSheet
 from ...mechanics.summary import POISSON
-from ...mechanics.tensor import young
+from ...mechanics.tensor import modulus_along
 from ...tpms.solid import TpmsSolid
-from ...util.errors import VolfrepError
+from ...util.search import Rising, make_until_met
 from ...util.types import Floats
 from .properties import homogenise_tpms, usual_along
 from .symmetry import is_mirror_symmetric
@@ -29,8 +26,8 @@ from .voxels import of_density, tpms_density
 LEAST, MOST = 0.05, 0.6
 #: Voxels along L of coarse grids, as a share of the usual ones; of fine ones.
 _COARSE, _FINE = 0.4, 0.7
-#: How near a modulus has to come, relative, and in how many steps.
-_CLOSE, _STEPS = 3e-3, 6
+#: How near a modulus has to come, relative.
+_CLOSE = 3e-3
 
 
 def solve_tpms_stiffness(spec: LatticeSpec, target: Target, *, rough: bool = False) -> LatticeSpec:
@@ -48,23 +45,25 @@ def solve_tpms_stiffness(spec: LatticeSpec, target: Target, *, rough: bool = Fal
     surface, kind = spec.surface, spec.wall.kind
 
     def modulus(share: float, fineness: float) -> float:
-        return _along(_of_share(surface, kind, share, fineness), target)
+        return modulus_along(_of_share(surface, kind, share, fineness), target)
 
-    places = [LEAST, MOST]
-    moduli = [modulus(share, _COARSE) for share in places]
-    if not moduli[0] <= target.value <= moduli[1]:
-        unit = "of the solid's" if target.young == 1.0 else "MPa"
-        raise VolfrepError(
-            f"No {spec.wall.called} gives '{surface.name}' a modulus of {target.value:.4g} {unit} "
-            f"along this direction: choose one from {moduli[0]:.3g} to {moduli[1]:.3g} {unit}"
-            + (", or name the solid's material." if target.young == 1.0 else ".")
+    coarse = Rising(lambda share: modulus(share, _COARSE), LEAST, MOST, close=_CLOSE)
+    least, most = coarse.span
+    if not least <= target.value <= most:
+        raise modulus_out_of_reach(
+            f"{spec.wall.called} gives '{surface.name}'", target, least, most
         )
-    share = _met(places, moduli, target.value, lambda at: modulus(at, _COARSE))
+
+    def share_of(value: float) -> float:
+        # Without what hangs on the solver's number of threads.
+        return float(f"{coarse.level_of(min(max(value, least), most)):.5g}")
+
+    def missing(share: float) -> float:
+        return target.value - modulus(share, _FINE)
+
     # By how much the fine grids differ hardly hangs on the thickness.
-    if not rough:
-        off = modulus(share, _FINE) / target.value
-        share = _met(places, moduli, target.value / off, lambda at: modulus(at, _COARSE))
-    share = float(f"{share:.5g}")  # without what hangs on the solver's number of threads
+    enough, times = _CLOSE * target.value, 0 if rough else 1
+    share = make_until_met(share_of, missing, target.value, enough=enough, times=times)
     level = spec.cell_size * _solid(surface, kind, share).level
     if spec.wall.is_sheet:
         return replace(spec, wall=replace(spec.wall, thickness=2.0 * level))
@@ -79,27 +78,7 @@ def tpms_modulus(spec: LatticeSpec, target: Target) -> float:
     """
     assert spec.surface is not None
     tensor = _of_wall(spec.surface, spec.wall, spec.cell_size)
-    return _along(tensor, target)
-
-
-def _met(
-    places: list[float], moduli: list[float], wanted: float, find: Callable[[float], float]
-) -> float:
-    """The density of a modulus, between those that are known; what is found on the way is added."""
-    for _ in range(_STEPS):
-        order = np.argsort(places)
-        x, y = np.log(np.array(places)[order]), np.log(np.array(moduli)[order])
-        share = float(np.exp(np.interp(np.log(wanted), y, x)))
-        nearest = int(np.abs(y - np.log(wanted)).argmin())
-        if abs(y[nearest] - np.log(wanted)) < _CLOSE:
-            break
-        places.append(share)
-        moduli.append(find(share))
-    return share
-
-
-def _along(tensor: Floats, target: Target) -> float:
-    return target.young * float(young(tensor, np.array([target.direction]))[0])
+    return modulus_along(tensor, target)
 
 
 @lru_cache(maxsize=64)

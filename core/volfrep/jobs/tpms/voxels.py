@@ -10,6 +10,7 @@ from ...mechanics.voxels import Voxels, voxels_by_distance
 from ...spatial.even_points import even_points
 from ...tpms.solid import STEPS, TpmsSolid
 from ...util.errors import VolfrepError
+from ...util.search import Rising
 
 #: Half of a unit cube's diagonal.
 _HALF_DIAGONAL = 0.5 * np.sqrt(3.0)
@@ -17,8 +18,8 @@ _HALF_DIAGONAL = 0.5 * np.sqrt(3.0)
 #: density, voxels along L, and of the error, half as many.
 _POINTS = 14
 _FINE = 48
-#: A density is found when it is this near, relative; and in so many steps.
-_CLOSE, _STEPS = 2e-4, 4
+#: A density is found when it is this near, relative.
+_CLOSE = 2e-4
 #: Densities that walls can be asked for.
 _LEAST, _MOST = 0.02, 0.98
 
@@ -82,10 +83,9 @@ def of_density(solid: TpmsSolid, density: float, *, octant: bool) -> TpmsSolid:
     # How much there is to gain: from the points within a tenth of what is wanted.
     some = np.clip([0.9 * density, min(1.1 * density, 1.0)], shares[0], shares[-1])
     rate = float(np.diff(some)[0] / np.diff(np.interp(some, shares, levels))[0])
-    for _ in range(_STEPS):
-        found = TpmsSolid(solid.surface, solid.kind, level)
-        missing = density - tpms_density(found, octant=octant)[0]
-        if abs(missing) < _CLOSE * density:
-            break
-        level += missing / rate
-    return found
+    found = Rising(
+        lambda at: tpms_density(TpmsSolid(solid.surface, solid.kind, at), octant=octant)[0],
+        float(levels[0]), float(levels[-1]), close=_CLOSE,
+        start=level, slope=rate / density, even=True,
+    )  # fmt: skip
+    return TpmsSolid(solid.surface, solid.kind, found.level_of(density))

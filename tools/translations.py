@@ -61,10 +61,12 @@ def texts() -> list[Text]:
 
 
 def _of_parameters() -> Iterator[Text]:
-    """The texts of the table of parameters that become properties."""
+    """The texts of the engine's tables: parameters that become properties, forms of output."""
     sys.path.insert(0, str(ROOT / "core"))
     from volfrep.design.parameters import PARAMETERS
+    from volfrep.output.form import FORMS
 
+    yield from (("VolfrepFormats", form.title) for form in FORMS)
     for row in PARAMETERS:
         if row.in_freecad:
             texts = [row.group, *row.labels]

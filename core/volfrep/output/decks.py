@@ -11,7 +11,6 @@ from ..fem.joint_loads import side_joints
 from ..fem.tet_mesh import nodes_on, tetrahedra
 from ..reports.estimate import Estimate, estimate_beams, estimate_tetrahedra
 from ..trim.beam_model import deformed_struts
-from .step import choice_of
 from .writer import Settings, Source, Writer, Written
 
 
@@ -23,14 +22,14 @@ class BeamDeckWriter(Writer):
         from ..fem.beam_mesh import beam_model
 
         axes = source.axes
-        return estimate_beams(beam_model(axes.wireframe, axes.on_wall), choice_of(source))
+        return estimate_beams(beam_model(axes.wireframe, axes.on_wall), source.choice)
 
     def write(self, source: Source, path: str | os.PathLike[str], settings: Settings) -> Written:
         """As of `Writer`."""
         spec, axes = source.spec, source.axes
         frame = axes.wireframe
         model, warnings = fitted_beams(frame, axes.on_wall, spec.fitted_cell, spec.cell_size)
-        settings.tell(estimate_beams(model, choice_of(source)))
+        settings.tell(estimate_beams(model, source.choice))
         write_beams(model, path, settings.material, on_wall=axes.on_wall)
         warnings = axes.warnings + warnings + deformed_struts(spec.grid, spec.struts)
         row = ("struts", f"{len(frame.struts):,} between {len(frame.nodes):,} nodes, as beams")
@@ -42,7 +41,7 @@ class TetrahedraWriter(Writer):
 
     def estimate(self, source: Source) -> Estimate:
         """As of `Writer`."""
-        return estimate_tetrahedra(len(source.mesh.triangles), choice_of(source))
+        return estimate_tetrahedra(source.triangles, source.choice)
 
     def write(self, source: Source, path: str | os.PathLike[str], settings: Settings) -> Written:
         """As of `Writer`."""

@@ -8,22 +8,25 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..design.spec import LatticeSpec
 from ..grid.strut_graph import BeamModel, Wireframe
 from ..io.solid import Solid
+from ..mechanics.materials import Material
 from ..mesh.triangle_mesh import TriangleMesh
 from ..trim.trimmed_surface import TrimmedSurface
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor, ProgressCallback
-from .writer import Axes, ExactStruts
+from .form import FORMS
+from .writer import Axes, ExactStruts, Settings, Written, writer_of
 
 if TYPE_CHECKING:
     from ..jobs.infill import Infill
     from ..jobs.slices import Layers
+    from ..reports.estimate import ExportChoice
     from ..reports.result import Result
     from ..util.cache import StageCache
 
@@ -36,8 +39,6 @@ class FilledPart:
         cache: keeps them for layers, whose radius is given then.
         progress: called with the fraction done and the stage; returning False cancels.
     """
-
-    count = None
 
     def __init__(
         self,
@@ -63,6 +64,18 @@ class FilledPart:
     def mesh(self) -> TriangleMesh:
         """As of `Source`."""
         return self.result.mesh
+
+    @property
+    def triangles(self) -> int:
+        """As of `Source`."""
+        return self.result.surface.triangles
+
+    @property
+    def choice(self) -> ExportChoice:
+        """As of `Source`."""
+        from ..reports.estimate import ExportChoice
+
+        return ExportChoice(self.spec)
 
     @property
     def figures(self) -> Mapping[str, str]:
@@ -161,6 +174,18 @@ class Free:
     def mesh(self) -> TriangleMesh:
         """As of `Source`."""
         return self.result.mesh
+
+    @property
+    def triangles(self) -> int:
+        """As of `Source`."""
+        return self.result.surface.triangles
+
+    @property
+    def choice(self) -> ExportChoice:
+        """As of `Source`."""
+        from ..reports.estimate import ExportChoice
+
+        return ExportChoice(self.spec, self.count)
 
     @property
     def figures(self) -> Mapping[str, str]:
@@ -270,23 +295,60 @@ class FreeGraph(Free):
 
 @dataclass(frozen=True, eq=False)
 class Given:
-    """A part whose pieces are there already, as FreeCAD has them; what a form needs is given.
+    """A part whose pieces are there already, as FreeCAD has them; None for those not needed.
 
-    Attributes:
-        spec: what was made.
-        given: pieces by their names in `Source`.
+    Attributes: as of `Source`; `progress` is told, and asked for a cancel.
     """
 
-    spec: LatticeSpec
-    given: Mapping[str, object]
-    count: Sequence[int] | None = None
+    spec: Any = None
+    choice: ExportChoice | None = None
+    mesh: Any = None
+    triangles: int = 0
+    figures: Mapping[str, str] = field(default_factory=dict)
+    volume: float = 0.0
+    beams: Any = None
+    axes: Any = None
+    exact: Any = None
+    sides: Wireframe | None = None
+    outside: TriangleMesh | None = None
+    progress: ProgressCallback | None = None
 
     @property
     def monitor(self) -> Monitor:
-        """Of a run that nobody watches."""
-        return Monitor()
+        """As of `Source`."""
+        return Monitor(self.progress)
 
-    def __getattr__(self, name: str) -> object:
-        if name.startswith("__") or name not in self.given:
-            raise AttributeError(name)
-        return self.given[name]
+    @property
+    def surface(self) -> TriangleMesh:
+        """As of `Source`."""
+        mesh: TriangleMesh = self.mesh
+        return mesh
+
+    def layers(
+        self, folder: str | os.PathLike[str], form: str, layer: float, pixel: float | None
+    ) -> Layers:
+        """As of `Source`.
+
+        Raises:
+            VolfrepError: always.
+        """
+        raise VolfrepError("Layers are cut of a solid, and this is a mesh: fill its solid.")
+
+
+def write_given(
+    name: str,
+    given: Given,
+    path: str | os.PathLike[str],
+    material: Material | None = None,
+    *,
+    progress: ProgressCallback | None = None,
+) -> Written:
+    """Write pieces in the form of a name, as another process is asked to.
+
+    Raises:
+        VolfrepError: as the form's `Writer`.
+        Cancelled: the callback said so; no file is left behind.
+    """
+    form = next(form for form in FORMS if form.name == name)
+    settings = Settings() if material is None else Settings(material)
+    return writer_of(form).write(replace(given, progress=progress), path, settings)

@@ -10,7 +10,6 @@ from ..io.write.step_faceted import write_step_faceted
 from ..io.write.step_wireframe import write_step_wireframe
 from ..reports.estimate import (
     Estimate,
-    ExportChoice,
     estimate_axes,
     estimate_exact,
     estimate_faceted,
@@ -25,11 +24,6 @@ from .writer import Settings, Source, Writer, Written, writer_of
 PLANE_FACES = "The file holds plane faces instead of exact surfaces."
 
 
-def choice_of(source: Source) -> ExportChoice:
-    """What whoever writes can change to make a file smaller."""
-    return ExportChoice(source.spec, source.count)
-
-
 def plane_faces() -> Writer:
     """What writes instead of exact surfaces."""
     return writer_of(find_form("part.step"))
@@ -40,7 +34,7 @@ class FacetedWriter(Writer):
 
     def estimate(self, source: Source) -> Estimate:
         """As of `Writer`."""
-        return estimate_faceted(len(source.mesh.triangles), choice_of(source))
+        return estimate_faceted(source.triangles, source.choice)
 
     def write(self, source: Source, path: str | os.PathLike[str], settings: Settings) -> Written:
         """As of `Writer`."""
@@ -66,7 +60,7 @@ class ExactWriter(Writer):
         """As of `Writer`."""
         exact = source.exact
         return estimate_exact(
-            exact.lattice, choice_of(source), trimmed=exact.inner is not None
+            exact.lattice, source.choice, trimmed=exact.inner is not None
         )  # fmt: skip
 
     def write(self, source: Source, path: str | os.PathLike[str], settings: Settings) -> Written:
@@ -93,13 +87,13 @@ class AxesWriter(Writer):
 
     def estimate(self, source: Source) -> Estimate:
         """As of `Writer`."""
-        return estimate_axes(len(source.axes.wireframe.struts), choice_of(source))
+        return estimate_axes(len(source.axes.wireframe.struts), source.choice)
 
     def write(self, source: Source, path: str | os.PathLike[str], settings: Settings) -> Written:
         """As of `Writer`."""
         axes = source.axes
         frame = axes.wireframe
-        settings.tell(estimate_axes(len(frame.struts), choice_of(source)))
+        settings.tell(estimate_axes(len(frame.struts), source.choice))
         write_step_wireframe(frame, path)
         row = ("struts", f"{len(frame.struts):,} between {len(frame.nodes):,} nodes, as lines")
         return Written(axes.warnings, (row,))

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, Protocol
@@ -20,7 +20,7 @@ from .form import Form
 
 if TYPE_CHECKING:
     from ..jobs.slices import Layers
-    from ..reports.estimate import Estimate
+    from ..reports.estimate import Estimate, ExportChoice
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,8 +61,8 @@ class Source(Protocol):
         """What was made, with the radius of its target."""
 
     @property
-    def count(self) -> Sequence[int] | None:
-        """Cells of a block along x, y, z; None for others."""
+    def choice(self) -> ExportChoice | None:
+        """What whoever writes can change to make a file smaller; None where that is not known."""
 
     @property
     def monitor(self) -> Monitor:
@@ -75,6 +75,10 @@ class Source(Protocol):
     @property
     def mesh(self) -> TriangleMesh:
         """The same as one mesh."""
+
+    @property
+    def triangles(self) -> int:
+        """Of the surface."""
 
     @property
     def figures(self) -> Mapping[str, str]:

@@ -3,8 +3,8 @@
 
 from __future__ import annotations
 
-import json
 import os
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,12 +13,20 @@ import FreeCAD as App
 from freecad_volfrep.engine import require_engine
 from freecad_volfrep.features.infill.freshness import tell_stale
 from freecad_volfrep.features.infill.lattice_infill import LatticeInfill
-from freecad_volfrep.features.jobs.progress import job_title, run_job
 from freecad_volfrep.translation import translate
+from volfrep.output.form import FORMS
 from volfrep.util.errors import VolfrepError
 
 from .input_files import refuse_inputs
-from .solver_files import CONTENTS, STEP_SUFFIXES, estimate_file, write_solver_file
+from .solver_files import (
+    CONTENTS,
+    INSTANCES,
+    content_of,
+    estimate_file,
+    row_of,
+    write_pieces,
+    write_solver_file,
+)
 
 
 @dataclass(frozen=True)
@@ -42,26 +50,15 @@ class Format:
         return f"{translate('VolfrepFormats', self.title)} (*{self.suffix})"
 
 
-#: In the order of the file dialog's list.
-FORMATS = (
-    Format("STL", ".stl"),
-    Format("3MF", ".3mf"),
-    Format("3MF, mesh and beams", ".3mf", "both"),
-    Format("3MF, beams only", ".3mf", "beams"),
-    Format("PLY", ".ply"),
-    Format("OBJ", ".obj"),
-    Format("OFF", ".off"),
-    Format("GLB, for viewers", ".glb"),
-    Format("STEP, plane faces", ".step"),
-    Format("STEP, exact surfaces", ".step", "exact"),
-    Format("STEP, axes of the struts", ".step", "wireframe"),
-    Format("STEP, instances of joints", ".step", "instances"),
-    Format("CalculiX, beams", ".inp", "beam deck"),
-    Format("CalculiX, tetrahedra", ".inp", "tetrahedra"),
-    Format("Layers, pictures for resin printers", ".png", "layers"),
-    Format("Layers, drawings", ".svg", "layers"),
-    Format("Layers, common layer interface", ".cli", "layers"),
-)
+def _formats() -> Iterator[Format]:
+    for row in FORMS:
+        yield Format(row.title, row.suffixes[0], content_of(row))
+        if row.name == "step-wireframe":
+            yield Format("STEP, instances of joints", row.suffixes[0], INSTANCES)
+
+
+#: In the order of the file dialog's list: the engine's forms of output, and one of FreeCAD's own.
+FORMATS = tuple(_formats())
 
 
 def formats_of(obj: App.DocumentObject) -> list[Format]:
@@ -91,11 +88,16 @@ def estimate_export(obj: App.DocumentObject, form: Format) -> str:
     Raises:
         VolfrepError: there is no such content, or it would be absurdly much.
     """
-    from volfrep.reports.estimate import estimate_faceted
-
     if form.content in CONTENTS:
         return estimate_file(obj, form.content)
-    return str(estimate_faceted(obj.Mesh.CountFacets)) if form.suffix in STEP_SUFFIXES else ""
+    if form.content != "mesh":
+        return ""
+    from volfrep.output.sources import Given
+    from volfrep.output.writer import writer_of
+
+    made = Given(triangles=obj.Mesh.CountFacets)
+    estimate = writer_of(row_of(f"file{form.suffix}", "mesh")).estimate(made)
+    return "" if estimate is None else str(estimate)
 
 
 def export_mesh(
@@ -119,56 +121,13 @@ def export_mesh(
         Cancelled: in the window, by the user.
     """
     require_engine()
-    from freecad_volfrep.bridge.solids import mesh_in_document
-    from volfrep.io.write.threemf import BEAMS_ONLY, write_3mf_beams
-    from volfrep.output.meshes import write_mesh
-    from volfrep.process.worker import Call
-    from volfrep.util.files import beside
-
     if not obj.isDerivedFrom("Mesh::Feature") or not obj.Mesh.CountFacets:
         raise VolfrepError(f"'{obj.Label}' has no mesh to export: update it first.")
     refuse_inputs(path, obj)
-    if content == "mesh":
-        said = tell_stale(obj)
-        mesh, figures = mesh_in_document(obj), _figures(obj)
-        with beside(path) as unfinished:
-            call = Call(
-                write_mesh, (mesh, str(unfinished)), {"figures": figures}, has_progress=False
-            )
-            run_job(job_title("Writing {label}", obj), call)
-        return said
     if content in CONTENTS:
         write_solver_file(obj, path, content)
         return ()
-    if Path(path).suffix.lower() != ".3mf" or content not in ("beams", "both"):
-        raise VolfrepError(f"'{path}' cannot hold {content}: only a 3MF file holds beams or both.")
-    from freecad_volfrep.bridge.beams import place_in_document, placed_beams
-    from volfrep.jobs.beam_part import beam_model
-
-    if not isinstance(getattr(obj, "Proxy", None), LatticeInfill):
-        raise VolfrepError(f"'{obj.Label}' is a mesh without beams: export its mesh.")
-    solid, spec, cache = obj.Proxy.inputs(obj)
-    model = run_job(
-        job_title("Beams of {label}", obj),
-        Call(beam_model, (solid, spec), {"cache": cache}),
-    )
-    for sentence in model.warnings + ((*model.loose, BEAMS_ONLY) if content == "beams" else ()):
-        App.Console.PrintWarning(f"VOLFREP, {obj.Label}: {sentence}\n")
-    model = placed_beams(model, place_in_document(obj))
-    mesh = mesh_in_document(obj) if content == "both" else None
-    write_3mf_beams(model, path, mesh, figures=_figures(obj))
-    return ()
-
-
-def _figures(obj: App.DocumentObject) -> dict[str, str]:
-    """The figures of the run that made an infill's mesh; nothing for another mesh, or an older
-    version's report.
-    """
-    from dataclasses import fields
-
-    from volfrep.reports.report import Report
-
-    kept = json.loads(getattr(obj, "Report", "") or "{}")
-    if kept.keys() != {field.name for field in fields(Report)}:
-        return {}
-    return Report(**kept).figures
+    row = row_of(path, content)
+    said = tell_stale(obj) if content == "mesh" else ()
+    write_pieces(obj, path, row)
+    return said

@@ -1,18 +1,23 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A lattice infill as a file for CAD or for a solver, where it lies in the document."""
+"""An infill in the engine's forms of output, where it lies in the document.
+
+Exact surfaces are made here, of the base's own shape; joints as instances are FreeCAD's alone.
+"""
 
 from __future__ import annotations
 
+import json
 import os
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import FreeCAD as App
 
+from freecad_volfrep.features.infill.lattice_infill import LatticeInfill
 from freecad_volfrep.features.infill.materials import for_solver
 from freecad_volfrep.features.jobs.progress import job_title, run_job
+from volfrep.output.form import AXES, BEAMS, EXACT, MESH, TETRAHEDRA, Form, files, find_form
 from volfrep.util.errors import VolfrepError
 from volfrep.util.files import beside
 
@@ -33,10 +38,14 @@ if TYPE_CHECKING:
 
     from volfrep.fem.beam_mesh import BeamMesh
     from volfrep.fem.tet_mesh import TetrahedralMesh
+    from volfrep.grid.strut_graph import BeamModel
+    from volfrep.output.sources import Given
     from volfrep.trim.clip_struts import Clipped
 
-STEP_SUFFIXES = (".step", ".stp")
-DECK_SUFFIXES = (".inp",)
+#: Forms of a 3MF file, as scripts call them; and what else than the engine's forms there is.
+IN_3MF, INSTANCES = ("beams", "both"), "instances"
+#: What scripts call a form whose word alone says too little here.
+_CALLED = {"inp": "beam deck"}
 
 
 def axes_of(obj: App.DocumentObject) -> Clipped:
@@ -49,7 +58,7 @@ def axes_of(obj: App.DocumentObject) -> Clipped:
     solid, spec, cache = inputs_of(obj)
     from freecad_volfrep.bridge.beams import place_in_document, placed_lattice
     from volfrep.jobs.beam_part import clipped_infill
-    from volfrep.process.worker import Call
+    from volfrep.worker.engine_process import Call
 
     clipped = run_job(
         job_title("Struts of {label}", obj),
@@ -57,6 +66,129 @@ def axes_of(obj: App.DocumentObject) -> Clipped:
     )
     warn(obj, clipped.warnings)
     return replace(clipped, wireframe=placed_lattice(clipped.wireframe, place_in_document(obj)))
+
+
+def content_of(row: Form) -> str:
+    """What a script calls a form: mesh, layers, or its word."""
+    if row.is_folder:
+        return "layers"
+    return "mesh" if row.bytes_by else _CALLED.get(row.name, row.word)
+
+
+def _contents() -> dict[str, tuple[str, ...]]:
+    rows = {content_of(row): row.suffixes for row in files() if not row.bytes_by}
+    found = {name: rows[name] for name in rows if name not in IN_3MF}
+    return {**found, INSTANCES: find_form("a.step").suffixes}
+
+
+#: What a script calls the forms of struts and solid elements, and their extensions.
+CONTENTS = _contents()
+
+
+def row_of(path: str | os.PathLike[str], content: str) -> Form:
+    """The form of a path's extension that a script calls so.
+
+    Raises:
+        VolfrepError: there is none.
+    """
+    from volfrep.output.meshes import mesh_form
+
+    suffix = Path(path).suffix.lower()
+    for row in files():
+        if suffix in row.suffixes and content_of(row) == content:
+            return row
+    if content == "mesh":
+        return mesh_form(path)
+    known = [row for row in files() if content_of(row) == content and content not in IN_3MF]
+    if not known:
+        raise VolfrepError(f"'{path}' cannot hold {content}: only a 3MF file holds beams or both.")
+    raise VolfrepError(
+        f"'{path}' cannot hold {content}: give it the extension {known[0].suffixes[0]}."
+    )
+
+
+def pieces_of(obj: App.DocumentObject, row: Form) -> Given:
+    """What a form is made of, where the object lies in the document.
+
+    Raises:
+        VolfrepError: the object does not have it, or it is out of date.
+        Cancelled: in the window, by the user.
+    """
+    from freecad_volfrep.bridge.beams import place_in_document
+    from freecad_volfrep.bridge.solids import mesh_in_document, placed
+    from volfrep.output.sources import Given
+    from volfrep.output.writer import Axes
+    from volfrep.reports.estimate import ExportChoice
+
+    made = Given(triangles=obj.Mesh.CountFacets, figures=figures_of(obj))
+    if row.meshed:
+        made = replace(made, mesh=mesh_in_document(obj))
+    if BEAMS in row.needs:
+        made = replace(made, beams=beams_in_document(obj))
+    if row.bare or TETRAHEDRA in row.needs:
+        solid, spec, _ = inputs_of(obj)
+        made = replace(made, spec=spec, choice=ExportChoice(spec))
+        if TETRAHEDRA in row.needs:
+            made = replace(made, outside=placed(solid, place_in_document(obj)))
+    if AXES in row.needs:
+        cut = axes_of(obj)  # which says what is to be said of it
+        made = replace(made, axes=Axes(cut.wireframe, cut.on_wall))
+    return made
+
+
+def beams_in_document(obj: App.DocumentObject) -> BeamModel:
+    """The infill with its lattice as beams, in the document's coordinates.
+
+    Raises:
+        VolfrepError: that is no lattice infill, or it has no beams.
+        Cancelled: in the window, by the user.
+    """
+    from freecad_volfrep.bridge.beams import place_in_document, placed_beams
+    from volfrep.jobs.beam_part import beam_model
+    from volfrep.worker.engine_process import Call
+
+    if not isinstance(getattr(obj, "Proxy", None), LatticeInfill):
+        raise VolfrepError(f"'{obj.Label}' is a mesh without beams: export its mesh.")
+    solid, spec, cache = obj.Proxy.inputs(obj)
+    model = run_job(
+        job_title("Beams of {label}", obj), Call(beam_model, (solid, spec), {"cache": cache})
+    )
+    return placed_beams(model, place_in_document(obj))
+
+
+def write_pieces(obj: App.DocumentObject, path: str | os.PathLike[str], row: Form) -> None:
+    """Write an object in a form through the engine, and say what is to be said of the file.
+
+    Raises:
+        VolfrepError: as `pieces_of`, or the path cannot hold it or cannot be written.
+        Cancelled: in the window, by the user; no file is left behind.
+    """
+    from volfrep.output.sources import write_given
+    from volfrep.worker.engine_process import Call
+
+    made = pieces_of(obj, row)
+    deck = for_solver(obj) if "material" in row.takes else None
+    title = job_title("Writing {label}", obj)
+    if TETRAHEDRA in row.needs:
+        title = job_title("Tetrahedra of {label}", obj)
+    with beside(path) as unfinished:
+        call = Call(write_given, (row.name, made, str(unfinished), deck))
+        written = run_job(title, call)
+    warn(obj, written.warnings)
+
+
+def figures_of(obj: App.DocumentObject) -> dict[str, str]:
+    """The figures of the run that made an infill's mesh; nothing for another mesh, or an older
+    version's report.
+    """
+    from dataclasses import fields
+
+    from volfrep.reports.report import Report
+
+    kept = json.loads(getattr(obj, "Report", "") or "{}")
+    if kept.keys() != {field.name for field in fields(Report)}:
+        return {}
+    return Report(**kept).figures
 
 
 def estimate_file(obj: App.DocumentObject, content: str) -> str:
@@ -68,26 +200,15 @@ def estimate_file(obj: App.DocumentObject, content: str) -> str:
     """
     if content not in CONTENTS:
         raise VolfrepError(f"There is no content '{content}': choose {' or '.join(CONTENTS)}.")
-    _, spec, _ = inputs_of(obj)
-    from volfrep.fem.beam_mesh import beam_model
-    from volfrep.reports.estimate import (
-        ExportChoice,
-        estimate_axes,
-        estimate_beams,
-        estimate_tetrahedra,
-    )
+    from volfrep.output.writer import writer_of
 
-    asked = ExportChoice(spec)
-    if content == "tetrahedra":
-        return str(estimate_tetrahedra(obj.Mesh.CountFacets, asked))
-    if content == "instances":
+    if content == INSTANCES:
         return str(estimate_instances(obj))
-    if content == "exact":
+    row = row_of(f"file{CONTENTS[content][0]}", content)
+    if EXACT in row.needs:
         return str(estimate_of(ingredients_of(obj)))
-    clipped = axes_of(obj)
-    if content == "wireframe":
-        return str(estimate_axes(len(clipped.wireframe.struts), asked))
-    return str(estimate_beams(beam_model(clipped.wireframe, clipped.on_wall), asked))
+    unmeshed = replace(row, needs=tuple(need for need in row.needs if need != MESH))
+    return str(writer_of(row).estimate(pieces_of(obj, unmeshed)))
 
 
 def write_solver_file(obj: App.DocumentObject, path: str | os.PathLike[str], content: str) -> None:
@@ -106,11 +227,16 @@ def write_solver_file(obj: App.DocumentObject, path: str | os.PathLike[str], con
             or it would be absurdly large.
         Cancelled: in the window, by the user; no file is left behind.
     """
-    suffixes, write = CONTENTS[content]
+    suffixes = CONTENTS[content]
     if Path(path).suffix.lower() not in suffixes:
         raise VolfrepError(f"'{path}' cannot hold {content}: give it the extension {suffixes[0]}.")
     refuse_inputs(path, obj)
-    write(obj, path)
+    if content == INSTANCES:
+        write_instances(obj, path)
+    elif content == "exact":
+        _write_exact(obj, path)  # of the very shape, which only this FreeCAD has
+    else:
+        write_pieces(obj, path, row_of(path, content))
 
 
 def _write_exact(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
@@ -119,8 +245,8 @@ def _write_exact(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
     from freecad_volfrep.bridge.trimmed import check_volume
     from freecad_volfrep.bridge.worker_calls import write_exact_lattice, write_exact_part
     from volfrep.io.write.step_faceted import write_step_faceted
-    from volfrep.process.worker import Call
     from volfrep.reports.estimate import estimate_faceted
+    from volfrep.worker.engine_process import Call
 
     made_of = checked_ingredients(obj)
     place, title = place_in_document(obj), exact_title(obj)
@@ -148,21 +274,6 @@ def _write_exact(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
         warn(obj, (f"{error} The file holds plane faces instead of exact surfaces.",))
 
 
-def _write_axes(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
-    from volfrep.io.write.step_wireframe import write_step_wireframe
-
-    write_step_wireframe(axes_of(obj).wireframe, path)
-
-
-def _write_beams(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
-    from volfrep.fem.deck import write_beams
-    from volfrep.reports.estimate import estimate_beams
-
-    model, on_wall = beams_of(obj)
-    estimate_beams(model)
-    write_beams(model, path, for_solver(obj), on_wall=on_wall)
-
-
 def beams_of(obj: App.DocumentObject, **options: Any) -> tuple[BeamMesh, np.ndarray]:
     """The infill as beams with fitted ends, in the document's coordinates, and what is on the wall.
 
@@ -175,8 +286,8 @@ def beams_of(obj: App.DocumentObject, **options: Any) -> tuple[BeamMesh, np.ndar
         Cancelled: in the window, by the user.
     """
     from volfrep.fem.beam_mesh import fitted_beams
-    from volfrep.process.worker import Call
     from volfrep.trim.beam_model import deformed_struts
+    from volfrep.worker.engine_process import Call
 
     clipped = axes_of(obj)
     spec = inputs_of(obj)[1]
@@ -191,24 +302,6 @@ def beams_of(obj: App.DocumentObject, **options: Any) -> tuple[BeamMesh, np.ndar
     return model, clipped.on_wall
 
 
-def _write_tetrahedra(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
-    from freecad_volfrep.bridge.beams import place_in_document
-    from freecad_volfrep.bridge.solids import placed
-    from volfrep.fem.deck import write_tetrahedra
-    from volfrep.fem.tet_mesh import nodes_on
-    from volfrep.process.worker import Call
-
-    solid = placed(inputs_of(obj)[0], place_in_document(obj))
-    filled = tetrahedra_of(obj)
-    sets = {"SKIN": nodes_on(filled, solid)}
-    with beside(path) as unfinished:
-        call = Call(
-            write_tetrahedra, (filled, str(unfinished), for_solver(obj)), {"sets": sets},
-            has_progress=False,
-        )  # fmt: skip
-        run_job(job_title("Tetrahedra of {label}", obj), call)
-
-
 def tetrahedra_of(obj: App.DocumentObject) -> TetrahedralMesh:
     """The infill filled with tetrahedra, in the document's coordinates.
 
@@ -218,22 +311,10 @@ def tetrahedra_of(obj: App.DocumentObject) -> TetrahedralMesh:
     """
     from freecad_volfrep.bridge.solids import mesh_in_document
     from volfrep.jobs.beam_part import tetrahedra_of as made
-    from volfrep.process.worker import Call
+    from volfrep.worker.engine_process import Call
 
     title = job_title("Tetrahedra of {label}", obj)
     filled: TetrahedralMesh = run_job(title, Call(made, (mesh_in_document(obj),)))
     for sentence in filled.warnings:
         App.Console.PrintWarning(f"VOLFREP, {obj.Label}: {sentence}\n")
     return filled
-
-
-#: By content: the extensions that can hold it, and what writes it.
-CONTENTS: dict[
-    str, tuple[tuple[str, ...], Callable[[App.DocumentObject, str | os.PathLike[str]], None]]
-] = {
-    "exact": (STEP_SUFFIXES, _write_exact),
-    "wireframe": (STEP_SUFFIXES, _write_axes),
-    "instances": (STEP_SUFFIXES, write_instances),
-    "beam deck": (DECK_SUFFIXES, _write_beams),
-    "tetrahedra": (DECK_SUFFIXES, _write_tetrahedra),
-}

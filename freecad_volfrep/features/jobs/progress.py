@@ -18,7 +18,7 @@ from freecad_volfrep.translation import translate
 from .screen import screen
 
 if TYPE_CHECKING:
-    from volfrep.process.worker import Call
+    from volfrep.worker.engine_process import Call
 
 T = TypeVar("T")
 

@@ -14,10 +14,13 @@ from .util.version import VERSION
 
 if TYPE_CHECKING:
     from .api import Part, as_solid, block, fill, mesh_network, slice_layers
+    from .design.cells import make_cell
+    from .design.drawn_cell import cell_from_lines
     from .design.parameters.spec_file import read_spec, write_spec
     from .design.spec import LatticeSpec
     from .io.solid import read_solid
     from .jobs.blocks import write_block_stl
+    from .jobs.figures.properties import lattice_properties as properties
     from .mechanics.summary import CellProperties
     from .mesh.triangle_mesh import TriangleMesh
     from .reports.report import Report
@@ -40,6 +43,8 @@ _HOMES = {
     "properties": "jobs.figures.properties:lattice_properties",
     "StageCache": "util.cache",
     "Part": "api",
+    "cell_from_lines": "design.drawn_cell",
+    "make_cell": "design.cells",
     "as_solid": "api",
     "block": "api",
     "evaluate": "studies.sweep",
@@ -74,8 +79,10 @@ __all__ = [
     "VolfrepError",
     "as_solid",
     "block",
+    "cell_from_lines",
     "evaluate",
     "fill",
+    "make_cell",
     "mesh_network",
     "properties",
     "read_solid",
@@ -86,6 +93,10 @@ __all__ = [
     "write_block_stl",
     "write_spec",
 ]
+
+
+def __dir__() -> list[str]:
+    return [*__all__, "__version__"]
 
 
 def __getattr__(name: str) -> Any:

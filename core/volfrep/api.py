@@ -25,7 +25,17 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .design.cells import find_cell
-from .design.graphs import make_network, read_network
+from .design.graphs import read_network
+from .design.parameters.keywords import (
+    FIELDS,
+    KEYS,
+    as_graph,
+    is_key,
+    own_data,
+    refuse_kind,
+    refuse_unknown,
+    spec_by_keys,
+)
 from .design.spec import LatticeSpec
 from .design.spec_parts import first_radius
 from .design.target import AIMS, THICKNESSES, read_target
@@ -154,7 +164,7 @@ class Part:
         """Hold the part against the limits of a printing process.
 
         Args:
-            process: FFF, SLA, SLS or LPBF.
+            process: FFF, SLA, SLS, MJF, LPBF or EBM.
             build_direction: from the build plate up, of any length.
 
         Raises:
@@ -226,8 +236,11 @@ def fill(
         progress: called with the fraction done and the stage; returning False cancels.
         cache: keeps the stages between calls.
         executor: cuts the lattice at the wall on its workers; the mesh is the same with any.
-        parameters: of a `LatticeSpec`, in place of one or on top of it; in place of `strut_radius`
-            also `relative_density`, `mass` (g, of the finished part) or `stiffness` (such as
+        parameters: keys of a specification's file (docs/reference.md) or fields of a
+            `LatticeSpec`, in place of one or on top of it; `cell` may be a dict with nodes and
+            struts, `network` a pair of arrays or a `networkx.Graph`, `radius_field` a pair of
+            points and values; in place of `strut_radius` also
+            `relative_density`, `mass` (g, of the finished part) or `stiffness` (such as
             "500:111": a modulus, and 100, 110, 111 or X,Y,Z); of walls `wall_kind`,
             `wall_thickness`, `wall_offset` and `wall_formula`.
 
@@ -288,7 +301,7 @@ def block(
 
 
 def mesh_network(
-    graph: str | os.PathLike[str] | tuple[Any, ...],
+    graph: Any,
     spec: LatticeSpec | None = None,
     *,
     progress: ProgressCallback | None = None,
@@ -301,7 +314,8 @@ def mesh_network(
 
     Args:
         graph: a file (see `volfrep.design.graphs.read_network`), or arrays: nodes (n, 3) in
-            mm, struts (m, 2), and, if they differ, radii (m,), (m, 2) or (n,) in mm.
+            mm, struts (m, 2), and, if they differ, radii (m,), (m, 2) or (n,) in mm; or a
+            `networkx.Graph` whose nodes are points or have one as ``pos``, or a mesh's edges.
         spec: what to make.
         progress: as of `volfrep.fill`.
         parameters: as of `volfrep.fill`.
@@ -317,8 +331,8 @@ def mesh_network(
     """
     from .output.sources import FreeGraph
 
-    if isinstance(graph, tuple):
-        found = make_network(*graph)
+    if not isinstance(graph, (str, os.PathLike)):
+        found = as_graph(graph)
     else:
         cell = parameters.get("cell", None if spec is None else spec.cell)
         found = read_network(graph, find_cell(cell) if isinstance(cell, str) else cell)
@@ -428,14 +442,7 @@ def specified(
     Raises:
         VolfrepError: there is no such parameter, or they make no sense.
     """
-    known = accepted()
-    unknown = [name for name in parameters if name not in known]
-    if unknown:
-        import difflib
-
-        near = difflib.get_close_matches(unknown[0], known, 1)
-        hint = f"did you mean '{near[0]}'?" if near else f"there are {', '.join(sorted(known))}."
-        raise VolfrepError(f"A lattice has no parameter '{unknown[0]}': {hint}")
+    refuse_unknown(parameters, accepted())
     young = 1.0
     if material is not None:
         from .mechanics.materials import find_material
@@ -443,16 +450,24 @@ def specified(
         solid = find_material(material)
         young = solid.young
         parameters = {"density": solid.density, **parameters}
-    parameters = _with_wall(_with_target(parameters, spec, young), spec)
-    if spec is None:
-        return LatticeSpec(**parameters)
-    return dataclasses.replace(spec, **parameters) if parameters else spec
+    parameters = own_data(parameters)
+    plain = set(AIMS) | set(_WALL) | {"wall_formula"}
+    try:
+        if any(name not in plain and is_key(name, parameters[name]) for name in parameters):
+            return spec_by_keys(spec, parameters, young)
+        parameters = _with_wall(_with_target(parameters, spec, young), spec)
+        if spec is None:
+            return LatticeSpec(**parameters)
+        return dataclasses.replace(spec, **parameters) if parameters else spec
+    except VolfrepError:
+        raise
+    except (TypeError, ValueError, AttributeError, IndexError) as error:
+        raise refuse_kind(parameters, error) from error
 
 
 def accepted() -> set[str]:
-    """The names of a call's parameters: a `LatticeSpec`'s, with walls and targets as files say."""
-    names = {field.name for field in dataclasses.fields(LatticeSpec)} - {"wall"}
-    return names | set(AIMS) | set(_WALL) | {"wall_formula"}
+    """The names of a call's parameters: the keys of a file, and the fields of a `LatticeSpec`."""
+    return KEYS | FIELDS
 
 
 def _with_wall(parameters: dict[str, Any], spec: LatticeSpec | None) -> dict[str, Any]:

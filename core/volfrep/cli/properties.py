@@ -119,6 +119,7 @@ def _properties(options: argparse.Namespace) -> None:
         wall_thickness=options.wall_thickness,
         wall_offset=options.wall_offset,
         wall_formula=options.wall_formula,
+        exact=True,
         told=_expected,
     )
     if options.json is not None:

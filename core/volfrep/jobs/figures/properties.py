@@ -8,6 +8,7 @@ from collections.abc import Callable
 from ...design.cells import UnitCell, find_cell
 from ...design.spec_parts import Grid
 from ...design.tpms import KINDS, PeriodicSurface, TpmsSheet, find_surface
+from ...mechanics.catalogue import known_properties
 from ...mechanics.materials import SolidMaterial, find_material
 from ...mechanics.summary import CellProperties, cell_properties
 from ...util.errors import VolfrepError
@@ -28,6 +29,7 @@ def lattice_properties(
     wall_thickness: float | None = None,
     wall_offset: float | None = None,
     wall_formula: str = "",
+    exact: bool = False,
     told: Callable[[float], None] = lambda seconds: None,
 ) -> CellProperties:
     """What the endless lattice of a cell does.
@@ -46,6 +48,7 @@ def lattice_properties(
         wall_thickness: of a sheet, mm.
         wall_offset: of a skeleton or complement, mm.
         wall_formula: of the cell ``Formula``.
+        exact: homogenise also what the catalogue knows, which it tells at once.
         told: of struts, given how many seconds are left, about, as soon as that is known.
 
     Raises:
@@ -70,6 +73,11 @@ def lattice_properties(
             if not isinstance(cell, str):
                 raise VolfrepError("Values are for a cell that is given by its name or file.")
             cell = find_cell(cell, cell_values)
+        if strut_radius is not None and not (exact or fillet or along):
+            solid = find_material(material) if isinstance(material, str) else material
+            named = find_cell(cell) if isinstance(cell, str) else cell
+            if (known := known_properties(named, cell_size, strut_radius, solid)) is not None:
+                return known
         return cell_properties(
             cell, cell_size, strut_radius, relative_density=relative_density, fillet=fillet,
             material=material, along=along, told=told,

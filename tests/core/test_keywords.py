@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Keywords of a call: the keys of files, own arrays, and sentences for what is no value."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+import volfrep
+from volfrep.api import specified
+from volfrep.design.parameters.keywords import as_graph
+from volfrep.design.parameters.specification import specification
+
+TRIANGLE = ([[0, 0, 0], [9, 0, 0], [0, 9, 0]], [(0, 1), (0, 2), (1, 2)])
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        {"rotate": (0.0, 0.0, 1.0, 30.0)},
+        {"network": "voronoi", "network_points": 20},
+        {"radius_grading": "skin", "radius_start": 0.6, "radius_end": 1.2, "radius_reach": 5.0},
+        {"size_grading": "linear", "lambda_end": 1.5},
+        {"make": "lattice", "shell": 1.0},
+    ],
+)
+def test_a_keyword_is_the_key_of_a_file(given: dict[str, Any]) -> None:
+    assert specified(None, given, None) == specification(given)
+    on_top = specified(volfrep.LatticeSpec(cell="Octet"), given, None)
+    if "network" not in given:
+        assert on_top == specification({**given, "cell": "Octet"})
+
+
+def test_lists_stand_for_tuples() -> None:
+    turned = specified(None, {"rotate": [0.0, 0.0, 1.0, 30.0]}, None)
+    assert turned == specification({"rotate": (0.0, 0.0, 1.0, 30.0)})
+
+
+def test_a_cell_is_a_dict_and_a_network_a_pair_of_arrays() -> None:
+    nodes, struts = [[0, 0, 0], [1, 1, 1], [1, 0, 0]], [[0, 1], [1, 2], [2, 0]]
+    made = specified(None, {"cell": {"name": "Own", "nodes": nodes, "struts": struts}}, None)
+    assert made.unit_cell() == volfrep.make_cell("Own", nodes, struts)
+    graph = specified(None, {"network": TRIANGLE}, None).network
+    assert graph == as_graph(TRIANGLE)
+
+
+def test_a_graph_of_networkx_is_a_network() -> None:
+    class Nodes(dict):  # as networkx has them
+        def __call__(self, data: bool) -> Any:
+            return self.items()
+
+    places = {name: {"pos": tuple(at)} for name, at in zip("abc", TRIANGLE[0], strict=True)}
+    edges = [("a", "b"), ("a", "c"), ("b", "c")]
+    graph = SimpleNamespace(nodes=Nodes(places), edges=lambda: edges)
+    assert as_graph(graph) == as_graph(TRIANGLE)
+    with pytest.raises(volfrep.VolfrepError, match="has no struts"):
+        as_graph(SimpleNamespace(nodes=Nodes(places), edges=list))
+    with pytest.raises(volfrep.VolfrepError, match="'d' of the graph has no place"):
+        as_graph(SimpleNamespace(nodes=Nodes({"d": {}}), edges=list))
+
+
+def test_a_field_is_points_and_values() -> None:
+    points, values = np.array([[0.0, 0, 0], [10, 0, 0]]), np.array([0.5, 1.0])
+    given = {"radius_grading": "field", "radius_field": (points, values)}
+    made = specified(None, {**given, "radius_start": 0.5, "radius_end": 1.0}, None)
+    assert made.radius_grading is not None
+    assert made.radius_grading.field.range == (0.5, 1.0)
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"cel": "BCC"}, "did you mean 'cell'"),
+        ({"radius_strat": 1.0}, "did you mean 'radius_start'"),
+        ({"origin": 5}, "'origin' does not take 5"),
+        ({"cell": {"nodes": []}}, "struts are missing"),
+    ],
+)
+def test_what_is_no_value_is_a_sentence(given: dict[str, Any], message: str) -> None:
+    with pytest.raises(volfrep.VolfrepError, match=message):
+        specified(None, given, None)
+
+
+def test_the_catalogue_comes_first() -> None:
+    found = volfrep.properties("BCC", 10, 1)
+    known = volfrep.properties(volfrep.LatticeSpec(cell="BCC").unit_cell(), 10, 1)
+    assert found.values == known.values
+    assert set(volfrep.__all__) <= set(dir(volfrep))

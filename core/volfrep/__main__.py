@@ -7,12 +7,16 @@ import sys
 from typing import NoReturn
 
 from .cli import process
+from .util.version import VERSION
 
 
 def main() -> NoReturn:
     """Run the command of this process's arguments and exit with its code."""
     try:
         process.prepare()
+        if sys.argv[1:] == ["--version"]:  # without the options of all commands
+            print(f"volfrep {VERSION}")
+            raise SystemExit(0)
         from .cli.command import run
 
         code = run(sys.argv[1:])

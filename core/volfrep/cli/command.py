@@ -194,12 +194,13 @@ def _block(given: argparse.Namespace) -> None:
     options = block_options(given)
 
     from ..design.forecast import forecast_block, refuse_crossing
-    from ..jobs.blocks import write_block_stl
-    from ..jobs.targets import solve_block_target
-    from ..output.sources import Block
 
     start, count, meshed = time.perf_counter(), options.count, options.form.meshed
-    spec = solve_block_target(options.spec, count, meshed=meshed)
+    spec = options.spec
+    if spec.target is not None:
+        from ..jobs.targets import solve_block_target  # loads what fills parts
+
+        spec = solve_block_target(spec, count, meshed=meshed)
     streamed = options.is_plain and options.form.name == "stl"
     if meshed:
         refuse_crossing(spec)
@@ -208,8 +209,12 @@ def _block(given: argparse.Namespace) -> None:
             print(f"Expected: {expected}.", flush=True)
     with Progress(options.quiet) as progress:
         if not streamed:
+            from ..output.sources import Block
+
             _make(Block(spec, count, progress), options, start, {})
             return
+        from ..jobs.blocks import write_block_stl
+
         # Octant by octant, without a surface in between.
         report = write_block_stl(spec, count, options.output, progress=progress)
         _tell(report, options)

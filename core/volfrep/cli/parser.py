@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from typing import NoReturn
 
 from ..util.errors import VolfrepError
+from ..util.version import VERSION
 
 #: Options of earlier versions, and what they are called now.
 RENAMED = {
@@ -45,9 +46,7 @@ class Version(argparse.Action):
 
     def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
         """Print and exit; argparse's signature."""
-        from importlib.metadata import version
-
-        print(f"volfrep {version('volfrep')}")
+        print(f"volfrep {VERSION}")
         parser.exit()
 
 

@@ -10,8 +10,6 @@ from typing import TypeVar
 from ..design.spec import LatticeSpec
 from ..design.target import Target
 from ..reports.report import Report, with_warnings
-from .stiffness_target import modulus
-from .tpms.stiffness import tpms_modulus
 
 #: A mesh that misses its target by more, relative, is made again; so many are made at most.
 CLOSE = 3e-3
@@ -91,8 +89,12 @@ def report_target(report: Report, spec: LatticeSpec) -> Report:
     size = spec.cell_size
     if target.aim == "stiffness":
         if spec.surface is not None:
+            from .tpms.stiffness import tpms_modulus  # slow to load, and every block loads this
+
             reached = tpms_modulus(spec, target)
         else:
+            from .stiffness_target import modulus
+
             ratio, fillet = spec.strut_radius / size, spec.fillet / size
             reached = modulus(spec.unit_cell(), ratio, target, fillet)
     else:

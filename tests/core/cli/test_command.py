@@ -75,6 +75,37 @@ def test_help_and_version_start_at_once_without_numpy(arguments: list[str]) -> N
     assert subprocess.run([sys.executable, "-c", code], capture_output=True).returncode == 0
 
 
+@pytest.mark.parametrize(
+    ("code", "unused"),
+    [
+        ("import volfrep", ["numpy", "argparse", "dataclasses", "volfrep.design"]),
+        (
+            "import sys; sys.argv[1:] = ['--version']\nfrom volfrep.__main__ import main\n"
+            "try:\n    main()\nexcept SystemExit:\n    pass",
+            ["numpy", "argparse", "dataclasses", "importlib.metadata", "volfrep.design"],
+        ),
+        (
+            "from volfrep.cli.command import run\nassert run('block --cell CVC --cell-size 5 "
+            "--strut-radius 0.5 --count 1,1,1 --quiet -o block.stl'.split()) == 0",
+            [
+                "manifold3d", "trimesh", "networkx", "scipy.optimize", "scipy.interpolate",
+                "scipy.ndimage", "multiprocessing", "importlib.metadata", "volfrep.shell",
+                "volfrep.process", "volfrep.graphs", "volfrep.mechanics.catalogue",
+                "volfrep.jobs.infill",
+                "volfrep.trim.boolean_trim", "volfrep.io.read",
+            ],
+        ),
+    ],
+    ids=["import", "version", "block"],
+)  # fmt: skip
+def test_what_a_start_does_not_load(code: str, unused: list[str], tmp_path: Path) -> None:
+    ask = f"{code}\nimport sys\nprint([n for n in {unused!r} if n in sys.modules])"
+    done = subprocess.run(
+        [sys.executable, "-c", ask], capture_output=True, text=True, check=True, cwd=tmp_path
+    )
+    assert done.stdout.splitlines()[-1] == "[]", done.stdout
+
+
 def test_cells(capsys: pytest.CaptureFixture[str]) -> None:
     assert cli.run(["cells"]) == 0
     said = capsys.readouterr().out

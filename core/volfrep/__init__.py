@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from .util.version import VERSION
 
 if TYPE_CHECKING:
-    from .api import Part, as_solid, block, fill, mesh_network, slice_layers
+    from .api import Part, as_solid, block, fill, mesh_network, size, slice_layers
     from .design.cells import make_cell
     from .design.drawn_cell import cell_from_lines
     from .design.parameters.spec_file import read_spec, write_spec
@@ -54,6 +54,7 @@ _HOMES = {
     "Study": "studies.study",
     "read_study": "studies.study",
     "fill": "api",
+    "size": "api",
     "mesh_network": "api",
     "slice_layers": "api",
     "Report": "reports.report",
@@ -88,6 +89,7 @@ __all__ = [
     "read_solid",
     "read_spec",
     "read_study",
+    "size",
     "slice_layers",
     "sweep",
     "write_block_stl",

@@ -19,10 +19,11 @@ from collections.abc import Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from functools import cached_property
+from html import escape
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from .design.cells import find_cell
 from .design.graphs import read_network
@@ -52,7 +53,10 @@ from .util.progress import ProgressCallback
 if TYPE_CHECKING:
     import trimesh
 
+    from .jobs.sizing import SizedPart
     from .jobs.slices import Layers
+    from .loads.load_cases import LoadCases
+    from .mechanics.summary import CellProperties
     from .output.writer import Source
     from .reports.printability import PrintReport
 
@@ -82,6 +86,7 @@ class Part:
         solid: what was filled; None for a block.
         cache: holds the stages, so that what is asked for later is not computed anew.
         source: what files are written from.
+        sized: of `size`: radii, what they carry, and its report; None otherwise.
     """
 
     result: Result
@@ -89,6 +94,22 @@ class Part:
     solid: Solid | None
     cache: StageCache
     source: Source
+    sized: SizedPart | None = None
+
+    def __repr__(self) -> str:
+        report = self.report
+        return (
+            f"<Part of {report.spec.get('cell')}: {report.struts:,} struts, "
+            f"{report.triangles:,} triangles, {report.volume_mm3:,.1f} mm3, {report.mass_g:,.2f} g>"
+        )
+
+    def _repr_html_(self) -> str:
+        rows = "".join(
+            f"<tr><th>{escape(name)}</th><td>{escape(text[:200])}</td></tr>"
+            for name, text in self.report.figures.items()
+            if name != "Specification"
+        )
+        return f"<table>{rows}</table>"
 
     @cached_property
     def mesh(self) -> trimesh.Trimesh:
@@ -102,6 +123,16 @@ class Part:
     def struts(self) -> Wireframe:
         """The unique nodes and struts of the active cells, with their radii, mm."""
         return self.result.wireframe
+
+    @property
+    def nodes(self) -> NDArray[np.float64]:
+        """(n, 3) nodes of `struts`, mm."""
+        return self.struts.nodes
+
+    @property
+    def mass(self) -> float:
+        """Of the mesh at the density of the specification, g."""
+        return self.report.mass_g
 
     @property
     def report(self) -> Report:
@@ -157,6 +188,58 @@ class Part:
         found.refuse(self.spec)
         writer, settled = writer_of(found).settle(self.source)
         return settled + writer.write(self.source, path, settings).warnings
+
+    def layers(
+        self,
+        folder: str | os.PathLike[str],
+        layer: float,
+        pixel: float | None = None,
+        form: str = "png",
+    ) -> Layers:
+        """Write the part in layers along z for a printer, straight from its struts.
+
+        Args:
+            folder: to make; one that holds layers is replaced.
+            layer: height of a layer, mm.
+            pixel: edge of a picture's pixel, mm; None for the height of a layer.
+            form: png, svg or cli.
+
+        Raises:
+            VolfrepError: it is a block or a graph in free space, or the layers cannot be made so.
+        """
+        from .output.form import words
+
+        if form not in words("format"):
+            raise VolfrepError(
+                f"There is no format '{form}': choose one of {', '.join(words('format'))}."
+            )
+        return self.source.layers(folder, form, layer, pixel)
+
+    def properties(self, *, exact: bool = False) -> CellProperties:
+        """What the endless lattice of the part's cell and radius does, as `volfrep.properties`.
+
+        Raises:
+            VolfrepError: the lattice is graded, or a network, and so has no one stiffness.
+        """
+        from .jobs.figures.properties import lattice_properties
+
+        spec = self.spec
+        if spec.is_graded or spec.network is not None:
+            raise VolfrepError(
+                "A lattice that is graded, turned or a network has no one stiffness: ask for the "
+                "properties of a cell."
+            )
+        if spec.surface is None:
+            return lattice_properties(
+                spec.unit_cell(), spec.cell_size, spec.strut_radius, fillet=spec.fillet,
+                exact=exact,
+            )  # fmt: skip
+        size = "wall_thickness" if spec.wall.kind == "sheet" else "wall_offset"
+        value = spec.wall.thickness if spec.wall.kind == "sheet" else spec.wall.offset
+        sizes: dict[str, Any] = {size: value}
+        return lattice_properties(
+            spec.surface, spec.cell_size, wall_kind=spec.wall.kind, exact=exact, **sizes
+        )
 
     def check(
         self, process: str, build_direction: tuple[float, float, float] = (0.0, 0.0, 1.0)
@@ -263,6 +346,70 @@ def fill(
     cache = cache or StageCache()
     infill = solve_target(solid, wanted, progress=progress, cache=cache, executor=executor)
     return Part(infill.result, infill.spec, solid, cache, FilledPart(infill, cache))
+
+
+def size(
+    part: str | os.PathLike[str] | TriangleMesh | MeshLike | tuple[ArrayLike, ArrayLike],
+    loads: LoadCases | str | os.PathLike[str],
+    spec: LatticeSpec | None = None,
+    *,
+    steps: int = 60,
+    proof: bool = True,
+    remove_thin: bool = False,
+    unit: str | None = None,
+    progress: ProgressCallback | None = None,
+    cache: StageCache | None = None,
+    **parameters: Any,
+) -> Part:
+    """Fill a solid with a lattice whose struts are sized for its load cases.
+
+    Args:
+        part: as of `fill`.
+        loads: the file of the load cases (docs/loads.md), or these.
+        spec: what to make; its radius is what the design begins with.
+        steps: of the search, at most.
+        proof: let CalculiX solve the final design, where it is installed.
+        remove_thin: take away struts that end as thin as allowed, and size the rest again.
+        unit: as of `fill`.
+        progress: as of `fill`.
+        cache: as of `fill`.
+        parameters: as of `fill`, and what is wanted, as options of the command: `max_stress`,
+            `safety`, `max_displacement`, `buckling`, `min_frequency`, `strut_mass`, `thinnest`,
+            `thickest`, `smooth`.
+
+    Returns:
+        The part; its `sized` holds the radii, and `sized.report` the figures before and after.
+
+    Raises:
+        VolfrepError: the specification does not fit the part, nothing lies where a load acts, the
+            part is not held, or the goal cannot be.
+        Cancelled: the callback said so before there was a design.
+    """
+    from .jobs.sizing import GOALS, goal_of
+    from .jobs.sizing import size as size_struts
+    from .jobs.targets import infill_of
+    from .loads.load_file import read_load_cases
+    from .output.sources import FilledPart
+
+    if steps < 1:
+        raise VolfrepError(f"There must be at least one step, not {steps}.")
+    asked = {name: value for name, value in parameters.items() if name in GOALS}
+    rest = {name: value for name, value in parameters.items() if name not in GOALS}
+    refuse_unknown(rest, accepted() | set(GOALS))
+    wanted = specified(spec, rest, None)
+    solid, cache = as_solid(part, unit, progress), cache or StageCache()
+    if isinstance(loads, (str, os.PathLike)):
+        loads = read_load_cases(loads, solid)
+    wanted = dataclasses.replace(wanted, density=loads.material.density)
+    goal = dataclasses.replace(
+        goal_of(loads.material, asked, lambda name: name), remove_thin=remove_thin
+    )
+    made = size_struts(
+        solid, wanted, loads, goal, most_steps=steps, prove_it=proof, progress=progress,
+        cache=cache,
+    )  # fmt: skip
+    infill = infill_of(solid, made.spec, progress=progress, cache=cache)
+    return Part(infill.result, made.spec, solid, cache, FilledPart(infill, cache), made)
 
 
 def block(

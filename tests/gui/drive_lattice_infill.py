@@ -716,6 +716,33 @@ def open_an_invalid_one(doc, obj):
     Gui.getMainWindow().findChild(QtGui.QTextEdit, "Report view").clear()
 
 
+def see_what_suits(doc, obj):
+    """Enter closes nothing, without its preview the solid is seen, and first values suit."""
+    open_to_edit(obj)
+    type_value("CellSize", "8 mm")
+    xdotool("key", "Return")
+    settle()
+    check("Enter keeps the panel", panel() is not None)
+    if panel() is None:
+        return
+    check("the solid hides", not obj.Base.ViewObject.Visibility)
+    click(panel_part("Preview"))
+    settle()
+    check("without a preview it shows", wait_until(lambda: obj.Base.ViewObject.Visibility))
+    picture("panel_7_no_preview")
+    click(panel_part("Preview"))
+    check("and hides again", wait_until(lambda: not obj.Base.ViewObject.Visibility))
+    check("a sheet is a tenth of the cell", abs(obj.WallThickness.Value - 0.8) < 1e-9)
+    grading = panel_part("RadiusGrading")
+    grading.setCurrentIndex(grading.findData("Direction"))
+    settle()
+    ends = obj.RadiusStart.Value, obj.RadiusEnd.Value
+    check("a grading begins with the radius", ends == (obj.StrutRadius.Value,) * 2, ends)
+    check("pages of JSON are no property to read", "Hidden" in obj.getEditorMode("Report"))
+    answer_panel("Cancel")
+    check("Cancel closes the panel", wait_until(lambda: panel() is None))
+
+
 def choose_walls(doc, obj):
     """A Gyroid of the panel's list asks for a thickness in place of a radius, and is made."""
     open_to_edit(obj)
@@ -744,6 +771,7 @@ run_checks(
         edit_in_the_panel: filled,
         give_it_an_own_cell: filled,
         drive_the_radius: filled,
+        see_what_suits: filled,
         choose_walls: filled,
         run_a_job: None,
         cancel_an_edit: filled,

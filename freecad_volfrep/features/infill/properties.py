@@ -172,6 +172,7 @@ def ensure_properties(obj: App.DocumentObject) -> None:
             if chosen is not None:
                 setattr(obj, name, labels)
                 setattr(obj, name, chosen)
+    obj.setEditorMode("Report", 2)  # pages of JSON: the commands and scripts read it
     if obj.SchemaVersion < SCHEMA_VERSION:
         obj.SchemaVersion = SCHEMA_VERSION
     if not wrong and not out_of_range(obj):

@@ -11,8 +11,9 @@ import FreeCAD as App
 import FreeCADGui as Gui
 
 from freecad_volfrep.features.infill.expressions import follow_expressions
+from freecad_volfrep.features.infill.factory import SHEET
 from freecad_volfrep.features.infill.live_preview import TARGETS, LivePreview, Shown
-from freecad_volfrep.features.properties.quantities import set_value
+from freecad_volfrep.features.properties.quantities import is_driven, set_value
 from freecad_volfrep.gui.jobs.updating import Update, begin_update, show_mesh
 from freecad_volfrep.gui.messages import WRONG
 from freecad_volfrep.gui.qt import OK_CANCEL, QtCore, QtWidgets
@@ -20,6 +21,7 @@ from freecad_volfrep.gui.view.preview_only import end_preview
 from freecad_volfrep.gui.view.preview_view import PreviewView
 from freecad_volfrep.gui.view.section_view import close_section, open_section
 from freecad_volfrep.gui.widgets.panel_manners import (
+    PanelForm,
     allow_ok,
     entitle,
     fits_any_width,
@@ -35,6 +37,7 @@ from freecad_volfrep.gui.widgets.sections import (
     give_accelerators,
 )
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
+from volfrep.design.parameters.table import WALLS
 from volfrep.util.errors import VolfrepError
 
 from .colour_field import colour_field
@@ -86,6 +89,7 @@ class TaskPanel:
             shown.ViewObject.Visibility = False
         self._fields = PropertyFields(obj, self._value_changed, self._refuse)
         self._refusal = ""
+        self._cell_size = obj.CellSize.Value
         self._rows: dict[str, tuple[Any, Any]] = {}
         self._boxes: list[tuple[Section, Rows, tuple[str, ...]]] = []
         self._shown: Shown | None = None
@@ -165,6 +169,7 @@ class TaskPanel:
         self._obj.ViewObject.Visibility = is_there
         if is_there:
             self._view.clear()
+            self._show_solid(False)
             self._tell_print()
 
     def _show_result(self, is_there: bool | None) -> None:
@@ -205,11 +210,18 @@ class TaskPanel:
         self._shown = shown
         self._tell_radius(shown.preview.spec.strut_radius)
         if self._preview.isChecked():
+            self._show_solid(False)
             self._view.show(shown, self._grid.isChecked())
         else:
             self._view.clear()
+            self._show_solid(not self._obj.ViewObject.Visibility)
         self._say(self._refusal or shown.text, wrong=bool(self._refusal))
         self._print.tell(self._obj, shown)
+
+    def _show_solid(self, is_shown: bool) -> None:
+        """Show the solid itself where nothing else is; or the preview's in its place."""
+        if self._obj.Base is not None:
+            self._obj.Base.ViewObject.Visibility = is_shown
 
     def _tell_print(self) -> None:
         """Once a mesh has come: what was foretold is measured now."""
@@ -248,7 +260,7 @@ class TaskPanel:
         return spec.network is not None or spec.surface is not None
 
     def _build(self) -> Any:
-        form = QtWidgets.QWidget()
+        form = PanelForm()
         form.setObjectName("VolfrepTaskPanel")
         entitle(form, self._obj.Label)
         column = QtWidgets.QVBoxLayout(form)
@@ -357,6 +369,10 @@ class TaskPanel:
         """Show what applies now, and a new preview once nothing changes any more."""
         if name == "RadiusDrivenBy":
             self._begin_target(self._obj.RadiusDrivenBy)
+        elif name == "RadiusGrading":
+            self._begin_grading()
+        elif name in ("CellSize", "CellType"):
+            self._follow_cell()
         self._refusal = ""
         self._show_rows()
         self._picking.show_picked()
@@ -379,6 +395,23 @@ class TaskPanel:
             return
         set_value(self._obj, name, float(f"{value:.3g}"))
         self._fields.show(name, self._rows[name][1])
+
+    def _begin_grading(self) -> None:
+        """Begin with the thickness that there is: 0, which stands for it, says nothing."""
+        is_wall = self._obj.CellType in WALLS
+        usual = self._obj.WallThickness if is_wall else self._obj.StrutRadius
+        for name in ("RadiusStart", "RadiusEnd"):
+            if not getattr(self._obj, name).Value and not is_driven(self._obj, name):
+                set_value(self._obj, name, usual.Value)
+                self._fields.show(name, self._rows[name][1])
+
+    def _follow_cell(self) -> None:
+        """Let a sheet whose thickness nobody has changed be as thick as suits the cell."""
+        before, self._cell_size = self._cell_size, self._obj.CellSize.Value
+        was_suggested = abs(self._obj.WallThickness.Value - SHEET * before) < 1e-9 * before
+        if was_suggested and not is_driven(self._obj, "WallThickness"):
+            set_value(self._obj, "WallThickness", SHEET * self._cell_size)
+            self._fields.show("WallThickness", self._rows["WallThickness"][1])
 
     def _tell_radius(self, radius: float) -> None:
         """Show the radius that was found where something else drives it."""

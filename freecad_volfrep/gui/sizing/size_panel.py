@@ -22,7 +22,12 @@ from freecad_volfrep.gui.colours.strut_view import close_struts, open_struts
 from freecad_volfrep.gui.jobs.updating import begin_update
 from freecad_volfrep.gui.messages import WRONG
 from freecad_volfrep.gui.qt import OK_CANCEL, QtCore, QtWidgets
-from freecad_volfrep.gui.widgets.panel_manners import entitle, fits_any_width, leave_the_wheel
+from freecad_volfrep.gui.widgets.panel_manners import (
+    PanelForm,
+    entitle,
+    fits_any_width,
+    leave_the_wheel,
+)
 from freecad_volfrep.gui.windows.plot_window import show_plot
 from freecad_volfrep.gui.windows.report_window import show_report
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
@@ -200,7 +205,7 @@ class SizePanel:
             show_plot(title.format(label=self._obj.Label), sizing_plot(self._outcome.part.report))
 
     def _build(self, first: Mapping[str, float]) -> Any:
-        form = QtWidgets.QWidget()
+        form = PanelForm()
         form.setObjectName("VolfrepSizePanel")
         title = translate("VolfrepSizePanel", "Size Lattice: {label}")
         entitle(form, title.format(label=self._obj.Label))
@@ -220,7 +225,7 @@ class SizePanel:
         self._said = QtWidgets.QLabel()
         self._said.setObjectName("Said")
         fits_any_width(self._said)
-        button = QtWidgets.QPushButton(translate("VolfrepSizePanel", "Size"))
+        button = QtWidgets.QPushButton(translate("VolfrepSizePanel", "Find radii"))
         button.setObjectName("Size")
         button.setToolTip(
             translate(
@@ -260,7 +265,7 @@ class SizePanel:
         return box
 
     def _goal_box(self, first: Mapping[str, float]) -> Any:
-        box = QtWidgets.QGroupBox(translate("VolfrepSizePanel", "What is wanted"))
+        box = QtWidgets.QGroupBox(translate("VolfrepSizePanel", "Goal and limits"))
         rows = QtWidgets.QFormLayout(box)
         rows.setContentsMargins(6, 4, 6, 4)
         self._goal = QtWidgets.QComboBox()

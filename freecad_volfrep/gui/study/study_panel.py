@@ -21,7 +21,12 @@ from freecad_volfrep.features.study.design_study import (
 from freecad_volfrep.gui.messages import WRONG, tell_error
 from freecad_volfrep.gui.qt import CLOSE, QtCore, QtGui, QtWidgets
 from freecad_volfrep.gui.undo import undo_step
-from freecad_volfrep.gui.widgets.panel_manners import entitle, fits_any_width, leave_the_wheel
+from freecad_volfrep.gui.widgets.panel_manners import (
+    PanelForm,
+    entitle,
+    fits_any_width,
+    leave_the_wheel,
+)
 from freecad_volfrep.translation import spaced, translate
 from volfrep.util.errors import VolfrepError
 
@@ -91,7 +96,7 @@ class StudyPanel:
         QtGui.QDesktopServices.openUrl(QtCore.QUrl.fromLocalFile(str(page)))
 
     def _build(self) -> Any:
-        form = QtWidgets.QWidget()
+        form = PanelForm()
         form.setObjectName("VolfrepStudyPanel")
         entitle(form, self._obj.Label)
         form.setWindowIcon(QtGui.QIcon(str(ICONS / "design_study.svg")))

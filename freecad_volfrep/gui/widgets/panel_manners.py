@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""How our task panels behave beside FreeCAD's: the wheel, titles, what OK may do."""
+"""How our task panels behave beside FreeCAD's: the wheel, titles, what OK and Enter may do."""
 
 from __future__ import annotations
 
@@ -12,6 +12,17 @@ from freecad_volfrep.gui.qt import QtCore, QtWidgets
 
 #: The longest title: FreeCAD widens a panel until its title has room.
 LONGEST_TITLE = 28
+
+
+class PanelForm(QtWidgets.QWidget):
+    """A panel that Enter in one of its fields does not close, as FreeCAD's would by its OK."""
+
+    def keyPressEvent(self, event: Any) -> None:  # noqa: N802
+        """Called by Qt with the keys that no field has taken."""
+        if event.key() in (QtCore.Qt.Key_Return, QtCore.Qt.Key_Enter):
+            event.accept()
+        else:
+            super().keyPressEvent(event)
 
 
 class _LeaveTheWheel(QtCore.QObject):

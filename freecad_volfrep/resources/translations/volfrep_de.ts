@@ -3039,6 +3039,10 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
       <translation>Verschiebung</translation>
     </message>
     <message>
+      <source>Find radii</source>
+      <translation>Radien suchen</translation>
+    </message>
+    <message>
       <source>Find the radii now and stay in this panel; Cancel in the status bar keeps the best design so far</source>
       <translation>Die Radien jetzt finden und in diesem Fenster bleiben; Abbrechen in der Statusleiste behält den bisher besten Entwurf</translation>
     </message>
@@ -3049,6 +3053,10 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
     <message>
       <source>Goal</source>
       <translation>Ziel</translation>
+    </message>
+    <message>
+      <source>Goal and limits</source>
+      <translation>Ziel und Grenzen</translation>
     </message>
     <message>
       <source>How many times the load may be before struts buckle, one alone or together; 0 for no limit</source>
@@ -3099,10 +3107,6 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
       <translation>Dünne Streben entfernen, die wenig tragen</translation>
     </message>
     <message>
-      <source>Size</source>
-      <translation>Dimensionieren</translation>
-    </message>
-    <message>
       <source>Size Lattice: {label}</source>
       <translation>Gitter dimensionieren: {label}</translation>
     </message>
@@ -3149,10 +3153,6 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
     <message>
       <source>The thinnest strut that the process prints</source>
       <translation>Die dünnste Strebe, die das Verfahren druckt</translation>
-    </message>
-    <message>
-      <source>What is wanted</source>
-      <translation>Was gewünscht ist</translation>
     </message>
     <message>
       <source>What the stiffest struts weigh together; 0 for what struts of StrutRadius do</source>

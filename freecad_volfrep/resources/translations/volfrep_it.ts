@@ -3039,6 +3039,10 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
       <translation>Spostamento</translation>
     </message>
     <message>
+      <source>Find radii</source>
+      <translation>Trova i raggi</translation>
+    </message>
+    <message>
       <source>Find the radii now and stay in this panel; Cancel in the status bar keeps the best design so far</source>
       <translation>Trova ora i raggi e resta in questo pannello; Annulla nella barra di stato tiene il progetto migliore finora</translation>
     </message>
@@ -3049,6 +3053,10 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
     <message>
       <source>Goal</source>
       <translation>Obiettivo</translation>
+    </message>
+    <message>
+      <source>Goal and limits</source>
+      <translation>Obiettivo e limiti</translation>
     </message>
     <message>
       <source>How many times the load may be before struts buckle, one alone or together; 0 for no limit</source>
@@ -3099,10 +3107,6 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
       <translation>Rimuovi le aste sottili che portano poco</translation>
     </message>
     <message>
-      <source>Size</source>
-      <translation>Dimensiona</translation>
-    </message>
-    <message>
       <source>Size Lattice: {label}</source>
       <translation>Dimensiona reticolo: {label}</translation>
     </message>
@@ -3149,10 +3153,6 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
     <message>
       <source>The thinnest strut that the process prints</source>
       <translation>L'asta più sottile che il processo stampa</translation>
-    </message>
-    <message>
-      <source>What is wanted</source>
-      <translation>Che cosa si vuole</translation>
     </message>
     <message>
       <source>What the stiffest struts weigh together; 0 for what struts of StrutRadius do</source>

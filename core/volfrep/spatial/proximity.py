@@ -13,7 +13,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from ..mesh.remesh import unit_normals
 from ..mesh.triangle_mesh import TriangleMesh
@@ -64,6 +63,8 @@ def closest_points(mesh: TriangleMesh, points: Floats) -> tuple[Floats, Floats, 
     points = np.ascontiguousarray(points, np.float64).reshape(-1, 3)
     corners = np.stack(mesh.corners(), axis=1)
     boxes, order = _box_tree(corners)
+    from scipy.spatial import cKDTree  # slow to load
+
     seeds = cKDTree(corners.mean(axis=1))
     closest = np.empty_like(points)
     triangle = np.empty(len(points), np.int64)
@@ -218,6 +219,8 @@ class SurfaceIndex:
         stay = ~gone[self.triangle_of_sample]
         samples = np.concatenate([self.tree.data[stay], border])
         owners = np.concatenate([self.triangle_of_sample[stay], triangle[owner].astype(np.int32)])
+        from scipy.spatial import cKDTree  # slow to load
+
         tree = cKDTree(samples, balanced_tree=False, compact_nodes=False, leafsize=32)
         return SurfaceIndex(self.corners, across, tree, owners, self.spacing)
 
@@ -337,6 +340,8 @@ def index_surface(
     on_edges = sample_reentrant_edges(corners, unit_normals(corners), across, spacing)
     samples = np.concatenate([samples, on_edges[0]])
     triangle = np.concatenate([owner, on_edges[1]]).astype(np.int32)
+    from scipy.spatial import cKDTree  # slow to load
+
     tree = cKDTree(samples, balanced_tree=False, compact_nodes=False, leafsize=32)
     return SurfaceIndex(corners, across, tree, triangle, spacing)
 

@@ -12,9 +12,6 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
-from scipy.spatial import cKDTree
 
 from ...util.errors import VolfrepError
 from ...util.types import Floats, Ints
@@ -198,6 +195,10 @@ def _joined(places: Floats, merged: Ints, cell: UnitCell, count: int) -> tuple[F
 
 def _merged(points: Floats, same: float) -> Ints:
     """For each point a number that it shares with all that are nearer than `same` to it."""
+    from scipy.sparse import coo_matrix  # slow to load, and every job loads this module
+    from scipy.sparse.csgraph import connected_components
+    from scipy.spatial import cKDTree
+
     pairs = cKDTree(points).query_pairs(same, output_type="ndarray")
     ones = np.ones(len(pairs), bool)
     graph = coo_matrix((ones, (pairs[:, 0], pairs[:, 1])), shape=(len(points),) * 2)

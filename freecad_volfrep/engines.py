@@ -15,8 +15,8 @@ from .deps import PACKAGES, find_home, python_executable
 from .preferences import THREADS, read
 
 if TYPE_CHECKING:
-    from volfrep.worker.engine_process import Program
-    from volfrep.worker.engines import Engines
+    from volfrep.process.engines import Engines
+    from volfrep.process.worker import Program
 
 #: What the process imports before it is given anything to do.
 _WARM = ("volfrep.jobs.pipeline",)
@@ -27,7 +27,7 @@ _freecads: list[Engines] = []
 
 def engines() -> Engines:
     """The processes for jobs, which use as many threads as is preferred now."""
-    from volfrep.worker.engines import Engines
+    from volfrep.process.engines import Engines
 
     threads = read(THREADS)
     if threads not in _running:
@@ -40,7 +40,7 @@ def engines() -> Engines:
 
 def freecads() -> Engines:
     """The processes for jobs that need OpenCASCADE: FreeCAD without windows."""
-    from volfrep.worker.engines import Engines
+    from volfrep.process.engines import Engines
 
     if not _freecads:
         console = _freecad(read(THREADS))
@@ -50,12 +50,12 @@ def freecads() -> Engines:
 
 def programs(threads: int) -> list[Program]:
     """What can run the engine beside this FreeCAD, the best first."""
-    from volfrep.worker.engine_process import Program
+    from volfrep.process.worker import Program
 
-    use = f"from volfrep.util.threads import use_threads; use_threads({threads})"
-    front = find_home("volfrep.worker")
+    front = find_home("volfrep.process")
     assert front is not None
-    python = Program((python_executable(),), (front,), _package_folders(), use, _WARM)
+    folders = _package_folders()
+    python = Program((python_executable(),), (front,), folders, warm=_WARM, threads=threads)
     found = [python]
     console = _freecad(threads)
     return found if console is None else [*found, console]
@@ -63,19 +63,16 @@ def programs(threads: int) -> list[Program]:
 
 def _freecad(threads: int) -> Program | None:
     """FreeCAD without windows as a program that runs the engine and the workbench."""
-    from volfrep.worker.engine_process import Program
+    from volfrep.process.worker import Program
 
     console = _console()
     if console is None:
         return None
     # It has its own folders; of the workbench it needs what mends them.
-    whole = (
-        "from freecad_volfrep.engine import require_engine; require_engine(); "
-        f"from volfrep.util.threads import use_threads; use_threads({threads})"
-    )
+    whole = "from freecad_volfrep.engine import require_engine; require_engine()"
     home = find_home(__name__)
     assert home is not None
-    return Program((console,), (home,), tuple(sys.path), whole, _WARM)
+    return Program((console,), (home,), tuple(sys.path), whole, _WARM, threads)
 
 
 def _package_folders() -> tuple[str, ...]:
@@ -86,7 +83,7 @@ def _package_folders() -> tuple[str, ...]:
 
 def _console() -> str | None:
     """FreeCAD without windows that belongs to this FreeCAD; else whichever is found."""
-    from volfrep.util.subprocesses import find_freecad
+    from volfrep.process.programs import find_freecad
 
     suffix = ".exe" if os.name == "nt" else ""
     for name in _CONSOLES:

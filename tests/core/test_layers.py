@@ -12,7 +12,7 @@ import pytest
 ENGINE = Path(__file__).resolve().parents[2] / "core" / "volfrep"
 #: The rooms, low to high: a room imports from itself and from those before it.
 ROOMS = (
-    "util", "worker", "mesh", "spatial", "design", "shell", "grid", "octants", "lattice", "tpms",
+    "util", "process", "mesh", "spatial", "design", "shell", "grid", "octants", "lattice", "tpms",
     "graphs", "mechanics", "trim", "fem", "slicing", "io", "loads", "sizing", "reports", "jobs",
     "output", "studies", "cli",
 )  # fmt: skip

@@ -145,13 +145,14 @@ def test_a_study_varies_what_drives_the_radius(doc, infill):
 def test_runs_are_done_in_processes_beside_freecad(doc, infill, monkeypatch):
     from volfrep.studies.running import child, scheduling
 
-    start, started = child._Child.__init__, []
+    program, started = child._program, []
 
-    def starting(child, batch):
-        started.append(batch.interpreter.executable)
-        start(child, batch)
+    def starting(batch):
+        found = program(batch)
+        started.append(found.command[0])
+        return found
 
-    monkeypatch.setattr(child._Child, "__init__", starting)
+    monkeypatch.setattr(child, "_program", starting)
     monkeypatch.setattr(scheduling, "WORTH_A_PROCESS", 0.0)
     monkeypatch.setattr(scheduling, "fitting_workers", lambda *_: 2)
     study = make_design_study(doc, infill, StrutRadius="0.9, 1.1")

@@ -13,10 +13,10 @@ from freecad_volfrep.features.jobs.job import Job, State
 from freecad_volfrep.features.jobs.progress import run_job
 from freecad_volfrep.features.jobs.screen import is_asked_by_user
 from volfrep.mesh.triangle_mesh import TriangleMesh
+from volfrep.process.engines import Engines
+from volfrep.process.worker import Call
 from volfrep.util.errors import VolfrepError
 from volfrep.util.threads import threads
-from volfrep.worker.engine_process import Call
-from volfrep.worker.engines import Engines
 
 
 def tell(sentence, *, progress):

@@ -60,7 +60,7 @@ SEED = int(os.environ.get("SEED", "19"))
 @contextmanager
 def when_a_job_begins(act, each=lambda: None):
     """Call `act` when the first job of what is done meanwhile begins, `each` after every one."""
-    from volfrep.worker.engines import Engines
+    from volfrep.process.engines import Engines
 
     enter, begin, begun = _Progress.__enter__, Engines.begin, []
 

@@ -342,7 +342,7 @@ def drive_the_radius(doc, obj):
 def run_a_job():
     """A job has a process of its own, the window lives meanwhile, and what is raised arrives."""
     from freecad_volfrep.features.jobs.progress import run_job
-    from volfrep.worker.engine_process import Call
+    from volfrep.process.worker import Call
 
     beats = []
     timer = QtCore.QTimer(Gui.getMainWindow())

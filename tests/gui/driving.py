@@ -628,8 +628,8 @@ def type_value(name, text):
 @contextmanager
 def jobs_that_never_end():
     """Calls of the engine sleep in their process until they are cancelled."""
-    from volfrep.worker.engine_process import Call
-    from volfrep.worker.engines import Engines
+    from volfrep.process.engines import Engines
+    from volfrep.process.worker import Call
 
     begin = Engines.begin
     Engines.begin = lambda self, call: begin(

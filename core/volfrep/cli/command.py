@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from concurrent.futures import Executor
 
     from ..output.sources import FilledPart, Free
+    from ..process.worker import Ending
     from ..reports.estimate import Estimate
     from ..reports.printability import PrintReport
     from ..reports.report import Report
@@ -139,7 +140,8 @@ def _parser() -> argparse.ArgumentParser:
 @contextmanager
 def _workers(options: FillOptions, triangles: int) -> Iterator[Executor | None]:
     """Those that the options ask for; where they do not, as many as so many triangles are worth."""
-    from ..util.workers import dask_workers, processes
+    from ..process.cluster import dask_workers
+    from ..process.pool import processes
 
     if options.scheduler is not None:
         with dask_workers(options.scheduler) as executor:
@@ -156,8 +158,13 @@ def _workers(options: FillOptions, triangles: int) -> Iterator[Executor | None]:
         module = "volfrep.trim.group_cut"
     elif count is None:
         count = 1
-    with processes(count, module) as executor:
+    with processes(count, module, _told_lost) as executor:
         yield executor
+
+
+def _told_lost(ending: Ending) -> None:
+    """Tell at once of a worker that has ended; what it did is done again."""
+    print(f"volfrep: A worker has ended {ending}: the others go on.", file=sys.stderr, flush=True)
 
 
 def _fill(given: argparse.Namespace) -> None:
@@ -167,7 +174,7 @@ def _fill(given: argparse.Namespace) -> None:
     from ..jobs.rough_radius import solve_target_roughly
     from ..jobs.targets import solve_target
     from ..output.sources import FilledPart
-    from ..util.workers import let_go
+    from ..process.pool import let_go
 
     spec, meshed = options.spec, options.form.meshed
     start = time.perf_counter()

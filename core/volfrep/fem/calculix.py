@@ -12,13 +12,13 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from subprocess import TimeoutExpired
 
 import numpy as np
 
+from ..process.child import Limits, OverLimit
+from ..process.programs import run_program
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
-from ..util.subprocesses import run_program
 from ..util.threads import threads
 from ..util.types import Floats, Ints
 
@@ -128,10 +128,10 @@ def run(
         folder = Path(there)
         with (folder / "job.inp").open("wb") as file:
             file.writelines(deck)
-        environment = {**os.environ, "OMP_NUM_THREADS": str(threads())}
+        limits = Limits(seconds, threads=threads())
         try:
-            done = run_program([program, "-i", "job"], folder, monitor, environment, seconds)
-        except TimeoutExpired as error:
+            done = run_program([program, "-i", "job"], folder, monitor, limits=limits)
+        except OverLimit as error:
             raise VolfrepError(
                 f"CalculiX did not solve {name} within {seconds:g} s: use fewer or larger cells."
             ) from error

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import re
 import shutil
-import subprocess
 import tempfile
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -18,11 +17,12 @@ import numpy as np
 from ..mesh.brep import FacetedBrep, faceted_brep
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..mesh.well_shaped import Tolerance, angles_of, mend_bad_facets
+from ..process.child import Limits, OverLimit
+from ..process.programs import run_program
 from ..spatial.proximity import closest_points
 from ..spatial.self_intersection import crossing_triangles
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
-from ..util.subprocesses import run_program
 from ..util.types import Floats, Ints
 from .facet_grading import grade_facets
 from .fins import folded_facets, without_fins
@@ -183,8 +183,8 @@ def _filled(
             (folder / "fill.geo").write_text(geo, encoding="ascii")
             command = [program, "fill.geo", "-3", "-o", "filled.msh", "-v", "2"]
             try:
-                said = run_program(command, folder, monitor, seconds=patience)
-            except subprocess.TimeoutExpired:
+                said = run_program(command, folder, monitor, limits=Limits(patience))
+            except OverLimit:
                 continue
             filled = folder / "filled.msh"
             if not filled.is_file() or said.returncode:

@@ -3,43 +3,27 @@
 
 from __future__ import annotations
 
-import json
 import os
 import shutil
 import sys
 import tempfile
 from pathlib import Path
-from typing import Any
-
-import numpy as np
 
 from ..grid.strut_graph import Wireframe
 from ..mesh.triangle_mesh import TriangleMesh
+from ..process.programs import find_freecad
+from ..process.worker import Call, Program, Worker, WorkerLost
 from ..util.errors import VolfrepError
 from ..util.files import replacing
 from ..util.progress import Monitor
-from ..util.subprocesses import find_freecad, run_program
 
-# freecadcmd runs a script that raises a second time and then exits with 0: leave by os._exit.
-_SCRIPT = """import os, sys, traceback
-code = 1
-try:
-    sys.path[:0] = {front!r}
-    sys.path += {back!r}
-    from freecad_volfrep.exact_job import run
-    run({folder!r})
-    code = 0
-except BaseException:
-    traceback.print_exc()
-finally:
-    sys.stdout.flush()
-    sys.stderr.flush()
-    os._exit(code)
-"""
+#: What FreeCAD does: the engine never imports the workbench.
+_JOB = "freecad_volfrep.exact_job:run"
+_PRELUDE = "from freecad_volfrep.engine import require_engine; require_engine()"
 
 
 def freecad_program() -> str:
-    """FreeCAD without windows, as `programs.find_freecad` finds it.
+    """FreeCAD without windows.
 
     Raises:
         VolfrepError: there is none.
@@ -80,50 +64,40 @@ def write_exact_step(
             written.
         Cancelled: when the monitor says so; no file is left behind.
     """
-    program = freecad_program()
-    job: dict[str, Any] = {
+    worker = Worker(_freecad(freecad_program()))
+    arrays = {
         "nodes": lattice.nodes,
         "struts": lattice.struts,
         "radii": lattice.radii,
         "joint_radii": lattice.joint_radii,
-        "expected": np.nan if expected is None else expected,
     }
     for name, mesh in (("inner", inner), ("outer", outer)):
         if mesh is not None:
-            job[f"{name}_vertices"], job[f"{name}_triangles"] = mesh.vertices, mesh.triangles
-    with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        np.savez(folder / "job.npz", **job)
-        answer = _run(program, folder, monitor)
-        if "error" in answer:
-            raise VolfrepError(answer["error"])
-        with replacing(path) as file, (folder / "lattice.step").open("rb") as made:
-            shutil.copyfileobj(made, file)
-    return float(answer["volume"])
-
-
-def _run(program: str, folder: Path, monitor: Monitor | None) -> dict[str, Any]:
-    """Let FreeCAD do the job in the folder; its answer."""
-    engine = Path(__file__).resolve().parents[2]
-    checkout = engine.parent
-    front = [str(checkout)] if (checkout / "freecad_volfrep").is_dir() else []
-    script = folder / "job.py"
-    # This process's packages come last: FreeCAD's own numpy and scipy go first.
-    script.write_text(
-        _SCRIPT.format(front=front, back=[str(engine), *sys.path], folder=str(folder)),
-        encoding="utf-8",
-    )
-    done = run_program([program, str(script)], folder, monitor)
-    said = done.stdout
-    answer = folder / "answer.json"
-    if done.returncode or not answer.is_file():
-        lines = [line for line in said.splitlines() if line.strip()]
-        reason = lines[-1].strip().rstrip(".") if lines else f"exit code {done.returncode}"
-        if "No module named 'freecad_volfrep'" in said:
+            arrays[f"{name}_vertices"] = mesh.vertices
+            arrays[f"{name}_triangles"] = mesh.triangles
+    try:
+        with replacing(path) as file, tempfile.TemporaryDirectory() as folder:
+            made = Path(folder) / "lattice.step"
+            call = Call(_JOB, (arrays, expected, str(made)), has_progress=False)
+            volume = worker.answer(call, ask=None if monitor is None else monitor.tick)
+            with made.open("rb") as written:
+                shutil.copyfileobj(written, file)
+    except WorkerLost as lost:
+        reason = lost.ending.last_words or lost.ending.how
+        if "No module named 'freecad_volfrep'" in reason:
             reason = "the VOLFREP workbench is not installed in it"
         raise VolfrepError(
             f"FreeCAD did not make the exact STEP ({reason}): use --step faceted, or export from "
             "FreeCAD."
-        )
-    result: dict[str, Any] = json.loads(answer.read_text(encoding="utf-8"))
-    return result
+        ) from lost
+    finally:
+        worker.end()
+    return float(volume)
+
+
+def _freecad(program: str) -> Program:
+    """FreeCAD with the workbench; its own numpy and scipy go before this process's."""
+    engine = Path(__file__).resolve().parents[2]
+    checkout = engine.parent
+    front = (str(checkout),) if (checkout / "freecad_volfrep").is_dir() else ()
+    return Program((program,), front, (str(engine), *sys.path), _PRELUDE)

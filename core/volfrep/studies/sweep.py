@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 
+from ..process.worker import Program
 from ..util.errors import VolfrepError
 from ..util.files import check_writable, keeping_inputs, refuse_input
 from ..util.progress import ProgressCallback
@@ -28,7 +29,7 @@ from .designs import Design, Designs, Part, design_of, designs_of, named_part, r
 from .expectation import plan
 from .page import write_page
 from .records import damage_of, keep_part, prepare, read_record, record_path
-from .running.batches import Interpreter, Limits
+from .running.batches import limits_of_a_run
 from .running.executors import Words, told_state
 from .running.scheduling import How, Job, weight
 from .study import Front, Study, read_study
@@ -79,7 +80,7 @@ def sweep(
     limit_memory: float | None = None,
     retry_failed: bool = False,
     progress: ProgressCallback | None = None,
-    interpreter: Interpreter | None = None,
+    interpreter: Program | None = None,
     words: Words = told_state,
 ) -> Swept:
     """Make many designs, and a table of them, a page to look at, and their Pareto front.
@@ -112,7 +113,7 @@ def sweep(
     >>> made.count("done"), made.table.column("cell")
     (4, ['BCC', 'BCC', 'CVC', 'CVC'])
     """
-    limits = Limits(limit_hours, limit_memory)
+    limits = limits_of_a_run(limit_hours, limit_memory)
     how = How(workers, executor, scheduler, shard, limits, retry_failed, interpreter, words)
     with keeping_inputs():
         study = study if isinstance(study, Study) else read_study(study)

@@ -20,12 +20,13 @@ from ..mesh.booleans import to_library
 from ..mesh.edge_table import pieces_of
 from ..mesh.float32_repair import shortest_edge
 from ..mesh.triangle_mesh import TriangleMesh, compact, concatenate, corners_among
+from ..process.cluster import Watch
+from ..process.pool import at_once
 from ..spatial.rays import inside_points
 from ..util.errors import VolfrepError
 from ..util.progress import POLL_SECONDS, Monitor
 from ..util.threads import threads
 from ..util.types import Bools, Floats, Ints
-from ..util.workers import Watch, at_once
 from .culling import KeptOctants, without_pinches
 from .group_cut import Group, Piece, cut_group, read_runs
 from .octant_groups import Groups, group_octants

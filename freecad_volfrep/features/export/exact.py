@@ -85,8 +85,8 @@ def ingredients_of(obj: App.DocumentObject) -> Ingredients:
     """
     solid, spec, cache = inputs_of(obj)
     from volfrep.jobs.beam_part import exact_struts
+    from volfrep.process.worker import Call
     from volfrep.trim.beam_model import deformed_struts
-    from volfrep.worker.engine_process import Call
 
     lattice, domain = run_job(
         job_title("Struts of {label}", obj), Call(exact_struts, (solid, spec), {"cache": cache})
@@ -129,7 +129,7 @@ def exact_shape(obj: App.DocumentObject, made_of: Ingredients) -> Any:
     """
     from freecad_volfrep.bridge.beams import place_in_document
     from freecad_volfrep.bridge.worker_calls import packed_exact, unpack
-    from volfrep.worker.engine_process import Call
+    from volfrep.process.worker import Call
 
     call = Call(packed_exact, (exact_job(obj, made_of),))
     shape = unpack(run_job(exact_title(obj), call, in_freecad=True))

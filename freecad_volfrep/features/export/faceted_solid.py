@@ -101,7 +101,7 @@ def make_solid(
     require_engine()
     from freecad_volfrep.bridge.solids import mesh_in_document
     from freecad_volfrep.bridge.worker_calls import packed_facets, unpack
-    from volfrep.worker.engine_process import Call
+    from volfrep.process.worker import Call
 
     acceptable_solid(obj, limit)
     said = tell_stale(obj)

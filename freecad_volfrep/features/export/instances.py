@@ -49,7 +49,7 @@ def make_instances(doc: App.Document, obj: App.DocumentObject) -> App.DocumentOb
     """
     from freecad_volfrep.bridge.trimmed import check_volume
     from freecad_volfrep.bridge.worker_calls import packed_joints, unpack
-    from volfrep.worker.engine_process import Call
+    from volfrep.process.worker import Call
 
     made_of = ingredients_of(obj)
     job = exact_job(obj, made_of)
@@ -159,7 +159,7 @@ def _sides(obj: App.DocumentObject, made_of: Ingredients) -> tuple[np.ndarray, n
         Cancelled: in the window, by the user.
     """
     from volfrep.jobs.beam_part import joints_at_wall
-    from volfrep.worker.engine_process import Call
+    from volfrep.process.worker import Call
 
     whole, cut = run_job(
         job_title("Struts of {label}", obj), Call(joints_at_wall, (made_of.lattice, made_of.domain))

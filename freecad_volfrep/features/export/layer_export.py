@@ -74,7 +74,7 @@ def export_layers(
     """
     from freecad_volfrep.bridge.beams import place_in_document
     from volfrep.jobs.slices import write_layers
-    from volfrep.worker.engine_process import Call
+    from volfrep.process.worker import Call
 
     solid, spec, cache = infill_made_of(obj)
     if abs(place_in_document(obj).Rotation.Angle) > 1e-9:

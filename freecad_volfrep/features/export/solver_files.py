@@ -58,7 +58,7 @@ def axes_of(obj: App.DocumentObject) -> Clipped:
     solid, spec, cache = inputs_of(obj)
     from freecad_volfrep.bridge.beams import place_in_document, placed_lattice
     from volfrep.jobs.beam_part import clipped_infill
-    from volfrep.worker.engine_process import Call
+    from volfrep.process.worker import Call
 
     clipped = run_job(
         job_title("Struts of {label}", obj),
@@ -145,7 +145,7 @@ def beams_in_document(obj: App.DocumentObject) -> BeamModel:
     """
     from freecad_volfrep.bridge.beams import place_in_document, placed_beams
     from volfrep.jobs.beam_part import beam_model
-    from volfrep.worker.engine_process import Call
+    from volfrep.process.worker import Call
 
     if not isinstance(getattr(obj, "Proxy", None), LatticeInfill):
         raise VolfrepError(f"'{obj.Label}' is a mesh without beams: export its mesh.")
@@ -164,7 +164,7 @@ def write_pieces(obj: App.DocumentObject, path: str | os.PathLike[str], row: For
         Cancelled: in the window, by the user; no file is left behind.
     """
     from volfrep.output.sources import write_given
-    from volfrep.worker.engine_process import Call
+    from volfrep.process.worker import Call
 
     made = pieces_of(obj, row)
     deck = for_solver(obj) if "material" in row.takes else None
@@ -245,8 +245,8 @@ def _write_exact(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
     from freecad_volfrep.bridge.trimmed import check_volume
     from freecad_volfrep.bridge.worker_calls import write_exact_lattice, write_exact_part
     from volfrep.io.write.step_faceted import write_step_faceted
+    from volfrep.process.worker import Call
     from volfrep.reports.estimate import estimate_faceted
-    from volfrep.worker.engine_process import Call
 
     made_of = checked_ingredients(obj)
     place, title = place_in_document(obj), exact_title(obj)
@@ -286,8 +286,8 @@ def beams_of(obj: App.DocumentObject, **options: Any) -> tuple[BeamMesh, np.ndar
         Cancelled: in the window, by the user.
     """
     from volfrep.fem.beam_mesh import fitted_beams
+    from volfrep.process.worker import Call
     from volfrep.trim.beam_model import deformed_struts
-    from volfrep.worker.engine_process import Call
 
     clipped = axes_of(obj)
     spec = inputs_of(obj)[1]
@@ -311,7 +311,7 @@ def tetrahedra_of(obj: App.DocumentObject) -> TetrahedralMesh:
     """
     from freecad_volfrep.bridge.solids import mesh_in_document
     from volfrep.jobs.beam_part import tetrahedra_of as made
-    from volfrep.worker.engine_process import Call
+    from volfrep.process.worker import Call
 
     title = job_title("Tetrahedra of {label}", obj)
     filled: TetrahedralMesh = run_job(title, Call(made, (mesh_in_document(obj),)))

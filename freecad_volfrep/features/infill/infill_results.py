@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 
     from volfrep import LatticeSpec
     from volfrep.jobs.pipeline import FilledMesh
+    from volfrep.process.worker import Call
     from volfrep.reports.report import Report
-    from volfrep.worker.engine_process import Call
 
 
 class MeshJob(Job):

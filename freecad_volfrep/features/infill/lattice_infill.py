@@ -314,7 +314,7 @@ class LatticeInfill:
         """The job of the mesh of the present values; an idle one where it is there."""
         require_engine()
         from volfrep.jobs.pipeline import forecast_and_fill
-        from volfrep.worker.engine_process import Call
+        from volfrep.process.worker import Call
 
         spec, solid = self.read(obj)
         fingerprint = fingerprint_of(obj, spec, solid)

@@ -7,7 +7,7 @@ from enum import Enum
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from volfrep.worker.engine_process import Call
+    from volfrep.process.worker import Call
 
 
 class State(Enum):

@@ -18,7 +18,7 @@ from freecad_volfrep.translation import translate
 from .screen import screen
 
 if TYPE_CHECKING:
-    from volfrep.worker.engine_process import Call
+    from volfrep.process.worker import Call
 
 T = TypeVar("T")
 

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import FreeCAD as App
 
 if TYPE_CHECKING:
-    from volfrep.worker.engine_process import Call
+    from volfrep.process.worker import Call
 
 
 @dataclass(frozen=True)

@@ -30,8 +30,8 @@ def check_mesh(obj: App.DocumentObject) -> list[Table]:
     """
     require_engine()
     from freecad_volfrep.bridge.solids import mesh_in_document
+    from volfrep.process.worker import Call
     from volfrep.reports.mesh_report import checked_mesh
-    from volfrep.worker.engine_process import Call
 
     if not obj.isDerivedFrom("Mesh::Feature") or not obj.Mesh.CountFacets:
         raise VolfrepError(f"'{obj.Label}' has no mesh to check: update it first.")

@@ -115,8 +115,8 @@ class PrintCheck:
         from freecad_volfrep.bridge.solids import mesh_in_document, placed
         from volfrep.jobs.beam_part import struts_and_cavity
         from volfrep.jobs.figures.print_check import print_check
+        from volfrep.process.worker import Call
         from volfrep.reports.processes import find_process
-        from volfrep.worker.engine_process import Call
 
         solid, spec, cache = infill.Proxy.inputs(infill)
         if spec.output == "domain":

@@ -107,7 +107,7 @@ def _lattices(
 def _lattice(obj: App.DocumentObject) -> dict[str, str]:
     from volfrep.jobs.figures.properties import lattice_properties
     from volfrep.mechanics.catalogue import known_properties
-    from volfrep.worker.engine_process import Call
+    from volfrep.process.worker import Call
 
     try:
         _, spec, _ = obj.Proxy.inputs(obj)

@@ -293,7 +293,7 @@ def size_struts(
             the best.
     """
     from volfrep.jobs.sizing import size
-    from volfrep.worker.engine_process import Call
+    from volfrep.process.worker import Call
 
     solid, spec, cache = obj.Proxy.wanted(obj)
     loads = loads_of(obj, analyses)
@@ -398,8 +398,8 @@ def solve_struts(obj: App.DocumentObject) -> tuple[StrutState, ...]:
         Cancelled: in the window, by the user.
     """
     from volfrep.jobs.sizing import solve_struts
+    from volfrep.process.worker import Call
     from volfrep.sizing.strut_state import strut_states
-    from volfrep.worker.engine_process import Call
 
     loads = loads_of(obj, analyses_of(obj))
     solid, spec, cache = obj.Proxy.wanted(obj)

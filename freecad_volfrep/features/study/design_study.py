@@ -31,7 +31,7 @@ from volfrep.design.target import stiffness_text
 from volfrep.util.errors import Cancelled, VolfrepError
 
 if TYPE_CHECKING:
-    from volfrep.studies.running.batches import Interpreter
+    from volfrep.process.worker import Program
     from volfrep.studies.study import Study
 
 #: Kinds of parameters that can vary.
@@ -248,9 +248,9 @@ def run_study(obj: App.DocumentObject) -> bool:
         VolfrepError: the study makes no sense; the last table stays.
     """
     require_engine()
+    from volfrep.process.worker import Call
     from volfrep.studies.running.executors import told_state
     from volfrep.studies.sweep import sweep
-    from volfrep.worker.engine_process import Call
 
     study, folder = study_of(obj), _folder(obj)
     python = _python(python_executable(), engine_folders())
@@ -332,12 +332,12 @@ def apply_design(obj: App.DocumentObject, key: str) -> bool:
 
 
 @cache
-def _python(executable: str, folders: tuple[str, ...]) -> Interpreter | None:
+def _python(executable: str, folders: tuple[str, ...]) -> Program | None:
     """The interpreter that goes with this FreeCAD; None where it cannot run the engine."""
-    from volfrep.studies.running.batches import Interpreter
+    from volfrep.process.worker import Program
     from volfrep.studies.running.child import runs_engine
 
-    python = Interpreter(executable, folders)
+    python = Program((executable,), folders)
     return python if runs_engine(python) else None
 
 

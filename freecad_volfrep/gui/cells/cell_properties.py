@@ -90,7 +90,7 @@ class CellProperties(QtWidgets.QWidget):
     def compute(self) -> None:
         """Homogenise the cell; says here what is wrong with the values."""
         from volfrep.jobs.figures.properties import lattice_properties
-        from volfrep.worker.engine_process import Call
+        from volfrep.process.worker import Call
 
         cell, size = self._cell, self._size("CellSize")
         assert cell is not None

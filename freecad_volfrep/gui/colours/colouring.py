@@ -172,7 +172,7 @@ class Colouring:
         from freecad_volfrep.features.jobs.progress import job_title
         from freecad_volfrep.features.sizing.sizing import carried_by
         from volfrep.jobs.figures.point_values import OF_LOADS, point_values
-        from volfrep.worker.engine_process import Call
+        from volfrep.process.worker import Call
 
         key = self._key
         if self._asked == key:

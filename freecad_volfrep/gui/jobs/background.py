@@ -18,7 +18,7 @@ from .in_steps import are_there_steps
 from .progress import SHOW_AFTER, Bar, is_waited_for
 
 if TYPE_CHECKING:
-    from volfrep.worker.engines import Running
+    from volfrep.process.engines import Running
 
 #: Jobs are looked at so often, ms.
 TICK = 40

@@ -28,8 +28,8 @@ from freecad_volfrep.translation import marked, translate
 from volfrep.util.errors import Cancelled
 
 if TYPE_CHECKING:
-    from volfrep.worker.engine_process import Call
-    from volfrep.worker.engines import Running
+    from volfrep.process.engines import Running
+    from volfrep.process.worker import Call
 
 #: Quicker jobs show nothing, in ms.
 SHOW_AFTER = 700

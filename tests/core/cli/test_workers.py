@@ -9,7 +9,6 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator
-from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 from dataclasses import replace
 from functools import partial
@@ -29,8 +28,9 @@ from volfrep.io.solid import check_solid, read_solid
 from volfrep.io.write.stl import write_stl
 from volfrep.jobs.pipeline import fill as fill_solid
 from volfrep.mesh.quality import measure
+from volfrep.process import cluster as dask
+from volfrep.process import pool
 from volfrep.trim import boolean_trim, octant_groups
-from volfrep.util import workers
 
 LATTICE = ["--cell", "CVC", "--cell-size", "8", "--strut-radius", "0.8"]
 fill = partial(command.fill, LATTICE)
@@ -66,11 +66,11 @@ def test_others_help_where_the_job_is_worth_it_or_they_are_asked_for(
     asked: list[tuple[int | None, str]] = []
 
     @contextmanager
-    def nobody(count: int | None = None, module: str = "") -> Iterator[None]:
+    def nobody(count: int | None = None, module: str = "", lost: object = None) -> Iterator[None]:
         asked.append((count, module))
         yield None
 
-    monkeypatch.setattr(workers, "processes", nobody)
+    monkeypatch.setattr(pool, "processes", nobody)
     for least, given in ((10**9, ()), (10**9, ("--workers", 3)), (1, ()), (1, ("--workers", 3))):
         monkeypatch.setattr(volfrep.cli.command, "WORTH_WORKERS", least)
         assert fill(part, tmp_path / "out.stl", "--quiet", "--cell-size", 20, *given) == 0
@@ -79,16 +79,16 @@ def test_others_help_where_the_job_is_worth_it_or_they_are_asked_for(
 
 
 def test_as_many_workers_as_are_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
-    with workers.processes(1) as executor:
+    with pool.processes(1) as executor:
         assert executor is None, "this process alone"
-    with workers.processes(5) as executor:
+    with pool.processes(5) as executor:
         assert executor is not None
-        assert workers.at_once(executor) == 5
-    with pytest.raises(VolfrepError, match="At least 1 worker"), workers.processes(0):
+        assert pool.at_once(executor) == 5
+    with pytest.raises(VolfrepError, match="At least 1 worker"), pool.processes(0):
         pass
-    with workers.processes(2, "volfrep.trim.group_cut") as executor:
-        assert isinstance(executor, ProcessPoolExecutor)
-        assert len(executor._processes) == 2, "both start at once"
+    with pool.processes(2, "volfrep.trim.group_cut") as executor:
+        assert isinstance(executor, pool.WorkerPool)
+        assert len(executor.workers) == 2, "both start at once"
         assert "volfrep.trim.group_cut" in executor.submit(_modules).result(), "before it is asked"
 
 
@@ -96,22 +96,22 @@ def test_workers_go_when_all_groups_are_cut_and_groups_are_cut_without_them(
     tmp_path: Path, part: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     assert fill(part, tmp_path / "one.stl", "--workers", 1, "--quiet") == 0
-    pools: list[ProcessPoolExecutor] = []
-    join, let_go = boolean_trim.join, workers.let_go
+    made: list[pool.WorkerPool] = []
+    join, let_go = boolean_trim.join, pool.let_go
 
     def kept(executor: object) -> None:
-        assert isinstance(executor, ProcessPoolExecutor)
-        pools.append(executor)
+        assert isinstance(executor, pool.WorkerPool)
+        made.append(executor)
         let_go(executor)
 
     def all_loose(*given: object) -> boolean_trim.Joined:
         found = join(*given)
         with pytest.raises(RuntimeError, match="after shutdown"):
-            pools[0].submit(int)
+            made[0].submit(int)
         monkeypatch.setattr(boolean_trim, "join", join)
         return replace(found, loose=np.arange(2))
 
-    monkeypatch.setattr(workers, "let_go", kept)
+    monkeypatch.setattr(pool, "let_go", kept)
     monkeypatch.setattr(boolean_trim, "join", all_loose)
     assert fill(part, tmp_path / "two.stl", "--workers", 2, "--quiet") == 0
     one, two = (measure(read_solid(tmp_path / f"{name}.stl")) for name in ("one", "two"))
@@ -135,20 +135,20 @@ def test_a_worker_with_another_version_is_refused(monkeypatch: pytest.MonkeyPatc
             self.found = found
 
         def run(self, function: object, on_error: str) -> dict[str, object]:
-            return {"tcp://one": workers.VERSION, "tcp://two": self.found}
+            return {"tcp://one": dask.VERSION, "tcp://two": self.found}
 
-    workers._refuse_other_versions(Cluster(workers.VERSION))
+    dask._refuse_other_versions(Cluster(dask.VERSION))
     with pytest.raises(VolfrepError, match=r"'tcp://two' has another VOLFREP .*: 0\.0\.1"):
-        workers._refuse_other_versions(Cluster("0.0.1"))
+        dask._refuse_other_versions(Cluster("0.0.1"))
     with pytest.raises(VolfrepError, match="none that it can import"):
-        workers._refuse_other_versions(Cluster(ModuleNotFoundError("volfrep")))
+        dask._refuse_other_versions(Cluster(ModuleNotFoundError("volfrep")))
 
 
 def test_a_scheduler_that_is_not_there_is_told(
     tmp_path: Path, part: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     pytest.importorskip("distributed", reason="needs the optional package distributed")
-    monkeypatch.setattr(workers, "PATIENCE", 0.3)
+    monkeypatch.setattr(dask, "PATIENCE", 0.3)
     assert fill(part, tmp_path / "out.stl", "--scheduler", "tcp://127.0.0.1:9", "--quiet") == 2
     assert "No Dask scheduler answers at 'tcp://127" in capsys.readouterr().err
     assert not (tmp_path / "out.stl").exists()
@@ -181,7 +181,7 @@ def test_workers_that_are_killed_cost_time_and_nothing_else(
             later.append(worker(address, tmp_path) if killed == WORKERS else None)
 
     try:
-        with workers.dask_workers(address) as executor:
+        with dask.dask_workers(address) as executor:
             made = volfrep.fill(solid, SPEC, progress=kill_when_some_are_cut, executor=executor)
     finally:
         for program in filter(None, later):
@@ -208,8 +208,8 @@ def test_workers_that_have_all_gone_are_told(monkeypatch: pytest.MonkeyPatch) ->
         _client = Client()
 
     now = iter([0.0, 0.5, 2.0, 15.0, 23.0]).__next__
-    monkeypatch.setattr(workers.time, "monotonic", now)
-    watch = workers.Watch(ClientExecutor())  # type: ignore[arg-type]
+    monkeypatch.setattr(dask.time, "monotonic", now)
+    watch = dask.Watch(ClientExecutor())  # type: ignore[arg-type]
     answers += [{"tcp://one": 1}, {}, OSError("no scheduler")]
     watch()
     assert len(answers) == 3, "not so soon again"
@@ -219,7 +219,7 @@ def test_workers_that_have_all_gone_are_told(monkeypatch: pytest.MonkeyPatch) ->
         watch()
     assert not answers
     monkeypatch.undo()
-    workers.Watch(None)()
+    dask.Watch(None)()
 
 
 @pytest.mark.slow
@@ -233,7 +233,7 @@ def test_a_fill_whose_workers_have_all_gone_ends(
     address, programs = cluster
     start = []
 
-    class Watch(workers.Watch):
+    class Watch(dask.Watch):
         def __init__(self, executor: object) -> None:
             super().__init__(executor)  # type: ignore[arg-type]
             for program in programs:
@@ -242,7 +242,7 @@ def test_a_fill_whose_workers_have_all_gone_ends(
             start.append(time.monotonic())
 
     monkeypatch.setattr(boolean_trim, "Watch", Watch)
-    monkeypatch.setattr(workers, "PATIENCE", 3)
+    monkeypatch.setattr(dask, "PATIENCE", 3)
     out = tmp_path / "out.stl"
     assert fill(part, out, "--scheduler", address, "--quiet") == 2
     assert time.monotonic() - start[0] < 15.0

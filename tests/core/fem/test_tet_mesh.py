@@ -2,7 +2,6 @@
 """Tetrahedra by Gmsh: the mesh's own triangles outside, and a bar that CalculiX stretches."""
 
 import shutil
-import subprocess
 from pathlib import Path
 
 import numpy as np
@@ -21,6 +20,7 @@ from volfrep.jobs.pipeline import fill
 from volfrep.mechanics.materials import Material
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
 from volfrep.mesh.well_shaped import is_bad
+from volfrep.process.child import OverLimit
 from volfrep.util.errors import Cancelled, VolfrepError
 from volfrep.util.progress import Monitor
 
@@ -205,11 +205,11 @@ def test_what_would_cross_is_not_mended(monkeypatch):
 def test_without_an_end_of_improving_the_tetrahedra_stay_as_they_are(monkeypatch):
     run, asked = tet_mesh.run_program, []
 
-    def impatient(command, folder, monitor, seconds):
+    def impatient(command, folder, monitor, limits):
         asked.append("Mesh.Optimize = 1;" in (folder / "fill.geo").read_text())
         if asked[-1]:
-            raise subprocess.TimeoutExpired(command, seconds)
-        return run(command, folder, monitor, seconds=seconds)
+            raise OverLimit("time")
+        return run(command, folder, monitor, limits=limits)
 
     monkeypatch.setattr(tet_mesh, "run_program", impatient)
     filled = tetrahedra(samples.box((4.0, 4.0, 4.0)))

@@ -21,9 +21,9 @@ from swept import timeless
 from volfrep import Study, VolfrepError
 from volfrep.io.solid import check_solid
 from volfrep.io.write.stl import write_stl
+from volfrep.process.worker import Call, Program, Worker
 from volfrep.studies import page
 from volfrep.studies.running import child
-from volfrep.studies.running.batches import Interpreter
 
 BOX = check_solid(samples.box((24.0, 16.0, 16.0)), "box")
 FILLED = Study(
@@ -82,39 +82,31 @@ def test_a_process_that_dies_gets_its_run_again_and_then_is_at_fault(
     only_filled = replace(FILLED, do=("fill",))
     tried = []
 
-    def deadly(child: child._Child, design: object) -> None:
-        tried.append(design)
+    def deadly(worker: Worker, call: Call, **more: object) -> object:
+        tried.append(call)
         if len(tried) in deaths:
-            child._process.kill()
-        send(child, design)
+            worker._child.kill()
+        return answer(worker, call, **more)  # type: ignore[arg-type]
 
-    send = child._Child._send
-    monkeypatch.setattr(child._Child, "_send", deadly)
-    deaths = (2,)  # the first that is sent is the batch
+    answer = Worker.answer
+    monkeypatch.setattr(Worker, "answer", deadly)
+    deaths = (1,)
     made = volfrep.sweep(only_filled, tmp_path / "once", workers=1, limit_hours=1.0)
     assert made.count("done") == 4
     tried.clear()
-    deaths = (2, 4)
+    deaths = (1, 2)
     made = volfrep.sweep(only_filled, tmp_path / "twice", workers=1, limit_hours=1.0)
     assert made.count("failed") == 1
     (said,) = (text for text in made.table.column("error") if text)
     assert "ended by signal 9, 2 times" in said
 
 
-def test_a_process_ends_when_nobody_is_there_any_more(tmp_path: Path) -> None:
-    program = "from volfrep.studies.running.served import serve; serve()"
-    child = subprocess.Popen([sys.executable, "-c", program], stdin=subprocess.PIPE)
-    assert child.stdin is not None
-    child.stdin.close()
-    assert child.wait() == 0
-
-
 def test_an_interpreter_is_asked_whether_it_runs_the_engine(tmp_path: Path) -> None:
-    assert child.runs_engine(Interpreter(sys.executable, tuple(filter(None, sys.path))))
-    assert not child.runs_engine(Interpreter(str(tmp_path / "python"), ()))
+    assert child.runs_engine(Program((sys.executable,), tuple(filter(None, sys.path))))
+    assert not child.runs_engine(Program((str(tmp_path / "python"),), ()))
     (tmp_path / "volfrep").mkdir()
     (tmp_path / "volfrep" / "__init__.py").touch()  # another engine, which has no studies
-    assert not child.runs_engine(Interpreter(sys.executable, (str(tmp_path),)))
+    assert not child.runs_engine(Program((sys.executable,), (str(tmp_path),)))
 
 
 @pytest.mark.slow
@@ -123,7 +115,7 @@ def test_runs_are_done_by_the_interpreter_that_is_named(tmp_path: Path) -> None:
     named = tmp_path / "python"
     named.write_text(f'#!/bin/sh\ntouch "{tmp_path}/called"\nexec "{sys.executable}" "$@"\n')
     named.chmod(0o755)
-    python = Interpreter(str(named), tuple(filter(None, sys.path)))
+    python = Program((str(named),), tuple(filter(None, sys.path)))
     told = []
     made = volfrep.sweep(
         FILLED, tmp_path / "runs", workers=2, interpreter=python,

@@ -19,8 +19,8 @@ from clusters import cluster as cluster
 from swept import timeless
 from volfrep import Study, VolfrepError
 from volfrep.io.solid import check_solid
+from volfrep.process import cluster as dask
 from volfrep.studies import page
-from volfrep.util import workers
 
 BOX = check_solid(samples.box((24.0, 16.0, 16.0)), "box")
 STUDY = Study(
@@ -77,7 +77,7 @@ def test_a_scheduler_that_is_not_there_is_told(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     pytest.importorskip("distributed", reason="needs the optional package distributed")
-    monkeypatch.setattr(workers, "PATIENCE", 0.3)
+    monkeypatch.setattr(dask, "PATIENCE", 0.3)
     with pytest.raises(VolfrepError, match="No Dask scheduler answers at 'tcp://127"):
         volfrep.sweep(STUDY, tmp_path, scheduler="tcp://127.0.0.1:9")
 

@@ -8,14 +8,14 @@ over what it cannot resolve, so `step_text` looks first. The macro is data to th
 from __future__ import annotations
 
 import os
-import subprocess
 import tempfile
 from pathlib import Path
 
 from ...mesh.edge_table import edges_of
+from ...process.child import Limits, OverLimit
+from ...process.programs import FREECAD, find_freecad, run_program
 from ...util.errors import VolfrepError
 from ...util.progress import Monitor
-from ...util.subprocesses import FREECAD, find_freecad, run_program
 from ..repair.weld import weld_equal
 from ..tessellation import ANGULAR_DEVIATION, MAX_DEVIATION, RELATIVE_DEVIATION
 from .contents import Contents
@@ -65,9 +65,9 @@ def read_cad(data: bytes, file: Path, monitor: Monitor | None = None) -> Content
                     Path(folder),
                     watched,
                     {**os.environ, **given},
-                    MAX_SECONDS,
+                    Limits(MAX_SECONDS),
                 )
-        except subprocess.TimeoutExpired as error:
+        except OverLimit as error:
             raise VolfrepError(
                 f"FreeCAD has not read '{file.name}' in {MAX_SECONDS / 60:.0f} minutes: export a "
                 "simpler solid."

@@ -11,50 +11,24 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from ...process.child import Limits
+from ...process.worker import Program
 from ...util.errors import VolfrepError
 from ..actions import Asked
 from ..designs import Design, shown_values
 from ..records import Record, read_record, write_record
 
 
-@dataclass(frozen=True)
-class Limits:
-    """What one run may take.
+def limits_of_a_run(hours: float | None, memory_gb: float | None) -> Limits:
+    """What one run may take; None for no limit.
 
-    Attributes:
-        hours: of time; None for no limit.
-        memory_gb: of resident memory; None for no limit.
+    Raises:
+        VolfrepError: one is not above 0.
     """
-
-    hours: float | None = None
-    memory_gb: float | None = None
-
-    def __post_init__(self) -> None:
-        for name, value, unit in (
-            ("time", self.hours, "hours"), ("memory", self.memory_gb, "GB")
-        ):  # fmt: skip
-            if value is not None and not value > 0.0:
-                raise VolfrepError(
-                    f"The limit of a run's {name} must be above 0 {unit}, not {value}."
-                )
-
-    @property
-    def any(self) -> bool:
-        """Whether there is one."""
-        return self.hours is not None or self.memory_gb is not None
-
-
-@dataclass(frozen=True)
-class Interpreter:
-    """A Python that can run the engine in processes.
-
-    Attributes:
-        executable: path of the program.
-        path: folders in which it finds the engine and what that needs, beside its own.
-    """
-
-    executable: str
-    path: tuple[str, ...]
+    for name, value, unit in (("time", hours, "hours"), ("memory", memory_gb, "GB")):
+        if value is not None and not value > 0.0:
+            raise VolfrepError(f"The limit of a run's {name} must be above 0 {unit}, not {value}.")
+    return Limits(None if hours is None else 3600.0 * hours, memory_gb)
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,11 +55,9 @@ class Batch:
     retry: bool
     threads: int
     apart: bool
-    interpreter: Interpreter | None = None
+    interpreter: Program | None = None
 
 
-#: What a process of its own answers when a run has ended.
-DONE = b"done\n"
 #: Called when a run has ended, with its design's key.
 Ended = Callable[[str], None]
 

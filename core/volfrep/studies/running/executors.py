@@ -12,11 +12,11 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from ...design.memory_guard import free_memory
+from ...process.cluster import Watch
 from ...util.errors import Cancelled, VolfrepError
 from ...util.progress import ProgressCallback
 from ...util.threads import threads
 from ...util.version import VERSION
-from ...util.workers import Watch
 from .batches import Batch, Ended, note
 from .child import run_in_child
 from .runs import run_in_turn

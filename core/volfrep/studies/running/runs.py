@@ -17,6 +17,8 @@ from .evaluator import FIGURES, Evaluator, Shared
 
 #: What is said of a run whose process ran out of memory.
 NO_MEMORY = "There was not enough memory for this run: use larger cells or a coarser resolution."
+#: What the runs of a process share.
+_shared = Shared()
 
 
 def run_in_turn(
@@ -34,6 +36,11 @@ def run_in_turn(
             run_design(batch, design, evaluator_of(batch, design, shared, progress))
             if ended is not None:
                 ended(design.key)
+
+
+def run_alone(batch: Batch, design: Design) -> None:
+    """Do one run in a process that does nothing else, and keeps what runs share."""
+    run_design(batch, design, evaluator_of(batch, design, _shared))
 
 
 def run_design(batch: Batch, design: Design, bench: Evaluator) -> None:

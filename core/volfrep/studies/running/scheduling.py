@@ -17,17 +17,20 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from ...mechanics.catalogue import known_cell
+from ...process.child import Limits
+from ...process.cluster import dask_workers
+from ...process.pool import at_once
+from ...process.worker import Program
 from ...util.errors import VolfrepError
 from ...util.files import refuse_input
 from ...util.progress import ProgressCallback
 from ...util.threads import threads
 from ...util.version import VERSION
-from ...util.workers import at_once, dask_workers
 from ..actions import ACTIONS, Asked
 from ..designs import Design
 from ..expectation import plan
 from ..records import Record, kept_part, read_record, record_path
-from .batches import Batch, Interpreter, Limits
+from .batches import Batch
 from .executors import (
     Tally,
     Words,
@@ -73,7 +76,7 @@ class How:
     shard: tuple[int, int] = (1, 1)
     limits: Limits = field(default_factory=Limits)
     retry: bool = False
-    interpreter: Interpreter | None = None
+    interpreter: Program | None = None
     words: Words = told_state
 
     def __post_init__(self) -> None:

@@ -12,12 +12,10 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from ..util.errors import Cancelled, VolfrepError
-from .engine_process import Call, EngineProcess, Program
+from .worker import LAST_WORDS, Call, Ending, Program, Worker, WorkerLost
 
 #: A call that is asked to end has so long for it, s; then its process is ended.
 GRACE = 0.05
-#: One that is gone has so long, s, until the system knows how it has ended.
-LAST_WORDS = 5.0
 
 
 class Engines:
@@ -33,7 +31,7 @@ class Engines:
     ) -> None:
         self._programs, self._missed = list(programs), missed
         self._choosing = threading.Lock()
-        self._idle: list[EngineProcess] = []
+        self._idle: list[Worker] = []
 
     def begin(self, call: Call) -> Running:
         """Make a call; it begins when there is a process for it."""
@@ -49,7 +47,7 @@ class Engines:
             while self._idle:
                 self._idle.pop().end()
 
-    def take(self) -> EngineProcess | None:
+    def take(self) -> Worker | None:
         """A process that makes no call, started if need be; None where none can be."""
         with self._choosing:
             while self._idle:
@@ -59,18 +57,18 @@ class Engines:
                 process.end()
             while self._programs:
                 try:
-                    process = EngineProcess(self._programs[0])
+                    process = Worker(self._programs[0])
                 except OSError as error:
                     said = str(error)
                 else:
                     if process.greets():
                         return process
-                    said = process.end(LAST_WORDS)
+                    said = _sentence(process.end(LAST_WORDS))
                 self._missed(f"{self._programs[0].command[0]}: {said}")
                 del self._programs[0]
             return None
 
-    def give_back(self, process: EngineProcess) -> None:
+    def give_back(self, process: Worker) -> None:
         """A call is over: keep its process for the next one, unless one waits already."""
         with self._choosing:
             if process.is_alive and not self._idle:
@@ -84,7 +82,7 @@ class Running:
 
     def __init__(self, engines: Engines, call: Call) -> None:
         self._engines, self._call, self._keeps_best = engines, call, call.keeps_best
-        self._process: EngineProcess | None = None
+        self._process: Worker | None = None
         self._changing = threading.Lock()
         self._ended = threading.Event()
         self._cancels = 0
@@ -149,16 +147,16 @@ class Running:
                     raise Cancelled("cancelled before it began")
                 self._process = process
             return process.answer(self._call, self._told)
-        except (EOFError, OSError) as error:
+        except WorkerLost as lost:
             if self._cancels:
-                raise Cancelled("its process was ended") from error
-            raise VolfrepError(process.end(LAST_WORDS)) from error
+                raise Cancelled("its process was ended") from lost
+            raise VolfrepError(_sentence(lost.ending)) from lost
         finally:
             with self._changing:
                 self._process = None
             self._engines.give_back(process)
 
-    def _kill(self, process: EngineProcess) -> None:
+    def _kill(self, process: Worker) -> None:
         with self._changing:
             if self._process is process:
                 process.kill()
@@ -169,6 +167,13 @@ class Running:
     def _tick(self, fraction: float, stage: str) -> bool:
         self.state = fraction, stage
         return not self._cancels
+
+
+def _sentence(ending: Ending) -> str:
+    return (
+        f"The engine's process has ended {ending}: if there was not enough memory, choose "
+        "larger cells or a coarser deviation; the document is as it was."
+    )
 
 
 def _nothing() -> None:

@@ -2,15 +2,18 @@
 """Other programs end when they are done, or when the user cancels."""
 
 import os
+import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
 
+from volfrep.process.child import Limits, OverLimit
+from volfrep.process.programs import FREECAD_PLACES, find_freecad, run_program
 from volfrep.util.errors import Cancelled
 from volfrep.util.progress import Monitor
-from volfrep.util.subprocesses import FREECAD_PLACES, find_freecad, run_program
 
 
 def test_what_it_says_is_kept(tmp_path: Path):
@@ -39,10 +42,70 @@ def test_a_program_that_takes_too_long_is_ended(tmp_path: Path):
     script = (
         "import os, pathlib, time; pathlib.Path('on').write_text(str(os.getpid())); time.sleep(600)"
     )
-    with pytest.raises(subprocess.TimeoutExpired):
-        run_program([sys.executable, "-c", script], tmp_path, seconds=2.0)
+    with pytest.raises(OverLimit):
+        run_program([sys.executable, "-c", script], tmp_path, limits=Limits(seconds=2.0))
     with pytest.raises(OSError, match=r"[Nn]o such process|[Pp]arameter"):
         os.kill(int((tmp_path / "on").read_text()), 0)
+
+
+#: A program that starts another one, and leaves both numbers.
+FAMILY = """
+import os, subprocess, sys, time
+other = subprocess.Popen([sys.executable, "-c", "import time; time.sleep(600)"])
+open("being", "w").write(f"{os.getpid()} {other.pid}")
+os.rename("being", "on")
+time.sleep(600)
+"""
+
+
+def ends(number: int, seconds: float = 60.0) -> bool:
+    """Whether a process ends within so many seconds."""
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        try:
+            state = Path("/proc", str(number), "stat").read_text().rpartition(")")[2].split()[0]
+        except OSError:
+            return True
+        if state == "Z":
+            return True
+        time.sleep(0.01)
+    os.kill(number, signal.SIGKILL)
+    return False
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="asks /proc")
+@pytest.mark.parametrize("name", ["plain", "Größe und 部品 'a'"])
+def test_what_a_program_has_started_ends_with_it(name: str, tmp_path: Path):
+    folder = tmp_path / name
+    folder.mkdir()
+    on = folder / "on"
+    with pytest.raises(Cancelled):
+        run_program([sys.executable, "-c", FAMILY], folder, Monitor(lambda *_: not on.exists()))
+    for number in on.read_text().split():
+        assert ends(int(number))
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="asks /proc")
+def test_a_program_ends_when_the_process_that_runs_it_is_killed(tmp_path: Path):
+    code = (
+        f"import sys; sys.path[:0] = {sys.path!r}\n"
+        "from pathlib import Path\n"
+        "from volfrep.process.programs import run_program\n"
+        f"run_program([sys.executable, '-c', {FAMILY!r}], Path({str(tmp_path)!r}))\n"
+    )
+    runs = subprocess.Popen([sys.executable, "-c", code])
+    while not (tmp_path / "on").exists():
+        assert runs.poll() is None
+        time.sleep(0.01)
+    runs.kill()
+    runs.wait()
+    for number in (tmp_path / "on").read_text().split():
+        assert ends(int(number))
+
+
+def test_a_program_that_is_not_there_is_told(tmp_path: Path):
+    with pytest.raises(OSError, match="no such program"):
+        run_program([str(tmp_path / "no such program")], tmp_path)
 
 
 def test_freecad_is_named_by_a_variable_or_found_on_the_path(
@@ -70,5 +133,5 @@ def test_freecad_is_found_where_installers_put_it(tmp_path: Path, monkeypatch: p
     pattern = FREECAD_PLACES["win32"][1]
     monkeypatch.setitem(FREECAD_PLACES, "win32", (str(tmp_path), pattern))
     # Of the test's own system, whose `which` wants no Windows.
-    monkeypatch.setattr("volfrep.util.subprocesses.shutil.which", lambda name: None)
+    monkeypatch.setattr("volfrep.process.programs.shutil.which", lambda name: None)
     assert find_freecad() == str(tmp_path / "FreeCAD 1.1" / "bin" / "freecadcmd.exe")

@@ -4,12 +4,16 @@
 from __future__ import annotations
 
 import gc
+import io
 import operator
 import os
+import shutil
 import signal
 import sys
+import tempfile
 import threading
 import time
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -22,13 +26,14 @@ from volfrep.design.spec import LatticeSpec
 from volfrep.io.solid import check_solid
 from volfrep.jobs.pipeline import fill, filled_mesh, triangles_digest
 from volfrep.mesh.triangle_mesh import TriangleMesh
+from volfrep.process import engines
+from volfrep.process.child import Limits, OverLimit
+from volfrep.process.engines import Engines, Running
+from volfrep.process.wire import LARGE, receive, send
+from volfrep.process.worker import Call, Failed, Program, Worker
 from volfrep.reports.facet_roles import kinds_of_triangles
 from volfrep.util.cache import StageCache
 from volfrep.util.errors import Cancelled, VolfrepError
-from volfrep.worker import engines
-from volfrep.worker.engine_process import Call, EngineProcess, Failed, Program
-from volfrep.worker.engines import Engines, Running
-from volfrep.worker.wire import LARGE
 
 HERE = str(Path(__file__).parent)
 CORE = str(Path(__file__).parents[3] / "core")
@@ -44,7 +49,7 @@ def engine():
     engines.end()
 
 
-def idle(engine: Engines) -> EngineProcess:
+def idle(engine: Engines) -> Worker:
     """The process that waits for the next call."""
     process = engine.take()
     assert process is not None
@@ -70,6 +75,72 @@ def test_arrays_arrive_as_they_were_sent_whatever_their_size(engine):
         back["array"] += 1.0  # and can be changed
     left = {path.name for path in idle(engine)._folder.iterdir()}
     assert left == {"engine.py", "said"}
+
+
+def test_arrays_are_sent_without_the_pickles_of_this_numpy(tmp_path):
+    """A FreeCAD may have a numpy that does not know those of this one."""
+    sent = [
+        np.arange(12.0).reshape(3, 4),
+        np.array(7),
+        np.array(["a", "bc"]),
+        np.zeros((2, 0), bool),
+    ]
+    stream = io.BytesIO()
+    send(stream, sent, tmp_path, lambda _: -1)
+    assert b"numpy" not in stream.getvalue()
+    stream.seek(0)
+    back = receive(stream, tmp_path, StageCache)
+    for one, other in zip(sent, back, strict=True):
+        np.testing.assert_array_equal(one, other, strict=True)
+
+
+def test_folders_may_have_spaces_and_any_letters(tmp_path, monkeypatch):
+    place = tmp_path / "Größe und 部品 'a'"
+    place.mkdir()
+    shutil.copy(Path(HERE, "engine_calls.py"), place / "stücke.py")
+    monkeypatch.setattr(tempfile, "tempdir", str(place))
+    worker = Worker(Program((sys.executable,), (CORE, str(place))))
+    assert worker._folder.parent == place
+    call = Call("stücke:write_beside", ("é 部", "ö 品.txt"), has_progress=False)
+    text, path = worker.answer(call)
+    assert text == "é 部"
+    assert Path(path).is_relative_to(place)
+    array = worker.answer(Call(np.ones, (LARGE,), has_progress=False))
+    assert array.sum() == LARGE
+    worker.end()
+    assert [path.name for path in place.iterdir() if path.is_dir()] in ([], ["__pycache__"])
+
+
+def test_a_call_over_its_limits_is_ended_with_its_process():
+    for limits, call, what in (
+        (Limits(seconds=1.0), Call(calls.hold, (600.0,)), "time"),
+        (Limits(memory_gb=0.4), Call(calls.take_memory, (10**9,), has_progress=False), "memory"),
+    ):
+        worker = Worker(PYTHON)
+        with pytest.raises(OverLimit) as caught:
+            worker.answer(call, limits=limits)
+        assert caught.value.what == what
+        assert not worker.end().last_words
+        assert not worker.is_alive
+
+
+def test_one_that_is_asked_about_while_it_works_ends_when_the_answer_is_no():
+    worker = Worker(PYTHON)
+
+    def no() -> None:
+        raise Cancelled("no")
+
+    with pytest.raises(Cancelled):
+        worker.answer(Call(calls.hold, (600.0,)), ask=no)
+    assert not worker.is_alive
+    worker.end()
+
+
+def test_threads_that_it_may_use_are_told_to_it():
+    worker = Worker(replace(PYTHON, threads=3))
+    assert worker.answer(Call("volfrep.util.threads:threads", has_progress=False)) == 3
+    assert worker.answer(Call(os.getenv, ("OMP_NUM_THREADS",), has_progress=False)) == "3"
+    worker.end()
 
 
 def test_a_lattice_made_elsewhere_is_the_one_made_here(engine):
@@ -271,8 +342,8 @@ def test_it_ends_with_the_process_that_started_it(tmp_path):
 
     text = (
         f"import sys, os, operator; sys.path[:0] = [{CORE!r}]\n"
-        "from volfrep.worker.engine_process import EngineProcess, Program\n"
-        f"engine = EngineProcess(Program((sys.executable,), ({CORE!r},)))\n"
+        "from volfrep.process.worker import Program, Worker\n"
+        f"engine = Worker(Program((sys.executable,), ({CORE!r},)))\n"
         "assert engine.greets()\n"
         "print(engine.number, engine._folder, flush=True)\n"
         "os._exit(0)\n"
@@ -296,8 +367,8 @@ def test_a_call_and_its_programs_end_with_the_process_that_started_it(tmp_path):
     text = (
         f"import sys, os, time; sys.path[:0] = [{CORE!r}, {HERE!r}]\n"
         "import engine_calls as calls\n"
-        "from volfrep.worker.engine_process import Call, Program\n"
-        "from volfrep.worker.engines import Engines\n"
+        "from volfrep.process.worker import Call, Program\n"
+        "from volfrep.process.engines import Engines\n"
         f"engines = Engines([Program((sys.executable,), ({CORE!r}, {HERE!r}))])\n"
         f"engines.begin(Call(calls.run_a_program, ({str(told)!r},), has_progress=False))\n"
         f"told = {str(told)!r}\n"

@@ -10,7 +10,8 @@ import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from .progress import Monitor
+from ..util.progress import Monitor
+from .child import NO_LIMITS, Child, Limits
 
 #: FreeCAD without windows, as it is called on the PATH; Windows adds `.exe` by itself.
 FREECAD = ("freecadcmd", "FreeCADCmd", "freecad.cmd")
@@ -19,8 +20,6 @@ FREECAD_PLACES = {
     "win32": (r"C:\Program Files", "FreeCAD*/bin/freecadcmd.exe"),
     "darwin": ("/Applications", "FreeCAD*.app/Contents/Resources/bin/freecadcmd"),
 }
-#: For `subprocess`: a program of the console opens no window of its own on Windows.
-NO_WINDOW: int = getattr(subprocess, "CREATE_NO_WINDOW", 0)
 
 
 def find_freecad() -> str | None:
@@ -46,7 +45,7 @@ def run_program(
     folder: Path,
     monitor: Monitor | None = None,
     environment: Mapping[str, str] | None = None,
-    seconds: float | None = None,
+    limits: Limits = NO_LIMITS,
 ) -> subprocess.CompletedProcess[str]:
     """Run a program in a folder and keep what it says, errors included.
 
@@ -55,28 +54,22 @@ def run_program(
         folder: where it runs.
         monitor: asked for a cancel while it runs.
         environment: its variables; None for this process's.
-        seconds: how long it may take; None for any time.
+        limits: of the run.
 
     Raises:
         Cancelled: when the monitor says so; the program has been ended.
-        subprocess.TimeoutExpired: when it takes longer; it has been ended.
+        OverLimit: when it takes more than it may; it has been ended.
+        OSError: it cannot be started.
     """
-    process = subprocess.Popen(
-        command,
-        cwd=folder,
-        env=None if environment is None else dict(environment),
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        creationflags=NO_WINDOW,
-        text=True,
-        errors="replace",
-    )
-    monitor = monitor or Monitor()
+    if shutil.which(command[0]) is None:
+        raise FileNotFoundError(2, os.strerror(2), command[0])
+    child = Child(command, limits=limits, folder=folder, environment=environment)
     try:
-        said, _ = monitor.call(lambda: process.communicate(timeout=seconds))
-    except BaseException:  # cancelled, interrupted or out of time: it must not go on alone
-        process.kill()
-        process.wait()
+        said = child.guarded(child.said, limits, None if monitor is None else monitor.tick)
+    except BaseException:  # cancelled, interrupted or over its limits: it must not go on alone
+        child.kill()
         raise
-    return subprocess.CompletedProcess(list(command), process.returncode, said)
+    finally:
+        code, _ = child.wait()
+    text = said.decode(errors="replace").replace(os.linesep, "\n")
+    return subprocess.CompletedProcess(list(command), code, text)

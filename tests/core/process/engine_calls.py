@@ -11,9 +11,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from volfrep.process.programs import run_program
 from volfrep.util.cache import StageCache
 from volfrep.util.errors import Cancelled, VolfrepError
-from volfrep.util.subprocesses import run_program
 
 #: After so long nobody is there any more, s.
 AT_MOST = 600.0
@@ -83,3 +83,29 @@ def run_a_program(told: str) -> None:
         f"import os, time; open({told!r}, 'w').write(f'{{os.getpid()}} {folder}.'); time.sleep(600)"
     )
     run_program([sys.executable, "-c", code], Path(folder))
+
+
+def take_memory(bytes_wanted: int) -> None:
+    """Hold so much memory, and ask nobody."""
+    held = bytearray(bytes_wanted)
+    for at in range(0, bytes_wanted, 4096):
+        held[at] = 1
+    time.sleep(AT_MOST)
+
+
+def write_beside(text: str, name: str) -> tuple[str, str]:
+    """Write a file into a folder for temporary files; its text as read again, and where it is."""
+    path = Path(tempfile.mkdtemp()) / name
+    path.write_text(text, encoding="utf-8")
+    return path.read_text(encoding="utf-8"), str(path)
+
+
+def number_after(seconds: float) -> int:
+    """The process's number, after so long."""
+    time.sleep(seconds)
+    return os.getpid()
+
+
+def sleep(seconds: float) -> None:
+    """Do nothing so long."""
+    time.sleep(seconds)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the process does that calls are made in; `engine_process` starts it, nobody else."""
+"""What the process does that calls are made in; `worker` starts it, nobody else."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ from typing import IO, Any
 
 from ..util.cache import StageCache
 from ..util.errors import VolfrepError
+from ..util.threads import use_threads
 from .wire import receive, send
 
 #: The first that is written: what a host program has said before is none of ours.
@@ -56,10 +57,8 @@ class _Server:
             del value
 
     def _leave(self) -> None:
-        """End at once, and with this process the programs that a call runs, such as Gmsh."""
+        """End at once; the programs that a call runs see it, and end as well."""
         shutil.rmtree(self._folder, ignore_errors=True)
-        if hasattr(os, "killpg") and os.getpgrp() == os.getpid():
-            os.killpg(0, signal.SIGKILL)
         os._exit(0)
 
     def serve(self) -> None:
@@ -96,7 +95,11 @@ class _Server:
             known["progress"] = progress
         for name in call.heard:
             known[name] = self._stub(name)
-        return call.function(*call.arguments, **known)
+        function = call.function
+        if isinstance(function, str):
+            module, _, name = function.partition(":")
+            function = getattr(import_module(module), name)
+        return function(*call.arguments, **known)
 
     def _stub(self, name: str) -> Any:
         def tell(*arguments: object) -> bool:
@@ -122,16 +125,18 @@ def _unsent(error: Exception) -> Exception:
     return error
 
 
-def serve(folder: str, warm: tuple[str, ...] = ()) -> None:
+def serve(folder: str, threads: int, warm: tuple[str, ...] = ()) -> None:
     """Make calls until the pipe closes.
 
     Args:
         folder: where large arrays lie on their way.
+        threads: that calls may use; 0 for one on each core.
         warm: modules to import before it greets.
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # whoever started us decides
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # what libraries print is no answer
+    use_threads(threads)
     for name in warm:
         import_module(name)
     answers.write(GREETING)

@@ -2,7 +2,8 @@
 """What two processes say to each other: pickled values, whose large arrays go through files.
 
 Both ends are this engine's own, and started one by the other. Stage caches are never sent: each
-stands for one that the receiver keeps under the same number (see `Counterparts`).
+stands for one that the receiver keeps under the same number. Arrays are sent as bytes, and not as
+numpy pickles them: two processes may have numpys that do not know each other's pickles.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ import pickle
 import struct
 from collections.abc import Callable
 from pathlib import Path
-from typing import IO, Any
+from typing import IO, Any, Literal
 
 import numpy as np
 
@@ -57,6 +58,14 @@ def send(
         def persistent_id(self, found: object) -> int | None:
             return counterpart(found) if isinstance(found, StageCache) else None
 
+        def reducer_override(self, found: Any) -> Any:
+            if type(found) is not np.ndarray or found.dtype.kind not in "biufcSU":
+                return NotImplemented
+            turned = found.flags.f_contiguous and not found.flags.c_contiguous
+            rows = found.T if turned else np.ascontiguousarray(found)
+            data = pickle.PickleBuffer(rows.reshape(-1).view(np.uint8).data)
+            return _array, (data, found.dtype.str, found.shape, "F" if turned else "C")
+
     text = io.BytesIO()
     try:
         Pickler(text, protocol=5, buffer_callback=keep).dump(value)
@@ -90,6 +99,10 @@ def receive(stream: IO[bytes], folder: Path, counterpart: Callable[[int], StageC
             return counterpart(number)
 
     return Unpickler(io.BytesIO(text), buffers=buffers).load()
+
+
+def _array(data: Any, dtype: str, shape: tuple[int, ...], order: Literal["C", "F"]) -> Any:
+    return np.frombuffer(data, dtype).reshape(shape, order=order)
 
 
 def _read(stream: IO[bytes], length: int) -> bytes:

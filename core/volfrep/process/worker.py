@@ -3,19 +3,20 @@
 
 It may be ended at any moment, run out of memory or crash: that costs the call, and nothing else.
 What its calls keep in a `StageCache` stays there for the next one with the same cache.
+
+A Python of its own and no `multiprocessing`: one that dies takes no other with it, it may be
+another program than this one, such as FreeCAD without windows, and a script that uses it needs no
+main guard. Nothing of it is forked, so that it is the same on every system.
 """
 
 from __future__ import annotations
 
-import os
 import shutil
-import signal
-import subprocess
+import sys
 import tempfile
 import threading
 import weakref
 from collections.abc import Callable, Mapping
-from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -23,21 +24,27 @@ from typing import Any
 from ..util.cache import StageCache
 from ..util.errors import VolfrepError
 from ..util.progress import ProgressCallback
-from ..util.subprocesses import NO_WINDOW
+from .child import NO_LIMITS, Child, Limits, how_ended
 from .server import GREETING, UNKNOWN
 from .wire import receive, send
 
-#: Whether a process can be ended with those it has started.
-_HAS_GROUPS = hasattr(os, "killpg")
+#: One that is gone has so long, s, until the system knows how it has ended.
+LAST_WORDS = 5.0
 #: What the process runs: where the engine lies goes first, packages that it needs last.
-#: Temporary files go when the process does, however it ends.
-_PROGRAM = """import sys, tempfile
-tempfile.tempdir = {folder!r}
-sys.path[:0] = {front!r}
-sys.path += {back!r}
-{prelude}
-from volfrep.worker.server import serve
-serve({folder!r}, {warm!r})
+#: Temporary files go when the process does, however it ends. FreeCAD would run a script that
+#: raises a second time, and then end with 0.
+_SCRIPT = """import os, sys, tempfile, traceback
+try:
+    tempfile.tempdir = {folder!r}
+    sys.path[:0] = {front!r}
+    sys.path += {back!r}
+    {prelude}
+    from volfrep.process.server import serve
+    serve({folder!r}, {threads!r}, {warm!r})
+except BaseException:
+    traceback.print_exc()
+    sys.stderr.flush()
+    os._exit(1)
 """
 
 
@@ -46,7 +53,8 @@ class Call:
     """A function of the engine and what it is given.
 
     Attributes:
-        function: of a module that the process can import.
+        function: of a module that the process can import; ``module:name`` where this process
+            cannot import it, or need not.
         arguments: that pickle; a `StageCache` stands for one that the process keeps.
         keywords: the same.
         heard: by the name of a parameter of the function, a callback of this process: it is called
@@ -56,7 +64,7 @@ class Call:
             after a cancel.
     """
 
-    function: Callable[..., Any]
+    function: Callable[..., Any] | str
     arguments: tuple[Any, ...] = ()
     keywords: Mapping[str, Any] = field(default_factory=dict)
     heard: Mapping[str, Callable[..., Any]] = field(default_factory=dict)
@@ -65,12 +73,21 @@ class Call:
 
     def here(self, progress: ProgressCallback | None = None) -> Any:
         """Make it in this process."""
+        assert callable(self.function)
         told = {"progress": progress} if self.has_progress else {}
         return self.function(*self.arguments, **self.keywords, **self.heard, **told)
 
 
 class Failed(Exception):
     """The traceback in the other process of what it has raised."""
+
+
+class WorkerLost(Exception):
+    """The process that made a call has ended: see `ending`."""
+
+    def __init__(self, ending: Ending) -> None:
+        super().__init__(str(ending))
+        self.ending = ending
 
 
 @dataclass(frozen=True)
@@ -82,18 +99,39 @@ class Program:
             without windows.
         front: folders that come first where modules are looked for.
         back: folders that come last.
-        prelude: lines for the process before it imports the engine.
+        prelude: a line for the process before it imports the engine.
         warm: modules that it imports before it greets.
+        threads: that its calls may use; 0 for one on each core.
     """
 
     command: tuple[str, ...]
     front: tuple[str, ...]
     back: tuple[str, ...] = ()
-    prelude: str = ""
+    prelude: str = "pass"
     warm: tuple[str, ...] = ()
+    threads: int = 0
+
+    def runs(self, version: str) -> bool:
+        """Whether it finds the engine in that version, what that needs, and what is warm."""
+        try:
+            worker = Worker(self)
+        except OSError:
+            return False
+        called = Call("volfrep.process.cluster:version", has_progress=False)
+        try:
+            return bool(worker.answer(called) == version)
+        except (WorkerLost, ImportError, AttributeError):
+            return False
+        finally:
+            worker.end()
 
 
-class EngineProcess:
+def this_python(threads: int = 0, *warm: str) -> Program:
+    """The Python that runs this process, with what it finds."""
+    return Program((sys.executable,), tuple(filter(None, sys.path)), warm=warm, threads=threads)
+
+
+class Worker:
     """The process, from its start to its end.
 
     Raises:
@@ -105,84 +143,94 @@ class EngineProcess:
         self._gone = weakref.finalize(self, shutil.rmtree, self._folder, ignore_errors=True)
         script = self._folder / "engine.py"
         script.write_text(
-            _PROGRAM.format(
+            _SCRIPT.format(
                 front=list(program.front),
                 back=list(program.back),
                 prelude=program.prelude,
                 folder=str(self._folder),
+                threads=program.threads,
                 warm=program.warm,
             ),
             encoding="utf-8",
         )
+        limits = Limits(threads=program.threads)
         try:
             with (self._folder / "said").open("wb") as said:
-                self._child = subprocess.Popen(
-                    [*program.command, str(script)],
-                    stdin=subprocess.PIPE,
-                    stdout=subprocess.PIPE,
-                    stderr=said,
-                    creationflags=NO_WINDOW,
-                    start_new_session=_HAS_GROUPS,
-                )
+                command = [*program.command, str(script)]
+                self._child = Child(command, limits=limits, speaks=True, errors=said)
         except OSError:
             self._gone()
             raise
         self._sending = threading.Lock()
         self._numbers: dict[int, int] = {}
         self._number = self._known = 0
-        self._asked_to_end = False
+        self._greeted = False
 
     @property
     def number(self) -> int:
         """The system's of the process."""
-        return self._child.pid
+        return self._child.number
 
     @property
     def is_alive(self) -> bool:
         """Whether it can be given a call."""
-        return self._child.poll() is None and not self._asked_to_end
+        return self._child.is_alive
 
     def greets(self) -> bool:
         """Wait for its first word; False where it ends without one: then it is no engine."""
-        out = self._child.stdout
-        assert out is not None
         seen = b""
-        while not seen.endswith(GREETING):
-            byte = out.read(1)
+        while not self._greeted:
+            byte = self._child.output.read(1)
             if not byte:
                 return False
             seen = (seen + byte)[-len(GREETING) :]
+            self._greeted = seen == GREETING
         return True
 
-    def answer(self, call: Call, told: Callable[[float, str], None]) -> Any:
+    def answer(
+        self,
+        call: Call,
+        told: ProgressCallback = lambda fraction, stage: None,
+        limits: Limits = NO_LIMITS,
+        ask: Callable[[], object] | None = None,
+    ) -> Any:
         """Make a call there, after those before it; what it returns.
 
         Args:
             call: the function and what it is given.
-            told: hears of the progress.
+            told: hears of the progress; what it returns is not looked at.
+            limits: of the call's time, and of the process's memory.
+            ask: called again and again on this thread; what it raises ends the process.
 
         Raises:
-            EOFError: the process is gone.
+            WorkerLost: the process has ended.
+            OverLimit: it has been ended for a limit.
             BaseException: what the call has raised, with the other side's traceback as its cause.
         """
-        out = self._child.stdout
-        assert out is not None
+        kind, value = self._child.guarded(lambda: self._exchange(call, told), limits, ask)
+        if kind == "failed":
+            error, trace = value
+            raise error from Failed(f"\n{trace}")
+        return value
+
+    def _exchange(self, call: Call, told: ProgressCallback) -> tuple[str, Any]:
+        """Send a call, and listen until it has ended; how, and with what."""
         self._number += 1
-        if not self._send((None, self._number, _Sent.of(call))):
-            raise EOFError
+        if not self.greets() or not self._send((None, self._number, _Sent.of(call))):
+            raise WorkerLost(self.end(LAST_WORDS))
         while True:
-            kind, about, value = receive(out, self._folder, _no_cache)
+            try:
+                kind, about, value = receive(self._child.output, self._folder, _no_cache)
+            except (EOFError, OSError) as error:
+                raise WorkerLost(self.end(LAST_WORDS)) from error
             if about not in (self._number, UNKNOWN):
                 continue
             if kind == "progress":
                 told(*value)
             elif kind == "heard":
                 call.heard[value[0]](*value[1])
-            elif kind == "failed":
-                error, trace = value
-                raise error from Failed(f"\n{trace}")
             else:
-                return value
+                return kind, value
 
     def ask_to_end(self) -> None:
         """Tell the process that the call that it makes is not wanted any more."""
@@ -190,41 +238,22 @@ class EngineProcess:
 
     def kill(self) -> None:
         """End the process; whoever waits for a call's answer sees to the rest."""
-        self._asked_to_end = True
-        self._kill_all()
+        self._child.kill()
 
-    def end(self, patience: float = 0.0) -> str:
-        """End the process, whatever it does, and its files; a sentence on how it has ended.
+    def end(self, patience: float = 0.0) -> Ending:
+        """End the process, whatever it does, and its files; how it has ended.
 
         Args:
             patience: wait so long, s, for it to end by itself.
         """
-        self._asked_to_end, ended_itself = True, True
-        try:
-            code = self._child.wait(patience)
-        except subprocess.TimeoutExpired:
-            ended_itself = False
-            self._kill_all()
-            code = self._child.wait()
+        code, ended_itself = self._child.wait(patience)
         last = self._last_words() if ended_itself else ""
         self._gone()
-        how = f"by signal {-code}" if code < 0 else f"with code {code}"
-        return (
-            f"The engine's process has ended {how}{last}: if there was not enough memory, choose "
-            "larger cells or a coarser deviation; the document is as it was."
-        )
-
-    def _kill_all(self) -> None:
-        """The process and the programs that it runs, such as Gmsh, where the system has groups."""
-        if not _HAS_GROUPS:
-            self._child.kill()
-        elif self._child.poll() is None:
-            with suppress(ProcessLookupError):
-                os.killpg(self._child.pid, signal.SIGKILL)
+        return Ending(how_ended(code), last)
 
     def _send(self, message: object) -> bool:
         """Whether there is still somebody who was told."""
-        stream = self._child.stdin
+        stream = self._child.input
         assert stream is not None
         try:
             with self._sending:
@@ -254,14 +283,31 @@ class EngineProcess:
         except OSError:
             return ""
         said = [line.strip() for line in lines if line.strip()]
-        return f" ({said[-1].rstrip('.')})" if said else ""
+        return said[-1].rstrip(".") if said else ""
+
+
+@dataclass(frozen=True)
+class Ending:
+    """How a worker has ended.
+
+    Attributes:
+        how: by which signal, or with which code.
+        last_words: the last line that it has said; empty where we have ended it.
+    """
+
+    how: str
+    last_words: str = ""
+
+    def __str__(self) -> str:
+        """Both in words."""
+        return f"{self.how} ({self.last_words})" if self.last_words else self.how
 
 
 @dataclass(frozen=True)
 class _Sent:
     """A call as it is sent: without this process's callbacks."""
 
-    function: Callable[..., Any]
+    function: Callable[..., Any] | str
     arguments: tuple[Any, ...]
     keywords: dict[str, Any]
     heard: tuple[str, ...]
@@ -273,8 +319,8 @@ class _Sent:
         return cls(call.function, call.arguments, dict(call.keywords), heard, call.has_progress)
 
 
-def _forget(process: weakref.ref[EngineProcess], name: int) -> None:
-    there = process()
+def _forget(worker: weakref.ref[Worker], name: int) -> None:
+    there = worker()
     if there is not None:
         there.forget(name)
 

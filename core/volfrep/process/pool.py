@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Workers of this machine that make calls side by side.
+
+Calls that hold Python's lock, such as those of the Boolean library, run side by side only there.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Iterator
+from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecutor
+from contextlib import contextmanager
+from queue import SimpleQueue
+from typing import Any
+
+from ..util.errors import VolfrepError
+from ..util.threads import threads
+from .worker import Call, Ending, Program, Worker, WorkerLost, this_python
+
+#: After so many have ended there is something wrong with all of them, and no other one is started.
+MOST_LOST = 8
+
+
+class WorkerPool(ThreadPoolExecutor):
+    """An executor of workers. One that dies costs its call, and another one takes its place.
+
+    Args:
+        program: what the workers are.
+        count: how many; those of a program that is to be warm start now, while this process does
+            something else, others when they are needed.
+        lost: called, on any thread, with how a worker has ended.
+    """
+
+    def __init__(
+        self, program: Program, count: int, lost: Callable[[Ending], None] = lambda _: None
+    ) -> None:
+        super().__init__(count, "volfrep-worker")
+        self._program, self._lost, self._losses = program, lost, 0
+        self._changing = threading.Lock()
+        self._is_open = True
+        self.workers: list[Worker] = []
+        self._idle: SimpleQueue[Worker | None] = SimpleQueue()
+        for _ in range(count):
+            self._idle.put(self._started() if program.warm else None)
+
+    def submit(self, function: Callable[..., Any], /, *given: Any, **named: Any) -> Future[Any]:
+        """As of any executor; the call fails with `WorkerLost` where its worker ends.
+
+        Raises:
+            RuntimeError: it is shut down, or too many workers have ended.
+        """
+        if self._losses >= MOST_LOST:
+            raise BrokenExecutor("its workers end again and again")
+        return super().submit(self._made, Call(function, given, named, has_progress=False))
+
+    def _made(self, call: Call) -> Any:
+        worker = self._idle.get()  # there are as many as threads
+        try:
+            if worker is None:
+                worker = self._started()
+            return worker.answer(call)
+        except WorkerLost as lost:
+            if worker is not None and self._is_open:
+                with self._changing:
+                    self._losses += 1
+                self._lost(lost.ending)
+            worker = None
+            raise
+        finally:
+            self._idle.put(worker)
+
+    def _started(self) -> Worker:
+        with self._changing:
+            if not self._is_open or self._losses >= MOST_LOST:
+                raise WorkerLost(Ending("before it began"))
+            worker = Worker(self._program)
+            self.workers.append(worker)
+            return worker
+
+    def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
+        """Take nothing more; with `cancel_futures` the workers end, whatever they do."""
+        if cancel_futures:
+            with self._changing:
+                self._is_open = False
+            for worker in self.workers:
+                worker.kill()
+        super().shutdown(wait=wait, cancel_futures=cancel_futures)
+        if wait or cancel_futures:
+            for worker in self.workers:
+                worker.end()
+
+
+@contextmanager
+def processes(
+    count: int | None = None, module: str = "", lost: Callable[[Ending], None] = lambda _: None
+) -> Iterator[Executor | None]:
+    """An executor of so many processes; None where that is one.
+
+    Args:
+        count: of the processes; None for as many as `threads` says.
+        module: where what they will be given lies: they import it at once, while this process does
+            something else. Empty: they import it when they are first given something.
+        lost: told, on any thread, how a process has ended that should not have.
+
+    Raises:
+        VolfrepError: fewer than one is wanted.
+    """
+    count = threads() if count is None else count
+    if count < 1:
+        raise VolfrepError(f"At least 1 worker is needed, not {count}.")
+    if count == 1:
+        yield None
+        return
+    each = max(1, threads() // count)
+    pool = WorkerPool(this_python(each, *filter(None, (module,))), count, lost)
+    try:
+        yield pool
+    finally:
+        pool.shutdown(cancel_futures=True)
+
+
+def let_go(executor: Executor | None) -> None:
+    """End an executor's processes early, with what they hold, where it has any of this machine.
+
+    What is still given to it is refused with a `RuntimeError`.
+    """
+    if isinstance(executor, WorkerPool):
+        executor.shutdown(wait=False, cancel_futures=True)
+
+
+def at_once(executor: Executor) -> int:
+    """How many calls an executor runs side by side, where it tells; else as `threads` says."""
+    return int(getattr(executor, "_max_workers", 0)) or threads()

@@ -45,7 +45,7 @@ def part(name, kind=QtGui.QWidget):
 
 def dock():
     """The window of strut results, or None."""
-    found = Gui.getMainWindow().findChildren(QtGui.QDockWidget, "VolfrepStrutView")
+    found = Gui.getMainWindow().findChildren(QtGui.QDockWidget, "VolfrepColourBy")
     return next((widget for widget in found if widget.isVisible()), None)
 
 
@@ -284,7 +284,7 @@ def show_results(doc, obj):
     click(dock().findChild(QtGui.QPushButton, "Automatic"))
     settle()
     check("and is given back", abs(high.value() - most) < 1e-3 * most, (high.value(), most))
-    pointed = dock().findChild(QtGui.QLabel, "Pointed")
+    pointed = dock().findChild(QtGui.QLabel, "Said")
     middle = view_3d().mapToGlobal(view_3d().rect().center())
 
     def is_told():

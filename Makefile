@@ -13,7 +13,7 @@ SCREEN := xvfb-run -a -s "-screen 0 1600x1200x24 -dpi 96"
 .NOTPARALLEL:
 .PHONY: help setup demo check test test-all test-slow lint format test-core test-random test-alone test-freecad \
 	test-gui test-in-freecad test-freecad-1 translations test-newest docs-pictures docs-tables \
-	digests vocabulary test-escape torture fuzz bench bench-quick bench-readme catalogue clean
+	digests vocabulary release site test-escape torture fuzz bench bench-quick bench-readme catalogue clean
 
 help: ## show this list
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 25
@@ -130,6 +130,14 @@ vocabulary: setup ## whether a change altered a word that a user meets (VOCABULA
 
 test-newest: ## the engine's tests on the newest numpy, scipy and scikit-image
 	@tools/newest.sh
+
+release: setup ## what users get, from the tag of this version, in build/release (STATE=HEAD: any other state)
+	@tools/release.sh $(STATE)
+
+site: ## the documentation as a site, in build/site; a warning is an error
+	@[ -x .cache/site/bin/mkdocs ] || { python3 -m venv .cache/site && \
+		.cache/site/bin/pip install --quiet --disable-pip-version-check -r tools/requirements-site.txt; }
+	@NO_MKDOCS_2_WARNING=1 .cache/site/bin/python tools/site.py
 
 bench: setup ## the paper's evaluation beside it and other tools, into docs/benchmarks.md and README (30 min)
 	@tools/bench_tools.sh

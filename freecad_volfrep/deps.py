@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import importlib
+import importlib.machinery
 import importlib.metadata
 import importlib.util
 import os
@@ -23,17 +24,20 @@ PACKAGES = {
     "trimesh": "trimesh",
     "manifold3d": "manifold3d",
 }
+#: Without this one nothing is cut at a skin, and all else is done (`volfrep.util.manifold`).
+OPTIONAL = "manifold3d"
 #: FreeCAD and its other add-ons use these too: their version must stay what it is.
 SHARED = ("numpy", "scipy")
 
 
 def missing_packages() -> list[str]:
-    """Names to install by of the packages that this FreeCAD cannot import."""
-    return [
-        package
-        for module, package in PACKAGES.items()
-        if module not in sys.modules and importlib.util.find_spec(module) is None
-    ]
+    """Names to install by of the needed packages that this FreeCAD cannot import."""
+    return [PACKAGES[module] for module in PACKAGES if module != OPTIONAL and _lacks(module)]
+
+
+def lacks_manifold() -> bool:
+    """Whether the package that cuts lattices at a skin is missing."""
+    return _lacks(OPTIONAL)
 
 
 def python_executable() -> str:
@@ -92,16 +96,32 @@ def explain_missing(packages: list[str]) -> str:
     )
 
 
-def find_installed() -> list[str]:
-    """Look again after an installation, in this FreeCAD as it runs; returns what is missing yet.
+def explain_without_manifold() -> str:
+    """One sentence for the user: what is not done without the package, and how to get it."""
+    return (
+        f"VOLFREP cuts lattices at a skin with the Python package {OPTIONAL}, which is missing: "
+        "previews, whole cells and beams are made without it; for the rest run the command  "
+        f"{install_command([OPTIONAL])}  and restart FreeCAD."
+    )
 
-    FreeCAD has the folder on its path only where it was there at its start.
+
+def find_installed(packages: list[str]) -> tuple[list[str], bool]:
+    """Look again after an installation.
+
+    Returns:
+        What of the packages is missing yet, and whether FreeCAD must be restarted to find the
+        rest: it looks into the folder only where that was there at its start.
     """
     folder = str(package_folder())
-    if Path(folder).is_dir() and folder not in sys.path:
-        sys.path.append(folder)
     importlib.invalidate_caches()
-    return missing_packages()
+    modules = [module for module, package in PACKAGES.items() if package in packages]
+    find = importlib.machinery.PathFinder.find_spec
+    missing = [PACKAGES[name] for name in modules if find(name, [*sys.path, folder]) is None]
+    return missing, folder not in sys.path
+
+
+def _lacks(module: str) -> bool:
+    return module not in sys.modules and importlib.util.find_spec(module) is None
 
 
 def _installed(name: str) -> bool:

@@ -23,7 +23,7 @@ from ..design.parameters import BY_NAME
 from ..util import memory_limit
 from ..util.errors import VolfrepError
 from ..util.files import keeping_inputs
-from . import layers, process, properties, sizing, sweep
+from . import bug_report, layers, process, properties, sizing, sweep
 from .files import read_part
 from .options import FillOptions, MeshOptions, block_options, fill_options, network_options
 from .parameter_options import add_parameters
@@ -134,6 +134,7 @@ def _parser() -> argparse.ArgumentParser:
     check = add("check", _check, "Tell what a reader sees in a mesh file (STL, OBJ, PLY, 3MF).")
     check.add_argument("file", metavar="FILE")
     add_run_options(check, "check")
+    bug_report.add_command(add)
     return parser
 
 

@@ -105,7 +105,7 @@ class InstallWindow(QtWidgets.QDialog):
 
     def _end(self) -> None:
         self._show_output()
-        missing = find_installed()
+        missing, restart = find_installed(self._packages)
         if missing:
             self._say.setText(
                 translate(
@@ -115,6 +115,10 @@ class InstallWindow(QtWidgets.QDialog):
                 ).format(names=", ".join(missing))
             )
             self._install.setEnabled(True)
+        elif restart:
+            self._say.setText(
+                translate("VolfrepInstall", "All packages are there: restart FreeCAD.")
+            )
         else:
             self._say.setText(translate("VolfrepInstall", "All packages are there: go on."))
 

@@ -2068,6 +2068,10 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
       <translation>Alle Pakete sind da: es kann weitergehen.</translation>
     </message>
     <message>
+      <source>All packages are there: restart FreeCAD.</source>
+      <translation>Alle Pakete sind da: FreeCAD neu starten.</translation>
+    </message>
+    <message>
       <source>C&amp;lose</source>
       <translation>&amp;Schließen</translation>
     </message>

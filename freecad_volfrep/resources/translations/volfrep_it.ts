@@ -2068,6 +2068,10 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
       <translation>Tutti i pacchetti ci sono: si può continuare.</translation>
     </message>
     <message>
+      <source>All packages are there: restart FreeCAD.</source>
+      <translation>Tutti i pacchetti sono presenti: riavviare FreeCAD.</translation>
+    </message>
+    <message>
       <source>C&amp;lose</source>
       <translation>C&amp;hiudi</translation>
     </message>

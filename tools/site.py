@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The documentation as a site: docs/ and what else a reader needs, in build/site.
+
+    make site        # into build/site; a warning is an error
+
+The pages are those of the checkout; only links that leave docs/ are changed. The reference of the
+API is made of the docstrings of `volfrep.__all__`, whose examples the tests run.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+PAGES = ROOT / "build" / "site-pages"
+#: Pages of the top, and their names on the site.
+TOP = {
+    "README.md": "index.md",
+    "ARCHITECTURE.md": "architecture.md",
+    "CHANGELOG.md": "changelog.md",
+    "CONTRIBUTING.md": "contributing.md",
+    "SECURITY.md": "security.md",
+}
+ICONS = "freecad_volfrep/resources/icons"
+
+
+def public_names() -> list[str]:
+    """The names that the package promises, from its source."""
+    tree = ast.parse((ROOT / "core" / "volfrep" / "__init__.py").read_text("utf-8"))
+    for node in tree.body:
+        if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "__all__":
+            return list(ast.literal_eval(node.value))
+    raise SystemExit("core/volfrep/__init__.py has no __all__")
+
+
+def homes() -> dict[str, str]:
+    """Where each public name is, dotted."""
+    tree = ast.parse((ROOT / "core" / "volfrep" / "__init__.py").read_text("utf-8"))
+    for node in tree.body:
+        if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "_HOMES":
+            table = ast.literal_eval(node.value)
+            return {
+                name: "volfrep." + (place.replace(":", ".") if ":" in place else f"{place}.{name}")
+                for name, place in table.items()
+            }
+    raise SystemExit("core/volfrep/__init__.py has no _HOMES")
+
+
+def gather() -> None:
+    """Copy the pages to one folder, with links that lead somewhere there."""
+    shutil.rmtree(PAGES, ignore_errors=True)
+    shutil.copytree(ROOT / "docs", PAGES, ignore=shutil.ignore_patterns("release", "upstream"))
+    (PAGES / "commands" / "README.md").rename(PAGES / "commands" / "index.md")
+    shutil.copytree(ROOT / ICONS, PAGES / "images" / "icons")
+    for source, name in TOP.items():
+        text = (ROOT / source).read_text("utf-8")
+        text = re.sub(r"\]\(docs/decisions\)", "](decisions/01-octants.md)", text)
+        text = text.replace("](docs/", "](").replace("](LICENSE)", "](license.md)")
+        for other, new in TOP.items():
+            text = text.replace(f"]({other})", f"]({new})")
+        (PAGES / name).write_text(text.replace("commands/README.md", "commands/index.md"), "utf-8")
+    licence = (ROOT / "LICENSE").read_text("utf-8")
+    (PAGES / "license.md").write_text(f"# Licence\n\n```text\n{licence}\n```\n", "utf-8")
+    for page in PAGES.rglob("*.md"):
+        text = page.read_text("utf-8")
+        up = "../" * (len(page.relative_to(PAGES).parts) - 1)
+        text = text.replace(f"{up}../{ICONS}/", f"{up}images/icons/")
+        for source, name in TOP.items():
+            text = text.replace(f"]({up}../{source})", f"]({up}{name})")
+        text = text.replace("commands/README.md", "commands/index.md")
+        if page.parent.name == "commands":
+            text = text.replace("](README.md", "](index.md")
+        page.write_text(text, "utf-8")
+    reference = ["# Python", "", "Every name that the package promises, `volfrep.NAME`.", ""]
+    where = homes()
+    for name in sorted(public_names(), key=str.lower):
+        reference += [f"::: {where[name]}", "    options:", "      heading_level: 2", ""]
+    (PAGES / "python.md").write_text("\n".join(reference), "utf-8")
+
+
+if __name__ == "__main__":
+    gather()
+    command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--quiet"]
+    raise SystemExit(subprocess.run([*command, "-f", str(ROOT / "mkdocs.yml")]).returncode)

@@ -52,7 +52,9 @@ from .util.progress import ProgressCallback
 
 if TYPE_CHECKING:
     import trimesh
+    from typing_extensions import Unpack
 
+    from .design.parameters.typed import Keywords, SizeKeywords
     from .jobs.sizing import SizedPart
     from .jobs.slices import Layers
     from .loads.load_cases import LoadCases
@@ -304,7 +306,7 @@ def fill(
     progress: ProgressCallback | None = None,
     cache: StageCache | None = None,
     executor: Executor | None = None,
-    **parameters: Any,
+    **parameters: Unpack[Keywords],
 ) -> Part:
     """Fill a solid with a lattice.
 
@@ -341,7 +343,7 @@ def fill(
     from .jobs.targets import solve_target
     from .output.sources import FilledPart
 
-    wanted = specified(spec, parameters, material)
+    wanted = specified(spec, dict(parameters), material)
     solid = as_solid(part, unit, progress)
     cache = cache or StageCache()
     infill = solve_target(solid, wanted, progress=progress, cache=cache, executor=executor)
@@ -359,7 +361,7 @@ def size(
     unit: str | None = None,
     progress: ProgressCallback | None = None,
     cache: StageCache | None = None,
-    **parameters: Any,
+    **parameters: Unpack[SizeKeywords],
 ) -> Part:
     """Fill a solid with a lattice whose struts are sized for its load cases.
 
@@ -393,10 +395,10 @@ def size(
 
     if steps < 1:
         raise VolfrepError(f"There must be at least one step, not {steps}.")
-    asked = {name: value for name, value in parameters.items() if name in GOALS}
-    rest = {name: value for name, value in parameters.items() if name not in GOALS}
-    refuse_unknown(rest, accepted() | set(GOALS))
-    wanted = specified(spec, rest, None)
+    given: dict[str, Any] = dict(parameters)
+    asked = {name: given.pop(name) for name in GOALS if name in given}
+    refuse_unknown(given, accepted() | set(GOALS))
+    wanted = specified(spec, given, None)
     solid, cache = as_solid(part, unit, progress), cache or StageCache()
     if isinstance(loads, (str, os.PathLike)):
         loads = read_load_cases(loads, solid)
@@ -418,7 +420,7 @@ def block(
     *,
     material: str | None = None,
     progress: ProgressCallback | None = None,
-    **parameters: Any,
+    **parameters: Unpack[Keywords],
 ) -> Part:
     """A free-standing block of whole cells with round struts.
 
@@ -442,7 +444,9 @@ def block(
     from .jobs.targets import solve_block_target
     from .output.sources import Block
 
-    wanted = solve_block_target(specified(spec, parameters, material), count, progress=progress)
+    wanted = solve_block_target(
+        specified(spec, dict(parameters), material), count, progress=progress
+    )
     made = Block(wanted, count, progress)
     return Part(made.result, wanted, None, StageCache(), made)
 
@@ -452,7 +456,7 @@ def mesh_network(
     spec: LatticeSpec | None = None,
     *,
     progress: ProgressCallback | None = None,
-    **parameters: Any,
+    **parameters: Unpack[Keywords],
 ) -> Part:
     """The nodes and struts of any graph, meshed as they are in free space.
 
@@ -481,7 +485,7 @@ def mesh_network(
     if not isinstance(graph, (str, os.PathLike)):
         found = as_graph(graph)
     else:
-        cell = parameters.get("cell", None if spec is None else spec.cell)
+        cell: Any = parameters.get("cell", None if spec is None else spec.cell)
         found = read_network(graph, find_cell(cell) if isinstance(cell, str) else cell)
     wanted = specified(spec, {**parameters, "network": found}, None)
     made = FreeGraph(wanted, progress)
@@ -500,7 +504,7 @@ def slice_layers(
     material: str | None = None,
     progress: ProgressCallback | None = None,
     cache: StageCache | None = None,
-    **parameters: Any,
+    **parameters: Unpack[Keywords],
 ) -> Layers:
     """Fill a solid and write it in layers along z for a printer; no mesh is made.
 
@@ -532,7 +536,7 @@ def slice_layers(
     """
     from .jobs.slices import write_layers
 
-    wanted = specified(spec, parameters, material)
+    wanted = specified(spec, dict(parameters), material)
     return write_layers(
         as_solid(part, unit, progress), wanted, folder, layer=layer, pixel=pixel, form=form,
         progress=progress, cache=cache,

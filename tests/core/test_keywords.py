@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import importlib.util
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
@@ -11,8 +13,10 @@ import pytest
 
 import volfrep
 from volfrep.api import specified
-from volfrep.design.parameters.keywords import as_graph
+from volfrep.design.parameters.keywords import FIELDS, KEYS, as_graph
 from volfrep.design.parameters.specification import specification
+from volfrep.design.parameters.typed import Keywords, SizeKeywords
+from volfrep.jobs.sizing import GOALS
 
 TRIANGLE = ([[0, 0, 0], [9, 0, 0], [0, 9, 0]], [(0, 1), (0, 2), (1, 2)])
 
@@ -89,3 +93,28 @@ def test_the_catalogue_comes_first() -> None:
     known = volfrep.properties(volfrep.LatticeSpec(cell="BCC").unit_cell(), 10, 1)
     assert found.values == known.values
     assert set(volfrep.__all__) <= set(dir(volfrep))
+
+
+def test_an_editor_knows_the_keywords_of_the_table() -> None:
+    path = Path(__file__).resolve().parents[2] / "tools" / "typed_keywords.py"
+    found = importlib.util.spec_from_file_location(path.stem, path)
+    assert found is not None
+    assert found.loader is not None
+    tool = importlib.util.module_from_spec(found)
+    found.loader.exec_module(tool)
+    typed = {
+        name: kind.__forward_arg__.replace("'", '"')
+        for name, kind in Keywords.__annotations__.items()
+    }
+    assert typed == {name: tool.type_of(name) for name in KEYS | FIELDS}
+    assert set(SizeKeywords.__annotations__) == {*typed, *GOALS}
+
+
+@pytest.mark.slow
+def test_mypy_refuses_a_keyword_that_there_is_not(tmp_path: Path) -> None:
+    api = pytest.importorskip("mypy.api")
+    file = tmp_path / "script.py"
+    file.write_text('import volfrep\nvolfrep.fill("a.stl", cel="BCC")\n', encoding="utf-8")
+    told, _, status = api.run(["--follow-imports=silent", str(file)])
+    assert status == 1
+    assert 'Unexpected keyword argument "cel" for "fill"' in told

@@ -162,3 +162,34 @@ def modulus_out_of_reach(what: str, target: Target, least: float, most: float) -
         f"{least:.3g} to {most:.3g} {unit}"
         + (", or name the solid's material." if target.young == 1.0 else ".")
     )
+
+
+def volume_out_of_reach(
+    target: Target,
+    cells: str,
+    density: float,
+    inside: float,
+    skin: float,
+    span: tuple[float, float],
+) -> VolfrepError:
+    """What is wrong where no strut radius has a density or a mass.
+
+    Args:
+        target: what is asked for.
+        cells: the lattice in words.
+        density: of the material, g/cm3.
+        inside: volume of the room for the lattice, mm3.
+        skin: volume of the skin, mm3.
+        span: the volumes that the lattice can have, mm3.
+    """
+    unit, more = "", ""
+    least, most = (volume / inside for volume in span)
+    if target.aim == "mass":
+        unit = " g"
+        least, most = ((skin + volume) * density / 1000.0 for volume in span)
+        if skin:
+            more = f", of which the skin is {skin * density / 1000.0:.4g} g"
+    return VolfrepError(
+        f"No strut radius gives a {target.called} of {target.value:.4g}{unit} with {cells}: choose "
+        f"one from {least:.4g} to {most:.4g}{unit}{more}."
+    )

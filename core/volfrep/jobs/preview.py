@@ -15,7 +15,6 @@ import numpy as np
 from ..design.cells import LIBRARY
 from ..design.memory_guard import refuse_cells
 from ..design.spec import LatticeSpec
-from ..design.target import Target
 from ..grid.activation import make_grid, mapped_grid
 from ..grid.cell_grid import CellGrid
 from ..grid.coordinate_map import CoordinateMap
@@ -31,8 +30,7 @@ from ..util.types import Bools, Floats, Ints
 from .graphs.frame import graph_struts, graph_volume
 from .graphs.radius import with_radius
 from .part_depth import PartDepth, Preview
-from .rough_radius import lattice_volume, radius_of_volume
-from .stiffness_target import ratio_of_stiffness
+from .rough_radius import lattice_volume, radius_of_target
 from .tpms.preview import preview_tpms
 
 __all__ = ["PartDepth", "Preview", "preview"]
@@ -125,7 +123,7 @@ def _shown(
         lattice = graph_volume(frame, spec, depth.points_below(spec.shell), domain)
     else:
         if spec.target is not None:
-            radius = _aimed_radius(spec, spec.target, bare, domain, skin)
+            radius = radius_of_target(spec, bare, domain, skin)
             piece_radii *= radius / spec.strut_radius
             spec = replace(spec, strut_radius=radius)
         # Struts that reach from a narrow domain into the skin are counted as a whole.
@@ -151,16 +149,6 @@ def _aimed_network(
         spec, placement, lambda: depth.domain(spec.skin), lambda _: (points, weights), wanted,
         skin, Monitor(),
     )  # fmt: skip
-
-
-def _aimed_radius(
-    spec: LatticeSpec, target: Target, bare: float, domain: float, skin: float
-) -> float:
-    """The radius that meets a target by the preview's own figures, mm."""
-    if target.aim == "stiffness":
-        size = spec.cell_size
-        return size * ratio_of_stiffness(spec.unit_cell(), target, spec.fillet / size, rough=True)
-    return radius_of_volume(spec, bare, target.lattice_volume(spec.density, domain, skin))
 
 
 def _active(

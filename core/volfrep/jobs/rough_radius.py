@@ -15,16 +15,20 @@ from ..design.cells import UnitCell
 from ..design.forecast import LEAST_INSIDE, cell_volume, strut_shares
 from ..design.spec import LatticeSpec
 from ..design.spec_parts import MAX_RESOLUTION, largest_radius
+from ..design.target import volume_out_of_reach
+from ..mechanics.catalogue import known_cell
 from ..mesh.triangle_mesh import TriangleMesh
 from ..octants import sdf
 from ..octants.octant import ALL_ACTIVE, OctantKey, octant_primitives
 from ..spatial.even_points import even_points
-from ..util.errors import VolfrepError
+from ..util.search import OutOfReachError, Rising
 from ..util.types import Floats
 from .stiffness_target import ratio_of_stiffness
 
 #: Points by which the volume of a cell's struts is measured (a power of 2).
 CELL_POINTS = 12
+#: A radius is found when its volume is this near, relative.
+_CLOSE = 1e-4
 
 
 def lattice_volume(spec: LatticeSpec, bare: float, radius: float) -> float:
@@ -35,31 +39,49 @@ def lattice_volume(spec: LatticeSpec, bare: float, radius: float) -> float:
         bare: volume that its struts would have with a radius of 1 mm if they did not meet, mm3.
         radius: of the struts, mm.
     """
-    size = spec.cell_size
-    return bare * radius**2 * _joints_share(spec.unit_cell(), radius / size, spec.fillet / size)
+    cell, ratio = spec.unit_cell(), radius / spec.cell_size
+    alone = np.pi * ratio**2 * _strut_length(cell)
+    return bare * radius**2 * endless_density(cell, ratio, spec.fillet / spec.cell_size) / alone
 
 
-def radius_of_volume(spec: LatticeSpec, bare: float, volume: float) -> float:
-    """The radius that gives a lattice a volume, mm; see `lattice_volume`.
+def radius_of_target(
+    spec: LatticeSpec, bare: float, inside: float, skin: float, *, clip: bool = False
+) -> float:
+    """About the radius that meets a specification's target, mm; see `lattice_volume`.
+
+    Args:
+        spec: of cells of struts, with a target.
+        bare: volume of its struts as of `lattice_volume`, mm3.
+        inside: volume of what the lattice fills, mm3.
+        skin: volume of the skin, mm3.
+        clip: whether the thinnest and the thickest struts stand for what lies beyond them.
 
     Raises:
         VolfrepError: no radius does.
     """
+    target, size = spec.target, spec.cell_size
+    assert target is not None
+    if target.aim == "stiffness":
+        return size * ratio_of_stiffness(spec.unit_cell(), target, spec.fillet / size, rough=True)
     low, high = radius_range(spec)
-    least, most = (lattice_volume(spec, bare, radius) for radius in (low, high))
-    if not least <= volume <= most:
-        raise VolfrepError(
-            f"No strut radius meets the target: the lattice would have to have {volume:.4g} mm3, "
-            f"and with cells '{spec.unit_cell().name}' of {spec.cell_size:g} mm it can have about "
-            f"{least:.3g} to {most:.3g} mm3."
-        )
+    volume = target.lattice_volume(spec.density, inside, skin)
+    known = Rising(lambda radius: lattice_volume(spec, bare, radius), low, high, close=_CLOSE)
+    try:
+        return known.level_of(volume)
+    except OutOfReachError as reach:
+        if clip:
+            return low if volume < reach.most else high
+        cells = f"cells '{spec.unit_cell().name}' of {size:g} mm"
+        span = (reach.least, reach.most)
+        raise volume_out_of_reach(target, cells, spec.density, inside, skin, span) from reach
 
-    def missing(radius: float) -> float:
-        return lattice_volume(spec, bare, radius) - volume
 
-    from scipy.optimize import brentq  # slow to load, and every job loads this module
-
-    return float(brentq(missing, low, high, xtol=1e-4 * high))
+def endless_bare(spec: LatticeSpec, inside: float) -> float:
+    """The bare volume, as of `lattice_volume`, of the endless lattice in a volume in mm3."""
+    size = spec.cell_size
+    # Struts that are deformed with their cells keep their share of them.
+    one = cell_volume(spec) if spec.keep_radius else size**3
+    return float(np.pi * _strut_length(spec.unit_cell()) * size * inside / one)
 
 
 def radius_range(spec: LatticeSpec) -> tuple[float, float]:
@@ -80,41 +102,39 @@ def solve_target_roughly(solid: TriangleMesh, spec: LatticeSpec) -> LatticeSpec:
     Raises:
         VolfrepError: no radius meets the target.
     """
-    target, size = spec.target, spec.cell_size
-    if target is None or spec.output == "domain":
+    if spec.target is None or spec.output == "domain":
         return spec
     if spec.surface is not None or spec.network is not None:
         return spec
-    cell = spec.unit_cell()
-    if target.aim == "stiffness":
-        ratio = ratio_of_stiffness(cell, target, spec.fillet / size, rough=True)
-        return replace(spec, strut_radius=ratio * size)
     whole = abs(solid.volume)
     # Exact for long prisms about a circle; others measured within 2 % of the volume.
     skin = 0.0 if spec.skin is None else spec.skin.rough_volume(solid)
-    left = max(1.0 - 0.5 * skin / whole, 0.0) ** 2
-    inside = whole * max(left, LEAST_INSIDE)
-    ends = cell.nodes[cell.struts]
-    length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1) @ strut_shares(cell) * size
-    # Struts that are deformed with their cells keep their share of them.
-    one = cell_volume(spec) if spec.keep_radius else size**3
-    bare = float(np.pi * length * inside / one)
-    skin = spec.skin_volume(whole, inside)
-    volume = target.lattice_volume(spec.density, inside, skin)
-    low, high = radius_range(spec)
+    inside = whole * max(max(1.0 - 0.5 * skin / whole, 0.0) ** 2, LEAST_INSIDE)
+    bare, skin = endless_bare(spec, inside), spec.skin_volume(whole, inside)
     # What the skin takes is known about only: the forecast refuses nothing.
-    least, most = (lattice_volume(spec, bare, radius) for radius in (low, high))
-    return replace(
-        spec, strut_radius=radius_of_volume(spec, bare, float(np.clip(volume, least, most)))
-    )
+    return replace(spec, strut_radius=radius_of_target(spec, bare, inside, skin, clip=True))
+
+
+def endless_density(cell: UnitCell, ratio: float, fillet: float) -> float:
+    """The relative density of an endless lattice, at once; r / L, and the fillet in units of L.
+
+    By the catalogue, or, within a percent, by points.
+    """
+    known = None if fillet else known_cell(cell)
+    if known is not None and known.ratios[0] <= ratio <= known.ratios[-1]:
+        return known.at(ratio)["relative_density"]
+    return _density_by_points(cell, ratio, fillet)
+
+
+def _strut_length(cell: UnitCell) -> float:
+    """Length of the struts of a cell that are its own, in units of L."""
+    ends = cell.nodes[cell.struts]
+    return float(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1) @ strut_shares(cell))
 
 
 @lru_cache(maxsize=1024)
-def _joints_share(cell: UnitCell, radius: float, fillet: float) -> float:
-    """Volume of a cell's struts and joints over that of its struts counted each by itself.
-
-    The radius is in units of L. Struts overlap at the joints, where spheres and fillets add some.
-    """
+def _density_by_points(cell: UnitCell, radius: float, fillet: float) -> float:
+    """The relative density by points of its octants; radii in units of L."""
     mirrors = (0,) if cell.is_mirror_symmetric else range(8)
     points = _points()
     filled = []
@@ -123,9 +143,7 @@ def _joints_share(cell: UnitCell, radius: float, fillet: float) -> float:
         primitives = octant_primitives(cell, key, 1.0, radius, fillet)
         values = sdf.union(sdf.distances(points[:, None], primitives), fillet)
         filled.append(float((values < 0.0).mean()))
-    ends = cell.nodes[cell.struts]
-    length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
-    return float(np.mean(filled) / (np.pi * radius**2 * (length @ strut_shares(cell))))
+    return float(np.mean(filled))
 
 
 @lru_cache(maxsize=1)

@@ -9,10 +9,12 @@ from dataclasses import dataclass
 from ..design.forecast import Forecast, forecast_fill
 from ..design.spec import LatticeSpec
 from ..jobs.preview import PartDepth, preview
-from ..jobs.rough_radius import solve_target_roughly
-from ..jobs.stiffness_target import ratio_of_stiffness
-from ..mechanics.catalogue import known_cell
-from ..mechanics.density import radius_of_density, relative_density
+from ..jobs.rough_radius import (
+    endless_bare,
+    endless_density,
+    radius_of_target,
+    solve_target_roughly,
+)
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.errors import VolfrepError
 
@@ -60,11 +62,14 @@ def expect(solid: TriangleMesh, spec: LatticeSpec, depth: PartDepth) -> Expectat
     skin = spec.skin_volume(solid.volume, inside)
     if spec.output != "domain" and (spec.surface is not None or spec.network is not None):
         return _expected_otherwise(solid, spec, depth)
-    spec = solve_design_roughly(spec, inside, skin)
+    if spec.target is not None and spec.output != "domain":
+        radius = radius_of_target(spec, endless_bare(spec, inside), inside, skin)
+        spec = dataclasses.replace(spec, strut_radius=radius, target=None)
     if spec.is_graded and spec.output != "domain":
         share = preview(solid, spec, depth).relative_density
     else:
-        share = density_of(spec)
+        size = spec.cell_size
+        share = endless_density(spec.unit_cell(), spec.strut_radius / size, spec.fillet / size)
     volume = inside if spec.output == "domain" else skin + share * inside
     return Expectation(
         forecast_fill(solid, spec),
@@ -85,50 +90,6 @@ def _expected_otherwise(solid: TriangleMesh, spec: LatticeSpec, depth: PartDepth
     return Expectation(
         forecast_fill(solid, made), radius, shown.relative_density, shown.volume, shown.mass
     )
-
-
-def solve_design_roughly(spec: LatticeSpec, inside: float, skin: float) -> LatticeSpec:
-    """The specification with the radius that the endless lattice has at its target.
-
-    Args:
-        spec: with a target, or without one: then it is returned as it is.
-        inside: volume of what the lattice fills, mm3.
-        skin: volume of the skin, mm3.
-
-    Raises:
-        VolfrepError: no radius meets the target.
-    """
-    target, size = spec.target, spec.cell_size
-    if target is None or spec.output == "domain":
-        return spec
-    cell, fillet = spec.unit_cell(), spec.fillet / size
-    if target.aim == "stiffness":
-        ratio = ratio_of_stiffness(cell, target, fillet)
-    else:
-        share = target.value
-        if target.aim == "mass":
-            share = (target.value * 1000.0 / spec.density - skin) / inside
-            if not 0.0 < share < 1.0:
-                least, most = (v * spec.density / 1000.0 for v in (skin, skin + inside))
-                raise VolfrepError(
-                    f"A mass of {target.value:.4g} g is out of reach: choose one between "
-                    f"{least:.4g} and {most:.4g} g."
-                )
-        known = None if fillet else known_cell(cell)
-        if known is not None and known.values[0, 0] <= share <= known.values[-1, 0]:
-            ratio = known.ratio_of_density(share)
-        else:
-            ratio = radius_of_density(cell, share, fillet)
-    return dataclasses.replace(spec, strut_radius=ratio * size, target=None)
-
-
-def density_of(spec: LatticeSpec) -> float:
-    """The relative density of the endless lattice of a specification's cell and radius."""
-    cell, ratio = spec.unit_cell(), spec.strut_radius / spec.cell_size
-    known = None if spec.fillet else known_cell(cell)
-    if known is not None and known.ratios[0] <= ratio <= known.ratios[-1]:
-        return known.at(ratio)["relative_density"]
-    return relative_density(cell, ratio, spec.fillet / spec.cell_size).value
 
 
 def plan(solid: TriangleMesh, spec: LatticeSpec) -> Forecast:

@@ -22,10 +22,12 @@ from volfrep.io.solid import check_solid
 from volfrep.jobs import stiffness_target, targets
 from volfrep.jobs.blocks import block
 from volfrep.jobs.infill import Infill
+from volfrep.jobs.part_depth import PartDepth
 from volfrep.jobs.rough_radius import solve_target_roughly
 from volfrep.jobs.targets import solve_block_target, solve_target
 from volfrep.lattice.strut_volume import points_inside, volume_by_radius
 from volfrep.mechanics.density import relative_density
+from volfrep.studies.expectation import expect
 from volfrep.util.progress import Monitor
 
 #: What is promised, relative.
@@ -232,3 +234,12 @@ def test_a_target_and_a_radius_take_each_others_place() -> None:
     assert again.spec.target is None
     assert again.report.target is None
     assert block(first.spec, (1, 1, 1)).report.target["reached"] == pytest.approx(0.2, rel=NEAR)
+
+
+@pytest.mark.parametrize("target", [Target("mass", 5.0), density(0.99)], ids=["mass", "density"])
+def test_a_study_refuses_with_what_can_be_had_as_the_run_does(target) -> None:
+    solid = samples.box((32.0, 24.0, 20.0))
+    spec = LatticeSpec("CVC", 8.0, 0.5, 2.0, target=target)
+    with pytest.raises(VolfrepError, match="choose one from") as told:
+        expect(solid, spec, PartDepth(solid))
+    assert ("of which the skin is" in str(told.value)) == (target.aim == "mass")

@@ -387,9 +387,9 @@ def size(
             part is not held, or the goal cannot be.
         Cancelled: the callback said so before there was a design.
     """
+    from .jobs.infill import Infill
     from .jobs.sizing import GOALS, goal_of
     from .jobs.sizing import size as size_struts
-    from .jobs.targets import infill_of
     from .loads.load_file import read_load_cases
     from .output.sources import FilledPart
 
@@ -410,7 +410,7 @@ def size(
         solid, wanted, loads, goal, most_steps=steps, prove_it=proof, progress=progress,
         cache=cache,
     )  # fmt: skip
-    infill = infill_of(solid, made.spec, progress=progress, cache=cache)
+    infill = Infill(solid, made.spec, progress=progress, cache=cache)
     return Part(infill.result, made.spec, solid, cache, FilledPart(infill, cache), made)
 
 

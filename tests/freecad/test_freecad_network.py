@@ -212,9 +212,9 @@ def ends_from(obj, face):
     """How far each node of the lattice that is made lies from a face, by FreeCAD, mm."""
     from freecad_volfrep.bridge.solids import mesh_of_shape
     from freecad_volfrep.features.infill.values import specification_of
-    from volfrep.jobs.targets import infill_of
+    from volfrep.jobs.infill import Infill
 
-    struts = infill_of(mesh_of_shape(obj.Base.Shape, "wing"), specification_of(obj)).struts
+    struts = Infill(mesh_of_shape(obj.Base.Shape, "wing"), specification_of(obj)).struts
     return [Part.Vertex(*node).distToShape(face)[0] for node in struts.nodes.tolist()]
 
 

@@ -171,7 +171,7 @@ def _told_lost(ending: Ending) -> None:
 def _fill(given: argparse.Namespace) -> None:
     options = fill_options(given)
 
-    from ..design.forecast import forecast_fill, refuse_crossing
+    from ..design.forecast import forecast_fill
     from ..jobs.rough_radius import solve_target_roughly
     from ..jobs.targets import solve_target
     from ..output.sources import FilledPart
@@ -183,11 +183,11 @@ def _fill(given: argparse.Namespace) -> None:
     read_seconds = time.perf_counter() - start
     rough = solve_target_roughly(solid, spec)
     if meshed and spec.output != "domain":
-        refuse_crossing(rough)
+        rough.kind.refuse_crossing()
     expected = forecast_fill(solid, rough, streamed=options.is_plain)
     if not options.quiet:
         print(f"Expected: {expected if meshed else expected.of_axes}.", flush=True)
-    is_cut = meshed and spec.network is None and spec.output != "domain"
+    is_cut = meshed and spec.kind.is_of_octants and spec.output != "domain"
     cut = expected.triangles if is_cut else 0
     with _workers(options, cut) as executor, Progress(options.quiet) as progress:
         infill = solve_target(
@@ -201,7 +201,7 @@ def _fill(given: argparse.Namespace) -> None:
 def _block(given: argparse.Namespace) -> None:
     options = block_options(given)
 
-    from ..design.forecast import forecast_block, refuse_crossing
+    from ..design.forecast import forecast_block
 
     start, count, meshed = time.perf_counter(), options.count, options.form.meshed
     spec = options.spec
@@ -211,7 +211,7 @@ def _block(given: argparse.Namespace) -> None:
         spec = solve_block_target(spec, count, meshed=meshed)
     streamed = options.is_plain and options.form.name == "stl"
     if meshed:
-        refuse_crossing(spec)
+        spec.kind.refuse_crossing()
         if not options.quiet:
             expected = forecast_block(spec, count, streamed=streamed)
             print(f"Expected: {expected}.", flush=True)

@@ -93,7 +93,7 @@ def specified(options: argparse.Namespace, fixed: Mapping[str, object] | None = 
     for name, value in values.items():
         with_paths(name, value, _noted)
     spec = made.specification(values, option_named)
-    _refuse_idle_cell(given, spec)
+    spec.kind.refuse_idle_cell(given)
     direction = BY_NAME["build_direction"]
     return Specified(spec, values, values.get(direction.name, direction.default))
 
@@ -103,39 +103,6 @@ def _noted(file: str) -> str:
     if isinstance(file, str):
         note_input(file, "file of the specification")
     return file
-
-
-def _refuse_idle_cell(given: Mapping[str, object], spec: LatticeSpec) -> None:
-    """Refuse the option of a cell, or of its size, that the network has no use for.
-
-    Files of specifications always hold both, and may keep them.
-    """
-    from ..design.graphs import GivenGraph, RandomGraph
-
-    if isinstance(spec.network, GivenGraph):
-        file = f"'{spec.network.source}'"
-        if "cell" in given and not spec.network.cell:
-            raise VolfrepError(
-                f"--cell has no effect with {file}, which holds struts, and no hexahedra or "
-                "quadrilaterals to lay cells into: leave it out."
-            )
-        counts = spec.network.thickness and not given.get("network_layers")
-        if "cell_size" in given and not (counts or spec.resolution):
-            raise VolfrepError(
-                f"--cell-size has no effect with {file}, which says where every strut lies: leave "
-                "it out."
-            )
-    if not isinstance(spec.network, RandomGraph):
-        return
-    if "cell" in given:
-        raise VolfrepError(
-            f"--cell has no effect with --network {spec.network.kind}: leave one of them out."
-        )
-    if "cell_size" in given and spec.network.points and not spec.resolution:
-        raise VolfrepError(
-            "--cell-size has no effect with --network-points: each says how many points there are; "
-            "leave one of them out."
-        )
 
 
 def values_to_keep(

@@ -96,7 +96,7 @@ def _library_told() -> None:
 def _expected(seconds: float) -> None:
     """Tell how long it will take, where somebody would wonder."""
     if seconds > LONG:
-        from ..design.forecast import duration
+        from ..util.numbers import duration
 
         print(f"Expected: about {duration(seconds)} more.", file=sys.stderr, flush=True)
 

@@ -46,8 +46,8 @@ def add_command(add: Callable[[str, Callable[[argparse.Namespace], int | None], 
 def _size(given: argparse.Namespace) -> int | None:
     options = size_options(given)
 
+    from ..jobs.infill import Infill
     from ..jobs.sizing import goal_of, size, write_radii
-    from ..jobs.targets import infill_of
     from ..loads.load_file import read_load_cases
     from ..output.sources import FilledPart
     from ..output.writer import Settings, writer_of
@@ -71,7 +71,7 @@ def _size(given: argparse.Namespace) -> int | None:
                 progress=told, cache=cache, watch=_teller(options.quiet),
             )  # fmt: skip
         seconds = time.perf_counter() - start
-        infill = infill_of(
+        infill = Infill(
             solid, made.spec, progress=progress, cache=cache, streamed=options.form.streamed
         )
         part = FilledPart(infill, cache, progress)

@@ -17,22 +17,16 @@ from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.even_points import even_points
 from ..spatial.proximity import neighbours
 from ..spatial.rays import inside_points, segment_crossings
-from ..util.errors import VolfrepError
 from ..util.linalg import frame_about, normalize, times
+from ..util.numbers import duration, round_off
 from ..util.progress import Monitor
 from ..util.types import Floats
-from .cells import LIBRARY, UnitCell
-from .graphs import RandomGraph, StretchedCells
 from .spec import LatticeSpec
 
-#: At a joint a strut's surface is buried in the others up to no more radii from the node.
-BURIED = 1.4
 #: The least share of the solid that is left within a skin, where twice the skin exceeds it.
 LEAST_INSIDE = 0.05
 #: Where less than this share of the solid is left within a skin, parts of it have no lattice.
 ROOMY = 0.2
-#: Facets are no longer than this, in radii: thin struts are sampled finely, so that none is lost.
-LONGEST_EDGE = 0.85
 #: Triangles that the cut leaves on each area of a facet's edge squared of the wall.
 WALL_TRIANGLES = 1.1
 #: The skin's wall is looked for where the surface bends (`skin_bends`): seconds, bytes and facets
@@ -56,12 +50,9 @@ LEAST_WIDTH = 4.0
 SECONDS = 0.5
 SECONDS_PER_TRIANGLE = 4.5e-6
 SECONDS_PER_BLOCK_TRIANGLE = 4e-7
-#: Struts for each point of a random network once short ones are drawn together, and facets of each.
-STRUTS_PER_POINT = {"voronoi": 9.0, "delaunay": 7.5}
+#: Facets of a graph's strut; and seconds for each of its triangles.
 TRIANGLES_PER_STRUT = 110.0
 SECONDS_PER_NETWORK_TRIANGLE = 1e-5
-#: Facets on one side of a wall in a cell, for each facet along its edge squared.
-TRIANGLES_OF_SIDE = 8.0
 #: Bytes at the peak: of every job, and for each triangle of a part and of a block.
 BYTES = 1e8
 BYTES_PER_TRIANGLE = 200.0
@@ -71,9 +62,6 @@ BYTES_PER_BLOCK_TRIANGLE = 150.0
 BYTES_PER_NETWORK_TRIANGLE = 900.0
 #: Bytes more where octants are moved, which are all different.
 BYTES_GRADED = 1.2e8
-#: So many times as many facets as even ones there are, for those in the creases where struts meet;
-#: and so much of a short strut's length has facets of its own, at least.
-IN_CREASES, SHORTEST_BARE = 1.2, 0.6
 #: How thick the layer of octants at the wall is, in units of L; bytes for each of its triangles,
 #: where the others go straight into the file.
 CUT_LAYER = 0.85
@@ -81,18 +69,6 @@ BYTES_PER_CUT_TRIANGLE = 220.0
 #: Bytes of a triangle where only its vertices are kept, each in a place of its own: 18.7 million of
 #: a bracket take 0.4 to 0.6 GB more than those of equal cells.
 BYTES_PER_PLACED_TRIANGLE = 30.0
-#: Octants of a cell without mirrors, or whose struts cross beside their nodes, where facets are
-#: divided and drawn apart: seconds for each triangle of a cell, and for each distance of a sample
-#: from a strut. Random cells of 10 to 57 struts took 0.5 to 2 times as long.
-SECONDS_PER_OWN_TRIANGLE = 1.5e-3
-SECONDS_PER_DISTANCE = 4e-8
-#: At least so much of a strut's surface is bare; struts whose angle has a smaller squared sine than
-#: this are parallel.
-LEAST_BARE = 0.05
-PARALLEL = 1e-9
-#: Cells whose octants take longer than this, s, or whose struts cross more often, are refused.
-LONGEST = 900.0
-MOST_CROSSING = 1000
 #: Bytes that a cell of a block takes whose octants are written as they are laid.
 BYTES_PER_STREAMED_CELL = 5000
 #: Bytes of a triangle in a binary STL file.
@@ -122,13 +98,13 @@ class Forecast:
     @property
     def of_axes(self) -> str:
         """Where nothing is meshed: the struts, and no triangles, memory and file of a mesh."""
-        struts = f", {_rounded(self.struts)} struts" if self.struts else ""
-        return f"about {_rounded(self.cells)} cells{struts}"
+        struts = f", {round_off(self.struts)} struts" if self.struts else ""
+        return f"about {round_off(self.cells)} cells{struts}"
 
     def __str__(self) -> str:
         return (
-            f"{self.of_axes}, {_rounded(self.triangles)} triangles, "
-            f"{_rounded(self.memory_gb)} GB of memory, an STL file of {_rounded(self.stl_mb)} MB "
+            f"{self.of_axes}, {round_off(self.triangles)} triangles, "
+            f"{round_off(self.memory_gb)} GB of memory, an STL file of {round_off(self.stl_mb)} MB "
             f"and {duration(self.seconds)}"
         )
 
@@ -142,8 +118,9 @@ def forecast_fill(solid: TriangleMesh, spec: LatticeSpec, *, streamed: bool = Fa
     area = solid.area
     skin = 0.0 if spec.skin is None else spec.skin.rough_volume(solid)
     inside = max(volume - skin, LEAST_INSIDE * volume)
-    if spec.network is not None:
-        return _forecast_network(solid, spec, inside)
+    graph = spec.kind.graph_in(inside, area)
+    if graph is not None:
+        return _forecast_graph(solid, spec, *graph)
     one, edge = cell_volume(spec), spec.cell_size / spec.facets_along_cell
     # Where a skin leaves little, it is solid below most of the surface.
     wall = area * min(1.0, inside / (ROOMY * volume))
@@ -162,7 +139,7 @@ def forecast_fill(solid: TriangleMesh, spec: LatticeSpec, *, streamed: bool = Fa
     seconds += SECONDS_PER_TRIANGLE * triangles
     if spec.output != "domain":
         # Within a part all cells are there: those of the octants that are not lie outside.
-        seconds += meshing_seconds(spec, 1.0)
+        seconds += spec.kind.meshing_seconds(1.0)
     held = BYTES_PER_TRIANGLE * triangles
     if streamed and spec.streams:
         at_wall = expected_triangles(spec, min(inside, CUT_LAYER * spec.cell_size * area))
@@ -170,7 +147,7 @@ def forecast_fill(solid: TriangleMesh, spec: LatticeSpec, *, streamed: bool = Fa
         held = min(held, BYTES_PER_CUT_TRIANGLE * at_wall + placed)
     held = max(held, BYTES_PER_BEND * bends + BYTES_PER_NARROW * narrow)
     held += BYTES_GRADED if spec.is_graded else 0.0
-    return _forecast(cells, _shares_of(spec), triangles, held / triangles, seconds)
+    return _forecast(cells, spec.kind.strut_shares(), triangles, held / triangles, seconds)
 
 
 def skin_bends(solid: TriangleMesh, spec: LatticeSpec) -> float:
@@ -261,21 +238,9 @@ def _density(solid: TriangleMesh, spec: LatticeSpec) -> float:
     return float(np.where(usable, count, 0.0).mean())
 
 
-def _forecast_network(solid: TriangleMesh, spec: LatticeSpec, inside: float) -> Forecast:
-    wanted = spec.network
-    if isinstance(wanted, RandomGraph):
-        points = wanted.points or max(1.0, inside / spec.cell_size**3)
-        struts = points * STRUTS_PER_POINT[wanted.kind]
-    elif isinstance(wanted, StretchedCells):
-        cell = spec.unit_cell()
-        edges = spec.cell_size * np.array(cell.edges)
-        # A cell that the wall merely touches is there too.
-        reached = inside + 0.5 * solid.area * float(edges.mean())
-        points = max(1.0, reached / float(edges.prod()))
-        struts = points * float(strut_shares(cell).sum())
-    else:
-        assert wanted is not None
-        points, struts = 1.0, float(len(wanted.struts))
+def _forecast_graph(
+    solid: TriangleMesh, spec: LatticeSpec, points: float, struts: float
+) -> Forecast:
     triangles = TRIANGLES_PER_STRUT * struts + len(solid.triangles)
     bends = skin_bends(solid, spec)
     narrow = narrow_room(solid, spec)
@@ -295,11 +260,11 @@ def forecast_block(spec: LatticeSpec, count: Sequence[int], *, streamed: bool = 
     layers = np.asarray(count, np.float64)
     cells = float(layers.prod())
     # Outside the block there is nobody to share a strut with.
-    shares = _shares_of(spec, 0.5 * (1.0 + 1.0 / layers))
-    triangles = cells * _triangles_of_cell(spec, shares)
+    shares = spec.kind.strut_shares(0.5 * (1.0 + 1.0 / layers))
+    triangles = cells * spec.kind.triangles_of_cell(shares)
     in_pieces = streamed and not spec.is_graded
     seconds = SECONDS + SECONDS_PER_BLOCK_TRIANGLE * triangles * (0.5 if in_pieces else 1.0)
-    seconds += meshing_seconds(spec, float(np.minimum(layers, 2.0).prod()))
+    seconds += spec.kind.meshing_seconds(float(np.minimum(layers, 2.0).prod()))
     if in_pieces:
         per_triangle = BYTES_PER_STREAMED_CELL * cells / triangles
     else:
@@ -307,136 +272,9 @@ def forecast_block(spec: LatticeSpec, count: Sequence[int], *, streamed: bool = 
     return _forecast(cells, shares, triangles, per_triangle, seconds)
 
 
-def meshing_seconds(spec: LatticeSpec, sets: float) -> float:
-    """What octants take to be meshed that are of no library cell, s.
-
-    0 for those of the library, and for cells with mirrors whose struts meet at nodes only.
-
-    Args:
-        spec: the lattice.
-        sets: how many different sets of a cell's eight octants there are.
-    """
-    if spec.surface is not None or spec.network is not None:
-        return 0.0
-    cell, radius = spec.unit_cell(), spec.template_radius / spec.cell_size
-    if LIBRARY.get(cell.name) == cell or (
-        cell.is_mirror_symmetric and not crossing_struts(cell, radius)
-    ):
-        return 0.0
-    ends = cell.nodes[cell.struts]
-    lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
-    # So much of a surface is bare where solids lie anywhere in each other (Boolean model).
-    bare = max(float(np.exp(-np.pi * radius**2 * lengths.sum())), LEAST_BARE)
-    facets = bare * _triangles_of_cell(spec, _shares_of(spec))
-    steps = 0.5 * max(spec.facets_along_cell, 1.0 / (0.75 * radius))
-    distances = 8.0 * steps**3 * len(lengths)
-    seconds = SECONDS_PER_OWN_TRIANGLE * facets + SECONDS_PER_DISTANCE * distances
-    return sets * seconds * (0.125 if cell.is_mirror_symmetric else 1.0)
-
-
-def refuse_crossing(spec: LatticeSpec) -> None:
-    """Refuse a cell of struts whose octants would take too long to mesh.
-
-    Raises:
-        VolfrepError: so they would.
-    """
-    seconds = meshing_seconds(spec, 1.0)
-    if seconds == 0.0:
-        return
-    cell = spec.unit_cell()
-    crossing = crossing_struts(cell, spec.template_radius / spec.cell_size)
-    if seconds <= LONGEST and crossing <= MOST_CROSSING:
-        return
-    if crossing > MOST_CROSSING:
-        why = f"run into each other beside their nodes at {crossing:,} places, of which"
-        why += f" {MOST_CROSSING:,} at most are meshed"
-    else:
-        why = f"would take about {duration(seconds)} to mesh in a single cell"
-    raise VolfrepError(
-        f"The {len(cell.struts):,} struts of the cell '{cell.name}' {why}: leave struts out, put "
-        "nodes where they cross, or choose thinner struts with a coarser resolution."
-    )
-
-
-@lru_cache(maxsize=16)
-def crossing_struts(cell: UnitCell, radius: float) -> int:
-    """How many pairs of a cell's struts of a radius, in units of L, meet beside their nodes."""
-    ends = cell.nodes[cell.struts]
-    start, way = ends[:, 0], ends[:, 1] - ends[:, 0]
-    count = 0
-    for k in range(len(ends) - 1):
-        w, apart = way[k + 1 :], start[k + 1 :] - start[k]
-        # Nearest places of two lines, as shares of their lengths.
-        a, b, c = way[k] @ way[k], w @ way[k], (w * w).sum(axis=1)
-        d, e = apart @ way[k], (apart * w).sum(axis=1)
-        determinant = a * c - b * b
-        skew = determinant > PARALLEL * a * c
-        with np.errstate(divide="ignore", invalid="ignore"):
-            t, u = (d * c - b * e) / determinant, (d * b - a * e) / determinant
-        inside = skew & (t > 0.0) & (t < 1.0) & (u > 0.0) & (u < 1.0)
-        gap = apart[inside] + u[inside, None] * w[inside] - t[inside, None] * way[k]
-        joined = (cell.struts[k + 1 :, :, None] == cell.struts[k]).any(axis=(1, 2))[inside]
-        count += int(((np.linalg.norm(gap, axis=1) < 2.0 * radius) & ~joined).sum())
-    return count
-
-
 def expected_triangles(spec: LatticeSpec, volume: float) -> float:
     """Triangles of the lattice in a volume of mm3, about."""
-    return volume / cell_volume(spec) * _triangles_of_cell(spec, _shares_of(spec))
-
-
-def _shares_of(spec: LatticeSpec, on_face: Floats | float = 0.5) -> Floats:
-    """`strut_shares` of a lattice; of walls, which have no struts, nothing."""
-    return strut_shares(spec.unit_cell(), on_face) if spec.surface is None else np.zeros(0)
-
-
-def _triangles_of_cell(spec: LatticeSpec, shares: Floats) -> float:
-    if spec.surface is not None:
-        return TRIANGLES_OF_SIDE * (1 + spec.wall.is_sheet) * spec.facets_along_cell**2
-    return float(_facets(spec) @ shares)
-
-
-def _facets(spec: LatticeSpec) -> Floats:
-    """(m,) equilateral facets on the surface of each strut of a cell, between its joints."""
-    cell, radius = spec.unit_cell(), spec.template_radius
-    ends = cell.nodes[cell.struts]
-    length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1) * spec.cell_size
-    bare = np.maximum(length - _buried(cell) * radius, SHORTEST_BARE * length)
-    edge = min(spec.cell_size / spec.facets_along_cell, LONGEST_EDGE * radius)
-    around = 2.0 * np.pi * radius / (np.sqrt(3.0) / 4.0 * edge**2)
-    facets: Floats = IN_CREASES * around * bare
-    return facets
-
-
-def _buried(cell: UnitCell) -> Floats:
-    """(m,) so many radii of each strut lie in others that it meets, at both ends together.
-
-    Two struts part where their distance from the node is r / tan(angle / 2).
-    """
-    ends = cell.nodes[cell.struts]
-    way = ends[:, 1] - ends[:, 0]
-    way /= np.linalg.norm(way, axis=1)[:, None]
-    leaving = np.concatenate([way, -way])
-    # A node of one face is the same as that of the opposite one.
-    node = np.round(np.mod(ends.swapaxes(0, 1).reshape(-1, 3) + 1e-9, 1.0), 6)
-    alike = (node[:, None] == node[None]).all(axis=2)
-    cosine = np.where(alike, leaving @ leaving.T, -1.0)
-    cosine[cosine > 1.0 - 1e-9] = -1.0  # itself, and its copies
-    nearest = cosine.max(axis=1)
-    buried = np.minimum(BURIED, np.sqrt((1.0 + nearest) / (1.0 - nearest)))
-    both: Floats = buried[: len(way)] + buried[len(way) :]
-    return both
-
-
-def strut_shares(cell: UnitCell, on_face: Floats | float = 0.5) -> Floats:
-    """(m,) how much of each strut belongs to one cell: others share it on a face or an edge.
-
-    `on_face` is the share of what lies on a face across x, y and z.
-    """
-    ends = cell.nodes[cell.struts]
-    lies = (np.abs(ends - np.round(ends)) < 1e-9).all(axis=1) & (ends[:, 0] == ends[:, 1])
-    shares: Floats = np.where(lies, on_face, 1.0).prod(axis=1)
-    return shares
+    return volume / cell_volume(spec) * spec.kind.triangles_of_cell(spec.kind.strut_shares())
 
 
 def cell_volume(spec: LatticeSpec) -> float:
@@ -459,17 +297,3 @@ def _forecast(
         stl_mb=STL_BYTES * triangles / 1e6,
         seconds=seconds,
     )
-
-
-def _rounded(value: float) -> str:
-    """Two significant figures, written out."""
-    return f"{float(f'{value:.2g}'):,.15g}"
-
-
-def duration(seconds: float) -> str:
-    """A time in s, min or h, to two figures."""
-    if seconds < 90.0:
-        return f"{_rounded(max(1.0, seconds))} s"
-    if seconds < 5400.0:
-        return f"{_rounded(seconds / 60.0)} min"
-    return f"{_rounded(seconds / 3600.0)} h"

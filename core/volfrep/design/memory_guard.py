@@ -133,7 +133,7 @@ def _what_fits(spec: LatticeSpec, excess: float, count: Sequence[int] | None) ->
     if count is not None:
         cells = smaller_block(count, excess)
     facets = int(spec.facets_along_cell / excess**0.5)
-    if facets < spec.coarsest_resolution:
+    if facets < spec.kind.coarsest_resolution:
         return f"{cells} would fit"
     if spec.resolution is not None:
         return f"a resolution of {facets}, or {cells}, would fit"

@@ -32,17 +32,24 @@ class Sizes:
     strut_radii: Range
 
 
-def sizes(cells: CellGrid, active: Bools, mapping: CoordinateMap | None, frame: Wireframe) -> Sizes:
+def sizes(
+    cell_size: float,
+    cells: CellGrid | None,
+    active: Bools | None,
+    mapping: CoordinateMap | None,
+    frame: Wireframe,
+) -> Sizes:
     """The sizes of a lattice.
 
     Args:
-        cells: the grid.
-        active: (nx, ny, nz) bool, the cells that hold a lattice; at least one.
+        cell_size: L, mm.
+        cells: the grid; None: the lattice has no cells.
+        active: (nx, ny, nz) bool, those that hold a lattice; at least one.
         mapping: from lattice space to the part; None where they are the same.
         frame: the struts of the active cells, in the part; walls have none, of size 0.
     """
-    edges = (cells.cell_size, cells.cell_size)
-    if mapping is not None and not mapping.is_rigid:
+    edges = (cell_size, cell_size)
+    if cells is not None and active is not None and not (mapping is None or mapping.is_rigid):
         edges = _cell_edges(cells, active, mapping)
     span = frame.nodes[frame.struts[:, 1]] - frame.nodes[frame.struts[:, 0]]
     return Sizes(edges, _range(np.linalg.norm(span, axis=1)), _range(frame.radii))

@@ -53,6 +53,10 @@ class Wireframe(Graph):
     joint_radii: Floats
 
 
+#: The struts of what has none.
+NO_STRUTS = Wireframe(np.zeros((0, 3)), np.zeros((0, 2), np.int32), np.zeros((0, 2)), np.zeros(0))
+
+
 @dataclass(frozen=True, eq=False)
 class CellGraph(Graph):
     """A graph in lattice space, and which of its nodes is which of a cell's.

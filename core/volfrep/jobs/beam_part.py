@@ -20,7 +20,7 @@ from ..trim.clip_struts import Clipped
 from ..util.cache import StageCache
 from ..util.progress import Monitor, ProgressCallback
 from .blocks import block_wireframe
-from .targets import infill_of
+from .infill import Infill
 
 
 def beam_model(
@@ -36,7 +36,7 @@ def beam_model(
         VolfrepError: as `fill`; or there are fillets, or no lattice (the output ``domain``).
         Cancelled: the callback said so.
     """
-    return infill_of(solid, spec, progress=progress, cache=cache).beams
+    return Infill(solid, spec, progress=progress, cache=cache).beams
 
 
 def clipped_infill(
@@ -52,7 +52,7 @@ def clipped_infill(
         VolfrepError: the specification does not fit the solid, or no strut lies inside.
         Cancelled: the callback said so.
     """
-    return infill_of(solid, spec, progress=progress, cache=cache).axes
+    return Infill(solid, spec, progress=progress, cache=cache).axes
 
 
 def exact_struts(
@@ -68,7 +68,7 @@ def exact_struts(
         VolfrepError: the specification does not fit the solid.
         Cancelled: the callback said so.
     """
-    infill = infill_of(solid, spec, progress=progress, cache=cache)
+    infill = Infill(solid, spec, progress=progress, cache=cache)
     return infill.lattice_beams.lattice, infill.cavity if spec.is_cut else None
 
 
@@ -114,7 +114,7 @@ def struts_and_cavity(
         VolfrepError: the specification does not fit the solid.
         Cancelled: the callback said so.
     """
-    infill = infill_of(solid, spec, progress=progress, cache=cache)
+    infill = Infill(solid, spec, progress=progress, cache=cache)
     return infill.struts, infill.cavity
 
 

@@ -8,10 +8,8 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ..design.graphs import StretchedCells
 from ..design.memory_guard import cells_are_full, refuse_memory
 from ..design.spec import LatticeSpec
-from ..design.spec_parts import Skin
 from ..grid.strut_graph import Wireframe
 from ..mesh.triangle_mesh import TriangleMesh
 from ..octants.octant import Octant, OctantGrid, OctantKey
@@ -60,20 +58,6 @@ def refuse_solid_cells(octants: dict[OctantKey, Octant], spec: OctantSpec) -> No
         raise cells_are_full(spec.cell_size, spec.strut_radius)
 
 
-def refuse_no_domain(domain: TriangleMesh, shell: float, skin: Skin | None) -> None:
-    """Raise a `VolfrepError` where a skin of a thickness in mm leaves nothing to fill."""
-    if not len(domain.triangles):
-        if skin is not None and not skin.is_even:
-            raise VolfrepError(
-                "The skin and what is kept solid leave nothing to fill: reduce the shell "
-                "thickness, that of faces with their own, or what is kept solid."
-            )
-        raise VolfrepError(
-            f"The part is nowhere thicker than two walls of {shell:g} mm, so that nothing is left "
-            "to fill: reduce the shell thickness."
-        )
-
-
 def refuse_no_cells(active: Bools, cell_size: float, rule: str) -> None:
     """Raise a `VolfrepError` where no cell is active."""
     if not active.any():
@@ -93,23 +77,9 @@ def refuse_no_struts(frame: Wireframe) -> None:
         )
 
 
-def refuse_other_struts(solid: TriangleMesh, spec: LatticeSpec, *, is_of_cells: bool) -> None:
-    """Raise a `VolfrepError` where a cell is larger than the part, or a job knows struts only.
-
-    `is_of_cells` tells one that knows the struts of cells only.
-    """
-    if spec.network is not None:
-        if is_of_cells and isinstance(spec.network, StretchedCells):
-            raise VolfrepError(
-                "This is done with cells that are cubes with struts of one radius, which "
-                f"'{spec.unit_cell().name}' is not: choose another cell."
-            )
-        if is_of_cells:
-            raise VolfrepError("This is done with cells and not with a network: leave it out.")
-        return
-    if is_of_cells:
-        spec.unit_cell()
-    cell_size, size = spec.cell_size, solid.bounds[1] - solid.bounds[0]
+def refuse_large_cells(solid: TriangleMesh, cell_size: float) -> None:
+    """Raise a `VolfrepError` where a cell of a size in mm is larger than the part."""
+    size = solid.bounds[1] - solid.bounds[0]
     if cell_size > size.max():
         raise VolfrepError(
             f"Cells of {cell_size:g} mm are larger than the part, which measures "

@@ -12,7 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..design.cells import LIBRARY
+from ..design.cells import LIBRARY, UnitCell
 from ..design.memory_guard import refuse_cells
 from ..design.spec import LatticeSpec
 from ..grid.activation import make_grid, mapped_grid
@@ -27,8 +27,7 @@ from ..trim.kept_struts import largest
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
-from .graphs.frame import graph_struts, graph_volume
-from .graphs.radius import with_radius
+from .kinds.graphs import graph_struts, graph_volume, with_radius
 from .part_depth import PartDepth, Preview
 from .rough_radius import lattice_volume, radius_of_target
 from .tpms.preview import preview_tpms
@@ -70,12 +69,12 @@ def preview(solid: TriangleMesh, spec: LatticeSpec, depth: PartDepth) -> Preview
         grid = mapped_grid(solid, placement.mapping, spec.cell_size, spec.origin, Monitor())
     refuse_cells(grid.cells, grid.cell_size)
     least = LEAST_WIDTH_STRETCHED
-    if spec.surface is None:
+    if isinstance(spec.cell, UnitCell):
         least = least_width(spec.unit_cell(), grid.cell_size, spec.struts)
     usable = padded_grid(grid, placement.mapping, least).inner_usable
     active, cells = _active(grid, spec, placement.mapping, depth, usable)
     lines = _edges(active, spec, grid, placement.mapping)
-    if spec.surface is not None:
+    if not isinstance(spec.cell, UnitCell):
         return preview_tpms(solid, spec, depth, placement, grid, usable, cells, lines)
     cell = spec.unit_cell()
     if int(active.sum()) * len(cell.struts) > MOST_STRUTS:

@@ -12,7 +12,8 @@ from functools import lru_cache
 import numpy as np
 
 from ..design.cells import UnitCell
-from ..design.forecast import LEAST_INSIDE, cell_volume, strut_shares
+from ..design.forecast import LEAST_INSIDE, cell_volume
+from ..design.kinds.strut_cells import strut_shares
 from ..design.spec import LatticeSpec
 from ..design.spec_parts import MAX_RESOLUTION, largest_radius
 from ..design.target import volume_out_of_reach
@@ -104,7 +105,7 @@ def solve_target_roughly(solid: TriangleMesh, spec: LatticeSpec) -> LatticeSpec:
     """
     if spec.target is None or spec.output == "domain":
         return spec
-    if spec.surface is not None or spec.network is not None:
+    if not isinstance(spec.cell, UnitCell) or spec.network is not None:
         return spec
     whole = abs(solid.volume)
     # Exact for long prisms about a circle; others measured within 2 % of the volume.

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..design.spec import LatticeSpec
 from ..grid.placement import graded_wireframe
-from ..grid.strut_graph import Wireframe, cell_graph
+from ..grid.strut_graph import NO_STRUTS, Wireframe, cell_graph
 from ..io.write.layer_files import CLI_END, cli_header, cli_layer, png, svg
 from ..io.write.layer_folder import replacing_layers
 from ..mesh.triangle_mesh import TriangleMesh, box_of
@@ -25,6 +25,7 @@ from ..util.cache import StageCache
 from ..util.errors import VolfrepError
 from ..util.numbers import number
 from ..util.progress import ProgressCallback
+from .active_cells import ActiveCells
 from .infill import Infill
 from .targets import solve_target
 
@@ -203,12 +204,13 @@ def _parts(infill: Infill) -> tuple[SolidParts, tuple[str, ...]]:
     """What a filled part consists of, and what is to be told of it."""
     spec, solid = infill.spec, infill.solid
     if spec.output == "domain":
-        return SolidParts(whole(_NOTHING), None, infill.cavity, solid.bounds), infill.warnings
+        return SolidParts(whole(NO_STRUTS), None, infill.cavity, solid.bounds), infill.warnings
     mapping = infill.placement.mapping
     is_straight = mapping is None or mapping.is_rigid
-    is_large = int(infill.cells.active.sum()) > MOST_WHOLE
-    if is_large and is_straight and spec.drains is None and infill.pruned is None:
-        return _in_slabs(infill)
+    cells = infill.cells
+    is_large = cells is not None and int(cells.active.sum()) > MOST_WHOLE
+    if cells and is_large and is_straight and spec.drains is None and infill.pruned is None:
+        return _in_slabs(infill, cells)
     beams = infill.beams
     bounds = solid.bounds
     if beams.clip is None:
@@ -218,9 +220,9 @@ def _parts(infill: Infill) -> tuple[SolidParts, tuple[str, ...]]:
     return SolidParts(whole(beams.lattice), beams.clip, beams.skin, bounds), beams.warnings
 
 
-def _in_slabs(infill: Infill) -> tuple[SolidParts, tuple[str, ...]]:
+def _in_slabs(infill: Infill, cells: ActiveCells) -> tuple[SolidParts, tuple[str, ...]]:
     """The same of a lattice too large to be held as a whole: its struts come slab by slab."""
-    spec, solid, cells = infill.spec, infill.solid, infill.cells
+    spec, solid = infill.spec, infill.solid
     cell, grid, placement = spec.unit_cell(), cells.padded.cells, infill.placement
     size = spec.cell_size
     index = np.argwhere(cells.active)
@@ -233,7 +235,7 @@ def _in_slabs(infill: Infill) -> tuple[SolidParts, tuple[str, ...]]:
     def between(bottom: float, top: float) -> Wireframe:
         near = index[(height > bottom - reach) & (height < top + reach)]
         if not len(near):
-            return _NOTHING
+            return NO_STRUTS
         low = near.min(axis=0)
         some = np.zeros(near.max(axis=0) - low + 1, bool)
         some[tuple((near - low).T)] = True
@@ -250,6 +252,3 @@ def _in_slabs(infill: Infill) -> tuple[SolidParts, tuple[str, ...]]:
         "was left out because it hangs on nothing.",
     )
     return SolidParts(between, clip, wall, solid.bounds), infill.warnings + note
-
-
-_NOTHING = Wireframe(np.zeros((0, 3)), np.zeros((0, 2), np.int32), np.zeros((0, 2)), np.zeros(0))

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..design.cells import UnitCell, find_cell
-from ..design.forecast import MOST_CROSSING, crossing_struts
+from ..design.kinds.strut_cells import MOST_CROSSING, crossing_struts
 from ..design.spec_parts import Grid, Struts
 from ..design.tpms import TpmsSheet
 from ..util.errors import VolfrepError

@@ -28,7 +28,7 @@ class BeamDeckWriter(Writer):
         """As of `Writer`."""
         spec, axes = source.spec, source.axes
         frame = axes.wireframe
-        model, warnings = fitted_beams(frame, axes.on_wall, spec.fitted_cell, spec.cell_size)
+        model, warnings = fitted_beams(frame, axes.on_wall, spec.kind.cube, spec.cell_size)
         settings.tell(estimate_beams(model, source.choice))
         write_beams(model, path, settings.material, on_wall=axes.on_wall)
         warnings = axes.warnings + warnings + deformed_struts(spec.grid, spec.struts)

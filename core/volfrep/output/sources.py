@@ -272,7 +272,7 @@ class FreeGraph(Free):
     @cached_property
     def result(self) -> Result:
         """The mesh and its figures."""
-        from ..jobs.graphs.free_space import mesh_graph_alone
+        from ..jobs.kinds.graphs import mesh_graph_alone
 
         return mesh_graph_alone(self.spec, progress=self._progress)
 
@@ -288,7 +288,7 @@ class FreeGraph(Free):
 
     @property
     def _wireframe(self) -> Wireframe:
-        from ..jobs.graphs.free_space import frame_alone
+        from ..jobs.kinds.graphs import frame_alone
 
         return frame_alone(self.spec)[0]
 

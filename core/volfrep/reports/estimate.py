@@ -82,7 +82,7 @@ class ExportChoice:
         """The setting with so many times fewer facets, or else fewer struts."""
         # Triangles go with the square of the facets along L, but for those along a wall.
         fits = self.spec.facets_along_cell / np.sqrt(excess)
-        coarsest = self.spec.coarsest_resolution
+        coarsest = self.spec.kind.coarsest_resolution
         if fits >= coarsest:
             return f"a resolution of {max(int(fits / np.sqrt(SURE)), coarsest)}"
         return self.fewer(excess)

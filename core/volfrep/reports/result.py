@@ -56,8 +56,8 @@ class Result:
 def report_of(
     measured: Quality,
     frame: Wireframe,
-    cells: CellGrid,
-    active: NDArray[np.bool_],
+    cells: CellGrid | None,
+    active: NDArray[np.bool_] | None,
     placement: Placement,
     spec: LatticeSpec,
     monitor: Monitor,
@@ -72,8 +72,8 @@ def report_of(
     Args:
         measured: of the mesh that is handed out.
         frame: the struts of the active cells, in the part.
-        cells: the grid.
-        active: (nx, ny, nz) bool, the cells that hold a lattice.
+        cells: the grid; None: the lattice has no cells.
+        active: (nx, ny, nz) bool, those that hold a lattice.
         placement: of the lattice in the part.
         spec: what was wanted.
         monitor: of the run.
@@ -82,11 +82,11 @@ def report_of(
         warnings: sentences for the user.
         removed: the figures named in `NOTHING_REMOVED`.
     """
-    size = sizes(cells, active, placement.mapping, frame)
+    size = sizes(spec.cell_size, cells, active, placement.mapping, frame)
     return Report(
-        cells_total=cells.cells,
-        cells_active=int(active.sum()),
-        grid=cells.shape,
+        cells_total=0 if cells is None else cells.cells,
+        cells_active=0 if active is None else int(active.sum()),
+        grid=(0, 0, 0) if cells is None else cells.shape,
         nodes=len(frame.nodes),
         struts=len(frame.struts),
         cell_edges_mm=size.cell_edges,

@@ -125,3 +125,17 @@ def number_rows(
     if not np.isfinite(rows).all():
         raise VolfrepError(f"In the {where}, a {noun} holds a number that is not finite.")
     return rows
+
+
+def round_off(value: float) -> str:
+    """Two significant figures, written out."""
+    return f"{float(f'{value:.2g}'):,.15g}"
+
+
+def duration(seconds: float) -> str:
+    """A time in s, min or h, to two figures."""
+    if seconds < 90.0:
+        return f"{round_off(max(1.0, seconds))} s"
+    if seconds < 5400.0:
+        return f"{round_off(seconds / 60.0)} min"
+    return f"{round_off(seconds / 3600.0)} h"

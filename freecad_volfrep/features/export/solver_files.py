@@ -293,7 +293,7 @@ def beams_of(obj: App.DocumentObject, **options: Any) -> tuple[BeamMesh, np.ndar
     spec = inputs_of(obj)[1]
     call = Call(
         fitted_beams,
-        (clipped.wireframe, clipped.on_wall, spec.fitted_cell, spec.cell_size),
+        (clipped.wireframe, clipped.on_wall, spec.kind.cube, spec.cell_size),
         options,
         has_progress=False,
     )

@@ -14,7 +14,7 @@ import samples
 from volfrep import LatticeSpec
 from volfrep.cli.command import run
 from volfrep.design.cells import find_cell
-from volfrep.design.forecast import crossing_struts
+from volfrep.design.kinds.strut_cells import crossing_struts
 from volfrep.io.write.stl import write_stl
 from volfrep.jobs import blocks
 from volfrep.mechanics import homogenise

@@ -77,7 +77,9 @@ def test_resolution_and_deviation() -> None:
     assert LatticeSpec(resolution=30).facets_along_cell == 30
     # Facets of edge e stray by e2 / (16 r): e = 10 / 20 gives 1 / 64.
     assert LatticeSpec(deviation=1 / 64).facets_along_cell == 20
-    assert LatticeSpec(deviation=100).facets_along_cell == LatticeSpec().coarsest_resolution == 10
+    assert (
+        LatticeSpec(deviation=100).facets_along_cell == LatticeSpec().kind.coarsest_resolution == 10
+    )
     assert LatticeSpec().facets_along_cell < LatticeSpec(deviation=0.005).facets_along_cell
 
 

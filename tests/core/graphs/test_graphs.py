@@ -19,8 +19,8 @@ from volfrep.design.profile import Profile
 from volfrep.graphs.random_graph import merge_short_struts, without_narrow
 from volfrep.io.write.stl import as_read
 from volfrep.io.write.threemf import write_3mf_beams
-from volfrep.jobs.graphs.free_space import mesh_graph_alone
-from volfrep.jobs.targets import infill_of
+from volfrep.jobs.infill import Infill
+from volfrep.jobs.kinds.graphs import mesh_graph_alone
 from volfrep.mesh.quality import measure
 from volfrep.trim.beam_model import BeamModel
 
@@ -127,7 +127,7 @@ def random_spec(**more):
 @pytest.mark.parametrize("kind", ["voronoi", "delaunay"])
 def test_a_random_network_in_a_part_with_a_skin_is_one_body(kind):
     solid = samples.bracket(17.0)
-    infill = infill_of(solid, random_spec(kind=kind), cache=_stages)
+    infill = Infill(solid, random_spec(kind=kind), cache=_stages)
     report, read = infill.part.report, measure(as_read(infill.part.mesh))
     assert read.watertight
     assert read.bodies == report.bodies == 1
@@ -147,7 +147,7 @@ def test_a_random_network_in_a_part_with_a_skin_is_one_body(kind):
 def test_two_thousand_points_in_a_part_with_a_skin_are_one_body():
     solid = samples.bracket(17.0)
     wanted = RandomGraph(points=2000)
-    made = infill_of(solid, LatticeSpec(strut_radius=0.25, shell=1.5, network=wanted)).part
+    made = Infill(solid, LatticeSpec(strut_radius=0.25, shell=1.5, network=wanted)).part
     read = measure(as_read(made.mesh))
     assert read.watertight
     assert read.degenerate_triangles == 0
@@ -158,7 +158,7 @@ def test_the_same_seed_gives_the_same_network():
     solid = samples.box()
 
     def nodes(**more):
-        return infill_of(solid, random_spec(**more), cache=_stages).struts.nodes
+        return Infill(solid, random_spec(**more), cache=_stages).struts.nodes
 
     np.testing.assert_array_equal(nodes(), nodes())
     assert not np.array_equal(nodes(), nodes(seed=2))
@@ -172,7 +172,7 @@ def test_points_may_be_denser_at_the_wall():
             strut_radius=0.3, shell=0.0,
             network=RandomGraph(points=300, density=density, relax=0),
         )  # fmt: skip
-        nodes = infill_of(solid, spec).struts.nodes
+        nodes = Infill(solid, spec).struts.nodes
         inside = nodes[((nodes > 0) & (nodes < 30)).all(axis=1)]
         return (np.minimum(inside, 30 - inside).min(axis=1) < 5.0).mean()
 
@@ -189,7 +189,7 @@ def test_points_may_follow_a_field(tmp_path):
     }  # fmt: skip
     spec = specification(values)
     assert specification(values_of(spec)) == spec
-    nodes = infill_of(solid, spec).struts.nodes
+    nodes = Infill(solid, spec).struts.nodes
     inside = nodes[((nodes > 0) & (nodes < 30)).all(axis=1)]
     # Of a density that grows along x from almost nothing two thirds or more lie in one half.
     assert (inside[:, 0] > 15.0).mean() > 0.62
@@ -200,7 +200,7 @@ def test_points_may_follow_a_field(tmp_path):
 def test_struts_along_the_wall_lie_on_it_and_hold_what_ends_there():
     solid = samples.box((30.0, 24.0, 20.0))
     wanted = {"strut_radius": 0.4, "shell": 0.0}
-    infill = infill_of(solid, LatticeSpec(network=RandomGraph(points=60, on_wall=True), **wanted))
+    infill = Infill(solid, LatticeSpec(network=RandomGraph(points=60, on_wall=True), **wanted))
     nodes, struts = infill.struts.nodes, infill.struts.struts
     size = np.array([30.0, 24.0, 20.0])
     from_wall = np.minimum(nodes, size - nodes).min(axis=1)
@@ -211,7 +211,7 @@ def test_struts_along_the_wall_lie_on_it_and_hold_what_ends_there():
     held = np.bincount(struts[along].ravel(), minlength=len(nodes))[on_wall]
     assert (held >= 2).mean() > 0.9  # a Voronoi edge ends where three faces meet
     report = infill.lattice.report
-    plain = infill_of(solid, LatticeSpec(network=RandomGraph(points=60), **wanted)).lattice.report
+    plain = Infill(solid, LatticeSpec(network=RandomGraph(points=60), **wanted)).lattice.report
     assert report.bodies == 1
     assert report.volume_mm3 > plain.volume_mm3
     with pytest.raises(VolfrepError, match="choose voronoi"):
@@ -222,14 +222,12 @@ def test_a_given_network_is_trimmed_skinned_and_graded():
     frame = volfrep.block((3, 2, 2), cell="Kelvin", cell_size=10, strut_radius=0.6).struts
     network = make_network(frame.nodes, frame.struts)
     solid = samples.box((30.0, 20.0, 20.0))
-    plain = infill_of(solid, LatticeSpec(strut_radius=0.6, shell=1.5, network=network)).part
+    plain = Infill(solid, LatticeSpec(strut_radius=0.6, shell=1.5, network=network)).part
     assert measure(as_read(plain.mesh)).bodies == 1
     cells = volfrep.fill(solid, cell="Kelvin", cell_size=10, strut_radius=0.6, shell=1.5)
     assert plain.report.volume_mm3 == pytest.approx(cells.report.volume_mm3, rel=5e-3)
     thicker = RadiusGrading("direction", Profile("linear", 0.4, 0.9))
-    graded = infill_of(
-        solid, LatticeSpec(shell=0.0, radius_grading=thicker, network=network)
-    ).lattice
+    graded = Infill(solid, LatticeSpec(shell=0.0, radius_grading=thicker, network=network)).lattice
     read = measure(as_read(graded.mesh))
     assert read.watertight
     assert graded.report.strut_radii_mm == pytest.approx((0.4, 0.9), abs=0.02)

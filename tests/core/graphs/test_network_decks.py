@@ -15,9 +15,9 @@ from volfrep.design.grading import Orientation
 from volfrep.design.graphs import RandomGraph, make_network
 from volfrep.fem.beam_mesh import JOINT_LENGTH, fitted_beams
 from volfrep.io.solid import check_solid
-from volfrep.jobs.graphs.free_space import frame_alone
+from volfrep.jobs.infill import Infill
+from volfrep.jobs.kinds.graphs import frame_alone
 from volfrep.jobs.sizing import Goal, size
-from volfrep.jobs.targets import infill_of
 from volfrep.loads.load_file import read_load_cases
 from volfrep.mesh.triangle_mesh import TriangleMesh
 
@@ -90,7 +90,7 @@ def test_a_voronoi_network_sized_for_a_load_is_stiffer_and_stays_the_same_graph(
     assert made.sized.analysis.compliance.sum() < 0.95 * made.before.compliance.sum()
     assert made.radii.max() <= 0.8 + 1e-6  # no more than twice the radius that was asked for
     # Thicker struts do not move what short ones are drawn together to.
-    again = infill_of(solid, made.spec).struts
+    again = Infill(solid, made.spec).struts
     np.testing.assert_array_equal(again.struts, made.model.wireframe.struts)
     placed = np.zeros(len(made.radii))
     placed[again.struts] = again.radii
@@ -115,7 +115,7 @@ def test_a_graph_is_moved_by_its_origin_and_turned_about_a_point():
     frame, _ = frame_alone(spec)
     wanted = [[0, 5, 0], [0, 17, 0], [-12, 5, 0], [0, 5, 12]]
     np.testing.assert_allclose(frame.nodes, wanted, atol=1e-9)
-    inside = infill_of(cube(), LatticeSpec(
+    inside = Infill(cube(), LatticeSpec(
         strut_radius=0.5, shell=1, network=network, origin=(-4, -4, -4),
         orientation=Orientation((0, 0, 1), 90.0, (-4.0, -4.0, -4.0)),
     ))  # fmt: skip
@@ -126,7 +126,7 @@ def test_cells_of_any_box_are_turned_and_still_cover_the_part():
     corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
     cell = make_cell("flat", corners, [(0, 1), (0, 2), (0, 3)], edges=(1, 1, 0.5))
     turn = Orientation((0, 0, 1), 30.0)
-    infill = infill_of(cube(), LatticeSpec(cell, 5, 0.4, 1.0, orientation=turn))
+    infill = Infill(cube(), LatticeSpec(cell, 5, 0.4, 1.0, orientation=turn))
     nodes = infill.struts.nodes
     assert (nodes.max(axis=0) > 8.99).all()
     assert (nodes.min(axis=0) < -8.99).all()

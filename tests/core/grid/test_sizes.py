@@ -18,7 +18,13 @@ def sizes_of(shape, active=None, **options):
     cells, placement = block_placement(spec.grid, shape)
     active = np.ones(shape, bool) if active is None else active
     graph = cell_graph(find_cell("Box"), active, 10.0, cells.origin, cells.periodic)
-    return sizes(cells, active, placement.mapping, graded_wireframe(graph, spec.struts, placement))
+    return sizes(
+        spec.cell_size,
+        cells,
+        active,
+        placement.mapping,
+        graded_wireframe(graph, spec.struts, placement),
+    )
 
 
 def test_equal_cells_are_as_asked_for():

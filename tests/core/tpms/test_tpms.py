@@ -23,7 +23,7 @@ from volfrep.design.tpms import SURFACES, PeriodicSurface, TpmsSheet
 from volfrep.io.solid import check_solid
 from volfrep.io.write.stl import as_read
 from volfrep.jobs.blocks import block, write_block_stl
-from volfrep.jobs.targets import infill_of
+from volfrep.jobs.infill import Infill
 from volfrep.lattice.assembly import lay, lay_out
 from volfrep.lattice.certificate import agree_on_faces, certify
 from volfrep.mesh.quality import measure
@@ -312,7 +312,7 @@ def test_what_is_of_struts_is_refused(settings, said) -> None:
 
 
 def test_walls_are_not_beams() -> None:
-    infill = infill_of(check_solid(samples.box(), "box"), LatticeSpec("Gyroid", SIZE))
+    infill = Infill(check_solid(samples.box(), "box"), LatticeSpec("Gyroid", SIZE))
     for stage in ("beams", "axes", "lattice_beams"):
         with pytest.raises(VolfrepError, match="no struts"):
             getattr(infill, stage)

@@ -98,11 +98,11 @@ def point_values(
         return _in_range(values_in_space(solid, spec, quantity, points))
     if spec.surface is not None:
         raise VolfrepError(f"Walls have no struts to colour by '{quantity}'.")
+    from ..infill import Infill
     from ..sizing import solve_struts
-    from ..targets import infill_of
 
     if quantity == "Radius":
-        frame = infill_of(solid, spec, progress=progress, cache=cache).struts
+        frame = Infill(solid, spec, progress=progress, cache=cache).struts
         ends, values, lowest = frame.nodes[frame.struts], frame.radii, None
     elif carried is not None:
         (ends, values), lowest = carried, 0.0

@@ -21,9 +21,8 @@ from ...spatial.proximity import closest_points
 from ...util.cache import StageCache
 from ...util.errors import VolfrepError
 from ...util.types import Floats
-from ..graphs.frame import median_length
-from ..graphs.radius import THICKEST
 from ..infill import Infill
+from ..kinds.graphs import THICKEST, median_length
 from .goal import Goal
 
 #: Edges of the skin's triangles over the cell size, and over its thickness at least.
@@ -66,7 +65,7 @@ def part_model(
     if spec.radius_grading is not None:
         # Which ends at a wall are too short for a beam goes by the radius: those of the
         # specification's own, so that a design is solved as it was sized.
-        plain = type(infill)(
+        plain = Infill(
             infill.solid, replace(spec, radius_grading=None, remove_below=0.0),
             monitor=infill.monitor, cache=cache,
         )  # fmt: skip
@@ -103,7 +102,7 @@ def part_model(
                 infill.monitor, held=held_facets(infill.solid, loads.cases),
             )  # fmt: skip
     model = sizing_model(
-        wireframe, clipped, spec.fitted_cell, length, material, loads.cases,
+        wireframe, clipped, spec.kind.cube, length, material, loads.cases,
         bounds=(least, most), borne=borne, skin=skin, solid=infill.solid,
         domain=infill.domain.mesh if infill.placement.is_cut else None, stays=infill.staying,
     )  # fmt: skip

@@ -27,9 +27,9 @@ from ...util.errors import Cancelled, VolfrepError
 from ...util.files import replacing
 from ...util.progress import Monitor, ProgressCallback
 from ...util.types import Floats
-from ..graphs.frame import fixed_graph
 from ..infill import Infill
-from ..targets import infill_of, solve_target
+from ..kinds.graphs import fixed_graph
+from ..targets import solve_target
 from .goal import Goal
 from .notes import (
     free_motions,
@@ -199,7 +199,7 @@ def _prepare(
     notes: list[str] = []
     spec = _without_target(solid, spec, goal, cache, progress, notes)
     spec = replace(fixed_graph(spec), remove_below=0.0)  # all are sized; which go is decided anew
-    infill = infill_of(solid, spec, monitor=monitor, cache=cache)
+    infill = Infill(solid, spec, monitor=monitor, cache=cache)
     model = part_model(infill, loads, goal, cache)
     first = np.clip(given_radii(model.wireframe), model.problem.low, model.problem.high)
     return _Task(infill, loads, goal, model, first, notes, monitor, cache)
@@ -247,7 +247,7 @@ def _notes_of(task: _Task, search: _Search) -> list[str]:
 def _prove(task: _Task, search: _Search, prove_it: bool) -> tuple[Sized, dict[str, Any] | None]:
     """The design as files keep it, held to its limits by CalculiX; and CalculiX's figures."""
     model, sized, limits, notes = search.model, search.sized, task.goal.limits, task.notes
-    cell, length = task.infill.spec.fitted_cell, spacing(task.infill)
+    cell, length = task.infill.spec.kind.cube, spacing(task.infill)
     problem = model.problem
     with _named(problem):
         final = _stored(problem, sized.analysis.radii, limits)
@@ -351,7 +351,7 @@ def solve_struts(
     """
     cache = cache or StageCache()
     spec = _without_target(solid, spec, Goal(), cache, progress, [])
-    infill = infill_of(solid, spec, monitor=Monitor(progress), cache=cache)
+    infill = Infill(solid, spec, monitor=Monitor(progress), cache=cache)
     frame = infill.struts
     radii = np.zeros(len(frame.nodes))
     radii[frame.struts] = frame.radii

@@ -3,8 +3,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from ...design.spec import LatticeSpec
@@ -38,6 +36,4 @@ def with_volume(
             f"{100 * share:.3g} % of their room; choose one for which they fill 2 to 98 %."
         )
     level = table.radius_of(wanted)
-    if spec.wall.is_sheet:
-        return replace(spec, wall=replace(spec.wall, thickness=2.0 * level))
-    return replace(spec, wall=replace(spec.wall, offset=level))
+    return spec.with_thickness(2.0 * level if spec.wall.is_sheet else level)

@@ -8,11 +8,11 @@ import math
 import numpy as np
 
 from ...design.grading import RadiusGrading
+from ...design.kinds.tpms import Tpms
 from ...design.spec import LatticeSpec
 from ...design.tpms import PeriodicSurface
 from ...grid.coordinate_map import identity_map
 from ...grid.placement import Placement
-from ...grid.strut_graph import CellGraph, Wireframe
 from ...lattice.assembly import Layout, coordinates
 from ...lattice.deform import Deformed
 from ...octants.octant import Octant, OctantKey
@@ -27,16 +27,21 @@ from ...util.types import Floats
 SIDE = 0.2
 
 
+def tpms_of(spec: LatticeSpec) -> Tpms:
+    """The walls that a specification is of."""
+    kind = spec.kind
+    assert isinstance(kind, Tpms)
+    return kind
+
+
 def surface_of(spec: LatticeSpec) -> PeriodicSurface:
     """The surface that the walls of a specification follow."""
-    surface = spec.surface
-    assert surface is not None
-    return surface
+    return tpms_of(spec).surface
 
 
 def tpms_meshing(spec: LatticeSpec) -> OctantSpec:
     """What the octants of walls are meshed for: half their thickness stands for a radius."""
-    least, most = spec.thicknesses
+    least, most = tpms_of(spec).thicknesses
     radius = 0.5 * math.sqrt(least * most) if spec.wall.is_sheet else SIDE * spec.cell_size
     return OctantSpec(spec.cell_size, radius, 0.0, spec.facets_along_cell)
 
@@ -79,16 +84,3 @@ def place_tpms(
 
     moved = deform_tpms(layout, solid_of(spec), levels, mapping, monitor)
     return Deformed(placement.nudged(moved.vertices), moved.excess)
-
-
-def no_struts() -> Wireframe:
-    """The struts of walls, of which there are none."""
-    none = np.zeros((0, 2))
-    return Wireframe(np.zeros((0, 3)), none.astype(np.int32), none, np.zeros(0))
-
-
-def no_graph() -> CellGraph:
-    """The graph of walls, which has neither nodes nor struts."""
-    none = np.zeros((0, 2), np.int32)
-    row = np.zeros((0, 0, 0), np.int32)
-    return CellGraph(np.zeros((0, 3)), none, row, none, np.zeros(3, np.int64))

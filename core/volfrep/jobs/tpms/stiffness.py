@@ -7,7 +7,6 @@ coarse grids until one is met, then on fine ones for what the coarse are off.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import lru_cache
 
 from ...design.spec import LatticeSpec
@@ -18,6 +17,7 @@ from ...mechanics.tensor import modulus_along
 from ...tpms.solid import TpmsSolid
 from ...util.search import Rising, make_until_met
 from ...util.types import Floats
+from .octants import surface_of
 from .properties import homogenise_tpms, usual_along
 from .symmetry import is_mirror_symmetric
 from .voxels import of_density, tpms_density
@@ -41,8 +41,7 @@ def solve_tpms_stiffness(spec: LatticeSpec, target: Target, *, rough: bool = Fal
     Raises:
         VolfrepError: no thickness gives it; the text says what can be had.
     """
-    assert spec.surface is not None
-    surface, kind = spec.surface, spec.wall.kind
+    surface, kind = surface_of(spec), spec.wall.kind
 
     def modulus(share: float, fineness: float) -> float:
         return modulus_along(_of_share(surface, kind, share, fineness), target)
@@ -65,9 +64,7 @@ def solve_tpms_stiffness(spec: LatticeSpec, target: Target, *, rough: bool = Fal
     enough, times = _CLOSE * target.value, 0 if rough else 1
     share = make_until_met(share_of, missing, target.value, enough=enough, times=times)
     level = spec.cell_size * _solid(surface, kind, share).level
-    if spec.wall.is_sheet:
-        return replace(spec, wall=replace(spec.wall, thickness=2.0 * level))
-    return replace(spec, wall=replace(spec.wall, offset=level))
+    return spec.with_thickness(2.0 * level if spec.wall.is_sheet else level)
 
 
 def tpms_modulus(spec: LatticeSpec, target: Target) -> float:
@@ -76,9 +73,7 @@ def tpms_modulus(spec: LatticeSpec, target: Target) -> float:
     Raises:
         VolfrepError: they carry no load.
     """
-    assert spec.surface is not None
-    tensor = _of_wall(spec.surface, spec.wall, spec.cell_size)
-    return modulus_along(tensor, target)
+    return modulus_along(_of_wall(surface_of(spec), spec.wall, spec.cell_size), target)
 
 
 @lru_cache(maxsize=64)

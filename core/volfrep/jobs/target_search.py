@@ -1,23 +1,21 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What a mesh lacks of its target, and what a report says of it."""
+"""The thickness of a target: volumes that are wanted, and meshes made until one has them."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
-from typing import TypeVar
+from dataclasses import dataclass
+from typing import Protocol, TypeVar
 
 from ..design.spec import LatticeSpec
 from ..design.target import Target
-from ..reports.report import Report, with_warnings
+from ..reports.report import Report
 
 #: A mesh that misses its target by more, relative, is made again; so many are made at most.
 CLOSE = 3e-3
 MESHES = 3
 #: A joint sphere's radius over the strut's is less: points farther away are never solid.
 REACH = 1.5
-#: What is promised: a part that misses its target by more, relative, says so.
-PROMISED = 5e-3
 
 
 @dataclass(frozen=True)
@@ -53,6 +51,19 @@ class WantedVolume:
         return (self.target.value - report.relative_density) * self.domain
 
 
+class TargetSearch(Protocol):
+    """Thicknesses of volumes, of a lattice whose nodes and cells are known."""
+
+    @property
+    def wanted(self) -> WantedVolume:
+        """The volume of the target."""
+        ...
+
+    def specification(self, volume: float) -> LatticeSpec:
+        """With the thickness for which the lattice has a volume in mm3, as far as is known."""
+        ...
+
+
 Made = TypeVar("Made")
 
 
@@ -79,37 +90,3 @@ def make_until_met(
         volume = volume + missing if volume + missing > 0.5 * volume else volume * less
         made = make(volume)
     return made
-
-
-def report_target(report: Report, spec: LatticeSpec) -> Report:
-    """A report that says, in `target`, what was aimed at, what was reached, and by what radius."""
-    target = spec.target
-    if target is None:
-        return report
-    size = spec.cell_size
-    if target.aim == "stiffness":
-        if spec.surface is not None:
-            from .tpms.stiffness import tpms_modulus  # slow to load, and every block loads this
-
-            reached = tpms_modulus(spec, target)
-        else:
-            from .stiffness_target import modulus
-
-            ratio, fillet = spec.strut_radius / size, spec.fillet / size
-            reached = modulus(spec.unit_cell(), ratio, target, fillet)
-    else:
-        reached = report.mass_g if target.aim == "mass" else report.relative_density
-    found = {"strut_radius_mm": spec.strut_radius}
-    if spec.surface is not None:
-        found = {"wall_offset_mm": spec.wall.offset}
-        if spec.wall.is_sheet:
-            found = {"wall_thickness_mm": spec.wall.thickness}
-    figures = {**target.as_plain(), "reached": reached, **found}
-    off = reached / target.value - 1.0
-    notes: tuple[str, ...] = ()
-    if abs(off) > PROMISED:
-        notes = (
-            f"The target, a {target.called} of {target.value:.5g}, is missed by {off:+.2%}: "
-            f"{reached:.5g} came out.",
-        )
-    return with_warnings(replace(report, target=figures), notes)

@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Sheets about triply periodic surfaces, or all on one side of them, meshed as octants."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from ...util.errors import VolfrepError
+from ...util.types import Floats
+from ..cells import UnitCell
+from ..spec_fields import Kind
+from ..spec_parts import MAX_RESOLUTION
+from ..tpms import PeriodicSurface
+from ..tpms.sheet import wanted_facets
+
+#: Facets on one side of a wall in a cell, for each facet along its edge squared.
+TRIANGLES_OF_SIDE = 8.0
+
+
+class Tpms(Kind):
+    """Walls along a triply periodic surface."""
+
+    has_struts = False
+
+    @property
+    def surface(self) -> PeriodicSurface:
+        """The surface that the walls follow."""
+        assert isinstance(self.spec.cell, PeriodicSurface)
+        return self.spec.cell
+
+    @property
+    def thicknesses(self) -> tuple[float, float]:
+        """The smallest and the largest thickness of a sheet, mm; 0 for one side of a surface."""
+        if not self.spec.wall.is_sheet:
+            return 0.0, 0.0
+        if self.spec.radius_grading is not None:
+            return self.spec.radius_grading.extremes
+        return self.spec.wall.thickness, self.spec.wall.thickness
+
+    def refuse(self) -> None:
+        """Refuse what is about struts, of which walls have none."""
+        spec = self.spec
+        given = {
+            "fillet": spec.fillet > 0.0,
+            "removal of struts": spec.ending.removes_struts,
+            "radius grading": spec.radius_grading is not None and not spec.wall.is_sheet,
+        }
+        for what, is_given in given.items():
+            if is_given:
+                kind = "walls" if what != "radius grading" else f"a {spec.wall.kind}"
+                raise VolfrepError(f"A {what} is not for {kind}: leave it out.")
+        if spec.boundary != "trim" or spec.activation != "touching":
+            raise VolfrepError(
+                "Walls are cut at the wall of what they fill: choose the boundary trim and the "
+                "activation touching."
+            )
+        if self.thicknesses[1] >= spec.cell_size:
+            raise VolfrepError(
+                f"Walls of {self.thicknesses[1]:g} mm are too thick for a cell of "
+                f"{spec.cell_size:g} mm: reduce the thickness or enlarge the cell."
+            )
+        _ = self.facets_along_cell
+
+    @property
+    def measure(self) -> str:  # type: ignore[override]
+        """The thickness of a sheet, or the offset of a side."""
+        return "wall_thickness" if self.spec.wall.is_sheet else "wall_offset"
+
+    @property
+    def thickness(self) -> float:
+        """The thickness of a sheet, or the offset of a side, mm."""
+        return self.spec.wall.thickness if self.spec.wall.is_sheet else self.spec.wall.offset
+
+    def of_thickness(self, value: float) -> dict[str, Any]:
+        """The field of walls of such a thickness, or offset, in mm."""
+        wall = self.spec.wall
+        if wall.is_sheet:
+            return {"wall": replace(wall, thickness=value)}
+        return {"wall": replace(wall, offset=value)}
+
+    @property
+    def mean_radius(self) -> float:
+        """Half the thickness of a sheet, of a graded one a mean, mm; 0 for a side."""
+        return 0.25 * sum(self.thicknesses)
+
+    @property
+    def without_effect(self) -> dict[str, Any]:
+        """Nothing."""
+        return {}
+
+    def as_plain(self) -> dict[str, Any]:
+        """The wall and the surface's formula."""
+        return {"wall": {"formula": self.surface.formula, **self.spec.wall.as_plain()}}
+
+    def unit_cell(self) -> UnitCell:
+        """None.
+
+        Raises:
+            VolfrepError: always.
+        """
+        raise VolfrepError(
+            f"This is done with struts and not with the walls of a {self.spec.cell_name}: choose "
+            "another cell."
+        )
+
+    @property
+    def coarsest_resolution(self) -> int:
+        """Facets along L below which sheets would have gaps."""
+        return self.spec.wall.coarsest(self.spec.cell_size, self.thicknesses[0])
+
+    @property
+    def facets_along_cell(self) -> int:
+        """How many facet edges fit along L: the resolution, or what the deviation asks for.
+
+        Raises:
+            VolfrepError: there would be too many.
+        """
+        spec = self.spec
+        wanted = spec.resolution or wanted_facets(spec.cell_size, spec.detail.deviation)
+        facets = max(wanted, self.coarsest_resolution)
+        if facets > MAX_RESOLUTION:
+            raise VolfrepError(
+                f"Such walls need {facets} facets along a cell: the limit is {MAX_RESOLUTION}; "
+                "make them thicker, the cells smaller or the deviation larger."
+            )
+        return facets
+
+    @property
+    def too_coarse(self) -> str:
+        """Sheets, which would have gaps."""
+        return f"walls of {self.thicknesses[0]:.3g} mm, which would have gaps"
+
+    def triangles_of_cell(self, shares: Floats) -> float:
+        """Triangles of the walls in one cell, about."""
+        return TRIANGLES_OF_SIDE * (1 + self.spec.wall.is_sheet) * self.facets_along_cell**2

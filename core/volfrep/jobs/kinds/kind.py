@@ -1,0 +1,251 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What a kind of lattice does: how a part is filled with it, and what is told of it.
+
+`LatticeKind` is what a kind does with a specification alone, `PartLattice` what it does in a part.
+A new kind is a module with both, and one of `volfrep.design.spec_fields.Kind`, which says what a
+specification of it may hold.
+"""
+
+from __future__ import annotations
+
+import os
+import time
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from dataclasses import replace
+
+from ...design.spec import LatticeSpec
+from ...design.target import Target
+from ...grid.strut_graph import Wireframe
+from ...io.write.stl import write_stl
+from ...mesh.triangle_mesh import TriangleMesh
+from ...reports.report import Report, with_warnings
+from ...reports.result import Result
+from ...trim.boolean_trim import Ahead
+from ...trim.loose_pieces import Cleared
+from ...trim.prune import Pruned
+from ...util.errors import VolfrepError
+from ...util.numbers import whole
+from ...util.progress import Monitor, peak_memory_mb
+from ..active_cells import ActiveCells
+from ..part_domain import PartDomain
+from ..target_search import TargetSearch
+
+#: What is promised: a part that misses its target by more, relative, says so.
+PROMISED = 5e-3
+#: Cells along one axis of a block.
+MOST_CELLS = 1_000_000
+
+
+class PartLattice(ABC):
+    """The lattice of a kind in a part.
+
+    Args:
+        part: what it fills.
+
+    Attributes:
+        part, spec, monitor: of the job.
+    """
+
+    def __init__(self, part: PartDomain) -> None:
+        self.part, self.spec, self.monitor = part, part.spec, part.monitor
+
+    @property
+    def cells(self) -> ActiveCells | None:
+        """The cells, and which of them hold a lattice; None: it has no cells."""
+        return None
+
+    @property
+    def pruned(self) -> Pruned | None:
+        """What is left when struts with a free end are taken away; None where none are."""
+        return None
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Sentences on how it was meshed, as soon as it is."""
+        return ()
+
+    @property
+    @abstractmethod
+    def struts(self) -> Wireframe:
+        """Its nodes and struts, whole, where its mesh has them; none of it, of walls."""
+
+    @property
+    @abstractmethod
+    def spacing(self) -> float:
+        """L, mm; of a graph the median length of its struts, which stands for it."""
+
+    @property
+    @abstractmethod
+    def smallest(self) -> float:
+        """Volume below which a shell is no piece of it, mm3."""
+
+    @property
+    @abstractmethod
+    def is_moved(self) -> bool:
+        """Whether its vertices are elsewhere than they were meshed."""
+
+    @abstractmethod
+    def mesh(self, *, is_cut: bool) -> None:
+        """Mesh it, as what a wall cuts or as it is; what was meshed is kept."""
+
+    @abstractmethod
+    def trim(self, *, with_skin: bool, ahead: Ahead | None) -> Cleared:
+        """What is left of it, or of the part, where the wall cuts it; whole where none does.
+
+        Args:
+            with_skin: whether it is joined to the skin.
+            ahead: as of `trim.boolean_trim.trim`.
+
+        Raises:
+            VolfrepError: nothing is left, or nothing would hold it.
+        """
+
+    @abstractmethod
+    def search(self, target: Target) -> TargetSearch:
+        """The thickness for which it has the density or the mass of a target.
+
+        Raises:
+            VolfrepError: none has; the text says what can be had.
+        """
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What is to be said of its cells."""
+        return self.cells.warnings if self.cells is not None else ()
+
+
+class BlockLattice(ABC):
+    """A free-standing block of whole cells.
+
+    Args:
+        kind: of the lattice.
+        count: cells along x, y, z.
+
+    Raises:
+        VolfrepError: the counts make no sense.
+    """
+
+    def __init__(self, kind: LatticeKind, count: Sequence[int]) -> None:
+        if len(count) != 3:
+            raise VolfrepError(f"The count must be three whole numbers, not {list(count)}.")
+        x, y, z = (whole("count", n, 1, MOST_CELLS) for n in count)
+        self.kind, self.spec, self.count = kind, kind.spec, (x, y, z)
+
+    @property
+    @abstractmethod
+    def volume(self) -> float:
+        """Volume of its cells, mm3."""
+
+    @abstractmethod
+    def wireframe(self) -> Wireframe:
+        """Its nodes and struts.
+
+        Raises:
+            VolfrepError: it would not fit into memory, or has none.
+        """
+
+    @abstractmethod
+    def result(self, monitor: Monitor) -> Result:
+        """It as a mesh.
+
+        Raises:
+            VolfrepError: it would not fit into memory.
+        """
+
+    @abstractmethod
+    def search(self, target: Target) -> TargetSearch:
+        """As `PartLattice.search`."""
+
+    def measured(self, monitor: Monitor) -> Report:
+        """Its figures."""
+        return self.result(monitor).report
+
+    def write_stl(self, path: str | os.PathLike[str], monitor: Monitor) -> Report:
+        """Write it as a binary STL; its figures."""
+        return write_whole(self.result(monitor), path)
+
+
+def write_whole(result: Result, path: str | os.PathLike[str]) -> Report:
+    """Write a block's mesh as a binary STL; its figures, with the time that took."""
+    start = time.perf_counter()
+    write_stl(result.mesh, path)
+    stages = {**result.report.stages, "write": time.perf_counter() - start}
+    return replace(result.report, stages=stages, peak_memory_mb=peak_memory_mb())
+
+
+class LatticeKind(ABC):
+    """What a kind of lattice does with a specification of that kind.
+
+    Args:
+        spec: of the kind.
+    """
+
+    def __init__(self, spec: LatticeSpec) -> None:
+        self.spec = spec
+
+    @abstractmethod
+    def modulus(self, target: Target) -> float:
+        """Young's modulus of the endless lattice along a target's direction.
+
+        Raises:
+            VolfrepError: it carries no load.
+        """
+
+    @abstractmethod
+    def stiffened(self, target: Target, *, rough: bool = False) -> LatticeSpec:
+        """The specification with the thickness of a target of stiffness.
+
+        Args:
+            target: the stiffness.
+            rough: whether coarse grids will do.
+
+        Raises:
+            VolfrepError: none has; the text says what can be had.
+        """
+
+    @abstractmethod
+    def fill(self, part: PartDomain) -> PartLattice:
+        """The lattice in a part."""
+
+    @abstractmethod
+    def block(self, count: Sequence[int]) -> BlockLattice:
+        """A block of so many cells along x, y, z.
+
+        Raises:
+            VolfrepError: the counts make no sense, or there are no such blocks.
+        """
+
+    def refuse(self, solid: TriangleMesh) -> None:  # noqa: B027  a graph fits any
+        """Refuse a solid that it does not fit.
+
+        Raises:
+            VolfrepError: cells are larger than the part.
+        """
+
+    def with_target(self, report: Report) -> Report:
+        """A report that says, in `target`, what was aimed at and reached, and by what radius."""
+        spec, target = self.spec, self.spec.target
+        if target is None:
+            return report
+        if target.aim == "stiffness":
+            reached = self.modulus(target)
+        else:
+            reached = report.mass_g if target.aim == "mass" else report.relative_density
+        found = {f"{spec.kind.measure}_mm": spec.kind.thickness}
+        figures = {**target.as_plain(), "reached": reached, **found}
+        off = reached / target.value - 1.0
+        notes: tuple[str, ...] = ()
+        if abs(off) > PROMISED:
+            notes = (
+                f"The target, a {target.called} of {target.value:.5g}, is missed by {off:+.2%}: "
+                f"{reached:.5g} came out.",
+            )
+        return with_warnings(replace(report, target=figures), notes)
+
+    def refuse_beams(self) -> None:  # noqa: B027  struts are
+        """Refuse what has no struts that could be beams or axes.
+
+        Raises:
+            VolfrepError: it has none.
+        """

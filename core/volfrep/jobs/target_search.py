@@ -10,6 +10,7 @@ from typing import Protocol, TypeVar
 from ..design.spec import LatticeSpec
 from ..design.target import Target
 from ..reports.report import Report
+from ..util.search import make_until_met
 
 #: A mesh that misses its target by more, relative, is made again; so many are made at most.
 CLOSE = 3e-3
@@ -67,7 +68,7 @@ class TargetSearch(Protocol):
 Made = TypeVar("Made")
 
 
-def make_until_met(
+def make_with_volume(
     make: Callable[[float], Made], measure: Callable[[Made], Report] | None, wanted: WantedVolume
 ) -> Made:
     """What has the wanted volume when it is measured, or the last of what was made.
@@ -77,16 +78,11 @@ def make_until_met(
         measure: meshes it and reports; None: the first one is taken.
         wanted: the volume.
     """
-    volume = wanted.lattice
-    made = make(volume)
-    for _ in range(MESHES - 1):
-        if measure is None:
-            break
-        missing = wanted.missing(measure(made))
-        if abs(missing) <= CLOSE * wanted.scale:
-            break
-        # Of a mesh with more than twice what was foreseen so much less would be next to nothing.
-        less = wanted.lattice / max(wanted.lattice - missing, 1e-300)
-        volume = volume + missing if volume + missing > 0.5 * volume else volume * less
-        made = make(volume)
-    return made
+    if measure is None:
+        return make(wanted.lattice)
+    report_of, enough = measure, CLOSE * wanted.scale
+
+    def missing(made: Made) -> float:
+        return wanted.missing(report_of(made))
+
+    return make_until_met(make, missing, wanted.lattice, enough=enough, times=MESHES - 1)

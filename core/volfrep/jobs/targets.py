@@ -23,7 +23,7 @@ from ..util.cache import StageCache
 from ..util.progress import Monitor, ProgressCallback
 from .infill import Infill
 from .kinds import lattice_kind
-from .target_search import make_until_met
+from .target_search import make_with_volume
 
 
 def solve_target(
@@ -69,7 +69,7 @@ def solve_target(
     def measure(made: Infill) -> Report:
         return made.result.report
 
-    return make_until_met(make, measure if meshed else None, search.wanted)
+    return make_with_volume(make, measure if meshed else None, search.wanted)
 
 
 def fill_with_target(
@@ -116,4 +116,4 @@ def solve_block_target(
     def measure(made: LatticeSpec) -> Report:
         return lattice_kind(made).block(count).measured(Monitor(progress))
 
-    return make_until_met(search.specification, measure if meshed else None, search.wanted)
+    return make_with_volume(search.specification, measure if meshed else None, search.wanted)

@@ -13,7 +13,7 @@ import numpy as np
 from ...design.cells import UnitCell
 from ...design.memory_guard import BYTES_PER_STRUT, refuse_block
 from ...design.spec import LatticeSpec
-from ...design.target import Target
+from ...design.target import Target, volume_out_of_reach
 from ...grid.placement import graded_wireframe
 from ...grid.strut_graph import CellGraph, Wireframe, cell_graph
 from ...lattice.assembly import Layout, lay_out
@@ -37,6 +37,7 @@ from ...trim.prune import Pruned, prune
 from ...trim.stage import chosen_octants
 from ...util.errors import VolfrepError
 from ...util.progress import Monitor
+from ...util.search import Rising
 from .. import octant_guard as guard
 from ..finer import until_sound
 from ..part_domain import PartDomain
@@ -51,6 +52,8 @@ from .octant_lattice import OctantLattice
 _ROUGHLY = 1.12
 #: Fewer points than these tell a first guess so badly that the radius is sought farther above it.
 _SURE = 200
+#: A radius with fillets is found when its volume is this near, relative.
+_CLOSE = 1e-5
 
 
 class StrutCellKind(LatticeKind):
@@ -276,7 +279,10 @@ class RadiusSearch:
         # Of the thinnest struts the rough table has hardly a point.
         least = self._volume(self._low)
         if not least <= wanted.lattice <= most:
-            raise VolfrepError(self._refusal(least, most))
+            cells = f"cells '{spec.unit_cell().name}' of {spec.cell_size:g} mm"
+            raise volume_out_of_reach(
+                wanted.target, cells, spec.density, wanted.domain, wanted.skin, (least, most)
+            )
 
     def specification(self, volume: float) -> LatticeSpec:
         """With the radius of a volume of the lattice, mm3."""
@@ -286,13 +292,9 @@ class RadiusSearch:
         low, high = self._low, self._high
         if not self._spec.fillet:
             return float(np.clip(self._table.radius_of(volume), low, high))
-        if self._volume(high) <= volume:
-            return high
-        if self._volume(low) >= volume:
-            return low
-        from scipy.optimize import brentq  # slow to load, and every job loads this module
-
-        return float(brentq(lambda r: self._volume(r) - volume, low, high, xtol=1e-5 * high))
+        known = Rising(self._volume, low, high, close=_CLOSE)
+        least, most = known.span
+        return known.level_of(min(max(volume, least), most))
 
     def _volume(self, radius: float) -> float:
         """The lattice's, with its fillets as the endless lattice has them."""
@@ -304,19 +306,3 @@ class RadiusSearch:
         return (
             volume * relative_density(cell, radius / size, self._spec.fillet / size).value / plain
         )
-
-    def _refusal(self, least: float, most: float) -> str:
-        spec, target = self._spec, self.wanted.target
-        if target.aim == "relative_density":
-            unit, span = "", (least / self.wanted.domain, most / self.wanted.domain)
-        else:
-            factor, skin = spec.density / 1000.0, self.wanted.skin
-            unit, span = " g", ((skin + least) * factor, (skin + most) * factor)
-        text = (
-            f"No strut radius gives a {target.called} of {target.value:.4g}{unit} with cells "
-            f"'{spec.unit_cell().name}' of {spec.cell_size:g} mm: choose one from {span[0]:.4g} "
-            f"to {span[1]:.4g}{unit}"
-        )
-        if target.aim == "mass" and self.wanted.skin:
-            text += f", of which the skin is {self.wanted.skin * spec.density / 1000.0:.4g} g"
-        return text + "."

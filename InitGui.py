@@ -33,7 +33,7 @@ class VolfrepWorkbench(Gui.Workbench):
         """Called by FreeCAD when the workbench is first activated."""
         import FreeCAD as App
 
-        from freecad_volfrep import deps
+        from freecad_volfrep.deps import explain_missing, missing_packages
         from freecad_volfrep.gui.commands.table import EXAMPLES, TOOLBARS, register_commands
         from freecad_volfrep.translation import QT_TRANSLATE_NOOP
 
@@ -43,11 +43,9 @@ class VolfrepWorkbench(Gui.Workbench):
             self.appendMenu("&VOLFREP", [*names, "Separator"])
         self.appendMenu(["&VOLFREP", QT_TRANSLATE_NOOP("Workbench", "Examples")], EXAMPLES)
         self.appendMenu("&VOLFREP", ["Separator", "VOLFREP_Help"])
-        missing = deps.missing_packages()
+        missing = missing_packages()
         if missing:
-            App.Console.PrintError(deps.explain_missing(missing) + "\n")
-        elif deps.lacks_manifold():
-            App.Console.PrintWarning(deps.explain_without_manifold() + "\n")
+            App.Console.PrintError(explain_missing(missing) + "\n")
 
     def ContextMenu(self, recipient):  # noqa: N802
         """Offer the commands that apply in the context menu of the view and the tree."""

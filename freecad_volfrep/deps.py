@@ -24,20 +24,17 @@ PACKAGES = {
     "trimesh": "trimesh",
     "manifold3d": "manifold3d",
 }
-#: Without this one nothing is cut at a skin, and all else is done (`volfrep.util.manifold`).
-OPTIONAL = "manifold3d"
 #: FreeCAD and its other add-ons use these too: their version must stay what it is.
 SHARED = ("numpy", "scipy")
 
 
 def missing_packages() -> list[str]:
-    """Names to install by of the needed packages that this FreeCAD cannot import."""
-    return [PACKAGES[module] for module in PACKAGES if module != OPTIONAL and _lacks(module)]
-
-
-def lacks_manifold() -> bool:
-    """Whether the package that cuts lattices at a skin is missing."""
-    return _lacks(OPTIONAL)
+    """Names to install by of the packages that this FreeCAD cannot import."""
+    return [
+        package
+        for module, package in PACKAGES.items()
+        if module not in sys.modules and importlib.util.find_spec(module) is None
+    ]
 
 
 def python_executable() -> str:
@@ -96,15 +93,6 @@ def explain_missing(packages: list[str]) -> str:
     )
 
 
-def explain_without_manifold() -> str:
-    """One sentence for the user: what is not done without the package, and how to get it."""
-    return (
-        f"VOLFREP cuts lattices at a skin with the Python package {OPTIONAL}, which is missing: "
-        "previews, whole cells and beams are made without it; for the rest run the command  "
-        f"{install_command([OPTIONAL])}  and restart FreeCAD."
-    )
-
-
 def find_installed(packages: list[str]) -> tuple[list[str], bool]:
     """Look again after an installation.
 
@@ -118,10 +106,6 @@ def find_installed(packages: list[str]) -> tuple[list[str], bool]:
     find = importlib.machinery.PathFinder.find_spec
     missing = [PACKAGES[name] for name in modules if find(name, [*sys.path, folder]) is None]
     return missing, folder not in sys.path
-
-
-def _lacks(module: str) -> bool:
-    return module not in sys.modules and importlib.util.find_spec(module) is None
 
 
 def _installed(name: str) -> bool:

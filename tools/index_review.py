@@ -18,6 +18,7 @@ import tempfile
 import xml.etree.ElementTree as ET
 import zipfile
 from collections.abc import Callable, Iterator
+from functools import lru_cache
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -63,14 +64,18 @@ def review(place: Path) -> list[str]:
             found = list(Path(folder).iterdir())
             root = found[0] if len(found) == 1 else Path(folder)
             return review(root)
+    _python.cache_clear()
     return [
         f"{text} ({source}): {fault}" for text, source, check in CHECKS for fault in check(place)
     ]
 
 
-def _python(root: Path) -> Iterator[tuple[Path, ast.Module]]:
-    for path in sorted(root.rglob("*.py")):
-        yield path.relative_to(root), ast.parse(path.read_text("utf-8"))
+@lru_cache(maxsize=1)
+def _python(root: Path) -> list[tuple[Path, ast.Module]]:
+    return [
+        (path.relative_to(root), ast.parse(path.read_text("utf-8")))
+        for path in sorted(root.rglob("*.py"))
+    ]
 
 
 def _metadata(root: Path) -> ET.Element:

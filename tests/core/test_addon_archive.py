@@ -3,8 +3,8 @@
 
 from __future__ import annotations
 
+import ast
 import importlib.util
-import py_compile
 import zipfile
 from pathlib import Path
 from types import ModuleType
@@ -31,8 +31,10 @@ def archive(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def folder(archive: Path, tmp_path: Path) -> Path:
+    """The add-on without most of its modules, which the rules treat alike."""
     with zipfile.ZipFile(archive) as file:
-        file.extractall(tmp_path)
+        few = [name for name in file.namelist() if name.count("/") < 4 or "/icons/" in name]
+        file.extractall(tmp_path, few)
     return tmp_path / "VOLFREP"
 
 
@@ -45,9 +47,11 @@ def test_the_same_sources_give_the_same_bytes(archive: Path, tmp_path: Path) -> 
     assert tool("addon_archive").build(tmp_path / "VOLFREP").read_bytes() == archive.read_bytes()
 
 
-def test_every_module_of_the_archive_is_python(folder: Path) -> None:
-    for path in folder.rglob("*.py"):
-        py_compile.compile(str(path), doraise=True)
+def test_every_module_of_the_archive_is_python(archive: Path) -> None:
+    with zipfile.ZipFile(archive) as file:
+        for name in file.namelist():
+            if name.endswith(".py"):
+                ast.parse(file.read(name))
 
 
 @pytest.mark.parametrize(

@@ -28,8 +28,8 @@ from volfrep.design.cells import LIBRARY
 from volfrep.grid.strut_graph import cell_graph
 from volfrep.io.solid import read_triangles
 from volfrep.io.write.stl import FACET, HEADER_BYTES, as_read
-from volfrep.mesh.pinches import pinched_vertices
 from volfrep.mesh.quality import measure, shape_statistics
+from volfrep.mesh.topology import pinched_vertices
 from volfrep.mesh.triangle_mesh import TriangleMesh
 
 from . import exact

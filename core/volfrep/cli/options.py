@@ -254,6 +254,7 @@ def _mesh_options(given: argparse.Namespace, found: Specified) -> dict[str, Any]
     """The fields of `MeshOptions`."""
     out = Path(given.output)
     refuse_extensions(given, "fill", out)
+    check_files(given, found.files)
     form = find_form(out, given.threemf or given.step or given.inp)
     solid = _solid_material(given.material)
     if solid is not None and "," in given.material and "material" not in form.takes:
@@ -261,7 +262,6 @@ def _mesh_options(given: argparse.Namespace, found: Specified) -> dict[str, Any]
         raise _no_density(given.output)
     process = _print_process(given, form, solid)
     fields = _lattice_options(given, found, solid)
-    check_files(given, found.files)
     _check_reports(given, form)
     if process is not None:
         from ..reports.printability import unit_direction

@@ -13,7 +13,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..mesh.edge_table import areas_of
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.errors import VolfrepError
 from ..util.numbers import number, point, whole
@@ -166,7 +165,7 @@ class Skin:
         """About its volume below the faces of a solid, mm3: their area times its thickness."""
         if self.is_even:
             return solid.area * self.thickness
-        below = float((areas_of(solid) * self.below(solid)).sum())
+        below = float((solid.areas() * self.below(solid)).sum())
         return below + sum(body.volume for body in self.bodies)
 
     def below(self, solid: TriangleMesh) -> Floats:

@@ -16,6 +16,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ..mesh import remesh
+from ..mesh.topology import edge_keys
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.types import Floats, Ints
 
@@ -82,7 +83,7 @@ def _longest_edges(points: Floats, triangles: Ints) -> tuple[Ints, Floats, Float
     length = _lengths(points[triangles])
     longest = length.max(axis=1)
     after = np.roll(triangles, -1, axis=1)
-    name = np.minimum(triangles, after) * np.int64(len(points)) + np.maximum(triangles, after)
+    name = edge_keys(triangles, after, len(points))
     # Of equal ones the same is chosen from both sides, so that no path of them runs in a circle.
     row, at = np.arange(len(triangles)), np.where(length == longest[:, None], name, -1).argmax(1)
     middle = 0.5 * (points[triangles[row, at]] + points[after[row, at]])

@@ -9,11 +9,10 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 from scipy.spatial import Delaunay, Voronoi
 
 from ..design.graphs import RandomGraph
+from ..mesh.topology import edge_keys, pieces_of
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.rays import inside_points
 from ..util.errors import VolfrepError
@@ -194,7 +193,7 @@ def _ended_on_wall(
     ended = ended[(np.append(inside, np.ones(len(place), bool))[ended]).all(axis=1)]
     # A face's border is walked round; from where it leaves the domain to where it comes back the
     # wall cuts a corner off the face.
-    key = struts[crossing].min(axis=1) * len(nodes) + struts[crossing].max(axis=1)
+    key = edge_keys(struts[crossing][:, 0], struts[crossing][:, 1], len(nodes))
     known = dict(zip(key.tolist(), place.tolist(), strict=True))
     along = []
     for ridge in found.ridge_vertices:
@@ -259,10 +258,7 @@ def merge_short_struts(
         for side in (0, 1):
             np.minimum.at(first, struts[short, side], rank)
         chosen = short[(first[struts[short]] == rank[:, None]).all(axis=1)]
-        graph = coo_array(
-            (np.ones(len(chosen), bool), struts[chosen].T), shape=(len(nodes), len(nodes))
-        )
-        count, label = connected_components(graph, directed=False)
+        count, label = pieces_of(struts[chosen][:, 0], struts[chosen][:, 1], len(nodes))
         any_held = np.zeros(count, bool)
         any_held[label[held]] = True
         counts = held | ~any_held[label]
@@ -270,7 +266,7 @@ def merge_short_struts(
         np.add.at(middle, label[counts], nodes[counts])
         nodes = middle / np.bincount(label[counts], minlength=count)[:, None]
         held = any_held
-        struts = np.sort(label[struts].astype(np.int64), axis=1)
+        struts = np.sort(label[struts], axis=1)
         struts = np.unique(struts[struts[:, 0] != struts[:, 1]], axis=0)
     return _used(nodes, struts)
 

@@ -21,7 +21,7 @@ from scipy.spatial import ConvexHull, cKDTree
 
 from ..grid.strut_graph import Wireframe
 from ..mesh.booleans import from_library, to_library
-from ..mesh.edge_table import edges_of
+from ..mesh.topology import edges_of
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor

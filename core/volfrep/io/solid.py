@@ -16,11 +16,12 @@ from pathlib import Path
 
 import numpy as np
 
-from ..mesh.edge_table import Edges, edges_of, place_text, plural
 from ..mesh.float32_repair import remove_slivers, separate_vertices, shortest_edge
+from ..mesh.topology import Edges, edges_of
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..spatial.winding import Windings, windings
 from ..util.errors import VolfrepError
+from ..util.numbers import place_text, plural
 from ..util.progress import Monitor, ProgressCallback
 from ..util.types import Bools, Ints
 from .read import read_file

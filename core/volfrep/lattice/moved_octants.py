@@ -18,9 +18,10 @@ import numpy as np
 
 from ..mesh import remesh
 from ..mesh.precision import decimal_step, merging
+from ..mesh.topology import edge_keys
 from ..mesh.triangle_mesh import TriangleMesh
 from ..octants.octant import Octant
-from ..spatial.folds import STICKS_OUT, find_folds
+from ..spatial.resolve_crossings import STICKS_OUT, find_folds
 from ..util.linalg import along
 from ..util.progress import Monitor
 from ..util.threads import in_threads
@@ -202,7 +203,7 @@ def _normals(octant: Octant) -> Floats:
 def _most_turned(octant: Octant) -> float:
     """The cosine of the angle by which both facets at any edge may turn without folding there.
 
-    That is half of what the sharpest edge that sticks out has left to `turns.STICKS_OUT`.
+    That is half of what the sharpest edge that sticks out has left to `STICKS_OUT`.
     """
     if not len(octant.triangles):
         return -1.0
@@ -210,7 +211,7 @@ def _most_turned(octant: Octant) -> float:
     size = len(octant.vertices)
     start, end = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
     apex, owner = np.roll(triangles, -2, axis=1).ravel(), np.repeat(np.arange(len(triangles)), 3)
-    key = np.minimum(start, end) * size + np.maximum(start, end)
+    key = edge_keys(start, end, size)
     order = np.argsort(key, kind="stable")
     same = key[order[1:]] == key[order[:-1]]
     one, two = order[:-1][same], order[1:][same]

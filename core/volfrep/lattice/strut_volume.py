@@ -5,6 +5,9 @@ A point is solid from the radius on at which the first strut or joint sphere rea
 radius is found once for points spread evenly over the domain; the volume at any radius is then the
 share of the points whose own radius is smaller, and the radius of a volume is read off the same
 table. The points stand on upright lines that are cut exactly at the domain's surface.
+
+This answers for all radii of a lattice at once, as a target asks; `sizing/union_volume` gives the
+derivatives by every node's radius that a search of radii needs, and has no such table.
 """
 
 from __future__ import annotations

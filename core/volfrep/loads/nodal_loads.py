@@ -10,7 +10,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..mesh.edge_table import areas_of
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.errors import VolfrepError
 from ..util.types import Bools, Floats, Ints
@@ -229,7 +228,7 @@ def _reaching(body: Body, region: Region) -> Bools:
 def _facets_share(body: Body, surface: TriangleMesh, facets: Bools) -> Share:
     """A third of each facet to each of its corners."""
     chosen = TriangleMesh(surface.vertices, surface.triangles[facets])
-    third = areas_of(chosen) / 3.0
+    third = chosen.areas() / 3.0
     count = len(body.nodes)
     corners = chosen.triangles.ravel()
     area = np.bincount(corners, np.repeat(third, 3), count)

@@ -7,11 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
 from ..util.errors import VolfrepError
 from ..util.types import Floats, Ints
+from .topology import edge_keys, pieces_of
 from .triangle_mesh import TriangleMesh
 
 #: OpenCASCADE's own default, in mm: points nearer than this are the same to it.
@@ -80,7 +79,7 @@ def faceted_brep(mesh: TriangleMesh) -> FacetedBrep:
 def _edges(mesh: TriangleMesh) -> tuple[Ints, Ints]:
     start = mesh.triangles.astype(np.int64)
     end = np.roll(start, -1, axis=1)
-    packed = np.minimum(start, end) * len(mesh.vertices) + np.maximum(start, end)
+    packed = edge_keys(start, end, len(mesh.vertices))
     keys, inverse, counts = np.unique(packed.ravel(), return_inverse=True, return_counts=True)
     inverse = inverse.reshape(start.shape)
     sign = np.where(start < end, 1, -1)
@@ -105,10 +104,9 @@ def _shells(mesh: TriangleMesh, loops: Ints, edges: int) -> tuple[Ints, Floats]:
     triangle = np.repeat(np.arange(count), 3)
     by_edge = np.argsort(edge, kind="stable")
     pairs = triangle[by_edge].reshape(edges, 2)  # closed: every edge has two triangles
-    links = coo_matrix((np.ones(edges, bool), (pairs[:, 0], pairs[:, 1])), shape=(count, count))
-    shells, shell = connected_components(links, directed=False)
+    shells, shell = pieces_of(pairs[:, 0], pairs[:, 1], count)
     volumes = np.bincount(shell, mesh.signed_volumes(), shells)
-    return shell.astype(np.int64), volumes.astype(np.float64)
+    return shell, volumes.astype(np.float64)
 
 
 def _bodies(mesh: TriangleMesh, shell: Ints, volumes: Floats) -> Ints:

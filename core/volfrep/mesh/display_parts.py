@@ -14,8 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .edge_table import edges_of
 from .shading import Shaded, shade, sharp_edges
+from .topology import edges_of
 from .triangle_mesh import TriangleMesh, compact
 from .vertex_cluster import cluster_vertices
 

@@ -15,6 +15,7 @@ from ..util.ragged import rows_of
 from ..util.types import Bools, Ints
 from . import remesh
 from .precision import merging_vertices
+from .topology import edge_keys, open_vertices, touching, vertices_of
 from .triangle_mesh import TriangleMesh, compact
 
 #: Edges shorter than this many steps of float32 at the mesh's farthest coordinate are removed.
@@ -73,12 +74,11 @@ def without_inner_slivers(
         there.
     """
     thin = _slivers(mesh.vertices, mesh.triangles, tolerance)
-    near = np.zeros(len(mesh.vertices), bool)
-    near[rim] = True
-    at_rim = near.copy()
-    near[mesh.triangles[_touching(near, mesh.triangles)]] = True
-    result = _rebuilt(mesh, thin[~_touching(near, mesh.triangles[thin])], tolerance)
-    if _touching(at_rim, result[0].triangles[result[1]]).any():
+    at_rim = vertices_of(rim, len(mesh.vertices))
+    near = vertices_of(mesh.triangles[touching(at_rim, mesh.triangles)], len(at_rim))
+    near |= at_rim
+    result = _rebuilt(mesh, thin[~touching(near, mesh.triangles[thin])], tolerance)
+    if touching(at_rim, result[0].triangles[result[1]]).any():
         return mesh, np.zeros(len(mesh.triangles), bool), np.arange(len(mesh.triangles))
     return result
 
@@ -93,7 +93,7 @@ def _rebuilt(mesh: TriangleMesh, thin: Ints, tolerance: float) -> tuple[Triangle
     rebuilt = triangles[len(stayed) :]
     moved = np.zeros(len(points), bool)
     moved[np.flatnonzero((points != mesh.vertices).ravel()) // 3] = True
-    is_old = np.isin(_names(rebuilt), _names(mesh.triangles[old])) & ~_touching(moved, rebuilt)
+    is_old = np.isin(_names(rebuilt), _names(mesh.triangles[old])) & ~touching(moved, rebuilt)
     new[len(stayed) :] = ~is_old
     return TriangleMesh(points, triangles), new, stayed
 
@@ -150,13 +150,12 @@ def _without(
     """
     # Two rings of triangles about the slivers; the outer ring's border stays as it is.
     if changed is not None:
-        thin = thin[_touching(changed, triangles[thin])]
+        thin = thin[touching(changed, triangles[thin])]
         if not len(thin):
             return points, triangles, thin
-    near = np.zeros(len(points), bool)
-    near[triangles[thin]] = True
-    near[triangles[_touching(near, triangles)]] = True
-    part = np.flatnonzero(_touching(near, triangles))
+    near = vertices_of(triangles[thin], len(points))
+    near[triangles[touching(near, triangles)]] = True
+    part = np.flatnonzero(touching(near, triangles))
     used, local = np.unique(triangles[part], return_inverse=True)
     moved, kept, inner = _collapse(points[used], local.reshape(-1, 3).astype(np.int64), tolerance)
     inner, flipped = _flip_slivers(moved, inner, tolerance)
@@ -168,11 +167,10 @@ def _without(
         left = _slivers(moved, piece, tolerance)
         if len(left):
             fresh = ~np.isin(_names(stay[piece]), _names(triangles[part]))
-            fresh |= _touching((moved != points[stay]).any(axis=1), piece)
-            near = np.zeros(len(stay), bool)
-            near[piece[fresh]] = True
+            fresh |= touching((moved != points[stay]).any(axis=1), piece)
+            near = vertices_of(piece[fresh], len(stay))
             for _ in range(2):  # rings within which it may have kept back something else
-                near[piece[_touching(near, piece)]] = True
+                near[piece[touching(near, piece)]] = True
             moved, piece, _ = _without(moved, piece, left, tolerance, passes - 1, near)
     points = points.copy()
     points[stay] = moved
@@ -182,29 +180,14 @@ def _without(
     return points, joined, part
 
 
-def _touching(near: Bools, triangles: NDArray[np.int32]) -> Bools:
-    """Triangles with a corner among the near vertices."""
-    # A column at a time: numpy is slow at reducing many short rows.
-    a, b, c = (near[triangles[:, k]] for k in range(3))
-    return np.asarray(a | b | c, np.bool_)
-
-
 def _collapse(
     points: NDArray[np.float64], triangles: Ints, tolerance: float
 ) -> tuple[NDArray[np.float64], Ints, Ints]:
     """An open piece of mesh, collapsed within its border: points, which they were, triangles."""
-    rank = _at_border(triangles, len(points))
+    rank = open_vertices(triangles, len(points)).astype(np.int64)
     rules = _rules(rank, lambda a, b: _keeps_side(a, b, tolerance))
     points, triangles, renumber = remesh.collapse(points, triangles, rules, tolerance, np.inf)
     return points, np.flatnonzero(renumber >= 0), triangles
-
-
-def _at_border(triangles: Ints, count: int) -> Ints:
-    """(count,) 1 for the vertices at the border of an open piece of mesh, 0 for the others."""
-    table = remesh.edges(triangles, count)
-    rank = np.zeros(count, np.int64)
-    rank[table.ends[table.triangles[:, 1] < 0]] = 1
-    return rank
 
 
 def _rules(
@@ -252,7 +235,7 @@ def _close_slivers(
     this lies in the planes of all other facets about the corner: the surface stays.
     """
     count = len(points)
-    rank = _at_border(triangles, count)
+    rank = open_vertices(triangles, count).astype(np.int64)
     thin = triangles[_slivers(points, triangles.astype(np.int32), tolerance)]
     corners, row = points[thin], np.arange(len(thin))
     opposite = np.linalg.norm(np.roll(corners, -1, axis=1) - np.roll(corners, 1, axis=1), axis=2)
@@ -275,10 +258,10 @@ def _close_slivers(
     if not flat.any():
         return points, np.arange(count), triangles
     gone, kept, farthest = gone[flat], kept[flat], farthest[flat]
-    edge, first = np.unique(_edge_names(gone, kept, count), return_index=True)
+    edge, first = np.unique(edge_keys(gone, kept, count), return_index=True)
 
     def merge(a: Ints, b: Ints) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        name = _edge_names(a, b, count)
+        name = edge_keys(a, b, count)
         place = np.minimum(np.searchsorted(edge, name), len(edge) - 1)
         cost = np.where(edge[place] == name, farthest[first[place]], np.inf)
         return cost, points[kept[first[place]]]
@@ -290,12 +273,6 @@ def _close_slivers(
     rules = _rules(rank, good, merge)
     points, triangles, renumber = remesh.collapse(points, triangles, rules, np.inf, np.inf)
     return points, np.flatnonzero(renumber >= 0), triangles
-
-
-def _edge_names(a: Ints, b: Ints, count: int) -> Ints:
-    """(k,) a number for each edge between two of `count` vertices, whichever end comes first."""
-    name: Ints = np.minimum(a, b) * np.int64(count) + np.maximum(a, b)
-    return name
 
 
 def _none(one: Ints, two: Ints) -> Bools:
@@ -330,9 +307,7 @@ def separate_vertices(mesh: TriangleMesh, precision: float) -> TriangleMesh:
         twins = merging_vertices(mesh)
         if not len(twins):
             return mesh
-        moved = np.zeros(len(mesh.vertices), bool)
-        moved[twins] = True
-        part = mesh.triangles[_touching(moved, mesh.triangles)]
+        part = mesh.triangles[touching(vertices_of(twins, len(mesh.vertices)), mesh.triangles)]
         normal = np.repeat(remesh.normals(mesh.vertices[part]), 3, axis=0)
         total = np.stack(
             [

@@ -15,9 +15,10 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from ..util.linalg import cross_columns, dot_columns
 from ..util.progress import Monitor
 from ..util.threads import threads
-from .edge_table import edge_uses
+from .topology import edge_uses
 from .triangle_mesh import TriangleMesh
 
 T = TypeVar("T")
@@ -249,10 +250,10 @@ def _sizes(
         )
         e = [b[k] - a[k] for k in range(3)]
         f = [c[k] - a[k] for k in range(3)]
-        normal = _cross(e, f)
-        volumes[start:stop] = _dot(a, normal) / 6.0
-        doubled = np.sqrt(_dot(normal, normal))
-        flat = doubled <= DEGENERATE_HEIGHT * np.maximum(_dot(e, e), _dot(f, f))
+        normal = cross_columns(e, f)
+        volumes[start:stop] = dot_columns(a, normal) / 6.0
+        doubled = np.sqrt(dot_columns(normal, normal))
+        flat = doubled <= DEGENERATE_HEIGHT * np.maximum(dot_columns(e, e), dot_columns(f, f))
         repeated = (
             (corners[0] == corners[1]) | (corners[1] == corners[2]) | (corners[2] == corners[0])
         )
@@ -297,12 +298,3 @@ def _in_blocks(work: Callable[[int, int], T], count: int) -> list[T]:
 
 def _run(monitor: Monitor | None, function: Callable[[], T]) -> T:
     return function() if monitor is None else monitor.call(function)
-
-
-def _cross(a: list[NDArray[np.float64]], b: list[NDArray[np.float64]]) -> list[NDArray[np.float64]]:
-    return [a[i] * b[j] - a[j] * b[i] for i, j in ((1, 2), (2, 0), (0, 1))]
-
-
-def _dot(a: list[NDArray[np.float64]], b: list[NDArray[np.float64]]) -> NDArray[np.float64]:
-    product: NDArray[np.float64] = a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-    return product

@@ -11,12 +11,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
 from ..util.linalg import normalize
 from ..util.ragged import rows_of
 from ..util.types import Bools, Floats, Ints
+from .topology import among_edges, edge_keys
 
 #: A triangle may not turn by more than this (cosine) when a neighbour is collapsed or flipped.
 MIN_TURN_COSINE = 0.35
@@ -46,7 +48,7 @@ def edges(triangles: Ints, vertex_count: int) -> Edges:
     end = triangles[:, [1, 2, 0]].ravel(order="F")
     opposite = triangles[:, [2, 0, 1]].ravel(order="F")
     owner = np.tile(np.arange(count), 3)
-    key = np.minimum(start, end) * np.int64(vertex_count) + np.maximum(start, end)
+    key = edge_keys(start, end, vertex_count)
     order = np.argsort(key, kind="stable")
     sorted_key = key[order]
     is_first = np.ones(len(key), bool)
@@ -263,9 +265,8 @@ def flip(
     inner = np.flatnonzero(table.triangles[:, 1] >= 0)
     ends, corners = table.ends[inner], table.opposite[inner]
     pair = table.triangles[inner]
-    low, high = table.ends.min(axis=1), table.ends.max(axis=1)
-    keys = np.sort(low * np.int64(count) + high)
-    new_key = corners.min(axis=1) * np.int64(count) + corners.max(axis=1)
+    keys = np.sort(edge_keys(table.ends[:, 0], table.ends[:, 1], count))
+    new_key = edge_keys(corners[:, 0], corners[:, 1], count)
     exists = keys[np.minimum(np.searchsorted(keys, new_key), len(keys) - 1)] == new_key
     # Directed edge u -> v in the first triangle (u, v, a), v -> u in the second (v, u, b): the
     # flipped pair is (a, b, v) and (b, a, u).
@@ -318,11 +319,11 @@ def halve(
     Returns:
         Vertices and triangles as of `split`.
     """
-    count = np.int64(len(vertices))
-    table = edges(triangles, len(vertices))
+    count = len(vertices)
+    table = edges(triangles, count)
     inner = table.triangles[:, 1] >= 0
     pair, ends = table.triangles[inner], table.ends[inner]
-    name = ends.min(axis=1) * count + ends.max(axis=1)
+    name = edge_keys(ends[:, 0], ends[:, 1], count)
     beyond = np.full(len(triangles), -1, np.int64)
     for k in (0, 1):
         mine = edge[pair[:, k]] == name
@@ -337,11 +338,7 @@ def halve(
         if not len(going):
             break
     chosen = np.unique(np.concatenate(found))
-
-    def asked(one: Ints, two: Ints) -> Bools:
-        return np.isin(np.minimum(one, two) * count + np.maximum(one, two), chosen)
-
-    return split(vertices, triangles, asked)
+    return split(vertices, triangles, partial(among_edges, keys=chosen, count=count))
 
 
 def split(
@@ -364,8 +361,8 @@ def split(
         # Each triangle takes one split at a time; the others wait for the next round. Only the
         # triangles at edges that are to be split, and what became of them, are looked at.
         table = edges(triangles[rows], len(vertices))
-        key = (np.sort(table.ends, axis=1) * np.array([len(vertices), 1])).sum(axis=1)
-        want = (np.sort(todo, axis=1) * np.array([len(vertices), 1])).sum(axis=1)
+        key = edge_keys(table.ends[:, 0], table.ends[:, 1], len(vertices))
+        want = edge_keys(todo[:, 0], todo[:, 1], len(vertices))
         order = np.argsort(key)
         found = order[np.searchsorted(key[order], want)]
         pair = rows[table.triangles[found]]

@@ -7,11 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
 from ..util.linalg import normalize
 from ..util.types import Floats, Ints
+from .topology import edge_keys, pieces_of
 from .triangle_mesh import TriangleMesh
 
 #: Two triangles are drawn smooth up to this angle between them, and with an edge from that one.
@@ -44,8 +43,7 @@ def shade(mesh: TriangleMesh, crease_angle: float = CREASE_ANGLE) -> Shaded:
     pair = _pairs(mesh)
     smooth = _cosines(area, pair) >= np.cos(crease_angle)
     one, two = _corners_across(t, pair[smooth])
-    graph = coo_matrix((np.ones(len(one), np.int8), (one, two)), shape=(t.size, t.size))
-    count, corner = connected_components(graph, directed=False)
+    count, corner = pieces_of(one, two, t.size)
     vertex = np.empty(count, np.int64)
     vertex[corner] = t.ravel()
     weight = np.repeat(area, 3, axis=0)
@@ -77,7 +75,7 @@ def _half_edges(triangles: NDArray[np.int32]) -> Ints:
 def _pairs(mesh: TriangleMesh) -> Ints:
     """(p, 2) half edges that lie on each other."""
     ends = _half_edges(mesh.triangles)
-    key = ends.min(axis=1) * len(mesh.vertices) + ends.max(axis=1)
+    key = edge_keys(ends[:, 0], ends[:, 1], len(mesh.vertices))
     order = np.argsort(key, kind="stable")
     same = np.flatnonzero(key[order[1:]] == key[order[:-1]])
     return np.stack([order[same], order[same + 1]], axis=1)

@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..util.types import Ints
-from .edge_table import areas_of, edges_of, pieces_of
+from .topology import edges_of, pieces_of
 from .triangle_mesh import TriangleMesh
 
 #: Facets that meet at a larger angle, degrees, belong to different faces.
@@ -31,7 +31,7 @@ def smooth_faces(mesh: TriangleMesh, sharp: float = SHARP) -> Ints:
     one, two = (sides // 3 for sides in edges_of(mesh).pairs())
     smooth = np.einsum("ij,ij->i", normals[one], normals[two]) > np.cos(np.radians(sharp))
     count, piece = pieces_of(one[smooth], two[smooth], len(mesh.triangles))
-    area = np.bincount(piece, areas_of(mesh), count)
+    area = np.bincount(piece, mesh.areas(), count)
     # To a millionth, so that equal faces keep the order of their facets whatever rounding does.
     order = np.argsort(-np.round(area / max(area.max(initial=0.0), 1e-300), 6), kind="stable")
     number = np.empty(count, np.int64)

@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,13 +41,18 @@ class TriangleMesh:
     @property
     def area(self) -> float:
         """Surface area in mm2."""
-        a, b, c = self.corners()
-        return float(0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1).sum())
+        return float(self.areas().sum())
 
     def corners(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
         """The three (m, 3) arrays of corner coordinates."""
         t = self.triangles
         return self.vertices[t[:, 0]], self.vertices[t[:, 1]], self.vertices[t[:, 2]]
+
+    def areas(self) -> NDArray[np.float64]:
+        """(m,) area of each triangle, mm2."""
+        a, b, c = self.corners()
+        areas: NDArray[np.float64] = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
+        return areas
 
     def signed_volumes(self) -> NDArray[np.float64]:
         """(m,) signed volume of the tetrahedron that each triangle spans with the box's centre."""
@@ -71,6 +78,23 @@ def box_of(points: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.array([[c.min() for c in columns], [c.max() for c in columns]])
 
 
+def triangle_boxes(
+    columns: Iterable[NDArray[Any]], corners: NDArray[Any]
+) -> tuple[NDArray[Any], NDArray[Any]]:
+    """(3, m) lowest and highest corners of the boxes about triangles.
+
+    Args:
+        columns: where the vertices are along each axis, mm or in cells of a grid.
+        corners: (3, m) the first, second and third vertices of the triangles.
+    """
+    low, high = [], []
+    for along in columns:
+        a, b, c = (along[corner] for corner in corners)
+        low.append(np.minimum(np.minimum(a, b), c))
+        high.append(np.maximum(np.maximum(a, b), c))
+    return np.array(low), np.array(high)
+
+
 def empty_mesh() -> TriangleMesh:
     """A mesh without vertices or triangles."""
     return TriangleMesh(np.zeros((0, 3)), np.zeros((0, 3), np.int32))
@@ -85,14 +109,6 @@ def concatenate(*meshes: TriangleMesh) -> TriangleMesh:
         triangles[begin:end] += np.int32(first)
         first, begin = first + len(mesh.vertices), end
     return TriangleMesh(np.concatenate([mesh.vertices for mesh in meshes]), triangles)
-
-
-def corners_among(chosen: NDArray[np.bool_], triangles: NDArray[np.int32]) -> NDArray[np.int8]:
-    """(m,) how many corners of each triangle are among the chosen vertices, (n,) bool."""
-    # A column at a time: numpy is slow at reducing many short rows.
-    a, b, c = (chosen[triangles[:, k]].view(np.int8) for k in range(3))
-    result: NDArray[np.int8] = a + b + c
-    return result
 
 
 def compact(mesh: TriangleMesh, *, owned: bool = False) -> TriangleMesh:

@@ -11,9 +11,8 @@ import math
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
+from .topology import pieces_of
 from .triangle_mesh import TriangleMesh, compact
 
 #: Triangles on each square of the raster that a surface runs through.
@@ -44,8 +43,7 @@ def is_outside(mesh: TriangleMesh) -> NDArray[np.bool_]:
     triangles, count = mesh.triangles, len(mesh.vertices)
     rows = np.concatenate([triangles[:, 0], triangles[:, 1]])
     columns = np.concatenate([triangles[:, 1], triangles[:, 2]])
-    graph = coo_matrix((np.ones(len(rows), np.int8), (rows, columns)), shape=(count, count))
-    shells, shell = connected_components(graph, directed=False)
+    shells, shell = pieces_of(rows, columns, count)
     shell = shell[triangles[:, 0]]
     volume = np.bincount(shell, weights=mesh.signed_volumes(), minlength=shells)
     return np.asarray(volume[shell] > 0)

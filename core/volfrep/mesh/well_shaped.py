@@ -20,6 +20,7 @@ from scipy.spatial import cKDTree
 from ..util.ragged import rows_of
 from ..util.types import Bools, Floats, Ints
 from . import remesh
+from .topology import among_edges, beside, edge_keys, numbered, open_vertices, touching, vertices_of
 from .triangle_mesh import TriangleMesh, compact
 
 #: Facets with angles below or above these, degrees, are bad.
@@ -116,8 +117,8 @@ def mend_bad_facets(mesh: TriangleMesh, tolerance: Tolerance, shortest: float) -
             break
         part = bad
         for _ in range(RINGS):
-            part = _touching(part, triangles, len(points))
-        used, local = _numbered(triangles[part], len(points))
+            part = beside(part, triangles, len(points))
+        used, local = numbered(triangles[part], len(points))
         moved, piece = _mended(points[used], local, tolerance, shortest, done % 2 == 1)
         row = np.concatenate([used, len(points) + np.arange(len(moved) - len(used))])
         points = np.concatenate([points, moved[len(used) :]])
@@ -126,22 +127,6 @@ def mend_bad_facets(mesh: TriangleMesh, tolerance: Tolerance, shortest: float) -
         triangles = np.concatenate([rest, changed])
         bad = np.concatenate([np.zeros(len(rest), bool), is_bad(points[changed])])
     return compact(TriangleMesh(points, triangles.astype(np.int32)))
-
-
-def _touching(chosen: Bools, triangles: Ints, count: int) -> Bools:
-    """(m,) which triangles have a corner, of `count` ones, in common with a chosen one."""
-    near = np.zeros(count, bool)
-    near[triangles[chosen]] = True
-    a, b, c = (near[triangles[:, k]] for k in range(3))
-    return np.asarray(a | b | c, np.bool_)
-
-
-def _numbered(triangles: Ints, count: int) -> tuple[Ints, Ints]:
-    """The points of triangles, of `count` ones, ascending; the triangles of these."""
-    is_used = np.zeros(count, bool)
-    is_used[triangles] = True
-    number = np.cumsum(is_used) - 1
-    return np.flatnonzero(is_used), number[triangles]
 
 
 def around(triangles: Ints, chosen: Bools) -> tuple[Ints, Ints]:
@@ -173,14 +158,6 @@ def _mended(
     return points, _flipped(points, triangles, tolerance)
 
 
-def _fixed(triangles: Ints, count: int) -> Bools:
-    """The vertices at the border of an open piece."""
-    table = remesh.edges(triangles, count)
-    fixed = np.zeros(count, bool)
-    fixed[table.ends[table.triangles[:, 1] < 0]] = True
-    return fixed
-
-
 def _without_threes(points: Floats, triangles: Ints, tolerance: Tolerance) -> Ints:
     """The facets, one in place of three that meet in a point, where it is good or one was bad.
 
@@ -189,7 +166,7 @@ def _without_threes(points: Floats, triangles: Ints, tolerance: Tolerance) -> In
     bad = is_bad(points[triangles])
     count = np.bincount(triangles.ravel(), minlength=len(points))
     near = np.bincount(triangles[bad].ravel(), minlength=len(points)) > 0
-    chosen = (count == 3) & ~_fixed(triangles, len(points))
+    chosen = (count == 3) & ~open_vertices(triangles, len(points))
     # Of points that are neighbours only the first goes.
     several = chosen[triangles].sum(axis=1) > 1
     chosen[triangles[several].max(axis=1)] = False
@@ -225,9 +202,9 @@ def _collapsed(
     bad = is_bad(points[triangles])
     if not bad.any():
         return points, triangles
-    at_border = _fixed(triangles, len(points))
-    part = _touching(bad, triangles, len(points))
-    used, local = _numbered(triangles[part], len(points))
+    at_border = open_vertices(triangles, len(points))
+    part = beside(bad, triangles, len(points))
+    used, local = numbered(triangles[part], len(points))
     rules, longest = _rules(points[used], local, bad[part], at_border[used], tolerance, dearer)
     moved, some, renumber = remesh.collapse(points[used], local, rules, longest, np.inf)
     row = used[renumber >= 0]
@@ -246,7 +223,7 @@ def _rules(
     sides = np.linalg.norm(corners[rows] - np.roll(corners[rows], -1, axis=1), axis=2)
     at = sides.argmin(axis=1)
     ends = np.stack([triangles[rows, at], triangles[rows, (at + 1) % 3]], axis=1)
-    wanted = np.unique(ends.min(axis=1) * np.int64(count) + ends.max(axis=1))
+    wanted = np.unique(edge_keys(ends[:, 0], ends[:, 1], count))
     longest = float(sides.min(axis=1).max(initial=0.0)) * (1.0 + 1e-9)
     normal = remesh.unit_normals(corners)
     begin, facet = remesh.grouped(triangles.ravel(), np.repeat(np.arange(len(triangles)), 3), count)
@@ -261,8 +238,7 @@ def _rules(
 
     def merge(gone: Ints, kept: Ints) -> tuple[Floats, Floats]:
         result, target = np.full(len(gone), np.inf), points[kept]
-        low, high = np.minimum(gone, kept), np.maximum(gone, kept)
-        asked = np.flatnonzero(np.isin(low * np.int64(count) + high, wanted))
+        asked = np.flatnonzero(among_edges(gone, kept, wanted, count))
         result[asked], target[asked] = cost_of(gone[asked], kept[asked])
         return result, target
 
@@ -317,14 +293,13 @@ def are_opposite(one: Floats, other: Floats) -> Bools:
 def _flipped(points: Floats, triangles: Ints, tolerance: Tolerance) -> Ints:
     """Facets with their edges flipped where that makes the least angle larger."""
     poor = _least_angles(points[triangles]) < WANTED_ANGLE
-    at_border = _fixed(triangles, len(points))
+    at_border = open_vertices(triangles, len(points))
     triangles = triangles.copy()
     for _ in range(FLIPS):
         # Most facets are good, and stay: only edges of poor ones are looked at, with all facets
         # about them, and again where others have changed.
-        seen = np.zeros(len(points), bool)
-        seen[triangles[poor]] = True
-        rows = np.flatnonzero(seen[triangles].any(axis=1))
+        seen = vertices_of(triangles[poor], len(points))
+        rows = np.flatnonzero(touching(seen, triangles))
         seen &= ~at_border
 
         def is_unknown(one: Ints, two: Ints) -> Bools:
@@ -338,7 +313,7 @@ def _flipped(points: Floats, triangles: Ints, tolerance: Tolerance) -> Ints:
         poor[:] = False
         poor[rows[(some != triangles[rows]).any(axis=1)]] = True
         triangles[rows] = some
-        rows = np.flatnonzero(_touching(poor, triangles, len(points)))
+        rows = np.flatnonzero(beside(poor, triangles, len(points)))
         poor[:] = False
         poor[rows] = _least_angles(points[triangles[rows]]) < WANTED_ANGLE
     return triangles
@@ -379,13 +354,12 @@ def _flip_gain(points: Floats, tolerance: Tolerance) -> Callable[[Ints, Ints], F
 
 def _split(points: Floats, triangles: Ints, shortest: float) -> tuple[Floats, Ints]:
     """Longest edges of bad facets in two, where they are the longest of both their facets."""
-    count = np.int64(len(points))
     corners = points[triangles]
     sides = np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=2)
     at = sides.argmax(axis=1)
     every = np.arange(len(triangles))
     a, b = triangles[every, at], triangles[every, (at + 1) % 3]
-    longest = np.minimum(a, b) * count + np.maximum(a, b)
+    longest = edge_keys(a, b, len(points))
     # Where a short edge could not go, halves of the others would be as bad.
     some = (sides.max(axis=1) > 2.0 * shortest) & (sides.min(axis=1) > 0.2 * shortest)
     going = np.flatnonzero(is_bad(corners) & some)

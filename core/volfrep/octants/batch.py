@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ..util.types import Bools, Floats, Ints
 from . import sdf
-from .constrained_mesh import Surface
+from .constrained_mesh import Meshed, Surface
 from .octant import (
     STEPS,
     Octant,
@@ -21,7 +21,6 @@ from .octant import (
     sample_octants,
 )
 from .octant_spec import OctantSpec
-from .pieces import Meshed
 from .refinement import all_stray
 from .sdf import Anchors, Field, Primitives
 

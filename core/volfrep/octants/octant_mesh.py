@@ -23,8 +23,7 @@ from ..util.progress import Monitor
 from ..util.types import Floats, Ints
 from . import sdf
 from .batch import Batch, sample_all
-from .border_refinement import ROUNDS, finer_border
-from .constrained_mesh import Surface
+from .constrained_mesh import Meshed, Surface
 from .isotropic_remesh import remesh_evenly
 from .octant import (
     Octant,
@@ -32,8 +31,14 @@ from .octant import (
     octant_primitives,
 )
 from .octant_spec import OctantSpec
-from .pieces import Meshed
-from .refinement import all_stray, coarser, flipped_nearer, split_where_it_strays
+from .refinement import (
+    BORDER_ROUNDS,
+    all_stray,
+    coarser,
+    finer_border,
+    flipped_nearer,
+    split_where_it_strays,
+)
 from .sdf import Primitives
 from .surface_fit import fit_border, fit_facets
 from .untangle import crossing_facets, untangle
@@ -182,7 +187,7 @@ def _bordered(remeshed: Surface, origin: Ints, batch: Batch, farthest: float) ->
     """
     order = np.concatenate([piece.order for piece in batch.raw])[origin]
     found = Meshed(fit_border(remeshed), batch.surface.vertices[origin], order)
-    for _ in range(ROUNDS):
+    for _ in range(BORDER_ROUNDS):
         finer, parents = finer_border(found.surface, farthest)
         if finer is found.surface:
             break

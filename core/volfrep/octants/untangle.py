@@ -14,6 +14,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..mesh import remesh
+from ..mesh.topology import touching, vertices_of
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.piercing import piercing_pairs
 from ..spatial.self_intersection import close_pairs, crossing_triangles
@@ -92,12 +93,11 @@ def untangle(
         if not crossed.any():
             break
         asked()
-        near = np.zeros(count, bool)
-        near[triangles[crossed]] = True
+        near = vertices_of(triangles[crossed], count)
         pieces[:] = False  # the others stay as they are
         pieces[surface.piece[near]] = True
         for _ in range(turn // WIDER_AFTER):
-            near[triangles[near[triangles].any(axis=1)]] = True
+            near[triangles[touching(near, triangles)]] = True
         goes = (near & ~border)[:, None]
         if turn < SMOOTHED:
             target: Floats = neighbour_mean(count, pairs, surface.vertices)[0]

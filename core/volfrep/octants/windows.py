@@ -13,6 +13,7 @@ from functools import lru_cache
 import numpy as np
 
 from ..design.cells import UnitCell
+from ..mesh.topology import edge_keys
 from ..util.types import Floats
 from .octant import ALL_ACTIVE, OctantKey, octant_primitives, raw_octant, sample_octant
 from .octant_spec import OctantSpec
@@ -68,5 +69,5 @@ def _euler_characteristic(samples: Floats, spec: OctantSpec) -> int:
     raw = raw_octant(samples, spec.cell_size)
     t = raw.triangles.astype(np.int64)
     start, end = t.ravel(), np.roll(t, -1, axis=1).ravel()
-    edges = np.unique(np.minimum(start, end) * len(raw.vertices) + np.maximum(start, end))
+    edges = np.unique(edge_keys(start, end, len(raw.vertices)))
     return len(raw.vertices) - len(edges) + len(t)

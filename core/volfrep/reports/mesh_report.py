@@ -9,8 +9,8 @@ import numpy as np
 
 from ..io.repair.overlaps import CLEAN
 from ..io.write.stl import as_read
-from ..mesh.pinches import pinched_vertices
 from ..mesh.quality import Quality, ShapeStatistics, measure, shape_statistics
+from ..mesh.topology import pinched_vertices
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.piercing import piercing_pairs
 from ..spatial.winding import windings

@@ -1,23 +1,27 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Where a wall runs through itself it is drawn apart, or the cavity is filled a little."""
+"""Where a wall runs through itself it is drawn apart, or the cavity is filled a little.
+
+It is looked for again only where the mesh has changed.
+"""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
 import manifold3d
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
 from ..mesh.booleans import from_library, to_library
+from ..mesh.remesh import unit_normals
+from ..mesh.topology import pieces_of
 from ..mesh.triangle_mesh import TriangleMesh
+from ..spatial.piercing import pairs_at_planes, piercing_among
 from ..spatial.resolve_crossings import Turns, resolve_fold_crossings
-from ..util.linalg import symmetric_eigen
+from ..util.linalg import normalize, symmetric_eigen
 from ..util.progress import Monitor
 from ..util.types import Floats, Ints
-from .surface_crossings import crossed_along, find_new_crossings
 
 #: So often what crosses is drawn apart, and what is left filled.
 ROUNDS = 5
@@ -25,6 +29,8 @@ ROUNDS = 5
 #: first, and in each further round so many times as far.
 BEYOND = 0.004
 FARTHER = 2.0
+#: Odd numbers that mix the bits of coordinates.
+MIX = np.array((0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9), np.uint64)
 
 
 def without_crossings(mesh: TriangleMesh, thickness: float, monitor: Monitor) -> TriangleMesh:
@@ -71,10 +77,8 @@ def _boxes(mesh: TriangleMesh, pairs: Ints, reach: float) -> tuple[Floats, Float
         (k, 3) sizes, mm, and (k, 3, 4) how boxes about the origin are turned and moved.
     """
     corners = mesh.triangles[pairs].reshape(len(pairs), 6)
-    links = (np.repeat(corners[:, 0], 5), corners[:, 1:].ravel())
-    size = len(mesh.vertices)
-    graph = coo_matrix((np.ones(len(links[0]), np.int8), links), shape=(size, size))
-    label = connected_components(graph, directed=False)[1][corners[:, 0]]
+    links = np.repeat(corners[:, 0], 5), corners[:, 1:].ravel()
+    label = pieces_of(links[0], links[1], len(mesh.vertices))[1][corners[:, 0]]
     place = np.tile(np.unique(label, return_inverse=True)[1].ravel(), 2)
     points = np.concatenate(crossed_along(mesh, pairs))
     count = np.bincount(place)
@@ -105,3 +109,72 @@ def _less(mesh: TriangleMesh, sizes: Floats, places: Floats) -> TriangleMesh:
     ]
     union = manifold3d.Manifold.batch_boolean(boxes, manifold3d.OpType.Add)
     return from_library((solid - union).to_mesh64())
+
+
+@dataclass(frozen=True, eq=False)
+class Judged:
+    """A mesh that was looked at.
+
+    Attributes:
+        names: (m,) of its triangles, by where their corners are.
+        pairs: (k, 2) of them that run through each other, exactly.
+    """
+
+    names: Ints
+    pairs: Ints
+
+
+def find_new_crossings(
+    mesh: TriangleMesh, monitor: Monitor, before: Judged | None = None
+) -> Judged:
+    """Where a mesh runs through itself, looked for where it differs from one that is known.
+
+    Two triangles that were there before and did not cross then do not cross now.
+
+    Args:
+        mesh: the surface, mm.
+        monitor: asked for a cancel.
+        before: what is known of a mesh that shares triangles with it.
+
+    Raises:
+        Cancelled: when the monitor says so.
+    """
+    names, among = _names(mesh), None
+    if before is not None:
+        crossed = before.names[before.pairs]
+        among = ~np.isin(names, before.names) | np.isin(names, crossed)
+    return Judged(names, piercing_among(mesh, pairs_at_planes(mesh, 0.0, monitor, among)))
+
+
+def crossed_along(mesh: TriangleMesh, pairs: Ints) -> tuple[Floats, Floats]:
+    """(k, 3) and (k, 3) mm: both ends of the lines along which pairs (k, 2) of triangles cross."""
+    one, other = mesh.vertices[mesh.triangles[pairs.T]]
+    way = normalize(np.cross(unit_normals(one), unit_normals(other)))
+    ends = [_at_plane(one, other, way), _at_plane(other, one, way)]
+    # Both parts of the line lie on it: what they have in common.
+    start = np.where((ends[0][0] >= ends[1][0])[:, None], ends[0][2], ends[1][2])
+    stop = np.where((ends[0][1] <= ends[1][1])[:, None], ends[0][3], ends[1][3])
+    return start, stop
+
+
+def _at_plane(one: Floats, other: Floats, way: Floats) -> tuple[Floats, Floats, Floats, Floats]:
+    """Where planes of triangles cut others, (k, 3, 3): least and most along a way, and points."""
+    height = np.einsum("kij,kj->ki", one - other[:, :1], unit_normals(other))
+    following = np.roll(height, -1, axis=1)
+    cut = (height > 0.0) != (following > 0.0)
+    share = np.where(cut, height / np.where(cut, height - following, 1.0), 0.0)
+    points = one + np.clip(share, 0.0, 1.0)[:, :, None] * (np.roll(one, -1, axis=1) - one)
+    along = np.einsum("kij,kj->ki", points, way)
+    rows = np.arange(len(one))
+    first = np.where(cut, along, np.inf).argmin(axis=1)
+    last = np.where(cut, along, -np.inf).argmax(axis=1)
+    return along[rows, first], along[rows, last], points[rows, first], points[rows, last]
+
+
+def _names(mesh: TriangleMesh) -> Ints:
+    """(m,) a number for each triangle, the same for the same corners in any mesh."""
+    vertex = (np.ascontiguousarray(mesh.vertices).view(np.uint64) * MIX).sum(axis=1)
+    vertex ^= vertex >> np.uint64(31)
+    corners = vertex[mesh.triangles] * MIX[0]
+    mixed = (corners ^ (corners >> np.uint64(29))).sum(axis=1)
+    return np.asarray(mixed.view(np.int64))

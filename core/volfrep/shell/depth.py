@@ -1,5 +1,17 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Depth: the distance of points below a solid's surface, and where the offset wall runs."""
+"""Depth: the distance of points below a solid's surface, and where the offset wall runs.
+
+A skin with open faces (`OpenDepth`) has as its cavity all that is deep enough below the other
+faces. It reaches half a thickness beyond the open ones, so that nothing of it coincides with them
+and nothing outside the part is in it that is not in front of an open face: cut at the part's
+surface, it opens there.
+
+A skin that is not alike everywhere (`SheetDepth`) has its thickness below each group of faces: the
+cavity is what is farther from every group than that group's length. So the wall is a level set of
+one function that changes no faster than one goes, the largest of (length - distance): it cannot
+cross itself, and where a thick skin ends beside a thin one it is rounded off by its own thickness,
+as a ball that rolls along the edge of the thick faces leaves it.
+"""
 
 from __future__ import annotations
 
@@ -7,12 +19,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..spatial.proximity import SurfaceIndex
+from ..design.skins.own_faces import Thicknesses
+from ..mesh.triangle_mesh import TriangleMesh
+from ..spatial.proximity import SurfaceIndex, index_surface
+from ..spatial.rays import inside_points
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats
 
 #: Points of one step between two looks at the cancel button.
 POINTS_PER_STEP = 40_000
+#: How far the cavity reaches beyond the open faces, in thicknesses of the skin.
+BEYOND = 0.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,3 +98,170 @@ class Depth:
     def strays(self, points: Floats) -> Floats:
         """(n,) relative errors of the wall's thickness at points of it: above 0 is too thick."""
         return np.asarray(self.nearest(points)[1] / self.thickness - 1.0)
+
+
+@dataclass(frozen=True, eq=False)
+class OpenDepth(Depth):
+    """Distance to the faces with a skin, and to where the cavity ends beyond the open ones.
+
+    Outside the solid the cavity ends at a distance of `reach` to the surface: of the two values,
+    the larger one holds.
+
+    Attributes:
+        solid: the part.
+        surface: all of its surface.
+        reach: mm; less than the thickness, so that no point outside is in the cavity that is not
+            in front of an open face.
+    """
+
+    solid: TriangleMesh
+    surface: SurfaceIndex
+    reach: float
+
+    @property
+    def error(self) -> float:
+        """Also points inside may now be nearest to a border that has no samples around it."""
+        return self.surface.spacing
+
+    @property
+    def inset(self) -> float:
+        """Beyond open faces the cavity ends outside the solid's box."""
+        return -self.reach
+
+    def values(
+        self, points: Floats, inside: Bools | None = None, unknown: Bools | None = None
+    ) -> tuple[Floats, Floats]:
+        """As `Depth.values`; which points are inside is looked up in any case."""
+        value, gradient = super().values(points)
+        beyond, outward = self._beyond(points)
+        ends = beyond > value
+        return np.where(ends, beyond, value), np.where(ends[:, None], outward, gradient)
+
+    def planes(self, points: Floats) -> tuple[Floats, Floats]:
+        """As `Depth.planes`; beyond the open faces, of where the cavity ends."""
+        anchor, normal = super().planes(points)
+        skin = self.thickness - self.nearest(points)[1]
+        beyond, outward = self._beyond(points)
+        ends = (beyond > skin)[:, None]
+        end = points - beyond[:, None] * outward
+        return np.where(ends, end, anchor), np.where(ends, outward, normal)
+
+    def strays(self, points: Floats) -> Floats:
+        """As `Depth.strays`; what lies outside the solid is cut off and has no error."""
+        return np.where(self._inside(points), super().strays(points), 0.0)
+
+    def _beyond(self, points: Floats) -> tuple[Floats, Floats]:
+        """How far points are beyond the cavity's end, below 0 before it; directions outward."""
+        closest, distance = self.surface.near(points)
+        sign = np.where(self._inside(points), -1.0, 1.0)
+        outward = (points - closest) * (sign / np.maximum(distance, 1e-300))[:, None]
+        return sign * distance - self.reach, outward
+
+    def _inside(self, points: Floats) -> Bools:
+        return inside_points(self.solid, points, self.monitor)
+
+
+def open_depth(
+    solid: TriangleMesh, is_open: Bools, thickness: float, spacing: float, monitor: Monitor
+) -> OpenDepth:
+    """The depth below the faces of a solid that are not open.
+
+    Args:
+        solid: checked closed solid, mm.
+        is_open: (m,) which of its triangles have no skin.
+        thickness: of the skin, mm.
+        spacing: of the samples on the surface, mm.
+        monitor: for progress and cancel.
+    """
+    surface = monitor.call(lambda: index_surface(solid, spacing))
+    return OpenDepth(
+        surface.without(is_open), thickness, monitor, solid, surface, BEYOND * thickness
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class SheetDepth(Depth):
+    """Distance to groups of faces, each with the thickness of its skin; `index` is the thinnest's.
+
+    Attributes:
+        thinnest: the depth below the faces of the thinnest skin, and where the cavity ends beyond
+            open faces.
+        others: the other groups of faces and their thicknesses, mm.
+        solid: the part, where it has open faces; else None.
+    """
+
+    thinnest: Depth
+    others: tuple[tuple[SurfaceIndex, float], ...]
+    solid: TriangleMesh | None
+
+    @property
+    def error(self) -> float:
+        """Points inside may be nearest to a group's border, which has few samples around it."""
+        return self.index.spacing
+
+    @property
+    def inset(self) -> float:
+        """As of the thinnest."""
+        return self.thinnest.inset
+
+    def values(
+        self, points: Floats, inside: Bools | None = None, unknown: Bools | None = None
+    ) -> tuple[Floats, Floats]:
+        """As `Depth.values`: the largest of all groups' inside, the least outside."""
+        if self.solid is not None:
+            inside = None  # the thinnest group looks it up, for where the cavity ends
+        value, gradient = self.thinnest.values(points, inside, unknown)
+        sign = np.ones(len(points)) if inside is None else np.where(inside, 1.0, -1.0)
+        for index, thickness in self.others:
+            closest, distance = Depth(index, thickness, self.monitor).nearest(points)
+            here = thickness - sign * distance
+            nearer = np.where(sign > 0.0, here > value, here < value)
+            way = (closest - points) * (sign / np.maximum(distance, 1e-300))[:, None]
+            value = np.where(nearer, here, value)
+            gradient = np.where(nearer[:, None], way, gradient)
+        return value, gradient
+
+    def planes(self, points: Floats) -> tuple[Floats, Floats]:
+        """As `Depth.planes`, of the group that the wall belongs to there."""
+        value, normals = self.values(points)
+        return points - value[:, None] * normals, normals
+
+    def strays(self, points: Floats) -> Floats:
+        """As `Depth.strays`, in units of the thinnest skin."""
+        result = np.asarray(-self.values(points)[0] / self.thickness)
+        if self.solid is not None:
+            result[~inside_points(self.solid, points, self.monitor)] = 0.0
+        return result
+
+
+def thinnest_of(thicknesses: Thicknesses, usual: float) -> float:
+    """The thinnest of a skin's thicknesses, mm; `usual` is that of all other faces."""
+    present = [usual] if thicknesses.usual.any() else []
+    return min(*present, *(length for _, length in thicknesses.others), np.inf)
+
+
+def sheet_depth(
+    solid: TriangleMesh, thicknesses: Thicknesses, usual: float, spacing: float, monitor: Monitor
+) -> SheetDepth:
+    """The depth below the faces of a solid whose skin is not alike everywhere.
+
+    Args:
+        solid: checked closed solid, mm.
+        thicknesses: of its skin.
+        usual: thickness of the skin below all other faces, mm.
+        spacing: of the samples on the surface, mm.
+        monitor: for progress and cancel.
+    """
+    surface = monitor.call(lambda: index_surface(solid, spacing))
+    groups = [(thicknesses.usual, usual)] if thicknesses.usual.any() else []
+    groups = sorted([*groups, *thicknesses.others], key=lambda group: group[1])
+    sheets = [
+        (surface if faces.all() else surface.without(~faces), length) for faces, length in groups
+    ]
+    index, thinnest = sheets[0]
+    first = Depth(index, thinnest, monitor)
+    is_open = thicknesses.is_open
+    if is_open is not None:
+        first = OpenDepth(index, thinnest, monitor, solid, surface, BEYOND * thinnest)
+    part = None if is_open is None else solid
+    return SheetDepth(index, thinnest, monitor, first, tuple(sheets[1:]), part)

@@ -13,9 +13,8 @@ from ..mesh.booleans import difference, intersection
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.progress import Monitor
 from ..util.types import Bools
-from .depth import Depth
+from .depth import Depth, sheet_depth, thinnest_of
 from .offset import TOLERANCE, InnerWall, inner_wall, without_small
-from .sheet_depth import sheet_depth, thinnest_of
 
 #: Rooms between a wall and bodies that are kept solid are filled where they are smaller than this,
 #: in cubes of the skin's least thickness.

@@ -15,10 +15,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
-from ..spatial.morton import interleaved
+from ..mesh.topology import edge_keys, pieces_of
+from ..spatial.proximity import interleaved
 from ..util.types import Bools, Ints
 
 #: Coordinates are whole numbers of this many bits.
@@ -244,7 +243,7 @@ def _segments(leaves: Leaves, edges: Edges, leaf: Ints) -> tuple[Ints, Ints, Int
     following = np.roll(leaf, -1, axis=1)
     edge, quadrant = np.nonzero(leaf != following)
     before, after = leaf[edge, quadrant], following[edge, quadrant]
-    face = np.minimum(before, after) * len(leaves.size) + np.maximum(before, after)
+    face = edge_keys(before, after, len(leaves.size))
     order = np.argsort(face, kind="stable")
     face, edge, quadrant = face[order], edge[order], quadrant[order]
     count = np.unique(face, return_counts=True)[1]
@@ -300,6 +299,4 @@ def _join(leaf: Ints, first: Ints, second: Ints) -> Ints:
     links.append((corner[e, q], corner[f, np.where(same, r, (r + 1) % 4)]))
     links.append((corner[e, (q + 1) % 4], corner[f, np.where(same, (r + 1) % 4, r)]))
     start, end = (np.concatenate(ends) for ends in zip(*links, strict=True))
-    graph = coo_matrix((np.ones(len(start), np.int8), (start, end)), shape=(count, count))
-    label = connected_components(graph, directed=False)[1]
-    return np.asarray(label, np.int64).reshape(leaf.shape)
+    return pieces_of(start, end, count)[1].reshape(leaf.shape)

@@ -15,9 +15,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
+from ..mesh.topology import pieces_of
 from ..mesh.triangle_mesh import TriangleMesh, compact, empty_mesh
 from ..spatial.even_points import even_points
 from ..spatial.proximity import closest_points, index_surface
@@ -27,8 +26,7 @@ from ..util.progress import Monitor
 from ..util.types import Bools, Floats
 from .adaptive_contour import find_offset_surface
 from .decimation import simplify
-from .depth import Depth
-from .open_depth import open_depth
+from .depth import Depth, open_depth
 from .sampled_depth import DepthField, cube_grid
 from .smooth_regions import find_smooth_regions
 
@@ -86,7 +84,7 @@ def inner_wall(
     Returns:
         The boundary of the points of the solid that lie deeper than the thickness, strictly
         inside it; but beyond open triangles, which do not count for the depth, it reaches out of
-        the solid (`volfrep.shell.open_depth`). The wall is within `TOLERANCE` of its thickness, as
+        the solid (`OpenDepth`). The wall is within `TOLERANCE` of its thickness, as
         long as that does not take too many cubes (`adaptive_contour.MOST_EDGES`). Where the room
         between two walls gets narrower than a tenth of the thickness the cavity may end; where
         facets cross there, they go with a little of the room about them (`crossing_plugs`).
@@ -159,13 +157,9 @@ def _deepest(solid: TriangleMesh) -> float:
 
 def without_small(mesh: TriangleMesh, volume: float) -> TriangleMesh:
     """Without the closed surfaces that enclose less than the volume."""
-    count = len(mesh.vertices)
     t = mesh.triangles
-    graph = coo_matrix(
-        (np.ones(2 * len(t), np.int8), (t[:, [0, 1]].ravel(), t[:, [1, 2]].ravel())),
-        shape=(count, count),
-    )
-    label = connected_components(graph, directed=False)[1][t[:, 0]]
+    links = t[:, [0, 1]].ravel(), t[:, [1, 2]].ravel()
+    label = pieces_of(links[0], links[1], len(mesh.vertices))[1][t[:, 0]]
     enclosed = np.bincount(label, weights=mesh.signed_volumes())
     return compact(TriangleMesh(mesh.vertices, t[np.abs(enclosed)[label] >= volume]))
 

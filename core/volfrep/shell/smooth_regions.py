@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..mesh.triangle_mesh import TriangleMesh
-from ..spatial.surface_samples import sample_triangles
+from ..spatial.proximity import sample_triangles
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
 from .octree import find, name

@@ -9,7 +9,6 @@ from typing import Any, cast
 
 import numpy as np
 from scipy.sparse import csr_matrix
-from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from ..design.cells import UnitCell
@@ -22,6 +21,7 @@ from ..loads.regions import AnyOf, Region, simple_regions
 from ..mechanics.frame import SQUARE_SECTION
 from ..mechanics.materials import SolidMaterial
 from ..mesh import remesh
+from ..mesh.topology import pieces_of
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.proximity import closest_points
 from ..trim.clip_struts import Clipped
@@ -105,8 +105,7 @@ def feet_of(wireframe: Wireframe, clipped: Clipped, domain: TriangleMesh, radii:
     one, two = pairs.T
     gap = np.linalg.norm(places[one] - places[two], axis=1)
     alike = (meets[one] == meets[two]) & (gap < reach[one] + reach[two])
-    near = csr_matrix((np.ones(alike.sum()), (one[alike], two[alike])), (len(node),) * 2)
-    count, group = connected_components(near, directed=False)
+    count, group = pieces_of(one[alike], two[alike], len(node))
     number = np.bincount(group, minlength=count)
     total = np.stack([np.bincount(group, row, count) for row in places.T], axis=1)
     middle: Floats = total / number[:, None]
@@ -234,9 +233,7 @@ def sizing_model(
 def _hanging_together(frame: Wireframe, on_wall: Bools | None) -> Bools:
     """(m,) struts of the largest piece; with a skin, those that hang on it somewhere."""
     struts = frame.struts
-    count = len(frame.nodes)
-    near = csr_matrix((np.ones(len(struts)), (struts[:, 0], struts[:, 1])), shape=(count, count))
-    _, piece = connected_components(near, directed=False)
+    piece = pieces_of(struts[:, 0], struts[:, 1], len(frame.nodes))[1]
     if on_wall is None:
         return np.asarray(piece[struts[:, 0]] == np.argmax(np.bincount(piece[struts[:, 0]])))
     kept = np.zeros(piece.max() + 1, bool)

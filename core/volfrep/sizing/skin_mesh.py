@@ -9,6 +9,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ..mesh import remesh
+from ..mesh.topology import edge_keys
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.proximity import closest_points
 from ..util.linalg import normalize
@@ -72,7 +73,7 @@ class _Creases:
             self.rank[cKDTree(pinned).query(vertices)[0] == 0.0] = 2
 
     def _key(self, one: Ints, two: Ints) -> Ints:
-        return np.asarray(np.minimum(one, two) * np.int64(self.count) + np.maximum(one, two))
+        return edge_keys(one, two, self.count)
 
     def are_sharp(self, one: Ints, two: Ints) -> Bools:
         """Whether edges between (k,) vertices are."""
@@ -168,10 +169,11 @@ def _with_vertices(
         off = np.linalg.norm(at[:, None] - foot, axis=2)
         side, every = np.argmin(off, axis=1), np.arange(len(at))
         table = remesh.edges(triangles, len(vertices))
-        keys = np.sort(table.ends, axis=1) @ np.array([len(vertices), 1])
+        keys = edge_keys(table.ends[:, 0], table.ends[:, 1], len(vertices))
         order = np.argsort(keys)
         ends = np.stack([triangles[triangle, side], triangles[triangle, (side + 1) % 3]], axis=1)
-        number = order[np.searchsorted(keys[order], np.sort(ends, axis=1) @ [len(vertices), 1])]
+        wanted = edge_keys(ends[:, 0], ends[:, 1], len(vertices))
+        number = order[np.searchsorted(keys[order], wanted)]
         on_edge = (off[every, side] < _AT_EDGE * edge) & (table.triangles[number, 1] >= 0)
         touched = np.where(on_edge[:, None], table.triangles[number], triangle[:, None])
         # One at a time in a triangle: the first that asks for it.

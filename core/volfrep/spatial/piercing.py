@@ -13,7 +13,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.triangle_mesh import TriangleMesh
+from ..mesh.triangle_mesh import TriangleMesh, triangle_boxes
+from ..util.linalg import cross_columns, dot_columns
 from ..util.progress import Monitor
 from ..util.threads import in_threads
 from ..util.types import Bools, Floats, Ints
@@ -86,11 +87,9 @@ def pairs_at_planes(
 
 def pairs_among(mesh: TriangleMesh, moves: float, pairs: Ints) -> Ints:
     """As `pairs_at_planes`, of (k, 2) pairs of triangles only."""
-    corners = [mesh.vertices[mesh.triangles[:, k]] for k in range(3)]
-    low, high = np.minimum(*corners[:2]), np.maximum(*corners[:2])
-    low, high = np.minimum(low, corners[2]) - moves, np.maximum(high, corners[2]) + moves
+    low, high = triangle_boxes(mesh.vertices.T, mesh.triangles.T)
     a, b = pairs.T
-    for lowest, highest in zip(low.T.copy(), high.T.copy(), strict=True):
+    for lowest, highest in zip(low - moves, high + moves, strict=True):
         meets = (lowest[a] <= highest[b]) & (lowest[b] <= highest[a])
         a, b = a[meets], b[meets]
     pairs = np.stack([a, b], axis=1)
@@ -110,11 +109,10 @@ class _Planes:
         self._at = [[column[corner] for column in columns] for corner in self._corner]
         a, b, c = self._at
         e, f = ([q[k] - a[k] for k in range(3)] for q in (b, c))
-        self._normal = [e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2],
-                        e[0] * f[1] - e[1] * f[0]]  # fmt: skip
+        self._normal = cross_columns(e, f)
         # A difference of two vertices moves by so much; a determinant is linear in three of them.
         self._far = 2.0 * np.sqrt(3.0) * moves
-        long, wide = (np.sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) for d in (e, f))
+        long, wide = (np.sqrt(dot_columns(d, d)) for d in (e, f))
         self._both = (long + self._far) * (wide + self._far)
         self._less = self._both - long * wide
 

@@ -3,7 +3,8 @@
 
 Two ways, both vectorised: `closest_points` descends a tree of boxes; it is exact and meant for
 measuring. `SurfaceIndex.near` is many times faster for the millions of points of a distance field,
-and its error has a bound.
+and its error has a bound: it looks up points sampled on the surface, of which every point of it has
+one near. Places in the order of their Morton codes (G. M. Morton, 1966) mostly follow neighbours.
 """
 
 from __future__ import annotations
@@ -20,8 +21,6 @@ from ..util.errors import VolfrepError
 from ..util.ragged import spread
 from ..util.threads import in_threads, threads
 from ..util.types import Floats, Ints
-from .morton import interleaved, neighbours_together
-from .surface_samples import sample_reentrant_edges, sample_triangles
 
 #: Points, or pairs of a point and a triangle, that one vectorised step takes at a time.
 POINTS_PER_STEP = 50_000
@@ -34,6 +33,12 @@ MAX_EDGE_CROSSINGS = 8
 MOST_ROUND_A_CORNER = 1000
 #: A surface is not sampled with more points than this (100 bytes each, with the search tree).
 MAX_SAMPLES = 30_000_000
+#: Steps along the longest side of a box in which points are told apart.
+MORTON_STEPS = 1023
+#: Sine of the angle between two faces from which their reentrant edge has samples of its own.
+SHARP_BEND = 0.1
+#: Triangles that one thread samples at a time.
+TRIANGLES_PER_STEP = 2000
 
 
 def closest_points(mesh: TriangleMesh, points: Floats) -> tuple[Floats, Floats, Ints]:
@@ -356,3 +361,97 @@ def neighbours(mesh: TriangleMesh) -> Ints:
     across = np.empty(len(start), np.int64)
     across[forward] = backward // 3
     return across.reshape(-1, 3)
+
+
+def interleaved(nodes: Ints) -> Ints:
+    """(n,) Morton codes of (n, 3) whole numbers below 2^21: the bits of x, y, z in turn."""
+    result = np.zeros(len(nodes), np.int64)
+    for axis in range(3):
+        bits = nodes[:, axis].copy()
+        for shift, mask in (
+            (32, 0x1F00000000FFFF),
+            (16, 0x1F0000FF0000FF),
+            (8, 0x100F00F00F00F00F),
+            (4, 0x10C30C30C30C30C3),
+            (2, 0x1249249249249249),
+        ):
+            bits = (bits | (bits << shift)) & mask
+        result |= bits << (2 - axis)
+    return result
+
+
+def neighbours_together(points: Floats) -> Ints:
+    """(n,) an order of (n, 3) points in which what asks the same places comes together."""
+    low = points.min(axis=0)
+    size = max(float((points.max(axis=0) - low).max()), 1e-300) / MORTON_STEPS
+    return np.argsort(interleaved(((points - low) / size).astype(np.int64)), kind="stable")
+
+
+def sample_triangles(corners: Floats, spacing: float) -> tuple[Floats, Ints]:
+    """Points in rows parallel to each triangle's longest edge, and the triangles they lie on.
+
+    Every point of a triangle (k, 3, 3) has one of them within 0.75 of the spacing.
+    """
+    starts = range(0, max(len(corners), 1), TRIANGLES_PER_STEP)
+
+    def part(start: int) -> tuple[Floats, Ints]:
+        points, owner = _sampled(corners[start : start + TRIANGLES_PER_STEP], spacing)
+        return points, owner + start
+
+    points, owners = zip(*in_threads(part, starts), strict=True)
+    return np.concatenate(points), np.concatenate(owners)
+
+
+def _sampled(corners: Floats, spacing: float) -> tuple[Floats, Ints]:
+    """As `sample_triangles`, on one thread."""
+    lengths = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2)
+    longest = lengths.argmax(axis=1)
+    turn = (longest[:, None] + np.arange(3)) % 3
+    corners = np.take_along_axis(corners, turn[:, :, None], axis=1)
+    base = lengths.max(axis=1)
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    height = np.linalg.norm(normal, axis=1) / np.maximum(base, 1e-300)
+    # Both angles at the longest edge are acute: below every point of the triangle, towards that
+    # edge, is a point of the next row. The steps make the farthest point 0.75 spacings away.
+    rows = np.maximum(np.ceil(height / (0.53 * spacing)), 1).astype(np.int64)
+    columns = np.maximum(np.ceil(base / (1.06 * spacing)), 1)
+    owner, row = spread(rows)
+    up = row / rows[owner]
+    across = np.maximum(np.ceil(columns[owner] * (1.0 - up)), 1).astype(np.int64)
+    line, column = spread(across)
+    up, owner = up[line], owner[line]
+    along = (column + 0.5) / across[line] * (1.0 - up)
+    a, b, c = corners[owner, 0], corners[owner, 1], corners[owner, 2]
+    return a + along[:, None] * (b - a) + up[:, None] * (c - a), owner
+
+
+def sample_reentrant_edges(
+    corners: Floats, normal: Floats, across: Ints, spacing: float
+) -> tuple[Floats, Ints]:
+    """Points along the edges that point into the solid.
+
+    They are the nearest to many points inside, and the samples on the faces recede from them.
+
+    Args:
+        corners: (m, 3, 3) of triangles.
+        normal: (m, 3) their unit normals, outward.
+        across: (m, 3) the triangle on the other side of each edge.
+        spacing: mm.
+
+    Returns:
+        (k, 3) points and (k,) a triangle of each.
+    """
+    triangle, edge = np.nonzero(across > np.arange(len(across))[:, None])
+    other = across[triangle, edge]
+    start, end = corners[triangle, edge], corners[triangle, (edge + 1) % 3]
+    # With both normals outward, the solid is reentrant where the neighbour rises above the face.
+    along = end - start
+    length = np.linalg.norm(along, axis=1)
+    bend = np.einsum("ij,ij->i", np.cross(normal[triangle], normal[other]), along) / np.maximum(
+        length, 1e-300
+    )
+    sharp = bend < -SHARP_BEND
+    triangle, start, along, length = triangle[sharp], start[sharp], along[sharp], length[sharp]
+    pieces = np.maximum(np.ceil(length / spacing), 1).astype(np.int64)
+    owner, place = spread(pieces + 1)
+    return start[owner] + (place / pieces[owner])[:, None] * along[owner], triangle[owner]

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -11,6 +13,12 @@ from ..util.progress import Monitor
 from ..util.ragged import PAIRS_PER_STEP, pairs_in_steps, spread
 from ..util.types import Floats, Ints
 from .self_intersection import boxes_in_bins
+
+#: Bins along the longest side of the box of all segments and triangles.
+MOST_BINS = 64
+#: Bins that tell whether there is a line near a triangle are so many times finer than those that
+#: hold about one each, and no more than so many along each axis.
+FINER, MOST_FINE = 8, 4096
 
 
 def inside_points(mesh: TriangleMesh, points: Floats, monitor: Monitor) -> NDArray[np.bool_]:
@@ -26,31 +34,57 @@ def inside_points(mesh: TriangleMesh, points: Floats, monitor: Monitor) -> NDArr
     [True, False]
     """
     winding = np.zeros(len(points), np.int64)
-    corners = mesh.vertices[mesh.triangles]
     low, high = mesh.bounds
     within = np.flatnonzero(((points >= low) & (points < high)).all(axis=1))
-    if not len(within):
-        return winding > 0
-    size = float(np.sqrt((high - low)[0] * (high - low)[1] / len(within)))
-    columns = np.ceil((high - low)[:2] / size).astype(np.int64) + 1
-    bins = np.floor((points[within, :2] - low[:2]) / size).astype(np.int64)
-    number = bins[:, 0] * columns[1] + bins[:, 1]
-    order = np.argsort(number, kind="stable")
-    within, number = within[order], number[order]
-    first = np.floor((corners[:, :, :2].min(axis=1) - low[:2]) / size).astype(np.int64)
-    last = np.floor((corners[:, :, :2].max(axis=1) - low[:2]) / size).astype(np.int64)
-    extent = last - first + 1
-    for owner, place in pairs_in_steps(extent.prod(axis=1)):
+    corners, seen = mesh.vertices[mesh.triangles], points[within, :2]
+    for triangle, line in lines_over(corners, seen):
         monitor.tick()
-        own = (first[owner, 0] + place // extent[owner, 1]) * columns[1]
-        own += first[owner, 1] + place % extent[owner, 1]
-        begin = np.searchsorted(number, own)
-        row, among = spread(np.searchsorted(number, own, "right") - begin)
-        triangle, point = owner[row], within[begin[row] + among]
-        hit, z, step = _crossings(corners[triangle], points[point, 0], points[point, 1])
-        above = z > points[point[hit], 2]
-        np.add.at(winding, point[hit][above], -step[above])
+        hit, z, step = _crossings(corners[triangle], *seen[line].T)
+        point = within[line[hit]]
+        above = z > points[point, 2]
+        np.add.at(winding, point[above], -step[above])
     return winding > 0
+
+
+def lines_over(corners: Floats, points: Floats) -> Iterator[tuple[Ints, Ints]]:
+    """Triangles (m, 3, 3) and upright lines at points (k, 2) that may cross, some at a time."""
+    if not len(points):
+        return
+    flat = corners[:, :, :2]
+    low, high = points.min(axis=0), points.max(axis=0)
+    bins = max(int(np.sqrt(len(points))), 1)
+    size = np.maximum(high - low, 1e-300) / bins
+    cell = np.minimum((points - low) / size, bins - 1).astype(np.int64)
+    name = cell[:, 0] * bins + cell[:, 1]
+    order = np.argsort(name, kind="stable")
+    begins = np.searchsorted(name[order], np.arange(bins * bins + 1))
+    least, most = flat.min(axis=1), flat.max(axis=1)
+    first = np.clip((least - low) / size, 0, bins - 1).astype(np.int64)
+    last = np.clip((most - low) / size, 0, bins - 1).astype(np.int64)
+    outside = ((most < low) | (least > high)).any(axis=1)
+    finer = max(1, min(FINER, MOST_FINE // bins))
+    outside |= ~_holds_any(points, low, size / finer, bins * finer, least, most)
+    span = last - first + 1
+    # Bins hold about one point each: as many pairs as bins.
+    for row, place in pairs_in_steps(np.where(outside, 0, span.prod(axis=1))):
+        along, across = np.divmod(place, span[row, 1])
+        bin_of = (first[row, 0] + along) * bins + first[row, 1] + across
+        pair, place = spread(begins[bin_of + 1] - begins[bin_of])
+        yield row[pair], order[begins[bin_of[pair]] + place]
+
+
+def _holds_any(
+    points: Floats, low: Floats, size: Floats, bins: int, least: Floats, most: Floats
+) -> NDArray[np.bool_]:
+    """Which boxes, from `least` to `most`, share a bin with a point."""
+    cell = np.minimum((points - low) / size, bins - 1).astype(np.int64)
+    count = np.zeros((bins + 1, bins + 1), np.int32)
+    np.add.at(count, (cell[:, 0] + 1, cell[:, 1] + 1), 1)
+    below = count.cumsum(axis=0, dtype=np.int32).cumsum(axis=1, dtype=np.int32)
+    x, y = np.clip((least - low) / size, 0, bins - 1).astype(np.int64).T
+    right, top = np.clip((most - low) / size, 0, bins - 1).astype(np.int64).T + 1
+    found: NDArray[np.bool_] = below[right, top] - below[x, top] - below[right, y] + below[x, y] > 0
+    return found
 
 
 def inside_grid(
@@ -145,10 +179,6 @@ def _side(a: Floats, b: Floats, x: Floats, y: Floats) -> tuple[Floats, NDArray[n
     moved = np.where(along[:, 1] != 0, along[:, 1] < 0, along[:, 0] > 0)
     left = (side > 0) | ((side == 0) & moved)
     return np.where(turned, -side, side), left ^ turned
-
-
-#: Bins along the longest side of the box of all segments and triangles.
-MOST_BINS = 64
 
 
 def segment_crossings(mesh: TriangleMesh, start: Floats, end: Floats) -> tuple[Ints, Floats, Ints]:

@@ -5,6 +5,9 @@ Where a wall grazes a strut two sheets of a surface enclose a wedge that is as t
 single precision, and where struts have next to no room between them facets fold over. Both have an
 edge at which the surface turns back, or one that is sharper than struts have it: only there, and in
 the triangles next to it, is looked.
+
+While vertices move, who may meet whom is found once, with some room (`CrossingWatch`): a look after
+a move takes only pairs of triangles that moved; what left its room is searched for anew.
 """
 
 from __future__ import annotations
@@ -12,18 +15,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
+from numpy.typing import NDArray
 
 from ..mesh.precision import decimal_step, rounded
-from ..mesh.triangle_mesh import TriangleMesh, compact
-from ..util.linalg import normalize
+from ..mesh.topology import edge_keys, pieces_of, touching
+from ..mesh.triangle_mesh import TriangleMesh, compact, triangle_boxes
+from ..util.linalg import cross_columns, normalize
 from ..util.progress import Monitor
+from ..util.threads import in_threads
 from ..util.types import Bools, Floats, Ints
-from .crossing_watch import CrossingWatch
-from .folds import find_folds, touching
-from .piercing import pairs_at_planes, piercing_among
-from .self_intersection import about
+from .piercing import pairs_among, pairs_at_planes, piercing_among
+from .self_intersection import about, close_pairs
 
 #: Vertices of crossing triangles move by so much of the way to the middle of their neighbours, one
 #: share after the other; below 0 that far anywhere.
@@ -48,6 +50,19 @@ FEWER = 0.1
 #: Of many places a round that goes so far and leaves more than this part of them as they are is the
 #: last one: folds that are all alike may need more than a little way, all of them.
 FAR, STUCK = 0.5, 0.95
+#: The surface turns back at an edge where the cosine between its normals is below this.
+TURNS_BACK = -0.9
+#: Deformed struts do so at an edge that sticks out and is sharper than this: facets round a strut
+#: turn by 60 degrees at most, and where struts meet is a valley.
+STICKS_OUT = -0.2
+#: By how much a vertex' rough normals may be wrong, each.
+ROUGHNESS = 1e-6
+#: Triangles whose rough normals are found at a time: they should stay in the processor's cache.
+BLOCK_TRIANGLES = 1 << 15
+#: Triangles may move by so much of the median one's size before they are searched for anew.
+ROOM = 0.15
+#: The most cells along the longest side of the grid by which triangles near others are picked.
+MOST_CELLS = 160
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,7 +126,7 @@ def resolve_fold_crossings(
         mesh, pairs = _drawn_apart(mesh, pairs, turns.among, SHARES, monitor)
     if mesh is not before:  # what moved may have met what lies anywhere
         moved = (mesh.vertices != before.vertices).any(axis=1)
-        went = touching(moved, mesh.triangles.T)
+        went = touching(moved, mesh.triangles)
         stay = turns.pairs[~went[turns.pairs].any(axis=1)]
         now = _crossing(mesh, about(mesh, went), monitor, moved)
         pairs = np.concatenate([stay, now])
@@ -175,7 +190,6 @@ class _Places:
         number = np.zeros(len(mesh.vertices), np.int32)
         number[self._used] = np.arange(len(self._used))
         self._triangles = number[mesh.triangles[rows]]
-        self._corners = np.ascontiguousarray(self._triangles.T)
         self._vertices = mesh.vertices[self._used]
         self._free = free[self._used]
         self.pairs = np.searchsorted(rows, pairs)
@@ -194,9 +208,9 @@ class _Places:
         near, corners = np.zeros(len(mesh.vertices), bool), np.ascontiguousarray(mesh.triangles.T)
         near[mesh.triangles[pairs]] = True
         for _ in range(MOST_RINGS):
-            near[mesh.triangles[touching(near, corners)]] = True
+            near[mesh.triangles[touching(near, corners.T)]] = True
         near[mesh.triangles[among]] = True
-        inside = touching(near, corners)
+        inside = touching(near, corners.T)
         free = np.ones(len(mesh.vertices), bool)
         free[mesh.triangles[~inside]] = False
         return cls(mesh, np.flatnonzero(inside), pairs, free, monitor)
@@ -224,7 +238,7 @@ class _Places:
         chosen = self._grown(MOST_RINGS) & self._free
         rows = np.flatnonzero(chosen)
         here = self._mesh_of(self._vertices)
-        way = _to_neighbours(here, rows, self._triangles[self._touching(chosen)])
+        way = _to_neighbours(here, rows, self._triangles[touching(chosen, self._triangles)])
         long = np.linalg.norm(way, axis=1)
         way *= np.minimum(1.0, self._farthest / np.maximum(long, 1e-300))[:, None]
         if share < 0.0:
@@ -237,7 +251,7 @@ class _Places:
         if worse.any():  # each place by itself: what got worse there goes back
             vertices[worse] = self._vertices[worse]
             chosen &= ~worse
-            stays = ~self._touching(chosen)[self.pairs].any(axis=1)
+            stays = ~touching(chosen, self._triangles)[self.pairs].any(axis=1)
             left = np.concatenate([self.pairs[stays], self._watch.crossing(vertices, chosen)])
         if len(left) <= len(self.pairs):
             self._vertices, self.pairs = vertices, np.unique(left, axis=0)
@@ -248,7 +262,7 @@ class _Places:
 
     def _watched(self) -> CrossingWatch:
         self._watched_pairs = len(self.pairs)
-        near = self._touching(self._grown(MOST_RINGS))
+        near = touching(self._grown(MOST_RINGS), self._triangles)
         return CrossingWatch(self._mesh_of(self._vertices), near, self._monitor)
 
     def _grown(self, most: int) -> Bools:
@@ -259,12 +273,9 @@ class _Places:
         for _ in range(most):
             if not (level > 1).any():
                 break
-            rows = self._triangles[self._touching(level > 1)]
+            rows = self._triangles[touching(level > 1, self._triangles)]
             np.maximum.at(level, rows.ravel(), np.repeat(level[rows].max(axis=1) - 1, 3))
         return np.asarray(level > 0, np.bool_)
-
-    def _touching(self, near: Bools) -> Bools:
-        return touching(near, self._corners)
 
     def _mesh_of(self, vertices: Floats) -> TriangleMesh:
         return TriangleMesh(vertices, self._triangles)
@@ -275,12 +286,10 @@ def _about(mesh: TriangleMesh, pairs: Ints, among: Bools) -> Bools:
     if not 0 < len(pairs) <= MOST_PLACES:
         return among
     rows = np.flatnonzero(among)
-    low, high = _ends(mesh, pairs.ravel())
-    low, high = low.reshape(-1, 2, 3), high.reshape(-1, 2, 3)
-    from_, to = low.min(axis=1), high.max(axis=1)
+    low, high = triangle_boxes(mesh.vertices.T, mesh.triangles[pairs.ravel()].T)
+    from_, to = low.reshape(3, -1, 2).min(axis=2).T, high.reshape(3, -1, 2).max(axis=2).T
     reach = REACH * (to - from_).max(axis=1)[:, None]
-    # Axis by axis, which numpy takes in faster than rows of three.
-    least, most = (np.ascontiguousarray(ends.T) for ends in _ends(mesh, rows))
+    least, most = triangle_boxes(mesh.vertices.T, mesh.triangles[rows].T)
     meets = np.zeros(len(rows), bool)
     for lowest, highest in zip(from_ - reach, to + reach, strict=True):
         near = np.ones(len(rows), bool)
@@ -292,12 +301,6 @@ def _about(mesh: TriangleMesh, pairs: Ints, among: Bools) -> Bools:
     return found
 
 
-def _ends(mesh: TriangleMesh, rows: Ints) -> tuple[Floats, Floats]:
-    """(k, 3) lowest and highest corners of some triangles."""
-    corners = mesh.vertices[mesh.triangles[rows]]
-    return corners.min(axis=1), corners.max(axis=1)
-
-
 def _crossing(
     mesh: TriangleMesh, among: Bools, monitor: Monitor, moved: Bools | None = None
 ) -> Ints:
@@ -307,13 +310,13 @@ def _crossing(
     """
     near = np.zeros(len(mesh.vertices), bool)
     near[mesh.triangles[among]] = True
-    rows = np.flatnonzero(touching(near, mesh.triangles.T))
+    rows = np.flatnonzero(touching(near, mesh.triangles))
     if not len(rows):
         return np.zeros((0, 2), np.int64)
     step = decimal_step(mesh.vertices)
     part = compact(TriangleMesh(mesh.vertices, mesh.triangles[rows]))
     # Neither rounding moves a coordinate by more than a step: few pairs need an exact look, twice.
-    wanted = None if moved is None else touching(moved, mesh.triangles[rows].T)
+    wanted = None if moved is None else touching(moved, mesh.triangles[rows])
     close = pairs_at_planes(part, step, monitor, wanted)
     found = [
         piercing_among(TriangleMesh(vertices, part.triangles), close)
@@ -329,12 +332,10 @@ def _single(vertices: Floats) -> Floats:
 
 def _got_worse(mesh: TriangleMesh, chosen: Bools, before: Ints, after: Ints) -> Bools:
     """(n,) the chosen vertices of places where more triangles cross than before."""
-    t, size = mesh.triangles, len(mesh.vertices)
+    t = mesh.triangles
     start, end = t.ravel(), np.roll(t, -1, axis=1).ravel()
     both = chosen[start] & chosen[end]
-    pairs = (start[both], end[both])
-    graph = coo_matrix((np.ones(len(pairs[0]), np.int8), pairs), shape=(size, size))
-    count, place = connected_components(graph, directed=False)
+    count, place = pieces_of(start[both], end[both], len(mesh.vertices))
     crossing = []
     for found in (before, after):
         corners = t[found].reshape(len(found), 6)
@@ -354,3 +355,161 @@ def _to_neighbours(mesh: TriangleMesh, rows: Ints, near: Ints) -> Floats:
     )
     result: Floats = middle / degree[:, None] - mesh.vertices[rows]
     return result
+
+
+def find_folds(mesh: TriangleMesh, deformed: bool = False) -> Bools:
+    """(m,) the triangles that have a corner at an edge where the surface turns back on itself.
+
+    Where it is deformed, also those at sharp edges that stick out.
+    """
+    size = len(mesh.vertices)
+    corners, columns = mesh.triangles.T, mesh.vertices.T
+    # At both ends of such an edge two of the normals nearly cancel out, and so their sum is short.
+    # For that they need not be known well, and half as long numbers take half the memory.
+    length, count = np.zeros(size), np.zeros(size, np.int32)
+    for along in _rough_normals(columns, corners):
+        total = np.zeros(size)
+        for corner in corners:
+            total += np.bincount(corner, along, size)
+        length += np.square(total, out=total)
+    for corner in corners:
+        count += np.bincount(corner, minlength=size)
+    least = STICKS_OUT if deformed else TURNS_BACK
+    sharp = np.sqrt(length) <= count - 2.0 + np.sqrt(2.0 + 2.0 * least) + ROUGHNESS * count
+    rows = np.flatnonzero(sum(sharp[corner].view(np.int8) for corner in corners) > 1)
+    normal = _unit_normals(columns, corners[:, rows])
+    start = mesh.triangles[rows].astype(np.int64)
+    end = np.roll(start, -1, axis=1)
+    side = np.flatnonzero((sharp[start] & sharp[end]).ravel())
+    apex = np.roll(start, -2, axis=1).ravel()[side]
+    start, end, owner = start.ravel()[side], end.ravel()[side], side // 3
+    edge = edge_keys(start, end, size)
+    order = np.argsort(edge)
+    same = edge[order[1:]] == edge[order[:-1]]
+    side, other = order[:-1][same], order[1:][same]
+    one, two = owner[side], owner[other]
+    cosine = sum(along[one] * along[two] for along in normal)
+    turned = cosine < TURNS_BACK
+    if deformed:
+        beyond = mesh.vertices[apex[other]] - mesh.vertices[start[side]]
+        sticks_out = sum(along[one] * beyond[:, k] for k, along in enumerate(normal)) < 0.0
+        turned |= (cosine < STICKS_OUT) & sticks_out
+    near = np.zeros(size, bool)
+    near[mesh.triangles[rows[one[turned]]]] = True
+    near[mesh.triangles[rows[two[turned]]]] = True
+    return touching(near, mesh.triangles)
+
+
+def _rough_normals(columns: Floats, corners: NDArray[np.int32]) -> NDArray[np.float32]:
+    """(3, m) the unit normals of triangles, (3, m), of vertices (3, n), to single precision."""
+    normal = np.empty(corners.shape, np.float32)
+
+    def block(start: int) -> None:
+        part = slice(start, start + BLOCK_TRIANGLES)
+        normal[:, part] = _unit_normals(columns, np.ascontiguousarray(corners[:, part]))
+
+    for _ in in_threads(block, range(0, corners.shape[1], BLOCK_TRIANGLES)):
+        pass
+    return normal
+
+
+def _unit_normals(columns: Floats, corners: NDArray[np.int32]) -> list[Floats]:
+    """Three of (m,): the normals of triangles, (3, m), of length 1, axis by axis."""
+    a, b, c = ([column[corner] for column in columns] for corner in corners)
+    e, f = ([q[k] - a[k] for k in range(3)] for q in (b, c))
+    normal = cross_columns(e, f)
+    length = np.maximum(np.sqrt(sum(along * along for along in normal)), 1e-300)
+    return [along / length for along in normal]
+
+
+class CrossingWatch:
+    """Which triangles of a mesh may meet those that are watched.
+
+    Args:
+        mesh: any mesh, mm.
+        watched: (m,) bool, triangles whose vertices will move first.
+        monitor: asked for a cancel.
+    """
+
+    def __init__(self, mesh: TriangleMesh, watched: Bools, monitor: Monitor) -> None:
+        self._triangles = mesh.triangles
+        self._corners = np.ascontiguousarray(mesh.triangles.T)
+        self._step = decimal_step(mesh.vertices)
+        self._monitor = monitor
+        self._box = _boxes(mesh.vertices, mesh.triangles)
+        size = (self._box[:, 1] - self._box[:, 0]).max(axis=1)
+        self._room = ROOM * float(np.median(size[watched])) + self._step
+        self._watched = watched.copy()
+        self._pairs = [self._close(watched)]
+
+    def crossing(self, vertices: Floats, moved: Bools) -> Ints:
+        """(k, 2) triangles that cross in a binary file or in one of text, once vertices moved.
+
+        Args:
+            vertices: (n, 3) where they are now, mm.
+            moved: (n,) bool; at least one of each two triangles has such a vertex.
+
+        Raises:
+            Cancelled: when the monitor says so.
+        """
+        self._monitor.tick()
+        a, b, c = (moved[corner] for corner in self._corners)
+        among = a | b | c
+        rows = np.flatnonzero(among)
+        box, room = _boxes(vertices, self._triangles[rows]), self._room - self._step
+        left = (box[:, 0] < self._box[rows, 0] - room) | (box[:, 1] > self._box[rows, 1] + room)
+        out = left[:, 0] | left[:, 1] | left[:, 2] | ~self._watched[rows]
+        if out.any():
+            self._box[rows[out]] = box[out]
+            gone = np.zeros(len(among), bool)
+            gone[rows[out]] = True
+            self._watched |= gone
+            self._pairs.append(self._close(gone))
+        pairs = [some[among[some[:, 0]] | among[some[:, 1]]] for some in self._pairs]
+        # Neither rounding moves a coordinate by more than a step: few pairs need an exact look.
+        chosen, used = np.concatenate(pairs), np.zeros(len(among), bool)
+        used[chosen] = True
+        number, some = np.cumsum(used, dtype=np.int32) - np.int32(1), np.flatnonzero(used)
+        part = compact(TriangleMesh(vertices, self._triangles[some]))
+        close = pairs_among(part, self._step, number[chosen])
+        found = []
+        for told in (part.vertices, rounded(part.vertices, self._step)):
+            single = told.astype(np.float32).astype(np.float64)
+            found.append(piercing_among(TriangleMesh(single, part.triangles), close))
+        result: Ints = np.unique(some[np.concatenate(found)], axis=0)
+        return result
+
+    def _close(self, among: Bools) -> NDArray[np.int32]:
+        """(k, 2) triangles whose boxes may meet, at least one of them chosen."""
+        rows, found = self._about(among), [np.zeros((0, 2), np.int32)]
+        number = rows.astype(np.int32)
+        for a, b in close_pairs(self._box[rows], among[rows], self._room):
+            self._monitor.tick()
+            found.append(np.stack([number[a], number[b]], axis=1))
+        return np.concatenate(found)
+
+    def _about(self, among: Bools) -> Ints:
+        """The triangles that may reach into cells of a grid that chosen ones reach into."""
+        low, high = self._box[:, 0] - self._room, self._box[:, 1] + self._room
+        least, most = low.min(axis=0), high.max(axis=0)
+        size = max(
+            float((high[among] - low[among]).max()), float((most - least).max()) / MOST_CELLS
+        )
+        first = ((low - least) / size).astype(np.int16)
+        taken = np.zeros(((most - least) / size).astype(np.int64) + 2, bool)
+        # A box no larger than a cell reaches into its first one and those that follow.
+        for step in np.ndindex(2, 2, 2):
+            taken[tuple((first[among] + np.array(step)).T)] = True
+        near, padded = np.zeros_like(taken), np.pad(taken, ((0, 1),) * 3)
+        for i, j, k in np.ndindex(2, 2, 2):
+            near |= padded[i:, j:, k:][: near.shape[0], : near.shape[1], : near.shape[2]]
+        x, y, z = (high - low).T
+        result: Ints = np.flatnonzero(
+            near[tuple(first.T)] | among | (x > size) | (y > size) | (z > size)
+        )
+        return result
+
+
+def _boxes(vertices: Floats, triangles: NDArray[np.int32]) -> Floats:
+    """(m, 2, 3) the lowest and the highest corners of triangles."""
+    return np.stack([end.T for end in triangle_boxes(vertices.T, triangles.T)], axis=1)

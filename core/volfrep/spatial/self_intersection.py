@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.triangle_mesh import TriangleMesh, box_of
+from ..mesh.triangle_mesh import TriangleMesh, box_of, triangle_boxes
 from ..util.ragged import pairs_in_steps, spread
 from ..util.threads import in_threads
 from ..util.types import Bools, Floats, Ints
@@ -288,31 +288,27 @@ def about(mesh: TriangleMesh, among: Bools) -> Bools:
         result: Bools = a | b | c
         a, b, c = (where[row] for row in corners)
         rows = np.flatnonzero(~result & ((a != b) | (a != c)))
-        result[rows] = _cells_within(taken, *_boxes(cells, corners[:, rows])) > 0
+        result[rows] = _cells_within(taken, *triangle_boxes(cells, corners[:, rows])) > 0
         return result
 
     starts = range(0, len(mesh.triangles), BLOCK_TRIANGLES)
     result = np.concatenate(list(in_threads(reaching, starts)))
     rows = np.flatnonzero(result & ~among)
     if len(rows):
-        a, b, c = mesh.triangles[rows].T
-        low, high = np.empty((2, 3, len(rows)))
-        for k, column in enumerate(mesh.vertices.T):
-            for end, pick in ((low, np.minimum), (high, np.maximum)):
-                end[k] = pick(pick(column[a], column[b]), column[c]) - least[k]
-        result[rows] = _nearer(low, high, chosen)
+        low, high = triangle_boxes(mesh.vertices.T, mesh.triangles[rows].T)
+        result[rows] = _nearer(low - least[:, None], high - least[:, None], chosen)
     return result
 
 
 def _cells_within(
-    taken: NDArray[np.int32], low: list[NDArray[np.int16]], high: list[NDArray[np.int16]]
+    taken: NDArray[np.int32], low: NDArray[np.int16], high: NDArray[np.int16]
 ) -> NDArray[np.int32]:
     """(k,) how many chosen cells lie in boxes from cells to cells.
 
     Args:
         taken: how many there are before each cell along all axes.
-        low: the boxes' first cells along each axis, (k,).
-        high: their last ones.
+        low: (3, k) the boxes' first cells.
+        high: (3, k) their last ones.
     """
     flat, total = taken.ravel(), np.zeros(len(low[0]), np.int32)
     steps = [taken.shape[1] * taken.shape[2], taken.shape[2], 1]
@@ -386,15 +382,3 @@ def _gone_through(corners: Floats, shape: tuple[int, ...]) -> Bools:
         flat_at = at * steps[axis[row]] + (along * steps[other[row]]).sum(axis=1)
         result.reshape(-1)[flat_at[inside]] = True
     return result
-
-
-def _boxes(
-    cells: list[NDArray[np.int16]], corners: NDArray[np.int32]
-) -> tuple[list[NDArray[np.int16]], list[NDArray[np.int16]]]:
-    """The first and the last cells along each axis of triangles, (3, m)."""
-    low, high = [], []
-    for cell in cells:
-        a, b, c = (cell[row] for row in corners)
-        low.append(np.minimum(np.minimum(a, b), c))
-        high.append(np.maximum(np.maximum(a, b), c))
-    return low, high

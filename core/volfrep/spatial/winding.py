@@ -18,14 +18,12 @@ from numpy.typing import NDArray
 
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.linalg import frame_about, times
-from ..util.ragged import spread
 from ..util.threads import in_threads
 from ..util.types import Bools, Floats, Ints
+from .rays import lines_over
 
 #: Lines on each side of the square grid of lines.
 LINES = 64
-#: Pairs of a triangle and a line tested at once.
-PAIRS_PER_STEP = 2_000_000
 #: Triangles looked at at once.
 TRIANGLES_PER_STEP = 500_000
 #: Bins that tell whether there is a line near a triangle are so many times finer.
@@ -234,56 +232,10 @@ def crossings(corners: Floats, points: Floats) -> tuple[Ints, Ints, Floats, Ints
         Lines, triangles, heights, and +1 where the line leaves (the triangle looks up), else -1.
     """
     none = np.zeros(0, np.int64)
-    if not len(points):
-        return none, none, np.zeros(0), none
-    flat = corners[:, :, :2]
-    low, high = points.min(axis=0), points.max(axis=0)
-    bins = max(int(np.sqrt(len(points))), 1)
-    size = np.maximum(high - low, 1e-300) / bins
-    cell = np.minimum((points - low) / size, bins - 1).astype(np.int64)
-    name = cell[:, 0] * bins + cell[:, 1]
-    order = np.argsort(name, kind="stable")
-    begins = np.searchsorted(name[order], np.arange(bins * bins + 1))
-    least, most = flat.min(axis=1), flat.max(axis=1)
-    first = np.clip((least - low) / size, 0, bins - 1).astype(np.int64)
-    last = np.clip((most - low) / size, 0, bins - 1).astype(np.int64)
-    outside = ((most < low) | (least > high)).any(axis=1)
-    outside |= ~_holds_any(points, low, size / FINER, bins * FINER, least, most)
-    span = last - first + 1
-    count = np.where(outside, 0, span.prod(axis=1))
-    found: list[tuple[Ints, Ints, Floats, Ints]] = [(none, none, np.zeros(0), none)]
-    # Bins hold about one point each: as many pairs as bins, in steps that bound the memory.
-    total = np.cumsum(count)
-    cuts = np.searchsorted(total, np.arange(0, int(total[-1]), PAIRS_PER_STEP), side="right")
-    for begin, end in zip(cuts, [*cuts[1:], len(count)], strict=True):
-        row, place = spread(count[begin:end])
-        row = row + begin
-        along, across = np.divmod(place, span[row, 1])
-        bin_of = (first[row, 0] + along) * bins + first[row, 1] + across
-        held = begins[bin_of + 1] - begins[bin_of]
-        pair, place = spread(held)
-        triangle, line = row[pair], order[begins[bin_of[pair]] + place]
-        found.append(_cross(corners, points, triangle, line))
-    return (
-        np.concatenate([f[0] for f in found]),
-        np.concatenate([f[1] for f in found]),
-        np.concatenate([f[2] for f in found]),
-        np.concatenate([f[3] for f in found]),
-    )
-
-
-def _holds_any(
-    points: Floats, low: Floats, size: Floats, bins: int, least: Floats, most: Floats
-) -> Bools:
-    """Which boxes, from `least` to `most`, share a bin with a point."""
-    cell = np.minimum((points - low) / size, bins - 1).astype(np.int64)
-    count = np.zeros((bins + 1, bins + 1), np.int32)
-    np.add.at(count, (cell[:, 0] + 1, cell[:, 1] + 1), 1)
-    below = count.cumsum(axis=0, dtype=np.int32).cumsum(axis=1, dtype=np.int32)
-    x, y = np.clip((least - low) / size, 0, bins - 1).astype(np.int64).T
-    right, top = np.clip((most - low) / size, 0, bins - 1).astype(np.int64).T + 1
-    found: Bools = below[right, top] - below[x, top] - below[right, y] + below[x, y] > 0
-    return found
+    found = [(none, none, np.zeros(0), none)]
+    found += [_cross(corners, points, *pair) for pair in lines_over(corners, points)]
+    line, triangle, height, sign = (np.concatenate(each) for each in zip(*found, strict=True))
+    return line, triangle, height, sign
 
 
 def _cross(

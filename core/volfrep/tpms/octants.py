@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..mesh.edge_table import pieces_of
 from ..mesh.remesh import edges
+from ..mesh.topology import pieces_of
 from ..mesh.triangle_mesh import TriangleMesh
 from ..octants.batch import ranked_octant
 from ..octants.caps import cap, with_corners

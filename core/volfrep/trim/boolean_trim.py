@@ -17,9 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.booleans import to_library
-from ..mesh.edge_table import pieces_of
 from ..mesh.float32_repair import shortest_edge
-from ..mesh.triangle_mesh import TriangleMesh, compact, concatenate, corners_among
+from ..mesh.topology import corners_among, pieces_of
+from ..mesh.triangle_mesh import TriangleMesh, compact, concatenate
 from ..process.cluster import Watch
 from ..process.pool import at_once
 from ..spatial.rays import inside_points

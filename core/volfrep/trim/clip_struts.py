@@ -7,10 +7,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
 from ..grid.strut_graph import Wireframe
+from ..mesh.topology import pieces_of
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.proximity import closest_points
 from ..spatial.rays import segment_crossings
@@ -157,11 +156,9 @@ def _inside(
     A strut that crosses nothing has both its nodes on one side, so that whole clusters of nodes
     share one answer; only clusters without any crossing are asked for by a line to the outside.
     """
-    count = len(wireframe.nodes)
     crossed = np.bincount(strut, minlength=len(wireframe.struts))
     a, b = wireframe.struts[crossed == 0].T
-    links = coo_matrix((np.ones(len(a), bool), (a, b)), shape=(count, count))
-    clusters, cluster = connected_components(links, directed=False)
+    clusters, cluster = pieces_of(a, b, len(wireframe.nodes))
     # The first crossing tells about the strut's start, the last one about its end.
     votes = np.zeros(clusters)
     first = np.flatnonzero(np.diff(strut, prepend=-1))

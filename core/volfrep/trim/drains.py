@@ -12,11 +12,13 @@ import numpy as np
 from ..design.openings import DrainHoles
 from ..grid.strut_graph import Wireframe
 from ..mesh.booleans import as_manifold
+from ..mesh.topology import touching
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..spatial.proximity import closest_points
 from ..spatial.rays import segment_crossings
 from ..util.errors import VolfrepError
 from ..util.linalg import along
+from ..util.numbers import place_text
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
 from .boolean_trim import cut_again
@@ -293,7 +295,7 @@ def _given(site: _Site, wanted: DrainHoles) -> _Holes:
     off = int(np.argmax(distance))
     if distance[off] > OFF_SURFACE * size:
         raise VolfrepError(
-            f"The drain hole at {_text(points[off])} is {distance[off]:.3g} mm off the part's "
+            f"The drain hole at {place_text(points[off])} is {distance[off]:.3g} mm off the part's "
             "surface: give a point on it."
         )
     a, b, c = (corner[triangle] for corner in site.solid.corners())
@@ -306,8 +308,9 @@ def _given(site: _Site, wanted: DrainHoles) -> _Holes:
     axis *= np.where(np.einsum("ij,ij->i", axis, inward) < 0.0, -1.0, 1.0)[:, None]
     holes, good = site.feel(start, axis, inward)
     if not good.all():
+        where = place_text(start[np.argmin(good)])
         raise VolfrepError(
-            f"A drain hole of {2.0 * site.radius:g} mm at {_text(start[np.argmin(good)])} does not "
+            f"A drain hole of {2.0 * site.radius:g} mm at {where} does not "
             "go through the skin alone into the cavity: move it away from edges and thin places, "
             "or reduce its diameter."
         )
@@ -396,11 +399,7 @@ def _clearance(lattice: Wireframe, points: Floats) -> Floats:
 def _room(site: _Site, void: TriangleMesh, points: Floats) -> Floats:
     """(n,) distance from points to what of a void's surface is not the inner wall, mm."""
     away = closest_points(site.domain, void.vertices)[1] > ON_WALL * site.thickness
-    rows = void.triangles[away[void.triangles].any(axis=1)]
+    rows = void.triangles[touching(away, void.triangles)]
     if not len(rows) or not len(points):
         return np.zeros(len(points))
     return np.asarray(closest_points(compact(TriangleMesh(void.vertices, rows)), points)[1])
-
-
-def _text(point: Floats) -> str:
-    return "({:.4g}, {:.4g}, {:.4g})".format(*point)

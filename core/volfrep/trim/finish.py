@@ -15,6 +15,7 @@ import numpy as np
 from ..mesh.float32_repair import edge_within, separate_vertices, without_slivers
 from ..mesh.precision import merging_vertices
 from ..mesh.quality import Quality
+from ..mesh.topology import touching
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..spatial.resolve_crossings import resolve_fold_crossings, turns_of
 from ..spatial.self_intersection import about, crossing_triangles
@@ -153,7 +154,7 @@ def _with_reached(surface: TrimmedSurface, mesh: TriangleMesh, monitor: Monitor)
     if not replace(surface, mesh=mesh).is_joined:
         return TrimmedSurface(surface.whole(monitor))
     moved = (mesh.vertices != surface.mesh.vertices).any(axis=1)
-    about = mesh.triangles[moved[mesh.triangles].any(axis=1)]
+    about = mesh.triangles[touching(moved, mesh.triangles)]
     return surface.with_octants(surface.octants.reached(mesh.vertices[about]), monitor)
 
 

@@ -21,14 +21,15 @@ from ..lattice.assembly import facets, neighbour_missing
 from ..lattice.placed_octants import Placed
 from ..mesh.booleans import from_library, to_library
 from ..mesh.float32_repair import without_inner_slivers
+from ..mesh.topology import open_vertices
 from ..mesh.triangle_mesh import TriangleMesh, compact, empty_mesh
-from ..spatial.mutual_cut import cut_mutually
 from ..spatial.rays import inside_points
-from ..spatial.seams import NotCertain
 from ..spatial.self_intersection import crossing_triangles
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
+from .mutual_cut import cut_mutually
+from .seams import NotCertain
 
 if TYPE_CHECKING:
     import manifold3d
@@ -154,7 +155,12 @@ def _cut_along_seam(
     triangles = np.concatenate([parts.first, wall]).astype(np.int32)
     piece = compact(TriangleMesh(parts.vertices, triangles))
     on_wall = np.arange(len(triangles)) >= len(parts.first)
-    return Piece(piece, on_wall, open_vertices(piece), monitor.work)
+    return Piece(
+        piece,
+        on_wall,
+        rim_of(piece),
+        monitor.work,
+    )
 
 
 def _cut_by_library(
@@ -188,7 +194,12 @@ def _cut_by_library(
     kept = on_wall | (origin == ids + 2)
     triangles = mesh.triangles[kept]
     piece = compact(TriangleMesh(mesh.vertices, triangles[:, ::-1] if cavity else triangles))
-    return Piece(piece, on_wall[kept], open_vertices(piece), monitor.work)
+    return Piece(
+        piece,
+        on_wall[kept],
+        rim_of(piece),
+        monitor.work,
+    )
 
 
 def cut_mesh(
@@ -271,22 +282,6 @@ def read_runs(result: manifold3d.Mesh64) -> tuple[TriangleMesh, NDArray[np.int64
     return from_library(result), origin
 
 
-def open_vertices(mesh: TriangleMesh) -> Ints:
+def rim_of(mesh: TriangleMesh) -> Ints:
     """The vertices at edges of one triangle, ascending."""
-    corners = [np.ascontiguousarray(mesh.triangles[:, k]).astype(np.int64) for k in range(3)]
-    size = len(mesh.vertices)
-    # Sorted, the two ways along an edge follow each other: an even number and the next one.
-    key = np.concatenate(
-        [
-            (np.minimum(a, b) * size + np.maximum(a, b)) * 2 + (a > b)
-            for a, b in zip(corners, [*corners[1:], corners[0]], strict=True)
-        ]
-    )
-    key.sort()
-    first = np.flatnonzero((key[1:] ^ key[:-1]) == 1)
-    alone = np.ones(len(key), bool)
-    alone[first] = alone[first + 1] = False
-    at_rim = np.zeros(size, bool)
-    start, end = np.divmod(key[alone] >> 1, max(size, 1))
-    at_rim[start] = at_rim[end] = True
-    return np.flatnonzero(at_rim)
+    return np.flatnonzero(open_vertices(mesh.triangles, len(mesh.vertices)))

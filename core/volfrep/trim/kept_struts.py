@@ -10,19 +10,16 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
-from scipy.spatial import cKDTree
 
 from ..design.openings import lie_on
 from ..grid.strut_graph import Wireframe, select_struts
+from ..mesh.topology import pieces_of
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.proximity import closest_points
 from ..util.errors import VolfrepError
-from ..util.ragged import spread
 from ..util.types import Bools, Floats, Ints
 from .clip_struts import AT_WALL, Clipped, Pieces, clip, pieces_inside
-from .tied_struts import drawn_together, nearest_places, tied, with_grazing
+from .tied_struts import drawn_together, find_touching, groups_of, tied, with_grazing
 
 #: Struts that are one body as a mesh and hang on nothing as beams are refused from this share of
 #: their volume on.
@@ -185,7 +182,7 @@ def _with_joints(clipped: Clipped, bodies: int) -> Clipped:
     frame = clipped.wireframe
     count = len(frame.struts)
     whole = Pieces(np.arange(count), np.zeros(count), np.ones(count))
-    group = _joined(frame.struts.astype(np.int64), len(frame.nodes))[frame.struts[:, 0]]
+    group = groups_of(frame)[frame.struts[:, 0]]
     sizes = _volumes(whole, frame)
     total = np.bincount(group, sizes)
     keeps = np.zeros(len(total), bool)
@@ -248,7 +245,7 @@ def _groups(pieces: Pieces, lattice: Wireframe, wall: TriangleMesh | None) -> In
     ends = lattice.struts[pieces.owner].astype(np.int64)
     cut = np.stack([pieces.low > 0.0, pieces.high < 1.0], axis=1)
     ends[cut] = nodes + np.arange(int(cut.sum()))
-    group = _joined(ends, nodes + int(cut.sum()))[ends[:, 0]]
+    group = pieces_of(ends[:, 0], ends[:, 1], nodes + int(cut.sum()))[1][ends[:, 0]]
     if len(np.unique(group)) == 1:
         return np.zeros(count, np.int64)
     owner, low, high = pieces.owner, pieces.low, pieces.high
@@ -265,12 +262,6 @@ def _groups(pieces: Pieces, lattice: Wireframe, wall: TriangleMesh | None) -> In
     return _meeting(Pieces(owner, low, high), lattice, group)[:count]
 
 
-def _joined(pairs: Ints, count: int) -> Ints:
-    """(count,) the group of each of so many things of which pairs belong together."""
-    links = coo_matrix((np.ones(len(pairs), bool), pairs.T), shape=(count, count))
-    return np.asarray(connected_components(links, directed=False)[1], np.int64)
-
-
 def _along(pieces: Pieces, lattice: Wireframe, wall: TriangleMesh) -> Ints:
     """The struts without a piece inside whose nodes both lie in the wall or nearly so."""
     outside = np.bincount(pieces.owner, minlength=len(lattice.struts)) == 0
@@ -285,22 +276,5 @@ def _meeting(pieces: Pieces, lattice: Wireframe, group: Ints) -> Ints:
     """(p,) groups, those joined whose pieces' material meets."""
     start, end = _ends(pieces, lattice)
     radius = lattice.radii[pieces.owner].max(axis=1)
-    length = np.linalg.norm(end - start, axis=1)
-    # Every piece as points no farther apart than its radius; those of all but the largest group
-    # look for others near them.
-    samples = np.ceil(length / radius).astype(np.int64) + 1
-    piece, place = spread(samples)
-    share = place / np.maximum(samples[piece] - 1, 1)
-    points = start[piece] + share[:, None] * (end - start)[piece]
-    main = np.bincount(group, length).argmax()
-    asking = np.flatnonzero(group[piece] != main)
-    reach = 3.0 * radius.max()
-    near = cKDTree(points).query_ball_point(points[asking], reach, return_sorted=False)
-    found = np.fromiter((len(each) for each in near), np.int64, len(near))
-    other = piece[np.concatenate([*near, np.empty(0)]).astype(np.int64)]
-    pairs = np.stack([np.repeat(piece[asking], found), other], axis=1)
-    pairs = np.unique(np.sort(pairs[group[pairs[:, 0]] != group[pairs[:, 1]]], axis=1), axis=0)
-    a, b = pairs.T
-    gap = nearest_places(start[a], end[a], start[b], end[b])[1]
-    touch = pairs[gap < radius[a] + radius[b]]
-    return _joined(group[touch], int(group.max()) + 1)[group]
+    pairs = find_touching(start, end, radius, group)[0]
+    return pieces_of(group[pairs][:, 0], group[pairs][:, 1], int(group.max()) + 1)[1][group]

@@ -12,22 +12,23 @@ along.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
 from ..lattice.assembly import Layout
 from ..mesh import remesh
 from ..mesh.booleans import from_library, to_library
+from ..mesh.topology import among_edges, edge_keys
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..spatial.self_intersection import meeting_boxes
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
 from .culling import without_pinches
-from .group_cut import Group, Piece, open_vertices
+from .group_cut import Group, Piece, rim_of
 from .placed_lattice import PlacedLattice
 
 #: A group's octants have no more triangles than about so many.
@@ -96,7 +97,7 @@ class Groups:
         """The triangles of the wall that no octant reaches, seen from the material."""
         triangles = self.wall.triangles[self.triangle < 0, ::-1]
         mesh = compact(TriangleMesh(self.wall.vertices, triangles))
-        return Piece(mesh, np.ones(len(triangles), bool), open_vertices(mesh))
+        return Piece(mesh, np.ones(len(triangles), bool), rim_of(mesh))
 
     def each(self, which: Ints, cavity: bool, monitor: Monitor) -> Iterator[tuple[int, Group]]:
         """Some of the groups with their numbers, in any order, each made when its turn comes.
@@ -275,16 +276,11 @@ def _split(mesh: TriangleMesh, longest: float, low: Floats, high: Floats) -> Tri
             return TriangleMesh(points, triangles.astype(np.int32))
         at = sides[rows].argmax(axis=1)
         ends = np.stack([triangles[rows, at], triangles[rows, (at + 1) % 3]], axis=1)
-        size = np.int64(len(points))
-        wanted = np.unique(ends.min(axis=1) * size + ends.max(axis=1))
-        points, triangles = remesh.split(points, triangles, _among(wanted, size))
-
-
-def _among(wanted: Ints, size: np.int64) -> Callable[[Ints, Ints], Bools]:
-    def is_wanted(one: Ints, two: Ints) -> Bools:
-        return np.isin(np.minimum(one, two) * size + np.maximum(one, two), wanted)
-
-    return is_wanted
+        count = len(points)
+        wanted = partial(
+            among_edges, keys=np.unique(edge_keys(ends[:, 0], ends[:, 1], count)), count=count
+        )
+        points, triangles = remesh.split(points, triangles, wanted)
 
 
 def _touching(low: Floats, high: Floats, wall: TriangleMesh, near: float) -> Ints:

@@ -12,11 +12,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from ..grid.strut_graph import Wireframe
+from ..mesh.topology import pieces_of
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.proximity import closest_points
 from ..spatial.rays import inside_points
@@ -130,7 +129,9 @@ def tied(clipped: Clipped) -> Clipped:
     """A clipped lattice whose groups of struts that touch are tied where they do."""
     frame = clipped.wireframe
     group = groups_of(frame)
-    pairs, places, gap = touching(frame, group[frame.struts[:, 0]])
+    start, end = frame.nodes[frame.struts].swapaxes(0, 1)
+    thickest = frame.radii.max(axis=1)
+    pairs, places, gap = find_touching(start, end, thickest, group[frame.struts[:, 0]])
     if not len(pairs):
         return clipped
     length = np.linalg.norm(np.diff(frame.nodes[frame.struts], axis=1)[:, 0], axis=1)
@@ -166,18 +167,24 @@ def tied(clipped: Clipped) -> Clipped:
 
 def groups_of(frame: Wireframe) -> Ints:
     """(n,) the group of each node; struts join the nodes of one group."""
-    return _components(frame.struts.astype(np.int64), len(frame.nodes))
+    return pieces_of(frame.struts[:, 0], frame.struts[:, 1], len(frame.nodes))[1]
 
 
-def touching(frame: Wireframe, group: Ints) -> tuple[Ints, Floats, Floats]:
+def find_touching(
+    start: Floats, end: Floats, radius: Floats, group: Ints
+) -> tuple[Ints, Floats, Floats]:
     """Pairs of struts of different groups whose material meets.
+
+    Args:
+        start: (m, 3) of their axes, mm.
+        end: (m, 3).
+        radius: (m,) mm.
+        group: (m,) of each.
 
     Returns:
         (p, 2) struts; (p, 2) where on them their axes are nearest, as shares of their lengths;
         (p,) how near, mm.
     """
-    start, end = frame.nodes[frame.struts].swapaxes(0, 1)
-    radius = frame.radii.max(axis=1)
     length = np.linalg.norm(end - start, axis=1)
     # Every strut as points no farther apart than its radius; those of all but the largest group
     # look for others near them.
@@ -193,12 +200,12 @@ def touching(frame: Wireframe, group: Ints) -> tuple[Ints, Floats, Floats]:
     pairs = np.stack([np.repeat(strut[asking], found), other], axis=1)
     pairs = np.unique(np.sort(pairs[group[pairs[:, 0]] != group[pairs[:, 1]]], axis=1), axis=0)
     a, b = pairs.T
-    places, gap = nearest_places(start[a], end[a], start[b], end[b])
+    places, gap = _nearest_places(start[a], end[a], start[b], end[b])
     touch = gap < radius[a] + radius[b]
     return pairs[touch], places[touch], gap[touch]
 
 
-def nearest_places(a: Floats, b: Floats, c: Floats, d: Floats) -> tuple[Floats, Floats]:
+def _nearest_places(a: Floats, b: Floats, c: Floats, d: Floats) -> tuple[Floats, Floats]:
     """Where the segments a-b and c-d are nearest, (n, 2) shares of them, and (n,) how near
     (Ericson, Real-Time Collision Detection, section 5.1.9).
     """
@@ -230,17 +237,12 @@ def _lost_ends(clipped: Clipped, lattice: Wireframe) -> tuple[tuple[int, Ints, B
     )
 
 
-def _components(pairs: Ints, count: int) -> Ints:
-    links = coo_matrix((np.ones(len(pairs), bool), pairs.T), shape=(count, count))
-    return np.asarray(connected_components(links, directed=False)[1], np.int64)
-
-
 def _welded(clipped: Clipped, pairs: Ints) -> Clipped:
     """Nodes (p, 2) made one, in the middle of all that become one; no strut joins it to itself."""
     if not len(pairs):
         return clipped
     frame = clipped.wireframe
-    row = _components(pairs, len(frame.nodes))
+    row = pieces_of(pairs[:, 0], pairs[:, 1], len(frame.nodes))[1]
     number = np.bincount(row)
     nodes = np.stack([np.bincount(row, column) for column in frame.nodes.T], axis=1)
     joints, walls = np.zeros(len(number)), np.zeros(len(number), bool)

@@ -15,9 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..lattice.assembly import facet_blocks
-from ..mesh.edge_table import pieces_of
 from ..mesh.quality import Inspection, Quality, inspect
-from ..mesh.triangle_mesh import TriangleMesh, box_of, corners_among
+from ..mesh.topology import corners_among, pieces_of
+from ..mesh.triangle_mesh import TriangleMesh, box_of
 from ..spatial.winding import Lines, Windings, mesh_blocks
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints

@@ -29,6 +29,17 @@ def times(vectors: Floats, matrix: Floats) -> Floats:
     return np.asarray(np.einsum("...j,jk->...k", vectors, matrix))
 
 
+def cross_columns(a: list[Floats], b: list[Floats]) -> list[Floats]:
+    """Cross products of vectors whose x, y and z are arrays each: faster than rows of three."""
+    return [a[i] * b[j] - a[j] * b[i] for i, j in ((1, 2), (2, 0), (0, 1))]
+
+
+def dot_columns(a: list[Floats], b: list[Floats]) -> Floats:
+    """Products of vectors as of `cross_columns`."""
+    product: Floats = a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+    return product
+
+
 def normalize(vectors: NDArray[Any]) -> Floats:
     """(n, 3) vectors of length 1 along (n, 3) vectors; zero along those of no length."""
     return np.asarray(vectors / np.maximum(np.linalg.norm(vectors, axis=1), 1e-300)[:, None])

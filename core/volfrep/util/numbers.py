@@ -139,3 +139,13 @@ def duration(seconds: float) -> str:
     if seconds < 5400.0:
         return f"{round_off(seconds / 60.0)} min"
     return f"{round_off(seconds / 3600.0)} h"
+
+
+def place_text(point: Floats) -> str:
+    """A point for a message."""
+    return "({:.4g}, {:.4g}, {:.4g})".format(*point)
+
+
+def plural(count: int, one: str, many: str = "") -> str:
+    """The count with its noun, as in '1 hole' and '2 holes'."""
+    return f"{count:,} {one if count == 1 else many or one + 's'}"

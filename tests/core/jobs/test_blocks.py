@@ -19,8 +19,8 @@ from volfrep.design.profile import Profile
 from volfrep.io.solid import read_triangles
 from volfrep.io.write.stl import FACET, HEADER_BYTES, MOST_FACETS, as_read, write_stl
 from volfrep.jobs.blocks import block, write_block_stl
-from volfrep.mesh.pinches import pinched_vertices
 from volfrep.mesh.quality import measure
+from volfrep.mesh.topology import pinched_vertices
 from volfrep.util.errors import Cancelled
 
 SPEC = LatticeSpec("CVC", 10.0, 1.0, resolution=8)

@@ -11,8 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from contract import assert_same_quality
-from volfrep.mesh.pinches import pinched_vertices
 from volfrep.mesh.quality import measure, shape_statistics, subtract_shells
+from volfrep.mesh.topology import pinched_vertices
 from volfrep.mesh.triangle_mesh import TriangleMesh, compact, concatenate, empty_mesh
 from volfrep.util.errors import Cancelled
 from volfrep.util.progress import Monitor
@@ -207,7 +207,7 @@ def test_two_boxes_tip_to_tip_are_pinched() -> None:
 
 
 def test_many_pinched_vertices_over_several_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("volfrep.mesh.pinches.BLOCK_VERTICES", 7)
+    monkeypatch.setattr("volfrep.mesh.topology.BLOCK_VERTICES", 7)
     chain = concatenate(*(box(2.0, (2.0 * k, 2.0 * k, 2.0 * k)) for k in range(6)))
     points, index = np.unique(chain.vertices, axis=0, return_inverse=True)
     assert pinched_vertices(TriangleMesh(points, index.ravel()[chain.triangles])) == 5

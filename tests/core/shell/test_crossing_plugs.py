@@ -9,9 +9,8 @@ import trimesh
 import samples
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
 from volfrep.shell import crossing_plugs
-from volfrep.shell.crossing_plugs import without_crossings
+from volfrep.shell.crossing_plugs import crossed_along, find_new_crossings, without_crossings
 from volfrep.shell.offset import inner_wall
-from volfrep.shell.surface_crossings import crossed_along, find_new_crossings
 from volfrep.spatial.piercing import piercing_pairs
 from volfrep.util.progress import Monitor
 from walls import wall_errors

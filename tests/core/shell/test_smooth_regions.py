@@ -10,10 +10,9 @@ import samples
 from volfrep.shell.offset import inner_wall
 from volfrep.shell.sampled_depth import cube_grid
 from volfrep.shell.smooth_regions import find_smooth_regions
-from volfrep.spatial.proximity import closest_points, index_surface
+from volfrep.spatial.proximity import closest_points, index_surface, sample_triangles
 from volfrep.spatial.rays import inside_points
 from volfrep.spatial.self_intersection import crossing_triangles
-from volfrep.spatial.surface_samples import sample_triangles
 from volfrep.util.progress import Monitor
 from walls import wall_errors
 

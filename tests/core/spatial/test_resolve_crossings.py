@@ -13,9 +13,8 @@ from volfrep.io.write.stl import as_read
 from volfrep.jobs.infill import Infill
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
 from volfrep.spatial import resolve_crossings
-from volfrep.spatial.folds import find_folds
 from volfrep.spatial.piercing import piercing_pairs
-from volfrep.spatial.resolve_crossings import resolve_fold_crossings
+from volfrep.spatial.resolve_crossings import find_folds, resolve_fold_crossings
 from volfrep.util.progress import Monitor
 
 

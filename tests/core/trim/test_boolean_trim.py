@@ -22,12 +22,12 @@ from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.octants.octant import ALL_ACTIVE, OctantGrid, OctantKey
 from volfrep.octants.octant_mesh import mesh_octants
 from volfrep.octants.octant_spec import OctantSpec
-from volfrep.spatial.seams import NotCertain
 from volfrep.trim import boolean_trim, group_cut, octant_groups
 from volfrep.trim.boolean_trim import trim
 from volfrep.trim.culling import cull, octant_roles
-from volfrep.trim.group_cut import open_vertices
+from volfrep.trim.group_cut import rim_of
 from volfrep.trim.placed_lattice import in_place
+from volfrep.trim.seams import NotCertain
 from volfrep.trim.trimmed_surface import TrimmedSurface
 from volfrep.util.errors import Cancelled
 from volfrep.util.progress import Monitor
@@ -285,7 +285,7 @@ def test_groups_that_do_not_meet_are_cut_as_one(small_groups, monkeypatch):
             # One triangle of the first group is lost.
             spoilt.append(True)
             mesh = TriangleMesh(piece.mesh.vertices, piece.mesh.triangles[:-1])
-            return replace(piece, mesh=mesh, on_wall=piece.on_wall[:-1], rim=open_vertices(mesh))
+            return replace(piece, mesh=mesh, on_wall=piece.on_wall[:-1], rim=rim_of(mesh))
         return piece
 
     monkeypatch.setattr(boolean_trim, "cut_group", spoiling)
@@ -321,7 +321,7 @@ def test_slivers_go_in_the_groups_but_not_where_these_meet(small_groups):
     exact = trimmed(domain).surface.mesh
     clean = trimmed(domain, precision=coarse).surface.mesh
     assert len(clean.triangles) < len(exact.triangles)
-    rim = [exact.vertices[open_vertices(exact)], clean.vertices[open_vertices(clean)]]
+    rim = [exact.vertices[rim_of(exact)], clean.vertices[rim_of(clean)]]
     assert sorted(map(tuple, rim[0])) == sorted(map(tuple, rim[1]))
     distance = cKDTree(exact.vertices).query(clean.vertices)[0]
     assert distance.max() < 8 * coarse

@@ -18,7 +18,7 @@ from volfrep.output.meshes import write_mesh
 from volfrep.spatial.resolve_crossings import Turns
 from volfrep.spatial.self_intersection import crossing_triangles
 from volfrep.trim.finish import finish, refuse_merging, tidy
-from volfrep.trim.group_cut import open_vertices
+from volfrep.trim.group_cut import rim_of
 from volfrep.trim.loose_pieces import clear
 from volfrep.trim.trimmed_surface import TrimmedSurface
 from volfrep.util.errors import VolfrepError
@@ -206,7 +206,7 @@ def test_vertices_at_the_rim_of_octants_beside_the_mesh_take_these_along(monkeyp
     moved = []
 
     def nudged(mesh, *_):
-        rim = open_vertices(mesh)
+        rim = rim_of(mesh)
         vertices = mesh.vertices.copy()
         vertices[rim[:1]] += 1e-4
         moved.append(len(rim))
@@ -223,7 +223,7 @@ def test_octants_about_facets_that_cross_go_along_and_the_others_stay_beside(mon
     at_rim = []
 
     def crossing(mesh, *_):
-        at_rim.append(open_vertices(mesh)[0])
+        at_rim.append(rim_of(mesh)[0])
         pair = np.flatnonzero((mesh.triangles == at_rim[0]).any(axis=1))[:2]
         return Turns(np.zeros(len(mesh.triangles), bool), pair[None])
 

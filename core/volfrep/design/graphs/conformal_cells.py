@@ -13,6 +13,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from ...mesh.topology import pieces_of
 from ...util.errors import VolfrepError
 from ...util.types import Floats, Ints
 from ..cells import NODE_TOLERANCE, UnitCell
@@ -195,15 +196,10 @@ def _joined(places: Floats, merged: Ints, cell: UnitCell, count: int) -> tuple[F
 
 def _merged(points: Floats, same: float) -> Ints:
     """For each point a number that it shares with all that are nearer than `same` to it."""
-    from scipy.sparse import coo_matrix  # slow to load, and every job loads this module
-    from scipy.sparse.csgraph import connected_components
-    from scipy.spatial import cKDTree
+    from scipy.spatial import cKDTree  # slow to load, and every job loads this module
 
     pairs = cKDTree(points).query_pairs(same, output_type="ndarray")
-    ones = np.ones(len(pairs), bool)
-    graph = coo_matrix((ones, (pairs[:, 0], pairs[:, 1])), shape=(len(points),) * 2)
-    labels: Ints = connected_components(graph, directed=False)[1].astype(np.int64)
-    return labels
+    return pieces_of(pairs[:, 0], pairs[:, 1], len(points))[1]
 
 
 def _refuse_folded(at: Floats, shortest: Floats, where: str) -> None:

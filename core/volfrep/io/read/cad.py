@@ -11,7 +11,7 @@ import os
 import tempfile
 from pathlib import Path
 
-from ...mesh.edge_table import edges_of
+from ...mesh.topology import edges_of
 from ...process.child import Limits, OverLimit
 from ...process.programs import FREECAD, find_freecad, run_program
 from ...util.errors import VolfrepError

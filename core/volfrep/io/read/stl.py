@@ -8,8 +8,8 @@ import struct
 
 import numpy as np
 
-from ...mesh.edge_table import plural
 from ...util.errors import VolfrepError
+from ...util.numbers import plural
 from ...util.types import Floats
 from .contents import Contents, as_numbers, as_words, damaged, triangle_soup
 from .units import unit_hint

@@ -8,9 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...mesh.edge_table import areas_of, edges_of, pieces_of, place_text, plural
+from ...mesh.topology import edges_of, pieces_of
 from ...mesh.triangle_mesh import TriangleMesh, compact
 from ...util.linalg import along, normalize
+from ...util.numbers import place_text, plural
 from ...util.types import Floats, Ints
 from .polygons import cut_loops, mean_normal
 from .weld import ROUNDING
@@ -55,7 +56,7 @@ def cut_off_sheets(mesh: TriangleMesh) -> tuple[TriangleMesh, list[str]]:
     is_open[piece_of_side[(edges.count == 1)[edges.number]]] = True
     hangs = np.zeros(pieces, bool)
     hangs[piece_of_side[((edges.count > 2) & (edges.count % 2 == 1))[edges.number]]] = True
-    areas = areas_of(mesh)
+    areas = mesh.areas()
     small = np.bincount(piece, weights=areas) <= MOST_SHEET_AREA * areas.sum()
     gone = (is_open & small & (hangs | _flat_pieces(mesh, piece, pieces)))[piece]
     if not gone.any() or gone.all():
@@ -101,7 +102,7 @@ def close_holes(mesh: TriangleMesh) -> tuple[TriangleMesh, list[str], str]:
     if loops is None:
         return mesh, [], "they do not lie round holes"
     holes = [_hole(mesh, loop) for loop in loops]
-    total = float(areas_of(mesh).sum())
+    total = float(mesh.areas().sum())
     pieces: list[Ints] = []
     left = ""
     closed: list[_Hole] = []

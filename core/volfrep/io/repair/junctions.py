@@ -6,8 +6,9 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ...mesh.edge_table import areas_of, edges_of, plural
+from ...mesh.topology import edges_of
 from ...mesh.triangle_mesh import TriangleMesh, compact
+from ...util.numbers import plural
 from ...util.ragged import spread
 from ...util.types import Floats, Ints
 
@@ -37,7 +38,7 @@ def mend_junctions(mesh: TriangleMesh, tolerance: float) -> tuple[TriangleMesh, 
     longest = np.sqrt(
         np.max([((p - q) ** 2).sum(axis=1) for p, q in ((a, b), (b, c), (c, a))], axis=0)
     )
-    thin = odd & (2.0 * areas_of(mesh) <= tolerance * longest)
+    thin = odd & (2.0 * mesh.areas() <= tolerance * longest)
     if thin.any():
         mesh = compact(TriangleMesh(mesh.vertices, mesh.triangles[~thin]))
         done.append(f"{plural(int(thin.sum()), 'sliver')} along edges removed")

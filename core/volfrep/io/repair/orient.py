@@ -5,10 +5,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...mesh.edge_table import Edges, areas_of, pieces_of, place_text, plural
+from ...mesh.topology import Edges, pieces_of
 from ...mesh.triangle_mesh import TriangleMesh
 from ...util.errors import VolfrepError
 from ...util.linalg import normalize
+from ...util.numbers import place_text, plural
 from ...util.types import Bools, Ints
 
 
@@ -37,7 +38,7 @@ def orient(mesh: TriangleMesh, edges: Edges, name: str) -> tuple[TriangleMesh, B
             f"'{name}' has a one-sided surface near "
             f"{place_text(mesh.vertices[where].mean(axis=0))}: it encloses no volume."
         )
-    area = np.bincount(as_given, weights=areas_of(mesh), minlength=int(piece.max()) + 1)
+    area = np.bincount(as_given, weights=mesh.areas(), minlength=int(piece.max()) + 1)
     mine, its = area[as_given], area[turned_round]
     turned = (mine < its) | ((mine == its) & (as_given > turned_round))
     triangles = np.where(turned[:, None], mesh.triangles[:, ::-1], mesh.triangles)
@@ -62,7 +63,7 @@ def separate(mesh: TriangleMesh, edges: Edges) -> tuple[TriangleMesh, list[str]]
     # A side's start is the other side's end: corners are joined where their triangles are.
     following = np.arange(3 * len(mesh.triangles)).reshape(-1, 3)[:, [1, 2, 0]].ravel()
     joined = np.concatenate([one, following[one]]), np.concatenate([following[other], other])
-    count, fan = pieces_of(*joined, 3 * len(mesh.triangles))
+    count, fan = pieces_of(joined[0], joined[1], 3 * len(mesh.triangles))
     if count == len(mesh.vertices):
         return mesh, []
     corner = np.zeros(count, np.int64)

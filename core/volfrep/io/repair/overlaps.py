@@ -9,10 +9,11 @@ import manifold3d
 import numpy as np
 
 from ...mesh.booleans import as_manifold, from_library
-from ...mesh.edge_table import pieces_of, place_text
+from ...mesh.topology import pieces_of
 from ...mesh.triangle_mesh import TriangleMesh, compact, concatenate
 from ...spatial.winding import Windings, windings
 from ...util.errors import VolfrepError
+from ...util.numbers import place_text
 from ...util.ragged import spread
 from ...util.types import Ints
 

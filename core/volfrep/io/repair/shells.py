@@ -5,10 +5,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...mesh.edge_table import Edges, areas_of, pieces_of, place_text, plural
+from ...mesh.topology import Edges, pieces_of
 from ...mesh.triangle_mesh import TriangleMesh
 from ...spatial.winding import winding_by_shell
 from ...util.errors import VolfrepError
+from ...util.numbers import place_text, plural
 from ...util.ragged import spread
 from ...util.types import Bools, Floats, Ints
 
@@ -28,7 +29,7 @@ def empty_shells(mesh: TriangleMesh, shell: Ints) -> tuple[Bools, list[str]]:
     """(m,) the triangles of shells that enclose no volume: sheets with two sides, slivers."""
     shells = int(shell.max()) + 1
     volume = np.abs(np.bincount(shell, weights=mesh.signed_volumes(), minlength=shells))
-    area = np.bincount(shell, weights=areas_of(mesh), minlength=shells)
+    area = np.bincount(shell, weights=mesh.areas(), minlength=shells)
     empty = volume <= NO_VOLUME * area**1.5
     gone = empty[shell]
     if not gone.any():

@@ -7,8 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from ...mesh.edge_table import edges_of, pieces_of, plural
+from ...mesh.topology import edges_of, pieces_of
 from ...mesh.triangle_mesh import TriangleMesh, compact
+from ...util.numbers import plural
 from ...util.types import Ints
 
 #: Vertices of open edges nearer than this, in units of the part's largest dimension, are one

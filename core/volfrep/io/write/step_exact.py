@@ -17,11 +17,10 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
 from ...grid.congruent_joints import Joint, Unsuitable, distinct_joints
 from ...grid.strut_graph import Wireframe
+from ...mesh.topology import pieces_of
 from ...util.errors import VolfrepError
 from ...util.files import replacing
 from ...util.progress import Monitor
@@ -331,11 +330,8 @@ def _solids(
     wireframe: Wireframe, texts: Sequence[JointText], bases: list[Ints], first: int, name: str
 ) -> str:
     """A closed shell and a solid for each connected piece, their representation, the product."""
-    count = len(wireframe.nodes)
-    links = coo_matrix(
-        (np.ones(len(wireframe.struts), bool), tuple(wireframe.struts.T)), (count,) * 2
-    )
-    piece_of_node = connected_components(links, directed=False)[1]
+    start, end = wireframe.struts.T
+    piece_of_node = pieces_of(start, end, len(wireframe.nodes))[1]
     faces = np.concatenate(
         [(base[:, None] + text.faces).ravel() for text, base in zip(texts, bases, strict=True)]
     )

@@ -6,26 +6,27 @@ A kind is a module here and one in `volfrep.design.kinds`, and a row of either t
 
 from __future__ import annotations
 
+from importlib import import_module
+
 from ...design.kinds import graphs as graph_specs
 from ...design.kinds.strut_cells import StrutCells
 from ...design.kinds.tpms import Tpms
 from ...design.spec import LatticeSpec
 from ...design.spec_fields import Kind
-from .graphs import GraphKind
 from .kind import LatticeKind
-from .strut_cells import StrutCellKind
-from .tpms import TpmsKind
 
-#: By what it is to a specification.
-LATTICE_KINDS: dict[type[Kind], type[LatticeKind]] = {
-    StrutCells: StrutCellKind,
-    Tpms: TpmsKind,
-    graph_specs.GraphOfFile: GraphKind,
-    graph_specs.GraphOfPoints: GraphKind,
-    graph_specs.CellsAsGraph: GraphKind,
+#: Module and class, by what the kind is to a specification; loaded when the first one is made.
+LATTICE_KINDS: dict[type[Kind], tuple[str, str]] = {
+    StrutCells: (f"{__name__}.strut_cells", "StrutCellKind"),
+    Tpms: (f"{__name__}.tpms", "TpmsKind"),
+    graph_specs.GraphOfFile: (f"{__name__}.graphs", "GraphKind"),
+    graph_specs.GraphOfPoints: (f"{__name__}.graphs", "GraphKind"),
+    graph_specs.CellsAsGraph: (f"{__name__}.graphs", "GraphKind"),
 }
 
 
 def lattice_kind(spec: LatticeSpec) -> LatticeKind:
     """What the kind of a specification's lattice does with it."""
-    return LATTICE_KINDS[type(spec.kind)](spec)
+    module, name = LATTICE_KINDS[type(spec.kind)]
+    kind: type[LatticeKind] = getattr(import_module(module), name)
+    return kind(spec)

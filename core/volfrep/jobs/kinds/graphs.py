@@ -31,13 +31,13 @@ from ...lattice.strut_volume import (
     points_inside,
     volume_by_radius,
 )
-from ...mesh.edge_table import plural
 from ...mesh.triangle_mesh import TriangleMesh
 from ...reports.result import Result, report_of
 from ...spatial.proximity import closest_points
 from ...spatial.rays import inside_points
 from ...trim.finish import finish
 from ...util.errors import VolfrepError
+from ...util.numbers import plural
 from ...util.progress import Monitor, ProgressCallback
 from ...util.types import Floats, Ints
 from ..part_domain import PartDomain

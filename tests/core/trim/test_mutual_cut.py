@@ -7,9 +7,9 @@ import trimesh
 from volfrep.mesh.booleans import difference, intersection
 from volfrep.mesh.quality import measure
 from volfrep.mesh.triangle_mesh import TriangleMesh, compact
-from volfrep.spatial.mutual_cut import cut_mutually
 from volfrep.spatial.rays import inside_points
-from volfrep.spatial.seams import NotCertain, seam_of
+from volfrep.trim.mutual_cut import cut_mutually
+from volfrep.trim.seams import NotCertain, seam_of
 from volfrep.util.progress import Monitor
 
 

@@ -16,9 +16,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..mesh.remesh import unit_normals
-from ..mesh.triangle_mesh import TriangleMesh
+from ..mesh.triangle_mesh import TriangleMesh, triangle_boxes
+from ..spatial.self_intersection import meeting_boxes
+from ..util.linalg import cross_columns, dot_columns
 from ..util.types import Bools, Floats, Ints
-from .self_intersection import meeting_boxes
 
 #: Facets of the first surface that are looked at together, in their order.
 RUN = 32
@@ -115,8 +116,8 @@ def _near_pairs(first: TriangleMesh, second: TriangleMesh) -> tuple[Ints, Ints]:
     """Facets of both surfaces whose boxes touch, where the first reach the second ones' planes."""
     found = [(np.zeros(0, np.int64), np.zeros(0, np.int64))]
     if len(first.triangles) and len(second.triangles):
-        low, high = _boxes(first)
-        least, most = _boxes(second)
+        low, high = triangle_boxes(first.vertices.T, first.triangles.T)
+        least, most = triangle_boxes(second.vertices.T, second.triangles.T)
         others = second.vertices[second.triangles]
         normal = unit_normals(others)
         offset = np.einsum("ij,ij->i", others[:, 0], normal)
@@ -151,20 +152,12 @@ def _near_pairs(first: TriangleMesh, second: TriangleMesh) -> tuple[Ints, Ints]:
     return one, two
 
 
-def _boxes(mesh: TriangleMesh) -> tuple[Floats, Floats]:
-    """(3, m) lowest and highest corners of the boxes about facets."""
-    low, high = np.empty((2, 3, len(mesh.triangles)))
-    columns = np.ascontiguousarray(mesh.triangles.T)
-    for axis in range(3):
-        along = np.ascontiguousarray(mesh.vertices[:, axis])
-        a, b, c = (along[column] for column in columns)
-        np.minimum(np.minimum(a, b), c, out=low[axis])
-        np.maximum(np.maximum(a, b), c, out=high[axis])
-    return low, high
-
-
 def _neighbourly(points: Floats) -> Ints:
-    """An order of (3, n) points, neighbours mostly one after the other (G. M. Morton, 1966)."""
+    """An order of (3, n) points, neighbours mostly one after the other (G. M. Morton, 1966).
+
+    Not that of `proximity.neighbours_together`: where outlines begin, and so how facets are
+    divided, follows from it.
+    """
     low = points.min(axis=1)
     scale = 1023.0 / max(float((points.max(axis=1) - low).max()), 1e-300)
     code = np.zeros(points.shape[1], np.int32)
@@ -197,28 +190,19 @@ def _heights(first: TriangleMesh, second: TriangleMesh, one: Ints, two: Ints) ->
     a, b, c = (second.triangles[:, k] for k in range(3))
     origin = [column[a] for column in columns]
     e, f = ([column[q] - x for column, x in zip(columns, origin, strict=True)] for q in (b, c))
-    normal = _cross(e, f)
-    size = np.sqrt(_dot(e, e) * _dot(f, f))[two]
+    normal = cross_columns(e, f)
+    size = np.sqrt(dot_columns(e, e) * dot_columns(f, f))[two]
     origin, normal = [x[two] for x in origin], [x[two] for x in normal]
     columns = np.ascontiguousarray(first.vertices.T)
     result = np.empty((len(one), 3))
     for k in range(3):
         corner = first.triangles[one, k]
         away = [column[corner] - x for column, x in zip(columns, origin, strict=True)]
-        height = _dot(away, normal)
-        if (np.abs(height) <= UNSURE * size * np.sqrt(_dot(away, away))).any():
+        height = dot_columns(away, normal)
+        if (np.abs(height) <= UNSURE * size * np.sqrt(dot_columns(away, away))).any():
             raise NotCertain
         result[:, k] = height
     return result
-
-
-def _cross(a: list[Floats], b: list[Floats]) -> list[Floats]:
-    return [a[i] * b[j] - a[j] * b[i] for i, j in ((1, 2), (2, 0), (0, 1))]
-
-
-def _dot(a: list[Floats], b: list[Floats]) -> Floats:
-    product: Floats = a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-    return product
 
 
 def _straddle(heights: Floats) -> Bools:
@@ -271,12 +255,12 @@ def _through(u: Floats, v: Floats, corners: Floats) -> Bools:
     """Whether segments whose ends lie on both sides of (k, 3, 3) facets run through these."""
     along = list((v - u).T)
     away = [list((corners[:, k] - u).T) for k in range(3)]
-    long = np.sqrt(_dot(along, along))
-    far = [np.sqrt(_dot(a, a)) for a in away]
+    long = np.sqrt(dot_columns(along, along))
+    far = [np.sqrt(dot_columns(a, a)) for a in away]
     left = []
     for k in range(3):
         following = (k + 1) % 3
-        side = _dot(along, _cross(away[k], away[following]))
+        side = dot_columns(along, cross_columns(away[k], away[following]))
         if (np.abs(side) <= UNSURE * long * far[k] * far[following]).any():
             raise NotCertain
         left.append(side > 0)

@@ -1,8 +1,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Edge table: the edges of any triangles, closed or not, and what lies on their sides."""
+"""Which triangles, edges and vertices of a mesh belong together: all that needs no coordinates.
+
+An edge is a pair of vertices in either order, and has a key. Meshes may be open or not manifold.
+"""
 
 from __future__ import annotations
 
+import itertools
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,7 +17,7 @@ from scipy.sparse import coo_matrix, csr_matrix
 from scipy.sparse.csgraph import connected_components
 
 from ..util.ragged import rows_of
-from ..util.threads import in_threads
+from ..util.threads import in_threads, threads
 from ..util.types import Bools, Ints
 from .triangle_mesh import TriangleMesh
 
@@ -20,6 +25,52 @@ from .triangle_mesh import TriangleMesh
 BLOCK_TRIANGLES = 1 << 17
 #: A use of an edge from its lower to its higher end, and one the other way, in one sum of both.
 AHEAD, BACK = 1, 1 << 32
+#: Vertices per block in `pinched_vertices`.
+BLOCK_VERTICES = 1 << 14
+
+
+def edge_keys(one: NDArray[Any], two: NDArray[Any], count: int | np.int64) -> Ints:
+    """A number for each edge between two of `count` vertices, whichever end comes first."""
+    low, high = np.minimum(one, two), np.maximum(one, two)
+    keys: Ints = low.astype(np.int64, copy=False) * np.int64(count) + high
+    return keys
+
+
+def among_edges(one: NDArray[Any], two: NDArray[Any], keys: Ints, count: int | np.int64) -> Bools:
+    """Which edges between two of `count` vertices have one of the keys."""
+    return np.isin(edge_keys(one, two, count), keys)
+
+
+def corners_among(chosen: Bools, triangles: NDArray[Any]) -> NDArray[np.int8]:
+    """(m,) how many corners of each triangle are among the chosen vertices, (n,) bool."""
+    # A column at a time: numpy is slow at reducing many short rows.
+    a, b, c = (chosen[triangles[:, k]].view(np.int8) for k in range(3))
+    result: NDArray[np.int8] = a + b + c
+    return result
+
+
+def touching(chosen: Bools, triangles: NDArray[Any]) -> Bools:
+    """(m,) which triangles have a corner among the chosen vertices, (n,) bool."""
+    a, b, c = (chosen[triangles[:, k]] for k in range(3))
+    return np.asarray(a | b | c, np.bool_)
+
+
+def vertices_of(triangles: NDArray[Any], count: int) -> Bools:
+    """(count,) which vertices some triangles use."""
+    used = np.zeros(count, bool)
+    used[triangles] = True
+    return used
+
+
+def beside(chosen: Bools, triangles: NDArray[Any], count: int) -> Bools:
+    """(m,) which triangles share one of `count` vertices with a chosen triangle, (m,) bool."""
+    return touching(vertices_of(triangles[chosen], count), triangles)
+
+
+def numbered(triangles: NDArray[Any], count: int) -> tuple[Ints, Ints]:
+    """The vertices, of `count`, that triangles use, ascending; the triangles in rows of these."""
+    used = vertices_of(triangles, count)
+    return np.flatnonzero(used), (np.cumsum(used) - 1)[triangles]
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,8 +115,8 @@ def edges_of(mesh: TriangleMesh) -> Edges:
     """The edges of a mesh."""
     t = mesh.triangles.astype(np.int64)
     sides = np.stack([t, np.roll(t, -1, axis=1)], axis=2).reshape(-1, 2)
-    low, high = sides.min(axis=1), sides.max(axis=1)
-    number = np.unique(low * len(mesh.vertices) + high, return_inverse=True)[1].ravel()
+    keys = edge_keys(sides[:, 0], sides[:, 1], len(mesh.vertices))
+    number = np.unique(keys, return_inverse=True)[1].ravel()
     count = np.bincount(number)
     forward = np.bincount(number[sides[:, 0] < sides[:, 1]], minlength=len(count))
     return Edges(sides, number, count, 2 * forward - count)
@@ -216,25 +267,60 @@ def _joined(blocks: list[_Block], shared: Bools) -> tuple[NDArray[np.int32], int
     return result, pieces
 
 
-def pieces_of(first: Ints, second: Ints, count: int) -> tuple[int, Ints]:
+def open_vertices(triangles: NDArray[Any], count: int) -> Bools:
+    """(count,) which vertices are at edges of one triangle; no edge has more than two."""
+    corners = [np.ascontiguousarray(triangles[:, k]) for k in range(3)]
+    # Sorted, the two ways along an edge follow each other: an even number and the next one.
+    key = np.concatenate(
+        [
+            edge_keys(a, b, count) * 2 + (a > b)
+            for a, b in zip(corners, [*corners[1:], corners[0]], strict=True)
+        ]
+    )
+    key.sort()
+    first = np.flatnonzero((key[1:] ^ key[:-1]) == 1)
+    alone = np.ones(len(key), bool)
+    alone[first] = alone[first + 1] = False
+    start, end = np.divmod(key[alone] >> 1, max(count, 1))
+    return vertices_of(np.concatenate([start, end]), count)
+
+
+def pieces_of(first: NDArray[Any], second: NDArray[Any], count: int) -> tuple[int, Ints]:
     """How many pieces `count` things make that are joined in pairs, and the piece of each."""
     graph = coo_matrix((np.ones(len(first), bool), (first, second)), shape=(count, count))
     pieces, piece = connected_components(graph, directed=False)
     return int(pieces), piece.astype(np.int64)
 
 
-def areas_of(mesh: TriangleMesh) -> NDArray[np.float64]:
-    """(m,) area of each triangle."""
-    a, b, c = mesh.corners()
-    areas: NDArray[np.float64] = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
-    return areas
+def pinched_vertices(mesh: TriangleMesh) -> int:
+    """Vertices at which more than one fan of triangles meets (two cones tip to tip).
+
+    Every edge of such a mesh can be shared by exactly two triangles, and yet its surface is
+    not a manifold there.
+    """
+    # Corners ordered by their vertex: one block then holds all the corners of its vertices.
+    order = np.argsort(mesh.triangles.ravel(), kind="stable")
+    at = mesh.triangles.ravel()[order]
+    cuts = np.searchsorted(at, np.arange(0, len(mesh.vertices) + BLOCK_VERTICES, BLOCK_VERTICES))
+    spans = [slice(start, stop) for start, stop in itertools.pairwise(cuts.tolist())]
+    with ThreadPoolExecutor(max_workers=threads()) as pool:
+        return sum(pool.map(lambda span: _pinched_in(mesh, order[span], at[span]), spans))
 
 
-def place_text(point: NDArray[np.float64]) -> str:
-    """A point for a message."""
-    return "({:.4g}, {:.4g}, {:.4g})".format(*point)
-
-
-def plural(count: int, one: str, many: str = "") -> str:
-    """The count with its noun, as in '1 hole' and '2 holes'."""
-    return f"{count:,} {one if count == 1 else many or one + 's'}"
+def _pinched_in(mesh: TriangleMesh, corner: NDArray[np.int64], at: NDArray[np.int32]) -> int:
+    """Pinched vertices among those whose (complete) sets of corners are given."""
+    if not len(corner):
+        return 0
+    triangle, place = np.divmod(corner, 3)
+    apex = at.astype(np.int64) << 32
+    one = apex | mesh.triangles[triangle, (place + 1) % 3]
+    two = apex | mesh.triangles[triangle, (place + 2) % 3]
+    # A corner joins the two edges it lies between: a fan is a connected set of edges.
+    edges, index = np.unique(np.concatenate([one, two]), return_inverse=True)
+    index = index.reshape(2, -1)
+    links = coo_matrix((np.ones(len(corner), np.int8), tuple(index)), shape=(len(edges),) * 2)
+    fans, fan_of_edge = connected_components(links, directed=False)
+    vertex_of_fan = np.zeros(fans, np.int64)
+    vertex_of_fan[fan_of_edge] = edges >> 32
+    _, fans_of_vertex = np.unique(vertex_of_fan, return_counts=True)
+    return int(np.count_nonzero(fans_of_vertex > 1))

@@ -7,8 +7,8 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
 import samples
-from volfrep.mesh.edge_table import edge_uses
 from volfrep.mesh.quality import inspect
+from volfrep.mesh.topology import edge_uses
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
 
 
@@ -32,7 +32,7 @@ def test_edges_that_blocks_have_in_common_are_counted_as_if_there_were_none(
     block, seed, monkeypatch
 ):
     mesh = torn(seed)
-    monkeypatch.setattr("volfrep.mesh.edge_table.BLOCK_TRIANGLES", block)
+    monkeypatch.setattr("volfrep.mesh.topology.BLOCK_TRIANGLES", block)
     sides = [(a, b) for t in mesh.triangles.tolist() for a, b in zip(t, t[1:] + t[:1], strict=True)]
     ways = Counter((a, b) for a, b in sides if a != b)
     edges = {(min(side), max(side)) for side in ways}
@@ -58,7 +58,7 @@ def test_edges_that_blocks_have_in_common_are_counted_as_if_there_were_none(
 def test_a_mesh_has_the_same_figures_in_blocks(monkeypatch):
     mesh = concatenate(samples.sphere(9.0, 2), samples.sphere(4.0, 1).reversed())
     whole = inspect(mesh)
-    monkeypatch.setattr("volfrep.mesh.edge_table.BLOCK_TRIANGLES", 50)
+    monkeypatch.setattr("volfrep.mesh.topology.BLOCK_TRIANGLES", 50)
     assert len(mesh.triangles) > 100
     again = inspect(mesh)
     assert whole.quality.watertight

@@ -13,14 +13,13 @@ from itertools import pairwise
 
 import numpy as np
 from manifold3d import triangulate
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
+from ..mesh.topology import edge_keys, pieces_of
 from ..mesh.triangle_mesh import TriangleMesh
+from ..spatial.rays import inside_points
 from ..util.progress import Monitor
 from ..util.ragged import spread
 from ..util.types import Bools, Floats, Ints
-from .rays import inside_points
 from .seams import Crossings, NotCertain, seam_of
 
 #: Facets that are triangulated in one call: its time grows with the square of what it gets.
@@ -138,7 +137,7 @@ class _Side:
         cut = np.unique(of)
         start = triangles[cut]
         end = np.roll(start, -1, axis=1)
-        key = (np.minimum(start, end) * size + np.maximum(start, end)).ravel()
+        key = edge_keys(start, end, size).ravel()
         used, sides = np.unique(key, return_inverse=True)
         key = (found.edge[:, 0] + shift) * size + found.edge[:, 1] + shift
         row = np.minimum(np.searchsorted(used, key), max(len(used) - 1, 0))
@@ -176,8 +175,7 @@ class _Side:
         joins = self.triangles[rows]
         start = np.concatenate([joins[:, 0], joins[:, 1], open_edges[:, 0]])
         end = np.concatenate([joins[:, 1], joins[:, 2], open_edges[:, 1]])
-        graph = coo_matrix((np.ones(len(start), bool), (start, end)), shape=(count, count))
-        pieces, label = connected_components(graph, directed=False)
+        pieces, label = pieces_of(start, end, count)
         met = np.flatnonzero(np.diff(self.first) > 0)
         last = self.first[met + 1] - 1
         at = np.concatenate([self.edge[met, 0], self.edge[met, 1]])
@@ -264,11 +262,7 @@ def _loops(facet: Ints, start: Ints, end: Ints, count: int) -> tuple[Ints, Ints]
         raise NotCertain
     following = order[place]
     # The loops, each from its lowest piece on.
-    graph = coo_matrix(
-        (np.ones(len(facet), bool), (np.arange(len(facet)), following)),
-        shape=(len(facet), len(facet)),
-    )
-    count, label = connected_components(graph, directed=False)
+    count, label = pieces_of(np.arange(len(facet)), following, len(facet))
     head = np.full(count, len(facet), np.int64)
     np.minimum.at(head, label, np.arange(len(facet)))
     length = np.bincount(label, minlength=count).astype(np.int64)

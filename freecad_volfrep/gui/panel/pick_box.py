@@ -184,6 +184,11 @@ class PickBox(QtWidgets.QWidget):
         """What lay under the mouse when it let go of the arrow was not picked."""
         QtCore.QTimer.singleShot(0, Gui.Selection.clearSelection)
 
+    @property
+    def is_picking(self) -> bool:
+        """Whether clicks in the view pick; the solid is shown as long as they do."""
+        return bool(self._pick.isChecked())
+
     def end(self) -> None:
         """Pick no more, and leave nothing in the view; once more does nothing."""
         if not self._is_over:

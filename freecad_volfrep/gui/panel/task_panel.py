@@ -220,7 +220,7 @@ class TaskPanel:
 
     def _show_solid(self, is_shown: bool) -> None:
         """Show the solid itself where nothing else is; or the preview's in its place."""
-        if self._obj.Base is not None:
+        if self._obj.Base is not None and not self._picking.is_picking:
             self._obj.Base.ViewObject.Visibility = is_shown
 
     def _tell_print(self) -> None:

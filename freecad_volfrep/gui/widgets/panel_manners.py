@@ -17,6 +17,11 @@ LONGEST_TITLE = 28
 class PanelForm(QtWidgets.QWidget):
     """A panel that Enter in one of its fields does not close, as FreeCAD's would by its OK."""
 
+    def __init__(self) -> None:
+        super().__init__()
+        # A theme's style sheet fills a plain QWidget, but none of its subclasses unasked.
+        self.setAttribute(QtCore.Qt.WA_StyledBackground)
+
     def keyPressEvent(self, event: Any) -> None:  # noqa: N802
         """Called by Qt with the keys that no field has taken."""
         if event.key() in (QtCore.Qt.Key_Return, QtCore.Qt.Key_Enter):

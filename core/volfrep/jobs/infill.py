@@ -63,6 +63,7 @@ class Infill:
         VolfrepError: cells larger than the part. Every stage raises it where the specification
             does not fit the solid, and says what to change; and `Cancelled`.
 
+    >>> import numpy as np
     >>> import trimesh
     >>> box = trimesh.creation.box((24, 16, 16))
     >>> solid = TriangleMesh(box.vertices, box.faces.astype(np.int32))

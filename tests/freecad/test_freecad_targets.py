@@ -214,7 +214,7 @@ def test_a_target_that_cannot_be_met_is_said_and_the_mesh_stays(doc, box):
     doc.recompute()
     assert "choose one from" in obj.Status
     assert obj.Mesh.CountFacets == triangles
-    with pytest.raises(VolfrepError, match="No strut radius meets the target"):
+    with pytest.raises(VolfrepError, match="No strut radius gives a mass of 900 g"):
         LivePreview(obj).show()
 
 

@@ -1,9 +1,14 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Colour By: what an infill is coloured by, the scale, and the value under the mouse."""
+"""Colour By and Strut Results: one dock for values on a lattice, their scale, and the mouse.
+
+What is coloured is one of two: the infill's mesh as its view says, or its struts in each load case
+(`strut_colours`).
+"""
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
 import FreeCAD as App
 import FreeCADGui as Gui
@@ -18,63 +23,144 @@ from freecad_volfrep.gui.widgets.object_dock import ObjectDock, close_docks
 from freecad_volfrep.translation import figure, translate
 
 from .colouring import Colouring
+from .strut_colours import StrutColours
+
+if TYPE_CHECKING:
+    from volfrep.sizing.strut_state import StrutState
 
 #: The first choice of somebody who opens it.
 FIRST = "Radius"
-#: What is made beside the window is looked for so often, ms.
+#: What is made in background is looked for so often, ms.
 TICK = 150
 
 
-class ColourDock(ObjectDock):
-    """Says what the view's properties ColourBy, ColourFrom and ColourTo are; these stay.
+class MeshColours:
+    """What the view's properties ColourBy, ColourFrom and ColourTo say; they stay afterwards.
 
     Args:
         obj: the infill.
     """
 
-    NAME = "VolfrepColourBy"
+    is_of_mesh = False
 
     def __init__(self, obj: App.DocumentObject) -> None:
-        super().__init__(obj, translate("VolfrepColours", "Colours of {label}").format(
-            label=obj.Label))  # fmt: skip
-        view = obj.ViewObject
-        if view.ColourBy == "None":
-            view.ColourBy = FIRST
-        self._quantity = QtWidgets.QComboBox()
-        self._quantity.setObjectName("Quantity")
-        for name in view.getEnumerationsOfProperty("ColourBy"):
-            self._quantity.addItem(translate("VolfrepColours", name), name)
+        self._obj, self._view = obj, obj.ViewObject
+        self._colouring: Colouring = self._view.Proxy.colouring
+        self.cases: tuple[str, ...] = ()
+        self.quantities = {
+            name: translate("VolfrepColours", name)
+            for name in self._view.getEnumerationsOfProperty("ColourBy")
+        }
+        if self._view.ColourBy == "None":
+            self._view.ColourBy = FIRST
+
+    @property
+    def quantity(self) -> str:
+        """What is shown; it may be changed elsewhere."""
+        name: str = self._view.ColourBy
+        return name
+
+    @property
+    def title(self) -> str:
+        """What the legend says."""
+        from volfrep.jobs.figures.point_values import QUANTITIES
+
+        return str(translate("VolfrepColours", QUANTITIES.get(self.quantity, "")))
+
+    @property
+    def range(self) -> tuple[float, float] | None:
+        """Of the scale; None while there are no values."""
+        return self._colouring.range
+
+    @property
+    def why(self) -> str:
+        """Why there are none."""
+        return self._colouring.why
+
+    def choose(self, quantity: str) -> None:
+        """Show another quantity, on the scale of its values."""
+        self._view.ColourFrom = self._view.ColourTo = 0.0
+        self._view.ColourBy = quantity
+
+    def set_range(self, low: float, high: float) -> None:
+        """Set the scale, or give it back to the values by two equal ends."""
+        self._view.ColourFrom, self._view.ColourTo = low, high
+
+    def shapes(self) -> list[Any]:
+        """What the mouse may point at."""
+        shapes = self._colouring.shapes()
+        if not shapes or not self._view.Visibility:
+            return []
+        turn = drawing.transform(parent_placement(self._obj))
+        plane = section_view.plane_of(self._obj)
+        local = drawing.transform(self._obj.Placement)
+        return [turn, *([] if plane is None else [plane]), local, *shapes]
+
+    def value_at(self, place: tuple[float, float, float]) -> float | None:
+        """The value at a point of them."""
+        return self._colouring.value_at(place)
+
+    def remove(self) -> None:
+        """The colours stay."""
+
+    def forget(self, document_too: bool) -> None:
+        """There is nothing to forget."""
+
+
+class ColourDock(ObjectDock):
+    """What is shown, in which load case, on which scale, and the value under the mouse.
+
+    Args:
+        obj: the infill.
+        colours: what is coloured.
+    """
+
+    NAME = "VolfrepColourBy"
+
+    def __init__(self, obj: App.DocumentObject, colours: MeshColours | StrutColours) -> None:
+        title = translate("VolfrepColours", "Colours of {label}").format(label=obj.Label)
+        super().__init__(obj, title)
+        self._colours = colours
+        self._quantity, self._case = QtWidgets.QComboBox(), QtWidgets.QComboBox()
+        for name, text in colours.quantities.items():
+            self._quantity.addItem(text, name)
+        self._case.addItems(colours.cases)
+        self._deformed = QtWidgets.QCheckBox(translate("VolfrepColours", "Deformed"))
+        self._factor, self._said = QtWidgets.QLabel(), QtWidgets.QLabel()
         self._range = ColourRange(self._set_range)
-        self._said = QtWidgets.QLabel(translate("VolfrepColours", "Point at the lattice"))
-        self._said.setObjectName("Said")
+        for name, widget in (
+            ("Quantity", self._quantity), ("Case", self._case), ("Deformed", self._deformed),
+            ("Factor", self._factor), ("Said", self._said),
+        ):  # fmt: skip
+            widget.setObjectName(name)
+        case = QtWidgets.QLabel(translate("VolfrepColours", "Load case"))
+        of_cases = (case, self._case, self._deformed, self._factor)
+        for widget in of_cases:
+            widget.setVisible(bool(colours.cases))
+        by = QtWidgets.QLabel(translate("VolfrepColours", "Colour by"))
+        self.set_line((by, self._quantity, *of_cases, self._range, self._said))
         self._why = ""
-        panel = QtWidgets.QWidget()
-        line = QtWidgets.QHBoxLayout(panel)
-        line.addWidget(QtWidgets.QLabel(translate("VolfrepColours", "Colour by")))
-        for widget in (self._quantity, self._range, self._said):
-            line.addWidget(widget)
-        line.addStretch()
-        self.setWidget(panel)
-        self._probe: Probe | None = Probe(
-            Gui.getDocument(obj.Document.Name).activeView(), self._shapes, self._tell
-        )
+        view = Gui.getDocument(obj.Document.Name).activeView()
+        self._probe: Probe | None = Probe(view, colours.shapes, self._tell)
         self._timer = QtCore.QTimer(self)
         self._timer.timeout.connect(self.show_state)
         self._timer.start(TICK)
-        self._quantity.currentIndexChanged.connect(lambda _: self._choose())
+        self._tell(None)
         self.show_state()
+        self._quantity.currentIndexChanged.connect(lambda _: self._choose())
+        self._case.currentIndexChanged.connect(lambda _: self._show_case())
+        self._deformed.toggled.connect(lambda _: self._show_case())
 
     def show_state(self) -> None:
-        """Show what the view says: it may be changed elsewhere."""
-        view = self._obj.ViewObject
-        row = self._quantity.findData(view.ColourBy)
+        """Show what is coloured: it may be changed elsewhere."""
+        row = self._quantity.findData(self._colours.quantity)
         if row != self._quantity.currentIndex():
             self._quantity.blockSignals(True)
             self._quantity.setCurrentIndex(row)
             self._quantity.blockSignals(False)
-        ends = self._colouring.range
+        ends = self._colours.range
         self._range.setEnabled(ends is not None)
-        why = self._colouring.why
+        why = self._colours.why
         self._range.setToolTip(why)
         if why:
             self._said.setText(why)
@@ -84,60 +170,76 @@ class ColourDock(ObjectDock):
         if ends is not None and not self._range.isAncestorOf(QtWidgets.QApplication.focusWidget()):
             self._range.show_ends(*ends)
 
-    @property
-    def _colouring(self) -> Colouring:
-        colouring: Colouring = self._obj.ViewObject.Proxy.colouring
-        return colouring
-
-    def _choose(self) -> None:
-        view = self._obj.ViewObject
-        view.ColourFrom = view.ColourTo = 0.0
-        view.ColourBy = self._quantity.currentData()
-        self._tell(None)
-        self.show_state()
-
-    def _set_range(self, low: float, high: float) -> None:
-        view = self._obj.ViewObject
-        view.ColourFrom, view.ColourTo = low, high
-        if low == high and self._colouring.range is not None:
-            self._range.show_ends(*self._colouring.range)
-
-    def _shapes(self) -> list[Any]:
-        shapes = self._colouring.shapes()
-        if not shapes or not self._obj.ViewObject.Visibility:
-            return []
-        turn = drawing.transform(parent_placement(self._obj))
-        plane = section_view.plane_of(self._obj)
-        local = drawing.transform(self._obj.Placement)
-        return [turn, *([] if plane is None else [plane]), local, *shapes]
-
-    def _tell(self, place: tuple[float, float, float] | None) -> None:
-        value = None if place is None else self._colouring.value_at(place)
-        text = translate("VolfrepColours", "Point at the lattice")
-        if value is not None:
-            text = translate("VolfrepColours", "{value} under the mouse").format(
-                value=figure(value, 4)
-            )
-        self._said.setText(text)
+    def slotChangedObject(self, obj: App.DocumentObject, name: str) -> None:  # noqa: N802
+        """Called by FreeCAD: the struts of a new mesh are others."""
+        if obj == self._obj and name == "Mesh" and self._colours.is_of_mesh:
+            self.close_later()
 
     def take_away(self) -> None:
-        """The colours stay; the mouse is followed no more."""
-        self._timer.stop()
-        if self._probe is not None:
-            self._probe.end()
-            self._probe = None
+        """Follow the mouse no more; struts give way to the infill again."""
+        self._end_probe(view_is_gone=False)
+        self._colours.remove()
 
     def forget(self, document_too: bool) -> None:
         """There is nothing to point at."""
+        self._end_probe(view_is_gone=document_too)
+        self._colours.forget(document_too)
+
+    def _end_probe(self, view_is_gone: bool) -> None:
         self._timer.stop()
         if self._probe is not None:
-            self._probe.end(view_is_gone=document_too)
+            self._probe.end(view_is_gone=view_is_gone)
             self._probe = None
+
+    def _choose(self) -> None:
+        self._colours.choose(self._quantity.currentData())
+        self._tell(None)
+        self._show_ends()
+
+    def _show_case(self) -> None:
+        assert isinstance(self._colours, StrutColours)
+        factor = self._colours.show_case(self._case.currentIndex(), self._deformed.isChecked())
+        told = translate("VolfrepColours", "{factor:g} times enlarged")
+        self._factor.setText("" if factor is None else told.format(factor=factor))
+
+    def _set_range(self, low: float, high: float) -> None:
+        self._colours.set_range(low, high)
+        if low == high:
+            self._show_ends()
+
+    def _show_ends(self) -> None:
+        if self._colours.range is not None:
+            self._range.show_ends(*self._colours.range)
+
+    def _tell(self, place: tuple[float, float, float] | None) -> None:
+        value = None if place is None else self._colours.value_at(place)
+        if value is None:
+            text = translate("VolfrepColours", "Move the mouse over the lattice to read values")
+        else:
+            unit = self._colours.title.rpartition(", ")[2] if "," in self._colours.title else ""
+            text = translate("VolfrepColours", "{value} under the mouse").format(
+                value=f"{figure(value, 4)} {unit}".rstrip()
+            )
+        self._said.setText(text)
 
 
 def open_colours(obj: App.DocumentObject) -> ColourDock:
-    """Choose the colours of an infill, in the place of another one's."""
+    """Choose the colours of an infill, in the place of what is shown in this way."""
+    return _put_up(obj, MeshColours)
+
+
+def open_struts(obj: App.DocumentObject, states: Sequence[StrutState]) -> ColourDock:
+    """Show what an infill's struts carry, in the place of what is shown in this way."""
+    return _put_up(obj, lambda obj: StrutColours(obj, states))
+
+
+def _put_up(obj: App.DocumentObject, colours: Any) -> ColourDock:
     close_docks(ColourDock)
-    dock = ColourDock(obj)
+    dock = ColourDock(obj, colours(obj))
     dock.put_up()
     return dock
+
+
+def close_struts(obj: App.DocumentObject) -> None:
+    """Show the infill itself again."""
+    close_docks(ColourDock, obj)

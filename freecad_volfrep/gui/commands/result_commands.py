@@ -90,7 +90,7 @@ def size_lattice(infill: App.DocumentObject) -> None:
 def show_strut_results(infill: App.DocumentObject) -> None:
     """Solve an infill's struts for the document's load cases, and show them in colours."""
     from freecad_volfrep.features.sizing.sizing import solve_struts
-    from freecad_volfrep.gui.colours.strut_view import open_struts
+    from freecad_volfrep.gui.colours.colour_dock import open_struts
 
     with errors_shown():
         open_struts(infill, solve_struts(infill))

@@ -18,7 +18,7 @@ from freecad_volfrep.features.sizing.sizing import (
     size_struts,
     store_outcome,
 )
-from freecad_volfrep.gui.colours.strut_view import close_struts, open_struts
+from freecad_volfrep.gui.colours.colour_dock import close_struts, open_struts
 from freecad_volfrep.gui.jobs.updating import begin_update
 from freecad_volfrep.gui.messages import WRONG
 from freecad_volfrep.gui.qt import OK_CANCEL, QtCore, QtWidgets

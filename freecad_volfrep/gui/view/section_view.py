@@ -161,18 +161,11 @@ class SectionDock(ObjectDock):
         self._section = None
 
     def _lay_out(self) -> None:
-        panel = QtWidgets.QWidget()
-        column = QtWidgets.QVBoxLayout(panel)
-        line = QtWidgets.QHBoxLayout()
         label = QtWidgets.QLabel(translate("VolfrepSectionView", "Across"))
         label.setToolTip(translate("VolfrepSectionView", "The axis that the plane lies across"))
-        for widget in (label, self._axis, self._offset, self._flip):
-            line.addWidget(widget)
-        line.addStretch()
-        column.addLayout(line)
+        column = self.set_line((label, self._axis, self._offset, self._flip))
         column.addWidget(self._slider)
         column.addStretch()
-        self.setWidget(panel)
 
     def _extent(self) -> tuple[float, float]:
         """Of the mesh along the axis, mm; of its preview where there is no mesh yet."""

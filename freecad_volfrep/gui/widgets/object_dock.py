@@ -3,12 +3,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any, TypeVar
 
 import FreeCAD as App
 import FreeCADGui as Gui
 
 from freecad_volfrep.gui.qt import QtCore, QtWidgets
+from freecad_volfrep.translation import translate
 
 _Dock = TypeVar("_Dock", bound="ObjectDock")
 
@@ -29,6 +31,32 @@ class ObjectDock(QtWidgets.QDockWidget):
         self.setAttribute(QtCore.Qt.WA_DeleteOnClose)
         self.setWindowTitle(title)
         self._obj, self._doc = obj, obj.Document
+
+    def set_line(self, widgets: Iterable[Any]) -> Any:
+        """Fill it with a line of widgets and a button that closes; returns the column of both.
+
+        The cross of Qt's own titles is a picture that some systems cannot draw.
+        """
+        panel = QtWidgets.QWidget()
+        column = QtWidgets.QVBoxLayout(panel)
+        line = QtWidgets.QHBoxLayout()
+        for widget in widgets:
+            line.addWidget(widget)
+        line.addStretch()
+        close = QtWidgets.QPushButton(translate("VolfrepCells", "Close"))
+        close.setObjectName("CloseDock")
+        close.clicked.connect(lambda _=False: self.close())
+        line.addWidget(close)
+        column.addLayout(line)
+        self.setWidget(panel)
+        return column
+
+    def keyPressEvent(self, event: Any) -> None:  # noqa: N802
+        """Escape closes it, where no field of it means something else by that."""
+        if event.key() == QtCore.Qt.Key_Escape:
+            self.close()
+        else:
+            super().keyPressEvent(event)
 
     def put_up(self) -> None:
         """Show it below the view, and follow the object from now on."""

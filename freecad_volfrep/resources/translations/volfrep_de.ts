@@ -1655,6 +1655,10 @@
       <translation>Farben von {label}</translation>
     </message>
     <message>
+      <source>Deformed</source>
+      <translation>Verformt</translation>
+    </message>
+    <message>
       <source>Displacement</source>
       <translation>Verschiebung</translation>
     </message>
@@ -1675,6 +1679,14 @@
       <translation>Vom kleinsten bis zum größten der Werte</translation>
     </message>
     <message>
+      <source>Load case</source>
+      <translation>Lastfall</translation>
+    </message>
+    <message>
+      <source>Move the mouse over the lattice to read values</source>
+      <translation>Die Maus über das Gitter bewegen, um Werte abzulesen</translation>
+    </message>
+    <message>
       <source>No stresses are kept in the document: Size Lattice puts them there.</source>
       <translation>In diesem Dokument sind keine Spannungen gespeichert: Gitter dimensionieren legt sie dort ab.</translation>
     </message>
@@ -1691,12 +1703,12 @@
       <translation>Überhang, Grad</translation>
     </message>
     <message>
-      <source>Point at the lattice</source>
-      <translation>Auf das Gitter zeigen</translation>
-    </message>
-    <message>
       <source>Radius</source>
       <translation>Radius</translation>
+    </message>
+    <message>
+      <source>Radius, mm</source>
+      <translation>Radius, mm</translation>
     </message>
     <message>
       <source>Share of the buckling load</source>
@@ -1725,6 +1737,10 @@
     <message>
       <source>to</source>
       <translation>bis</translation>
+    </message>
+    <message>
+      <source>{factor:g} times enlarged</source>
+      <translation>{factor:g}-fach vergrößert</translation>
     </message>
     <message>
       <source>{value} under the mouse</source>
@@ -3212,45 +3228,6 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
     <message>
       <source>One solid of plane faces</source>
       <translation>Ein Volumenkörper aus ebenen Facetten</translation>
-    </message>
-  </context>
-  <context>
-    <name>VolfrepStrutView</name>
-    <message>
-      <source>Colour by</source>
-      <translation>Farbe nach</translation>
-    </message>
-    <message>
-      <source>Deformed</source>
-      <translation>Verformt</translation>
-    </message>
-    <message>
-      <source>Displacement, mm</source>
-      <translation>Verschiebung, mm</translation>
-    </message>
-    <message>
-      <source>Load case</source>
-      <translation>Lastfall</translation>
-    </message>
-    <message>
-      <source>Radius, mm</source>
-      <translation>Radius, mm</translation>
-    </message>
-    <message>
-      <source>Share of the buckling load</source>
-      <translation>Anteil der Knicklast</translation>
-    </message>
-    <message>
-      <source>Stress (von Mises), MPa</source>
-      <translation>Spannung (von Mises), MPa</translation>
-    </message>
-    <message>
-      <source>Strut results of {label}</source>
-      <translation>Strebenergebnisse von {label}</translation>
-    </message>
-    <message>
-      <source>{factor:g} times enlarged</source>
-      <translation>{factor:g}-fach vergrößert</translation>
     </message>
   </context>
   <context>

@@ -1655,6 +1655,10 @@
       <translation>Colori di {label}</translation>
     </message>
     <message>
+      <source>Deformed</source>
+      <translation>Deformato</translation>
+    </message>
+    <message>
       <source>Displacement</source>
       <translation>Spostamento</translation>
     </message>
@@ -1675,6 +1679,14 @@
       <translation>Dal più piccolo al più grande dei valori</translation>
     </message>
     <message>
+      <source>Load case</source>
+      <translation>Caso di carico</translation>
+    </message>
+    <message>
+      <source>Move the mouse over the lattice to read values</source>
+      <translation>Muovere il mouse sul reticolo per leggere i valori</translation>
+    </message>
+    <message>
       <source>No stresses are kept in the document: Size Lattice puts them there.</source>
       <translation>Nel documento non ci sono tensioni: le salva Dimensiona reticolo.</translation>
     </message>
@@ -1691,12 +1703,12 @@
       <translation>Sbalzo, gradi</translation>
     </message>
     <message>
-      <source>Point at the lattice</source>
-      <translation>Puntare il reticolo</translation>
-    </message>
-    <message>
       <source>Radius</source>
       <translation>Raggio</translation>
+    </message>
+    <message>
+      <source>Radius, mm</source>
+      <translation>Raggio, mm</translation>
     </message>
     <message>
       <source>Share of the buckling load</source>
@@ -1725,6 +1737,10 @@
     <message>
       <source>to</source>
       <translation>a</translation>
+    </message>
+    <message>
+      <source>{factor:g} times enlarged</source>
+      <translation>ingrandito {factor:g} volte</translation>
     </message>
     <message>
       <source>{value} under the mouse</source>
@@ -3212,45 +3228,6 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
     <message>
       <source>One solid of plane faces</source>
       <translation>Un solido di facce piane</translation>
-    </message>
-  </context>
-  <context>
-    <name>VolfrepStrutView</name>
-    <message>
-      <source>Colour by</source>
-      <translation>Colora per</translation>
-    </message>
-    <message>
-      <source>Deformed</source>
-      <translation>Deformato</translation>
-    </message>
-    <message>
-      <source>Displacement, mm</source>
-      <translation>Spostamento, mm</translation>
-    </message>
-    <message>
-      <source>Load case</source>
-      <translation>Caso di carico</translation>
-    </message>
-    <message>
-      <source>Radius, mm</source>
-      <translation>Raggio, mm</translation>
-    </message>
-    <message>
-      <source>Share of the buckling load</source>
-      <translation>Quota del carico critico</translation>
-    </message>
-    <message>
-      <source>Stress (von Mises), MPa</source>
-      <translation>Tensione (von Mises), MPa</translation>
-    </message>
-    <message>
-      <source>Strut results of {label}</source>
-      <translation>Risultati delle aste di {label}</translation>
-    </message>
-    <message>
-      <source>{factor:g} times enlarged</source>
-      <translation>ingrandito {factor:g} volte</translation>
     </message>
   </context>
   <context>

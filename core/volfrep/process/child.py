@@ -9,6 +9,7 @@ own, but one goes on where this process is ended by force.
 
 from __future__ import annotations
 
+import math
 import os
 import subprocess
 import time
@@ -156,8 +157,9 @@ class Child:
         try:
             future = pool.submit(read)
             while not future.done():
-                wait([future], POLL_SECONDS)
-                if end is not None and time.monotonic() > end and not future.done():
+                left = math.inf if end is None else max(0.0, end - time.monotonic())
+                wait([future], min(POLL_SECONDS, left))
+                if end is not None and time.monotonic() >= end and not future.done():
                     raise OverLimit("time")
                 if limits.memory_gb is not None and resident_gb(self.number) > limits.memory_gb:
                     raise OverLimit("memory")

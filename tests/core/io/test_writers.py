@@ -68,7 +68,7 @@ def test_every_writer_tells_its_progress(tmp_path: Path, suffix: str, monkeypatc
     monkeypatch.setattr("volfrep.io.write.stl.BLOCK_FACETS", 100)
     for module in ("mesh.precision", "io.write.numbered", "io.write.obj", "io.write.threemf"):
         monkeypatch.setattr(f"volfrep.{module}.BLOCK_ROWS", 100)
-    monkeypatch.setattr("volfrep.io.write.step.VALUES", 1000)
+    monkeypatch.setattr("volfrep.util.text_rows.VALUES", 1000)
     told: list[float] = []
     monitor = Monitor(lambda fraction, stage: told.append(fraction))
     write_mesh(samples.sphere(10.0, 3), tmp_path / f"ball{suffix}", monitor)

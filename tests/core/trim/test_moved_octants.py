@@ -32,11 +32,17 @@ def graded() -> Infill:
     return Infill(samples.box((34.0, 28.0, 28.0)), spec)
 
 
+def laid_of(infill):
+    """Its octants as they lie in the part, before anything is cut."""
+    infill.filling.mesh(is_cut=True)
+    return infill.filling._laid[True]
+
+
 def test_octants_inside_stay_beside_the_mesh():
     surface = graded().part.surface
     assert surface.octants is not None
     assert len(surface.mesh.triangles) < surface.triangles
-    assert not graded()._laid(is_cut=True).unsound.any()
+    assert not laid_of(graded()).unsound.any()
 
 
 def test_what_is_found_of_moved_octants_is_what_their_triangles_show():
@@ -73,7 +79,7 @@ def test_lines_meet_the_octants_beside_the_mesh():
 
 def moved(change):
     """The octants found to be unsound where some points are changed."""
-    laid = graded()._laid(is_cut=True)
+    laid = laid_of(graded())
     points = laid.points.copy()
     inside = np.argwhere(laid.kept.inside)
     middle = inside[len(inside) // 2]
@@ -115,6 +121,6 @@ def test_unsound_octants_go_into_the_mesh():
 
 
 def test_a_cancel_is_seen_while_octants_are_looked_at():
-    laid = graded()._laid(is_cut=True)
+    laid = laid_of(graded())
     with pytest.raises(Cancelled):
         _ = replace(laid, monitor=Monitor(lambda *_: False)).moved

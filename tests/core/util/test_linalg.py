@@ -22,6 +22,7 @@ FIGURES_OF = (
     "jobs/rough_radius.py",
     "jobs/sizing/notes.py",
     "design/forecast.py",
+    "design/kinds/strut_cells.py",
     "grid/congruent_joints.py",
 )
 LIBRARY = {"dot", "matmul", "tensordot", "inner", "vdot"}

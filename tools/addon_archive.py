@@ -86,10 +86,16 @@ def version() -> str:
 
 def files() -> Iterator[tuple[Path, str]]:
     """Files of the checkout that git knows, and their places in the archive."""
-    known = subprocess.run(
-        ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
-        cwd=ROOT, check=True, capture_output=True, text=True,
-    ).stdout.split("\0")  # fmt: skip
+    if (ROOT / ".git").exists():
+        known = subprocess.run(
+            ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
+            cwd=ROOT, check=True, capture_output=True, text=True,
+        ).stdout.split("\0")  # fmt: skip
+    else:  # a copy of a checkout: all but what Python has compiled
+        folders = [ROOT / name for name in ("freecad_volfrep", "core/volfrep", "docs")]
+        paths = [ROOT / name for name in TOP]
+        paths += [path for folder in folders for path in folder.rglob("*") if path.is_file()]
+        known = [p.relative_to(ROOT).as_posix() for p in paths if "__pycache__" not in p.parts]
     shown = {
         (page.parent / picture).resolve().relative_to(ROOT).as_posix()
         for page in (ROOT / "docs" / "commands").glob("*.md")

@@ -31,7 +31,41 @@ if TYPE_CHECKING:
     from ..util.cache import StageCache
 
 
-class FilledPart:
+class _OfResult:
+    """What a source has of its result; a subclass says what that is."""
+
+    @property
+    def result(self) -> Result:
+        """The mesh and its figures."""
+        raise NotImplementedError
+
+    @property
+    def surface(self) -> TrimmedSurface | TriangleMesh:
+        """As of `Source`."""
+        return self.result.surface
+
+    @property
+    def mesh(self) -> TriangleMesh:
+        """As of `Source`."""
+        return self.result.mesh
+
+    @property
+    def triangles(self) -> int:
+        """As of `Source`."""
+        return self.result.surface.triangles
+
+    @property
+    def figures(self) -> Mapping[str, str]:
+        """As of `Source`."""
+        return self.result.report.figures
+
+    @property
+    def volume(self) -> float:
+        """As of `Source`."""
+        return self.result.report.volume_mm3
+
+
+class FilledPart(_OfResult):
     """A filled solid.
 
     Args:
@@ -56,36 +90,11 @@ class FilledPart:
         return self.infill.result
 
     @property
-    def surface(self) -> TrimmedSurface | TriangleMesh:
-        """As of `Source`."""
-        return self.result.surface
-
-    @property
-    def mesh(self) -> TriangleMesh:
-        """As of `Source`."""
-        return self.result.mesh
-
-    @property
-    def triangles(self) -> int:
-        """As of `Source`."""
-        return self.result.surface.triangles
-
-    @property
     def choice(self) -> ExportChoice:
         """As of `Source`."""
         from ..reports.estimate import ExportChoice
 
         return ExportChoice(self.spec)
-
-    @property
-    def figures(self) -> Mapping[str, str]:
-        """As of `Source`."""
-        return self.result.report.figures
-
-    @property
-    def volume(self) -> float:
-        """As of `Source`."""
-        return self.result.report.volume_mm3
 
     @property
     def cavity(self) -> TriangleMesh | None:
@@ -134,7 +143,7 @@ class FilledPart:
         )  # fmt: skip
 
 
-class Free:
+class Free(_OfResult):
     """A lattice in free space.
 
     Args:
@@ -150,11 +159,6 @@ class Free:
         self.spec, self._progress = spec, progress
         self.monitor = Monitor(progress)
 
-    @cached_property
-    def result(self) -> Result:
-        """The mesh and its figures."""
-        raise NotImplementedError
-
     @property
     def beams(self) -> BeamModel:
         """As of `Source`."""
@@ -166,36 +170,11 @@ class Free:
         raise NotImplementedError
 
     @property
-    def surface(self) -> TrimmedSurface | TriangleMesh:
-        """As of `Source`."""
-        return self.result.surface
-
-    @property
-    def mesh(self) -> TriangleMesh:
-        """As of `Source`."""
-        return self.result.mesh
-
-    @property
-    def triangles(self) -> int:
-        """As of `Source`."""
-        return self.result.surface.triangles
-
-    @property
     def choice(self) -> ExportChoice:
         """As of `Source`."""
         from ..reports.estimate import ExportChoice
 
         return ExportChoice(self.spec, self.count)
-
-    @property
-    def figures(self) -> Mapping[str, str]:
-        """As of `Source`."""
-        return self.result.report.figures
-
-    @property
-    def volume(self) -> float:
-        """As of `Source`."""
-        return self.result.report.volume_mm3
 
     @property
     def exact(self) -> ExactStruts:

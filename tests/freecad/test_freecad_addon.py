@@ -220,7 +220,8 @@ def test_the_addon_manager_reads_what_it_is_and_needs(addon_manager, monkeypatch
     addon = Addon("VOLFREP", str(ROOT), Addon.Status.NOT_INSTALLED, "main")
     addon.load_metadata_file(str(ROOT / "package.xml"))
     assert addon.contains_workbench()
-    assert addon.python_requires == set(deps.PACKAGES.values())
+    assert addon.python_requires | addon.python_optional == set(deps.PACKAGES.values())
+    assert addon.python_optional == {"manifold3d"}
 
 
 def test_the_addon_manager_puts_packages_where_this_freecad_looks(addon_manager, monkeypatch):

@@ -21,6 +21,7 @@ from driving import (
     Watch,
     answer_panel,
     check,
+    choose_lattice,
     click,
     click_item,
     comes_true,
@@ -276,7 +277,7 @@ def drive_the_radius(doc, obj):
     check("its field is shown", panel_part("TargetDensity").isVisible())
     found = shown.property("rawValue")
     check("it begins with what there is", abs(found / before - 1) < 0.02, (found, before))
-    type_value("TargetDensity", "0.3")
+    type_value("TargetDensity", "30")
     check("a typed density is set", abs(obj.TargetDensity - 0.3) < 1e-9, obj.TargetDensity)
     found = shown.property("rawValue")
     check("the radius found is shown", found > 1.1 * before, (found, before))
@@ -324,7 +325,7 @@ def drive_the_radius(doc, obj):
     type_value("StiffnessDirection", "along")
     check("no direction is said", "no direction" in panel_part("Figures").text())
     choose("RadiusDrivenBy", "Relative")
-    type_value("TargetDensity", "0.3")
+    type_value("TargetDensity", "30")
     click(panel_part("Compute"))
     met = wait_until(lambda: abs(obj.RelativeDensity - 0.3) < 0.0015)
     check("the mesh is the target's", met, obj.RelativeDensity)
@@ -746,14 +747,14 @@ def see_what_suits(doc, obj):
 def choose_walls(doc, obj):
     """A Gyroid of the panel's list asks for a thickness in place of a radius, and is made."""
     open_to_edit(obj)
-    picker = panel_part("CellType")
-    gyroid = picker.findItems("Gyroid", QtCore.Qt.MatchExactly)[0]
-    picker.scrollToItem(gyroid)
-    settle()
-    click_item(picker, gyroid)
+    choose_lattice("TPMS", "Gyroid")
     check("Gyroid is chosen", obj.CellType == "Gyroid", obj.CellType)
     check("it asks for a thickness", panel_part("WallThickness").isVisible())
     check("and for no radius", not panel_part("StrutRadius").isVisible())
+    words = [w.text().replace("&", "") for kind in (QtGui.QLabel, QtGui.QAbstractButton)
+             for w in panel().findChildren(kind) if w.isVisible()]  # fmt: skip
+    check("nor says a word of struts", not [w for w in words if "trut" in w or "Radius" in w],
+          words)  # fmt: skip
     picture("panel_6_walls")
     type_value("WallThickness", "1.6 mm")
     answer_panel("OK")
@@ -761,6 +762,40 @@ def choose_walls(doc, obj):
     check("the walls are made", wait_until(lambda: obj.Status == "Up to date"), obj.Status)
     check("without struts", obj.Struts == 0 and obj.Bodies == 1, (obj.Struts, obj.Bodies))
     picture("walls_made")
+
+
+def choose_networks(doc, obj):
+    """The third tab: points of a Voronoi network, cells along faces that are clicked at."""
+    open_to_edit(obj)
+    height = panel_part("CellSize").mapTo(panel(), QtCore.QPoint()).y()
+    choose_lattice("Networks", "Voronoi")
+    picture("panel_networks")
+    check("Voronoi is chosen", obj.Network == "Voronoi", obj.Network)
+    check("it asks for points", panel_part("NetworkPoints").isVisible())
+    check("the fields stay where they are", height == panel_part("CellSize").mapTo(
+        panel(), QtCore.QPoint()).y())  # fmt: skip
+    type_value("NetworkSeed", "5")
+    check("a seed is taken", obj.NetworkSeed == 5)
+    choose_lattice("Networks", "Along faces")
+    check("it asks for faces", panel_part("Pick").isChecked())
+    check("of the network", panel_part("PickWhat").currentData() == "NetworkFaces")
+    check("and for the cell", panel_part("CellOfNetwork").isVisible())
+    choose_lattice("TPMS", "Gyroid")
+    check("a TPMS takes its place", (obj.Network, obj.CellType) == ("Cells", "Gyroid"))
+    choose_lattice("Networks", "Voronoi")
+    check("and a network that of walls", (obj.Network, obj.CellType) == ("Voronoi", "CVC"))
+    choose_lattice("Unit cells", "Octet")
+    check("and a cell that of both", (obj.Network, obj.CellType) == ("Cells", "Octet"))
+    choose_lattice("Networks", "Voronoi")
+    answer_panel("OK")
+    check("it is made", wait_until(lambda: obj.Status == "Up to date"), obj.Status)
+    check("of struts", obj.Struts > 100, obj.Struts)
+    picture("network_made")
+    open_to_edit(obj)
+    check("the panel opens at its tab", panel_part("LatticeTabs").currentIndex() == 2)
+    check("and its picture", panel_part("CellType").currentItem().text() == "Voronoi")
+    answer_panel("Cancel")
+    check("Cancel closes the panel", wait_until(lambda: panel() is None))
 
 
 run_checks(
@@ -773,6 +808,7 @@ run_checks(
         drive_the_radius: filled,
         see_what_suits: filled,
         choose_walls: filled,
+        choose_networks: filled,
         run_a_job: None,
         cancel_an_edit: filled,
         cancel_a_creation: boxed,

@@ -593,6 +593,19 @@ def panel_part(name, kind=QtGui.QWidget):
     return panel().findChild(kind, name)
 
 
+def choose_lattice(tab, name):
+    """Really click a tab of the panel's first section, and a picture in it."""
+    tabs = panel_part("LatticeTabs", QtGui.QTabBar)
+    number = ("Unit cells", "TPMS", "Networks").index(tab)
+    if tabs.currentIndex() != number:
+        in_sight(tabs)
+        move_mouse(tabs.mapToGlobal(tabs.tabRect(number).center()))
+        press_button()
+        wait_until(lambda: tabs.currentIndex() == number)
+    pictures = panel_part("CellType")
+    click_item(pictures, pictures.findItems(name, QtCore.Qt.MatchExactly)[0])
+
+
 def answer_panel(text):
     """Really click OK or Cancel of the task panel."""
     for button in Gui.getMainWindow().findChildren(QtGui.QPushButton):

@@ -58,16 +58,15 @@ class Shown:
         p, f = self.preview, self.forecast
         figures = translate(
             "VolfrepFigures",
-            "{cells} active cells, {struts} struts\n"
+            "{what}\n"
             "relative density {density} %, mass {mass} g\n"
-            "about {triangles} million triangles, {size} MB as STL, "
+            "about {triangles} triangles, {size} MB as STL, "
             "{seconds} s to compute",
         ).format(
-            cells=grouped(p.cells),
-            struts=grouped(p.struts),
+            what=", ".join(self._counted()),
             density=figure(100 * p.relative_density, 3),
             mass=figure(p.mass, 4),
-            triangles=figure(f.triangles / 1e6),
+            triangles=figure(f.triangles),
             size=figure(f.stl_mb),
             seconds=figure(max(1.0, f.seconds)),
         )
@@ -79,6 +78,14 @@ class Shown:
                 ),
             )
         return "\n".join((*found, figures, *self.advice))
+
+    def _counted(self) -> list[str]:
+        """What there is of cells and struts; a TPMS has none of these, a network none of those."""
+        counts = (
+            (translate("VolfrepFigures", "{number} active cells"), self.preview.cells),
+            (translate("VolfrepFigures", "{number} struts"), self.preview.struts),
+        )
+        return [text.format(number=grouped(number)) for text, number in counts if number]
 
     def figure(self, driver: str) -> float | None:
         """What is shown of what a driver of the radius aims at: a share of 1, g or MPa."""

@@ -85,3 +85,58 @@ def wall_icon(name: str, size: int = 72) -> QtGui.QIcon:
     pixels[..., 3] = np.where(seen, 255, 0)
     image = QtGui.QImage(pixels.tobytes(), size, size, 4 * size, QtGui.QImage.Format_RGBA8888)
     return QtGui.QIcon(QtGui.QPixmap.fromImage(image.copy()))
+
+
+def network_icon(kind: str, size: int = 72) -> QtGui.QIcon:
+    """A graph lattice in the plane: between points, of a file, or in layers along faces.
+
+    Args:
+        kind: a value of the property `Network` other than Cells.
+        size: of the picture, px.
+    """
+    from scipy.spatial import Delaunay, Voronoi
+
+    pixmap = QtGui.QPixmap(size, size)
+    pixmap.fill(QtCore.Qt.transparent)
+    painter = QtGui.QPainter(pixmap)
+    painter.setRenderHint(QtGui.QPainter.Antialiasing)
+    painter.scale(size, size)
+    points = np.random.default_rng(7).uniform(-0.2, 1.2, (60, 2))
+    lines, frame = np.zeros((0, 2, 2)), QtGui.QPainterPath()
+    frame.addRect(0.06, 0.06, 0.88, 0.88)
+    if kind == "Voronoi":
+        cells = Voronoi(points)
+        lines = cells.vertices[[ridge for ridge in cells.ridge_vertices if min(ridge) >= 0]]
+    elif kind == "Delaunay":
+        corners = Delaunay(points[:30]).simplices
+        lines = points[np.concatenate([corners[:, [a, b]] for a, b in ((0, 1), (1, 2), (2, 0))])]
+    elif kind == "File":
+        frame = QtGui.QPainterPath(QtCore.QPointF(0.18, 0.06))
+        for x, y in ((0.62, 0.06), (0.82, 0.26), (0.82, 0.94), (0.18, 0.94)):
+            frame.lineTo(x, y)
+        frame.closeSubpath()
+        nodes = np.array([[0.32, 0.78], [0.42, 0.4], [0.68, 0.56], [0.68, 0.82], [0.3, 0.2]])
+        lines = nodes[[[0, 1], [1, 2], [2, 3], [3, 0], [0, 2], [1, 4]]]
+    elif kind == "Faces":
+        along = np.linspace(0.06, 0.94, 6)
+        arch = 0.5 - 2.0 * (along - 0.5) ** 2
+        rows = [np.stack([along, 0.9 - arch * 0.9 - 0.24 * row], axis=1) for row in range(3)]
+        frame = QtGui.QPainterPath()
+        for row in (rows[0], rows[2]):
+            frame.moveTo(*row[0])
+            for x, y in row[1:]:
+                frame.lineTo(x, y)
+        pairs = [(a[k], b[k + 1]) for a, b in ((rows[0], rows[1]), (rows[1], rows[2]),
+                 (rows[1], rows[0]), (rows[2], rows[1])) for k in range(5)]  # fmt: skip
+        lines = np.array(pairs)
+    painter.setPen(QtGui.QPen(QtGui.QColor(150, 150, 150), 0.02))
+    painter.drawPath(frame)
+    if kind in ("Voronoi", "Delaunay"):
+        painter.setClipPath(frame)
+    pen = QtGui.QPen(QtGui.QColor.fromHsv(210, 200, 170), 0.05)
+    pen.setCapStyle(QtCore.Qt.RoundCap)
+    painter.setPen(pen)
+    for a, b in lines:
+        painter.drawLine(QtCore.QPointF(*a), QtCore.QPointF(*b))
+    painter.end()
+    return QtGui.QIcon(pixmap)

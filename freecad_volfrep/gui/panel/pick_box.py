@@ -184,6 +184,11 @@ class PickBox(QtWidgets.QWidget):
         """What lay under the mouse when it let go of the arrow was not picked."""
         QtCore.QTimer.singleShot(0, Gui.Selection.clearSelection)
 
+    def begin(self, name: str) -> None:
+        """Pick a property that something else has just asked for."""
+        self._what.setCurrentIndex(self._what.findData(name))
+        self._pick.setChecked(True)
+
     @property
     def is_picking(self) -> bool:
         """Whether clicks in the view pick; the solid is shown as long as they do."""

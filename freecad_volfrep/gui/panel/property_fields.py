@@ -16,29 +16,58 @@ from freecad_volfrep.features.properties.quantities import (
     set_value,
 )
 from freecad_volfrep.gui.cells.cell_library import cell_files
-from freecad_volfrep.gui.cells.cell_picture import cell_icon, wall_icon
 from freecad_volfrep.gui.qt import QtCore, QtGui, QtWidgets
 from freecad_volfrep.gui.widgets.file_field import FileField
 from freecad_volfrep.gui.widgets.typed_sums import TypedSums
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, marked, spaced, translate
-from volfrep.design.cells import LIBRARY, load_cell
 from volfrep.design.field_files import TABLE_SUFFIXES, VTK_SUFFIXES
-from volfrep.design.parameters.table import CUSTOM_CELL, WALLS
 from volfrep.design.target import read_direction
-from volfrep.util.errors import VolfrepError
 
 from .curve_editor import CurveEditor
 
-#: Size of a cell's picture, px.
-PICTURE = 48
 #: What the files of a field hold.
 POINTS = QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Points and values")
 MATERIAL = QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Material")
 #: What the list of materials holds beside their names.
 ENTRIES = marked("App::Property", "None", "Custom", "Of the solid")
+#: What a panel calls properties whose names, which documents keep, say it less well.
+LABELS = {
+    "ShellThickness": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Skin thickness"),
+    "Activation": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Cells kept"),
+    "TargetDensity": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Target relative density"),
+    "WallKind": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Sheet or skeleton"),
+    "WallThickness": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Sheet thickness"),
+    "NetworkFaces": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Faces to follow"),
+    "NetworkFile": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "File"),
+    "NetworkThickness": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Height of layers"),
+    "NetworkLayers": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Layers"),
+    "NetworkReversed": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "On the other side"),
+    "NetworkPoints": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Points"),
+    "NetworkSeed": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Seed"),
+    "NetworkRelax": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Evened out, times"),
+    "NetworkOnWall": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Along the skin"),
+    "NetworkShortest": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Shortest strut"),
+}
+#: The same where there are walls in place of struts.
+LABELS_OF_WALLS = {
+    "RadiusDrivenBy": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Driven by"),
+    "RadiusGrading": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Thickness grading"),
+    "RadiusProfile": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Thickness profile"),
+    "RadiusStart": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Thickness at the start"),
+    "RadiusEnd": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Thickness at the end"),
+    "RadiusFormula": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Thickness formula"),
+    "RadiusCurve": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Thickness curve"),
+    "RadiusField": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Thickness field"),
+    "RadiusColumn": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Column of the field"),
+    "RadiusReach": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Thickness reach"),
+}
+#: Whole numbers whose 0 leaves it to us.
+AUTOMATIC = ("NetworkPoints", "NetworkLayers")
 #: Fields of plain numbers with a unit. FreeCAD's own take no "M" of MPa, and 0.20 has no masses.
-UNITS = {"TargetMass": "g", "TargetStiffness": "MPa"}
-_LARGEST = 1e9
+UNITS = {"TargetDensity": "%", "TargetMass": "g", "TargetStiffness": "MPa"}
+#: And what they show of a property's 1.
+SHOWN = {"TargetDensity": 100.0}
+_LARGEST, _MOST = 1e9, 10**9
 
 
 class PropertyFields:
@@ -62,36 +91,9 @@ class PropertyFields:
         #: What draws a formula, by the name of its property.
         self.curves: dict[str, CurveEditor] = {}
 
-    def cell_picker(self) -> Any:
-        """The list of unit cells with their pictures."""
-        picker = self._picker = QtWidgets.QListWidget()
-        picker.setObjectName("CellType")
-        picker.setAccessibleName(label_of("CellType"))
-        picker.setViewMode(QtWidgets.QListView.IconMode)
-        picker.setIconSize(QtCore.QSize(PICTURE, PICTURE))
-        picker.setMovement(QtWidgets.QListView.Static)
-        picker.setResizeMode(QtWidgets.QListView.Adjust)
-        picker.setFixedHeight(2 * PICTURE + 60)
-        picker.setMinimumWidth(4 * PICTURE)
-        for name in self._obj.getEnumerationsOfProperty("CellType"):
-            item = QtWidgets.QListWidgetItem(name, picker)
-            if name == CUSTOM_CELL:
-                self._own = item
-                self._draw_own_cell()
-            else:
-                item.setIcon(_icon(name))
-            if name == self._obj.CellType:
-                picker.setCurrentItem(item)
-        picker.currentTextChanged.connect(self._setter("CellType"))
-        return picker
-
-    def _draw_own_cell(self) -> None:
-        """Show the cell of the object's file, or an empty cube; the figures say what is wrong."""
-        try:
-            cell = load_cell(self._obj.CellFile) if self._obj.CellFile else None
-        except VolfrepError:
-            cell = None
-        self._own.setIcon(cell_icon(cell, PICTURE))
+    def set_value(self, name: str, value: Any) -> None:
+        """Set a property that the user has chosen elsewhere, and tell of it."""
+        self._setter(name)(value)
 
     def field(self, name: str) -> Any:
         """A widget for a property, by the property's type."""
@@ -110,6 +112,14 @@ class PropertyFields:
             box.setChecked(getattr(self._obj, name))
             box.toggled.connect(self._setter(name))
             return box
+        if kind == "App::PropertyInteger":
+            count = QtWidgets.QSpinBox()
+            count.setRange(0, _MOST)
+            if name in AUTOMATIC:
+                count.setSpecialValueText(translate("VolfrepTaskPanel", "automatic"))
+            count.setValue(getattr(self._obj, name))
+            count.valueChanged.connect(self._setter(name))
+            return count
         if kind == "App::PropertyString":
             line = QtWidgets.QLineEdit(getattr(self._obj, name))
             line.editingFinished.connect(lambda: self._type_text(name, line.text()))
@@ -138,16 +148,16 @@ class PropertyFields:
 
     def _number_field(self, name: str) -> Any:
         """A number of the unit that `quantities` have for the property."""
-        field = _PlainNumber()
+        field, shown = _PlainNumber(), SHOWN.get(name, 1.0)
         field.setRange(0.0, _LARGEST)
         field.setDecimals(3)
         field.setStepType(QtWidgets.QAbstractSpinBox.AdaptiveDecimalStepType)
         field.setSuffix(f" {UNITS[name]}")
-        field.setValue(number_of(self._obj, name))
+        field.setValue(shown * number_of(self._obj, name))
 
         def changed(value: float) -> None:
-            if not is_driven(self._obj, name) and value != number_of(self._obj, name):
-                set_value(self._obj, name, value)
+            if not is_driven(self._obj, name) and value != shown * number_of(self._obj, name):
+                set_value(self._obj, name, value / shown)
                 self._changed(name)
 
         def finished() -> None:
@@ -160,7 +170,7 @@ class PropertyFields:
                 else:
                     self._changed(name)
             if is_driven(self._obj, name):
-                field.setValue(number_of(self._obj, name))
+                field.setValue(shown * number_of(self._obj, name))
 
         field.valueChanged.connect(changed)
         field.editingFinished.connect(finished)
@@ -190,17 +200,11 @@ class PropertyFields:
             is_way = self._obj.getTypeIdOfProperty(name) == "App::PropertyVector"
             field.setText(direction_text(value) if is_way else value)
         else:
-            kind = "value" if name in UNITS else "rawValue"
-            field.setProperty(kind, number_of(self._obj, name))
+            is_plain = name in UNITS or isinstance(field, QtWidgets.QSpinBox)
+            value = SHOWN.get(name, 1.0) * number_of(self._obj, name)
+            field.setProperty("value" if is_plain else "rawValue", value)
         if name in self.curves:
             self.curves[name].show_formula(value)
-
-    def show_cell(self) -> None:
-        """Choose in the list the cell that was set elsewhere."""
-        for row in range(self._picker.count()):
-            if self._picker.item(row).text() == self._obj.CellType:
-                self._picker.setCurrentRow(row)
-        self._draw_own_cell()
 
     def _setter(self, name: str) -> Callable[[Any], None]:
         """Sets a property that the user has changed, and tells of it."""
@@ -215,8 +219,6 @@ class PropertyFields:
             if value == getattr(present, "Value", present):
                 return
             setattr(self._obj, name, value)
-            if name == "CellFile":
-                self._draw_own_cell()
             self._changed(name)
 
         return set_value
@@ -238,11 +240,6 @@ class PropertyFields:
                     "'{text}' is no direction: write 100, 110, 111 or three numbers such as 1,2,0.",
                 ).format(text=text)
             )
-
-
-def _icon(name: str) -> QtGui.QIcon:
-    """The picture of a cell of the library, of struts or of walls."""
-    return wall_icon(name, PICTURE) if name in WALLS else cell_icon(LIBRARY[name], PICTURE)
 
 
 class _PlainNumber(QtWidgets.QDoubleSpinBox):
@@ -310,8 +307,16 @@ def is_read_only(obj: App.DocumentObject, name: str) -> bool:
     return "ReadOnly" in obj.getEditorMode(name)
 
 
-def label_of(name: str) -> str:
-    """A property's name in the user's words; in English only its first letter is a capital."""
+def label_of(name: str, of_walls: bool = False) -> str:
+    """A property's name in the user's words; in English only its first letter is a capital.
+
+    Args:
+        name: of the property.
+        of_walls: whether it is shown of a TPMS, of whose walls it says the thickness.
+    """
+    own = (LABELS | LABELS_OF_WALLS if of_walls else LABELS).get(name)
+    if own is not None:
+        return str(translate("VolfrepTaskPanel", own))
     text = spaced(name)
     said = said_property(text)
     return text.capitalize() if said == text else said

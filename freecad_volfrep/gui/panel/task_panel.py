@@ -41,9 +41,17 @@ from volfrep.design.parameters.table import WALLS
 from volfrep.util.errors import VolfrepError
 
 from .colour_field import colour_field
+from .lattice_picker import LatticePicker
 from .pick_box import PickBox
 from .print_panel import PrintFigures
-from .property_fields import PropertyFields, direction_text, is_read_only, label_of, said_property
+from .property_fields import (
+    LABELS_OF_WALLS,
+    PropertyFields,
+    direction_text,
+    is_read_only,
+    label_of,
+    said_property,
+)
 from .recipe_row import RecipeRow
 
 #: The preview waits until no value has changed for so long, ms: less where the last one was made
@@ -237,7 +245,7 @@ class TaskPanel:
         """Show what was set elsewhere than in the fields: by a recipe."""
         for name, (_, widget) in self._rows.items():
             self._fields.show(name, widget)
-        self._fields.show_cell()
+        self._picker.show_present()
         self._refusal = ""
         self._show_rows()
         self._timer.start(0)
@@ -267,8 +275,9 @@ class TaskPanel:
         column.setContentsMargins(0, 0, 0, 0)
         self._recipes = RecipeRow(self._obj, self._show_all, self._refuse)
         column.addWidget(self._recipes)
-        picker = self._fields.cell_picker()
-        sections = [Section("Cell", label_of("CellType"), picker)]
+        self._picker = LatticePicker(self._obj, self._fields.set_value)
+        kind = translate("VolfrepTaskPanel", "Kind of lattice")
+        sections = [Section("Cell", kind, self._picker)]
         column.addWidget(sections[0])
         for title, names in GROUPS.items():
             if title == SECOND:
@@ -284,13 +293,16 @@ class TaskPanel:
             self._recipes.list,
             *(curve.shapes for curve in self._fields.curves.values()),
             *form.findChildren(QtWidgets.QComboBox, "ColourBy"),
+            self._picker.cell,
             *self._picking.lists,
         ]
         titles = [section.title for section in sections]
         leave_the_wheel(form, [*fields, *lists])
-        keep_space(form, [*fields, *lists, *titles, *self._buttons, self._recipes.save, picker])
+        keep_space(
+            form, [*fields, *lists, *titles, *self._buttons, self._recipes.save, self._picker]
+        )
         give_accelerators([*self._buttons, *titles, self._recipes.save])
-        QtCore.QTimer.singleShot(0, picker.setFocus)
+        QtCore.QTimer.singleShot(0, self._picker.list.setFocus)
         return form
 
     def _section(self, title: str, names: tuple[str, ...]) -> Section:
@@ -373,8 +385,12 @@ class TaskPanel:
             self._begin_grading()
         elif name in ("CellSize", "CellType"):
             self._follow_cell()
+        elif name == "CellFile":
+            self._picker.draw_own_cell()
         self._refusal = ""
         self._show_rows()
+        if name == "Network" and self._obj.Network == "Faces":
+            self._picking.begin("NetworkFaces")
         self._picking.show_picked()
         self._timer.start(self._pause)
 
@@ -386,6 +402,21 @@ class TaskPanel:
             box.setVisible(bool(shown))
         self._picking.show_applicable()
         self._rows["StrutRadius"][1].setEnabled(not is_read_only(self._obj, "StrutRadius"))
+        self._name_thickness()
+
+    def _name_thickness(self) -> None:
+        """Of a TPMS no word of struts: what is graded and driven is a thickness."""
+        is_wall = self._obj.CellType in WALLS
+        for name in LABELS_OF_WALLS:
+            label, field = self._rows[name]
+            label.setText(label_of(name, is_wall))
+            field.setAccessibleName(label.text())
+        thickness = translate("VolfrepTaskPanel", "Thickness")
+        choice = self._rows["RadiusDrivenBy"][1]
+        choice.setItemText(0, thickness if is_wall else said_property(choice.itemData(0)))
+        for section, _, names in self._boxes:
+            if "RadiusGrading" in names:
+                section.entitle(thickness if is_wall else said_property("Strut radius"))
 
     def _begin_target(self, driver: str) -> None:
         """Begin with what the lattice that is shown comes to: it stays as it is at first."""

@@ -25,7 +25,7 @@ GROUPS = {
     )
 }
 #: Groups that are folded away until they are wanted, and the formulas that are drawn.
-FOLDED = ("Network", "Boundary", "Cell size", "Strut radius")
+FOLDED = ("Boundary", "Cell size", "Strut radius")
 CURVES = ("LambdaFormula", "RadiusFormula")
 #: Between rows, pixels.
 SPACE = 6
@@ -62,6 +62,12 @@ class Section(QtWidgets.QWidget):
         is_open = not is_folded(name, is_usually_folded)
         self.title.setChecked(is_open)
         self._open(is_open)
+
+    def entitle(self, title: str) -> None:
+        """Give it another title, to be read."""
+        if self.title.text().replace("&", "") != title:
+            self.title.setText(title)
+            self.title.setAccessibleName(title)
 
     def _open(self, is_open: bool) -> None:
         self.title.setArrowType(QtCore.Qt.DownArrow if is_open else QtCore.Qt.RightArrow)

@@ -1944,16 +1944,24 @@
       <translation>verschieden: siehe Druckprüfung</translation>
     </message>
     <message>
-      <source>{cells} active cells, {struts} struts
-relative density {density} %, mass {mass} g
-about {triangles} million triangles, {size} MB as STL, {seconds} s to compute</source>
-      <translation>{cells} aktive Zellen, {struts} Streben
-relative Dichte {density} %, Masse {mass} g
-etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translation>
+      <source>{number} active cells</source>
+      <translation>{number} aktive Zellen</translation>
+    </message>
+    <message>
+      <source>{number} struts</source>
+      <translation>{number} Streben</translation>
     </message>
     <message>
       <source>{voids}, holding {volume} cm³</source>
       <translation>{voids} mit {volume} cm³</translation>
+    </message>
+    <message>
+      <source>{what}
+relative density {density} %, mass {mass} g
+about {triangles} triangles, {size} MB as STL, {seconds} s to compute</source>
+      <translation>{what}
+relative Dichte {density} %, Masse {mass} g
+etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translation>
     </message>
   </context>
   <context>
@@ -3280,12 +3288,32 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
       <translation>'{text}' ist kein Wert: etwa 2 mm eingeben, eine Summe wie 2 mm + 1 mm, oder = für eine Formel.</translation>
     </message>
     <message>
+      <source>Along faces</source>
+      <translation>Entlang Flächen</translation>
+    </message>
+    <message>
+      <source>Along the skin</source>
+      <translation>Entlang der Haut</translation>
+    </message>
+    <message>
+      <source>Cell that is laid in</source>
+      <translation>Zelle, die eingelegt wird</translation>
+    </message>
+    <message>
       <source>Cells</source>
       <translation>Zellen</translation>
     </message>
     <message>
+      <source>Cells kept</source>
+      <translation>Behaltene Zellen</translation>
+    </message>
+    <message>
       <source>Clear</source>
       <translation>Leeren</translation>
+    </message>
+    <message>
+      <source>Column of the field</source>
+      <translation>Spalte des Felds</translation>
     </message>
     <message>
       <source>Compute</source>
@@ -3300,6 +3328,38 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
       <translation>Abstand</translation>
     </message>
     <message>
+      <source>Driven by</source>
+      <translation>Bestimmt durch</translation>
+    </message>
+    <message>
+      <source>Evened out, times</source>
+      <translation>Geglättet, mal</translation>
+    </message>
+    <message>
+      <source>Faces to follow</source>
+      <translation>Flächen, denen es folgt</translation>
+    </message>
+    <message>
+      <source>File</source>
+      <translation>Datei</translation>
+    </message>
+    <message>
+      <source>Graph file</source>
+      <translation>Graph-Datei</translation>
+    </message>
+    <message>
+      <source>Height of layers</source>
+      <translation>Höhe der Lagen</translation>
+    </message>
+    <message>
+      <source>Kind of lattice</source>
+      <translation>Art des Gitters</translation>
+    </message>
+    <message>
+      <source>Layers</source>
+      <translation>Lagen</translation>
+    </message>
+    <message>
       <source>Look for a file</source>
       <translation>Datei suchen</translation>
     </message>
@@ -3312,12 +3372,24 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
       <translation>Werkstoff</translation>
     </message>
     <message>
+      <source>Networks</source>
+      <translation>Netzwerke</translation>
+    </message>
+    <message>
       <source>Of faces with a skin of their own: the thickness of those that are picked next; a face that has another gets it, one that has it goes back to the usual skin, and 0 leaves it open. Of what is kept solid: the distance from all its faces</source>
       <translation>Von Flächen mit eigener Haut: die Dicke derer, die als Nächstes gewählt werden; eine Fläche mit anderer Dicke bekommt diese, eine mit dieser Dicke wieder die übliche Haut, und 0 lässt sie offen. Von dem, was massiv bleibt: der Abstand von allen seinen Flächen</translation>
     </message>
     <message>
+      <source>On the other side</source>
+      <translation>Auf der anderen Seite</translation>
+    </message>
+    <message>
       <source>Pick</source>
       <translation>Anklicken</translation>
+    </message>
+    <message>
+      <source>Points</source>
+      <translation>Punkte</translation>
     </message>
     <message>
       <source>Points and values</source>
@@ -3332,24 +3404,92 @@ etwa {triangles} Millionen Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</
       <translation>Schnitt</translation>
     </message>
     <message>
+      <source>Seed</source>
+      <translation>Startwert</translation>
+    </message>
+    <message>
+      <source>Sheet or skeleton</source>
+      <translation>Blatt oder Skelett</translation>
+    </message>
+    <message>
+      <source>Sheet thickness</source>
+      <translation>Wanddicke</translation>
+    </message>
+    <message>
+      <source>Shortest strut</source>
+      <translation>Kürzeste Strebe</translation>
+    </message>
+    <message>
       <source>Shows the solid: click at a face, an edge, a vertex, an axis or a plane; once more ends it</source>
       <translation>Zeigt den Körper: auf eine Fläche, eine Kante, einen Punkt, eine Achse oder eine Ebene klicken; noch einmal beendet es</translation>
+    </message>
+    <message>
+      <source>Skin thickness</source>
+      <translation>Hautdicke</translation>
+    </message>
+    <message>
+      <source>TPMS</source>
+      <translation>TPMS</translation>
+    </message>
+    <message>
+      <source>Target relative density</source>
+      <translation>Relative Zieldichte</translation>
     </message>
     <message>
       <source>Thickness</source>
       <translation>Dicke</translation>
     </message>
     <message>
+      <source>Thickness at the end</source>
+      <translation>Dicke am Ende</translation>
+    </message>
+    <message>
+      <source>Thickness at the start</source>
+      <translation>Dicke am Anfang</translation>
+    </message>
+    <message>
+      <source>Thickness curve</source>
+      <translation>Kurve der Dicke</translation>
+    </message>
+    <message>
+      <source>Thickness field</source>
+      <translation>Feld der Dicke</translation>
+    </message>
+    <message>
+      <source>Thickness formula</source>
+      <translation>Formel der Dicke</translation>
+    </message>
+    <message>
+      <source>Thickness grading</source>
+      <translation>Abstufung der Dicke</translation>
+    </message>
+    <message>
       <source>Thickness or distance</source>
       <translation>Dicke oder Abstand</translation>
+    </message>
+    <message>
+      <source>Thickness profile</source>
+      <translation>Verlauf der Dicke</translation>
+    </message>
+    <message>
+      <source>Thickness reach</source>
+      <translation>Reichweite der Dicke</translation>
     </message>
     <message>
       <source>To print</source>
       <translation>Zum Drucken</translation>
     </message>
     <message>
+      <source>Unit cells</source>
+      <translation>Zellen</translation>
+    </message>
+    <message>
       <source>What to pick</source>
       <translation>Was angeklickt wird</translation>
+    </message>
+    <message>
+      <source>automatic</source>
+      <translation>automatisch</translation>
     </message>
     <message>
       <source>drag an end of the arrow in the view to turn it</source>

@@ -1944,16 +1944,24 @@
       <translation>varia: vedere il controllo di stampa</translation>
     </message>
     <message>
-      <source>{cells} active cells, {struts} struts
-relative density {density} %, mass {mass} g
-about {triangles} million triangles, {size} MB as STL, {seconds} s to compute</source>
-      <translation>{cells} celle attive, {struts} aste
-densità relativa {density} %, massa {mass} g
-circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo</translation>
+      <source>{number} active cells</source>
+      <translation>{number} celle attive</translation>
+    </message>
+    <message>
+      <source>{number} struts</source>
+      <translation>{number} aste</translation>
     </message>
     <message>
       <source>{voids}, holding {volume} cm³</source>
       <translation>{voids} con {volume} cm³</translation>
+    </message>
+    <message>
+      <source>{what}
+relative density {density} %, mass {mass} g
+about {triangles} triangles, {size} MB as STL, {seconds} s to compute</source>
+      <translation>{what}
+densità relativa {density} %, massa {mass} g
+circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</translation>
     </message>
   </context>
   <context>
@@ -3280,12 +3288,32 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
       <translation>'{text}' non è un valore: scrivere per esempio 2 mm, una somma come 2 mm + 1 mm, o = per una formula.</translation>
     </message>
     <message>
+      <source>Along faces</source>
+      <translation>Lungo facce</translation>
+    </message>
+    <message>
+      <source>Along the skin</source>
+      <translation>Lungo la pelle</translation>
+    </message>
+    <message>
+      <source>Cell that is laid in</source>
+      <translation>Cella che viene inserita</translation>
+    </message>
+    <message>
       <source>Cells</source>
       <translation>Celle</translation>
     </message>
     <message>
+      <source>Cells kept</source>
+      <translation>Celle tenute</translation>
+    </message>
+    <message>
       <source>Clear</source>
       <translation>Svuota</translation>
+    </message>
+    <message>
+      <source>Column of the field</source>
+      <translation>Colonna del campo</translation>
     </message>
     <message>
       <source>Compute</source>
@@ -3300,6 +3328,38 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
       <translation>Distanza</translation>
     </message>
     <message>
+      <source>Driven by</source>
+      <translation>Guidato da</translation>
+    </message>
+    <message>
+      <source>Evened out, times</source>
+      <translation>Uniformato, volte</translation>
+    </message>
+    <message>
+      <source>Faces to follow</source>
+      <translation>Facce da seguire</translation>
+    </message>
+    <message>
+      <source>File</source>
+      <translation>File</translation>
+    </message>
+    <message>
+      <source>Graph file</source>
+      <translation>File di grafo</translation>
+    </message>
+    <message>
+      <source>Height of layers</source>
+      <translation>Altezza degli strati</translation>
+    </message>
+    <message>
+      <source>Kind of lattice</source>
+      <translation>Tipo di reticolo</translation>
+    </message>
+    <message>
+      <source>Layers</source>
+      <translation>Strati</translation>
+    </message>
+    <message>
       <source>Look for a file</source>
       <translation>Cerca un file</translation>
     </message>
@@ -3312,12 +3372,24 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
       <translation>Materiale</translation>
     </message>
     <message>
+      <source>Networks</source>
+      <translation>Reti</translation>
+    </message>
+    <message>
       <source>Of faces with a skin of their own: the thickness of those that are picked next; a face that has another gets it, one that has it goes back to the usual skin, and 0 leaves it open. Of what is kept solid: the distance from all its faces</source>
       <translation>Delle facce con pelle propria: lo spessore di quelle che si scelgono dopo; una faccia con un altro lo riceve, una che lo ha torna alla pelle solita, e 0 la lascia aperta. Di ciò che resta pieno: la distanza da tutte le sue facce</translation>
     </message>
     <message>
+      <source>On the other side</source>
+      <translation>Sull'altro lato</translation>
+    </message>
+    <message>
       <source>Pick</source>
       <translation>Scegli</translation>
+    </message>
+    <message>
+      <source>Points</source>
+      <translation>Punti</translation>
     </message>
     <message>
       <source>Points and values</source>
@@ -3332,24 +3404,92 @@ circa {triangles} milioni di triangoli, {size} MB in STL, {seconds} s di calcolo
       <translation>Sezione</translation>
     </message>
     <message>
+      <source>Seed</source>
+      <translation>Seme</translation>
+    </message>
+    <message>
+      <source>Sheet or skeleton</source>
+      <translation>Foglio o scheletro</translation>
+    </message>
+    <message>
+      <source>Sheet thickness</source>
+      <translation>Spessore della parete</translation>
+    </message>
+    <message>
+      <source>Shortest strut</source>
+      <translation>Asta più corta</translation>
+    </message>
+    <message>
       <source>Shows the solid: click at a face, an edge, a vertex, an axis or a plane; once more ends it</source>
       <translation>Mostra il solido: fare clic su una faccia, uno spigolo, un vertice, un asse o un piano; ancora una volta per finire</translation>
+    </message>
+    <message>
+      <source>Skin thickness</source>
+      <translation>Spessore della pelle</translation>
+    </message>
+    <message>
+      <source>TPMS</source>
+      <translation>TPMS</translation>
+    </message>
+    <message>
+      <source>Target relative density</source>
+      <translation>Densità relativa voluta</translation>
     </message>
     <message>
       <source>Thickness</source>
       <translation>Spessore</translation>
     </message>
     <message>
+      <source>Thickness at the end</source>
+      <translation>Spessore alla fine</translation>
+    </message>
+    <message>
+      <source>Thickness at the start</source>
+      <translation>Spessore all'inizio</translation>
+    </message>
+    <message>
+      <source>Thickness curve</source>
+      <translation>Curva dello spessore</translation>
+    </message>
+    <message>
+      <source>Thickness field</source>
+      <translation>Campo dello spessore</translation>
+    </message>
+    <message>
+      <source>Thickness formula</source>
+      <translation>Formula dello spessore</translation>
+    </message>
+    <message>
+      <source>Thickness grading</source>
+      <translation>Gradazione dello spessore</translation>
+    </message>
+    <message>
       <source>Thickness or distance</source>
       <translation>Spessore o distanza</translation>
+    </message>
+    <message>
+      <source>Thickness profile</source>
+      <translation>Profilo dello spessore</translation>
+    </message>
+    <message>
+      <source>Thickness reach</source>
+      <translation>Portata dello spessore</translation>
     </message>
     <message>
       <source>To print</source>
       <translation>Per la stampa</translation>
     </message>
     <message>
+      <source>Unit cells</source>
+      <translation>Celle</translation>
+    </message>
+    <message>
       <source>What to pick</source>
       <translation>Che cosa scegliere</translation>
+    </message>
+    <message>
+      <source>automatic</source>
+      <translation>automatico</translation>
     </message>
     <message>
       <source>drag an end of the arrow in the view to turn it</source>

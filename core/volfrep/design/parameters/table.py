@@ -180,7 +180,7 @@ PARAMETERS = (
         "Nodes and struts: .json, .csv, lines of .obj or .vtk, beams of .3mf; or a mesh (.vtk, "
         ".vtu, .inp, .msh, .obj) whose hexahedra the cell is laid into, on whose quadrilaterals "
         "layers of it lie, or whose tetrahedra's edges are struts",
-        needs=(Need(("network",), ("file",)),), required=True, of_block=False,
+        needs=(Need(("network",), ("file",)),), required=True, of_block=False, in_panel=True,
     ),
     Parameter(
         "network_faces", "faces", "Network",
@@ -190,33 +190,33 @@ PARAMETERS = (
     Parameter(
         "network_thickness", "length", "Network",
         "Of the layers of cells upon one surface together",
-        default=0.0, needs=_LAYERS, of_block=False,
+        default=0.0, needs=_LAYERS, of_block=False, in_panel=True,
     ),
     Parameter(
         "network_layers", "integer", "Network",
         "How many layers of cells lie upon a surface or between two; 0 for as many as come "
         "nearest to the cell size",
-        default=0, needs=_LAYERS, of_block=False,
+        default=0, needs=_LAYERS, of_block=False, in_panel=True,
     ),
     Parameter(
         "network_reversed", "flag", "Network",
         "Layers upon one surface lie on its other side, against its normals",
-        default=False, needs=_LAYERS, of_block=False,
+        default=False, needs=_LAYERS, of_block=False, in_panel=True,
     ),
     Parameter(
         "network_points", "integer", "Network",
         "How many points lie in the part; 0 for as many as lie a cell size apart",
-        default=0, needs=_RANDOM, of_block=False, field="network.points",
+        default=0, needs=_RANDOM, of_block=False, in_panel=True, field="network.points",
     ),
     Parameter(
         "network_seed", "integer", "Network",
         "Another seed draws other points",
-        default=1, needs=_RANDOM, of_block=False, field="network.seed",
+        default=1, needs=_RANDOM, of_block=False, in_panel=True, field="network.seed",
     ),
     Parameter(
         "network_relax", "integer", "Network",
         "How often each point moves to the middle of its cell, which evens them out",
-        default=2, needs=_RANDOM, of_block=False, field="network.relax",
+        default=2, needs=_RANDOM, of_block=False, in_panel=True, field="network.relax",
     ),
     Parameter(
         "network_density", "text", "Network",
@@ -234,13 +234,13 @@ PARAMETERS = (
     Parameter(
         "network_on_wall", "flag", "Network",
         "Struts run along the wall, too, where it cuts the faces of the points' cells",
-        default=False, needs=(Need(("network",), ("voronoi",)),), of_block=False,
+        default=False, needs=(Need(("network",), ("voronoi",)),), of_block=False, in_panel=True,
         field="network.on_wall",
     ),
     Parameter(
         "network_shortest", "length", "Network",
         "Struts shorter than this are drawn together into one node; 0 for four radii",
-        default=0.0, needs=_RANDOM, of_block=False, field="network.shortest",
+        default=0.0, needs=_RANDOM, of_block=False, in_panel=True, field="network.shortest",
     ),
     Parameter(
         "network_angle", "number", "Network",

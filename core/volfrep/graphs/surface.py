@@ -24,6 +24,7 @@ from ..mesh.booleans import from_library, to_library
 from ..mesh.topology import edges_of
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..util.errors import VolfrepError
+from ..util.manifold import manifold_library
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
 from .clearance import too_near
@@ -139,8 +140,7 @@ def _united(
     monitor: Monitor,
 ) -> TriangleMesh:
     """The union about nodes that are not meshed alone, open at the discs towards those that are."""
-    import manifold3d
-
+    library = manifold_library("Uniting struts that overlap")
     count = len(frame.struts)
     ends_solo = solo[frame.struts]
     struts = np.flatnonzero(~ends_solo.all(axis=1))
@@ -171,7 +171,7 @@ def _united(
     ball = ball_directions(sides)
     hull = _outward(ball)
     pieces = []
-    first = manifold3d.Manifold.reserve_ids(2 * len(struts) + len(nodes))
+    first = library.Manifold.reserve_ids(2 * len(struts) + len(nodes))
     for k in range(len(struts)):
         # Discs towards joints that are meshed alone are told apart from all other triangles.
         is_open = ends_solo[struts[k]]
@@ -186,7 +186,7 @@ def _united(
         place = frame.nodes[node] + radius[k] * ball
         pieces.append(_piece(place, hull, (len(hull),), first + 2 * len(struts) + k))
     result = monitor.call(
-        lambda: manifold3d.Manifold.batch_boolean(pieces, manifold3d.OpType.Add).to_mesh64()
+        lambda: library.Manifold.batch_boolean(pieces, library.OpType.Add).to_mesh64()
     )
     index = np.asarray(result.run_index).astype(np.int64) // 3
     origin = np.repeat(np.asarray(result.run_original_id).astype(np.int64), np.diff(index)) - first
@@ -196,14 +196,13 @@ def _united(
 
 
 def _piece(corners: Floats, rows: Ints, runs: tuple[int, ...], first: int) -> manifold3d.Manifold:
-    import manifold3d
-
+    library = manifold_library("Uniting struts that overlap")
     source = to_library(
         TriangleMesh(corners, rows.astype(np.int32)),
         run_index=np.concatenate([[0], np.cumsum(runs)]).astype(np.uint64) * np.uint64(3),
         run_original_id=np.arange(first, first + len(runs), dtype=np.uint32),
     )
-    return manifold3d.Manifold(source)
+    return library.Manifold(source)
 
 
 def _outward(ways: Floats) -> Ints:

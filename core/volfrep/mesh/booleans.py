@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Booleans of whole meshes by manifold3d.
-
-The only bridge to manifold3d.
-"""
+"""Booleans of whole meshes by manifold3d, and how meshes get there and back."""
 
 from __future__ import annotations
 
@@ -12,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..util.errors import VolfrepError
+from ..util.manifold import manifold_library
 from .triangle_mesh import TriangleMesh, compact
 
 if TYPE_CHECKING:
@@ -45,10 +43,9 @@ def as_manifold(mesh: TriangleMesh) -> manifold3d.Manifold:
     Raises:
         VolfrepError: it is none.
     """
-    import manifold3d
-
-    solid = manifold3d.Manifold(to_library(mesh))
-    if solid.status() != manifold3d.Error.NoError:
+    library = manifold_library("Cutting or uniting solids")
+    solid: manifold3d.Manifold = library.Manifold(to_library(mesh))
+    if solid.status() != library.Error.NoError:
         raise VolfrepError(
             f"A surface cannot be cut ({solid.status().name}): repair the part's mesh."
         )
@@ -65,13 +62,13 @@ def to_library(mesh: TriangleMesh, **more: NDArray[np.uint64 | np.uint32]) -> ma
 
     This and `from_library` are the only ways there and back.
     """
-    import manifold3d
-
-    return manifold3d.Mesh64(
+    library = manifold_library("A Boolean of meshes")
+    result: manifold3d.Mesh64 = library.Mesh64(
         np.ascontiguousarray(mesh.vertices),
         np.ascontiguousarray(mesh.triangles, dtype=np.uint64),
         **more,
     )
+    return result
 
 
 def from_library(data: manifold3d.Mesh64) -> TriangleMesh:

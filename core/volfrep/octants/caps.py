@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ..mesh.triangulation import triangulate
 from .octant import Octant
 
 _CORNERS = np.array(list(itertools.product((0, 2), repeat=3)))
@@ -50,12 +51,10 @@ def cap(octant: Octant, axis: int, high: bool) -> NDArray[np.int32]:
             loop.append(at)
             at = following.pop(at)
         loops.append(np.array(loop))
-    from manifold3d import triangulate
-
     # In the face seen from outside, the first axis to the right and the second one up.
     first, second = ((axis + 1) % 3, (axis + 2) % 3) if high else ((axis + 2) % 3, (axis + 1) % 3)
     flat = octant.vertices[:, [first, second]]
-    found = np.asarray(triangulate([np.ascontiguousarray(flat[loop]) for loop in loops]))
+    found = triangulate([np.ascontiguousarray(flat[loop]) for loop in loops])
     result: NDArray[np.int32] = np.concatenate(loops)[found].astype(np.int32)
     return result
 

@@ -10,7 +10,6 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-import manifold3d
 import numpy as np
 
 from ..mesh.booleans import from_library, to_library
@@ -20,6 +19,7 @@ from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.piercing import pairs_at_planes, piercing_among
 from ..spatial.resolve_crossings import Turns, resolve_fold_crossings
 from ..util.linalg import normalize, symmetric_eigen
+from ..util.manifold import manifold_library
 from ..util.progress import Monitor
 from ..util.types import Floats, Ints
 
@@ -102,12 +102,13 @@ def _sums(values: Floats, place: Ints) -> Floats:
 
 
 def _less(mesh: TriangleMesh, sizes: Floats, places: Floats) -> TriangleMesh:
-    solid: Any = manifold3d.Manifold(to_library(mesh))
+    library = manifold_library("The inner surface of a skin")
+    solid: Any = library.Manifold(to_library(mesh))
     boxes = [
-        manifold3d.Manifold.cube(size.tolist(), True).transform(place)
+        library.Manifold.cube(size.tolist(), True).transform(place)
         for size, place in zip(sizes, places, strict=True)
     ]
-    union = manifold3d.Manifold.batch_boolean(boxes, manifold3d.OpType.Add)
+    union = library.Manifold.batch_boolean(boxes, library.OpType.Add)
     return from_library((solid - union).to_mesh64())
 
 

@@ -6,11 +6,11 @@ from __future__ import annotations
 from functools import partial
 from typing import Any
 
-import manifold3d
 import numpy as np
 
 from ..mesh.booleans import from_library, to_library
 from ..mesh.triangle_mesh import TriangleMesh
+from ..util.manifold import has_manifold, manifold_library
 from ..util.types import Bools
 from .adaptive_contour import OffsetSurface
 from .crossing_plugs import without_crossings
@@ -26,10 +26,13 @@ SECANTS = 5
 def simplify(wall: OffsetSurface, field: DepthField) -> TriangleMesh:
     """The wall with fewer facets, none of which run through each other.
 
-    Where two polygons would have the same two corners they are replaced by fans.
+    Where two polygons would have the same two corners they are replaced by fans. Without
+    manifold3d all facets stay.
     """
     call, thickness = field.depth.monitor.call, field.depth.thickness
     facets = _with_fans(wall, call(wall.crossings.doubled), field)
+    if not has_manifold():
+        return without_crossings(facets.mesh, thickness, field.depth.monitor)
     simple = call(partial(_simplify, facets.mesh, TOLERANCE * thickness))
     return without_crossings(simple, thickness, field.depth.monitor)
 
@@ -57,7 +60,8 @@ def _with_fans(wall: OffsetSurface, cut: Bools, field: DepthField) -> Facets:
 
 def _simplify(mesh: TriangleMesh, tolerance: float) -> TriangleMesh:
     """The mesh with fewer triangles, moved by less than the tolerance, as a valid manifold."""
-    solid: Any = manifold3d.Manifold(to_library(mesh))
-    if solid.status() != manifold3d.Error.NoError:
+    library = manifold_library("The inner surface of a skin")
+    solid: Any = library.Manifold(to_library(mesh))
+    if solid.status() != library.Error.NoError:
         raise RuntimeError(f"the inner wall is not manifold: {solid.status()}")
     return from_library(solid.simplify(tolerance).to_mesh64())

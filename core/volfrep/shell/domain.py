@@ -11,6 +11,7 @@ from ..design.skins.own_faces import Thicknesses
 from ..design.spec_parts import Skin
 from ..mesh.booleans import difference, intersection
 from ..mesh.triangle_mesh import TriangleMesh
+from ..util.manifold import has_manifold, install_command
 from ..util.progress import Monitor
 from ..util.types import Bools
 from .depth import Depth, sheet_depth, thinnest_of
@@ -69,6 +70,11 @@ def find_domain(solid: TriangleMesh, skin: Skin | None, monitor: Monitor) -> Dom
         warnings = (
             f"The skin is up to {found.worst:.0%} off its thickness near ({x:.4g}, {y:.4g}, "
             f"{z:.4g}), where the room between two skins is narrow.",
+        )
+    if not has_manifold():
+        warnings += (
+            "The skin's inner surface has more facets than it needs, because the Python package "
+            f"manifold3d is not installed: install it with the command  {install_command()} .",
         )
     if is_open is None or not len(found.mesh.triangles):
         return Domain(found.mesh, found.mesh, warnings=warnings)

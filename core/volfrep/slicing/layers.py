@@ -11,11 +11,12 @@ from typing import TYPE_CHECKING, TypeVar
 import numpy as np
 
 from ..grid.strut_graph import Wireframe
-from ..mesh.booleans import as_manifold
 from ..mesh.triangle_mesh import TriangleMesh
+from ..util.manifold import manifold_library
 from ..util.progress import Monitor
 from ..util.threads import threads
 from ..util.types import Bools, Floats
+from .plane_section import plane_cutter
 from .raster import PixelGrid, fill_pixels
 from .sections import Bodies, bodies_of, section_polygons
 
@@ -71,14 +72,13 @@ class Section:
 
     def outline(self) -> manifold3d.CrossSection:
         """The union as the library's own polygons, without overlaps."""
-        import manifold3d
-
-        rule = manifold3d.FillRule.NonZero
-        lattice = manifold3d.CrossSection([*self.struts, *self.joints], rule)
+        library = manifold_library("Outlines of layers")
+        rule = library.FillRule.NonZero
+        lattice = library.CrossSection([*self.struts, *self.joints], rule)
         if self.clip is not None:
-            lattice = lattice ^ manifold3d.CrossSection(self.clip, rule)
+            lattice = lattice ^ library.CrossSection(self.clip, rule)
         # Holes turn the other way, so that their winding number is 0.
-        return lattice + manifold3d.CrossSection(self.skin, rule)
+        return lattice + library.CrossSection(self.skin, rule)
 
 
 def layer_heights(bounds: Floats, layer: float) -> Floats:
@@ -109,15 +109,15 @@ def each_section(
     Raises:
         VolfrepError: a wall is no solid that can be cut.
     """
-    clip = None if part.clip is None else as_manifold(part.clip)
-    skin = None if part.skin is None else as_manifold(part.skin)
+    clip = None if part.clip is None else plane_cutter(part.clip)
+    skin = None if part.skin is None else plane_cutter(part.skin)
 
     def cut(bodies: Bodies, z: float) -> T:
         return use(
             Section(
                 *section_polygons(bodies, z, error),
-                None if clip is None else clip.slice(z).to_polygons(),
-                [] if skin is None else skin.slice(z).to_polygons(),
+                None if clip is None else clip(z),
+                [] if skin is None else skin(z),
             ),
             z,
         )

@@ -24,6 +24,7 @@ from ..process.cluster import Watch
 from ..process.pool import at_once
 from ..spatial.rays import inside_points
 from ..util.errors import VolfrepError
+from ..util.manifold import manifold_library
 from ..util.progress import POLL_SECONDS, Monitor
 from ..util.threads import threads
 from ..util.types import Bools, Floats, Ints
@@ -226,8 +227,7 @@ def cut_again(
     Raises:
         VolfrepError: the surface is no solid that can be cut.
     """
-    import manifold3d
-
+    library = manifold_library("Cutting a part once more")
     if surface.octants is not None and surface.octants.laid.points is not None:
         surface = TrimmedSurface(surface.whole(monitor))  # a middle of theirs is not known
     if surface.octants is not None:
@@ -237,14 +237,14 @@ def cut_again(
         mesh = concatenated_at(mesh, surface.rim_rows, inner.caps(monitor))
     mesh = mesh.reversed() if is_void else mesh
     runs = np.array([0, len(surface.mesh.triangles), len(mesh.triangles)], np.uint64)
-    ids = manifold3d.Manifold.reserve_ids(2)
+    ids = library.Manifold.reserve_ids(2)
     source = to_library(
         mesh,
         run_index=runs[: 2 + (inner is not None)] * np.uint64(3),
         run_original_id=np.arange(ids, ids + 1 + (inner is not None), dtype=np.uint32),
     )
-    solid = monitor.call(lambda: manifold3d.Manifold(source))
-    if solid.status() != manifold3d.Error.NoError:
+    solid = monitor.call(lambda: library.Manifold(source))
+    if solid.status() != library.Error.NoError:
         raise VolfrepError(
             f"The part cannot be cut once more ({solid.status().name}): change the lattice's "
             "origin or radius by a little."

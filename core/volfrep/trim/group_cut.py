@@ -26,6 +26,7 @@ from ..mesh.triangle_mesh import TriangleMesh, compact, empty_mesh
 from ..spatial.rays import inside_points
 from ..spatial.self_intersection import crossing_triangles
 from ..util.errors import VolfrepError
+from ..util.manifold import manifold_library
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
 from .mutual_cut import cut_mutually
@@ -172,10 +173,9 @@ def _cut_by_library(
     monitor: Monitor,
 ) -> Piece:
     """What manifold3d's Boolean leaves, which decides where octants and wall touch, too."""
-    import manifold3d
-
+    library = manifold_library("Cutting a lattice at a skin")
     monitor.count("triangles into the Boolean", len(capped.triangles) + len(group.wall.triangles))
-    ids = manifold3d.Manifold.reserve_ids(5)
+    ids = library.Manifold.reserve_ids(5)
     order = np.argsort(~group.own_wall, kind="stable")
     wall_mesh = TriangleMesh(group.wall.vertices, group.wall.triangles[order])
     owned = int(group.own_wall.sum())
@@ -183,7 +183,7 @@ def _cut_by_library(
     sizes = [len(surfaces[0]), len(surfaces[1]), caps]
     cutter = _solid(capped, sizes, ids + 2, group.alone, asked)
     for solid, what in ((wall, "wall"), (cutter, "lattice")):
-        if solid.status() != manifold3d.Error.NoError:
+        if solid.status() != library.Error.NoError:
             defect = f"{what} {solid.status().name}"
             return Piece(empty_mesh(), np.zeros(0, bool), np.zeros(0, np.int64), {}, defect)
     del capped, wall_mesh
@@ -214,15 +214,14 @@ def cut_mesh(
     Raises:
         VolfrepError: one of the two is not a solid that can be cut.
     """
-    import manifold3d
-
-    ids = manifold3d.Manifold.reserve_ids(2)
+    library = manifold_library("Cutting a lattice at a skin")
+    ids = library.Manifold.reserve_ids(2)
     solids = [
         _solid(mesh, [len(mesh.triangles)], ids + k, True, monitor)
         for k, mesh in enumerate((wall, lattice))
     ]
     for solid, what in zip(solids, ("domain", "lattice"), strict=True):
-        if solid.status() != manifold3d.Error.NoError:
+        if solid.status() != library.Error.NoError:
             raise VolfrepError(
                 f"The {what}'s surface cannot be cut ({solid.status().name}): repair the part's "
                 "mesh, or make the struts thinner."
@@ -261,8 +260,7 @@ def _solid(
     mesh: TriangleMesh, runs: list[int], first_id: int, alone: bool, monitor: Monitor
 ) -> manifold3d.Manifold:
     """A manifold whose runs of triangles can be told apart after a Boolean."""
-    import manifold3d as library
-
+    library = manifold_library("Cutting a lattice at a skin")
     more: dict[str, NDArray[np.uint64]] = {}
     if not alone:
         more["face_id"] = np.arange(len(mesh.triangles), dtype=np.uint64)

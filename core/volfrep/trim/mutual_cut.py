@@ -12,10 +12,10 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from manifold3d import triangulate
 
 from ..mesh.topology import edge_keys, pieces_of
 from ..mesh.triangle_mesh import TriangleMesh
+from ..mesh.triangulation import triangulate
 from ..spatial.rays import inside_points
 from ..util.progress import Monitor
 from ..util.ragged import spread
@@ -327,8 +327,7 @@ def _triangulated(
     cuts = np.searchsorted(number, np.arange(0, len(facets) + FACETS_PER_CALL, FACETS_PER_CALL))
     loops = [flat[a:b] for a, b in zip((end - length).tolist(), end.tolist(), strict=True)]
     for begin, stop in pairwise(cuts):
-        found = np.asarray(triangulate(loops[begin:stop])).reshape(-1, 3).astype(np.int64)
-        found += end[begin] - length[begin]
+        found = triangulate(loops[begin:stop]) + (end[begin] - length[begin])
         result.append(corner[found])
         source.append(of[found[:, 0]])
     return np.concatenate(result), np.concatenate(source)

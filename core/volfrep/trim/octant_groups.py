@@ -25,6 +25,7 @@ from ..mesh.topology import among_edges, edge_keys
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..spatial.self_intersection import meeting_boxes
 from ..util.errors import VolfrepError
+from ..util.manifold import manifold_library
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
 from .culling import without_pinches
@@ -313,17 +314,16 @@ def _near(
 
     Each with its row, in any order.
     """
-    import manifold3d
-
-    own_id = manifold3d.Manifold.reserve_ids(1)
+    library = manifold_library("Cutting a lattice at a skin")
+    own_id = library.Manifold.reserve_ids(1)
     source = to_library(
         wall,
         run_index=np.array([0, 3 * len(wall.triangles)], np.uint64),
         run_original_id=np.array([own_id], np.uint32),
         face_id=np.arange(len(wall.triangles), dtype=np.uint64),
     )
-    whole = monitor.call(lambda: manifold3d.Manifold(source))
-    if whole.status() != manifold3d.Error.NoError:
+    whole = monitor.call(lambda: library.Manifold(source))
+    if whole.status() != library.Error.NoError:
         raise VolfrepError(
             f"The domain's surface cannot be cut ({whole.status().name}): repair the part's mesh."
         )
@@ -332,7 +332,7 @@ def _near(
     while waiting:
         solid, rows = waiting.pop()
         low, high = boxes[rows, 0].min(axis=0), boxes[rows, 1].max(axis=0)
-        block = manifold3d.Manifold.cube(tuple(high - low)).translate(tuple(low))
+        block = library.Manifold.cube(tuple(high - low)).translate(tuple(low))
         solid = solid ^ block
         if len(rows) > 1:
             middle = boxes[rows].mean(axis=1)

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from typing import Any
 
-import manifold3d
 import numpy as np
 
 from ...mesh.booleans import as_manifold, from_library
@@ -13,6 +12,7 @@ from ...mesh.topology import pieces_of
 from ...mesh.triangle_mesh import TriangleMesh, compact, concatenate
 from ...spatial.winding import Windings, windings
 from ...util.errors import VolfrepError
+from ...util.manifold import MissingPackage, manifold_library
 from ...util.numbers import place_text
 from ...util.ragged import spread
 from ...util.types import Ints
@@ -45,8 +45,9 @@ def unite(mesh: TriangleMesh, body: Ints, name: str) -> tuple[TriangleMesh, list
     for group in _touching_boxes(mesh, body):
         if len(group) == 1:
             continue
+        library = manifold_library("Uniting bodies that overlap")
         solids = [_to_manifold(mesh, rows_of[one], name) for one in group.tolist()]
-        union = manifold3d.Manifold.batch_boolean(solids, manifold3d.OpType.Add)
+        union = library.Manifold.batch_boolean(solids, library.OpType.Add)
         volume, area = sum(s.volume() for s in solids), sum(s.surface_area() for s in solids)
         same_volume = abs(union.volume() - volume) <= 1e-9 * abs(volume)
         if same_volume and abs(union.surface_area() - area) <= 1e-9 * area:
@@ -96,6 +97,7 @@ def unite_with_itself(mesh: TriangleMesh, met: Windings, name: str) -> TriangleM
     """
     if met.least < 0:
         return None
+    library = manifold_library("Mending a surface that runs through itself")
     waiting = [(_to_manifold(mesh, np.arange(len(mesh.triangles)), name), 0)]
     pieces: list[Any] = []
     while waiting:
@@ -113,7 +115,7 @@ def unite_with_itself(mesh: TriangleMesh, met: Windings, name: str) -> TriangleM
                 middle = float(piece.bounds[:, axis].mean())
                 halves = solid.split_by_plane(np.eye(3)[axis].tolist(), middle)
                 waiting += [(half, cuts + 1) for half in halves]
-    whole = manifold3d.Manifold.batch_boolean(pieces, manifold3d.OpType.Add)
+    whole = library.Manifold.batch_boolean(pieces, library.OpType.Add)
     union = from_library(whole.to_mesh64())
     return union if len(union.triangles) else None
 
@@ -122,6 +124,8 @@ def _to_manifold(mesh: TriangleMesh, rows: Ints, name: str) -> Any:
     part = compact(TriangleMesh(mesh.vertices, mesh.triangles[rows]))
     try:
         return as_manifold(part)
+    except MissingPackage:
+        raise
     except VolfrepError as error:
         raise VolfrepError(
             f"'{name}' has overlapping bodies near {place_text(part.vertices.mean(axis=0))} that "

@@ -3,10 +3,10 @@
 
 from __future__ import annotations
 
-import manifold3d
 import numpy as np
 from numpy.typing import NDArray
 
+from ...mesh.triangulation import triangulate
 from ...util.errors import VolfrepError
 from ...util.linalg import along, times
 from ...util.ragged import spread
@@ -95,7 +95,7 @@ def cut_loops(vertices: Floats, loops: list[Ints]) -> Ints | None:
     points = vertices[indices]
     flat = times(points - points.mean(axis=0), frame)
     ends = np.cumsum([len(loop) for loop in loops])[:-1]
-    pieces = np.asarray(manifold3d.triangulate(np.split(flat, ends)), np.int64).reshape(-1, 3)
+    pieces = triangulate(np.split(flat, ends))
     a, b, c = (flat[pieces[:, k]] for k in range(3))
     doubled = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]
     expected = sum(float(along(n, normal)) for n in normals)

@@ -24,12 +24,25 @@ PACKAGES = {
     "trimesh": "trimesh",
     "manifold3d": "manifold3d",
 }
+#: What is not on FreeCAD's list of allowed packages: only the user's own command installs it, and
+#: the engine does without where it can (`volfrep.util.manifold`).
+OPTIONAL = ("manifold3d",)
 #: FreeCAD and its other add-ons use these too: their version must stay what it is.
 SHARED = ("numpy", "scipy")
 
 
 def missing_packages() -> list[str]:
-    """Names to install by of the packages that this FreeCAD cannot import."""
+    """Names to install by of the packages without which nothing is computed."""
+    return [package for package in _missing() if package not in OPTIONAL]
+
+
+def missing_optional() -> list[str]:
+    """Names to install by of the packages that only some jobs need."""
+    return [package for package in _missing() if package in OPTIONAL]
+
+
+def _missing() -> list[str]:
+    """What this FreeCAD cannot import."""
     return [
         package
         for module, package in PACKAGES.items()

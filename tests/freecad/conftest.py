@@ -10,6 +10,7 @@ import FreeCAD as App
 import pytest
 
 from freecad_volfrep import make_lattice_infill
+from freecad_volfrep.compat import package_folder
 from freecad_volfrep.engine import require_engine
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -23,18 +24,32 @@ def top_of(box):
     return f"Face{1 + max(range(len(faces)), key=lambda k: faces[k].CenterOfMass.z)}"
 
 
-def said_without_packages(folder, body):
+def said_without_packages(folder, body, but_for=None):
     """The lines that a script prints, by their first words, in a FreeCAD without our packages.
 
     `folder` becomes its profile. The test is skipped where they are installed for everybody.
+
+    Args:
+        folder: empty.
+        body: of the script.
+        but_for: the package that is missing; None for all.
     """
     (folder / "Mod").mkdir()
     (folder / "Mod" / "VOLFREP").symlink_to(ROOT)
+    if but_for is not None:
+        user = App.getUserAppDataDir()
+        there = folder / package_folder().relative_to(user)
+        there.mkdir(parents=True)
+        for package in Path(user, "AdditionalPythonPackages").iterdir():
+            if not package.name.startswith((but_for, "__editable__")):
+                (there / package.name).symlink_to(package.resolve())
     script = folder / "script.py"
     script.write_text(
         "import os, sys, FreeCAD as App\n"
-        "from freecad_volfrep.deps import missing_packages\n"
-        "print('MISSING', missing_packages())\n" + body + "sys.stdout.flush()\nos._exit(0)\n"
+        "from freecad_volfrep.deps import missing_optional, missing_packages\n"
+        "print('MISSING', [*missing_packages(), *missing_optional()])\n"
+        + body
+        + "sys.stdout.flush()\nos._exit(0)\n"
     )
     environment = dict(os.environ, FREECAD_USER_HOME=str(folder), PYTHONPATH="")
     done = subprocess.run(

@@ -148,6 +148,16 @@ def test_packages_go_where_freecad_looks(monkeypatch):
 
 def test_nothing_is_missing_here():
     assert deps.missing_packages() == []
+    assert deps.missing_optional() == []
+
+
+def test_install_takes_only_what_the_index_allows(monkeypatch):
+    """The Install button and the Addon Manager install the same, but for the optional ones."""
+    monkeypatch.syspath_prepend(str(ROOT / "tools"))
+    from index_review import ALLOWED
+
+    assert set(deps.PACKAGES.values()) - set(deps.OPTIONAL) <= ALLOWED
+    assert not ALLOWED & set(deps.OPTIONAL)
 
 
 def test_the_command_is_for_this_python(monkeypatch):
@@ -158,8 +168,9 @@ def test_the_command_is_for_this_python(monkeypatch):
     monkeypatch.setattr(
         deps.importlib.util, "find_spec", lambda name: None if name in hidden else find(name)
     )
-    missing = deps.missing_packages()
-    assert missing == ["trimesh", "manifold3d"]
+    assert deps.missing_packages() == ["trimesh"]
+    assert deps.missing_optional() == ["manifold3d"]
+    missing = ["trimesh", "manifold3d"]
     monkeypatch.setattr(deps, "_installed", lambda name: name not in missing)
     words = shlex.split(deps.install_command(missing))
     python = words[0]

@@ -5,7 +5,7 @@ import math
 
 import pytest
 
-from conftest import SMALL
+from conftest import SMALL, said_without_packages
 from freecad_volfrep import make_lattice_infill
 
 
@@ -141,11 +141,37 @@ def test_an_empty_mesh(doc):
 def test_missing_packages_say_what_to_install(doc, infill, monkeypatch):
     from freecad_volfrep import engine
 
-    monkeypatch.setattr(engine, "missing_packages", lambda: ["manifold3d"])
+    monkeypatch.setattr(engine, "missing_packages", lambda: ["trimesh"])
     before = infill.Mesh.CountFacets
     infill.StrutRadius = 0.8
     doc.recompute()
     assert not infill.isValid()
-    assert "manifold3d" in infill.getStatusString()
+    assert "trimesh" in infill.getStatusString()
     assert "-m pip install --target" in infill.getStatusString()
     assert infill.Mesh.CountFacets == before
+
+
+def test_without_manifold3d_parts_are_filled_or_say_what_they_need(tmp_path):
+    """The workbench loads, previews and fills; an open face needs it, and says how to get it."""
+    lines = said_without_packages(
+        tmp_path,
+        "from freecad_volfrep import make_lattice_infill\n"
+        "doc = App.newDocument('A')\n"
+        "box = doc.addObject('Part::Box', 'B')\n"
+        "box.Length, box.Width, box.Height = 30, 20, 20\n"
+        f"obj = make_lattice_infill(doc, box, **{SMALL})\n"
+        "from freecad_volfrep.features.infill.live_preview import LivePreview\n"
+        "print('PREVIEW', LivePreview(obj).show().preview.cells)\n"
+        "doc.recompute()\n"
+        "print('FILLED', obj.isValid(), obj.Mesh.isSolid(), *obj.Warnings)\n"
+        "obj.OpenFaces = [(box, ('Face6',))]\n"
+        "doc.recompute()\n"
+        "print('OPEN', obj.isValid(), obj.getStatusString())\n",
+        but_for="manifold3d",
+    )
+    command = f"-m pip install --target {tmp_path}"
+    assert lines["PREVIEW"] == "PREVIEW 12"
+    assert lines["FILLED"].startswith("FILLED True True The skin's inner surface has more facets")
+    assert command in lines["FILLED"]
+    assert "needs the Python package manifold3d" in lines["OPEN"]
+    assert command in lines["OPEN"]

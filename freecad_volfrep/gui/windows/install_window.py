@@ -6,7 +6,12 @@ from __future__ import annotations
 import FreeCADGui as Gui
 
 from freecad_volfrep.compat import package_folder
-from freecad_volfrep.deps import find_installed, install_arguments, install_command
+from freecad_volfrep.deps import (
+    find_installed,
+    install_arguments,
+    install_command,
+    missing_optional,
+)
 from freecad_volfrep.gui.qt import QtCore, QtGui, QtWidgets
 from freecad_volfrep.gui.widgets.panel_manners import fits_any_width
 from freecad_volfrep.translation import translate
@@ -19,7 +24,8 @@ class InstallWindow(QtWidgets.QDialog):
     """Says what is missing; installs it at a click, or leaves the command on the clipboard.
 
     Args:
-        packages: names to install by.
+        packages: names to install by, all on FreeCAD's list of allowed packages. What is not on it
+            is in the command only.
     """
 
     def __init__(self, packages: list[str]) -> None:
@@ -29,7 +35,9 @@ class InstallWindow(QtWidgets.QDialog):
         self.setAttribute(QtCore.Qt.WA_DeleteOnClose)
         self.resize(*SIZE)
         self._packages = packages
-        self._say = QtWidgets.QLabel(
+        optional = missing_optional()
+        self._command = install_command([*packages, *optional])
+        text = str(
             translate(
                 "VolfrepInstall",
                 "VOLFREP needs the Python packages {names}. Install puts them into FreeCAD's own "
@@ -37,9 +45,16 @@ class InstallWindow(QtWidgets.QDialog):
                 "about a minute.",
             ).format(names=", ".join(packages), folder=package_folder())
         )
+        if optional:
+            text += " " + translate(
+                "VolfrepInstall",
+                "{names} is not on FreeCAD's list of allowed packages, so Install leaves it out; "
+                "the command below has it. Some parts cannot be made without it.",
+            ).format(names=", ".join(optional))
+        self._say = QtWidgets.QLabel(text)
         self._say.setObjectName("Said")
         fits_any_width(self._say)
-        self._output = QtWidgets.QPlainTextEdit(install_command(packages))
+        self._output = QtWidgets.QPlainTextEdit(self._command)
         self._output.setObjectName("Output")
         self._output.setReadOnly(True)
         self._output.setAccessibleName(translate("VolfrepInstall", "What the installation says"))
@@ -72,7 +87,7 @@ class InstallWindow(QtWidgets.QDialog):
 
     def copy(self) -> None:
         """Put the command on the clipboard."""
-        QtWidgets.QApplication.clipboard().setText(install_command(self._packages))
+        QtWidgets.QApplication.clipboard().setText(self._command)
         self._say.setText(
             translate(
                 "VolfrepInstall", "The command is on the clipboard: run it, then restart FreeCAD."

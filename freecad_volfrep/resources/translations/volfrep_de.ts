@@ -2123,6 +2123,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <source>{names} could not be installed: read below why. The command can be copied and run elsewhere.</source>
       <translation>{names} ließ sich nicht installieren: unten steht, warum. Der Befehl kann kopiert und anderswo ausgeführt werden.</translation>
     </message>
+    <message>
+      <source>{names} is not on FreeCAD's list of allowed packages, so Install leaves it out; the command below has it. Some parts cannot be made without it.</source>
+      <translation>{names} steht nicht auf FreeCADs Liste erlaubter Pakete, daher lässt Installieren es aus; der Befehl unten enthält es. Manche Teile lassen sich ohne es nicht herstellen.</translation>
+    </message>
   </context>
   <context>
     <name>VolfrepJobs</name>

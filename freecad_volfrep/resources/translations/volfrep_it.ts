@@ -2123,6 +2123,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <source>{names} could not be installed: read below why. The command can be copied and run elsewhere.</source>
       <translation>{names}: installazione non riuscita, il perché è scritto sotto. Il comando si può copiare ed eseguire altrove.</translation>
     </message>
+    <message>
+      <source>{names} is not on FreeCAD's list of allowed packages, so Install leaves it out; the command below has it. Some parts cannot be made without it.</source>
+      <translation>{names} non è nell'elenco dei pacchetti ammessi da FreeCAD, perciò Installa lo tralascia; il comando qui sotto lo comprende. Alcuni pezzi non si possono realizzare senza.</translation>
+    </message>
   </context>
   <context>
     <name>VolfrepJobs</name>

@@ -226,22 +226,13 @@ class Part:
         from .jobs.figures.properties import lattice_properties
 
         spec = self.spec
-        if spec.is_graded or spec.network is not None:
+        given = spec.kind.endless
+        if spec.is_graded or given is None:
             raise VolfrepError(
                 "A lattice that is graded, turned or a network has no one stiffness: ask for the "
                 "properties of a cell."
             )
-        if spec.surface is None:
-            return lattice_properties(
-                spec.unit_cell(), spec.cell_size, spec.strut_radius, fillet=spec.fillet,
-                exact=exact,
-            )  # fmt: skip
-        size = "wall_thickness" if spec.wall.kind == "sheet" else "wall_offset"
-        value = spec.wall.thickness if spec.wall.kind == "sheet" else spec.wall.offset
-        sizes: dict[str, Any] = {size: value}
-        return lattice_properties(
-            spec.surface, spec.cell_size, wall_kind=spec.wall.kind, exact=exact, **sizes
-        )
+        return lattice_properties(**given, exact=exact)
 
     def check(
         self, process: str, build_direction: tuple[float, float, float] = (0.0, 0.0, 1.0)

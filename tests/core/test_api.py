@@ -14,7 +14,7 @@ import samples
 import volfrep
 from volfrep import LatticeSpec, VolfrepError
 from volfrep.api import specified
-from volfrep.design.tpms import TpmsSheet
+from volfrep.design.tpms import PeriodicSurface, TpmsSheet
 
 BOX = {"cell": "CVC", "cell_size": 10, "strut_radius": 1, "shell": 2, "resolution": 10}
 
@@ -44,8 +44,8 @@ def test_walls_are_asked_for_as_on_the_command_line() -> None:
     other = specified(spec, {"wall_kind": "skeleton", "wall_offset": 0.2}, None)
     assert other.wall == TpmsSheet("skeleton", 0.8, 0.2)
     own = specified(None, {"wall_formula": "cos(x) + cos(y) + cos(z)"}, None)
-    assert own.surface is not None
-    assert own.surface.formula == "cos(x) + cos(y) + cos(z)"
+    assert isinstance(own.cell, PeriodicSurface)
+    assert own.cell.formula == "cos(x) + cos(y) + cos(z)"
     with pytest.raises(VolfrepError, match="of the cell Formula"):
         specified(None, {"cell": "Gyroid", "wall_formula": "x"}, None)
     with pytest.raises(VolfrepError, match="did you mean 'wall_kind'"):

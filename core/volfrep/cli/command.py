@@ -172,7 +172,7 @@ def _fill(given: argparse.Namespace) -> None:
     options = fill_options(given)
 
     from ..design.forecast import forecast_fill
-    from ..jobs.rough_radius import solve_target_roughly
+    from ..jobs.kinds import lattice_kind
     from ..jobs.targets import solve_target
     from ..output.sources import FilledPart
     from ..process.pool import let_go
@@ -181,13 +181,13 @@ def _fill(given: argparse.Namespace) -> None:
     start = time.perf_counter()
     solid = read_part(options.part, options.unit, spec.cell_size)
     read_seconds = time.perf_counter() - start
-    rough = solve_target_roughly(solid, spec)
+    rough = lattice_kind(spec).roughly_solved(solid)
     if meshed and spec.output != "domain":
         rough.kind.refuse_crossing()
     expected = forecast_fill(solid, rough, streamed=options.is_plain)
     if not options.quiet:
         print(f"Expected: {expected if meshed else expected.of_axes}.", flush=True)
-    is_cut = meshed and spec.kind.is_of_octants and spec.output != "domain"
+    is_cut = meshed and spec.kind.is_cut_in_groups and spec.output != "domain"
     cut = expected.triangles if is_cut else 0
     with _workers(options, cut) as executor, Progress(options.quiet) as progress:
         infill = solve_target(

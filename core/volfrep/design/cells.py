@@ -10,7 +10,7 @@ from __future__ import annotations
 import os
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,7 +22,7 @@ from ..util.reading import read_json
 from ..util.types import Floats
 from .cell_files.parameters import CellParameter, chosen_values, read_parameters
 from .expression import CONSTANTS, FUNCTIONS, evaluate_numbers
-from .tpms.library import SURFACES
+from .tpms.library import SURFACES, PeriodicSurface, find_surface, surface_name
 
 #: A custom cell's file may not be larger than this, nor have more nodes or struts.
 MAX_FILE_BYTES = 1_000_000
@@ -63,6 +63,9 @@ class UnitCell:
     (9, 20, -1)
     """
 
+    #: The parameter that says how thick a lattice of it is.
+    measure: ClassVar[str] = "strut_radius"
+
     name: str
     nodes: NDArray[np.float64] = field(compare=False)
     struts: NDArray[np.int64] = field(compare=False)
@@ -82,6 +85,19 @@ class UnitCell:
         object.__setattr__(self, "widths", freeze(self.widths, np.float64))
         object.__setattr__(self, "_content", content_of(self.nodes, self.struts, self.widths))
         _refuse_loose(self.nodes, self.struts, f"unit cell '{self.name}'")
+
+    def as_values(self) -> dict[str, Any]:
+        """The parameters that name it.
+
+        Raises:
+            VolfrepError: it is not the library's, and has no file.
+        """
+        own = self.name not in LIBRARY or find_cell(self.name, self.values) != self
+        if own and not (self.source and Path(self.source).is_file()):
+            raise VolfrepError(
+                f"The cell '{self.name}' has no file that could be named: save it as .json first."
+            )
+        return {"cell": self.source if own else self.name, "cell_values": self.values}
 
     @property
     def is_plain(self) -> bool:
@@ -164,6 +180,25 @@ def find_cell(name: str, values: str = "") -> UnitCell:
         f"There is no unit cell named '{name}': choose one of {', '.join(LIBRARY)}, for walls one "
         f"of {', '.join(SURFACES)}, or give the path of a cell's .json file."
     )
+
+
+def any_cell(name: str, values: str = "", formula: str = "") -> UnitCell | PeriodicSurface:
+    """What is called so: a cell of struts (`find_cell`), or a surface that walls follow.
+
+    Args:
+        name: of it, or a cell's file.
+        values: as of `find_cell`.
+        formula: of the user's own surface.
+
+    Raises:
+        VolfrepError: as `find_cell` and `find_surface`.
+    """
+    return find_surface(name, formula) or find_cell(name, values)
+
+
+def measure_of(name: str) -> str:
+    """The parameter that says how thick a lattice of the cell of a name is."""
+    return (UnitCell if surface_name(name) is None else PeriodicSurface).measure
 
 
 def load_cell(path: str | os.PathLike[str], values: str = "") -> UnitCell:

@@ -9,10 +9,9 @@ from typing import Any
 from ..util.content import digest_of
 from ..util.errors import VolfrepError
 from ..util.numbers import number
-from .cells import UnitCell, find_cell
+from .cells import UnitCell, any_cell
 from .grading import as_plain
 from .kinds import Kind, kind_of
-from .kinds.tpms import Tpms
 from .spec_fields import SpecFields
 from .spec_parts import (
     ACTIVATIONS,
@@ -21,7 +20,6 @@ from .spec_parts import (
     MAX_RESOLUTION,
     MIN_RESOLUTION,
 )
-from .tpms import PeriodicSurface, find_surface
 
 __all__ = [
     "ACTIVATIONS",
@@ -105,7 +103,7 @@ class LatticeSpec(SpecFields):
 
     def __post_init__(self) -> None:
         if isinstance(self.cell, str):
-            cell = find_surface(self.cell) or find_cell(self.cell)
+            cell = any_cell(self.cell)
             object.__setattr__(self, "cell", cell)
         object.__setattr__(self, "network", self.kind.network)
         grid = self.grid
@@ -143,16 +141,6 @@ class LatticeSpec(SpecFields):
         """The kind of lattice that it is of."""
         return kind_of(self)
 
-    @property
-    def surface(self) -> PeriodicSurface | None:
-        """The surface that walls follow; None where the lattice is of struts."""
-        return self.cell if isinstance(self.cell, PeriodicSurface) else None
-
-    @property
-    def thicknesses(self) -> tuple[float, float]:
-        """The smallest and the largest thickness of a sheet, mm; 0 for one side of a surface."""
-        return self.kind.thicknesses if isinstance(self.kind, Tpms) else (0.0, 0.0)
-
     def with_thickness(self, value: float) -> LatticeSpec:
         """The same with struts, or walls, of a thickness: `Kind.measure` in mm."""
         return replace(self, **self.kind.of_thickness(value))
@@ -164,7 +152,7 @@ class LatticeSpec(SpecFields):
         Where struts vary, faces that are open and drain holes do.
         """
         is_cut_again = bool(self.open_faces) or self.drains is not None
-        return self.is_cut and self.kind.is_of_octants and not (self.varies and is_cut_again)
+        return self.is_cut and self.kind.is_cut_in_groups and not (self.varies and is_cut_again)
 
     @property
     def facets_along_cell(self) -> int:

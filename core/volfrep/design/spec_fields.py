@@ -7,11 +7,12 @@ Below the kinds of lattice, which judge a specification, and so below `spec`, wh
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..util.errors import VolfrepError
 from ..util.types import Floats
@@ -151,10 +152,14 @@ class Kind(ABC):
 
     #: The parameter that says how thick the lattice is.
     measure = "strut_radius"
-    #: Whether an endless lattice of equal cells has properties of its own.
-    repeats = True
-    #: Whether octants are laid, which are cut in groups, and go into a file without a mesh of all.
-    is_of_octants = True
+    #: Whether it has struts: to be coloured, or held against a printer's limits.
+    has_struts = True
+    #: Whether its cells lie in a grid, so that each place has a cell size.
+    has_grid = True
+    #: Whether it is cut in groups of octants, and goes into a file without a mesh of all.
+    is_cut_in_groups = True
+    #: Whether what its preview refuses cannot be made either.
+    is_judged_by_preview = True
 
     def __init__(self, spec: SpecFields) -> None:
         self.spec = spec
@@ -175,6 +180,28 @@ class Kind(ABC):
     @property
     def cube(self) -> UnitCell | None:
         """The cube with struts of one radius that the lattice repeats; None: it is none of such."""
+        return None
+
+    @property
+    def widths(self) -> Floats:
+        """(m,) what the lattice's radius is multiplied by at each strut; none, (0,), for 1."""
+        return np.zeros(0)
+
+    @property
+    def endless(self) -> Mapping[str, Any] | None:
+        """What `jobs.figures.properties` is to be asked with; None: it repeats nowhere.
+
+        Every number is a length, mm.
+        """
+        return None
+
+    @property
+    def catalogue_cell(self) -> UnitCell | None:
+        """The cell by which the catalogue may know the endless lattice; None: it does not."""
+        return None
+
+    def content_of_0_1_0(self) -> Sequence[NDArray[Any]] | None:
+        """What releases up to 0.1.0 knew of it beside its plain values; None: they knew it not."""
         return None
 
     def unit_cell(self) -> UnitCell:
@@ -211,6 +238,14 @@ class Kind(ABC):
 
     def as_plain(self) -> dict[str, Any]:
         """What is said of it beside the specification's fields, as plain JSON values."""
+        return {}
+
+    def as_values(self) -> dict[str, Any]:
+        """Parameters that are said of it beside those that hold a field, and those of its cell.
+
+        Raises:
+            VolfrepError: no value can say what it holds.
+        """
         return {}
 
     @property

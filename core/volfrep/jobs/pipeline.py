@@ -23,7 +23,7 @@ from ..reports.report import Report
 from ..reports.result import Result
 from ..util.cache import StageCache
 from ..util.progress import ProgressCallback
-from .rough_radius import solve_target_roughly
+from .kinds import lattice_kind
 from .targets import fill_with_target
 
 
@@ -143,7 +143,7 @@ def forecast_and_fill(
         VolfrepError: as `filled_mesh`.
         Cancelled: the callback said so.
     """
-    forecast = forecast_fill(solid, solve_target_roughly(solid, spec))
+    forecast = forecast_fill(solid, lattice_kind(spec).roughly_solved(solid))
     if most is not None and forecast.triangles > most:
         return forecast, None
     filled = filled_mesh(solid, name, spec, show=show, progress=progress, cache=cache)

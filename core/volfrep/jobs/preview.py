@@ -8,29 +8,28 @@ cut between points along them, and so ends lie within a few hundredths of a cell
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 
-from ..design.cells import LIBRARY, UnitCell
+from ..design.cells import LIBRARY
 from ..design.memory_guard import refuse_cells
 from ..design.spec import LatticeSpec
 from ..grid.activation import make_grid, mapped_grid
 from ..grid.cell_grid import CellGrid
 from ..grid.coordinate_map import CoordinateMap
-from ..grid.placement import Placement, graded_wireframe, placement_in
+from ..grid.placement import Placement, placement_in
 from ..grid.strut_graph import Wireframe, cell_graph
-from ..lattice.padded_grid import LEAST_WIDTH_STRETCHED, least_width, padded_grid
+from ..lattice.padded_grid import padded_grid
 from ..mesh.triangle_mesh import TriangleMesh
 from ..trim.clip_struts import Pieces
 from ..trim.kept_struts import largest
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
-from .kinds.graphs import graph_struts, graph_volume, with_radius
+from .kinds import lattice_kind
 from .part_depth import PartDepth, Preview
-from .rough_radius import lattice_volume, radius_of_target
-from .tpms.preview import preview_tpms
 
 __all__ = ["PartDepth", "Preview", "preview"]
 
@@ -43,7 +42,7 @@ MOST_STRUTS = 2_000_000
 
 
 def preview(solid: TriangleMesh, spec: LatticeSpec, depth: PartDepth) -> Preview:
-    """The trimmed wireframe of a solid's lattice, and its figures.
+    """The trimmed wireframe of a solid's lattice, or its surface, and its figures.
 
     Args:
         solid: checked closed mesh, mm.
@@ -54,56 +53,80 @@ def preview(solid: TriangleMesh, spec: LatticeSpec, depth: PartDepth) -> Preview
     Raises:
         VolfrepError: the specification does not fit the solid, or no radius meets its target.
     """
-    is_cut = spec.ending.meets_wall(spec.skin)
-    placement = placement_in(solid, spec.grid, is_cut, Monitor())
-    if spec.network is not None:
-        if spec.target is not None:
-            spec = _aimed_network(solid, spec, depth, placement)
-        frame = graph_struts(spec, placement, lambda: depth.domain(spec.skin), Monitor())
-        none = CellGrid(np.zeros(3), spec.cell_size, (0, 0, 0))
-        no_lines = (np.zeros((0, 3)), np.zeros((0, 3)))
-        return _shown(solid, spec, depth, frame, 0, none, no_lines)
-    if placement.mapping is None:
+    return lattice_kind(spec).preview(solid, depth)
+
+
+@dataclass(frozen=True, eq=False)
+class ShownCells:
+    """The cells of a preview.
+
+    Attributes:
+        grid: where they lie, in lattice space.
+        usable: (nx, ny, nz) those that are not too narrow for a lattice; None: all.
+        active: (nx, ny, nz) those that struts are taken from.
+        count: how many will be active.
+        lines: starts and ends of their edges, (l, 3) each.
+    """
+
+    grid: CellGrid
+    usable: Bools | None
+    active: Bools
+    count: int
+    lines: tuple[Floats, Floats]
+
+
+def place_lattice(solid: TriangleMesh, spec: LatticeSpec) -> Placement:
+    """Where the lattice lies in a solid."""
+    return placement_in(solid, spec.grid, spec.ending.meets_wall(spec.skin), Monitor())
+
+
+def show_cells(
+    solid: TriangleMesh, spec: LatticeSpec, depth: PartDepth, placement: Placement, least: float
+) -> ShownCells:
+    """The cells of a solid's lattice; `least`: width of the narrowest one that holds it, over L.
+
+    Raises:
+        VolfrepError: there are too many.
+    """
+    mapping = placement.mapping
+    if mapping is None:
         grid = make_grid(solid.bounds, spec.cell_size, spec.origin)
     else:
-        grid = mapped_grid(solid, placement.mapping, spec.cell_size, spec.origin, Monitor())
+        grid = mapped_grid(solid, mapping, spec.cell_size, spec.origin, Monitor())
     refuse_cells(grid.cells, grid.cell_size)
-    least = LEAST_WIDTH_STRETCHED
-    if isinstance(spec.cell, UnitCell):
-        least = least_width(spec.unit_cell(), grid.cell_size, spec.struts)
-    usable = padded_grid(grid, placement.mapping, least).inner_usable
-    active, cells = _active(grid, spec, placement.mapping, depth, usable)
-    lines = _edges(active, spec, grid, placement.mapping)
-    if not isinstance(spec.cell, UnitCell):
-        return preview_tpms(solid, spec, depth, placement, grid, usable, cells, lines)
-    cell = spec.unit_cell()
-    if int(active.sum()) * len(cell.struts) > MOST_STRUTS:
-        raise VolfrepError(
-            f"{int(active.sum()):,} cells are too many to be shown as lines: enlarge the cells."
-        )
-    graph = cell_graph(cell, active, spec.cell_size, grid.origin, grid.periodic)
-    frame = graded_wireframe(graph, spec.struts, placement)
-    return _shown(solid, spec, depth, frame, cells, grid, lines)
+    usable = padded_grid(grid, mapping, least).inner_usable
+    active, count = _active(grid, spec, mapping, depth, usable)
+    return ShownCells(grid, usable, active, count, _edges(active, spec, grid, mapping))
 
 
-def _shown(
+def show_struts(
     solid: TriangleMesh,
     spec: LatticeSpec,
     depth: PartDepth,
     frame: Wireframe,
-    cells: int,
-    grid: CellGrid,
-    lines: tuple[Floats, Floats],
+    volume_of: Callable[[float, float, float], tuple[LatticeSpec, float]],
+    none_inside: str,
+    cells: ShownCells | None = None,
 ) -> Preview:
-    """The preview of struts."""
+    """The preview of struts.
+
+    Args:
+        solid: checked closed mesh, mm.
+        spec: what to make.
+        depth: of that solid.
+        frame: the struts, whole.
+        volume_of: gives the specification with the radius of its target, and the volume of the
+            lattice, mm3; of the volume that the struts inside would have with a radius of 1 mm if
+            they did not meet, that of what is filled, and the skin's.
+        none_inside: what to say where no strut lies inside.
+        cells: that they are of; None: they have no cells.
+
+    Raises:
+        VolfrepError: no strut lies inside, or no radius meets the target.
+    """
     owner, low, high = _inside(frame, spec, depth)
     if not len(owner):
-        raise VolfrepError(
-            f"No strut of cells of {spec.cell_size:g} mm lies inside the skin: reduce the cell "
-            "size or the shell thickness."
-            if spec.network is None
-            else "No strut of the network lies inside the skin: reduce the shell thickness."
-        )
+        raise VolfrepError(none_inside)
     if spec.skin is None and not spec.keep_pieces:
         stays = largest(Pieces(owner, low, high), frame, depth.bodies)
         owner, low, high = owner[stays], low[stays], high[stays]
@@ -114,39 +137,17 @@ def _shown(
     start, end = ends[:, 0] + low[:, None] * span, ends[:, 0] + high[:, None] * span
     piece_radii = np.stack([radii[:, 0] + low * slope, radii[:, 0] + high * slope], axis=1)
     length = np.linalg.norm(span, axis=1) * (high - low)
-    # Of struts of the radius 1 mm, as it would be if they did not meet.
     bare = float(np.pi * (length * piece_radii.prod(axis=1)).sum()) / spec.template_radius**2
     domain = depth.volume_below(spec.shell)
     skin = spec.skin_volume(solid.volume, domain)
-    if spec.network is not None:
-        lattice = graph_volume(frame, spec, depth.points_below(spec.shell), domain)
-    else:
-        if spec.target is not None:
-            radius = radius_of_target(spec, bare, domain, skin)
-            piece_radii *= radius / spec.strut_radius
-            spec = replace(spec, strut_radius=radius)
-        # Struts that reach from a narrow domain into the skin are counted as a whole.
-        lattice = min(lattice_volume(spec, bare, spec.template_radius), domain)
+    made, lattice = volume_of(bare, domain, skin)
+    piece_radii *= made.strut_radius / spec.strut_radius
+    none = np.zeros((0, 3))
+    grid = CellGrid(np.zeros(3), spec.cell_size, (0, 0, 0)) if cells is None else cells.grid
     return Preview(
-        start, end, piece_radii, cells, len(np.unique(owner)), grid,
+        start, end, piece_radii, 0 if cells is None else cells.count, len(np.unique(owner)), grid,
         lattice / domain, lattice + skin, (lattice + skin) * spec.density / 1000.0,
-        lines, spec,
-    )  # fmt: skip
-
-
-def _aimed_network(
-    solid: TriangleMesh, spec: LatticeSpec, depth: PartDepth, placement: Placement
-) -> LatticeSpec:
-    """The specification of a network with about the radius of its target."""
-    target, domain = spec.target, depth.volume_below(spec.shell)
-    assert target is not None
-    points = depth.points_below(spec.shell)
-    skin = spec.skin_volume(solid.volume, domain)
-    wanted = target.lattice_volume(spec.density, domain, skin)
-    weights = np.full(len(points), domain / max(len(points), 1))
-    return with_radius(
-        spec, placement, lambda: depth.domain(spec.skin), lambda _: (points, weights), wanted,
-        skin, Monitor(),
+        (none, none) if cells is None else cells.lines, made,
     )  # fmt: skip
 
 

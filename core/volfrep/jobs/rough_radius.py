@@ -92,9 +92,7 @@ def radius_range(spec: LatticeSpec) -> tuple[float, float]:
 
 
 def solve_target_roughly(solid: TriangleMesh, spec: LatticeSpec) -> LatticeSpec:
-    """A specification with about the radius of its target, for a forecast.
-
-    Walls and networks are as they are.
+    """A specification of cells of struts with about the radius of its target, for a forecast.
 
     Args:
         solid: closed mesh, mm.
@@ -104,8 +102,6 @@ def solve_target_roughly(solid: TriangleMesh, spec: LatticeSpec) -> LatticeSpec:
         VolfrepError: no radius meets the target.
     """
     if spec.target is None or spec.output == "domain":
-        return spec
-    if not isinstance(spec.cell, UnitCell) or spec.network is not None:
         return spec
     whole = abs(solid.volume)
     # Exact for long prisms about a circle; others measured within 2 % of the volume.

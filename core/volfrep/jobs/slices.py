@@ -6,15 +6,14 @@ from __future__ import annotations
 import math
 import os
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from ..design.spec import LatticeSpec
-from ..grid.placement import graded_wireframe
-from ..grid.strut_graph import NO_STRUTS, Wireframe, cell_graph
+from ..grid.strut_graph import NO_STRUTS, Wireframe
 from ..io.write.layer_files import CLI_END, cli_header, cli_layer, png, svg
 from ..io.write.layer_folder import replacing_layers
 from ..mesh.triangle_mesh import TriangleMesh, box_of
@@ -25,7 +24,6 @@ from ..util.cache import StageCache
 from ..util.errors import VolfrepError
 from ..util.numbers import number
 from ..util.progress import ProgressCallback
-from .active_cells import ActiveCells
 from .infill import Infill
 from .targets import solve_target
 
@@ -210,7 +208,9 @@ def _parts(infill: Infill) -> tuple[SolidParts, tuple[str, ...]]:
     cells = infill.cells
     is_large = cells is not None and int(cells.active.sum()) > MOST_WHOLE
     if cells and is_large and is_straight and spec.drains is None and infill.pruned is None:
-        return _in_slabs(infill, cells)
+        between = infill.filling.slabs()
+        if between is not None:
+            return _in_slabs(infill, between, int(cells.active.sum()))
     beams = infill.beams
     bounds = solid.bounds
     if beams.clip is None:
@@ -220,35 +220,18 @@ def _parts(infill: Infill) -> tuple[SolidParts, tuple[str, ...]]:
     return SolidParts(whole(beams.lattice), beams.clip, beams.skin, bounds), beams.warnings
 
 
-def _in_slabs(infill: Infill, cells: ActiveCells) -> tuple[SolidParts, tuple[str, ...]]:
+def _in_slabs(
+    infill: Infill, between: Callable[[float, float], Wireframe], cells: int
+) -> tuple[SolidParts, tuple[str, ...]]:
     """The same of a lattice too large to be held as a whole: its struts come slab by slab."""
     spec, solid = infill.spec, infill.solid
-    cell, grid, placement = spec.unit_cell(), cells.padded.cells, infill.placement
-    size = spec.cell_size
-    index = np.argwhere(cells.active)
-    centres = grid.origin + size * (index + 0.5)
-    if placement.mapping is not None:
-        centres = placement.mapping.to_part(centres)
-    height = placement.nudged(centres)[:, 2]
-    reach = size * (0.5 * math.sqrt(3.0) + 0.5)  # half a diagonal, and no joint reaches L / 2
-
-    def between(bottom: float, top: float) -> Wireframe:
-        near = index[(height > bottom - reach) & (height < top + reach)]
-        if not len(near):
-            return NO_STRUTS
-        low = near.min(axis=0)
-        some = np.zeros(near.max(axis=0) - low + 1, bool)
-        some[tuple((near - low).T)] = True
-        graph = cell_graph(cell, some, size, grid.origin + size * low)
-        return graded_wireframe(graph, spec.struts, placement)
-
     has_skin = spec.output == "part" and spec.skin is not None
     clip = None
     if has_skin or spec.ending.is_trimmed:
         clip = solid if has_skin or spec.skin is None else infill.cavity
     wall = joined_wall(solid, infill.cavity, spec.skin) if has_skin and spec.skin else None
     note = (
-        f"The lattice has {len(index):,} cells, so its struts were made layer by layer, and none "
+        f"The lattice has {cells:,} cells, so its struts were made layer by layer, and none "
         "was left out because it hangs on nothing.",
     )
     return SolidParts(between, clip, wall, solid.bounds), infill.warnings + note

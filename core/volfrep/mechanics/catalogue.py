@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from ..design.cells import LIBRARY, UnitCell
+from ..design.tpms import PeriodicSurface
 from ..util.errors import VolfrepError
 from ..util.types import Floats
 from .frame import CIRCLE, SQUARE_SECTION, Ends, JointLaw
@@ -221,12 +222,9 @@ def _bounds(values: list[list[float]], errors: list[list[float]]) -> list[list[f
     return rows
 
 
-def known_cell(cell: UnitCell) -> CatalogueCell | None:
+def known_cell(cell: UnitCell | PeriodicSurface) -> CatalogueCell | None:
     """The catalogue's entry of a cell, if it is the library's own."""
-    library = LIBRARY.get(cell.name)
-    if library is None or not (
-        np.array_equal(library.nodes, cell.nodes) and np.array_equal(library.struts, cell.struts)
-    ):
+    if LIBRARY.get(cell.name) != cell:
         return None
     return catalogue().get(cell.name)
 

@@ -14,7 +14,6 @@ from numpy.typing import ArrayLike
 from ..design.cells import UnitCell, find_cell
 from ..design.kinds.strut_cells import MOST_CROSSING, crossing_struts
 from ..design.spec_parts import Grid, Struts
-from ..design.tpms import TpmsSheet
 from ..util.errors import VolfrepError
 from ..util.types import Floats
 from .conductance import conductance
@@ -61,7 +60,6 @@ class CellProperties:
         errors: by how much each may be off, by the same names, and relative_density and stiffness.
         von_mises: the solid's stress per unit of each macroscopic stress, by its name.
         along: voxels along L of the finest grid; 0 where the catalogue was read.
-        wall: what is solid beside the surface; None of struts.
     """
 
     cell: str
@@ -75,7 +73,6 @@ class CellProperties:
     errors: dict[str, Any]
     von_mises: dict[str, float]
     along: int
-    wall: TpmsSheet | None = None
 
     def young(self, direction: ArrayLike) -> float:
         """Young's modulus along a direction, such as (1, 2, 0), in the unit of the moduli.
@@ -121,21 +118,11 @@ class CellProperties:
         }
 
     def _size(self) -> dict[str, Any]:
-        """What says how thick the struts or the walls are."""
-        wall = self.wall
-        if wall is None:
-            return {"strut_radius_mm": self.strut_radius, "fillet_mm": self.fillet}
-        if wall.is_sheet:
-            return {"wall_kind": wall.kind, "wall_thickness_mm": wall.thickness}
-        return {"wall_kind": wall.kind, "wall_offset_mm": wall.offset}
+        """What says how thick it is."""
+        return {"strut_radius_mm": self.strut_radius, "fillet_mm": self.fillet}
 
     def _sized(self) -> str:
-        wall = self.wall
-        if wall is None:
-            return f"r = {self.strut_radius:.5g} mm"
-        if wall.is_sheet:
-            return f"{wall.kind} {wall.thickness:.5g} mm thick"
-        return f"{wall.kind}, offset {wall.offset:.5g} mm"
+        return f"r = {self.strut_radius:.5g} mm"
 
     def rows(self) -> list[tuple[str, str]]:
         """Names and values, for people."""
@@ -258,7 +245,7 @@ def cell_properties(
     >>> 70 < found.values["E100"] < 100  # MPa, on grids as coarse as these
     True
     """
-    unit_cell = cell if isinstance(cell, UnitCell) else find_cell(cell)
+    unit_cell = find_cell(cell) if isinstance(cell, str) else cell
     if (strut_radius is None) == (relative_density is None):
         raise VolfrepError("Give either a strut radius or a relative density.")
     solid = find_material(material) if isinstance(material, str) else material

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The largest ball that passes through a lattice, and how thin walls and their gaps are."""
+"""The largest ball that passes through a lattice."""
 
 from __future__ import annotations
 
@@ -10,9 +10,6 @@ import numpy as np
 from scipy import ndimage
 
 from ..design.cells import UnitCell
-from ..design.spec import LatticeSpec
-from ..tpms.solid import TpmsSolid
-from ..tpms.widths import measure_widths
 from ..util.types import Bools, Floats
 
 #: Places along a cell's edge. Windows of symmetric cells have their middles at whole numbers of
@@ -37,10 +34,10 @@ def largest_ball(cell: UnitCell, ratio: float) -> float:
     >>> round(largest_ball(find_cell("Box"), 0.1), 3)  # through a square window of 1 - 0.2
     0.8
     """
-    return _through(_distances(cell, ratio))
+    return ball_through(_distances(cell, ratio))
 
 
-def _through(distance: Floats) -> float:
+def ball_through(distance: Floats) -> float:
     """Diameter of the largest ball that gets on through a periodic cell of distances."""
     low, high = 0.0, float(distance.max())
     if high <= 0.0 or not _passes(distance > 0.0):
@@ -50,37 +47,6 @@ def _through(distance: Floats) -> float:
         low, high = (middle, high) if _passes(distance >= middle) else (low, middle)
     # At the window's own place the distance is one of those that were computed.
     return 2.0 * float(distance[distance >= low].min())
-
-
-def ball_of(spec: LatticeSpec) -> float | None:
-    """The same of what was asked for, mm; None where windows all differ: graded, or a network.
-
-    Of walls the room on one side of a sheet counts, which is closed to the other. A fillet makes
-    windows narrower still.
-    """
-    differing = (spec.size_grading, spec.radius_grading, spec.cell_map, spec.network)
-    if any(part is not None for part in differing):
-        return None
-    size = spec.cell_size
-    if spec.surface is not None:
-        solid = TpmsSolid.of(spec.surface, spec.wall, size)
-        return _through(solid.samples(PLACES, 1.0)[:-1, :-1, :-1]) * size
-    return max(largest_ball(spec.unit_cell(), spec.strut_radius / size) * size, 0.0)
-
-
-def walls_of(spec: LatticeSpec) -> tuple[float | None, float | None]:
-    """The least thickness of walls and the least gap between them, mm; None where not known.
-
-    A sheet has its thickness wherever it is; gaps, and what a side of a surface has, are those of
-    the endless wall, and not known where cells are stretched or walls graded.
-    """
-    if spec.surface is None:
-        return None, None
-    known = spec.size_grading is None and spec.cell_map is None and spec.radius_grading is None
-    if not known:
-        return (spec.thicknesses[0] if spec.wall.is_sheet else None), None
-    found = measure_widths(TpmsSolid.of(spec.surface, spec.wall, spec.cell_size))
-    return found.thickness * spec.cell_size, found.gap * spec.cell_size
 
 
 def _passes(free: Bools) -> bool:

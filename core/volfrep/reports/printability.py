@@ -194,7 +194,7 @@ def print_report(
         domain: closed mesh of what the lattice fills; struts outside do not count. None: all do.
         ball_mm: diameter of the largest ball that gets through the lattice (`passage`); None where
             it is not known.
-        walls_mm: least thickness of walls and least gap between them (`passage.walls_of`).
+        walls_mm: least thickness of walls and least gap between them (`LatticeKind.walls`).
 
     Raises:
         VolfrepError: the build direction is no direction.
@@ -284,14 +284,13 @@ def print_forecast(
     least = 0.0 if process is None else process.inclination
     overhanging = float(length[angle < least - 1e-9].sum()) / max(float(length.sum()), 1e-300)
     saved = max(abs(solid) - part, 0.0)
-    differing = (spec.size_grading, spec.radius_grading, spec.cell_map)
-    is_even = spec.surface is None and all(part is None for part in differing)
-    gap = endless_gap(spec.unit_cell(), spec.strut_radius / spec.cell_size) if is_even else None
+    cell = None if spec.varies else spec.kind.cube
+    gap = None if cell is None else endless_gap(cell, spec.strut_radius / spec.cell_size)
     is_closed = spec.with_skin and not spec.open_faces and spec.drains is None
     return PrintForecast(
         thinnest_strut_mm=2.0 * float(radii.min()) if len(radii) else None,
         narrowest_gap_mm=None if gap is None else gap * spec.cell_size,
-        is_gap_known=is_even,
+        is_gap_known=cell is not None,
         overhanging_share=overhanging,
         longest_flat_mm=float(length[angle < FLAT].max(initial=0.0)),
         void_mm3=saved if is_closed else 0.0,

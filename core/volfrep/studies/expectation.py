@@ -3,18 +3,12 @@
 
 from __future__ import annotations
 
-import dataclasses
 from dataclasses import dataclass
 
 from ..design.forecast import Forecast, forecast_fill
 from ..design.spec import LatticeSpec
-from ..jobs.preview import PartDepth, preview
-from ..jobs.rough_radius import (
-    endless_bare,
-    endless_density,
-    radius_of_target,
-    solve_target_roughly,
-)
+from ..jobs.kinds import lattice_kind
+from ..jobs.preview import PartDepth
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.errors import VolfrepError
 
@@ -25,25 +19,31 @@ class Expectation:
 
     Attributes:
         forecast: of the job.
-        strut_radius: mm; of a target the endless lattice's, of a graded radius a mean; half the
-            thickness of a sheet, and 0 for one side of a surface.
+        spec: with the thickness of its target.
         relative_density: of the lattice in what it fills.
         volume_mm3: of the finished part, within a few percent.
         mass_g: the same.
     """
 
     forecast: Forecast
-    strut_radius: float
+    spec: LatticeSpec
     relative_density: float
     volume_mm3: float
     mass_g: float
+
+    @property
+    def strut_radius(self) -> float:
+        """mm; of a target about its, of a graded radius a mean; half a sheet's thickness, 0 for one
+        side of a surface.
+        """
+        return self.spec.kind.mean_radius
 
 
 def expect(solid: TriangleMesh, spec: LatticeSpec, depth: PartDepth) -> Expectation:
     """What a design will come to.
 
-    The volume within the skin is sampled (`preview.PartDepth`), the density that of the endless
-    lattice, or where cells or radii vary the preview's.
+    The volume within the skin is sampled (`preview.PartDepth`), the density as its kind of lattice
+    has it (`LatticeKind.expected`).
 
     Args:
         solid: checked closed mesh, mm.
@@ -59,43 +59,18 @@ def expect(solid: TriangleMesh, spec: LatticeSpec, depth: PartDepth) -> Expectat
             f"The part is nowhere thicker than two walls of {spec.shell:g} mm, so that nothing is "
             "left to fill: reduce the shell thickness."
         )
-    skin = spec.skin_volume(solid.volume, inside)
-    if spec.output != "domain" and (spec.surface is not None or spec.network is not None):
-        return _expected_otherwise(solid, spec, depth)
-    if spec.target is not None and spec.output != "domain":
-        radius = radius_of_target(spec, endless_bare(spec, inside), inside, skin)
-        spec = dataclasses.replace(spec, strut_radius=radius, target=None)
-    if spec.is_graded and spec.output != "domain":
-        share = preview(solid, spec, depth).relative_density
-    else:
-        size = spec.cell_size
-        share = endless_density(spec.unit_cell(), spec.strut_radius / size, spec.fillet / size)
-    volume = inside if spec.output == "domain" else skin + share * inside
+    found = lattice_kind(spec).expected(solid, depth)
+    volume = inside if spec.output == "domain" else found.volume
     return Expectation(
-        forecast_fill(solid, spec),
-        spec.strut_radius if spec.radius_grading is None else spec.template_radius,
-        share,
-        volume,
+        forecast_fill(solid, found.spec), found.spec, found.relative_density, volume,
         volume * spec.density / 1000.0,
-    )
-
-
-def _expected_otherwise(solid: TriangleMesh, spec: LatticeSpec, depth: PartDepth) -> Expectation:
-    """What walls or a network will come to: the preview's figures, with its thickness or radius."""
-    shown = preview(solid, spec, depth)
-    made = shown.spec
-    radius = made.template_radius
-    if made.surface is not None:
-        radius = 0.25 * sum(made.thicknesses)
-    return Expectation(
-        forecast_fill(solid, made), radius, shown.relative_density, shown.volume, shown.mass
-    )
+    )  # fmt: skip
 
 
 def plan(solid: TriangleMesh, spec: LatticeSpec) -> Forecast:
     """What the job will come to, for the planning of many: nothing is sampled."""
     try:
-        spec = solve_target_roughly(solid, spec)
+        spec = lattice_kind(spec).roughly_solved(solid)
     except VolfrepError:
         return forecast_fill(solid, spec)  # the run itself will say that no radius meets the target
     return forecast_fill(solid, spec)

@@ -97,15 +97,10 @@ def tell_stale(obj: App.DocumentObject) -> tuple[str, ...]:
 
 def _earlier_fingerprint(spec: LatticeSpec, solid: TriangleMesh) -> str | None:
     """The fingerprint as releases up to 0.1.0 made it; None where they did not look at all."""
-    from volfrep.design.graphs import GivenGraph, RandomGraph
     from volfrep.design.scattered_field import PointField
 
-    network, cell = spec.network, None if spec.surface is not None else spec.unit_cell()
-    if (
-        (cell is not None and not cell.is_plain)
-        or (isinstance(network, GivenGraph) and len(network.widths))
-        or (isinstance(network, RandomGraph) and network.field is not None)
-    ):
+    content = spec.kind.content_of_0_1_0()
+    if content is None:
         return None
     digest = hashlib.sha256()
     values: dict[str, Any] = spec.as_dict()
@@ -117,12 +112,8 @@ def _earlier_fingerprint(spec: LatticeSpec, solid: TriangleMesh) -> str | None:
     if isinstance(field, PointField):
         digest.update(field.points.tobytes())
         digest.update(field.values.tobytes())
-    if isinstance(network, GivenGraph):
-        for array in (network.nodes, network.struts, network.radii):
-            digest.update(array.tobytes())
-    if cell is not None:
-        digest.update(np.ascontiguousarray(cell.nodes, np.float64).tobytes())
-        digest.update(np.ascontiguousarray(cell.struts, np.int64).tobytes())
+    for array in content:
+        digest.update(array.tobytes())
     digest.update((np.round(solid.vertices, 6) + 0.0).tobytes())
     digest.update(np.ascontiguousarray(solid.triangles, np.int32).tobytes())
     return digest.hexdigest()

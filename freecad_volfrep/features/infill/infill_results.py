@@ -75,19 +75,14 @@ def with_radius(spec: LatticeSpec, found: dict[str, Any] | None) -> LatticeSpec:
     """The specification with the radius that a report says was found, in place of its target."""
     if spec.target is None or found is None:
         return spec
-    if spec.surface is None:
-        return replace(spec, strut_radius=found["strut_radius_mm"], target=None)
-    name = "thickness" if spec.wall.is_sheet else "offset"
-    return replace(spec, wall=replace(spec.wall, **{name: found[f"wall_{name}_mm"]}), target=None)
+    return replace(spec, target=None).with_thickness(found[f"{spec.kind.measure}_mm"])
 
 
 def _thickness(spec: LatticeSpec) -> tuple[str, float]:
     """The property that says how thick struts or walls are, and what it is."""
-    if spec.surface is None:
-        return "StrutRadius", spec.strut_radius
-    if spec.wall.is_sheet:
-        return "WallThickness", spec.wall.thickness
-    return "WallOffset", spec.wall.offset
+    from volfrep.design.parameters.table import BY_NAME
+
+    return BY_NAME[spec.kind.measure].property_name, spec.kind.thickness
 
 
 def tell_driven(obj: App.DocumentObject, name: str, value: float) -> None:

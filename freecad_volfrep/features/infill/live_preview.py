@@ -143,13 +143,12 @@ def _stiffness(obj: App.DocumentObject, spec: LatticeSpec) -> float | None:
     from volfrep.jobs.stiffness_target import modulus
     from volfrep.mechanics.catalogue import known_cell
 
-    if spec.surface is not None or spec.network is not None:
+    material, cell = material_of(obj), spec.kind.catalogue_cell
+    known = None if cell is None else known_cell(cell)
+    if material is None or cell is None or known is None:
         return None
-    material, known = material_of(obj), known_cell(spec.unit_cell())
     ratio = spec.strut_radius / spec.cell_size
-    if material is None or known is None or spec.fillet:
-        return None
     if not known.ratios[0] <= ratio <= known.ratios[-1]:
         return None
     aim = Target("stiffness", 1.0, tuple(obj.StiffnessDirection), material.young)
-    return modulus(spec.unit_cell(), ratio, aim)
+    return modulus(cell, ratio, aim)

@@ -58,7 +58,7 @@ def print_rows(obj: App.DocumentObject, shown: Shown) -> list[Row]:
     gap = translate("VolfrepFigures", "narrowest gap")
     if told.narrowest_gap_mm is not None:
         rows.append(_against(gap, told.narrowest_gap_mm, process and process.gap, is_least=True))
-    elif lines.spec.surface is not None:
+    elif not lines.spec.kind.has_struts:
         pass  # gaps are those between struts
     elif told.is_gap_known:
         wide = figure(WIDEST_GAP * lines.spec.cell_size)

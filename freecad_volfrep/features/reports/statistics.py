@@ -14,7 +14,6 @@ from freecad_volfrep.features.infill.lattice_infill import LatticeInfill
 from freecad_volfrep.features.infill.materials import material_of
 from freecad_volfrep.features.jobs.progress import job_title, run_job
 from freecad_volfrep.features.properties.quantities import density_of, mass_of
-from volfrep.design.tpms import TpmsSheet
 from volfrep.util.errors import VolfrepError
 
 from .tables import Table
@@ -115,31 +114,17 @@ def _lattice(obj: App.DocumentObject) -> dict[str, str]:
         return {}
     if spec.size_grading is not None or spec.struts.is_graded or spec.output == "domain":
         return {}
-    if spec.network is not None or (spec.surface is None and not spec.unit_cell().is_plain):
+    given = spec.kind.endless
+    if given is None:
         return {}
-    material, size = material_of(obj), spec.cell_size
-    found = None
-    if spec.surface is not None:
-        arguments, rest = (spec.surface, size), _of_walls(spec.wall)
-    else:
-        cell, radius = spec.unit_cell(), spec.strut_radius
-        arguments, rest = (cell, size, radius), {"fillet": spec.fillet}
-        if not spec.fillet:
-            found = known_properties(cell, size, radius, material)
+    material, cell, found = material_of(obj), spec.kind.catalogue_cell, None
+    if cell is not None:
+        found = known_properties(cell, spec.cell_size, spec.strut_radius, material)
     if found is None:
-        call = Call(
-            lattice_properties, arguments, {**rest, "material": material}, has_progress=False
-        )
+        call = Call(lattice_properties, (), {**given, "material": material}, has_progress=False)
         found = run_job(job_title("Properties of the lattice of {label}", obj), call)
     rows = dict(found.rows())
     return {name: rows[name] for name in rows if name not in ("cell", "material")}
-
-
-def _of_walls(wall: TpmsSheet) -> dict[str, Any]:
-    """What says how thick a wall is, as `lattice_properties` takes it."""
-    if wall.is_sheet:
-        return {"wall_kind": wall.kind, "wall_thickness": wall.thickness}
-    return {"wall_kind": wall.kind, "wall_offset": wall.offset}
 
 
 def _plain(key: str, value: Any) -> Any:

@@ -16,6 +16,8 @@ from freecad_volfrep.features.infill.sized_radii import store_radii
 from freecad_volfrep.features.jobs.progress import job_title, run_job
 from freecad_volfrep.features.reports.tables import Table
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, marked, translate
+from volfrep.design.parameters.specification import held_value
+from volfrep.design.parameters.table import BY_NAME
 from volfrep.util.errors import VolfrepError
 
 from .sized_states import is_sized_for, sized_states, store_states, why_no_states
@@ -251,7 +253,7 @@ def store_outcome(obj: App.DocumentObject, outcome: Outcome) -> None:
     """Give an infill the radii that were found, and what is to be known of them."""
     store_radii(obj, outcome.part.points, outcome.part.radii)
     spec = outcome.part.spec
-    shortest = getattr(spec.network, "shortest", 0.0)
+    shortest = held_value(spec, BY_NAME["network_shortest"])
     if shortest:  # other radii would draw other struts together
         obj.NetworkShortest = shortest
     obj.RemoveBelow, obj.RemoveDangling = spec.remove_below, spec.remove_dangling

@@ -4,14 +4,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
-from freecad_volfrep.translation import QT_TRANSLATE_NOOP
+from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 from volfrep.design.cells import LIBRARY, UnitCell
-from volfrep.design.tpms import PeriodicSurface
+from volfrep.design.tpms import SURFACES, PeriodicSurface
+from volfrep.mechanics.endless import strains_held
 
 from .cell_picture import cell_icon, wall_icon
 
+_CONTEXT = "VolfrepCells"
 #: What cells are for, as `volfrep.design.cells.USES` has it; and walls.
 USES = {
     "stiff": QT_TRANSLATE_NOOP("VolfrepCells", "stiff in every direction"),
@@ -21,6 +24,8 @@ USES = {
     "auxetic": QT_TRANSLATE_NOOP("VolfrepCells", "auxetic: wider when pulled"),
     "walls": QT_TRANSLATE_NOOP("VolfrepCells", "walls along a surface"),
 }
+_STRETCHING = QT_TRANSLATE_NOOP("VolfrepCells", "stretching")
+_BENDING = QT_TRANSLATE_NOOP("VolfrepCells", "bending")
 
 
 @dataclass(eq=False)
@@ -33,26 +38,95 @@ class Entry:
         notes: what to know about it.
     """
 
-    cell: UnitCell | PeriodicSurface
+    cell: Any
     path: str | None = None
     notes: tuple[str, ...] = ()
 
-    @property
-    def is_own(self) -> bool:
-        """Whether it is not one of the library's."""
-        return not self.is_wall and LIBRARY.get(self.cell.name) is not self.cell
-
-    @property
-    def is_wall(self) -> bool:
-        """Whether it is one of walls."""
-        return isinstance(self.cell, PeriodicSurface)
+    #: Whether it can be kept in a file.
+    has_file = False
+    #: Whether it is not one of the library's.
+    is_own = False
 
     @property
     def use(self) -> str | None:
         """What it is for: one of `USES`."""
-        return "walls" if isinstance(self.cell, PeriodicSurface) else self.cell.use
+        raise NotImplementedError
 
     def icon(self, size: int) -> Any:
         """Its picture."""
-        cell = self.cell
-        return wall_icon(cell.name, size) if self.is_wall else cell_icon(cell, size)  # type: ignore[arg-type]
+        raise NotImplementedError
+
+    def rows(self) -> tuple[tuple[str, Any], ...]:
+        """What is told of it at once."""
+        return (
+            (
+                translate(_CONTEXT, "Good for"),
+                translate(_CONTEXT, USES[self.use]) if self.use else "-",
+            ),
+            (translate(_CONTEXT, "Also known as"), "\n".join(self.cell.also) or "-"),
+        )
+
+
+class StrutEntry(Entry):
+    """A cell of struts."""
+
+    has_file = True
+
+    @property
+    def is_own(self) -> bool:  # type: ignore[override]
+        """Whether it is not one of the library's."""
+        return LIBRARY.get(self.cell.name) is not self.cell
+
+    @property
+    def use(self) -> str | None:
+        """What it is for: one of `USES`."""
+        use: str = self.cell.use
+        return use
+
+    def icon(self, size: int) -> Any:
+        """Its picture."""
+        return cell_icon(self.cell, size)
+
+    def rows(self) -> tuple[tuple[str, Any], ...]:
+        """What is told of it at once."""
+        cell, file = self.cell, "-"
+        if self.is_own:
+            file = translate(_CONTEXT, "not saved")
+        if self.path:
+            file = Path(self.path).name
+        held = _STRETCHING if strains_held(cell) == 6 else _BENDING
+        return (
+            (translate(_CONTEXT, "Nodes"), len(cell.nodes)),
+            (translate(_CONTEXT, "Struts"), len(cell.struts)),
+            (translate(_CONTEXT, "Maxwell number"), cell.maxwell_number),
+            (translate(_CONTEXT, "Carries load by"), translate(_CONTEXT, held)),
+            *super().rows(),
+            (translate(_CONTEXT, "File"), file),
+        )
+
+
+class WallEntry(Entry):
+    """A surface that walls follow."""
+
+    use = "walls"
+
+    def icon(self, size: int) -> Any:
+        """Its picture."""
+        return wall_icon(self.cell.name, size)
+
+
+#: By the class of a cell.
+ENTRIES: dict[type, type[Entry]] = {UnitCell: StrutEntry, PeriodicSurface: WallEntry}
+
+
+def entry_of(
+    cell: UnitCell | PeriodicSurface, path: str | None = None, notes: tuple[str, ...] = ()
+) -> Entry:
+    """A cell as the list has it."""
+    return ENTRIES[type(cell)](cell, path, notes)
+
+
+def icon_of(name: str, size: int) -> Any:
+    """The picture of a cell of the library; of a formula of one's own an empty cube."""
+    cell = LIBRARY.get(name) or SURFACES.get(name)
+    return cell_icon(None, size) if cell is None else entry_of(cell).icon(size)

@@ -14,13 +14,12 @@ from freecad_volfrep.gui.qt import QtCore, QtWidgets
 from freecad_volfrep.gui.selection import selected_infill, selected_with_edges
 from freecad_volfrep.gui.undo import undo_step
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
-from volfrep.design.cells import LIBRARY, UnitCell, load_cell
+from volfrep.design.cells import LIBRARY, load_cell
 from volfrep.design.parameters.table import CUSTOM_CELL
-from volfrep.design.tpms import SURFACES, PeriodicSurface
-from volfrep.mechanics.endless import strains_held
+from volfrep.design.tpms import SURFACES
 from volfrep.util.errors import VolfrepError
 
-from .cell_entry import USES, Entry
+from .cell_entry import USES, Entry, entry_of
 from .cell_properties import CellProperties
 
 #: Of the list's pictures and of the large one, px.
@@ -29,8 +28,6 @@ SMALL, LARGE = 84, 220
 NOTES = 56
 _CONTEXT = "VolfrepCells"
 FILTER = QT_TRANSLATE_NOOP("VolfrepCells", "Unit cell (*.json)")
-_STRETCHING = QT_TRANSLATE_NOOP("VolfrepCells", "stretching")
-_BENDING = QT_TRANSLATE_NOOP("VolfrepCells", "bending")
 _ENTRY = QtCore.Qt.UserRole
 
 
@@ -90,7 +87,7 @@ class CellLibrary(QtWidgets.QDialog):
         }
         self._lay_out()
         for cell in (*LIBRARY.values(), *SURFACES.values()):
-            self._add(Entry(cell))
+            self._add(entry_of(cell))
         self._list.currentItemChanged.connect(lambda *_: self._show())
         self._list.setCurrentRow(0)
         self._pick_that_of(selected_infill())
@@ -129,7 +126,7 @@ class CellLibrary(QtWidgets.QDialog):
         except VolfrepError as error:
             self._say(str(error), wrong=True)
             return
-        self._add(Entry(cell, str(Path(path).resolve())), pick=True)
+        self._add(entry_of(cell, str(Path(path).resolve())), pick=True)
 
     def make_from_selection(self) -> None:
         """Add the cell that the selected edges draw and pick it; says what cannot be a strut."""
@@ -145,7 +142,7 @@ class CellLibrary(QtWidgets.QDialog):
         size = translate(
             _CONTEXT, "Drawn with L = {size:g} mm; every L can be given to an infill."
         ).format(size=drawn.size)
-        self._add(Entry(drawn.cell, notes=(size, *drawn.warnings)), pick=True)
+        self._add(entry_of(drawn.cell, notes=(size, *drawn.warnings)), pick=True)
 
     def save(self, path: str) -> bool:
         """Write the picked cell; returns whether that was done, says here why not."""
@@ -153,7 +150,7 @@ class CellLibrary(QtWidgets.QDialog):
         from volfrep.design.drawn_cell import save_cell
 
         entry = self._entry()
-        assert isinstance(entry.cell, UnitCell), "the button is off"
+        assert entry.has_file, "the button is off"
         try:
             refuse_inputs_of_all(path, but=("CellFile",))  # a cell may replace a cell
             save_cell(entry.cell, path)
@@ -272,40 +269,12 @@ class CellLibrary(QtWidgets.QDialog):
             "<tr><td>{}&nbsp;&nbsp;</td><td>{}</td></tr>".format(
                 name, html.escape(str(value)).replace("\n", "<br>")
             )
-            for name, value in self._rows(entry)
+            for name, value in entry.rows()
         )
         self._figures.setText(f"<b>{html.escape(cell.name)}</b><table>{lines}</table>")
         self._does.show_cell(cell)
         self._say("\n".join(entry.notes))
         self._enable()
-
-    def _rows(self, entry: Entry) -> tuple[tuple[str, Any], ...]:
-        """What is told of a cell at once."""
-        cell = entry.cell
-        good_for = (
-            translate(_CONTEXT, "Good for"),
-            translate(_CONTEXT, USES[entry.use]) if entry.use else "-",
-        )
-        also = (translate(_CONTEXT, "Also known as"), "\n".join(cell.also) or "-")
-        if isinstance(cell, PeriodicSurface):
-            return good_for, also
-        return (
-            (translate(_CONTEXT, "Nodes"), len(cell.nodes)),
-            (translate(_CONTEXT, "Struts"), len(cell.struts)),
-            (translate(_CONTEXT, "Maxwell number"), cell.maxwell_number),
-            (
-                translate(_CONTEXT, "Carries load by"),
-                translate(_CONTEXT, _STRETCHING if strains_held(cell) == 6 else _BENDING),
-            ),
-            good_for,
-            also,
-            (
-                translate(_CONTEXT, "File"),
-                Path(entry.path).name
-                if entry.path
-                else translate(_CONTEXT, "not saved") * entry.is_own or "-",
-            ),
-        )
 
     def _say(self, text: str, wrong: bool = False) -> None:
         self._note.setStyleSheet(WRONG if wrong else "")
@@ -319,7 +288,7 @@ class CellLibrary(QtWidgets.QDialog):
             text = translate(_CONTEXT, "Apply to {label}").format(label=infill.Label)
         self._buttons["Apply"].setText(text)
         self._buttons["From Selection"].setEnabled(bool(selected_with_edges()))
-        self._buttons["Save As..."].setEnabled(not self._entry().is_wall)
+        self._buttons["Save As..."].setEnabled(self._entry().has_file)
 
     def _free_name(self, objects: list[Any]) -> str:
         taken = {self._list.item(row).text() for row in range(self._list.count())}

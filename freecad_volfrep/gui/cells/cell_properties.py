@@ -13,7 +13,7 @@ from freecad_volfrep.features.jobs.progress import run_job
 from freecad_volfrep.gui.qt import QtCore, QtWidgets
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 from volfrep.design.cells import UnitCell
-from volfrep.design.parameters.table import NOTHING
+from volfrep.design.parameters.table import BY_NAME, NOTHING
 from volfrep.design.tpms import PeriodicSurface
 from volfrep.util.errors import Cancelled, VolfrepError
 
@@ -26,6 +26,15 @@ _FIELDS = {
     "CellSize": QT_TRANSLATE_NOOP("VolfrepCells", "Cell size L"),
     "StrutRadius": QT_TRANSLATE_NOOP("VolfrepCells", "Strut radius r"),
     "WallThickness": QT_TRANSLATE_NOOP("VolfrepCells", "Wall thickness"),
+}
+#: What is said in place of figures that are not known at once, by what says how thick it is.
+_UNKNOWN = {
+    "StrutRadius": QT_TRANSLATE_NOOP(
+        "VolfrepCells", "This cell with this radius is not in the catalogue: press Compute."
+    ),
+    "WallThickness": QT_TRANSLATE_NOOP(
+        "VolfrepCells", "What these walls do takes some seconds: press Compute."
+    ),
 }
 
 
@@ -81,8 +90,8 @@ class CellProperties(QtWidgets.QWidget):
     def show_cell(self, cell: UnitCell | PeriodicSurface) -> None:
         """Tell what this cell does, of struts or of walls."""
         self._cell = cell
-        is_wall = isinstance(cell, PeriodicSurface)
-        for name, is_shown in (("StrutRadius", not is_wall), ("WallThickness", is_wall)):
+        for name in _UNKNOWN:
+            is_shown = name == self._thickness(cell)
             self._fields[name].setVisible(is_shown)
             self._form.labelForField(self._fields[name]).setVisible(is_shown)
         self._refresh()
@@ -94,9 +103,7 @@ class CellProperties(QtWidgets.QWidget):
 
         cell, size = self._cell, self._size("CellSize")
         assert cell is not None
-        given = {"strut_radius": self._size("StrutRadius")}
-        if isinstance(cell, PeriodicSurface):
-            given = {"wall_thickness": self._size("WallThickness")}
+        given: dict[str, Any] = {cell.measure: self._size(self._thickness(cell))}
         given["material"] = self._material.currentData()
         title = translate(_CONTEXT, "Properties of {name}").format(name=cell.name)
         try:
@@ -136,6 +143,11 @@ class CellProperties(QtWidgets.QWidget):
             self._material.setCurrentIndex(row)
         self._material.blockSignals(False)
 
+    @staticmethod
+    def _thickness(cell: UnitCell | PeriodicSurface) -> str:
+        """The field that says how thick a lattice of a cell is."""
+        return BY_NAME[cell.measure].property_name
+
     def _size(self, name: str) -> float:
         return float(self._fields[name].property("rawValue"))
 
@@ -144,23 +156,15 @@ class CellProperties(QtWidgets.QWidget):
 
         if self._cell is None:
             return
-        if isinstance(self._cell, PeriodicSurface):
-            self._figures.setText(
-                translate(_CONTEXT, "What these walls do takes some seconds: press Compute.")
-            )
-            return
-        size, radius = self._size("CellSize"), self._size("StrutRadius")
+        size, thickness = self._size("CellSize"), self._thickness(self._cell)
         found = None
         if size > 0.0:
-            found = known_properties(self._cell, size, radius, self._material.currentData())
+            material = self._material.currentData()
+            found = known_properties(self._cell, size, self._size(thickness), material)
         if found is not None:
             self._tell(found.rows())
             return
-        self._figures.setText(
-            translate(
-                _CONTEXT, "This cell with this radius is not in the catalogue: press Compute."
-            )
-        )
+        self._figures.setText(translate(_CONTEXT, _UNKNOWN[thickness]))
 
     def _tell(self, rows: list[tuple[str, str]]) -> None:
         lines = "".join(

@@ -8,11 +8,12 @@ from typing import Any
 
 import FreeCAD as App
 
-from freecad_volfrep.gui.cells.cell_picture import cell_icon, network_icon, wall_icon
+from freecad_volfrep.gui.cells.cell_entry import icon_of
+from freecad_volfrep.gui.cells.cell_picture import cell_icon, network_icon
 from freecad_volfrep.gui.qt import QtCore, QtWidgets
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
-from volfrep.design.cells import LIBRARY, load_cell
-from volfrep.design.parameters.table import CUSTOM_CELL, WALLS
+from volfrep.design.cells import load_cell, measure_of
+from volfrep.design.parameters.table import CUSTOM_CELL
 from volfrep.util.errors import VolfrepError
 
 #: Size of a picture, px.
@@ -22,6 +23,8 @@ TABS = (
     QT_TRANSLATE_NOOP("VolfrepTaskPanel", "TPMS"),
     QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Networks"),
 )
+#: The tab of a cell, by the parameter that says how thick a lattice of it is.
+TAB_OF = {"strut_radius": 0, "wall_thickness": 1}
 #: Values of the property `Network`: no network, the others by what they are called here, and
 #: those that cells are laid into.
 CELLS = "Cells"
@@ -95,14 +98,14 @@ class LatticePicker(QtWidgets.QWidget):
         """The tab of the present values."""
         if self._obj.Network != CELLS:
             return 2
-        return 1 if self._obj.CellType in WALLS else 0
+        return TAB_OF[measure_of(self._obj.CellType)]
 
     def _names(self, tab: int) -> list[str]:
         """What is chosen from in a tab: values of `CellType`, or of `Network`."""
         if tab == 2:
             return list(NETWORKS)
         names = self._obj.getEnumerationsOfProperty("CellType")
-        return [name for name in names if (name in WALLS) == (tab == 1)]
+        return [name for name in names if TAB_OF[measure_of(name)] == tab]
 
     def _fill(self) -> None:
         """Show the pictures of the tab in front."""
@@ -132,10 +135,8 @@ class LatticePicker(QtWidgets.QWidget):
 
     def _icon(self, name: str) -> Any:
         """The picture of a cell of the library, of walls, or of the object's file."""
-        if name in WALLS:
-            return wall_icon(name, PICTURE)
         if name != CUSTOM_CELL:
-            return cell_icon(LIBRARY[name], PICTURE)
+            return icon_of(name, PICTURE)
         try:
             cell = load_cell(self._obj.CellFile) if self._obj.CellFile else None
         except VolfrepError:
@@ -148,7 +149,7 @@ class LatticePicker(QtWidgets.QWidget):
             return
         name = item.data(QtCore.Qt.UserRole)
         if self.tabs.currentIndex() == 2:
-            if self._obj.CellType in WALLS:
+            if self._obj.CellType not in self._names(0):
                 self._set_value("CellType", FIRST_CELL)
             self._set_value("Network", name)
         else:

@@ -48,19 +48,23 @@ LABELS = {
     "NetworkOnWall": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Along the skin"),
     "NetworkShortest": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Shortest strut"),
 }
-#: The same where there are walls in place of struts.
-LABELS_OF_WALLS = {
-    "RadiusDrivenBy": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Driven by"),
-    "RadiusGrading": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Thickness grading"),
-    "RadiusProfile": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Thickness profile"),
-    "RadiusStart": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Thickness at the start"),
-    "RadiusEnd": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Thickness at the end"),
-    "RadiusFormula": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Thickness formula"),
-    "RadiusCurve": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Thickness curve"),
-    "RadiusField": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Thickness field"),
-    "RadiusColumn": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Column of the field"),
-    "RadiusReach": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Thickness reach"),
+#: The same where another parameter than the strut radius says how thick the lattice is.
+LABELS_OF = {
+    "wall_thickness": {
+        "RadiusDrivenBy": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Driven by"),
+        "RadiusGrading": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Thickness grading"),
+        "RadiusProfile": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Thickness profile"),
+        "RadiusStart": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Thickness at the start"),
+        "RadiusEnd": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Thickness at the end"),
+        "RadiusFormula": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Thickness formula"),
+        "RadiusCurve": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Thickness curve"),
+        "RadiusField": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Thickness field"),
+        "RadiusColumn": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Column of the field"),
+        "RadiusReach": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Thickness reach"),
+    },
 }
+#: And what it says, where that is not the radius.
+THICKNESS_OF = {"wall_thickness": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Thickness")}
 #: Whole numbers whose 0 leaves it to us.
 AUTOMATIC = ("NetworkPoints", "NetworkLayers")
 #: Fields of plain numbers with a unit. FreeCAD's own take no "M" of MPa, and 0.20 has no masses.
@@ -307,14 +311,14 @@ def is_read_only(obj: App.DocumentObject, name: str) -> bool:
     return "ReadOnly" in obj.getEditorMode(name)
 
 
-def label_of(name: str, of_walls: bool = False) -> str:
+def label_of(name: str, measure: str = "strut_radius") -> str:
     """A property's name in the user's words; in English only its first letter is a capital.
 
     Args:
         name: of the property.
-        of_walls: whether it is shown of a TPMS, of whose walls it says the thickness.
+        measure: the parameter that says how thick the lattice is.
     """
-    own = (LABELS | LABELS_OF_WALLS if of_walls else LABELS).get(name)
+    own = {**LABELS, **LABELS_OF.get(measure, {})}.get(name)
     if own is not None:
         return str(translate("VolfrepTaskPanel", own))
     text = spaced(name)

@@ -37,7 +37,8 @@ from freecad_volfrep.gui.widgets.sections import (
     give_accelerators,
 )
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
-from volfrep.design.parameters.table import WALLS
+from volfrep.design.cells import measure_of
+from volfrep.design.parameters.table import BY_NAME
 from volfrep.util.errors import VolfrepError
 
 from .colour_field import colour_field
@@ -45,7 +46,8 @@ from .lattice_picker import LatticePicker
 from .pick_box import PickBox
 from .print_panel import PrintFigures
 from .property_fields import (
-    LABELS_OF_WALLS,
+    LABELS_OF,
+    THICKNESS_OF,
     PropertyFields,
     direction_text,
     is_read_only,
@@ -209,10 +211,10 @@ class TaskPanel:
         except VolfrepError as error:
             self._shown = None
             self._view.show_solid_only()
-            has_none = self._has_no_preview()
-            self._say(str(error), wrong=not has_none)
+            may_be = self._may_be_computed()
+            self._say(str(error), wrong=not may_be)
             self._print.show_none()
-            self._allow_ok(has_none)
+            self._allow_ok(may_be)
             return
         self._allow_ok(True)
         self._shown = shown
@@ -259,13 +261,13 @@ class TaskPanel:
         if self._is_open:
             allow_ok(self._ok_is_allowed)
 
-    def _has_no_preview(self) -> bool:
-        """Whether values that cannot be shown, as of a network or of walls, may be computed."""
+    def _may_be_computed(self) -> bool:
+        """Whether values that cannot be shown may be computed all the same."""
         try:
             spec = self._obj.Proxy.read(self._obj)[0]
         except VolfrepError:
             return False
-        return spec.network is not None or spec.surface is not None
+        return not spec.kind.is_judged_by_preview
 
     def _build(self) -> Any:
         form = PanelForm()
@@ -406,17 +408,17 @@ class TaskPanel:
 
     def _name_thickness(self) -> None:
         """Of a TPMS no word of struts: what is graded and driven is a thickness."""
-        is_wall = self._obj.CellType in WALLS
-        for name in LABELS_OF_WALLS:
+        measure = measure_of(self._obj.CellType)
+        for name in (name for labels in LABELS_OF.values() for name in labels):
             label, field = self._rows[name]
-            label.setText(label_of(name, is_wall))
+            label.setText(label_of(name, measure))
             field.setAccessibleName(label.text())
-        thickness = translate("VolfrepTaskPanel", "Thickness")
+        thickness = translate("VolfrepTaskPanel", THICKNESS_OF.get(measure, ""))
         choice = self._rows["RadiusDrivenBy"][1]
-        choice.setItemText(0, thickness if is_wall else said_property(choice.itemData(0)))
+        choice.setItemText(0, thickness or said_property(choice.itemData(0)))
         for section, _, names in self._boxes:
             if "RadiusGrading" in names:
-                section.entitle(thickness if is_wall else said_property("Strut radius"))
+                section.entitle(thickness or said_property("Strut radius"))
 
     def _begin_target(self, driver: str) -> None:
         """Begin with what the lattice that is shown comes to: it stays as it is at first."""
@@ -429,8 +431,7 @@ class TaskPanel:
 
     def _begin_grading(self) -> None:
         """Begin with the thickness that there is: 0, which stands for it, says nothing."""
-        is_wall = self._obj.CellType in WALLS
-        usual = self._obj.WallThickness if is_wall else self._obj.StrutRadius
+        usual = getattr(self._obj, BY_NAME[measure_of(self._obj.CellType)].property_name)
         for name in ("RadiusStart", "RadiusEnd"):
             if not getattr(self._obj, name).Value and not is_driven(self._obj, name):
                 set_value(self._obj, name, usual.Value)

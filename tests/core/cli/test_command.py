@@ -88,9 +88,12 @@ def test_help_and_version_start_at_once_without_numpy(arguments: list[str]) -> N
             "from volfrep.cli.command import run\nassert run('block --cell CVC --cell-size 5 "
             "--strut-radius 0.5 --count 1,1,1 --quiet -o block.stl'.split()) == 0",
             [
-                "trimesh", "networkx", "scipy.optimize", "scipy.interpolate", "scipy.ndimage",
-                "multiprocessing", "importlib.metadata", "volfrep.graphs", "volfrep.tpms",
-                "volfrep.jobs.infill", "volfrep.sizing", "volfrep.slicing",
+                "manifold3d", "trimesh", "networkx", "scipy.optimize", "scipy.interpolate",
+                "scipy.ndimage", "scipy.spatial", "multiprocessing", "importlib.metadata",
+                "volfrep.shell", "volfrep.process", "volfrep.io.read", "volfrep.graphs",
+                "volfrep.tpms", "volfrep.sizing", "volfrep.slicing", "volfrep.jobs.infill",
+                "volfrep.jobs.part_domain", "volfrep.mechanics.catalogue",
+                "volfrep.trim.boolean_trim", "volfrep.trim.prune",
             ],
         ),
     ],

@@ -56,7 +56,7 @@ def test_beams_take_no_mesh(
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    monkeypatch.setattr("volfrep.jobs.kinds.strut_cells.mesh_octants", None)
+    monkeypatch.setattr("volfrep.jobs.kinds.strut_lattice.mesh_octants", None)
     assert block(tmp_path / "block.3mf", "--3mf", "beams") == 0
     assert re.search(r"struts +20 between 12 nodes, as beams", capsys.readouterr().out)
     assert model(tmp_path / "block.3mf").count("<b:beam ") == 20

@@ -63,7 +63,7 @@ def test_axes_take_no_mesh(
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    monkeypatch.setattr("volfrep.jobs.kinds.strut_cells.mesh_octants", None)
+    monkeypatch.setattr("volfrep.jobs.kinds.strut_lattice.mesh_octants", None)
     assert block(tmp_path / "axes.step", "--step", "wireframe") == 0
     assert (tmp_path / "axes.step").read_text().count("POLYLINE(") == 16
     said = capsys.readouterr().out

@@ -124,14 +124,14 @@ def test_a_block_reports_what_it_is():
 
 def test_only_the_stages_that_a_change_affects_run_again(monkeypatch):
     from volfrep.jobs import active_cells
-    from volfrep.jobs.kinds import strut_cells
+    from volfrep.jobs.kinds import strut_lattice
     from volfrep.shell import domain
 
     runs = []
     for module, name in (
         (domain, "inner_wall"),
         (active_cells, "active_cells"),
-        (strut_cells, "mesh_octants"),
+        (strut_lattice, "mesh_octants"),
     ):
         original = getattr(module, name)
         monkeypatch.setattr(

@@ -22,7 +22,7 @@ from volfrep.io.solid import check_solid
 from volfrep.jobs import stiffness_target
 from volfrep.jobs.blocks import block
 from volfrep.jobs.infill import Infill
-from volfrep.jobs.kinds import strut_cells
+from volfrep.jobs.kinds import strut_lattice
 from volfrep.jobs.part_depth import PartDepth
 from volfrep.jobs.rough_radius import solve_target_roughly
 from volfrep.jobs.targets import solve_block_target, solve_target
@@ -196,13 +196,13 @@ def test_a_cell_of_ones_own_is_guessed_on_coarse_grids(monkeypatch) -> None:
 
 def test_a_part_that_misses_its_target_is_made_again(monkeypatch) -> None:
     """With a first radius that is 3 % off, the second mesh is right."""
-    true = strut_cells.volume_by_radius
+    true = strut_lattice.volume_by_radius
 
     def wrong(*given):
         table = true(*given)
         return dataclasses.replace(table, volume=1.05 * table.volume)
 
-    monkeypatch.setattr(strut_cells, "volume_by_radius", wrong)
+    monkeypatch.setattr(strut_lattice, "volume_by_radius", wrong)
     spec = LatticeSpec(cell_size=8.0, strut_radius=0.5, target=density(0.2))
     report = solve_target(check_solid(samples.box((32.0, 24.0, 20.0)), "part"), spec).result.report
     assert report.relative_density == pytest.approx(0.2, rel=NEAR)

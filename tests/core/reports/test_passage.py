@@ -10,7 +10,8 @@ from volfrep.design.cells import UnitCell, find_cell
 from volfrep.design.grading import CellMap
 from volfrep.design.graphs import RandomGraph
 from volfrep.design.spec import LatticeSpec
-from volfrep.reports.passage import ball_of, largest_ball
+from volfrep.jobs.kinds import lattice_kind
+from volfrep.reports.passage import largest_ball
 
 #: Radii of the circles within the windows' axes, in units of L: a square of L, a triangle of
 #: L / sqrt(2) (the Octet's and the FCC's faces are halved by their diagonals).
@@ -48,8 +49,8 @@ def test_nothing_passes_a_wall_of_struts():
 
 def test_of_windows_that_differ_nothing_is_told():
     equal = LatticeSpec("Box", 10.0, 1.0)
-    assert ball_of(equal) == pytest.approx(8.0)
+    assert lattice_kind(equal).largest_ball() == pytest.approx(8.0)
     graded = replace(equal, cell_map=CellMap("spherical"))
     network = replace(equal, network=RandomGraph(points=20))
-    assert ball_of(graded) is None
-    assert ball_of(network) is None
+    assert lattice_kind(graded).largest_ball() is None
+    assert lattice_kind(network).largest_ball() is None

@@ -10,7 +10,7 @@ import volfrep
 from volfrep.design.grading import CellMap
 from volfrep.design.spec import LatticeSpec
 from volfrep.design.tpms import PeriodicSurface, TpmsSheet
-from volfrep.reports.passage import ball_of, walls_of
+from volfrep.jobs.kinds import lattice_kind
 from volfrep.tpms.solid import TpmsSolid
 from volfrep.tpms.widths import measure_widths
 
@@ -30,17 +30,17 @@ def test_a_skeletons_neck_is_the_ball_that_just_fits_through_it() -> None:
     # the diagonal, at 2 pi / 3.
     neck = 2.0 * (np.pi / 3.0) * 2.0**0.5 / (2.0 * np.pi)
     spec = LatticeSpec("Schwarz P", 10.0, shell=0.0, wall=TpmsSheet("skeleton"))
-    thickness, gap = walls_of(spec)
+    thickness, gap = lattice_kind(spec).walls()
     assert thickness == pytest.approx(10.0 * neck, rel=0.04)
     assert gap == pytest.approx(10.0 * neck, rel=0.04)  # the other side is alike
-    assert ball_of(spec) == pytest.approx(10.0 * neck, rel=0.02)
+    assert lattice_kind(spec).largest_ball() == pytest.approx(10.0 * neck, rel=0.02)
 
 
 def test_a_sheet_keeps_its_thickness_where_cells_are_bent_and_nothing_is_said_of_gaps() -> None:
     spec = LatticeSpec("Gyroid", 9.0, wall=TpmsSheet("sheet", 0.8), cell_map=CellMap("cylindrical"))
-    assert walls_of(spec) == (0.8, None)
-    assert ball_of(spec) is None
-    assert walls_of(LatticeSpec("BCC")) == (None, None)
+    assert lattice_kind(spec).walls() == (0.8, None)
+    assert lattice_kind(spec).largest_ball() is None
+    assert lattice_kind(LatticeSpec("BCC")).walls() == (None, None)
 
 
 def test_the_print_check_names_walls_that_are_too_thin_and_too_near() -> None:

@@ -3,9 +3,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...util.errors import VolfrepError
 from ...util.types import Floats
@@ -21,8 +24,9 @@ STRUTS_PER_POINT = {"voronoi": 9.0, "delaunay": 7.5}
 class Graph(Kind):
     """Nodes and struts in place of octants."""
 
-    repeats = False
-    is_of_octants = False
+    has_grid = False
+    is_cut_in_groups = False
+    is_judged_by_preview = False
 
     def refuse(self) -> None:
         """Refuse what is about cells, of which a network has none."""
@@ -72,6 +76,32 @@ class GraphOfFile(Graph):
                 f"{target.called} out, or the radii."
             )
 
+    @property
+    def widths(self) -> Floats:
+        """(m,) what the lattice's radius is multiplied by at each strut; none, (0,), for 1."""
+        return self.graph.widths
+
+    def as_values(self) -> dict[str, Any]:
+        """The file, and how cells are laid upon what it holds."""
+        graph = self.graph
+        if not graph.source or not Path(graph.source).is_file():
+            raise VolfrepError(
+                "The network has no file that could be named: save it as .json first."
+            )
+        return {
+            "network": "file", "network_file": graph.source,
+            "network_thickness": abs(graph.thickness),
+            "network_layers": graph.layers if graph.thickness else 0,
+            "network_reversed": graph.thickness < 0.0,
+        }  # fmt: skip
+
+    def content_of_0_1_0(self) -> Sequence[NDArray[Any]] | None:
+        """Nodes, struts and radii; and the cell, which is of no effect."""
+        graph, cell = self.graph, self.unit_cell()
+        if len(graph.widths) or not cell.is_plain:
+            return None
+        return graph.nodes, graph.struts, graph.radii, cell.nodes, cell.struts
+
     def graph_in(self, inside: float, area: float) -> tuple[float, float]:
         """One, and the struts that there are."""
         return 1.0, float(len(self.graph.struts))
@@ -111,6 +141,13 @@ class GraphOfPoints(Graph):
                     "out, or take another seed."
                 )
 
+    def content_of_0_1_0(self) -> Sequence[NDArray[Any]] | None:
+        """The cell, which is of no effect."""
+        cell = self.unit_cell()
+        if self.graph.field is not None or not cell.is_plain:
+            return None
+        return cell.nodes, cell.struts
+
     def graph_in(self, inside: float, area: float) -> tuple[float, float]:
         """Points, and struts between them once short ones are drawn together."""
         points = self.graph.points or max(1.0, inside / self.spec.cell_size**3)
@@ -131,6 +168,11 @@ class GraphOfPoints(Graph):
 
 class CellsAsGraph(Graph):
     """Cells that are no cubes, or whose struts differ, side by side."""
+
+    @property
+    def widths(self) -> Floats:
+        """(m,) what the lattice's radius is multiplied by at each strut; none, (0,), for 1."""
+        return self.unit_cell().widths
 
     def _not_for(self, what: str) -> str:
         return (

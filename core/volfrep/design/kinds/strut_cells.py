@@ -3,9 +3,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...util.errors import VolfrepError
 from ...util.numbers import duration
@@ -47,6 +50,22 @@ class StrutCells(Kind):
     def cube(self) -> UnitCell:
         """The cell."""
         return self.unit_cell()
+
+    @property
+    def endless(self) -> Mapping[str, Any]:
+        """The cell, its radius and its fillet."""
+        spec = self.spec
+        sizes = {"cell_size": spec.cell_size, "strut_radius": spec.strut_radius}
+        return {"cell": self.cube, **sizes, "fillet": spec.fillet}
+
+    @property
+    def catalogue_cell(self) -> UnitCell | None:
+        """The cell, without fillets."""
+        return None if self.spec.fillet else self.cube
+
+    def content_of_0_1_0(self) -> Sequence[NDArray[Any]]:
+        """The cell."""
+        return self.cube.nodes, self.cube.struts
 
     def refuse(self) -> None:
         """Refuse struts that are too thick for the cell, or too thin for facets."""

@@ -3,8 +3,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
+
+from numpy.typing import NDArray
 
 from ...util.errors import VolfrepError
 from ...util.types import Floats
@@ -22,12 +25,23 @@ class Tpms(Kind):
     """Walls along a triply periodic surface."""
 
     has_struts = False
+    is_judged_by_preview = False
 
     @property
     def surface(self) -> PeriodicSurface:
         """The surface that the walls follow."""
         assert isinstance(self.spec.cell, PeriodicSurface)
         return self.spec.cell
+
+    @property
+    def endless(self) -> Mapping[str, Any]:
+        """The surface, and what is solid beside it."""
+        wall = {"wall_kind": self.spec.wall.kind, self.measure: self.thickness}
+        return {"cell": self.surface, "cell_size": self.spec.cell_size, **wall}
+
+    def content_of_0_1_0(self) -> Sequence[NDArray[Any]]:
+        """Nothing."""
+        return ()
 
     @property
     def thicknesses(self) -> tuple[float, float]:

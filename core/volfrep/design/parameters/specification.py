@@ -2,7 +2,7 @@
 """Specifications made of values by name, and taken apart into them.
 
 A row of the table that names a field goes there and comes back from there by itself (`_fields`,
-`_held`); only what takes more than copying is spelled out: cells, targets, faces, files.
+`held_value`); only what takes more than copying is spelled out: cells, targets, faces, files.
 """
 
 from __future__ import annotations
@@ -11,9 +11,9 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from ...util.errors import VolfrepError
-from ..cells import LIBRARY, UnitCell, find_cell
+from ..cells import any_cell, find_cell
 from ..grading import CellMap, Orientation, RadiusGrading, SizeGrading, read_point_field
-from ..graphs import GivenGraph, RandomGraph, StretchedCells, read_network
+from ..graphs import GivenGraph, RandomGraph, read_network
 from ..openings import DrainHoles, DrainPlace, OpenFace, OpenPatch, OpenPlane, SmoothFace
 from ..profile import Profile
 from ..scattered_field import PointField, read_curve
@@ -22,7 +22,7 @@ from ..skins.own_faces import FaceSkin, KeptFace
 from ..spec import LatticeSpec
 from ..spec_parts import first_radius
 from ..target import THICKNESSES, Target, read_target, stiffness_text
-from ..tpms import FORMULA, SURFACES, PeriodicSurface, TpmsSheet, find_surface, surface_name
+from ..tpms import TpmsSheet
 from .parameter import Need, Parameter, effective
 from .table import BY_NAME, PARAMETERS, TWO_ENDED
 from .values import field_file, is_file
@@ -63,9 +63,7 @@ def specification(values: Mapping[str, Any], say: Naming = in_file) -> LatticeSp
         radius = first_radius(used["cell_size"], used["fillet"])
     cell = used["cell"]
     if isinstance(cell, str):
-        cell = find_surface(cell, used["wall_formula"] or "") or find_cell(
-            cell, used["cell_values"]
-        )
+        cell = any_cell(cell, used["cell_values"], used["wall_formula"] or "")
     elif used["cell_values"].strip():
         raise VolfrepError(
             f"{say('cell_values')} are for cells by name or file, not for one that is given whole: "
@@ -78,7 +76,7 @@ def specification(values: Mapping[str, Any], say: Naming = in_file) -> LatticeSp
         cell=cell,
         drains=_drains(parts["drains"], used),
         size_grading=_size_grading(parts),
-        radius_grading=_radius_grading(parts, used, say),
+        radius_grading=_radius_grading(parts, used, cell.measure, say),
         cell_map=CellMap(**parts["cell_map"]) if used["cell_map"] != "cartesian" else None,
         orientation=_orientation(used["rotate"], parts["orientation"]),
         target=target,
@@ -101,12 +99,10 @@ def _fields(used: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
     return parts
 
 
-def _held(spec: LatticeSpec, row: Parameter) -> Any:
+def held_value(spec: LatticeSpec, row: Parameter) -> Any:
     """What a specification holds of a row's value; None where there is no such part of it."""
     value: Any = spec
     for name in row.field.split("."):
-        if isinstance(value, (GivenGraph, StretchedCells)):  # which have other values
-            return None
         value = getattr(value, name, None)
     if value is None or row.name not in _AS_VALUE:
         return value
@@ -145,26 +141,14 @@ def values_of(spec: LatticeSpec) -> dict[str, Any]:
         VolfrepError: it holds what no value can say: a cell or a field without a file, or a face
             picked in FreeCAD.
     """
-    cell, values = spec.cell, {}
-    if isinstance(cell, UnitCell):
-        values = {"cell_values": cell.values}
-        own = cell.name not in LIBRARY or find_cell(cell.name, cell.values) != cell
-        if own and not (cell.source and is_file(cell.source)):
-            raise VolfrepError(
-                f"The cell '{cell.name}' has no file that could be named: save it as .json first."
-            )
-        cell = cell.source if own else cell.name
-    if isinstance(cell, PeriodicSurface):
-        values = {"wall_formula": cell.formula}
-        cell = cell.name if SURFACES.get(cell.name) == cell else FORMULA
-    found = {row.name: _held(spec, row) for row in PARAMETERS if row.field}
-    found |= {"cell": cell, **values, **_skin_values(spec)}
+    found = {row.name: held_value(spec, row) for row in PARAMETERS if row.field}
+    assert not isinstance(spec.cell, str)
+    found |= {**spec.cell.as_values(), **_skin_values(spec)}
     if spec.drains is not None:
         found["drain"] = tuple((*p.point, *(p.direction or ())) for p in spec.drains.places)
     if spec.orientation is not None:
         found["rotate"] = (*spec.orientation.axis, spec.orientation.angle)
-    if isinstance(spec.network, GivenGraph):
-        found |= _file_values(spec.network)
+    found |= spec.kind.as_values()
     if spec.target is not None:
         aim = spec.target.aim
         found[aim] = stiffness_text(spec.target) if aim == "stiffness" else spec.target.value
@@ -234,7 +218,7 @@ def _size_grading(parts: Mapping[str, Any]) -> SizeGrading | None:
 
 
 def _radius_grading(
-    parts: Mapping[str, Any], used: Mapping[str, Any], say: Naming
+    parts: Mapping[str, Any], used: Mapping[str, Any], measure: str, say: Naming
 ) -> RadiusGrading | None:
     own, wanted = dict(parts["radius_grading"]), parts["radius_grading.profile"]
     if own["by"] == "none":
@@ -245,9 +229,7 @@ def _radius_grading(
         own["field"] = read_point_field(own["field"], own["column"])
     profile = Profile()  # a curve needs none
     if not own["curve"]:
-        cell = used["cell"]
-        of_walls = isinstance(cell, str) and surface_name(cell) is not None
-        usual = used["wall_thickness" if of_walls else "strut_radius"]
+        usual = used[measure]
         start, end = wanted["start"], wanted["end"]
         if wanted["kind"] in TWO_ENDED and start == end == 0.0:
             raise VolfrepError(
@@ -312,22 +294,6 @@ def _network(
     return RandomGraph(
         **{**own, "field": read_point_field(field) if isinstance(field, str) else field}
     )
-
-
-def _file_values(network: GivenGraph) -> dict[str, Any]:
-    """The values by name that `_network` reads the same network by.
-
-    Raises:
-        VolfrepError: it has no file.
-    """
-    if not network.source or not is_file(network.source):
-        raise VolfrepError("The network has no file that could be named: save it as .json first.")
-    return {
-        "network": "file", "network_file": network.source,
-        "network_thickness": abs(network.thickness),
-        "network_layers": network.layers if network.thickness else 0,
-        "network_reversed": network.thickness < 0.0,
-    }  # fmt: skip
 
 
 def _orientation(rotate: tuple[float, ...] | None, own: Mapping[str, Any]) -> Orientation | None:

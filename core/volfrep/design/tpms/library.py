@@ -10,6 +10,7 @@ module needs no numpy, so that ``volfrep --help`` answers at once.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Any, ClassVar
 
 from ...util.errors import VolfrepError
 
@@ -28,10 +29,18 @@ class PeriodicSurface:
         also: other names.
     """
 
+    #: The parameter that says how thick a lattice of it is.
+    measure: ClassVar[str] = "wall_thickness"
+
     name: str
     formula: str
     about: str = field(default="", compare=False)
     also: tuple[str, ...] = field(default=(), compare=False)
+
+    def as_values(self) -> dict[str, Any]:
+        """The parameters that name it."""
+        name = self.name if SURFACES.get(self.name) == self else FORMULA
+        return {"cell": name, "wall_formula": self.formula}
 
 
 _LIDINOID = (

@@ -96,7 +96,7 @@ def point_values(
         return PointValues(overhang(normals, up).astype(np.float32), 0.0, 90.0)
     if quantity in ("Cell size", "Field"):
         return _in_range(values_in_space(solid, spec, quantity, points))
-    if spec.surface is not None:
+    if not spec.kind.has_struts:
         raise VolfrepError(f"Walls have no struts to colour by '{quantity}'.")
     from ..infill import Infill
     from ..sizing import solve_struts
@@ -154,7 +154,7 @@ def values_in_space(
         if not isinstance(field, PointField):
             raise VolfrepError("No field drives the radius: choose a file or a FEM result first.")
         return np.asarray(field(points), np.float64)
-    if spec.network is not None:
+    if not spec.kind.has_grid:
         raise VolfrepError("The struts of a network have no cells to colour by.")
     mapping = part_map(spec.grid, solid.bounds)
     if mapping is None:

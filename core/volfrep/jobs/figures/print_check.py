@@ -6,9 +6,9 @@ from __future__ import annotations
 from ...design.spec import LatticeSpec
 from ...grid.strut_graph import Wireframe
 from ...mesh.triangle_mesh import TriangleMesh, compact
-from ...reports.passage import ball_of, walls_of
 from ...reports.printability import PrintReport, overhanging_facets, print_report, unit_direction
 from ...reports.processes import Process
+from ..kinds import lattice_kind
 
 
 def check_print(
@@ -24,6 +24,7 @@ def check_print(
     Raises:
         VolfrepError: the build direction is no direction.
     """
+    kind = lattice_kind(spec)
     return print_report(
         mesh,
         lattice,
@@ -31,8 +32,8 @@ def check_print(
         build_direction=build_direction,
         density=spec.density,
         domain=domain,
-        ball_mm=ball_of(spec),
-        walls_mm=walls_of(spec),
+        ball_mm=kind.largest_ball(),
+        walls_mm=kind.walls(),
     )
 
 

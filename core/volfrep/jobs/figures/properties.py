@@ -5,14 +5,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from ...design.cells import UnitCell, find_cell
+from ...design.cells import UnitCell, any_cell
 from ...design.spec_parts import Grid
-from ...design.tpms import KINDS, PeriodicSurface, TpmsSheet, find_surface
-from ...mechanics.catalogue import known_properties
+from ...design.tpms import PeriodicSurface
 from ...mechanics.materials import SolidMaterial, find_material
-from ...mechanics.summary import CellProperties, cell_properties
+from ...mechanics.summary import CellProperties
 from ...util.errors import VolfrepError
-from ..tpms.properties import tpms_properties
+from ..kinds import kind_of_cell
+from ..kinds.kind import EndlessWish
 
 
 def lattice_properties(
@@ -58,42 +58,13 @@ def lattice_properties(
     >>> round(found.relative_density, 2), found.stiffness.shape
     (0.23, (6, 6))
     """
-    surface = find_surface(cell, wall_formula) if isinstance(cell, str) else None
-    surface = cell if isinstance(cell, PeriodicSurface) else surface
-    sizes = {
-        "strut radius": strut_radius, "wall thickness": wall_thickness, "wall offset": wall_offset,
-        "relative density": relative_density,
-    }  # fmt: skip
-    given = [name for name, value in sizes.items() if value is not None]
-    if surface is None:
-        if given not in (["strut radius"], ["relative density"]) or wall_kind or wall_formula:
-            raise VolfrepError("Of struts give either a strut radius or a relative density.")
-        assert not isinstance(cell, PeriodicSurface)
-        if cell_values:
-            if not isinstance(cell, str):
-                raise VolfrepError("Values are for a cell that is given by its name or file.")
-            cell = find_cell(cell, cell_values)
-        if strut_radius is not None and not (exact or fillet or along):
-            solid = find_material(material) if isinstance(material, str) else material
-            named = find_cell(cell) if isinstance(cell, str) else cell
-            if (known := known_properties(named, cell_size, strut_radius, solid)) is not None:
-                return known
-        return cell_properties(
-            cell, cell_size, strut_radius, relative_density=relative_density, fillet=fillet,
-            material=material, along=along, told=told,
-        )  # fmt: skip
-    if cell_values:
-        raise VolfrepError("Surfaces have no values of their own: they are for cells of struts.")
-    kind = wall_kind or KINDS[0]
-    wall = TpmsSheet(
-        kind,
-        1.0 if wall_thickness is None else wall_thickness,
-        0.0 if wall_offset is None else wall_offset,
-    )
-    if given not in ([wall.called], ["relative density"]) or fillet:
-        raise VolfrepError(f"Of a {kind} give the {wall.called} or the relative density alone.")
+    if isinstance(cell, str):
+        cell = any_cell(cell, cell_values, wall_formula)
+    elif cell_values:
+        raise VolfrepError("Values are for a cell that is given by its name or file.")
     solid = find_material(material) if isinstance(material, str) else material
-    return tpms_properties(
-        surface, Grid(cell_size).size, wall, relative_density=relative_density, material=solid,
-        along=along,
+    wish = EndlessWish(
+        strut_radius, relative_density, fillet, solid, along, cell_values, wall_kind,
+        wall_thickness, wall_offset, wall_formula, exact, told,
     )  # fmt: skip
+    return kind_of_cell(cell).properties(cell, Grid(cell_size).size, wish)

@@ -8,11 +8,14 @@ from __future__ import annotations
 
 from importlib import import_module
 
+from ...design.cells import UnitCell
+from ...design.kinds import KINDS
 from ...design.kinds import graphs as graph_specs
 from ...design.kinds.strut_cells import StrutCells
 from ...design.kinds.tpms import Tpms
 from ...design.spec import LatticeSpec
 from ...design.spec_fields import Kind
+from ...design.tpms import PeriodicSurface
 from .kind import LatticeKind
 
 #: Module and class, by what the kind is to a specification; loaded when the first one is made.
@@ -27,6 +30,15 @@ LATTICE_KINDS: dict[type[Kind], tuple[str, str]] = {
 
 def lattice_kind(spec: LatticeSpec) -> LatticeKind:
     """What the kind of a specification's lattice does with it."""
-    module, name = LATTICE_KINDS[type(spec.kind)]
-    kind: type[LatticeKind] = getattr(import_module(module), name)
-    return kind(spec)
+    return _load(type(spec.kind))(spec)
+
+
+def kind_of_cell(cell: UnitCell | PeriodicSurface) -> type[LatticeKind]:
+    """The kind of lattice of a cell side by side."""
+    return _load(KINDS[type(cell)])
+
+
+def _load(kind: type[Kind]) -> type[LatticeKind]:
+    module, name = LATTICE_KINDS[kind]
+    loaded: type[LatticeKind] = getattr(import_module(module), name)
+    return loaded

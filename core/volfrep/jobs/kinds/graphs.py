@@ -40,9 +40,10 @@ from ...util.errors import VolfrepError
 from ...util.numbers import plural
 from ...util.progress import Monitor, ProgressCallback
 from ...util.types import Floats, Ints
+from ..part_depth import PartDepth, Preview
 from ..part_domain import PartDomain
 from ..target_search import REACH, WantedVolume
-from .kind import BlockLattice, LatticeKind
+from .kind import BlockLattice, LatticeKind, RadiiBorne
 from .surface_lattice import SurfaceLattice, uncut
 
 #: Struts of a random network are drawn together where they are shorter than so many radii.
@@ -52,6 +53,9 @@ SHORTEST = 4.0
 FINEST_STEP = 1.0 / 50.0
 #: The thinnest and the thickest radius that is looked for, in units of the median length.
 THINNEST, THICKEST = 2e-3, 0.35
+#: Struts are sized to so many times their radius at most, where nothing else is said: those that
+#: share no joint run into each other then.
+TIMES_THICKER = 2.0
 #: How often a random network is drawn anew because the struts that are too short for its radius
 #: have changed.
 DRAWN = 3
@@ -76,6 +80,39 @@ class GraphKind(LatticeKind):
                 "A block is of cells and not of a network: choose 'network' or 'fill'."
             )
         return GraphBlock(self, count)
+
+    def preview(self, solid: TriangleMesh, depth: PartDepth) -> Preview:
+        """The struts; random ones lie between the very points of the part."""
+        from ..preview import place_lattice, show_struts
+
+        spec, placement = self.spec, place_lattice(solid, self.spec)
+
+        def domain_of() -> TriangleMesh:
+            return depth.domain(spec.skin)
+
+        if spec.target is not None:
+            domain, points = depth.volume_below(spec.shell), depth.points_below(spec.shell)
+            skin = spec.skin_volume(solid.volume, domain)
+            wanted = spec.target.lattice_volume(spec.density, domain, skin)
+            weights = np.full(len(points), domain / max(len(points), 1))
+            spec = with_radius(
+                spec, placement, domain_of, lambda _: (points, weights), wanted, skin, Monitor()
+            )
+        frame = graph_struts(spec, placement, domain_of, Monitor())
+
+        def volume(bare: float, domain: float, skin: float) -> tuple[LatticeSpec, float]:
+            return spec, graph_volume(frame, spec, depth.points_below(spec.shell), domain)
+
+        none = "No strut of the network lies inside the skin: reduce the shell thickness."
+        return show_struts(solid, spec, depth, frame, volume, none)
+
+    def with_fixed_struts(self) -> LatticeSpec:
+        """Struts of a random network are drawn together as they are with the present radius."""
+        spec, network = self.spec, self.spec.network
+        if not isinstance(network, RandomGraph) or network.shortest:
+            return spec
+        shortest = SHORTEST * spec.struts.extremes[1]
+        return replace(spec, network=replace(network, shortest=shortest))
 
     def modulus(self, target: Target) -> float:
         """None: the endless lattice of a graph is not known.
@@ -142,6 +179,16 @@ class GraphLattice(SurfaceLattice):
     def is_moved(self) -> bool:
         """Whether radii vary, or the graph is bent."""
         return not keeps_places(self.spec.struts, self.part.placement)
+
+    @property
+    def skin_edge(self) -> float:
+        """Edge of the triangles by which the skin about it is solved, mm."""
+        return self.spacing
+
+    def radii_borne(self, own: float) -> RadiiBorne:
+        """As thick as leaves struts room; where they have none, they are united."""
+        most = max(THICKEST * self.spacing, own)
+        return RadiiBorne(min(most, TIMES_THICKER * own), most, own)
 
     def search(self, target: Target) -> GraphSearch:
         """The radius for which the struts have the density or the mass of a target."""
@@ -259,15 +306,6 @@ def graph_struts(
     if mapping is not None:
         nodes = mapping.to_part(nodes)
     return graph_wireframe(nodes, wanted, wanted.struts, spec, placement)
-
-
-def fixed_graph(spec: LatticeSpec) -> LatticeSpec:
-    """The specification whose random network stays the same graph whatever radii it is given."""
-    network = spec.network
-    if not isinstance(network, RandomGraph) or network.shortest:
-        return spec
-    shortest = SHORTEST * spec.struts.extremes[1]
-    return replace(spec, network=replace(network, shortest=shortest))
 
 
 def median_length(frame: Wireframe) -> float:

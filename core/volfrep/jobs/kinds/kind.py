@@ -11,8 +11,9 @@ from __future__ import annotations
 import os
 import time
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ...design.spec import LatticeSpec
 from ...design.target import Target
@@ -20,21 +21,78 @@ from ...grid.strut_graph import Wireframe
 from ...io.write.stl import write_stl
 from ...mesh.triangle_mesh import TriangleMesh
 from ...reports.report import Report, with_warnings
-from ...reports.result import Result
-from ...trim.boolean_trim import Ahead
-from ...trim.loose_pieces import Cleared
-from ...trim.prune import Pruned
 from ...util.errors import VolfrepError
 from ...util.numbers import whole
 from ...util.progress import Monitor, peak_memory_mb
-from ..active_cells import ActiveCells
-from ..part_domain import PartDomain
-from ..target_search import TargetSearch
+
+if TYPE_CHECKING:
+    from ...mechanics.materials import SolidMaterial
+    from ...mechanics.summary import CellProperties
+    from ...reports.result import Result
+    from ...trim.boolean_trim import Ahead
+    from ...trim.loose_pieces import Cleared
+    from ...trim.prune import Pruned
+    from ..active_cells import ActiveCells
+    from ..part_depth import PartDepth, Preview
+    from ..part_domain import PartDomain
+    from ..target_search import TargetSearch
 
 #: What is promised: a part that misses its target by more, relative, says so.
 PROMISED = 5e-3
 #: Cells along one axis of a block.
 MOST_CELLS = 1_000_000
+
+
+class RadiiBorne(NamedTuple):
+    """How thick struts may become, mm.
+
+    Attributes:
+        usual: where nothing else is said.
+        most: where they leave each other no room any more.
+        own: of struts that are united where they overlap, what they have already; else 0.
+    """
+
+    usual: float
+    most: float
+    own: float = 0.0
+
+
+class Expected(NamedTuple):
+    """What a design will come to, about.
+
+    Attributes:
+        spec: with the thickness of its target.
+        relative_density: of the lattice in what it fills.
+        volume: of the part, mm3.
+    """
+
+    spec: LatticeSpec
+    relative_density: float
+    volume: float
+
+
+@dataclass(frozen=True)
+class EndlessWish:
+    """What is asked of an endless lattice; attributes as of `figures.properties`."""
+
+    strut_radius: float | None
+    relative_density: float | None
+    fillet: float
+    material: SolidMaterial | None
+    along: int | None
+    cell_values: str
+    wall_kind: str | None
+    wall_thickness: float | None
+    wall_offset: float | None
+    wall_formula: str
+    exact: bool
+    told: Callable[[float], None]
+
+    @property
+    def given(self) -> list[str]:
+        """What says how thick it is."""
+        names = ("strut_radius", "wall_thickness", "wall_offset", "relative_density")
+        return [name.replace("_", " ") for name in names if getattr(self, name) is not None]
 
 
 class PartLattice(ABC):
@@ -109,6 +167,26 @@ class PartLattice(ABC):
             VolfrepError: none has; the text says what can be had.
         """
 
+    def radii_borne(self, own: float) -> RadiiBorne:
+        """Up to which radii its struts can be sized.
+
+        Args:
+            own: median radius of the struts, mm.
+
+        Raises:
+            VolfrepError: it has no struts that could be.
+        """
+        raise VolfrepError("Such a lattice has no struts that could be sized: choose another cell.")
+
+    @property
+    def skin_edge(self) -> float:
+        """Edge of the triangles by which the skin about it is solved, mm."""
+        return 0.5 * self.spacing
+
+    def slabs(self) -> Callable[[float, float], Wireframe] | None:
+        """Gives its struts that reach between two z, mm; None: it can be had as a whole only."""
+        return None
+
     @property
     def warnings(self) -> tuple[str, ...]:
         """What is to be said of its cells."""
@@ -181,6 +259,9 @@ class LatticeKind(ABC):
         spec: of the kind.
     """
 
+    #: Whether the thickness of a target is known as well before the part is filled (`expected`).
+    foretells_target = False
+
     def __init__(self, spec: LatticeSpec) -> None:
         self.spec = spec
 
@@ -215,6 +296,48 @@ class LatticeKind(ABC):
         Raises:
             VolfrepError: the counts make no sense, or there are no such blocks.
         """
+
+    @abstractmethod
+    def preview(self, solid: TriangleMesh, depth: PartDepth) -> Preview:
+        """What it will look like in a solid, and its figures, at once; as of `preview.preview`."""
+
+    def expected(self, solid: TriangleMesh, depth: PartDepth) -> Expected:
+        """What a solid with it will come to: the preview's figures."""
+        shown = self.preview(solid, depth)
+        return Expected(shown.spec, shown.relative_density, shown.volume)
+
+    def roughly_solved(self, solid: TriangleMesh) -> LatticeSpec:
+        """The specification with about the thickness of its target, for a forecast, at once.
+
+        As it is where that would take a preview.
+
+        Raises:
+            VolfrepError: none meets the target.
+        """
+        return self.spec
+
+    def with_fixed_struts(self) -> LatticeSpec:
+        """The specification whose nodes and struts stay the same whatever radii it is given."""
+        return self.spec
+
+    def largest_ball(self) -> float | None:
+        """Diameter of the largest ball that passes through, mm; None where windows all differ."""
+        return None
+
+    def walls(self) -> tuple[float | None, float | None]:
+        """The least thickness of walls and the least gap between them, mm; None: not known."""
+        return None, None
+
+    @staticmethod
+    def properties(cell: Any, cell_size: float, wish: EndlessWish) -> CellProperties:
+        """What the endless lattice of a cell of the kind does.
+
+        Raises:
+            VolfrepError: a value makes no sense, or the cell carries no load.
+        """
+        raise VolfrepError(
+            f"What the endless lattice of '{cell.name}' does is not known: choose another cell."
+        )
 
     def refuse(self, solid: TriangleMesh) -> None:  # noqa: B027  a graph fits any
         """Refuse a solid that it does not fit.

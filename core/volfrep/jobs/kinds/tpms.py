@@ -11,29 +11,44 @@ import numpy as np
 
 from ...design.spec import LatticeSpec
 from ...design.target import Target
+from ...design.tpms import KINDS, PeriodicSurface, TpmsSheet
 from ...grid.coordinate_map import identity_map
 from ...grid.strut_graph import NO_STRUTS, Wireframe
 from ...lattice.assembly import Layout, lay_out
 from ...lattice.deform import Deformed
 from ...lattice.padded_grid import LEAST_WIDTH_STRETCHED
 from ...lattice.strut_volume import FINE, VolumeByRadius, points_inside
+from ...mechanics.summary import CellProperties
 from ...mesh.triangle_mesh import TriangleMesh
 from ...octants.octant import Octant, OctantKey
 from ...octants.octant_spec import OctantSpec
+from ...reports.passage import PLACES as BALL_PLACES
+from ...reports.passage import ball_through
 from ...spatial.even_points import even_points
 from ...tpms.deform import part_levels
 from ...tpms.octants import closed_octants, endless_octants, octants_of_cells
+from ...tpms.solid import TpmsSolid
+from ...tpms.widths import measure_widths
 from ...trim.culling import KeptOctants, OctantRoles, cull, keep_all
 from ...util.errors import VolfrepError
 from ...util.progress import Monitor
 from .. import octant_guard as guard
 from ..finer import until_sound
+from ..part_depth import PartDepth, Preview
 from ..part_domain import PartDomain
 from ..target_search import WantedVolume
 from ..tpms.level_table import level_table, with_volume
-from ..tpms.octants import keeps_places, mesh_tpms, place_tpms, solid_of, tpms_meshing
+from ..tpms.octants import (
+    keeps_places,
+    mesh_tpms,
+    place_tpms,
+    solid_of,
+    surface_of,
+    tpms_meshing,
+    tpms_of,
+)
 from ..tpms.stiffness import solve_tpms_stiffness, tpms_modulus
-from .kind import LatticeKind
+from .kind import EndlessWish, LatticeKind
 from .octant_block import LaidBlock, OctantBlock
 from .octant_lattice import OctantLattice
 
@@ -61,6 +76,58 @@ class TpmsKind(LatticeKind):
         raise VolfrepError(
             "Walls have no struts that could be beams or axes: choose a mesh, or a cell of struts."
         )
+
+    def preview(self, solid: TriangleMesh, depth: PartDepth) -> Preview:
+        """The walls' surface, as coarse as it is quick."""
+        from ..preview import place_lattice, show_cells
+        from ..tpms.preview import preview_tpms
+
+        spec, placement = self.spec, place_lattice(solid, self.spec)
+        cells = show_cells(solid, spec, depth, placement, LEAST_WIDTH_STRETCHED)
+        return preview_tpms(solid, spec, depth, placement, cells)
+
+    def largest_ball(self) -> float | None:
+        """On one side of a sheet, which is closed to the other."""
+        spec = self.spec
+        if spec.varies:
+            return None
+        solid = TpmsSolid.of(surface_of(spec), spec.wall, spec.cell_size)
+        samples = solid.samples(BALL_PLACES, 1.0)[:-1, :-1, :-1]
+        return ball_through(samples) * spec.cell_size
+
+    def walls(self) -> tuple[float | None, float | None]:
+        """A sheet has its thickness wherever it is.
+
+        Gaps, and what a side of a surface has, are those of the endless wall, and not known where
+        cells are stretched or walls graded.
+        """
+        spec = self.spec
+        if spec.varies:
+            return (tpms_of(spec).thicknesses[0] if spec.wall.is_sheet else None), None
+        found = measure_widths(TpmsSolid.of(surface_of(spec), spec.wall, spec.cell_size))
+        return found.thickness * spec.cell_size, found.gap * spec.cell_size
+
+    @staticmethod
+    def properties(cell: PeriodicSurface, cell_size: float, wish: EndlessWish) -> CellProperties:
+        """Homogenised."""
+        from ..tpms.properties import tpms_properties
+
+        if wish.cell_values:
+            raise VolfrepError(
+                "Surfaces have no values of their own: they are for cells of struts."
+            )
+        kind = wish.wall_kind or KINDS[0]
+        wall = TpmsSheet(
+            kind,
+            1.0 if wish.wall_thickness is None else wish.wall_thickness,
+            0.0 if wish.wall_offset is None else wish.wall_offset,
+        )
+        if wish.given not in ([wall.called], ["relative density"]) or wish.fillet:
+            raise VolfrepError(f"Of a {kind} give the {wall.called} or the relative density alone.")
+        return tpms_properties(
+            cell, cell_size, wall, relative_density=wish.relative_density,
+            material=wish.material, along=wish.along,
+        )  # fmt: skip
 
     def modulus(self, target: Target) -> float:
         """Young's modulus of the endless walls along a target's direction."""

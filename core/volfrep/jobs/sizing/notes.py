@@ -178,7 +178,8 @@ def hardly_beams(infill: Infill, model: SizingModel, radii: Floats, cell_size: f
     problem, found = model.problem, []
     beams, of_struts = problem.structure.beams, problem.radii.of_struts(radii)
     thick = of_struts.max(axis=1)
-    if infill.spec.network is None and thick.max() > MEASURED_TO * cell_size:
+    is_of_cubes = infill.spec.kind.cube is not None  # r / L is told of these
+    if is_of_cubes and thick.max() > MEASURED_TO * cell_size:
         place = problem.structure.nodes[beams.struts[int(np.argmax(thick))]].mean(axis=0)
         x, y, z = place.tolist()
         share = float((thick > MEASURED_TO * cell_size).mean())

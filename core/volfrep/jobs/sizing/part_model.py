@@ -8,9 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...design.graphs import StretchedCells
 from ...design.spec import LatticeSpec
-from ...design.spec_parts import largest_radius
 from ...grid.strut_graph import Wireframe
 from ...loads.load_cases import LoadCases
 from ...mesh.triangle_mesh import TriangleMesh
@@ -22,14 +20,10 @@ from ...util.cache import StageCache
 from ...util.errors import VolfrepError
 from ...util.types import Floats
 from ..infill import Infill
-from ..kinds.graphs import THICKEST, median_length
 from .goal import Goal
 
-#: Edges of the skin's triangles over the cell size, and over its thickness at least.
-SKIN_EDGE, SKIN_EDGE_LEAST = 0.5, 1.5
-#: Struts of a network are made so many times as thick as they are at most, where nothing else is
-#: said: those that share no joint run into each other then.
-TIMES_THICKER = 2.0
+#: Edges of the skin's triangles over its thickness, at least.
+SKIN_EDGE_LEAST = 1.5
 
 
 def part_model(
@@ -53,10 +47,7 @@ def part_model(
         raise VolfrepError("The output 'domain' holds no lattice to size: choose part or lattice.")
     if spec.fillet:
         raise VolfrepError("Struts with fillets cannot be sized: set the fillet to 0.")
-    widths = getattr(spec.network, "widths", ())
-    if isinstance(spec.network, StretchedCells):
-        widths = spec.unit_cell().widths
-    if len(widths):
+    if len(spec.kind.widths):
         raise VolfrepError(
             "Sizing gives each node one radius, and these struts have widths of their own: choose "
             "a cell without."
@@ -73,24 +64,17 @@ def part_model(
             clipped = plain.axes
     own = float(np.median(wireframe.radii))
     least = goal.thinnest if goal.thinnest is not None else 0.5 * own
-    length, borne = spacing(infill), 0.0
-    if spec.network is None:
-        usual = bears = 0.98 * largest_radius(spec.cell_size, spec.fillet)
-    else:
-        # Where a network's struts leave each other no room they are united.
-        bears = max(THICKEST * length, own)
-        usual, borne = min(bears, TIMES_THICKER * own), own
-    most = usual if goal.thickest is None else min(goal.thickest, bears)
+    bears = infill.filling.radii_borne(own)
+    most = bears.usual if goal.thickest is None else min(goal.thickest, bears.most)
     if not 0.0 < least <= most:
         raise VolfrepError(
             f"Radii from {least:.4g} to {most:.4g} mm make no sense: the smallest must be above 0 "
             "and below the largest, which the cells do not bear beyond "
-            f"{bears:.4g} mm."
+            f"{bears.most:.4g} mm."
         )
     skin = None
     if spec.with_skin:
-        apart = spec.cell_size if spec.network is None else 2.0 * length
-        edge = max(SKIN_EDGE * apart, SKIN_EDGE_LEAST * spec.shell)
+        edge = max(infill.filling.skin_edge, SKIN_EDGE_LEAST * spec.shell)
         with infill.monitor.stage("skin", 0.3, 0.4):
             skin = skin_model(
                 infill.solid, thickness_of_skin(infill.solid, spec), edge, elastic(material),
@@ -102,8 +86,8 @@ def part_model(
                 infill.monitor, held=held_facets(infill.solid, loads.cases),
             )  # fmt: skip
     model = sizing_model(
-        wireframe, clipped, spec.kind.cube, length, material, loads.cases,
-        bounds=(least, most), borne=borne, skin=skin, solid=infill.solid,
+        wireframe, clipped, spec.kind.cube, infill.filling.spacing, material, loads.cases,
+        bounds=(least, most), borne=bears.own, skin=skin, solid=infill.solid,
         domain=infill.domain.mesh if infill.placement.is_cut else None, stays=infill.staying,
     )  # fmt: skip
     if goal.smooth:
@@ -117,12 +101,6 @@ def given_radii(wireframe: Wireframe) -> Floats:
     result = np.zeros(len(wireframe.nodes))
     result[wireframe.struts] = wireframe.radii
     return result
-
-
-def spacing(infill: Infill) -> float:
-    """L, mm: of the cells, or a network's median length of struts, which stands for it."""
-    spec = infill.spec
-    return spec.cell_size if spec.network is None else median_length(infill.struts)
 
 
 def thickness_of_skin(solid: TriangleMesh, spec: LatticeSpec) -> float | Callable[[Floats], Floats]:

@@ -28,7 +28,7 @@ from ...util.files import replacing
 from ...util.progress import Monitor, ProgressCallback
 from ...util.types import Floats
 from ..infill import Infill
-from ..kinds.graphs import fixed_graph
+from ..kinds import lattice_kind
 from ..targets import solve_target
 from .goal import Goal
 from .notes import (
@@ -42,7 +42,7 @@ from .notes import (
     too_dense,
     unproved,
 )
-from .part_model import given_radii, part_model, spacing
+from .part_model import given_radii, part_model
 from .removal import RADIUS_STEP, SLACK, Thinned, field_points, radius_field, without_thin_struts
 
 #: So many times a design is made thicker because of what CalculiX finds.
@@ -198,7 +198,8 @@ def _prepare(
     """The part's struts and skin as elements, their supports and loads."""
     notes: list[str] = []
     spec = _without_target(solid, spec, goal, cache, progress, notes)
-    spec = replace(fixed_graph(spec), remove_below=0.0)  # all are sized; which go is decided anew
+    # All are sized; which go is decided anew.
+    spec = replace(lattice_kind(spec).with_fixed_struts(), remove_below=0.0)
     infill = Infill(solid, spec, monitor=monitor, cache=cache)
     model = part_model(infill, loads, goal, cache)
     first = np.clip(given_radii(model.wireframe), model.problem.low, model.problem.high)
@@ -247,7 +248,7 @@ def _notes_of(task: _Task, search: _Search) -> list[str]:
 def _prove(task: _Task, search: _Search, prove_it: bool) -> tuple[Sized, dict[str, Any] | None]:
     """The design as files keep it, held to its limits by CalculiX; and CalculiX's figures."""
     model, sized, limits, notes = search.model, search.sized, task.goal.limits, task.notes
-    cell, length = task.infill.spec.kind.cube, spacing(task.infill)
+    cell, length = task.infill.spec.kind.cube, task.infill.filling.spacing
     problem = model.problem
     with _named(problem):
         final = _stored(problem, sized.analysis.radii, limits)

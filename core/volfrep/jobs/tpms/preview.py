@@ -19,6 +19,7 @@ from ...tpms.midsurface import midsurface
 from ...util.errors import VolfrepError
 from ...util.types import Bools, Floats
 from ..part_depth import PartDepth, Preview
+from ..preview import ShownCells
 from .level_table import level_table, with_volume
 from .octants import surface_of
 from .stiffness import solve_tpms_stiffness
@@ -41,10 +42,7 @@ def preview_tpms(
     spec: LatticeSpec,
     depth: PartDepth,
     placement: Placement,
-    grid: CellGrid,
-    usable: Bools | None,
-    cells: int,
-    lines: tuple[Floats, Floats],
+    cells: ShownCells,
 ) -> Preview:
     """The preview of walls in a solid.
 
@@ -53,16 +51,13 @@ def preview_tpms(
         spec: what to make; the thickness of a target is found as nearly as the figures are.
         depth: of that solid.
         placement: where the lattice lies in it.
-        grid: its cells.
-        usable: (nx, ny, nz) those that are not too narrow for a lattice; None: all.
-        cells: how many are active.
-        lines: their edges.
+        cells: its cells.
 
     Raises:
         VolfrepError: there are too many cells, or no thickness meets the target.
     """
     points = depth.points_below(spec.shell)
-    where = _Where(spec, placement, grid, usable)
+    where = _Where(spec, placement, cells.grid, cells.usable)
     sides = where.sided(points)
     domain = depth.volume_below(spec.shell)
     skin = spec.skin_volume(solid.volume, domain)
@@ -80,8 +75,8 @@ def preview_tpms(
     lattice = float(filled.mean() if len(filled) else 0.0) * domain
     none = np.zeros((0, 3))
     return Preview(
-        none, none, np.zeros((0, 2)), cells, 0, grid, lattice / domain, lattice + skin,
-        (lattice + skin) * spec.density / 1000.0, lines, spec,
+        none, none, np.zeros((0, 2)), cells.count, 0, cells.grid, lattice / domain,
+        lattice + skin, (lattice + skin) * spec.density / 1000.0, cells.lines, spec,
         _surface(solid, spec, depth, where),
     )  # fmt: skip
 

@@ -3,6 +3,9 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from typing import Any
+
 from ...design.tpms import PeriodicSurface, TpmsSheet
 from ...mechanics.homogenise import PER_RADIUS, Homogenised, bounded, homogenise_voxels, three_sizes
 from ...mechanics.materials import SolidMaterial
@@ -16,6 +19,27 @@ from .voxels import cut_into_voxels, of_density, tpms_density
 _OF_SIDES = 96
 
 
+@dataclass(frozen=True, eq=False)
+class TpmsProperties(CellProperties):
+    """What an endless lattice of walls does.
+
+    Attributes:
+        wall: what is solid beside the surface.
+    """
+
+    wall: TpmsSheet
+
+    def _size(self) -> dict[str, Any]:
+        kind, *sizes = self.wall.as_plain().items()
+        return {"wall_kind": kind[1], **{f"wall_{name}_mm": value for name, value in sizes}}
+
+    def _sized(self) -> str:
+        wall = self.wall
+        if wall.is_sheet:
+            return f"{wall.kind} {wall.thickness:.5g} mm thick"
+        return f"{wall.kind}, offset {wall.offset:.5g} mm"
+
+
 def tpms_properties(
     surface: PeriodicSurface,
     cell_size: float,
@@ -24,7 +48,7 @@ def tpms_properties(
     relative_density: float | None = None,
     material: SolidMaterial | None = None,
     along: int | None = None,
-) -> CellProperties:
+) -> TpmsProperties:
     """What the endless wall along a surface does.
 
     Args:
@@ -50,7 +74,7 @@ def tpms_properties(
     found = homogenise_tpms(solid, density, poisson, octant=octant, along=along, name=surface.name)
     told = figures_of(found, material)
     told.errors["relative_density"] = error
-    return CellProperties(
+    return TpmsProperties(
         surface.name, cell_size, 0.0, 0.0, density, material, told.stiffness, told.values,
         told.errors, told.von_mises, found.along[-1], wall,
     )  # fmt: skip

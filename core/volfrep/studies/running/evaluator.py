@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -12,20 +12,19 @@ from typing import Any
 
 from ...design.parameters.spec_file import write_values
 from ...design.spec import LatticeSpec
-from ...design.tpms import TpmsSheet
 from ...io.solid import Solid
 from ...jobs.figures.print_check import check_print
+from ...jobs.figures.properties import lattice_properties
 from ...jobs.infill import Infill
+from ...jobs.kinds import lattice_kind
 from ...jobs.preview import PartDepth
 from ...jobs.sizing.goal import goal_of
 from ...jobs.sizing.sizing import size, solve_struts, values_with_radii, write_radii
 from ...jobs.targets import solve_target
-from ...jobs.tpms.properties import tpms_properties
 from ...loads.load_cases import LoadCases
 from ...loads.load_file import read_load_cases
-from ...mechanics.catalogue import known_properties
-from ...mechanics.materials import Material, SolidMaterial
-from ...mechanics.summary import MODULI, RATIOS, CellProperties, cell_properties
+from ...mechanics.materials import Material
+from ...mechanics.summary import MODULI, RATIOS, CellProperties
 from ...output.form import find_form
 from ...output.sources import FilledPart
 from ...output.writer import Settings, writer_of
@@ -130,9 +129,13 @@ class Evaluator:
         return dataclasses.replace(self.infill.spec, target=None)
 
     @property
-    def wall(self) -> TpmsSheet:
-        """The walls with the thickness or the offset that meets their target, if they have one."""
-        return self.spec.wall if self.spec.target is None else self.infill.spec.wall
+    def endless(self) -> Mapping[str, Any] | None:
+        """What the endless lattice's properties are asked for with, as of its target."""
+        spec = self.spec
+        if spec.target is not None:
+            known = lattice_kind(spec).foretells_target
+            spec = self.expectation.spec if known else self.infill.spec
+        return spec.kind.endless
 
     def file(self, kind: str, suffix: str) -> Path:
         """Where a file of this design goes, in a folder of its kind."""
@@ -157,39 +160,26 @@ def _properties(bench: Evaluator) -> dict[str, Figure]:
             "A lattice that is graded, mapped or turned has no one stiffness: leave 'properties' "
             "out, or the grading."
         )
-    if spec.network is not None:
+    if (given := bench.endless) is None:
         raise VolfrepError(
             "A network repeats nowhere, and so has no stiffness of its own: leave 'properties' out."
         )
-    if spec.surface is not None:
-        wall = (spec.surface, bench.wall, spec.cell_size)
-        if wall not in bench.shared.properties:
-            found = tpms_properties(spec.surface, spec.cell_size, bench.wall, material=material)
-            bench.shared.properties[wall] = _told(found, "homogenised")
-        return dict(bench.shared.properties[wall])
-    cell, radius = spec.unit_cell(), bench.expectation.strut_radius
-    ratio, fillet = radius / spec.cell_size, spec.fillet / spec.cell_size
-    # Sizes of one shape differ in the last digits of r / L only.
-    place = (cell, float(f"{ratio:.9g}"), float(f"{fillet:.9g}"))
+    # In units of L: sizes of one shape differ in the last digits only.
+    size = given["cell_size"]
+    shape: dict[str, Any] = {
+        name: float(f"{value / size:.9g}") if isinstance(value, (int, float)) else value
+        for name, value in given.items()
+    }
+    place = tuple(shape.items())
     if place not in bench.shared.properties:
-        bench.shared.properties[place] = _endless(place, material)
+        bench.shared.properties[place] = _told(lattice_properties(**shape, material=material))
     return dict(bench.shared.properties[place])
 
 
-def _endless(place: tuple[Any, float, float], material: SolidMaterial | None) -> dict[str, Figure]:
-    """Read off the catalogue where it has the cell, else homogenised."""
-    cell, ratio, fillet = place
-    found = None if fillet else known_properties(cell, 1.0, ratio, material)
-    source = "catalogue" if found is not None else "homogenised"
-    if found is None:
-        found = cell_properties(cell, 1.0, ratio, fillet=fillet, material=material)
-    return _told(found, source)
-
-
-def _told(found: CellProperties, source: str) -> dict[str, Figure]:
+def _told(found: CellProperties) -> dict[str, Figure]:
     told: dict[str, Figure] = {"relative_density": found.relative_density}
     told |= {name: found.values[name] for name in (*MODULI, *RATIOS, *LIMITS)}
-    return {**told, "from": source}
+    return {**told, "from": "homogenised" if found.along else "catalogue"}
 
 
 def _fill(bench: Evaluator) -> dict[str, Figure]:

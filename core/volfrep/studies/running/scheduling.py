@@ -174,9 +174,9 @@ def weight(design: Design, seconds: float, actions: Mapping[str, bool]) -> float
     """Expected seconds of a run with these actions, of which some need the mesh."""
     total = 0.0
     if "properties" in actions:
-        spec = design.spec
-        walls = spec.surface is not None
-        known = not (walls or spec.fillet) and known_cell(spec.unit_cell()) is not None
+        kind = design.spec.kind
+        cell = kind.catalogue_cell
+        known = kind.endless is None or (cell is not None and known_cell(cell) is not None)
         total += QUICK if known else HOMOGENISED
     meshed = sum(actions.values())
     if meshed:

@@ -34,12 +34,12 @@ class VolfrepWorkbench(Gui.Workbench):
         import FreeCAD as App
 
         from freecad_volfrep.deps import explain_missing, missing_packages
-        from freecad_volfrep.gui.commands.table import EXAMPLES, TOOLBARS, register_commands
+        from freecad_volfrep.gui.commands.table import EXAMPLES, PARTS, TOOLBAR, register_commands
         from freecad_volfrep.translation import QT_TRANSLATE_NOOP
 
         register_commands()
-        for title, names in TOOLBARS.items():
-            self.appendToolbar(title, names)
+        self.appendToolbar("VOLFREP", TOOLBAR)
+        for _, names in PARTS:
             self.appendMenu("&VOLFREP", [*names, "Separator"])
         self.appendMenu(["&VOLFREP", QT_TRANSLATE_NOOP("Workbench", "Examples")], EXAMPLES)
         self.appendMenu("&VOLFREP", ["Separator", "VOLFREP_Help"])

@@ -59,10 +59,10 @@ def choose(name, value):
 
 def see_why_commands_are_grey(doc, box):
     """The tip of every greyed command says what it needs; that of others does not."""
-    from freecad_volfrep.gui.commands.table import COMMANDS, TOOLBARS
+    from freecad_volfrep.gui.commands.table import COMMANDS, PARTS
 
     select()
-    names = [name for names in TOOLBARS.values() for name in names]
+    names = [name for _, names in PARTS for name in names]
     greyed = [name for name in names if not COMMANDS[name].IsActive()]
     figures["greyed without a selection"] = len(greyed)
     for name in names:
@@ -72,6 +72,10 @@ def see_why_commands_are_grey(doc, box):
             check(f"{name} says why", why and why in tip and why in status, (why, tip, status))
         else:
             check(f"{name} says nothing", "\u2192" not in tip + status, tip)
+    entry = toolbar_button("Colour By")
+    check("a drop-down of none that can be used is grey", not entry.button.isEnabled())
+    check("and one of another's is not", toolbar_button("Cell Library").button.isEnabled())
+    picture("toolbar")
     select(box)
     check("no more once it is there", "\u2192" not in toolbar_button("Lattice Infill").toolTip())
 

@@ -239,6 +239,9 @@ def click(widget):
 
 def start_by_click(widget):
     """The same, without waiting for what comes of it."""
+    if isinstance(widget, Entry):
+        widget.open()
+        return
     for _ in range(TRIES):
         hover(widget)
         # What is laid out between the look and the click may move it away: a user clicks again.
@@ -425,16 +428,52 @@ def seen(name, widget):
     return part[:, :, 2::-1].copy()
 
 
+class Entry:
+    """A command in a drop-down of the toolbar, which is clicked at by way of its arrow."""
+
+    def __init__(self, button, action):
+        self.button, self._action = button, action
+        self.text = action.text().replace("&", "")
+
+    def __getattr__(self, name):
+        """Whether it can be used, and its tips, are its own; its place is the button's."""
+        holder = self._action if name in ("isEnabled", "toolTip", "statusTip") else self.button
+        return getattr(holder, name)
+
+    def open(self):
+        """Really open the drop-down, and click at it."""
+        wait_until(self.button.isEnabled)
+        corner = self.button.rect().topRight() + QtCore.QPoint(-5, self.button.height() // 2)
+        move_mouse(self.button.mapToGlobal(corner))
+
+        def look():
+            # The menu runs a loop of its own, in which this is called.
+            menu = _open_menu(self.text)
+            if menu is None:
+                return False
+            _click_entry(menu, self.text)
+            return True
+
+        watch = Watch(look, f"the drop-down with {self.text}")
+        xdotool("click", 1)
+        comes_true(lambda: watch.over, PATIENCE)  # what never came is told at the check's end
+
+
 def _toolbar_buttons():
-    """Texts and buttons of the workbench's toolbars."""
+    """Texts and buttons of the workbench's toolbar, and the entries of its drop-downs."""
     for bar in Gui.getMainWindow().findChildren(QtGui.QToolBar):
         if bar.windowTitle().startswith("VOLFREP") and bar.isVisible():
             for action in bar.actions():
-                yield action.text().replace("&", ""), bar.widgetForAction(action)
+                button = bar.widgetForAction(action)
+                if isinstance(button, QtGui.QToolButton) and button.menu() is not None:
+                    entries = [Entry(button, one) for one in button.menu().actions()]
+                    yield from ((entry.text, entry) for entry in entries)
+                else:
+                    yield action.text().replace("&", ""), button
 
 
 def toolbar_button(name):
-    """The button of a command in the workbench's toolbars."""
+    """The button of a command in the workbench's toolbar, or its entry in a drop-down."""
     for text, button in _toolbar_buttons():
         if text == name:
             return button

@@ -15,7 +15,7 @@ from freecad_volfrep.gui.windows.help_window import page_address
 from freecad_volfrep.gui.windows.install_window import offer_packages
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 
-from .reasons import tell_why
+from .reasons import tell_in_group, tell_why
 
 #: Why no command can be used beside a task panel.
 PANEL_OPEN = QT_TRANSLATE_NOOP("VolfrepCommands", "A panel is open: end it first.")
@@ -87,3 +87,41 @@ class Command:
         from freecad_volfrep.gui.jobs.fresh import when_fresh
 
         when_fresh(self.selected(), self.act, can_be_stale=self.of_mesh == "as it is")
+
+
+@dataclass(frozen=True)
+class CommandGroup:
+    """A drop-down of the toolbar, as FreeCAD wants it; its button is that of the last one used.
+
+    FreeCAD has entries of its own for the commands in it: those that cannot be used are greyed
+    here, and say why.
+
+    Attributes:
+        name: that FreeCAD knows it by.
+        text: of what its commands do.
+        names: of the commands.
+    """
+
+    name: str
+    text: str
+    names: tuple[str, ...]
+
+    def GetResources(self) -> dict[str, str]:  # noqa: N802
+        """Its text; icons and tips are its commands'."""
+        return {"MenuText": self.text, "ToolTip": self.text}
+
+    def GetCommands(self) -> tuple[str, ...]:  # noqa: N802
+        """The names of the commands in it."""
+        return self.names
+
+    def GetDefaultCommand(self) -> int:  # noqa: N802
+        """The first one's number."""
+        return 0
+
+    def IsActive(self) -> bool:  # noqa: N802
+        """Whether one of them can be used now."""
+        from .table import COMMANDS
+
+        reasons = [COMMANDS[name].why_not() for name in self.names]
+        tell_in_group(self.name, reasons)
+        return not all(reasons)

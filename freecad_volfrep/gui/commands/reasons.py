@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import FreeCADGui as Gui
 
 #: What stands before the reason in the tip of a button, and in that of the status bar.
@@ -21,13 +23,32 @@ def tell_why(name: str, why: str) -> None:
         why: it cannot be used now; empty where it can.
     """
     command = Gui.Command.get(name)
+    if command is not None:  # FreeCAD asks before it knows the command by its name
+        for action in command.getAction():
+            _tell(action, why)
+
+
+def tell_in_group(name: str, reasons: list[str]) -> None:
+    """Grey the entries of a drop-down that cannot be used now, and put the reasons behind its tips.
+
+    Args:
+        name: of the group.
+        reasons: why its commands cannot be used, in its order; empty where they can.
+    """
+    command = Gui.Command.get(name)
     if command is None:
-        return  # FreeCAD asks before it knows the command by its name
-    for action in command.getAction():
-        tip, status = action.toolTip(), action.statusTip()
-        wanted = tip.partition(IN_TIP)[0] + (f"{IN_TIP}{why}{_END}" if why else "")
-        if tip != wanted:
-            action.setToolTip(wanted)
-        wanted = status.partition(IN_STATUS)[0] + (f"{IN_STATUS}{why}" if why else "")
-        if status != wanted:
-            action.setStatusTip(wanted)
+        return
+    for action, why in zip(command.getAction(), reasons, strict=False):
+        if action.isEnabled() == bool(why):
+            action.setEnabled(not why)
+        _tell(action, why)
+
+
+def _tell(action: Any, why: str) -> None:
+    tip, status = action.toolTip(), action.statusTip()
+    wanted = tip.partition(IN_TIP)[0] + (f"{IN_TIP}{why}{_END}" if why else "")
+    if tip != wanted:
+        action.setToolTip(wanted)
+    wanted = status.partition(IN_STATUS)[0] + (f"{IN_STATUS}{why}" if why else "")
+    if status != wanted:
+        action.setStatusTip(wanted)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The table of the workbench's commands, its toolbars and its menu.
+"""The table of the workbench's commands, its toolbar and its menu.
 
 Shortcuts begin with L and a letter that none of FreeCAD's own has after it.
 """
@@ -27,7 +27,7 @@ from freecad_volfrep.gui.selection import (
 )
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP
 
-from .command import Command
+from .command import Command, CommandGroup
 from .export_commands import analyse, export, make_solid_of
 from .infill_commands import (
     browse_cells,
@@ -278,41 +278,48 @@ _TABLE = (
 )
 #: By their names.
 COMMANDS = {command.name: command for command in _TABLE}
-#: The toolbars, by their names.
-TOOLBARS = {
-    "VOLFREP": [
-        "VOLFREP_LatticeInfill",
-        "VOLFREP_Edit",
-        "VOLFREP_PreviewOnly",
-        "VOLFREP_Update",
-        "VOLFREP_OpenFaces",
-        "VOLFREP_CellLibrary",
-    ],
-    QT_TRANSLATE_NOOP("Workbench", "VOLFREP Results"): [
-        "VOLFREP_SectionView",
-        "VOLFREP_ColourBy",
-        "VOLFREP_CheckMesh",
-        "VOLFREP_PrintCheck",
-        "VOLFREP_Statistics",
-        "VOLFREP_Export",
-        "VOLFREP_ToSolid",
-        "VOLFREP_FemAnalysis",
-        "VOLFREP_SizeLattice",
-        "VOLFREP_StrutResults",
-        "VOLFREP_DesignStudy",
-    ],
+#: What the menu offers, part by part, and the toolbar in drop-downs where a part has a name.
+PARTS: tuple[tuple[str, tuple[str, ...]], ...] = (
+    ("", ("VOLFREP_LatticeInfill", "VOLFREP_Edit", "VOLFREP_Update")),
+    (
+        QT_TRANSLATE_NOOP("VOLFREP_MakeGroup", "Make"),
+        ("VOLFREP_CellLibrary", "VOLFREP_OpenFaces", "VOLFREP_PreviewOnly"),
+    ),
+    (QT_TRANSLATE_NOOP("VOLFREP_LookGroup", "Look"), ("VOLFREP_SectionView", "VOLFREP_ColourBy")),
+    (
+        QT_TRANSLATE_NOOP("VOLFREP_CheckGroup", "Check"),
+        ("VOLFREP_PrintCheck", "VOLFREP_CheckMesh", "VOLFREP_Statistics"),
+    ),
+    (
+        QT_TRANSLATE_NOOP("VOLFREP_LoadsGroup", "Loads"),
+        (
+            "VOLFREP_SizeLattice",
+            "VOLFREP_StrutResults",
+            "VOLFREP_FemAnalysis",
+            "VOLFREP_DesignStudy",
+        ),
+    ),
+    (QT_TRANSLATE_NOOP("VOLFREP_ExportGroup", "Export"), ("VOLFREP_Export", "VOLFREP_ToSolid")),
+)
+#: The drop-downs, by their names.
+GROUPS = {
+    f"VOLFREP_{title}Group": CommandGroup(f"VOLFREP_{title}Group", title, names)
+    for title, names in PARTS
+    if title
 }
+#: The one toolbar: commands and drop-downs.
+TOOLBAR = [*PARTS[0][1], *GROUPS]
 #: The submenu of that name.
 EXAMPLES = ["VOLFREP_ExampleBracket", "VOLFREP_ExamplePistonRod"]
 
 
 def register_commands() -> None:
     """Make the commands known to FreeCAD."""
-    for name, command in COMMANDS.items():
+    for name, command in (COMMANDS | GROUPS).items():
         Gui.addCommand(name, command)
 
 
 def applicable_commands() -> list[str]:
-    """The commands of the toolbars that apply to the selection, for a context menu."""
-    names = [name for names in TOOLBARS.values() for name in names]
+    """The commands of the toolbar that apply to the selection, for a context menu."""
+    names = [name for _, names in PARTS for name in names]
     return [name for name in names if COMMANDS[name].IsActive()]

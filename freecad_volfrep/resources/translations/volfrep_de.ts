@@ -1249,6 +1249,13 @@
     </message>
   </context>
   <context>
+    <name>VOLFREP_CheckGroup</name>
+    <message>
+      <source>Check</source>
+      <translation>Prüfen</translation>
+    </message>
+  </context>
+  <context>
     <name>VOLFREP_CheckMesh</name>
     <message>
       <source>Check Mesh</source>
@@ -1330,6 +1337,13 @@
     </message>
   </context>
   <context>
+    <name>VOLFREP_ExportGroup</name>
+    <message>
+      <source>Export</source>
+      <translation>Ausgeben</translation>
+    </message>
+  </context>
+  <context>
     <name>VOLFREP_FemAnalysis</name>
     <message>
       <source>FEM Analysis</source>
@@ -1360,6 +1374,27 @@
     <message>
       <source>Make the selected solid light: a closed skin and a strut lattice inside</source>
       <translation>Macht den gewählten Volumenkörper leicht: eine geschlossene Haut und innen ein Strebengitter</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_LoadsGroup</name>
+    <message>
+      <source>Loads</source>
+      <translation>Lasten</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_LookGroup</name>
+    <message>
+      <source>Look</source>
+      <translation>Ansehen</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_MakeGroup</name>
+    <message>
+      <source>Make</source>
+      <translation>Herstellen</translation>
     </message>
   </context>
   <context>
@@ -3516,10 +3551,6 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>Examples</source>
       <translation>Beispiele</translation>
-    </message>
-    <message>
-      <source>VOLFREP Results</source>
-      <translation>VOLFREP, Ergebnisse</translation>
     </message>
   </context>
 </TS>

@@ -1249,6 +1249,13 @@
     </message>
   </context>
   <context>
+    <name>VOLFREP_CheckGroup</name>
+    <message>
+      <source>Check</source>
+      <translation>Controllare</translation>
+    </message>
+  </context>
+  <context>
     <name>VOLFREP_CheckMesh</name>
     <message>
       <source>Check Mesh</source>
@@ -1330,6 +1337,13 @@
     </message>
   </context>
   <context>
+    <name>VOLFREP_ExportGroup</name>
+    <message>
+      <source>Export</source>
+      <translation>Esportare</translation>
+    </message>
+  </context>
+  <context>
     <name>VOLFREP_FemAnalysis</name>
     <message>
       <source>FEM Analysis</source>
@@ -1360,6 +1374,27 @@
     <message>
       <source>Make the selected solid light: a closed skin and a strut lattice inside</source>
       <translation>Alleggerisce il solido selezionato: un guscio chiuso e dentro un reticolo di aste</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_LoadsGroup</name>
+    <message>
+      <source>Loads</source>
+      <translation>Carichi</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_LookGroup</name>
+    <message>
+      <source>Look</source>
+      <translation>Guardare</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_MakeGroup</name>
+    <message>
+      <source>Make</source>
+      <translation>Creare</translation>
     </message>
   </context>
   <context>
@@ -3516,10 +3551,6 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>Examples</source>
       <translation>Esempi</translation>
-    </message>
-    <message>
-      <source>VOLFREP Results</source>
-      <translation>VOLFREP, risultati</translation>
     </message>
   </context>
 </TS>

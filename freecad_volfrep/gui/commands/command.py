@@ -99,12 +99,12 @@ class CommandGroup:
     Attributes:
         name: that FreeCAD knows it by.
         text: of what its commands do.
-        names: of the commands.
+        commands: that are in it.
     """
 
     name: str
     text: str
-    names: tuple[str, ...]
+    commands: tuple[Command, ...]
 
     def GetResources(self) -> dict[str, str]:  # noqa: N802
         """Its text; icons and tips are its commands'."""
@@ -112,7 +112,7 @@ class CommandGroup:
 
     def GetCommands(self) -> tuple[str, ...]:  # noqa: N802
         """The names of the commands in it."""
-        return self.names
+        return tuple(command.name for command in self.commands)
 
     def GetDefaultCommand(self) -> int:  # noqa: N802
         """The first one's number."""
@@ -120,8 +120,6 @@ class CommandGroup:
 
     def IsActive(self) -> bool:  # noqa: N802
         """Whether one of them can be used now."""
-        from .table import COMMANDS
-
-        reasons = [COMMANDS[name].why_not() for name in self.names]
+        reasons = [command.why_not() for command in self.commands]
         tell_in_group(self.name, reasons)
         return not all(reasons)

@@ -303,9 +303,9 @@ PARTS: tuple[tuple[str, tuple[str, ...]], ...] = (
 )
 #: The drop-downs, by their names.
 GROUPS = {
-    f"VOLFREP_{title}Group": CommandGroup(f"VOLFREP_{title}Group", title, names)
+    name: CommandGroup(name, title, tuple(COMMANDS[one] for one in names))
     for title, names in PARTS
-    if title
+    if (name := f"VOLFREP_{title}Group") and title
 }
 #: The one toolbar: commands and drop-downs.
 TOOLBAR = [*PARTS[0][1], *GROUPS]

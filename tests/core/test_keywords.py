@@ -75,11 +75,57 @@ def test_a_field_is_points_and_values() -> None:
 
 
 @pytest.mark.parametrize(
+    "value",
+    [
+        lambda points: 1.0 + points[:, 0] / 50.0,
+        "1 + x / 50",
+        (np.array([[0.0, 0, 0], [10, 0, 0]]), np.array([1.0, 1.2])),
+    ],
+    ids=["function", "formula", "points"],
+)
+def test_radius_thickness_and_density_are_given_by_place(value: Any) -> None:
+    def box(size: float) -> Any:
+        return np.array([[0.0, 0, 0], [10, 10, 10]])
+
+    at = [[0, 0, 0], [10, 0, 0]]
+    made = specified(None, {"strut_radius": value}, None, box)
+    assert made.radius_grading is not None
+    assert made.radius_grading.radii(np.array(at, float), box(1), lambda p: p) == pytest.approx(
+        [1.0, 1.2]
+    )
+    sheet = specified(None, {"cell": "Gyroid", "wall_thickness": value}, None, box)
+    assert sheet.thicknesses == pytest.approx((1.0, 1.2))
+    points = specified(None, {"network": "voronoi", "network_density": value}, None, box).network
+    assert points.field(at) == pytest.approx([1.0, 1.2])
+    assert points.formula(np.array([0.0, 1.0])) == pytest.approx([1.0, 1.2])
+
+
+def test_a_density_by_place_is_the_even_lattices_radius_there() -> None:
+    given = {"cell": "BCC", "relative_density": lambda points: 0.1 + points[:, 0] / 100.0}
+    made = specified(None, given, None, lambda size: np.array([[0.0, 0, 0], [20, 20, 20]]))
+    assert made.radius_grading is not None
+    for place, density in ((0, 0.1), (20, 0.3)):
+        radius = made.radius_grading.field([[place, 0, 0]])[0]
+        assert volfrep.properties("BCC", 10, radius).relative_density == pytest.approx(density)
+
+
+def test_a_function_needs_a_part() -> None:
+    with pytest.raises(volfrep.VolfrepError, match="function of places in a part"):
+        specified(None, {"strut_radius": lambda points: points[:, 0]}, None)
+
+
+def test_a_radius_by_place_and_a_grading_are_one_too_many() -> None:
+    given = {"strut_radius": ([[0, 0, 0]], [1.0]), "radius_grading": "skin", "radius_end": 2}
+    with pytest.raises(volfrep.VolfrepError, match="leave 'radius_grading' out"):
+        specified(None, given, None)
+
+
+@pytest.mark.parametrize(
     ("given", "message"),
     [
         ({"cel": "BCC"}, "did you mean 'cell'"),
         ({"radius_strat": 1.0}, "did you mean 'radius_start'"),
-        ({"origin": 5}, "'origin' does not take 5"),
+        ({"origin": 5}, "origin: 5 is no list such as"),
         ({"cell": {"nodes": []}}, "struts are missing"),
     ],
 )

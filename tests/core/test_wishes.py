@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What a script's author wants, each in a few lines with public names only."""
+"""What a script's author wants beyond the gallery (test_gallery): notebooks, refusals, files."""
 
 from __future__ import annotations
 
@@ -23,14 +23,16 @@ force = [0, 0, -100]
 """
 
 
-def test_a_trimesh_is_filled_and_told() -> None:
+def test_a_part_shows_itself_in_a_notebook() -> None:
     box = trimesh.creation.box((20, 20, 10))
     part = volfrep.fill(box, cell="BCC", cell_size=10, strut_radius=1, shell=0, resolution=8)
     assert part.nodes.shape == (len(part.struts.nodes), 3)
-    assert part.mass == pytest.approx(part.report.volume_mm3 / 1000.0)
     assert f"{part.report.struts:,} struts" in repr(part)
-    assert "<td>" in part._repr_html_()
+    shown = part._repr_html_()
+    assert shown.count("<path ") == len(part.struts.struts)
+    assert f"<td>{part.report.struts}</td>" in shown
     assert part.properties().relative_density == volfrep.properties("BCC", 10, 1).relative_density
+    assert part.fields["to_surface"].max() <= 10.0
 
 
 def test_layers_of_a_part(tmp_path: Path) -> None:
@@ -54,4 +56,8 @@ def test_struts_are_sized_for_loads(tmp_path: Path) -> None:
 
 def test_a_goal_that_there_is_not(tmp_path: Path) -> None:
     with pytest.raises(volfrep.VolfrepError, match="did you mean 'max_stress'"):
-        volfrep.size(trimesh.creation.box((9, 9, 9)), tmp_path / "loads.toml", max_stres=3)
+        volfrep.size(
+            trimesh.creation.box((9, 9, 9)),
+            tmp_path / "loads.toml",
+            max_stres=3,  # type: ignore[call-arg]
+        )

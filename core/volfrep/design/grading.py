@@ -22,9 +22,12 @@ from ..util.numbers import direction, number, point, whole
 from ..util.types import Floats
 from .field_files import read_points
 from .profile import Profile
+from .sampled_field import SampledField
 from .scattered_field import PointField, TransferCurve, default_curve
 
 Vector = tuple[float, float, float]
+#: What a quantity may follow: values at points, or samples of a function.
+Field = PointField | SampledField
 
 MAPS = ("cartesian", "cylindrical", "spherical")
 RADIUS_BY = ("direction", "skin", "core", "field")
@@ -88,7 +91,7 @@ class RadiusGrading:
     profile: Profile
     direction: Vector = (1.0, 0.0, 0.0)
     reach: float = 5.0
-    field: PointField | str | None = None
+    field: Field | str | None = None
     column: str | None = None
     curve: tuple[tuple[float, float], ...] = ()
 
@@ -138,10 +141,10 @@ class RadiusGrading:
             )
         if self.by == "field":
             values = self.field
-            assert isinstance(values, PointField)
+            assert isinstance(values, Field)
             if self.curve:
                 return self._transfer()(values(points))
-            ends = default_curve(values.values, self.profile.start, self.profile.end)
+            ends = default_curve(values.range, self.profile.start, self.profile.end)
             return ends(values(points))
         s = np.clip(depth(points) / self.reach, 0.0, 1.0)
         return self.profile(1.0 - s if self.by == "skin" else s)

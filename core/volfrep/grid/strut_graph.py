@@ -4,13 +4,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..design.cells import NODE_TOLERANCE, UnitCell, joint_radius
 from ..mesh.triangle_mesh import TriangleMesh
+from ..util.frames import make_frame
 from ..util.types import Bools, Floats, Ints
+
+if TYPE_CHECKING:
+    import pandas
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,6 +56,25 @@ class Wireframe(Graph):
 
     radii: Floats
     joint_radii: Floats
+
+    def to_frame(self) -> pandas.DataFrame:
+        """A row for each strut: nodes, places, length and radii, mm; needs pandas.
+
+        Raises:
+            VolfrepError: pandas is missing.
+
+        >>> import volfrep
+        >>> part = volfrep.block((1, 1, 1), cell="BCC", cell_size=10, strut_radius=1)
+        >>> part.struts.to_frame()["length"].round(2).unique().tolist()  # doctest: +SKIP
+        [8.66]
+        """
+        ends = self.nodes[self.struts]
+        lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+        columns: dict[str, Any] = {"node": self.struts[:, 0], "other_node": self.struts[:, 1]}
+        columns |= {name: ends[:, 0, k] for k, name in enumerate("xyz")}
+        columns |= {f"other_{name}": ends[:, 1, k] for k, name in enumerate("xyz")}
+        radii = {"radius": self.radii[:, 0], "other_radius": self.radii[:, 1]}
+        return make_frame({**columns, "length": lengths, **radii})
 
 
 #: The struts of what has none.

@@ -85,6 +85,32 @@ def read_load_cases(path: str | os.PathLike[str], solid: TriangleMesh | None = N
         raise VolfrepError(f"{path}, {error}") from error
 
 
+def load_cases_of(entries: Mapping[str, Any], solid: TriangleMesh | None = None) -> LoadCases:
+    """The material and the load cases of tables, as those of a file, in Python.
+
+    Args:
+        entries: dicts and lists with the entries of a file (docs/loads.md); files that they name
+            are looked for from where the program runs.
+        solid: as of `read_load_cases`.
+
+    Raises:
+        VolfrepError: the first entry that makes no sense, by its place.
+    """
+    try:
+        return _Reader(Path(), solid).cases(_plain(entries))
+    except VolfrepError as error:
+        raise VolfrepError(f"Loads, {error}") from error
+
+
+def _plain(value: Any) -> Any:
+    """Tuples and arrays as lists, numpy's numbers as Python's."""
+    if isinstance(value, Mapping):
+        return {str(name): _plain(item) for name, item in value.items()}
+    if isinstance(value, (np.ndarray, np.generic)):
+        return value.tolist()
+    return [_plain(item) for item in value] if isinstance(value, (list, tuple)) else value
+
+
 class _Reader:
     """Reads the tables of a file; every method takes the place of its table, for messages."""
 

@@ -133,6 +133,13 @@ class CatalogueCell:
         logs = _spline(self.ratios, np.log(known))(places)
         return float(np.exp(np.interp(np.log(density), logs, places)))
 
+    def radius_of_density(self, density: float, cell_size: float) -> float | None:
+        """The radius in mm of a relative density; None where it lies outside the catalogue."""
+        known = self.values[:, 0]
+        if not known[0] <= density <= known[-1]:
+            return None
+        return cell_size * self.ratio_of_density(density)
+
     def joint(self, ratio: float, section: str = "circle") -> Ends:
         """The ends fitted to the cell at an r / L; outside the catalogue those of its border."""
         place = np.log(np.clip(ratio, self.ratios[0], self.ratios[-1]))

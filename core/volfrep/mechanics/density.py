@@ -104,6 +104,36 @@ def radius_of_density(cell: UnitCell, density: float, fillet: float = 0.0) -> fl
         ) from reach
 
 
+def radii_of_densities(cell: UnitCell, densities: Floats, fillet: float = 0.0) -> Floats:
+    """Strut radii, in units of L, of endless lattices of many relative densities.
+
+    Monotone between nine exact ones; where the density varies from cell to cell, each place has
+    the radius of the even lattice of its density.
+
+    Args:
+        cell: the unit cell.
+        densities: of any shape.
+        fillet: as of `relative_density`.
+
+    Raises:
+        VolfrepError: no radius gives the smallest or the largest of them.
+
+    >>> from volfrep.design.cells import find_cell
+    >>> radii_of_densities(find_cell("BCC"), np.array([0.1, 0.243, 0.3])).round(2).tolist()
+    [0.06, 0.1, 0.11]
+    """
+    from scipy.interpolate import PchipInterpolator  # slow to import
+
+    low, high = float(densities.min()), float(densities.max())
+    first, last = (radius_of_density(cell, density, fillet) for density in (low, high))
+    if not first < last:
+        return np.full(densities.shape, first)
+    radii = np.linspace(first, last, 9)
+    inner = [relative_density(cell, radius, fillet).value for radius in radii[1:-1]]
+    curve = PchipInterpolator([low, *inner, high], radii)
+    return np.asarray(np.clip(curve(densities), first, last))
+
+
 def _shares(endless: EndlessCell, radius: float, fillet: float) -> Floats:
     """(SETS,) estimates of the solid share of the cell.
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,6 +15,7 @@ from ..design.cells import UnitCell, find_cell
 from ..design.kinds.strut_cells import MOST_CROSSING, crossing_struts
 from ..design.spec_parts import Grid, Struts
 from ..util.errors import VolfrepError
+from ..util.frames import make_frame
 from ..util.types import Floats
 from .conductance import conductance
 from .density import radius_of_density, relative_density
@@ -22,6 +23,9 @@ from .homogenise import Homogenised, homogenise
 from .materials import SolidMaterial, find_material
 from .strength import STRESSES, stresses
 from .tensor import moduli, young
+
+if TYPE_CHECKING:
+    import pandas
 
 #: Poisson's ratio of the solid where no material is given.
 POISSON = 0.3
@@ -88,6 +92,16 @@ class CellProperties:
         if way.shape != (3,) or not 0.0 < np.linalg.norm(way) < np.inf:
             raise VolfrepError(f"A direction is three numbers, not all 0, not {direction!r}.")
         return float(young(self.stiffness, way))
+
+    def to_frame(self) -> pandas.DataFrame:
+        """A row for each figure, by its name: its value and its error; needs pandas.
+
+        Raises:
+            VolfrepError: pandas is missing.
+        """
+        values = {"relative_density": self.relative_density, **self.values}
+        columns = {"value": list(values.values()), "error": [self.errors[n] for n in values]}
+        return make_frame(columns, list(values))
 
     def as_dict(self) -> dict[str, Any]:
         """The figures as plain JSON values; the errors under ``errors``, by the same names."""

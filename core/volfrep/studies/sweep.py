@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -34,6 +34,9 @@ from .running.executors import Words, told_state
 from .running.scheduling import How, Job, weight
 from .study import Front, Study, read_study
 from .table import Table, table_of, write_csv, write_parquet
+
+if TYPE_CHECKING:
+    import pandas
 
 #: The files at the top of a study's folder: tables, and the page.
 TOLD = ("runs.csv", "runs.parquet", "index.html")
@@ -66,6 +69,14 @@ class Swept:
     def count(self, state: str) -> int:
         """Designs in a state: ``done``, ``failed`` or ``open``."""
         return self.table.column("state").count(state)
+
+    def to_frame(self) -> pandas.DataFrame:
+        """The table as a frame of pandas, a row for each design.
+
+        Raises:
+            VolfrepError: pandas is missing.
+        """
+        return self.table.to_frame()
 
 
 def sweep(

@@ -11,16 +11,20 @@ import io
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..util.errors import VolfrepError
 from ..util.files import replacing
+from ..util.frames import make_frame
 from ..util.types import Floats
 from .actions import ACTIONS
 from .designs import Design
 from .records import Record
+
+if TYPE_CHECKING:
+    import pandas
 
 #: Before the name of an action, in the column of its time.
 SECONDS = "seconds."
@@ -63,6 +67,14 @@ class Table:
     def dicts(self) -> list[dict[str, Any]]:
         """The rows by the names of their columns."""
         return [dict(zip(self.columns, row, strict=True)) for row in self.rows]
+
+    def to_frame(self) -> pandas.DataFrame:
+        """It as a frame of pandas.
+
+        Raises:
+            VolfrepError: pandas is missing.
+        """
+        return make_frame({name: self.column(name) for name in self.columns})
 
 
 def table_of(
@@ -135,13 +147,10 @@ def write_parquet(table: Table, path: Path) -> bool:
         VolfrepError: the file cannot be written.
     """
     try:
-        import pandas
-    except ImportError:
-        return False
-    frame = pandas.DataFrame({name: table.column(name) for name in table.columns})
-    try:
-        data = frame.to_parquet(index=False)
-    except ImportError:  # neither pyarrow nor fastparquet
+        import pandas  # noqa: F401
+
+        data = table.to_frame().to_parquet(index=False)
+    except ImportError:  # no pandas, or neither pyarrow nor fastparquet
         return False
     with replacing(path) as file:
         file.write(data)

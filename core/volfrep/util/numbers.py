@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from .errors import VolfrepError
 
@@ -58,12 +58,16 @@ def number(name: str, value: float, unit: str, *, positive: bool | None) -> floa
     return result
 
 
-def whole(name: str, value: float, least: int, most: int) -> int:
+def whole(name: str, value: Any, least: int, most: int) -> int:
     """`value` as a whole number of a range.
 
     Raises:
         VolfrepError: it is none; the text begins with the name.
     """
+    if isinstance(value, (str, bytes)) or not hasattr(value, "__int__"):
+        raise VolfrepError(
+            f"The {name} must be a whole number from {least} to {most}, not {value!r}."
+        )
     if not least <= value <= most or value != int(value):
         told = f"{value:.6g}" if abs(value) < 1e300 else "beyond 1e300"
         raise VolfrepError(f"The {name} must be a whole number from {least} to {most}, not {told}.")
@@ -72,8 +76,8 @@ def whole(name: str, value: float, least: int, most: int) -> int:
 
 def point(name: str, values: Sequence[float]) -> None:
     """Raise a `VolfrepError` where three numbers are no place, in mm."""
-    if len(values) != 3:
-        raise VolfrepError(f"The {name} must be three coordinates.")
+    if not hasattr(values, "__len__") or len(values) != 3:
+        raise VolfrepError(f"The {name} must be three coordinates, not {values!r}.")
     for value in values:
         number(name, value, "mm", positive=None)
 
@@ -84,7 +88,11 @@ def direction(name: str, values: Sequence[float]) -> None:
     So it is within a range: beyond that, products of them would be lost.
     """
     least, most = RANGES[""]
-    length = math.hypot(*values) if len(values) == 3 else math.nan
+    is_three = hasattr(values, "__len__") and len(values) == 3
+    try:
+        length = math.hypot(*values) if is_three else math.nan
+    except TypeError:
+        length = math.nan
     if not math.isfinite(length):
         raise VolfrepError(f"The {name} must be three finite numbers.")
     if not any(values):

@@ -19,6 +19,7 @@ from volfrep.design.grading import CellMap, Orientation, RadiusGrading, SizeGrad
 from volfrep.design.graphs import GivenGraph, RandomGraph, StretchedCells, graph
 from volfrep.design.openings import DrainHoles, DrainPlace, OpenPatch, OpenPlane, SmoothFace
 from volfrep.design.profile import Profile
+from volfrep.design.sampled_field import SampledField
 from volfrep.design.scattered_field import PointField
 from volfrep.design.skins import kept_bodies, own_faces
 from volfrep.design.skins.kept_bodies import KeptBody
@@ -39,9 +40,11 @@ TOLD_ONLY = {
     PeriodicSurface: {"about", "also"},
     GivenGraph: {"source", "thickness", "layers", "cell"},  # of which the nodes were made
     KeptBody: {"source", "name"},
+    SampledField: {"source"},
 }
 POINTS, PATCH = np.eye(3), np.arange(9.0).reshape(1, 3, 3) ** 2
 FIELD = PointField(POINTS, [1.0, 2.0, 3.0])
+SAMPLED = SampledField(np.zeros(3), np.ones(3), np.arange(8.0).reshape(2, 2, 2))
 OTHER_FIELD = PointField(POINTS, [1.0, 2.0, 3.5])
 LINEAR, STEEPER = Profile("linear", 0.5, 1.0), Profile("linear", 0.5, 1.5)
 PLANE, OTHER_PLANE = OpenPlane((0, 0, 0), (0, 0, 1)), OpenPlane((0, 0, 1), (0, 0, 1))
@@ -87,6 +90,10 @@ OTHERS = {
             "by": "skin", "profile": STEEPER, "direction": (0, 1, 0), "reach": 4.0,
             "field": OTHER_FIELD, "column": "T", "curve": ((1.0, 0.5), (3.0, 1.0)),
         },
+    ),
+    SampledField: (
+        SAMPLED,
+        {"corner": np.ones(3), "spacing": np.full(3, 2.0), "values": np.ones((2, 2, 2))},
     ),
     PointField: (FIELD, {"points": 2 * POINTS, "values": [1.0, 2.0, 3.5], "source": "a.csv"}),
     CellMap: (

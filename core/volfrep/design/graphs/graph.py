@@ -13,6 +13,7 @@ from ...util.content import content_of, freeze
 from ...util.errors import VolfrepError
 from ...util.numbers import number, number_rows
 from ..expression import SAMPLES, Expression, compile_expression
+from ..sampled_field import SampledField
 from ..scattered_field import PointField
 
 #: Random networks: edges of the points' Voronoi cells, or between points that are neighbours.
@@ -103,7 +104,7 @@ class RandomGraph:
     density: str = ""
     shortest: float = 0.0
     least_angle: float = 25.0
-    field: PointField | None = None
+    field: PointField | SampledField | None = None
     on_wall: bool = False
 
     def __post_init__(self) -> None:

@@ -5,19 +5,25 @@ from __future__ import annotations
 
 import dataclasses
 import difflib
-from collections.abc import Mapping, Sequence
+import os
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import is_dataclass
 from typing import Any
 
 import numpy as np
 
 from ...util.errors import VolfrepError
+from ...util.numbers import number
+from ...util.types import Floats
 from ..cells import make_cell
+from ..grading import Field
 from ..graphs import make_network
-from ..scattered_field import PointField
 from ..spec import LatticeSpec
-from .parameter import REPEATED
+from .field_keywords import is_field, is_sampled, with_fields
+from .parameter import REPEATED, Parameter
 from .specification import merge_values, specification, values_of
 from .table import BY_NAME, PARAMETERS
+from .values import from_plain
 
 #: Fields of a `LatticeSpec`.
 FIELDS = {field.name for field in dataclasses.fields(LatticeSpec)}
@@ -58,12 +64,8 @@ def spec_by_keys(
     Raises:
         VolfrepError: a value makes no sense, or has no effect.
     """
-    fields = {
-        name: value
-        for name, value in given.items()
-        if name not in KEYS or (name in FIELDS and not _is_word(name, value))
-    }
-    keys = {name: _plain(name, value) for name, value in given.items() if name not in fields}
+    fields = {n: value for n, value in given.items() if n not in KEYS or _is_object(n, value)}
+    keys = {name: value for name, value in given.items() if name not in fields}
     base = {} if spec is None else values_of(spec)
     made = specification(merge_values(keys, base))
     if made.target is not None and made.target.aim == "stiffness" and young != 1.0:
@@ -71,33 +73,36 @@ def spec_by_keys(
     return dataclasses.replace(made, **fields) if fields else made
 
 
-def _is_word(name: str, value: object) -> bool:
-    return isinstance(value, str) if name in WORDS else name not in ("open_faces", "keep_solid")
+def _is_object(name: str, value: object) -> bool:
+    """Whether a value is what a `LatticeSpec` holds, and no entry of a file."""
+    if name not in FIELDS or name == "cell":
+        return False
+    if name == "keep_solid" and isinstance(value, tuple):
+        return any(map(is_dataclass, value))
+    return not (value is None or isinstance(value, (str, int, float, tuple)))
 
 
-def _plain(name: str, value: Any) -> Any:
-    """Lists and arrays as tuples; one row of a key that takes several as the only one."""
-    if isinstance(value, np.ndarray):
-        value = value.tolist()
-    if not isinstance(value, (list, tuple)):
-        return value
-    rows = tuple(tuple(row) if isinstance(row, (list, np.ndarray)) else row for row in value)
-    if BY_NAME[name].kind in REPEATED and rows and isinstance(rows[0], (int, float)):
-        return (rows,)
-    return rows
-
-
-def own_data(given: Mapping[str, Any]) -> dict[str, Any]:
-    """The keywords with what arrays, graphs and dicts stand for.
+def own_data(
+    given: Mapping[str, Any],
+    box: Callable[[float], Floats] | None = None,
+    cell_size: float = 10.0,
+) -> dict[str, Any]:
+    """The keywords with what plain values, arrays, graphs, functions and dicts stand for.
 
     `cell` may be a dict with the ``nodes`` and ``struts`` of a cell's file, `network` a pair of
-    nodes and struts, a mesh or a `networkx.Graph`, `radius_field` a pair of points and values.
+    nodes and struts, a mesh or a `networkx.Graph`; fields are those of `field_keywords`.
+
+    Args:
+        given: by the names of `KEYS` and `FIELDS`.
+        box: gives the (2, 3) box in which functions are sampled, of a cell size, mm; None for no
+            part.
+        cell_size: L, mm, where none is given.
 
     Raises:
         VolfrepError: they make no sense.
     """
-    result = dict(given)
-    cell, network, field = (result.get(n) for n in ("cell", "network", "radius_field"))
+    result = {name: _value(name, value) for name, value in given.items()}
+    cell, network = result.get("cell"), result.get("network")
     if isinstance(cell, Mapping):
         missing = [name for name in ("nodes", "struts") if name not in cell]
         if missing:
@@ -111,11 +116,60 @@ def own_data(given: Mapping[str, Any]) -> dict[str, Any]:
         )  # fmt: skip
     if network is not None and not isinstance(network, str):
         result["network"] = as_graph(network)
-    if isinstance(field, tuple) and len(field) == 2 and not isinstance(field, PointField):
-        result["radius_field"] = PointField(
-            np.asarray(field[0], float), np.asarray(field[1], float)
-        )
-    return result
+    size = result.get("cell_size")
+    size = cell_size if size is None else float(size)
+    bounds = None
+    if box is not None and any(is_sampled(name, value) for name, value in result.items()):
+        bounds = box(number("cell size", size, "mm", positive=True))
+    return with_fields(result, bounds, size)
+
+
+def _value(name: str, value: Any) -> Any:
+    """The value of a keyword as the key of that name in a file takes it; objects as they are.
+
+    Raises:
+        VolfrepError: it is of no kind that the key takes; the sentence begins with the name.
+    """
+    if name not in KEYS or name in ("cell", "stiffness") or is_field(name, value):
+        return value
+    row, plain = BY_NAME[name], _plain_value(value)
+    if plain is None or not isinstance(plain, (str, int, float, list)):
+        of_own = name in FIELDS or (name.endswith("_field") and isinstance(value, Field))
+        if plain is None or (of_own and not callable(value) and not isinstance(value, bytes)):
+            return value
+        kind = type(value).__name__
+        raise VolfrepError(f"The parameter '{name}' does not take a {kind}: {_taken(row)}.")
+    if name == "network" and isinstance(plain, list):
+        return value
+    if name == "keep_solid" and isinstance(value, (list, tuple)) and any(map(is_dataclass, value)):
+        return value
+    if row.kind in REPEATED and plain and isinstance(plain, list) and _is_number(plain[0]):
+        plain = [plain]
+    try:
+        made = from_plain(row, plain)
+    except VolfrepError as error:
+        raise VolfrepError(f"{name}: {error}") from error
+    return None if row.is_none and name in FIELDS and not made else made
+
+
+def _plain_value(value: Any) -> Any:
+    """Arrays and tuples as lists, numpy's numbers as Python's."""
+    if isinstance(value, (np.ndarray, np.generic)):
+        return value.tolist()
+    if isinstance(value, (list, tuple)):
+        return [_plain_value(item) for item in value]
+    return os.fspath(value) if isinstance(value, os.PathLike) else value
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def _taken(row: Parameter) -> str:
+    """What a parameter takes, in words."""
+    if row.choices:
+        return f"choose {', '.join(row.choices)}"
+    return f"it is a {row.kind.replace('_', ' ')}" + f" in {row.unit}" * bool(row.unit)
 
 
 def as_graph(network: Any) -> Any:

@@ -12,11 +12,11 @@ from typing import Any
 
 from ...util.errors import VolfrepError
 from ..cells import any_cell, find_cell
-from ..grading import CellMap, Orientation, RadiusGrading, SizeGrading, read_point_field
+from ..grading import CellMap, Field, Orientation, RadiusGrading, SizeGrading, read_point_field
 from ..graphs import GivenGraph, RandomGraph, read_network
 from ..openings import DrainHoles, DrainPlace, OpenFace, OpenPatch, OpenPlane, SmoothFace
 from ..profile import Profile
-from ..scattered_field import PointField, read_curve
+from ..scattered_field import read_curve
 from ..skins.kept_bodies import KeptBody, read_body
 from ..skins.own_faces import FaceSkin, KeptFace
 from ..spec import LatticeSpec
@@ -245,7 +245,7 @@ def _word(kind: str) -> str:
     return "formula" if kind == "expression" else kind
 
 
-def _radius_file(field: PointField | str) -> str:
+def _radius_file(field: Field | str) -> str:
     return field if isinstance(field, str) else field_file(field, "the radius follows")
 
 

@@ -13,7 +13,7 @@ from ...util.errors import VolfrepError
 from .parameter import REPEATED, SHAPES, Parameter
 
 if TYPE_CHECKING:
-    from ..scattered_field import PointField
+    from ..grading import Field
 
 #: So many of the table's unit is one of these.
 SCALES: dict[str, dict[str, float]] = {
@@ -189,7 +189,7 @@ def is_file(source: str) -> bool:
     return Path(source).is_file()
 
 
-def field_file(field: PointField, what: str) -> str:
+def field_file(field: Field, what: str) -> str:
     """The file that a field is from; `what` says in an error what follows it.
 
     Raises:

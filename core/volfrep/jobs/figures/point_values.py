@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...design.scattered_field import PointField
+from ...design.grading import Field
 from ...design.spec import LatticeSpec
 from ...grid.placement import part_map
 from ...mesh.triangle_mesh import TriangleMesh
@@ -151,7 +151,7 @@ def values_in_space(
     """
     if quantity == "Field":
         field = None if spec.radius_grading is None else spec.radius_grading.field
-        if not isinstance(field, PointField):
+        if not isinstance(field, Field):
             raise VolfrepError("No field drives the radius: choose a file or a FEM result first.")
         return np.asarray(field(points), np.float64)
     if not spec.kind.has_grid:

@@ -11,7 +11,7 @@ from __future__ import annotations
 import os
 import time
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -193,6 +193,18 @@ class PartLattice(ABC):
         return self.cells.warnings if self.cells is not None else ()
 
 
+def block_counts(count: object) -> tuple[int, int, int]:
+    """The cells of a block along x, y, z.
+
+    Raises:
+        VolfrepError: they are not three whole numbers above 0.
+    """
+    if isinstance(count, str) or not isinstance(count, Iterable) or len(tuple(count)) != 3:
+        raise VolfrepError(f"The count must be three whole numbers, not {count!r}.")
+    x, y, z = (whole("count", n, 1, MOST_CELLS) for n in count)
+    return x, y, z
+
+
 class BlockLattice(ABC):
     """A free-standing block of whole cells.
 
@@ -205,10 +217,7 @@ class BlockLattice(ABC):
     """
 
     def __init__(self, kind: LatticeKind, count: Sequence[int]) -> None:
-        if len(count) != 3:
-            raise VolfrepError(f"The count must be three whole numbers, not {list(count)}.")
-        x, y, z = (whole("count", n, 1, MOST_CELLS) for n in count)
-        self.kind, self.spec, self.count = kind, kind.spec, (x, y, z)
+        self.kind, self.spec, self.count = kind, kind.spec, block_counts(count)
 
     @property
     @abstractmethod

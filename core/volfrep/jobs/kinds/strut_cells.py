@@ -133,15 +133,20 @@ class StrutCellKind(LatticeKind):
     @staticmethod
     def properties(cell: UnitCell, cell_size: float, wish: EndlessWish) -> CellProperties:
         """Off the catalogue where it has the cell, else homogenised."""
-        from ...mechanics.catalogue import known_properties
+        from ...mechanics.catalogue import known_cell, known_properties
         from ...mechanics.summary import cell_properties
 
         radius = wish.strut_radius
         of_walls = wish.wall_kind or wish.wall_formula
         if wish.given not in (["strut radius"], ["relative density"]) or of_walls:
             raise VolfrepError("Of struts give either a strut radius or a relative density.")
-        if radius is not None and not (wish.exact or wish.fillet or wish.along):
-            known = known_properties(cell, cell_size, radius, wish.material)
+        if not (wish.exact or wish.fillet or wish.along):
+            listed, near = known_cell(cell), radius
+            if wish.relative_density is not None and listed is not None:
+                near = listed.radius_of_density(wish.relative_density, cell_size)
+            known = None
+            if near is not None:
+                known = known_properties(cell, cell_size, near, wish.material)
             if known is not None:
                 return known
         return cell_properties(

@@ -1,0 +1,367 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The calls that make a part: fill, size, block, a graph, layers."""
+
+from __future__ import annotations
+
+import dataclasses
+import os
+from collections.abc import Mapping, Sequence
+from concurrent.futures import Executor
+from typing import TYPE_CHECKING, Any, Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..design.cells import find_cell
+from ..design.graphs import read_network
+from ..design.parameters.field_keywords import is_sampled
+from ..design.parameters.keywords import (
+    as_graph,
+    refuse_unknown,
+)
+from ..design.spec import LatticeSpec
+from ..io.solid import Solid, check_solid, read_solid
+from ..mesh.triangle_mesh import TriangleMesh
+from ..util.cache import StageCache
+from ..util.errors import VolfrepError
+from ..util.progress import ProgressCallback
+from ..util.progress_bar import shown
+from .part import Part
+from .wanted_spec import accepted, specified
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ..design.parameters.typed import Keywords, SizeKeywords
+    from ..jobs.slices import Layers
+    from ..loads.load_cases import LoadCases
+
+
+class MeshLike(Protocol):
+    """Anything with vertices and faces, such as a `trimesh.Trimesh`."""
+
+    @property
+    def vertices(self) -> ArrayLike:
+        """(n, 3) in mm."""
+
+    @property
+    def faces(self) -> ArrayLike:
+        """(m, 3) vertex numbers, counter-clockwise from outside."""
+
+
+def fill(
+    part: str | os.PathLike[str] | TriangleMesh | MeshLike | tuple[ArrayLike, ArrayLike],
+    spec: LatticeSpec | None = None,
+    *,
+    unit: str | None = None,
+    material: str | None = None,
+    progress: ProgressCallback | bool | None = None,
+    cache: StageCache | None = None,
+    executor: Executor | None = None,
+    **parameters: Unpack[Keywords],
+) -> Part:
+    """Fill a solid with a lattice.
+
+    Args:
+        part: a file (STL, OBJ, PLY, 3MF, OFF, GLB; with FreeCAD at hand STEP, IGES, BREP), a mesh
+            such as a `trimesh.Trimesh`, or its arrays (vertices in mm, triangles). It is repaired
+            where that can mean one thing only, and proved.
+        spec: what to make.
+        unit: of a file's lengths; None for what it says, else mm.
+        material: a name of the table in docs/cells.md, or a file: its density gives the mass where
+            none is given, its modulus makes a `stiffness` one in MPa.
+        progress: True for a bar in a terminal or a notebook; or a function that is called with the
+            fraction done and the stage, and cancels by returning False.
+        cache: keeps the stages between calls.
+        executor: cuts the lattice at the wall on its workers; the mesh is the same with any.
+        parameters: keys of a specification's file (docs/reference.md) or fields of a
+            `LatticeSpec`, in place of one or on top of it; `cell` may be a dict with nodes and
+            struts, `network` a pair of arrays or a `networkx.Graph`, `radius_field` a pair of
+            points and values; in place of `strut_radius` also
+            `relative_density`, `mass` (g, of the finished part) or `stiffness` (such as
+            "500:111": a modulus, and 100, 110, 111 or X,Y,Z); of walls `wall_kind`,
+            `wall_thickness`, `wall_offset` and `wall_formula`.
+
+    Raises:
+        VolfrepError: the part is no closed solid, or the specification makes no sense or does
+            not fit it; one sentence that says what to do.
+        Cancelled: the callback said so.
+
+    >>> import numpy as np, trimesh, volfrep
+    >>> box = trimesh.creation.box((20, 20, 20))
+    >>> part = volfrep.fill((box.vertices, box.faces), cell="BCC", strut_radius=1, shell=0)
+    >>> part.report.cells_active
+    8
+    """
+    from ..jobs.targets import solve_target
+    from ..output.sources import FilledPart
+
+    cache = cache or StageCache()
+    with shown(progress) as told:
+        solid, wanted = _asked(part, unit, told, spec, dict(parameters), material)
+        infill = solve_target(solid, wanted, progress=told, cache=cache, executor=executor)
+        return Part(infill.result, infill.spec, solid, cache, FilledPart(infill, cache))
+
+
+def size(
+    part: str | os.PathLike[str] | TriangleMesh | MeshLike | tuple[ArrayLike, ArrayLike],
+    loads: LoadCases | Mapping[str, Any] | str | os.PathLike[str],
+    spec: LatticeSpec | None = None,
+    *,
+    steps: int = 60,
+    proof: bool = True,
+    remove_thin: bool = False,
+    unit: str | None = None,
+    progress: ProgressCallback | bool | None = None,
+    cache: StageCache | None = None,
+    **parameters: Unpack[SizeKeywords],
+) -> Part:
+    """Fill a solid with a lattice whose struts are sized for its load cases.
+
+    Args:
+        part: as of `fill`.
+        loads: the file of the load cases (docs/loads.md), or a dict with the file's entries.
+        spec: what to make; its radius is what the design begins with.
+        steps: of the search, at most.
+        proof: let CalculiX solve the final design, where it is installed.
+        remove_thin: take away struts that end as thin as allowed, and size the rest again.
+        unit: as of `fill`.
+        progress: as of `fill`.
+        cache: as of `fill`.
+        parameters: as of `fill`, and what is wanted, as options of the command: `max_stress`,
+            `safety`, `max_displacement`, `buckling`, `min_frequency`, `strut_mass`, `thinnest`,
+            `thickest`, `smooth`.
+
+    Returns:
+        The part; its `sized` holds the radii, and `sized.report` the figures before and after.
+
+    Raises:
+        VolfrepError: the specification does not fit the part, nothing lies where a load acts, the
+            part is not held, or the goal cannot be.
+        Cancelled: the callback said so before there was a design.
+    """
+    from ..jobs.infill import Infill
+    from ..jobs.sizing import GOALS, goal_of
+    from ..jobs.sizing import size as size_struts
+    from ..loads.load_cases import LoadCases
+    from ..loads.load_file import load_cases_of, read_load_cases
+    from ..output.sources import FilledPart
+
+    if steps < 1:
+        raise VolfrepError(f"There must be at least one step, not {steps}.")
+    given: dict[str, Any] = dict(parameters)
+    asked = {name: given.pop(name) for name in GOALS if name in given}
+    refuse_unknown(given, accepted() | set(GOALS))
+    cache = cache or StageCache()
+    with shown(progress) as told:
+        solid, wanted = _asked(part, unit, told, spec, given, None)
+        if isinstance(loads, Mapping):
+            loads = load_cases_of(loads, solid)
+        elif not isinstance(loads, LoadCases):
+            loads = read_load_cases(loads, solid)
+        wanted = dataclasses.replace(wanted, density=loads.material.density)
+        goal = dataclasses.replace(
+            goal_of(loads.material, asked, lambda name: name), remove_thin=remove_thin
+        )
+        made = size_struts(
+            solid, wanted, loads, goal, most_steps=steps, prove_it=proof, progress=told,
+            cache=cache,
+        )  # fmt: skip
+        infill = Infill(solid, made.spec, progress=told, cache=cache)
+        return Part(infill.result, made.spec, solid, cache, FilledPart(infill, cache), made)
+
+
+def block(
+    count: Sequence[int],
+    spec: LatticeSpec | None = None,
+    *,
+    material: str | None = None,
+    progress: ProgressCallback | bool | None = None,
+    **parameters: Unpack[Keywords],
+) -> Part:
+    """A free-standing block of whole cells with round struts.
+
+    Args:
+        count: cells along x, y, z.
+        spec: what to make.
+        material: as of `fill`.
+        progress: True for a bar in a terminal or a notebook; or a function that is called with the
+            fraction done and the stage, and cancels by returning False.
+        parameters: as of `fill`.
+
+    Raises:
+        VolfrepError: the counts or the specification make no sense, or it would not fit into
+            memory.
+        Cancelled: the callback said so.
+
+    >>> import volfrep
+    >>> cube = volfrep.block((2, 2, 2), cell="Octet", cell_size=5, strut_radius=0.4)
+    >>> cube.report.struts - cube.report.nodes + 1 == cube.report.genus
+    True
+    """
+    from ..jobs.kinds.kind import block_counts
+    from ..jobs.targets import solve_block_target
+    from ..output.sources import Block
+
+    counts = block_counts(count)
+    corners = np.array([(0, 0, 0), counts], float)
+    with shown(progress) as told:
+        wanted = specified(spec, dict(parameters), material, lambda size: size * corners)
+        wanted = solve_block_target(wanted, counts, progress=told)
+        made = Block(wanted, counts, told)
+        return Part(made.result, wanted, None, StageCache(), made)
+
+
+def mesh_network(
+    graph: Any,
+    spec: LatticeSpec | None = None,
+    *,
+    progress: ProgressCallback | bool | None = None,
+    **parameters: Unpack[Keywords],
+) -> Part:
+    """The nodes and struts of any graph, meshed as they are in free space.
+
+    To fill a part with it, give ``network=volfrep.design.graphs.make_network(...)``, or a
+    ``RandomGraph``, to `volfrep.fill`.
+
+    Args:
+        graph: a file (see `volfrep.design.graphs.read_network`), or arrays: nodes (n, 3) in
+            mm, struts (m, 2), and, if they differ, radii (m,), (m, 2) or (n,) in mm; or a
+            `networkx.Graph` whose nodes are points or have one as ``pos``, or a mesh's edges.
+        spec: what to make.
+        progress: as of `volfrep.fill`.
+        parameters: as of `volfrep.fill`.
+
+    Raises:
+        VolfrepError: the graph or the specification makes no sense.
+        Cancelled: the callback said so.
+
+    >>> import volfrep
+    >>> made = volfrep.mesh_network(([[0, 0, 0], [9, 0, 0], [0, 9, 0]], [(0, 1), (0, 2), (1, 2)]))
+    >>> made.report.genus, made.report.bodies
+    (1, 1)
+    """
+    from ..output.sources import FreeGraph
+
+    if not isinstance(graph, (str, os.PathLike)):
+        found = as_graph(graph)
+    else:
+        cell: Any = parameters.get("cell", None if spec is None else spec.cell)
+        found = read_network(graph, find_cell(cell) if isinstance(cell, str) else cell)
+    bounds = np.array([found.nodes.min(axis=0), found.nodes.max(axis=0)])
+    wanted = specified(spec, {**parameters, "network": found}, None, lambda size: bounds)
+    with shown(progress) as told:
+        made = FreeGraph(wanted, told)
+        return Part(made.result, wanted, None, StageCache(), made)
+
+
+def slice_layers(
+    part: str | os.PathLike[str] | TriangleMesh | MeshLike | tuple[ArrayLike, ArrayLike],
+    folder: str | os.PathLike[str],
+    spec: LatticeSpec | None = None,
+    *,
+    layer: float,
+    pixel: float | None = None,
+    form: str = "png",
+    unit: str | None = None,
+    material: str | None = None,
+    progress: ProgressCallback | bool | None = None,
+    cache: StageCache | None = None,
+    **parameters: Unpack[Keywords],
+) -> Layers:
+    """Fill a solid and write it in layers along z for a printer; no mesh is made.
+
+    Args:
+        part: as of `fill`, as it stands on the build plate.
+        folder: to make; one that holds layers is replaced.
+        spec: what to make.
+        layer: height of a layer, mm.
+        pixel: edge of a picture's pixel, mm; None for the height of a layer.
+        form: png, svg or cli.
+        unit: of a file's lengths; None for what it says, else mm.
+        material: as of `fill`.
+        progress: True for a bar in a terminal or a notebook; or a function that is called with the
+            fraction done and the stage, and cancels by returning False.
+        cache: keeps the stages between calls.
+        parameters: as of `fill`.
+
+    Raises:
+        VolfrepError: as `fill`; or the layers cannot be made or written so.
+        Cancelled: the callback said so.
+
+    >>> import tempfile, trimesh, volfrep
+    >>> with tempfile.TemporaryDirectory() as place:
+    ...     made = volfrep.slice_layers(
+    ...         trimesh.creation.box((20, 20, 10)), place, cell="BCC", cell_size=10,
+    ...         strut_radius=1, shell=1, layer=0.5, pixel=0.1,
+    ...     )
+    >>> made.count, made.pixels
+    (20, (202, 202))
+    """
+    from ..jobs.slices import write_layers
+
+    with shown(progress) as told:
+        solid, wanted = _asked(part, unit, told, spec, dict(parameters), material)
+        return write_layers(
+            solid, wanted, folder, layer=layer, pixel=pixel, form=form, progress=told, cache=cache
+        )
+
+
+def as_solid(
+    part: str | os.PathLike[str] | TriangleMesh | MeshLike | tuple[ArrayLike, ArrayLike],
+    unit: str | None = None,
+    progress: ProgressCallback | bool | None = None,
+) -> Solid:
+    """A proved solid of a file, a mesh or its arrays; see `fill`.
+
+    Raises:
+        VolfrepError: it is none.
+        Cancelled: the callback said so while FreeCAD read a CAD file.
+    """
+    if isinstance(part, Solid):
+        return part
+    if isinstance(part, (str, os.PathLike)):
+        with shown(progress) as told:
+            return read_solid(part, unit, progress=told)
+    if unit is not None:
+        raise VolfrepError("A unit belongs to a file: give the arrays of a mesh in mm.")
+    if isinstance(part, TriangleMesh):
+        return check_solid(part, "mesh")
+    if isinstance(part, tuple) and len(part) == 2:
+        vertices, triangles = part
+    elif hasattr(part, "vertices") and hasattr(part, "faces"):
+        vertices, triangles = part.vertices, part.faces
+    else:
+        raise VolfrepError(
+            f"A part is a file's path, a mesh with vertices and faces, or a pair of arrays, not "
+            f"{type(part).__name__}."
+        )
+    points, rows = np.asarray(vertices, np.float64), np.asarray(triangles)
+    shapes_fit = points.ndim == 2 and rows.ndim == 2 and points.shape[1] == rows.shape[1] == 3
+    if not shapes_fit or not len(rows) or rows.dtype.kind not in "iu":
+        raise VolfrepError(
+            "A mesh has (n, 3) vertices and (m, 3) triangles of whole numbers, not arrays of the "
+            f"shapes {points.shape} and {rows.shape}."
+        )
+    if rows.min() < 0 or rows.max() >= len(points):
+        raise VolfrepError(f"A triangle names a vertex that is not among the {len(points)}.")
+    if not np.isfinite(points).all():
+        raise VolfrepError("A vertex of the mesh has a coordinate that is not a finite number.")
+    return check_solid(TriangleMesh(points, rows.astype(np.int32)), "mesh")
+
+
+def _asked(
+    part: str | os.PathLike[str] | TriangleMesh | MeshLike | tuple[ArrayLike, ArrayLike],
+    unit: str | None,
+    progress: ProgressCallback | None,
+    spec: LatticeSpec | None,
+    parameters: dict[str, Any],
+    material: str | None,
+) -> tuple[Solid, LatticeSpec]:
+    """The solid and what to make; the specification first, where it needs no part."""
+    if any(is_sampled(name, value) for name, value in parameters.items()):
+        refuse_unknown(parameters, accepted())
+        solid = as_solid(part, unit, progress)
+        return solid, specified(spec, parameters, material, lambda size: solid.bounds)
+    wanted = specified(spec, parameters, material)
+    return as_solid(part, unit, progress), wanted

@@ -94,7 +94,7 @@ def test_radius_thickness_and_density_are_given_by_place(value: Any) -> None:
         [1.0, 1.2]
     )
     sheet = specified(None, {"cell": "Gyroid", "wall_thickness": value}, None, box)
-    assert sheet.thicknesses == pytest.approx((1.0, 1.2))
+    assert sheet.kind.thicknesses == pytest.approx((1.0, 1.2))
     points = specified(None, {"network": "voronoi", "network_density": value}, None, box).network
     assert points.field(at) == pytest.approx([1.0, 1.2])
     assert points.formula(np.array([0.0, 1.0])) == pytest.approx([1.0, 1.2])

@@ -31,12 +31,12 @@ def surface_of(vertices, triangles, primitives, edge=1.0, place=None, size=1e6) 
         np.asarray(vertices, float),
         np.asarray(triangles, np.int64).reshape(-1, 3),
         np.ones((count, 3), np.int8) if place is None else np.asarray(place, np.int8),
-        np.full((count, 3), -1, np.int64),
-        field_of(primitives, count),
         edge,
         0.5 * edge,
         np.zeros(count, np.int64),
         size,
+        np.full((count, 3), -1, np.int64),
+        field_of(primitives, count),
     )
 
 

@@ -7,9 +7,7 @@ import dataclasses
 from collections.abc import Callable
 from typing import Any
 
-import numpy as np
-
-from ..design.cells import UnitCell, find_cell
+from ..design.cells import any_cell
 from ..design.grading import Field
 from ..design.parameters.field_keywords import with_fields
 from ..design.parameters.keywords import (
@@ -99,28 +97,18 @@ def _with_density_field(parameters: dict[str, Any], spec: LatticeSpec | None) ->
     field = parameters.get("relative_density")
     if not isinstance(field, Field):
         return parameters
-    from ..mechanics.catalogue import known_cell
-    from ..mechanics.density import radii_of_densities
+    from ..jobs.kinds import kind_of_cell
+    from ..jobs.kinds.kind import LatticeKind
 
     rest = {name: value for name, value in parameters.items() if name != "relative_density"}
-    usual = spec or LatticeSpec()
-    cell, size, fillet = (rest.get(n, getattr(usual, n)) for n in ("cell", "cell_size", "fillet"))
-    cell = find_surface(cell) or find_cell(cell) if isinstance(cell, str) else cell
-    if not isinstance(cell, UnitCell) or rest.get("network") not in (None, "cells"):
-        raise VolfrepError(
-            "'relative_density' by place is for cells of struts: give 'wall_thickness' or "
-            "'strut_radius' by place."
-        )
     if rest.get("strut_radius") is not None:
         raise VolfrepError("'relative_density' and 'strut_radius' each say how thick struts are.")
-    known, (low, high) = known_cell(cell), field.range
-    listed = known is not None and not fillet
-    if known is not None and listed and known.values[0, 0] <= low <= high <= known.values[-1, 0]:
-        places = np.linspace(low, high, 65)
-        ratios = [known.ratio_of_density(place) for place in places]
-        radii = size * np.interp(field.values, places, ratios)
-    else:
-        radii = size * radii_of_densities(cell, field.values, fillet / size)
+    usual = spec or LatticeSpec()
+    cell, size, fillet = (rest.get(n, getattr(usual, n)) for n in ("cell", "cell_size", "fillet"))
+    cell = any_cell(cell) if isinstance(cell, str) else cell
+    is_of_cells = rest.get("network") in (None, "cells")
+    kind = kind_of_cell(cell) if is_of_cells else LatticeKind
+    radii = size * kind.radii_of_densities(cell, field.values, fillet / size)
     return with_fields(
         rest | {"strut_radius": dataclasses.replace(field, values=radii)}, None, size
     )

@@ -110,12 +110,12 @@ class Batch:
             vertices,
             np.concatenate([piece.triangles + k for piece, k in zip(raw, first[:-1], strict=True)]),
             place,
-            np.full(place.shape, -1, np.int64),
-            field,
             spec.edge,
             spec.step,
             np.repeat(np.arange(len(raw)), np.diff(first)),
             0.5 * spec.cell_size,
+            np.full(place.shape, -1, np.int64),
+            field,
         )
         return Batch(used, raw, solid, whole, 0.5 * spec.cell_size / STEPS, spec.deviation)
 

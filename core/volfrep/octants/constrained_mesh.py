@@ -8,7 +8,7 @@ the neighbour on the other side comes to the same places.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,16 +26,13 @@ ON_SURFACE = 1e-3
 
 
 @dataclass(frozen=True, eq=False)
-class Surface:
-    """A mesh over an implicit surface.
+class PinnedMesh:
+    """A mesh in octants, on whose faces vertices stay.
 
     Attributes:
         vertices: (n, 3) float64, mm.
         triangles: (m, 3) int64.
         place: (n, 3) int8, per axis 0 on an octant's low face, 2 on its high face, else 1.
-        held: (n, 3) int64, primitives on whose surfaces a vertex must stay: none (-1) for one
-            that is free on the surface, two on a crease, three at a corner.
-        field: the signed distance about each vertex.
         edge: wanted edge length, mm.
         step: sampling step of the raw surface, mm.
         piece: (n,) int64, which of the octants that are meshed together a vertex belongs to.
@@ -45,8 +42,6 @@ class Surface:
     vertices: Floats
     triangles: Ints
     place: NDArray[np.int8]
-    held: Ints
-    field: Field
     edge: float
     step: float
     piece: Ints
@@ -62,6 +57,30 @@ class Surface:
         """Whether vertices lie on a common face of their octant."""
         result: Bools = ((self.place[one] == self.place[two]) & self.pinned[one]).any(axis=1)
         return result
+
+    @property
+    def rank(self) -> Ints:
+        """0 free, 3 on the border."""
+        rank: Ints = np.where(self.pinned.any(axis=1), 3, 0)
+        return rank
+
+
+#: Such a mesh, or one that knows more of itself.
+Mesh = TypeVar("Mesh", bound=PinnedMesh)
+
+
+@dataclass(frozen=True, eq=False)
+class Surface(PinnedMesh):
+    """A mesh over the surface of primitives.
+
+    Attributes:
+        held: (n, 3) int64, primitives on whose surfaces a vertex must stay: none (-1) for one
+            that is free on the surface, two on a crease, three at a corner.
+        field: the signed distance about each vertex.
+    """
+
+    held: Ints
+    field: Field
 
     @property
     def rank(self) -> Ints:
@@ -95,7 +114,7 @@ def project(surface: Surface, passes: int = 2) -> Surface:
     return move_vertices(surface, vertices)
 
 
-def move_vertices(surface: Surface, vertices: Floats) -> Surface:
+def move_vertices(surface: Mesh, vertices: Floats) -> Mesh:
     """The surface with its vertices elsewhere, each still in its octant, face or edge.
 
     A facet that left its octant would run through those of the next one, and a vertex that came

@@ -144,12 +144,12 @@ def _collapse(surface: Surface) -> tuple[Surface, Ints]:
         vertices,
         triangles,
         surface.place[stay],
-        surface.held[stay],
-        surface.field.rows(stay),
         surface.edge,
         surface.step,
         surface.piece[stay],
         surface.size,
+        surface.held[stay],
+        surface.field.rows(stay),
     )
     return project(smaller), stay
 

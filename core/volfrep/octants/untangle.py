@@ -20,7 +20,7 @@ from ..spatial.piercing import piercing_pairs
 from ..spatial.self_intersection import close_pairs, crossing_triangles
 from ..util.linalg import along
 from ..util.types import Bools, Floats, Ints
-from .constrained_mesh import Surface, move_vertices, neighbour_mean
+from .constrained_mesh import Mesh, PinnedMesh, Surface, move_vertices, neighbour_mean
 from .octant import STEPS
 
 #: Facets that stick through others by no more than this, in wanted edges, only touch.
@@ -36,7 +36,7 @@ TURN = np.array([[2.0, 3.0, 6.0], [6.0, 2.0, -3.0], [-3.0, 6.0, -2.0]]) / 7.0
 FOLDED = 0.2
 
 
-def crossing_facets(surface: Surface, exact: bool = True, pieces: Bools | None = None) -> Bools:
+def crossing_facets(surface: PinnedMesh, exact: bool = True, pieces: Bools | None = None) -> Bools:
     """(m,) which facets another facet of their own octant runs through.
 
     `pieces`: (k,) octants that are looked at; None for all.
@@ -65,11 +65,11 @@ def crossing_facets(surface: Surface, exact: bool = True, pieces: Bools | None =
 
 
 def untangle(
-    surface: Surface,
+    surface: Mesh,
     home: Floats,
     exact: bool = True,
     asked: Callable[[], None] = lambda: None,
-) -> tuple[Surface, Bools]:
+) -> tuple[Mesh, Bools]:
     """The surface with facets that cross drawn apart, where that is possible.
 
     A vertex goes to the middle of its neighbours, off the exact surface by a part of a facet; and
@@ -108,7 +108,7 @@ def untangle(
     return surface, crossed
 
 
-def _wrong(surface: Surface, exact: bool, pieces: Bools) -> Bools:
+def _wrong(surface: PinnedMesh, exact: bool, pieces: Bools) -> Bools:
     """(m,) which facets of some of the octants cross, or are as flat as a line.
 
     Whether such a one beside others that crossed does so, once it is turned and rounded, is chance.
@@ -187,7 +187,7 @@ def _on_one_side(a: Floats, b: Floats, c: Floats, d: Floats, touch: float) -> Bo
     return result
 
 
-def _apart(surface: Surface) -> Floats:
+def _apart(surface: PinnedMesh) -> Floats:
     """The vertices with the octants side by side, so that no two of them meet."""
     vertices = surface.vertices.copy()
     vertices[:, 0] += 2.0 * surface.size * surface.piece

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Folders of layers along z, cut straight from struts, joints and TPMS."""
+"""Folders of layers along z, cut straight from struts, joints and the skin."""
 
 from __future__ import annotations
 

@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..mesh import remesh
-from ..octants.constrained_mesh import Surface, move_vertices, neighbour_mean, shorten_steps
+from ..octants.constrained_mesh import PinnedMesh, move_vertices, neighbour_mean, shorten_steps
 from ..util.linalg import normalize
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
@@ -30,8 +30,8 @@ Distances = Callable[[Floats, Ints], tuple[Floats, Floats]]
 
 
 def remesh_evenly(
-    raw: Surface, field: Distances, gently: bool, monitor: Monitor
-) -> tuple[Surface, Ints]:
+    raw: PinnedMesh, field: Distances, gently: bool, monitor: Monitor
+) -> tuple[PinnedMesh, Ints]:
     """Even triangles on the wall's surface, and which of the raw vertices theirs were.
 
     Args:
@@ -56,7 +56,7 @@ def remesh_evenly(
     return _balanced(surface, field), origin
 
 
-def _even(surface: Surface, field: Distances) -> Surface:
+def _even(surface: PinnedMesh, field: Distances) -> PinnedMesh:
     """Inner vertices slid to the middle of their neighbours, on the wall's surface."""
     inner = ~surface.pinned.any(axis=1)
     pairs = remesh.edges(surface.triangles, len(surface.vertices)).ends
@@ -68,7 +68,7 @@ def _even(surface: Surface, field: Distances) -> Surface:
     return move_vertices(surface, vertices)
 
 
-def _balanced(surface: Surface, field: Distances) -> Surface:
+def _balanced(surface: PinnedMesh, field: Distances) -> PinnedMesh:
     """Inner vertices moved along their normals, all alike, so that the volume is right.
 
     What facets miss of it is the integral of the distance over them.
@@ -98,7 +98,7 @@ def _balanced(surface: Surface, field: Distances) -> Surface:
     return move_vertices(surface, surface.vertices + np.where(inner[:, None], amount * summed, 0.0))
 
 
-def _collapsed(surface: Surface) -> tuple[Surface, Ints]:
+def _collapsed(surface: PinnedMesh) -> tuple[PinnedMesh, Ints]:
     def may_slide(gone: Ints, kept: Ints) -> Bools:
         free: Bools = surface.rank[gone] == 0
         return free
@@ -111,12 +111,12 @@ def _collapsed(surface: Surface) -> tuple[Surface, Ints]:
     stay = np.flatnonzero(renumber >= 0)
     smaller = replace(
         surface, vertices=vertices, triangles=triangles, place=surface.place[stay],
-        held=surface.held[stay], piece=surface.piece[stay],
+        piece=surface.piece[stay],
     )  # fmt: skip
     return smaller, stay
 
 
-def _flipped(surface: Surface) -> Surface:
+def _flipped(surface: PinnedMesh) -> PinnedMesh:
     """Flips that make angles better."""
     v = surface.vertices
 

@@ -15,9 +15,8 @@ from numpy.typing import NDArray
 
 from ..lattice.assembly import Layout, coordinates, lay_out, numbers
 from ..mesh import remesh
-from ..octants import sdf
 from ..octants.batch import ranked_octant
-from ..octants.constrained_mesh import Surface, shorten_steps
+from ..octants.constrained_mesh import PinnedMesh, shorten_steps
 from ..octants.octant import (
     ALL_ACTIVE,
     STEPS,
@@ -287,7 +286,7 @@ class _Period:
         value, gradient = self.at(sign * points)
         return value, sign * gradient
 
-    def octants(self, surface: Surface, origin: Ints) -> dict[OctantKey, Octant]:
+    def octants(self, surface: PinnedMesh, origin: Ints) -> dict[OctantKey, Octant]:
         """The octants of an evened-out surface."""
         order = np.concatenate([one.order for one in self.raw])[origin]
         whole = self.half / STEPS
@@ -303,13 +302,11 @@ class _Period:
         return result
 
 
-def _surface(period: _Period, vertices: Floats) -> Surface:
+def _surface(period: _Period, vertices: Floats) -> PinnedMesh:
     """All the octants as one surface, each in its own frame."""
     first = np.cumsum([0] + [len(one.vertices) for one in period.raw])
     triangles = [one.triangles + k for one, k in zip(period.raw, first[:-1], strict=True)]
-    none = np.zeros(0, np.int64)
-    field = sdf.Field(sdf.join(sdf.spheres(np.zeros((0, 3)), 1.0)), none, none, 0.0)
-    return Surface(
-        vertices, np.concatenate(triangles), period.place, np.full(vertices.shape, -1), field,
-        period.edge, period.step, period.piece, period.half,
+    return PinnedMesh(
+        vertices, np.concatenate(triangles), period.place, period.edge, period.step, period.piece,
+        period.half,
     )  # fmt: skip

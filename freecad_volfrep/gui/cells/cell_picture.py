@@ -62,7 +62,8 @@ def wall_icon(name: str, size: int = 72) -> QtGui.QIcon:
     from volfrep.design.tpms import SURFACES
     from volfrep.tpms.midsurface import VARIABLES
 
-    if name not in SURFACES:
+    surface = SURFACES.get(name)
+    if surface is None:
         return cell_icon(None, size)
     corners = np.array([[k & 1, k >> 1 & 1, k >> 2 & 1] for k in range(8)], float) - 0.5
     scale = np.ptp((corners @ _VIEW.T)[:, :2], axis=0).max() / (0.92 * size)
@@ -75,7 +76,7 @@ def wall_icon(name: str, size: int = 72) -> QtGui.QIcon:
     face = ends.argmin(axis=2)
     point = start + ends.min(axis=2)[..., None] * towards
     seen = begins.max(axis=2) < ends.min(axis=2)
-    formula = compile_expression(SURFACES[name].formula, VARIABLES)
+    formula = compile_expression(surface.formula, VARIABLES)
     value = np.abs(formula(*np.moveaxis(4.0 * np.pi * (point + 0.5), -1, 0)))
     solid = value < np.quantile(value[seen], 0.4)
     shade = np.array([0.75, 0.9, 1.0])[face]

@@ -86,6 +86,10 @@ def test_each_piece_is_right_by_itself():
         np.concatenate([one.vertices, two.vertices]),
         np.concatenate([one.triangles, two.triangles + count]),
         np.concatenate([one.place, two.place]),
+        one.edge,
+        one.step,
+        piece,
+        one.size,
         np.concatenate([one.held, two.held]),
         field(
             type(primitives)(
@@ -98,10 +102,6 @@ def test_each_piece_is_right_by_itself():
             np.concatenate([one.field.near, two.field.near + len(primitives)]),
             0.0,
         ),
-        one.edge,
-        one.step,
-        piece,
-        one.size,
     )
     found = surface_fit.fit_facets(surface_fit.fit_border(both))
     area, values = distances_of_facets(found)

@@ -24,6 +24,7 @@ from ...reports.report import Report, with_warnings
 from ...util.errors import VolfrepError
 from ...util.numbers import whole
 from ...util.progress import Monitor, peak_memory_mb
+from ...util.types import Floats
 
 if TYPE_CHECKING:
     from ...mechanics.materials import SolidMaterial
@@ -346,6 +347,18 @@ class LatticeKind(ABC):
         """
         raise VolfrepError(
             f"What the endless lattice of '{cell.name}' does is not known: choose another cell."
+        )
+
+    @staticmethod
+    def radii_of_densities(cell: Any, densities: Floats, fillet: float) -> Floats:
+        """Radii of endless lattices of many relative densities, in units of L, as the fillet is.
+
+        Raises:
+            VolfrepError: the cell has no struts, or none give these densities.
+        """
+        raise VolfrepError(
+            "'relative_density' by place is for cells of struts: give 'wall_thickness' or "
+            "'strut_radius' by place."
         )
 
     def refuse(self, solid: TriangleMesh) -> None:  # noqa: B027  a graph fits any

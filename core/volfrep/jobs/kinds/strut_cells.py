@@ -10,11 +10,14 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from ...design.cells import UnitCell
 from ...design.spec import LatticeSpec
 from ...design.target import Target
 from ...mesh.triangle_mesh import TriangleMesh
 from ...util.errors import VolfrepError
+from ...util.types import Floats
 from .kind import EndlessWish, Expected, LatticeKind
 
 if TYPE_CHECKING:
@@ -153,3 +156,15 @@ class StrutCellKind(LatticeKind):
             cell, cell_size, radius, relative_density=wish.relative_density, fillet=wish.fillet,
             material=wish.material, along=wish.along, told=wish.told,
         )  # fmt: skip
+
+    @staticmethod
+    def radii_of_densities(cell: UnitCell, densities: Floats, fillet: float) -> Floats:
+        """Off the catalogue where it has the cell, else between a few that are measured."""
+        from ...mechanics.catalogue import known_cell
+        from ...mechanics.density import radii_of_densities
+
+        known, low, high = known_cell(cell), float(densities.min()), float(densities.max())
+        if known is None or fillet or not known.values[0, 0] <= low <= high <= known.values[-1, 0]:
+            return radii_of_densities(cell, densities, fillet)
+        places = np.linspace(low, high, 65)
+        return np.interp(densities, places, [known.ratio_of_density(place) for place in places])

@@ -13,7 +13,7 @@ SCREEN := xvfb-run -a -s "-screen 0 1600x1200x24 -dpi 96"
 .NOTPARALLEL:
 .PHONY: help setup demo check test test-all test-slow lint format test-core test-random test-alone test-freecad \
 	test-gui test-in-freecad test-freecad-1 translations test-newest docs-pictures docs-tables \
-	digests vocabulary release site test-escape torture fuzz bench bench-quick bench-readme catalogue clean
+	digests vocabulary release test-release site test-escape torture fuzz bench bench-quick bench-readme catalogue clean
 
 help: ## show this list
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 25
@@ -133,6 +133,11 @@ test-newest: ## the engine's tests on the newest numpy, scipy and scikit-image
 
 release: setup ## what users get, from the tag of this version, in build/release (STATE=HEAD: any other state)
 	@tools/release.sh $(STATE)
+
+test-release: setup ## what users get, made and tried: archive, wheel in every Python found here, site
+	@tools/release.sh .
+	@$(PYTHON) tools/test_wheel.py build/release
+	@$(MAKE) --no-print-directory site
 
 site: ## the documentation as a site, in build/site; a warning is an error
 	@[ -x .cache/site/bin/mkdocs ] || { python3 -m venv .cache/site && \

@@ -68,8 +68,8 @@ def build(target: Path) -> Path:
     with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as file:
         for path in sorted(target.rglob("*")):
             if path.is_file():
-                name = f"{target.name}/{path.relative_to(target).as_posix()}"
-                entry = zipfile.ZipInfo(name, DATE)
+                # No folder about them: the Add-on Manager unpacks into one of the add-on's name.
+                entry = zipfile.ZipInfo(path.relative_to(target).as_posix(), DATE)
                 entry.external_attr = 0o644 << 16
                 entry.compress_type = zipfile.ZIP_DEFLATED
                 file.writestr(entry, path.read_bytes())
@@ -216,14 +216,17 @@ def relative_dots(module: list[str], package: list[str]) -> str:
 def metadata() -> str:
     """The archive's package.xml."""
     text = (ROOT / "package.xml").read_text("utf-8")
-    return text.replace("freecad_volfrep/resources/icons/volfrep.svg", ICON).replace(
-        '<license file="LICENSE">', '<license file="LICENSE">'
-    )
+    return text.replace("freecad_volfrep/resources/icons/volfrep.svg", ICON)
 
 
 def readme() -> str:
-    """The archive's README: the overview, since links into the checkout lead nowhere there."""
-    return (ROOT / "Overview.md").read_text("utf-8")
+    """The archive's README: the checkout's own has links that lead nowhere there."""
+    home = ET.parse(ROOT / "package.xml").getroot().find("{*}url[@type='repository']")
+    assert home is not None
+    return (
+        "# VOLFREP\n\nWhat it does and needs: [Overview.md](Overview.md). This is what FreeCAD "
+        f"installs, made by `make release` from the sources and their tests at {home.text}.\n"
+    )
 
 
 if __name__ == "__main__":

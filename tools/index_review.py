@@ -247,10 +247,12 @@ def no_tests(root: Path) -> Iterator[str]:
 
 @rule("Publishing")
 def overview(root: Path) -> Iterator[str]:
-    """An overview for the Addon Manager, whose pictures are addresses."""
-    path = root / "README.md"
-    if not path.is_file():
+    """A README, and an overview for the Addon Manager, whose pictures are addresses."""
+    if not (root / "README.md").is_file():
         yield "README.md is missing"
+    path = root / "Overview.md"
+    if not path.is_file():
+        yield "Overview.md is missing"
         return
     for address in re.findall(r"!\[[^]]*\]\(([^)]+)\)", path.read_text("utf-8")):
         if not address.startswith("https://") or address.endswith(".webp"):

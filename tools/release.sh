@@ -4,18 +4,24 @@
 # and the engine's wheel and source distribution.
 #     tools/release.sh            # the tag v<version>
 #     tools/release.sh HEAD       # any other state, to try it
+#     tools/release.sh .          # what lies here, with or without git
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 refuse() { printf 'release: %s\n' "$*" >&2; exit 1; }
 python=$PWD/.venv/bin/python
 version=$(sed -nE 's/^VERSION = "(.*)"/\1/p' core/volfrep/util/version.py)
 state=${1:-v$version}
-git rev-parse -q --verify "$state^{commit}" >/dev/null ||
-  refuse "there is no tag '$state': make it with 'git tag -a $state', or name another state."
 target=$PWD/build/release
 source=$(mktemp -d)
 trap 'rm -rf "$source"' EXIT
-git archive "$state" | tar -x -C "$source"
+if [ "$state" = . ]; then
+  tar -c --exclude=./.git --exclude=./.venv --exclude=./.cache --exclude=./build \
+    --exclude='*_cache' --exclude=__pycache__ --exclude='*.egg-info' . | tar -x -C "$source"
+else
+  git rev-parse -q --verify "$state^{commit}" >/dev/null ||
+    refuse "there is no tag '$state': make it with 'git tag -a $state', or name another state."
+  git archive "$state" | tar -x -C "$source"
+fi
 git -C "$source" init -q
 git -C "$source" add -A
 for place in "package.xml" "pyproject.toml" "core/volfrep/util/version.py" "CHANGELOG.md" "CITATION.cff"; do

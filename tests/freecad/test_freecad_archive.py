@@ -52,7 +52,7 @@ def profile(tmp_path_factory):
     )
     (archive,) = made.parent.glob("*.zip")
     with zipfile.ZipFile(archive) as file:
-        file.extractall(home / "Mod")
+        file.extractall(home / "Mod" / "VOLFREP")
     user = Path(os.environ.get("FREECAD_USER_HOME", App.getUserAppDataDir()))
     packages = user / "AdditionalPythonPackages"
     (home / "AdditionalPythonPackages").symlink_to(packages.resolve())

@@ -398,7 +398,9 @@ def digest(path: Path, places: dict[str, str]) -> str:
 
 
 def lasting(value: object) -> object:
-    """A report without what the clock and the machine say."""
+    """A report without what the clock and the machine say, and the last bits of its numbers."""
+    if isinstance(value, float):
+        return float(f"{value:.8g}")
     if isinstance(value, dict):
         return {key: lasting(inner) for key, inner in value.items() if key not in PASSING}
     return [lasting(inner) for inner in value] if isinstance(value, list) else value
@@ -433,7 +435,7 @@ def main() -> int:
     beside = {
         name: value
         for name, value in kept.items()
-        if (options.words and not any(word in name for word in options.words))
+        if (options.words and not any(word in name.rpartition(" ")[0] for word in options.words))
         or any(name == job.name or name.startswith(f"{job.name} ") for job in skipped)
     }
     if options.write:

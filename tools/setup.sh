@@ -12,7 +12,8 @@ debian_packages=(
   xvfb xauth xdotool imagemagick libgl1-mesa-dri ca-certificates git
 )
 # Programs that only tests open our files with: without them those tests are skipped and say so.
-tools=(admesh prusa-slicer cura-engine gmsh)
+# What the last three are for: CHOLMOD, which scikit-sparse is compiled against.
+tools=(admesh prusa-slicer cura-engine gmsh libsuitesparse-dev python3-dev g++)
 # Debian 13 has no CalculiX.
 grep -qs '^VERSION_ID="13"' /etc/os-release || tools+=(calculix-ccx)
 with_tools=$([ -z "${SETUP_WITHOUT_TOOLS:-}" ] && echo yes || echo no)
@@ -99,6 +100,12 @@ for kind in plot study; do
     refuse "pip could not install the packages of $wanted: see above."
   cp "$wanted" .cache/$kind/requirements.txt
 done
+
+if [ "$with_tools" = yes ] && ! .venv/bin/python -c 'from sksparse.cholmod import analyze' 2>/dev/null; then
+  say "scikit-sparse, compiled"
+  .venv/bin/python -m pip install --quiet --disable-pip-version-check -c .cache/constraints.txt \
+    -e '.[cholmod]' || say "scikit-sparse could not be compiled: tests of CHOLMOD are skipped."
+fi
 
 site=$(.venv/bin/python -c 'import sysconfig; print(sysconfig.get_paths()["purelib"])')
 # The profile of freecadcmd; every run of a window has a copy of it.

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from scipy import sparse
@@ -96,10 +97,11 @@ class Structure:
         first, second = struts[~tied].T
         rows = [first, first, second, second, np.repeat(leaders, 6, axis=1).ravel()]
         columns = [first, second, first, second, np.tile(leaders, (1, 6)).ravel()]
+        changing = sum(map(len, rows))
         if self.fixed_blocks is not None:
             rows.append(self.fixed_blocks.rows)
             columns.append(self.fixed_blocks.columns)
-        pattern = BlockPattern(self.nodes, np.concatenate(rows), np.concatenate(columns))
+        pattern = BlockPattern(self.nodes, np.concatenate(rows), np.concatenate(columns), changing)
         object.__setattr__(self, "_pattern", pattern)
         object.__setattr__(self, "_tied", tied)
         object.__setattr__(self, "_ends", (leaders, blocks))
@@ -111,11 +113,11 @@ class Structure:
             VolfrepError: a part of the structure can move without resistance.
         """
         parts = self.beams.stiffness(self.beams.flexibility(radii))
-        return factorise(self._pattern, self._assembled(parts, self._fixed("stiffness")), held)
+        return factorise(self._pattern, self._assembled(parts, self._fixed_stiffness), held)
 
     def mass(self, radii: Floats) -> sparse.csc_matrix:
         """The consistent mass, t and t mm2, in the pattern's order."""
-        return self._assembled(self.beams.mass(radii), self._fixed("mass"))
+        return self._assembled(self.beams.mass(radii), self._fixed_mass)
 
     def displacements(self, radii: Floats, cases: Sequence[Case]) -> tuple[Floats, list[Factored]]:
         """How the nodes move in every load case.
@@ -261,7 +263,7 @@ class Structure:
 
         def at(place: float) -> tuple[sparse.csc_matrix, sparse.csc_matrix]:
             whole, change = columns.blocks(place, forces)
-            stiffness = self._assembled(whole, self._fixed("stiffness"))
+            stiffness = self._assembled(whole, self._fixed_stiffness)
             return mask_fixed(stiffness, free), mask_fixed(self._assembled(change), free, 0.0)
 
         place, solve, (matrix, change) = 0.0, factor.solve, at(0.0)
@@ -291,8 +293,15 @@ class Structure:
         found[0] = min(found[0], most)  # where joints stay, a strut buckles between them
         return found, self.followed(self._pattern.restored(vectors[:, order]))
 
-    def _fixed(self, name: str) -> Floats | None:
-        return None if self.fixed_blocks is None else getattr(self.fixed_blocks, name)
+    @cached_property
+    def _fixed_stiffness(self) -> Floats | None:
+        fixed = self.fixed_blocks
+        return None if fixed is None else self._pattern.constant(fixed.stiffness)
+
+    @cached_property
+    def _fixed_mass(self) -> Floats | None:
+        fixed = self.fixed_blocks
+        return None if fixed is None else self._pattern.constant(fixed.mass)
 
     def _assembled(
         self, parts: tuple[Floats, Floats, Floats], fixed: Floats | None = None
@@ -309,10 +318,7 @@ class Structure:
             whole[:, 3:, :3] = _led(of_second, between.swapaxes(1, 2), of_first)
             whole[:, 3:, 3:] = _led(of_second, second, of_second)
             blocks.append(whole.reshape(-1, 6, 6))
-        if self.fixed_blocks is not None:
-            none = np.zeros((len(self.fixed_blocks.rows), 6, 6))
-            blocks.append(none if fixed is None else fixed)
-        return self._pattern.matrix(np.concatenate(blocks))
+        return self._pattern.matrix(np.concatenate(blocks), fixed)
 
 
 def _led(left: Floats, block: Floats, right: Floats) -> Floats:

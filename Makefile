@@ -43,15 +43,18 @@ test-slow: setup ## what test-all has beyond test
 		"core=make --no-print-directory test-core"
 
 # Windows wait more than they compute: they have two lanes, each run a screen and a profile of its
-# own, and the processor first. The lanes take about as long as each other.
-GUI_SCRIPTS := $(sort $(wildcard tests/gui/drive_*.py))
-GUI_FIRST := $(patsubst %,tests/gui/drive_%.py,commands display escape languages manners \
-	preferences tree window)
+# own, and the processor first. The lanes take about as long as each other. Scripts of a group share
+# a window, as FreeCAD takes long to start; a script that is in no group has its own.
+GUI_GROUPS := commands+display+manners+tree fresh+lattice_infill+look \
+	panel+reach+sizing+study window+escape+languages
+GUI_FIRST := commands+display+manners+tree window+escape+languages preferences
+GUI_ALONE := $(filter-out $(subst +, ,$(GUI_GROUPS)),\
+	$(patsubst drive_%.py,%,$(notdir $(sort $(wildcard tests/gui/drive_*.py)))))
 SIDE_BY_SIDE = $(PYTHON) tools/side_by_side.py
-lane = $(foreach script,$(1),\
-	"window-$(patsubst drive_%.py,%,$(notdir $(script)))=tools/run_gui.sh $(script)")
-WINDOWS = $(call lane,$(filter $(GUI_FIRST),$(GUI_SCRIPTS))) , \
-	$(call lane,$(filter-out $(GUI_FIRST),$(GUI_SCRIPTS)))
+lane = $(foreach group,$(1),"window-$(group)=tools/run_gui.sh \
+	$(patsubst %,tests/gui/drive_%.py,$(subst +, ,$(group)))")
+WINDOWS = $(call lane,$(GUI_FIRST)) , \
+	$(call lane,$(filter-out $(GUI_FIRST),$(GUI_GROUPS) $(GUI_ALONE)))
 IN_FREECAD = "freecad=make --no-print-directory test-freecad"
 
 check: setup ## style, types, and the tests nearest to what changed, in a minute (SECONDS=50, BASE=main)

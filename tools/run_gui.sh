@@ -3,6 +3,7 @@
 # Run a script in the real FreeCAD with its windows, on a virtual screen:
 #     tools/run_gui.sh tests/gui/drive_lattice_infill.py              # all its checks
 #     tools/run_gui.sh tests/gui/drive_lattice_infill.py open_a_face  # one, or some
+#     tools/run_gui.sh tests/gui/drive_tree.py tests/gui/drive_fresh.py   # several in one window
 #     tools/run_gui.sh --list tests/gui/drive_lattice_infill.py       # their names
 # MARK="not slow" leaves out the checks that are marked as slow, MARK=slow the others, as pytest's -m.
 # The exit code is the one that the script leaves with (by os._exit), or 124 after GUI_TIMEOUT
@@ -15,12 +16,20 @@ if [ "${1:-}" = --list ]; then
   # The table at the script's end.
   exec sed -nE '/^run_checks\(/,$ s/^ +([a-z_]+): .*/\1/p' "$2"
 fi
-script=$1
-shift
+scripts=()
+while [[ "${1:-}" = *.py ]]; do
+  scripts+=("$1")
+  shift
+done
 export GUI_CHECKS="$*"
-if [ "${MARK:-}" = slow ] && [ -z "$GUI_CHECKS" ] && ! grep -q '^@slow$' "$script"; then
-  echo "$script: no check is slow"
+if [ "${MARK:-}" = slow ] && [ -z "$GUI_CHECKS" ] && ! grep -q '^@slow$' "${scripts[@]}"; then
+  echo "${scripts[*]}: no check is slow"
   exit
+fi
+script=${scripts[0]}
+if [ ${#scripts[@]} -gt 1 ]; then
+  export GUI_SCRIPTS="${scripts[*]}"
+  script=$(dirname "$script")/together.py
 fi
 export GUI_OUT=${GUI_OUT:-$PWD/build/gui}
 mkdir -p "$GUI_OUT"
@@ -47,7 +56,7 @@ export LIBGL_ALWAYS_SOFTWARE=1 QT_XCB_GL_INTEGRATION=xcb_glx
 # real clicks would miss what they aim at by a pixel.
 export QT_FONT_DPI=96
 drive() {
-  timeout "${GUI_TIMEOUT:-900}" freecad "$script" 2>&1 | tee "$own/said"
+  timeout "${GUI_TIMEOUT:-$((900 * ${#scripts[@]}))}" freecad "$script" 2>&1 | tee "$own/said"
   return "${PIPESTATUS[0]}"
 }
 status=0
@@ -56,7 +65,7 @@ if [ "$status" != 0 ] && [ "$status" != 124 ] && [ "${GUI_TRIES:-2}" != 1 ]; the
   failed=$(sed -nE 's/^FAILED ([a-z_]+): .*/\1/p' "$own/said" | sort -u | tr '\n' ' ')
   # FreeCAD that dies names none: then all are tried again.
   export GUI_CHECKS=${failed:-$GUI_CHECKS}
-  printf 'AGAIN %s: exit code %s, %s\n' "$script" "$status" "${failed:-before its end}"
+  printf 'AGAIN %s: exit code %s, %s\n' "${scripts[*]}" "$status" "${failed:-before its end}"
   sed -nE 's/^FAILED (.*)/AGAIN first: \1/p' "$own/said"
   status=0
   drive || status=$?

@@ -779,21 +779,33 @@ def is_wanted(function):
     ]
 
 
+#: Tables of checks by their names: of one script, or of those that share a window.
+_tables = {}
+
+
 def run_checks(name, checks):
     """Run those of the checks that are wanted, each in a window that was cleared.
+
+    Where several scripts share a window (together.py) they are kept for `run_tables`.
 
     Args:
         name: of the file of figures.
         checks: functions, each with what makes its arguments (a tuple), or None for none.
     """
-    wanted = os.environ.get("GUI_CHECKS", "").split()
-    known = {function.__name__: (function, make) for function, make in checks.items()}
+    _tables[name] = checks
+    if "GUI_SCRIPTS" not in os.environ:
+        run_tables()
 
-    def drive():
+
+def run_tables():
+    """Run the checks of all tables, one table after the other."""
+    wanted = os.environ.get("GUI_CHECKS", "").split()
+    known = {function.__name__ for checks in _tables.values() for function in checks}
+
+    def drive(name):
         global _running
-        for one in set(wanted) - set(known):
-            fail(f"there is no check '{one}': {', '.join(known)}")
-        for one, (function, make) in known.items():
+        for function, make in _tables[name].items():
+            one = function.__name__
             if not is_wanted(function):
                 continue
             _running = one
@@ -816,7 +828,16 @@ def run_checks(name, checks):
         _running = ""
         clear()
 
-    _run(drive, name)
+    def drive_all():
+        for one in sorted(set(wanted) - known):
+            fail(f"there is no check '{one}': {', '.join(sorted(known))}")
+        for name in _tables:
+            try:
+                drive(name)
+            finally:
+                _write(name)
+
+    _run(drive_all)
 
 
 def processor_seconds():
@@ -841,13 +862,14 @@ def _give_up(name):
 
 
 def _write(name):
-    """Figures and failures as a file."""
+    """A table's figures and all failures as a file."""
     figures["failures"] = failures
     (OUT / f"{name}.json").write_text(json.dumps(figures, indent=1), encoding="utf-8")
+    figures.clear()
 
 
-def _run(drive, name):
-    """Once FreeCAD is up: drive, write down to ``name.json`` in GUI_OUT, leave."""
+def _run(drive):
+    """Once FreeCAD is up: drive and leave."""
     # PySide tells what a slot or an event's handler raises to this, and goes on.
     sys.excepthook = lambda kind, error, trace: fail_by(error, "in a slot: ")
     threading.excepthook = lambda raised: fail_by(raised.exc_value, "on a thread: ")
@@ -865,7 +887,6 @@ def _run(drive, name):
         except BaseException as error:  # FreeCAD's abort is no Exception
             fail_by(error)
         watch.deleteLater()
-        _write(name)
         if not failures:
             print("every check held", file=sys.__stdout__)
         sys.__stdout__.flush()

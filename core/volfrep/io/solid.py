@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 
 from ..mesh.float32_repair import remove_slivers, separate_vertices, shortest_edge
-from ..mesh.topology import Edges, edges_of
+from ..mesh.topology import Sides, edges_of
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..spatial.winding import Windings, windings
 from ..util.errors import VolfrepError
@@ -195,7 +195,7 @@ def check_solid(mesh: TriangleMesh, name: str) -> Solid:
 
 def _closed(
     mesh: TriangleMesh, size: float, name: str
-) -> tuple[TriangleMesh, Edges, Bools, list[str], str]:
+) -> tuple[TriangleMesh, Sides, Bools, list[str], str]:
     """Neighbours wound alike and, as far as that is certain, no open edges.
 
     Returns:
@@ -228,7 +228,7 @@ def _closed(
     return mesh, edges_of(mesh), turned, repairs, why
 
 
-def _refuse_defects(mesh: TriangleMesh, edges: Edges, why: str, name: str) -> None:
+def _refuse_defects(mesh: TriangleMesh, edges: Sides, why: str, name: str) -> None:
     def place(side: int) -> str:
         return place_text(mesh.vertices[edges.sides[side]].mean(axis=0))
 

@@ -74,7 +74,7 @@ def numbered(triangles: NDArray[Any], count: int) -> tuple[Ints, Ints]:
 
 
 @dataclass(frozen=True, eq=False)
-class Edges:
+class Sides:
     """Sides of triangles, numbered triangle by triangle, and the edges they lie on.
 
     Attributes:
@@ -111,7 +111,7 @@ class Edges:
         return order[0::2], order[1::2]
 
 
-def edges_of(mesh: TriangleMesh) -> Edges:
+def edges_of(mesh: TriangleMesh) -> Sides:
     """The edges of a mesh."""
     t = mesh.triangles.astype(np.int64)
     sides = np.stack([t, np.roll(t, -1, axis=1)], axis=2).reshape(-1, 2)
@@ -119,7 +119,7 @@ def edges_of(mesh: TriangleMesh) -> Edges:
     number = np.unique(keys, return_inverse=True)[1].ravel()
     count = np.bincount(number)
     forward = np.bincount(number[sides[:, 0] < sides[:, 1]], minlength=len(count))
-    return Edges(sides, number, count, 2 * forward - count)
+    return Sides(sides, number, count, 2 * forward - count)
 
 
 @dataclass(frozen=True, eq=False)

@@ -62,7 +62,7 @@ class Leaves:
 
 
 @dataclass(frozen=True, eq=False)
-class Edges:
+class CrossedEdges:
     """Edges of cubes that a surface crosses.
 
     Attributes:
@@ -93,9 +93,9 @@ class Edges:
         """(n,) the names of the middles: no two edges have the same."""
         return name(self.at(1))
 
-    def chosen(self, which: Bools | Ints) -> Edges:
+    def chosen(self, which: Bools | Ints) -> CrossedEdges:
         """Some of them."""
-        return Edges(self.low[which], self.axis[which], self.size[which], self.rising[which])
+        return CrossedEdges(self.low[which], self.axis[which], self.size[which], self.rising[which])
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,7 +113,7 @@ class Crossings:
         patches_of_segment: (s, 2) patches.
     """
 
-    edges: Edges
+    edges: CrossedEdges
     leaf: Ints
     patch: Ints
     segment: Ints
@@ -177,7 +177,7 @@ def cross(leaves: Leaves, negative: Bools, *, whole: bool = True) -> Crossings:
     return Crossings(edges, leaf, patch, segment, of_patch, pairs)
 
 
-def _minimal_edges(leaves: Leaves, negative: Bools) -> Edges:
+def _minimal_edges(leaves: Leaves, negative: Bools) -> CrossedEdges:
     """The crossed edges of leaves that no smaller leaf divides.
 
     Where a smaller leaf divides a crossed edge, one of its own edges there is crossed.
@@ -191,13 +191,13 @@ def _minimal_edges(leaves: Leaves, negative: Bools) -> Edges:
             rows = np.flatnonzero(negative[:, start] != negative[:, start + (4 >> axis)])
             axes = np.full(len(rows), axis)
             parts.append((nodes[rows, start], axes, leaves.size[rows], negative[rows, start]))
-    edges = Edges(*(np.concatenate(values) for values in zip(*parts, strict=True)))
+    edges = CrossedEdges(*(np.concatenate(values) for values in zip(*parts, strict=True)))
     names, once = np.unique(edges.names, return_index=True)
     edges = edges.chosen(once)
     return edges.chosen(find(_divided(edges), names) < 0)
 
 
-def _divided(edges: Edges) -> Ints:
+def _divided(edges: CrossedEdges) -> Ints:
     """The names, in ascending order, of all longer edges that some edges are parts of."""
     largest = int(edges.size.max(initial=0))
     found = [np.zeros(0, np.int64)]
@@ -206,14 +206,14 @@ def _divided(edges: Edges) -> Ints:
         low = edges.low.copy()
         low[rows, edges.axis] -= low[rows, edges.axis] % size
         whole = (low % size[:, None] == 0).all(axis=1) & (size <= largest)
-        edges = Edges(low, edges.axis, size, edges.rising).chosen(whole)
+        edges = CrossedEdges(low, edges.axis, size, edges.rising).chosen(whole)
         names, once = np.unique(edges.names, return_index=True)
         edges = edges.chosen(once)
         found.append(names)
     return np.unique(np.concatenate(found))
 
 
-def _leaves_round(leaves: Leaves, edges: Edges) -> Ints:
+def _leaves_round(leaves: Leaves, edges: CrossedEdges) -> Ints:
     """(n, 4) the leaf in each quadrant round the edges; -1: none."""
     # In the order of interleaved bits the cubes of a leaf follow each other.
     start = interleaved(leaves.corner)
@@ -232,7 +232,7 @@ def _leaves_round(leaves: Leaves, edges: Edges) -> Ints:
     return result
 
 
-def _segments(leaves: Leaves, edges: Edges, leaf: Ints) -> tuple[Ints, Ints, Ints]:
+def _segments(leaves: Leaves, edges: CrossedEdges, leaf: Ints) -> tuple[Ints, Ints, Ints]:
     """Crossed edges joined in pairs on the faces between leaves.
 
     Returns:
@@ -264,7 +264,7 @@ def _segments(leaves: Leaves, edges: Edges, leaf: Ints) -> tuple[Ints, Ints, Int
 
 
 def _round_the_face(
-    leaves: Leaves, edges: Edges, leaf: Ints, face: Ints, edge: Ints, quadrant: Ints
+    leaves: Leaves, edges: CrossedEdges, leaf: Ints, face: Ints, edge: Ints, quadrant: Ints
 ) -> Ints:
     """The order in which pairs of crossed edges enclose the negative parts of their face."""
     before, after = leaf[edge, quadrant], leaf[edge, (quadrant + 1) % 4]

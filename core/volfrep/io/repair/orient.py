@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...mesh.topology import Edges, pieces_of
+from ...mesh.topology import Sides, pieces_of
 from ...mesh.triangle_mesh import TriangleMesh
 from ...util.errors import VolfrepError
 from ...util.linalg import normalize
@@ -13,7 +13,7 @@ from ...util.numbers import place_text, plural
 from ...util.types import Bools, Ints
 
 
-def orient(mesh: TriangleMesh, edges: Edges, name: str) -> tuple[TriangleMesh, Bools]:
+def orient(mesh: TriangleMesh, edges: Sides, name: str) -> tuple[TriangleMesh, Bools]:
     """Neighbours over edges of two triangles wound alike, each piece as most of its area was.
 
     Returns:
@@ -45,7 +45,7 @@ def orient(mesh: TriangleMesh, edges: Edges, name: str) -> tuple[TriangleMesh, B
     return TriangleMesh(mesh.vertices, np.ascontiguousarray(triangles)), turned
 
 
-def separate(mesh: TriangleMesh, edges: Edges) -> tuple[TriangleMesh, list[str]]:
+def separate(mesh: TriangleMesh, edges: Sides) -> tuple[TriangleMesh, list[str]]:
     """Bodies that touch along an edge or at a vertex, taken apart there.
 
     Round an edge of four triangles or more, those that bound the same wedge of material are

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...mesh.topology import Edges, pieces_of
+from ...mesh.topology import Sides, pieces_of
 from ...mesh.triangle_mesh import TriangleMesh
 from ...spatial.winding import winding_by_shell
 from ...util.errors import VolfrepError
@@ -19,7 +19,7 @@ SAMPLES = 16
 NO_VOLUME = 1e-7
 
 
-def shells_of(mesh: TriangleMesh, edges: Edges) -> Ints:
+def shells_of(mesh: TriangleMesh, edges: Sides) -> Ints:
     """(m,) the shell of each triangle of a closed manifold mesh, counted from 0."""
     one, other = edges.pairs()
     return pieces_of(one // 3, other // 3, len(mesh.triangles))[1]

@@ -13,6 +13,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
+import catalogue_cells
 import matplotlib
 
 matplotlib.use("Agg")
@@ -23,7 +24,6 @@ from matplotlib.colors import Normalize
 from volfrep.design.cells import LIBRARY, PAPERS, USES
 from volfrep.mechanics import catalogue as shipped
 from volfrep.mechanics.endless import strains_held
-from volfrep.mechanics.making import catalogue_cells
 from volfrep.mechanics.materials import MATERIALS
 from volfrep.mechanics.tensor import gibson_ashby, hashin_shtrikman, moduli, young
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The library's cells over r / L, computed beforehand and shipped, and what lies between.
 
-`make catalogue` computes what is missing (`volfrep.mechanics.making`) and draws the charts.
+`make catalogue` computes what is missing (`tools/catalogue_cells.py`) and draws the charts.
 """
 
 from __future__ import annotations

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import plates
+from tools import catalogue_cells
 from volfrep import VolfrepError
 from volfrep.design.cells import LIBRARY, PAPERS, make_cell
 from volfrep.fem.beam_mesh import fitted_beams
@@ -27,7 +28,6 @@ from volfrep.mechanics.density import relative_density
 from volfrep.mechanics.frame import Ends, frame_tensor
 from volfrep.mechanics.homogenise import homogenise
 from volfrep.mechanics.joint_fit import LONGEST_END, periodic_frame
-from volfrep.mechanics.making import catalogue_cells
 from volfrep.mechanics.materials import find_material
 from volfrep.mechanics.summary import cell_properties
 from volfrep.mechanics.tensor import moduli

@@ -10,10 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from ...design.cells import LIBRARY, PAPERS, UnitCell
-from ...util.errors import VolfrepError
-from ...util.types import Floats
-from ..catalogue import (
+from volfrep.design.cells import LIBRARY, PAPERS, UnitCell
+from volfrep.mechanics.catalogue import (
     FIGURES,
     FILE,
     NAMES,
@@ -23,10 +21,12 @@ from ..catalogue import (
     catalogue,
     shares_of,
 )
-from ..homogenise import homogenise
-from ..joint_fit import JointFit, fit_joint
-from ..summary import POISSON, CellProperties, cell_properties
-from ..tensor import cubic
+from volfrep.mechanics.homogenise import homogenise
+from volfrep.mechanics.joint_fit import JointFit, fit_joint
+from volfrep.mechanics.summary import POISSON, CellProperties, cell_properties
+from volfrep.mechanics.tensor import cubic
+from volfrep.util.errors import VolfrepError
+from volfrep.util.types import Floats
 
 #: r / L of the catalogue; and the density above which struts are hardly struts any more.
 RATIOS = (0.02, 0.03, 0.04, 0.05, 0.07, 0.1, 0.125, 0.15, 0.2)

@@ -47,3 +47,17 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
                 for name, item in of_test.items():
                     if (name in mark.args) == (kind == "slow_cases"):
                         item.add_marker("slow")
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _stages_shared() -> None:
+    import shared_stages
+
+    shared_stages.share()
+
+
+@pytest.fixture(autouse=True)
+def _shares_stages(request: pytest.FixtureRequest, _stages_shared: None) -> None:
+    import shared_stages
+
+    shared_stages.ON[0] = "monkeypatch" not in request.fixturenames

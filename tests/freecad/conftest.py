@@ -95,8 +95,12 @@ def kept_fills():
     what it left in the cache; all others, such as an object's second one, are done.
     """
     require_engine()
+    sys.path.append(str(ROOT / "tests" / "core"))
+    import shared_stages
     from volfrep.jobs import pipeline
     from volfrep.util.content import content_of
+
+    shared_stages.share()
 
     kept, fill = {}, pipeline.fill
 

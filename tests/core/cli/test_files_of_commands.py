@@ -3,6 +3,7 @@
 
 import json
 import os
+import shutil
 import signal
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -12,6 +13,7 @@ import pytest
 import trimesh
 
 from command import run
+from volfrep.studies import page
 
 LATTICE = ("--cell", "BCC", "--cell-size", 10, "--strut-radius", 1)
 SOON = 20  # seconds
@@ -86,15 +88,13 @@ def test_a_study_does_not_write_over_its_own_file(here, capsys) -> None:
     assert (here / "index.html").read_bytes() == before
 
 
-def test_a_run_of_a_study_does_not_write_over_what_the_study_reads(here, capsys) -> None:
-    study()
-    assert run("sweep", "study.toml", "-o", "runs", "--quiet") == 0
-    record = next((here / "runs" / "records").iterdir())
+def test_a_run_of_a_study_does_not_write_over_what_the_study_reads(studied, capsys) -> None:
+    record = next((studied / "runs" / "records").iterdir())
     record.unlink()
     os.link("part.stl", record)
-    before = (here / "part.stl").read_bytes()
+    before = (studied / "part.stl").read_bytes()
     assert "the part itself" in refused(capsys, "sweep", "study.toml", "-o", "runs")
-    assert (here / "part.stl").read_bytes() == before
+    assert (studied / "part.stl").read_bytes() == before
 
 
 def test_files_that_only_the_specification_names_are_kept(here, capsys) -> None:
@@ -220,14 +220,33 @@ def test_a_study_has_steps_that_can_be_counted(here, capsys) -> None:
 DEEP = "[" * 200_000
 
 
+@pytest.fixture(scope="module")
+def done(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with a study and what it made."""
+    folder = tmp_path_factory.mktemp("done")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(folder)
+        trimesh.creation.box((20, 20, 20)).export("part.stl")
+        study()
+        assert run("sweep", "study.toml", "-o", "runs", "--quiet") == 0
+    return folder
+
+
+@pytest.fixture
+def studied(done: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A copy of it, whose page is written without plots: `test_page` looks at these."""
+    shutil.copytree(done, tmp_path, dirs_exist_ok=True)
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(page, "plots_of", lambda *_: [])
+    return tmp_path
+
+
 @pytest.mark.parametrize(
     "text", [DEEP, "[]", "3", "{}", '{"key": 1}', "", b"\xff\xfe", "values", "results", "errors"]
 )
-def test_a_damaged_record_is_done_anew_and_told(text, here, capsys) -> None:
-    study()
-    assert run("sweep", "study.toml", "-o", "runs") == 0
-    first = (here / "runs" / "runs.csv").read_text()
-    record = sorted((here / "runs" / "records").iterdir())[0]
+def test_a_damaged_record_is_done_anew_and_told(text, studied, capsys) -> None:
+    first = (studied / "runs" / "runs.csv").read_text()
+    record = sorted((studied / "runs" / "records").iterdir())[0]
     if text in ("values", "results", "errors"):
         text = json.dumps(json.loads(record.read_text()) | {text: 7})
     record.write_bytes(text if isinstance(text, bytes) else text.encode())
@@ -238,14 +257,12 @@ def test_a_damaged_record_is_done_anew_and_told(text, here, capsys) -> None:
     assert f"'{record}' is damaged" in told.err
     assert "done anew" in told.err
     assert "1 runs" in told.out
-    rows = [line.split(",") for line in (here / "runs" / "runs.csv").read_text().splitlines()]
+    rows = [line.split(",") for line in (studied / "runs" / "runs.csv").read_text().splitlines()]
     assert [row[:5] for row in rows] == [row.split(",")[:5] for row in first.splitlines()]
 
 
-def test_a_damaged_part_of_a_study_is_written_anew(here) -> None:
-    study()
-    assert run("sweep", "study.toml", "-o", "runs", "--quiet") == 0
-    part = next((here / "runs" / "parts").iterdir())
+def test_a_damaged_part_of_a_study_is_written_anew(studied) -> None:
+    part = next((studied / "runs" / "parts").iterdir())
     part.write_bytes(part.read_bytes()[:100])
-    next((here / "runs" / "records").iterdir()).unlink()
+    next((studied / "runs" / "records").iterdir()).unlink()
     assert run("sweep", "study.toml", "-o", "runs", "--quiet") == 0

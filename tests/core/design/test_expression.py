@@ -152,7 +152,7 @@ def grow(inner: st.SearchStrategy[Formula]) -> st.SearchStrategy[Formula]:
 FORMULAS = st.recursive(leaves(), grow, max_leaves=8)
 
 
-@settings(max_examples=80)
+@settings(max_examples=30)
 @given(formula=FORMULAS, s=st.integers(0, 64).map(lambda n: n / 64))
 def test_random_formulas_agree_with_python(formula: Formula, s: float) -> None:
     text, by_python = formula

@@ -64,7 +64,7 @@ def bend_case():
 @pytest.mark.parametrize(
     ("name", "cell", "radius", "least", "published"),
     [
-        ("L", "BCC", 0.95, 2.2, 2.60),
+        pytest.param("L", "BCC", 0.95, 2.2, 2.60, marks=pytest.mark.slow),
         ("L", "CVC", 1.28, 3.4, 2.60),
         pytest.param("bend", "BCC", 0.72, 2.4, 3.82, marks=pytest.mark.slow),
         pytest.param("bend", "CVC", 0.85, 9.9, 3.82, marks=pytest.mark.slow),

@@ -6,8 +6,27 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import pytest
+import trimesh
+
+import rods
+import volfrep
+from rods import SIDES
+from volfrep.design import kinds as design_kinds
+from volfrep.design.forecast import forecast_fill
+from volfrep.design.spec import LatticeSpec
+from volfrep.design.target import Target
+from volfrep.jobs import kinds as job_kinds
+from volfrep.jobs.blocks import block
+from volfrep.jobs.pipeline import fill
+from volfrep.jobs.preview import PartDepth, preview
+from volfrep.jobs.targets import solve_target
+from volfrep.mesh.triangle_mesh import TriangleMesh
+from volfrep.studies.expectation import expect
+from volfrep.util.errors import VolfrepError
 
 ROOT = Path(__file__).parents[2]
 CORE = ROOT / "core" / "volfrep"
@@ -165,3 +184,70 @@ def test_a_question_is_found(question: str) -> None:
 )
 def test_what_is_no_question_is_not(asked: str) -> None:
     assert not list(questions(asked))
+
+
+# --- a kind of one's own ------------------------------------------------------------------------
+
+#: Rods 6 mm apart in a box of 24 x 18 x 12 mm: 4 x 3 of them.
+SIZE, COUNT, APART, RADIUS = (24.0, 18.0, 12.0), 12, 6.0, 1.0
+#: Area of a polygon in place of a circle.
+SECTION = 0.5 * SIDES * np.sin(2.0 * np.pi / SIDES) * RADIUS**2
+
+
+@pytest.fixture
+def solid(monkeypatch: pytest.MonkeyPatch) -> TriangleMesh:
+    """The box; with a row for rods in either table of kinds."""
+    monkeypatch.setitem(design_kinds.KINDS, rods.Rods, rods.RodSpec)
+    monkeypatch.setitem(job_kinds.LATTICE_KINDS, rods.RodSpec, (rods.__name__, "RodKind"))
+    box = trimesh.creation.box(SIZE)
+    return TriangleMesh(box.vertices, box.faces.astype(np.int32))
+
+
+def rod_spec(**given: Any) -> LatticeSpec:
+    """A specification of rods."""
+    return LatticeSpec(**{"cell": rods.Rods(), "cell_size": APART, "strut_radius": RADIUS, **given})
+
+
+def test_a_new_kind_of_one_module_fills_a_box(solid: TriangleMesh) -> None:
+    bare = fill(solid, rod_spec(shell=0, keep_pieces=True)).report
+    assert bare.volume_mm3 == pytest.approx(COUNT * SECTION * SIZE[2], rel=1e-6)
+    assert (bare.bodies, bare.struts, bare.watertight) == (COUNT, COUNT, True)
+    part = fill(solid, rod_spec(shell=1)).report
+    inside = np.prod(np.array(SIZE) - 2.0)
+    rods_inside = COUNT * SECTION * (SIZE[2] - 2.0)
+    assert part.volume_mm3 == pytest.approx(np.prod(SIZE) - inside + rods_inside, rel=1e-3)
+    assert part.relative_density == pytest.approx(rods_inside / inside, rel=1e-2)
+    assert (part.bodies, part.genus, part.cells_active) == (1, COUNT, 0)
+    assert part.spec["cell"] == "Rods"
+
+
+def test_a_new_kind_is_forecast_and_previewed(solid: TriangleMesh) -> None:
+    spec = rod_spec(shell=1)
+    forecast = forecast_fill(solid, spec)
+    assert forecast.triangles > 0
+    assert COUNT / 2 < forecast.struts < 3 * COUNT * SIZE[2] / APART
+    shown = preview(solid, spec, PartDepth(solid))
+    made = fill(solid, spec).report
+    assert shown.struts == COUNT
+    assert shown.volume == pytest.approx(made.volume_mm3, rel=0.02)
+    assert expect(solid, spec, PartDepth(solid)).mass_g == pytest.approx(made.mass_g, rel=0.02)
+
+
+def test_a_new_kind_is_saved(solid: TriangleMesh, tmp_path: Path) -> None:
+    part = volfrep.fill(solid, rod_spec(shell=1))
+    part.save(tmp_path / "rods.stl")
+    read = trimesh.load(tmp_path / "rods.stl")
+    assert read.is_watertight
+    assert read.volume == pytest.approx(part.report.volume_mm3, rel=1e-5)
+    assert part.check("SLS").struts == COUNT
+
+
+def test_a_new_kind_refuses_what_it_does_not_do(solid: TriangleMesh) -> None:
+    with pytest.raises(VolfrepError, match=r"target of relative density: give the thickness\.$"):
+        solve_target(solid, rod_spec(target=Target("relative_density", 0.2)))
+    with pytest.raises(VolfrepError, match="has no one stiffness"):
+        volfrep.fill(solid, rod_spec(shell=1)).properties()
+    with pytest.raises(VolfrepError, match=r"no blocks of such a lattice: fill a box with it\.$"):
+        block(rod_spec(), (2, 2, 2))
+    with pytest.raises(VolfrepError, match=r"touch each other: make them thinner\.$"):
+        rod_spec(strut_radius=3.0)

@@ -160,13 +160,13 @@ class PartLattice(ABC):
             VolfrepError: nothing is left, or nothing would hold it.
         """
 
-    @abstractmethod
     def search(self, target: Target) -> TargetSearch:
         """The thickness for which it has the density or the mass of a target.
 
         Raises:
-            VolfrepError: none has; the text says what can be had.
+            VolfrepError: none has (the text says what can be had), or none is looked for.
         """
+        raise not_aimed(target)
 
     def radii_borne(self, own: float) -> RadiiBorne:
         """Up to which radii its struts can be sized.
@@ -204,6 +204,14 @@ def block_counts(count: object) -> tuple[int, int, int]:
         raise VolfrepError(f"The count must be three whole numbers, not {count!r}.")
     x, y, z = (whole("count", n, 1, MOST_CELLS) for n in count)
     return x, y, z
+
+
+def not_aimed(target: Target) -> VolfrepError:
+    """That no thickness is looked for."""
+    return VolfrepError(
+        f"No thickness of such a lattice is looked for that meets a target of {target.called}: "
+        "give the thickness."
+    )
 
 
 class BlockLattice(ABC):
@@ -275,15 +283,14 @@ class LatticeKind(ABC):
     def __init__(self, spec: LatticeSpec) -> None:
         self.spec = spec
 
-    @abstractmethod
     def modulus(self, target: Target) -> float:
         """Young's modulus of the endless lattice along a target's direction.
 
         Raises:
-            VolfrepError: it carries no load.
+            VolfrepError: it carries no load, or there is none.
         """
+        raise not_aimed(target)
 
-    @abstractmethod
     def stiffened(self, target: Target, *, rough: bool = False) -> LatticeSpec:
         """The specification with the thickness of a target of stiffness.
 
@@ -292,20 +299,21 @@ class LatticeKind(ABC):
             rough: whether coarse grids will do.
 
         Raises:
-            VolfrepError: none has; the text says what can be had.
+            VolfrepError: none has (the text says what can be had), or none is looked for.
         """
+        raise not_aimed(target)
 
     @abstractmethod
     def fill(self, part: PartDomain) -> PartLattice:
         """The lattice in a part."""
 
-    @abstractmethod
     def block(self, count: Sequence[int]) -> BlockLattice:
         """A block of so many cells along x, y, z.
 
         Raises:
             VolfrepError: the counts make no sense, or there are no such blocks.
         """
+        raise VolfrepError("There are no blocks of such a lattice: fill a box with it.")
 
     @abstractmethod
     def preview(self, solid: TriangleMesh, depth: PartDepth) -> Preview:

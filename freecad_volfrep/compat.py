@@ -57,6 +57,12 @@ def in_unit(value: float | App.Units.Quantity, unit: str) -> float:
     return float(value.getValueAs(unit).Value) if hasattr(value, "getValueAs") else float(value)
 
 
+def set_in_unit(obj: App.DocumentObject, name: str, value: float, unit: str) -> None:
+    """Set a property to a value in a unit, which is a mere number of it in FreeCAD 0.20."""
+    is_number = isinstance(getattr(obj, name), float)
+    setattr(obj, name, value if is_number else App.Units.Quantity(f"{value!r} {unit}"))
+
+
 def prescribed(constraint: App.DocumentObject, axis: str) -> float | None:
     """The displacement, mm, that a FEM constraint prescribes along x, y or z; None where free."""
     if getattr(constraint, f"{axis}Fix", False):  # FreeCAD 0.20

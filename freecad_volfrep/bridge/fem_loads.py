@@ -38,7 +38,7 @@ def is_analysis(obj: App.DocumentObject) -> bool:
 
 def has_loads(analysis: App.DocumentObject) -> bool:
     """Whether an analysis has a constraint of a kind that is read, so that it may be a case."""
-    return any(_kind_of(member) in _READERS for member in _constraints(analysis))
+    return any(kind_of(member) in _READERS for member in constraints_of(analysis))
 
 
 def load_cases_of(
@@ -68,8 +68,8 @@ def _case(analysis: App.DocumentObject, frame: App.Placement) -> LoadCase:
     supports: list[Support] = []
     loads: list[Load] = []
     pull = App.Vector()
-    for constraint in _constraints(analysis):
-        read = _READERS.get(_kind_of(constraint))
+    for constraint in constraints_of(analysis):
+        read = _READERS.get(kind_of(constraint))
         if read is None:
             raise VolfrepError(
                 f"'{constraint.Label}' of '{analysis.Label}' is a constraint that is not read for "
@@ -91,7 +91,8 @@ def _case(analysis: App.DocumentObject, frame: App.Placement) -> LoadCase:
     return LoadCase(analysis.Label, tuple(supports), tuple(loads), _tuple(pull))
 
 
-def _constraints(analysis: App.DocumentObject) -> list[App.DocumentObject]:
+def constraints_of(analysis: App.DocumentObject) -> list[App.DocumentObject]:
+    """The constraints of an analysis that are not suppressed."""
     return [
         member
         for member in analysis.Group
@@ -99,7 +100,7 @@ def _constraints(analysis: App.DocumentObject) -> list[App.DocumentObject]:
     ]
 
 
-def _kind_of(constraint: App.DocumentObject) -> str:
+def kind_of(constraint: App.DocumentObject) -> str:
     """The kind of a constraint; those made in Python have one type and say it by their proxy."""
     if constraint.TypeId != "Fem::ConstraintPython":
         return str(constraint.TypeId)
@@ -254,7 +255,7 @@ def _one_material(analyses: Sequence[App.DocumentObject]) -> SolidMaterial:
     ]
     if not found:
         raise VolfrepError(
-            "The analyses have no material: add one with the FEM workbench, or choose one here."
+            "Neither the infill nor its load cases have a material: choose its PrintMaterial."
         )
     other = [m for m in found if replace(m, name=found[0].name, source=found[0].source) != found[0]]
     if other:

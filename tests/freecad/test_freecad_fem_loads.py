@@ -193,7 +193,7 @@ def test_what_cannot_be_read_is_told_by_its_label(doc, box, case_of):
     with pytest.raises(VolfrepError, match="The load case 'Analysis' has no load"):
         case_of(analysis)
     force = add(analysis, "Force", [(box, "Face2")], Force=1.0)
-    with pytest.raises(VolfrepError, match="The analyses have no material"):
+    with pytest.raises(VolfrepError, match="Neither the infill nor its load cases"):
         case_of(analysis)
     made = ObjectsFem.makeMaterialSolid(doc, "Material")
     made.Material = {"Name": "Odd", "YoungsModulus": "2 GPa", "Density": "1 g/cm^3"}

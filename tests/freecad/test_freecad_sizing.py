@@ -214,7 +214,7 @@ def test_every_analysis_is_a_case(infill):
 
 
 def test_what_cannot_be_sized_is_told(doc, infill):
-    with pytest.raises(VolfrepError, match="has no analysis with loads: make one with the FEM"):
+    with pytest.raises(VolfrepError, match="has no load case: make one with Loads and Sizing"):
         analyses_of(infill)
     analysis = loaded(infill)
     with pytest.raises(VolfrepError, match="No load case is chosen"):

@@ -401,11 +401,11 @@ def leave_the_beams(obj):
 
 @slow
 def leave_the_sizing(doc, obj):
-    """Size in the panel of Size Lattice: a cancel keeps the best design so far, in the panel."""
+    """Loads and Sizing: a cancel keeps the best design so far, in the panel."""
 
     def prepare():
         select(obj)
-        click(toolbar_button("Size Lattice"))
+        click(toolbar_button("Loads and Sizing"))
         wait_until(lambda: part_of("VolfrepSizePanel", "Size") is not None)
         settle()
 

@@ -23,6 +23,7 @@ from driving import (
     check,
     choose_lattice,
     click,
+    click_in_view,
     click_item,
     comes_true,
     drawn_share,
@@ -35,7 +36,6 @@ from driving import (
     panel,
     panel_part,
     picture,
-    press_button,
     previews,
     progress_bar,
     red_share,
@@ -484,25 +484,6 @@ def open_a_face(doc, obj):
     doc.undo()
     doc.recompute()
     check("and can be undone", obj.Volume.Value == closed, obj.Status)
-
-
-def click_in_view(place, done):
-    """Really click at a point of the part, mm, until it has done what it is to do.
-
-    A user whose click is not seen by a busy window clicks again.
-    """
-    Gui.updateGui()
-    view = view_3d()
-    x, y = Gui.activeDocument().activeView().getPointOnScreen(App.Vector(*place))
-    corner = view.mapToGlobal(view.rect().bottomLeft())
-    for _ in range(5):
-        move_mouse(QtCore.QPoint(corner.x() + x + 4, corner.y() - y))
-        move_mouse(QtCore.QPoint(corner.x() + x, corner.y() - y))
-        press_button()
-        settle()
-        if comes_true(done, 5):
-            return
-    fail(f"clicks at {place} do nothing")
 
 
 def pick_in_the_panel(doc, obj):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Size Lattice and Strut Results by real clicks: the panel, cancel, the colours, its steps of undo.
+"""Loads and Sizing, Strut Results by real clicks: panel, cancel, colours, steps of undo.
 
 Run it with tools/run_gui.sh.
 """
@@ -10,7 +10,10 @@ from driving import (
     answer_panel,
     check,
     click,
+    click_in_tree,
+    click_in_view,
     click_menu,
+    clicks,
     comes_true,
     figures,
     move_mouse,
@@ -30,11 +33,12 @@ from driving import (
     xdotool,
 )
 from new_analysis import loaded
+from new_infill import filled as filled_block
 from PySide import QtCore, QtGui
 
 
 def sizing_panel():
-    """The open panel of Size Lattice, or None."""
+    """The open panel of Loads and Sizing, or None."""
     found = Gui.getMainWindow().findChildren(QtGui.QWidget, "VolfrepSizePanel")
     return next((widget for widget in found if widget.isVisible()), None)
 
@@ -63,7 +67,7 @@ def network():
 
 def open_panel(obj):
     select(obj)
-    click(toolbar_button("Size Lattice"))
+    click(toolbar_button("Loads and Sizing"))
     check("a click opens the panel", wait_until(lambda: sizing_panel() is not None, 10))
 
 
@@ -311,14 +315,112 @@ def colour_the_mesh(doc, obj):
     obj.ViewObject.ColourBy = "None"
 
 
+def filled():
+    """A block with a lattice in a skin, of nothing but that."""
+    doc, _, obj = filled_block("Block", CellSize=10, ShellThickness=1, Resolution=8)
+    return doc, obj
+
+
+def load_by_clicks(doc, obj):
+    """From a lattice to the report of its sizing: faces held and loaded by clicks, in one panel."""
+    before, steps = [one.Name for one in doc.Objects], doc.UndoCount
+    size = [getattr(obj.Base, name).Value for name in ("Length", "Width", "Height")]
+    top, front = (0.5 * size[0], 0.5 * size[1], size[2]), (0.5 * size[0], 0.0, 0.5 * size[2])
+    clicks.clear()
+    click_in_tree(obj.Label)
+    click(toolbar_button("Loads and Sizing").button)
+    check("a click opens the panel", wait_until(lambda: sizing_panel() is not None, 10))
+    picture("loads_1_panel")
+    click(part("AddHeld"))
+    check("the solid is shown", obj.Base.Visibility and not obj.Visibility)
+    loads, cases = part("Loads", QtGui.QListWidget), part("Cases", QtGui.QListWidget)
+    rows = lambda: [loads.item(k).text() for k in range(loads.count())]  # noqa: E731
+    click_in_view(front, lambda: rows() == ["Held: Face3"])
+    check("a click makes a case and holds a face", cases.count() == 1, cases.count())
+    click(part("AddForce"))
+    click_in_view(top, lambda: len(rows()) == 2)
+    xdotool("type", "500")
+    check("a force is typed in at once", wait_until(
+        lambda: rows()[1] == "Force 500 N, -Z: Face6"), rows())  # fmt: skip
+    case = next(one for one in doc.Objects if one.isDerivedFrom("Fem::FemAnalysis"))
+    force = next(one for one in case.Group if one.TypeId == "Fem::ConstraintForce")
+    check("it points down", (force.DirectionVector - App.Vector(0, 0, -1)).Length < 1e-9)
+    check("and is drawn", force.ViewObject.Visibility)
+    picture("loads_2_force")
+    made = part("PrintMaterial", QtGui.QComboBox)
+    click(made)
+    wait_until(made.view().isVisible)
+    xdotool("key", "Home", "Down")
+    clicks.append(1)  # at the entry, which the key takes here
+    xdotool("key", "Return")
+    check("the material is the infill's", wait_until(
+        lambda: obj.PrintMaterial == made.itemData(1) != "None"), obj.PrintMaterial)  # fmt: skip
+    click(part("Size"))
+    said = part("Said")
+    check("it is sized", wait_until(lambda: "hold all limits" in said.text(), 90), said.text())
+    picture("loads_3_sized")
+    answer_panel("OK")
+    check("the panel closes", wait_until(lambda: sizing_panel() is None, 90))
+    check("and a report opens", wait_until(lambda: len(reports()) == 1, 60))
+    settle()
+    figures["clicks from a lattice to the report"] = len(clicks)
+    check("in ten clicks", len(clicks) <= 10, len(clicks))
+    check("the symbols go out of the view", not force.ViewObject.Visibility)
+    picture("loads_4_report")
+    reports()[0].close()
+    settle()
+    while doc.UndoCount > steps:
+        doc.undo()
+    check("undo takes the loads back", [one.Name for one in doc.Objects] == before)
+
+
+def make_more_cases(doc, obj):
+    """Another case is held alike; pressure, weight, directions; removed and cancelled."""
+    before, steps = [one.Name for one in doc.Objects], doc.UndoCount
+    size = [getattr(obj.Base, name).Value for name in ("Length", "Width", "Height")]
+    top, front = (0.5 * size[0], 0.5 * size[1], size[2]), (0.5 * size[0], 0.0, 0.5 * size[2])
+    open_panel(obj)
+    loads, cases = part("Loads", QtGui.QListWidget), part("Cases", QtGui.QListWidget)
+    rows = lambda: [loads.item(k).text() for k in range(loads.count())]  # noqa: E731
+    click(part("Size"))
+    check("without a case it says what to do", "load case" in part("Said").text())
+    click(part("AddHeld"))
+    click_in_view(front, lambda: len(rows()) == 1)
+    click(part("AddPressure"))
+    check("the next thing to do is said", "under pressure" in part("Said").text())
+    click_in_view(top, lambda: rows()[1:] == ["Pressure 1 MPa: Face6"])
+    click(part("NewCase"))
+    check("another case is held alike", rows() == ["Held: Face3"], rows())
+    click(part("AddWeight"))
+    check("the weight is one click", rows()[1:] == ["Weight"], rows())
+    click(part("AddForce"))
+    click_in_view(top, lambda: len(rows()) == 3)
+    direction = part("LoadDirection", QtGui.QComboBox)
+    for name, row in (("into the face", "into the face"), ("+X", "+X")):
+        direction.setCurrentIndex(direction.findData(name))
+        settle()
+        check(f"a force goes {name}", rows()[2] == f"Force 100 N, {row}: Face6", rows())
+    picture("loads_5_cases")
+    click(part("RemoveLoad"))
+    check("what is chosen is removed", len(rows()) == 2, rows())
+    check("both are ticked", [cases.item(k).checkState() for k in range(2)]
+          == [QtCore.Qt.Checked] * 2)  # fmt: skip
+    answer_panel("Cancel")
+    check("the panel closes", wait_until(lambda: sizing_panel() is None, 10))
+    settle()
+    check("Cancel takes the cases away", [one.Name for one in doc.Objects] == before)
+    check("without a step", doc.UndoCount == steps)
+    check("and shows the infill", obj.Visibility and not obj.Base.Visibility)
+
+
 def without_an_analysis(doc, obj):
-    """Where nothing says what the part carries, both commands say so and change nothing."""
+    """Where nothing says what the part carries, Strut Results says so and changes nothing."""
     for analysis in [one for one in doc.Objects if one.isDerivedFrom("Fem::FemAnalysis")]:
         for member in analysis.Group:
             doc.removeObject(member.Name)
         doc.removeObject(analysis.Name)
     steps = doc.UndoCount
-    for name in ("Size Lattice", "Strut Results"):
+    for name in ("Strut Results",):
         select(obj)
         click(toolbar_button(name))
         check(f"{name} opens nothing", sizing_panel() is None and dock() is None)
@@ -343,6 +445,8 @@ run_checks(
         cancel_the_panel: loaded,
         escape_keeps_the_best: lambda: loaded((120, 40, 40)),
         show_results: loaded,
+        load_by_clicks: filled,
+        make_more_cases: filled,
         without_an_analysis: loaded,
         close_the_document: loaded,
     },

@@ -35,6 +35,8 @@ LONGEST = int(os.environ.get("GUI_LONGEST", "400"))
 TRIES = 5
 figures = {}
 failures = []
+#: Of the mouse's buttons, all that were made.
+clicks = []
 
 
 #: The check that is running, by its function's name.
@@ -222,6 +224,7 @@ def move_mouse(point):
 def press_button(*options, button=1, on=None):
     """A real click where the mouse is; returns whether it hit the widget `on`."""
     landing = _Landing(on)
+    clicks.append(button)
     xdotool("click", *options, button)
     return landing.wait()
 
@@ -457,6 +460,25 @@ class Entry:
         watch = Watch(look, f"the drop-down with {self.text}")
         xdotool("click", 1)
         comes_true(lambda: watch.over, PATIENCE)  # what never came is told at the check's end
+
+
+def click_in_view(place, done):
+    """Really click at a point of the part, mm, until it has done what it is to do.
+
+    A user whose click is not seen by a busy window clicks again.
+    """
+    Gui.updateGui()
+    view = view_3d()
+    x, y = Gui.activeDocument().activeView().getPointOnScreen(App.Vector(*place))
+    corner = view.mapToGlobal(view.rect().bottomLeft())
+    for _ in range(5):
+        move_mouse(QtCore.QPoint(corner.x() + x + 4, corner.y() - y))
+        move_mouse(QtCore.QPoint(corner.x() + x, corner.y() - y))
+        press_button()
+        settle()
+        if comes_true(done, 5):
+            return
+    fail(f"clicks at {place} do nothing")
 
 
 def _toolbar_buttons():

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 #: Why there is nothing to show.
 NOT_SIZED = QT_TRANSLATE_NOOP(
-    "VolfrepColours", "No stresses are kept in the document: Size Lattice puts them there."
+    "VolfrepColours", "No stresses are kept in the document: Loads and Sizing puts them there."
 )
 CHANGED = QT_TRANSLATE_NOOP(
     "VolfrepColours", "The lattice is not the one that was sized any more: size it again."

@@ -12,6 +12,7 @@ import FreeCAD as App
 import numpy as np
 from numpy.typing import NDArray
 
+from freecad_volfrep.features.infill.materials import material_of
 from freecad_volfrep.features.infill.sized_radii import store_radii
 from freecad_volfrep.features.jobs.progress import job_title, run_job
 from freecad_volfrep.features.reports.tables import Table
@@ -46,8 +47,8 @@ LIMIT_NAMES = marked(
 #: What the panel begins with: safety against yield; radii over the present one.
 FIRST_SAFETY, SMALLEST, LARGEST = 1.5, 0.5, 2.0
 NO_ANALYSIS = (
-    "The document has no analysis with loads: make one with the FEM workbench, with a material and "
-    "constraints on the solid's faces, edges or vertices."
+    "The document has no load case: make one with Loads and Sizing, or an analysis with the FEM "
+    "workbench, with constraints on the solid's faces, edges or vertices."
 )
 
 
@@ -262,9 +263,16 @@ def store_outcome(obj: App.DocumentObject, outcome: Outcome) -> None:
 
 
 def first_numbers(obj: App.DocumentObject) -> dict[str, float]:
-    """What the panel begins with, by the names of `volfrep.jobs.sizing.GOALS`."""
-    radius = obj.StrutRadius.Value
-    return {"safety": FIRST_SAFETY, "thinnest": SMALLEST * radius, "thickest": LARGEST * radius}
+    """What the panel begins with, by the names of `volfrep.jobs.sizing.GOALS`.
+
+    Struts are no thinner than the infill's process prints.
+    """
+    from volfrep.reports.processes import PROCESSES
+
+    radius, process = obj.StrutRadius.Value, PROCESSES.get(obj.PrintProcess)
+    thinnest = max(SMALLEST * radius, 0.0 if process is None else 0.5 * process.strut)
+    thickest = max(LARGEST * radius, 2.0 * thinnest)
+    return {"safety": FIRST_SAFETY, "thinnest": thinnest, "thickest": thickest}
 
 
 def size_struts(
@@ -325,7 +333,7 @@ def size_struts(
 
 
 def loads_of(obj: App.DocumentObject, analyses: Sequence[App.DocumentObject]) -> LoadCases:
-    """What analyses say that an infill carries.
+    """What analyses say that an infill carries, of its own material or, without one, of theirs.
 
     Raises:
         VolfrepError: there is none, or what they say makes no sense.
@@ -334,15 +342,15 @@ def loads_of(obj: App.DocumentObject, analyses: Sequence[App.DocumentObject]) ->
     from freecad_volfrep.bridge.solids import parent_placement
 
     if not analyses:
-        raise VolfrepError("No load case is chosen: tick at least one analysis.")
-    return load_cases_of(analyses, parent_placement(obj))
+        raise VolfrepError("No load case is chosen: tick at least one.")
+    return load_cases_of(analyses, parent_placement(obj), material_of(obj))
 
 
 def carried_by(obj: App.DocumentObject, quantity: str) -> dict[str, Any]:
     """What `volfrep.jobs.figures.point_values.point_values` is given to colour by loads.
 
     What is kept of the lattice as it was sized, where the document has the loads of that or none
-    any more: the figures are then those that Size Lattice told. Else the document's loads.
+    any more: the figures are then those that Loads and Sizing told. Else the document's loads.
 
     Args:
         obj: a lattice infill.

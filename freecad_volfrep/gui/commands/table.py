@@ -223,9 +223,9 @@ _TABLE = (
     Command(
         "VOLFREP_SizeLattice",
         "size_lattice.svg",
-        "Size Lattice",
-        "Find the radii of the selected lattice infill's struts for the load cases of the FEM "
-        "workbench: least mass within limits, or most stiffness at a mass",
+        "Loads and Sizing",
+        "Pick what holds and loads the selected lattice infill, and find the radii of its struts: "
+        "least mass within limits, or most stiffness at a mass",
         "L, Z",
         infill_in_view,
         size_lattice,

@@ -152,7 +152,7 @@ class PropertyFields:
 
     def _number_field(self, name: str) -> Any:
         """A number of the unit that `quantities` have for the property."""
-        field, shown = _PlainNumber(), SHOWN.get(name, 1.0)
+        field, shown = PlainNumber(), SHOWN.get(name, 1.0)
         field.setRange(0.0, _LARGEST)
         field.setDecimals(3)
         field.setStepType(QtWidgets.QAbstractSpinBox.AdaptiveDecimalStepType)
@@ -246,7 +246,7 @@ class PropertyFields:
             )
 
 
-class _PlainNumber(QtWidgets.QDoubleSpinBox):
+class PlainNumber(QtWidgets.QDoubleSpinBox):
     """A number without zeros at its end, which would push the unit out of a narrow panel.
 
     FreeCAD's expressions cannot be bound to it, so one is typed behind a "=", as its own boxes

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The task panel of Size Lattice."""
+"""The task panel of Loads and Sizing."""

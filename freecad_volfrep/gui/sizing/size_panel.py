@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The task panel of Size Lattice: load cases, what is wanted, limits, bounds, and the steps."""
+"""The task panel of Loads and Sizing: load cases, what is wanted, limits, bounds, and the steps."""
 
 from __future__ import annotations
 
@@ -13,7 +13,6 @@ from freecad_volfrep.features.sizing.sizing import (
     GOALS,
     ONLY_OF,
     Outcome,
-    analyses_of,
     first_numbers,
     size_struts,
     store_outcome,
@@ -21,6 +20,7 @@ from freecad_volfrep.features.sizing.sizing import (
 from freecad_volfrep.gui.colours.colour_dock import close_struts, open_struts
 from freecad_volfrep.gui.jobs.updating import begin_update
 from freecad_volfrep.gui.messages import WRONG
+from freecad_volfrep.gui.panel.property_fields import PropertyFields, label_of
 from freecad_volfrep.gui.qt import OK_CANCEL, QtCore, QtWidgets
 from freecad_volfrep.gui.widgets.panel_manners import (
     PanelForm,
@@ -33,15 +33,17 @@ from freecad_volfrep.gui.windows.report_window import show_report
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 from volfrep.util.errors import Cancelled, VolfrepError
 
+from .loads_box import LoadsBox
+
 #: The table of steps is brought up to date so often while they are made, ms.
 TICK = 150
-#: Least width of a field and most height of the list of cases, px.
-FIELD, CASES = 82, 62
+#: Least width of a field, px.
+FIELD = 82
 HEADER = (
     QT_TRANSLATE_NOOP("VolfrepSizePanel", "Step"),
     QT_TRANSLATE_NOOP("VolfrepSizePanel", "Mass, g"),
     QT_TRANSLATE_NOOP("VolfrepSizePanel", "Work, N mm"),
-    QT_TRANSLATE_NOOP("VolfrepSizePanel", "Limit"),
+    QT_TRANSLATE_NOOP("VolfrepSizePanel", "Most used limit"),
 )
 #: Fields: name of `volfrep.jobs.sizing.GOALS`, label, unit, what it means.
 FIELDS = (
@@ -111,15 +113,11 @@ class SizePanel:
 
     Args:
         obj: the infill.
-
-    Raises:
-        VolfrepError: at construction: the document has no analysis with loads.
     """
 
     def __init__(self, obj: App.DocumentObject) -> None:
         self._obj, self._doc = obj, obj.Document
-        self._analyses = analyses_of(obj)
-        self._doc.openTransaction(translate("VOLFREP_SizeLattice", "Size Lattice"))
+        self._doc.openTransaction(translate("VOLFREP_SizeLattice", "Loads and Sizing"))
         self._steps: list[tuple[str, ...]] = []
         self._outcome: Outcome | None = None
         close_struts(obj)
@@ -147,9 +145,12 @@ class SizePanel:
         if not self._obj.isValid():
             self._say(self._obj.Status, wrong=True)
             return False
+        self._loads.end(is_kept=True)
         self._doc.commitTransaction()
         self._close()
-        title = translate("VolfrepSizePanel", "Size Lattice: {label}").format(label=self._obj.Label)
+        title = translate("VolfrepSizePanel", "Loads and Sizing: {label}").format(
+            label=self._obj.Label
+        )
         show_report(title, f"{self._obj.Label} sizing", outcome.tables())
         return True
 
@@ -160,6 +161,7 @@ class SizePanel:
     def reject(self) -> bool:
         """Close and leave the infill as it was."""
         close_struts(self._obj)
+        self._loads.end(is_kept=False)
         self._doc.abortTransaction()  # to end the editing would commit it
         self._close()
         self._doc.recompute()
@@ -167,6 +169,8 @@ class SizePanel:
 
     def size(self) -> bool:
         """Size the struts now; a cancel keeps the best design so far. Says what is wrong."""
+        self._loads.end_picking()
+        self._say("")
         self._steps.clear()
         self._show_steps()
         self._outcome = None
@@ -175,7 +179,7 @@ class SizePanel:
         try:
             self._outcome = size_struts(
                 self._obj,
-                self._chosen(),
+                self._loads.chosen(),
                 self._numbers(),
                 self._steps.append,
                 goal=self._goal.currentData(),
@@ -207,12 +211,14 @@ class SizePanel:
     def _build(self, first: Mapping[str, float]) -> Any:
         form = PanelForm()
         form.setObjectName("VolfrepSizePanel")
-        title = translate("VolfrepSizePanel", "Size Lattice: {label}")
+        title = translate("VolfrepSizePanel", "Loads and Sizing: {label}")
         entitle(form, title.format(label=self._obj.Label))
         column = QtWidgets.QVBoxLayout(form)
         column.setContentsMargins(0, 0, 0, 0)
-        column.addWidget(self._cases_box())
-        column.addWidget(self._goal_box(first))
+        self._loads = LoadsBox(self._obj, self._say)
+        self._lists = [self._loads.size, self._loads.direction]
+        for box in (self._loads, self._material_box(), self._goal_box(first)):
+            column.addWidget(box)
         self._table = QtWidgets.QTableWidget(0, len(HEADER))
         self._table.setObjectName("Steps")
         self._table.setHorizontalHeaderLabels(
@@ -244,25 +250,31 @@ class SizePanel:
         self._plot.clicked.connect(lambda _=False: self._show_plot())
         for widget in (button, self._said, self._table, self._plot):
             column.addWidget(widget)
-        leave_the_wheel(form, [self._goal, *(field for _, field in self._fields.values())])
+        leave_the_wheel(
+            form, [*self._lists, self._goal, *(field for _, field in self._fields.values())]
+        )
         return form
 
-    def _cases_box(self) -> Any:
-        box = QtWidgets.QGroupBox(translate("VolfrepSizePanel", "Load cases"))
-        self._cases = QtWidgets.QListWidget()
-        self._cases.setObjectName("Cases")
-        self._cases.setMaximumHeight(CASES)
-        for analysis in self._analyses:
-            item = QtWidgets.QListWidgetItem(analysis.Label, self._cases)
-            item.setFlags(item.flags() | QtCore.Qt.ItemIsUserCheckable)
-            item.setCheckState(QtCore.Qt.Checked)
-        column = QtWidgets.QVBoxLayout(box)
-        column.setContentsMargins(6, 4, 6, 4)
-        column.addWidget(self._cases)
-        self._cases.setToolTip(
-            translate("VolfrepSizePanel", "Analyses of the FEM workbench: each is a load case")
-        )
+    def _material_box(self) -> Any:
+        """Material and process, which are the infill's own."""
+        box = QtWidgets.QGroupBox(translate("App::Property", "Material"))
+        rows = QtWidgets.QFormLayout(box)
+        rows.setContentsMargins(6, 4, 6, 4)
+        made = PropertyFields(self._obj, self._made_of, lambda text: self._say(text, wrong=True))
+        for name in ("PrintMaterial", "PrintProcess"):
+            field = made.field(name)
+            field.setObjectName(name)
+            field.setAccessibleName(label_of(name))
+            rows.addRow(QtWidgets.QLabel(label_of(name)), field)
+            self._lists.append(field)
         return box
+
+    def _made_of(self, name: str) -> None:
+        """Struts no thinner than the process prints."""
+        first = first_numbers(self._obj)
+        for bound in ("thinnest", "thickest"):
+            field = self._fields[bound][1]
+            field.setProperty("rawValue", max(field.property("rawValue"), first[bound]))
 
     def _goal_box(self, first: Mapping[str, float]) -> Any:
         box = QtWidgets.QGroupBox(translate("VolfrepSizePanel", "Goal and limits"))
@@ -317,13 +329,6 @@ class SizePanel:
         for name, row in self._fields.items():
             for widget in row:
                 widget.setVisible(name not in hidden)
-
-    def _chosen(self) -> list[App.DocumentObject]:
-        return [
-            analysis
-            for k, analysis in enumerate(self._analyses)
-            if self._cases.item(k).checkState() == QtCore.Qt.Checked
-        ]
 
     def _numbers(self) -> dict[str, float]:
         return {name: float(spin.property("rawValue")) for name, (_, spin) in self._fields.items()}

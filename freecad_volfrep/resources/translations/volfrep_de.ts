@@ -1444,12 +1444,12 @@
   <context>
     <name>VOLFREP_SizeLattice</name>
     <message>
-      <source>Find the radii of the selected lattice infill's struts for the load cases of the FEM workbench: least mass within limits, or most stiffness at a mass</source>
-      <translation>Die Radien der Streben der gewählten Gitterfüllung für die Lastfälle des FEM-Arbeitsbereichs finden: geringste Masse innerhalb von Grenzen, oder größte Steifigkeit bei einer Masse</translation>
+      <source>Loads and Sizing</source>
+      <translation>Lasten und Auslegung</translation>
     </message>
     <message>
-      <source>Size Lattice</source>
-      <translation>Gitter dimensionieren</translation>
+      <source>Pick what holds and loads the selected lattice infill, and find the radii of its struts: least mass within limits, or most stiffness at a mass</source>
+      <translation>Wählen, was die gewählte Gitterfüllung hält und belastet, und die Radien ihrer Streben finden: geringste Masse innerhalb von Grenzen oder größte Steifigkeit bei einer Masse</translation>
     </message>
   </context>
   <context>
@@ -1722,8 +1722,8 @@
       <translation>Die Maus über das Gitter bewegen, um Werte abzulesen</translation>
     </message>
     <message>
-      <source>No stresses are kept in the document: Size Lattice puts them there.</source>
-      <translation>In diesem Dokument sind keine Spannungen gespeichert: Gitter dimensionieren legt sie dort ab.</translation>
+      <source>No stresses are kept in the document: Loads and Sizing puts them there.</source>
+      <translation>Im Dokument sind keine Spannungen: Lasten und Auslegung legt sie dort ab.</translation>
     </message>
     <message>
       <source>None</source>
@@ -2228,6 +2228,73 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>Writing {label}</source>
       <translation>{label} wird geschrieben</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepLoads</name>
+    <message>
+      <source>Another case, held as this one is</source>
+      <translation>Ein weiterer Lastfall, gehalten wie dieser</translation>
+    </message>
+    <message>
+      <source>Click at faces in the view that carry the force</source>
+      <translation>Flächen in der Ansicht anklicken, die die Kraft tragen</translation>
+    </message>
+    <message>
+      <source>Click at faces in the view that do not move</source>
+      <translation>Flächen in der Ansicht anklicken, die sich nicht bewegen</translation>
+    </message>
+    <message>
+      <source>Click at faces in the view under pressure</source>
+      <translation>Flächen in der Ansicht anklicken, auf die Druck wirkt</translation>
+    </message>
+    <message>
+      <source>Direction</source>
+      <translation>Richtung</translation>
+    </message>
+    <message>
+      <source>Force</source>
+      <translation>Kraft</translation>
+    </message>
+    <message>
+      <source>Held</source>
+      <translation>Gehalten</translation>
+    </message>
+    <message>
+      <source>Load case {number}</source>
+      <translation>Lastfall {number}</translation>
+    </message>
+    <message>
+      <source>New case</source>
+      <translation>Neuer Lastfall</translation>
+    </message>
+    <message>
+      <source>Pressure</source>
+      <translation>Druck</translation>
+    </message>
+    <message>
+      <source>Remove</source>
+      <translation>Entfernen</translation>
+    </message>
+    <message>
+      <source>Size</source>
+      <translation>Größe</translation>
+    </message>
+    <message>
+      <source>The part's own weight, downwards</source>
+      <translation>Das eigene Gewicht des Teils, nach unten</translation>
+    </message>
+    <message>
+      <source>Weight</source>
+      <translation>Gewicht</translation>
+    </message>
+    <message>
+      <source>into the face</source>
+      <translation>in die Fläche</translation>
+    </message>
+    <message>
+      <source>out of the face</source>
+      <translation>aus der Fläche</translation>
     </message>
   </context>
   <context>
@@ -3146,12 +3213,12 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Den Entwurf von CalculiX lösen lassen, wo es installiert ist, und sagen, wie weit es übereinstimmt; wo es mehr findet, als eine Grenze erlaubt, werden die Streben dicker</translation>
     </message>
     <message>
-      <source>Limit</source>
-      <translation>Grenze</translation>
-    </message>
-    <message>
       <source>Load cases</source>
       <translation>Lastfälle</translation>
+    </message>
+    <message>
+      <source>Loads and Sizing: {label}</source>
+      <translation>Lasten und Auslegung: {label}</translation>
     </message>
     <message>
       <source>Mass, g</source>
@@ -3160,6 +3227,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>Most stiffness</source>
       <translation>Größte Steifigkeit</translation>
+    </message>
+    <message>
+      <source>Most used limit</source>
+      <translation>Meistgenutzte Grenze</translation>
     </message>
     <message>
       <source>Nodes whose struts would grow together stay below it</source>
@@ -3172,10 +3243,6 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>Remove thin struts that carry little</source>
       <translation>Dünne Streben entfernen, die wenig tragen</translation>
-    </message>
-    <message>
-      <source>Size Lattice: {label}</source>
-      <translation>Gitter dimensionieren: {label}</translation>
     </message>
     <message>
       <source>Smallest radius</source>

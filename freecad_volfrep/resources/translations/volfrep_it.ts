@@ -1444,12 +1444,12 @@
   <context>
     <name>VOLFREP_SizeLattice</name>
     <message>
-      <source>Find the radii of the selected lattice infill's struts for the load cases of the FEM workbench: least mass within limits, or most stiffness at a mass</source>
-      <translation>Trova i raggi delle aste del riempimento reticolare selezionato per i casi di carico dell'ambiente FEM: massa minima entro i limiti, o rigidezza massima a una massa data</translation>
+      <source>Loads and Sizing</source>
+      <translation>Carichi e dimensionamento</translation>
     </message>
     <message>
-      <source>Size Lattice</source>
-      <translation>Dimensiona reticolo</translation>
+      <source>Pick what holds and loads the selected lattice infill, and find the radii of its struts: least mass within limits, or most stiffness at a mass</source>
+      <translation>Scegliere ciò che regge e carica il riempimento selezionato e trovare i raggi delle sue aste: massa minima entro limiti o rigidezza massima con una massa</translation>
     </message>
   </context>
   <context>
@@ -1722,8 +1722,8 @@
       <translation>Muovere il mouse sul reticolo per leggere i valori</translation>
     </message>
     <message>
-      <source>No stresses are kept in the document: Size Lattice puts them there.</source>
-      <translation>Nel documento non ci sono tensioni: le salva Dimensiona reticolo.</translation>
+      <source>No stresses are kept in the document: Loads and Sizing puts them there.</source>
+      <translation>Nel documento non ci sono tensioni: Carichi e dimensionamento ve le mette.</translation>
     </message>
     <message>
       <source>None</source>
@@ -2228,6 +2228,73 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>Writing {label}</source>
       <translation>Scrittura di {label}</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepLoads</name>
+    <message>
+      <source>Another case, held as this one is</source>
+      <translation>Un altro caso, vincolato come questo</translation>
+    </message>
+    <message>
+      <source>Click at faces in the view that carry the force</source>
+      <translation>Fare clic sulle facce che portano la forza</translation>
+    </message>
+    <message>
+      <source>Click at faces in the view that do not move</source>
+      <translation>Fare clic sulle facce che non si muovono</translation>
+    </message>
+    <message>
+      <source>Click at faces in the view under pressure</source>
+      <translation>Fare clic sulle facce sotto pressione</translation>
+    </message>
+    <message>
+      <source>Direction</source>
+      <translation>Direzione</translation>
+    </message>
+    <message>
+      <source>Force</source>
+      <translation>Forza</translation>
+    </message>
+    <message>
+      <source>Held</source>
+      <translation>Vincolo</translation>
+    </message>
+    <message>
+      <source>Load case {number}</source>
+      <translation>Caso di carico {number}</translation>
+    </message>
+    <message>
+      <source>New case</source>
+      <translation>Nuovo caso</translation>
+    </message>
+    <message>
+      <source>Pressure</source>
+      <translation>Pressione</translation>
+    </message>
+    <message>
+      <source>Remove</source>
+      <translation>Togliere</translation>
+    </message>
+    <message>
+      <source>Size</source>
+      <translation>Valore</translation>
+    </message>
+    <message>
+      <source>The part's own weight, downwards</source>
+      <translation>Il peso proprio del pezzo, verso il basso</translation>
+    </message>
+    <message>
+      <source>Weight</source>
+      <translation>Peso</translation>
+    </message>
+    <message>
+      <source>into the face</source>
+      <translation>nella faccia</translation>
+    </message>
+    <message>
+      <source>out of the face</source>
+      <translation>fuori dalla faccia</translation>
     </message>
   </context>
   <context>
@@ -3146,12 +3213,12 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Fai risolvere il progetto a CalculiX, dove è installato, e di' quanto concorda; dove trova più di quanto un limite consenta, le aste diventano più spesse</translation>
     </message>
     <message>
-      <source>Limit</source>
-      <translation>Limite</translation>
-    </message>
-    <message>
       <source>Load cases</source>
       <translation>Casi di carico</translation>
+    </message>
+    <message>
+      <source>Loads and Sizing: {label}</source>
+      <translation>Carichi e dimensionamento: {label}</translation>
     </message>
     <message>
       <source>Mass, g</source>
@@ -3160,6 +3227,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>Most stiffness</source>
       <translation>Rigidezza massima</translation>
+    </message>
+    <message>
+      <source>Most used limit</source>
+      <translation>Limite più usato</translation>
     </message>
     <message>
       <source>Nodes whose struts would grow together stay below it</source>
@@ -3172,10 +3243,6 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>Remove thin struts that carry little</source>
       <translation>Rimuovi le aste sottili che portano poco</translation>
-    </message>
-    <message>
-      <source>Size Lattice: {label}</source>
-      <translation>Dimensiona reticolo: {label}</translation>
     </message>
     <message>
       <source>Smallest radius</source>

@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Load cases made in the document: analyses of the FEM workbench, with what holds and loads faces.
+
+They are FreeCAD's own objects, so that its FEM workbench draws, edits and solves them too.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import FreeCAD as App
+
+from freecad_volfrep.bridge.fem_loads import constraints_of, kind_of
+from freecad_volfrep.compat import in_unit, set_in_unit
+from freecad_volfrep.translation import QT_TRANSLATE_NOOP, figure, translate
+
+HELD, FORCE, PRESSURE, WEIGHT = (
+    QT_TRANSLATE_NOOP("VolfrepLoads", "Held"),
+    QT_TRANSLATE_NOOP("VolfrepLoads", "Force"),
+    QT_TRANSLATE_NOOP("VolfrepLoads", "Pressure"),
+    QT_TRANSLATE_NOOP("VolfrepLoads", "Weight"),
+)
+#: What can be made, as `kind_of` knows it, and the function of FreeCAD's `ObjectsFem` for it.
+KINDS = {
+    HELD: ("Fem::ConstraintFixed", "makeConstraintFixed"),
+    FORCE: ("Fem::ConstraintForce", "makeConstraintForce"),
+    PRESSURE: ("Fem::ConstraintPressure", "makeConstraintPressure"),
+    WEIGHT: ("Fem::ConstraintSelfWeight", "makeConstraintSelfWeight"),
+}
+#: Property, unit and first value of those that have a size.
+SIZES = {FORCE: ("Force", "N", 100.0), PRESSURE: ("Pressure", "MPa", 1.0)}
+#: Directions of a force by name; the first two are those of its faces.
+INTO, OUT_OF = (
+    QT_TRANSLATE_NOOP("VolfrepLoads", "into the face"),
+    QT_TRANSLATE_NOOP("VolfrepLoads", "out of the face"),
+)
+AXES = {
+    "-Z": (0.0, 0.0, -1.0),
+    "+Z": (0.0, 0.0, 1.0),
+    "-X": (-1.0, 0.0, 0.0),
+    "+X": (1.0, 0.0, 0.0),
+    "-Y": (0.0, -1.0, 0.0),
+    "+Y": (0.0, 1.0, 0.0),
+}
+DIRECTIONS = ("-Z", INTO, OUT_OF, "+Z", "-X", "+X", "-Y", "+Y")
+
+
+def make_case(doc: App.Document, like: App.DocumentObject | None = None) -> App.DocumentObject:
+    """An analysis without loads.
+
+    Args:
+        doc: the document.
+        like: a case whose supports the new one has, too.
+    """
+    import ObjectsFem
+
+    case = ObjectsFem.makeAnalysis(doc, "LoadCase")
+    number = sum(1 for other in doc.Objects if other.TypeId == case.TypeId)
+    case.Label = translate("VolfrepLoads", "Load case {number}").format(number=number)
+    for one in loads_in(like) if like is not None else ():
+        if load_kind(one) == HELD:
+            add_load(case, HELD).References = one.References
+    return case
+
+
+def loads_in(case: App.DocumentObject) -> list[App.DocumentObject]:
+    """What a case has of `KINDS` and other constraints that are read."""
+    return constraints_of(case)
+
+
+def load_kind(load: App.DocumentObject) -> str:
+    """Which of `KINDS` it is, or an empty text for another constraint."""
+    return next((kind for kind, (named, _) in KINDS.items() if named == kind_of(load)), "")
+
+
+def add_load(case: App.DocumentObject, kind: str) -> App.DocumentObject:
+    """A support or load of a kind, on no face yet; a force points down."""
+    import ObjectsFem
+
+    load = getattr(ObjectsFem, KINDS[kind][1])(case.Document, kind)
+    case.addObject(load)
+    if kind in SIZES:
+        set_size(load, SIZES[kind][2])
+    if kind == FORCE:
+        set_direction(load, "-Z")
+    return load
+
+
+def remove_load(load: App.DocumentObject) -> None:
+    """Take a support or load away, with what says its direction."""
+    doc, line = load.Document, _own_line(load)
+    doc.removeObject(load.Name)
+    if line is not None:
+        doc.removeObject(line.Name)
+
+
+def toggle_face(load: App.DocumentObject, owner: App.DocumentObject, face: str) -> None:
+    """Put a face to those that a support or load acts on, or take it away from them."""
+    faces = {one: list(names) for one, names in load.References}
+    names = faces.setdefault(owner, [])
+    (names.remove if face in names else names.append)(face)
+    load.References = [(one, tuple(names)) for one, names in faces.items() if names]
+    if load_kind(load) == FORCE and load.References:
+        set_direction(load, direction_of(load))  # which the face may say
+    load.recompute()
+
+
+def set_size(load: App.DocumentObject, size: float) -> None:
+    """Give a force in N, or a pressure in MPa, whose sign is its direction."""
+    name, unit, _ = SIZES[load_kind(load)]
+    set_in_unit(load, name, size, unit)
+    load.recompute()
+
+
+def size_of(load: App.DocumentObject) -> float | None:
+    """A force in N, a pressure in MPa; None for what has no size."""
+    kind = load_kind(load)
+    return in_unit(getattr(load, SIZES[kind][0]), SIZES[kind][1]) if kind in SIZES else None
+
+
+def set_direction(load: App.DocumentObject, name: str) -> None:
+    """Point a force along one of `DIRECTIONS`.
+
+    FreeCAD takes a direction from an edge, so one that is not the faces' own has a hidden line.
+    """
+    line = _own_line(load)
+    if name in AXES:
+        if line is None:
+            line = load.Document.addObject("Part::Line", "Direction")
+            load.getParentGroup().addObject(line)
+            line.Visibility = False
+            line.X1 = line.Y1 = line.Z1 = 0.0
+        line.X2, line.Y2, line.Z2 = AXES[name]
+        line.recompute()
+        load.Direction = (line, ["Edge1"])
+        load.Reversed = False
+        wanted = App.Vector(*AXES[name])
+        load.recompute()
+        if load.DirectionVector.dot(wanted) < 0.0:
+            load.Reversed = True
+    else:
+        load.Direction = None
+        if line is not None:
+            load.Document.removeObject(line.Name)
+        load.Reversed = False
+        load.recompute()
+        is_out = load.DirectionVector.dot(load.NormalDirection) > 0.0
+        load.Reversed = is_out == (name == INTO)
+    load.recompute()
+
+
+def direction_of(load: App.DocumentObject) -> str:
+    """Which of `DIRECTIONS` a force has; an empty text for another one."""
+    if load.Direction is None:
+        return INTO if load.DirectionVector.dot(load.NormalDirection) < 0.0 else OUT_OF
+    way = load.DirectionVector
+    return next((n for n, a in AXES.items() if way.dot(App.Vector(*a)) > 1.0 - 1e-9), "")
+
+
+def said_load(load: App.DocumentObject) -> str:
+    """A support or load as a row of a list: 'Force 100 N, -Z: Face3'."""
+    kind = load_kind(load)
+    text = translate("VolfrepLoads", kind) if kind else load.Label
+    size = size_of(load)
+    if size is not None:
+        text = f"{text} {figure(size, 4)} {SIZES[kind][1]}"
+    if kind == FORCE and direction_of(load):
+        text = f"{text}, {translate('VolfrepLoads', direction_of(load))}"
+    names = [name for _, names in getattr(load, "References", ()) or () for name in names]
+    return f"{text}: {', '.join(names)}" if names else text
+
+
+def _own_line(load: App.DocumentObject) -> Any:
+    """The line that was made for a force's direction, or None."""
+    link = getattr(load, "Direction", None)
+    is_own = link is not None and link[0].TypeId == "Part::Line" and not link[0].Visibility
+    return link[0] if is_own else None

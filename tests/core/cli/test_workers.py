@@ -43,13 +43,13 @@ def _modules() -> list[str]:
 
 @pytest.fixture(autouse=True)
 def _small_groups(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(octant_groups, "GROUP_TRIANGLES", 12_000)
+    monkeypatch.setattr(octant_groups, "GROUP_TRIANGLES", 6_000)
 
 
 @pytest.fixture
 def part(tmp_path: Path) -> Path:
     path = tmp_path / "part.stl"
-    write_stl(samples.box((48.0, 36.0, 28.0)), path)
+    write_stl(samples.box((32.0, 24.0, 20.0)), path)
     return path
 
 
@@ -73,7 +73,7 @@ def test_others_help_where_the_job_is_worth_it_or_they_are_asked_for(
     monkeypatch.setattr(pool, "processes", nobody)
     for least, given in ((10**9, ()), (10**9, ("--workers", 3)), (1, ()), (1, ("--workers", 3))):
         monkeypatch.setattr(volfrep.cli.command, "WORTH_WORKERS", least)
-        assert fill(part, tmp_path / "out.stl", "--quiet", "--cell-size", 20, *given) == 0
+        assert fill(part, tmp_path / "out.stl", "--quiet", "--cell-size", 12, *given) == 0
     module = "volfrep.trim.group_cut"
     assert asked == [(1, ""), (3, ""), (None, module), (3, module)]
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import json
 import shlex
+import shutil
 from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -24,6 +25,7 @@ from volfrep.mechanics.materials import find_material
 from volfrep.studies import page
 from volfrep.studies.actions import ACTIONS
 from volfrep.studies.running import evaluator
+from volfrep.studies.sweep import Swept
 
 BOX = check_solid(samples.box((24.0, 16.0, 16.0)), "box")
 QUICK = Study(
@@ -41,6 +43,21 @@ def _unplotted(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(page, "plots_of", lambda *_: [])
 
 
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory: pytest.TempPathFactory) -> Swept:
+    """The study, done; nobody changes its folder."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(page, "plots_of", lambda *_: [])
+        return volfrep.sweep(QUICK, tmp_path_factory.mktemp("whole"))
+
+
+@pytest.fixture
+def done(whole: Swept, tmp_path: Path) -> Path:
+    """A copy of its folder."""
+    shutil.copytree(whole.page.parent, tmp_path, dirs_exist_ok=True)
+    return tmp_path
+
+
 def test_a_study_makes_a_record_a_design_a_table_and_a_page(tmp_path: Path) -> None:
     made = volfrep.sweep(QUICK, tmp_path)
     rows = timeless(tmp_path)
@@ -54,17 +71,16 @@ def test_a_study_makes_a_record_a_design_a_table_and_a_page(tmp_path: Path) -> N
     assert not list(tmp_path.rglob("*.part"))
 
 
-def test_what_is_done_is_not_done_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    volfrep.sweep(QUICK, tmp_path)
-    before = timeless(tmp_path)
-    times = {path: path.stat().st_mtime_ns for path in (tmp_path / "records").iterdir()}
-    again = volfrep.sweep(QUICK, tmp_path)
+def test_what_is_done_is_not_done_again(done: Path) -> None:
+    before = timeless(done)
+    times = {path: path.stat().st_mtime_ns for path in (done / "records").iterdir()}
+    again = volfrep.sweep(QUICK, done)
     assert again.runs == 0
-    assert timeless(tmp_path) == before
-    assert {p: p.stat().st_mtime_ns for p in (tmp_path / "records").iterdir()} == times
+    assert timeless(done) == before
+    assert {p: p.stat().st_mtime_ns for p in (done / "records").iterdir()} == times
     next(iter(times)).unlink()
-    assert volfrep.sweep(QUICK, tmp_path).runs == 1
-    assert timeless(tmp_path) == before
+    assert volfrep.sweep(QUICK, done).runs == 1
+    assert timeless(done) == before
 
 
 @pytest.mark.slow
@@ -94,9 +110,8 @@ def test_the_forecast_of_the_mass_is_near_what_a_fill_makes(tmp_path: Path) -> N
     assert table.column("fill.watertight") == [True, True]
 
 
-def test_the_chosen_are_those_that_no_other_design_beats(tmp_path: Path) -> None:
-    made = volfrep.sweep(QUICK, tmp_path)
-    rows = {row["key"]: row for row in made.table.dicts()}
+def test_the_chosen_are_those_that_no_other_design_beats(whole: Swept) -> None:
+    rows = {row["key"]: row for row in whole.table.dicts()}
 
     def better(one: dict, two: dict) -> bool:
         mass, stiffness = "forecast.mass_g", "properties.E100"
@@ -105,8 +120,8 @@ def test_the_chosen_are_those_that_no_other_design_beats(tmp_path: Path) -> None
         return lighter <= 0 <= softer and (lighter < 0 or softer > 0)
 
     best = {k for k, row in rows.items() if not any(better(r, row) for r in rows.values())}
-    assert set(made.front) == best
-    assert set(made.front.values()) == {1}
+    assert set(whole.front) == best
+    assert set(whole.front.values()) == {1}
 
 
 def triangles_of(file: Path) -> Counter[bytes]:
@@ -180,23 +195,21 @@ def test_a_defect_of_the_engine_is_told_and_ends_nothing(
     assert made.front == {}
 
 
-def test_shards_together_are_the_whole_study(tmp_path: Path) -> None:
-    whole = volfrep.sweep(QUICK, tmp_path / "whole")
+def test_shards_together_are_the_whole_study(whole: Swept, tmp_path: Path) -> None:
     first = volfrep.sweep(QUICK, tmp_path / "parts", shard=(1, 2))
     assert (first.count("done"), first.count("open"), first.front) == (3, 3, {})
     second = volfrep.sweep(QUICK, tmp_path / "parts", shard=(2, 2))
     assert second.front == whole.front
-    assert timeless(tmp_path / "parts") == timeless(tmp_path / "whole")
+    assert timeless(tmp_path / "parts") == timeless(whole.page.parent)
     with pytest.raises(VolfrepError, match="1/4 or 4/4, not 3/2"):
         volfrep.sweep(QUICK, tmp_path, shard=(3, 2))
 
 
-def test_any_executor_does_the_runs(tmp_path: Path) -> None:
+def test_any_executor_does_the_runs(whole: Swept, tmp_path: Path) -> None:
     with ThreadPoolExecutor(2) as pool:
         made = volfrep.sweep(QUICK, tmp_path / "pool", executor=pool)
-    here = volfrep.sweep(QUICK, tmp_path / "here", workers=1)
-    assert made.runs == here.runs == 6
-    assert timeless(tmp_path / "pool") == timeless(tmp_path / "here")
+    assert made.runs == 6
+    assert timeless(tmp_path / "pool") == timeless(whole.page.parent)
     with pytest.raises(VolfrepError, match="one of workers, executor and scheduler"):
         volfrep.sweep(QUICK, tmp_path, executor=pool, workers=2)
     with pytest.raises(VolfrepError, match="takes no more runs"):
@@ -268,13 +281,12 @@ def test_the_command_does_a_study(tmp_path: Path, capsys: pytest.CaptureFixture[
     assert [line for line in errors if not line.startswith("volfrep: ")] == []
 
 
-def test_the_table_reads_as_parquet_where_pandas_is_there(tmp_path: Path) -> None:
+def test_the_table_reads_as_parquet_where_pandas_is_there(whole: Swept) -> None:
     pandas = pytest.importorskip("pandas", reason="needs the optional package pandas")
     pytest.importorskip("fastparquet", reason="needs the optional package fastparquet")
-    made = volfrep.sweep(QUICK, tmp_path)
-    frame = pandas.read_parquet(tmp_path / "runs.parquet")
-    assert list(frame.columns) == list(made.table.columns)
-    assert np.array_equal(frame["forecast.mass_g"], made.table.numbers("forecast.mass_g"))
+    frame = pandas.read_parquet(whole.page.with_name("runs.parquet"))
+    assert list(frame.columns) == list(whole.table.columns)
+    assert np.array_equal(frame["forecast.mass_g"], whole.table.numbers("forecast.mass_g"))
 
 
 @pytest.mark.slow

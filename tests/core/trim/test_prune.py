@@ -182,7 +182,7 @@ def test_a_strut_taken_away_takes_its_volume():
 
 
 def test_without_a_skin_trimming_leaves_stubs_that_can_go():
-    solid = samples.sphere(16.0)
+    solid = samples.sphere(12.0)
     spec = LatticeSpec(cell="CVC", cell_size=8, strut_radius=0.8, shell=0, resolution=8)
     runs = {
         limit: fill(solid, replace(spec, shortest_stub=limit)).report for limit in (0.0, 2.0, 4.0)

@@ -68,7 +68,7 @@ def _size(given: argparse.Namespace) -> int | None:
         with _stopping(progress) as told:
             made = size(
                 solid, spec, loads, goal, most_steps=options.steps, prove_it=options.prove,
-                progress=told, cache=cache, watch=_teller(options.quiet),
+                progress=told, cache=cache, watch=_teller(options.quiet, options.steps),
             )  # fmt: skip
         seconds = time.perf_counter() - start
         infill = Infill(
@@ -99,10 +99,10 @@ def _size(given: argparse.Namespace) -> int | None:
 
 @contextmanager
 def _stopping(progress: ProgressCallback) -> Iterator[ProgressCallback]:
-    """A progress that says stop after Ctrl-C, so that the best design so far is kept.
+    """A progress that says stop after Ctrl-C or SIGTERM, so that the best design so far is kept.
 
     Raises:
-        KeyboardInterrupt: there was no design yet, or Ctrl-C came again.
+        KeyboardInterrupt: there was no design yet, or a signal came again.
     """
     stopped = False
 
@@ -119,27 +119,43 @@ def _stopping(progress: ProgressCallback) -> Iterator[ProgressCallback]:
     if threading.current_thread() is not threading.main_thread():
         yield told
         return
-    before = signal.signal(signal.SIGINT, stop)
+    before = {number: signal.signal(number, stop) for number in (signal.SIGINT, signal.SIGTERM)}
     try:
         yield told
     except Cancelled as error:
         raise KeyboardInterrupt from error
     finally:
-        signal.signal(signal.SIGINT, before)
+        for number, handler in before.items():
+            signal.signal(number, handler)
 
 
-def _teller(quiet: bool) -> Callable[[int, Step], bool] | None:
-    """Tells every step on standard error, if it is a terminal."""
-    if quiet or not sys.stderr.isatty():
+def _teller(quiet: bool, most_steps: int) -> Callable[[int, Step], bool] | None:
+    """Tells every step on standard error: its figures, and how long the rest takes at most."""
+    if quiet:
         return None
+    start = time.perf_counter()
 
     def tell_step(number: int, step: Step) -> bool:
+        nonlocal start
+        now = time.perf_counter()
         uses = ", ".join(f"{name} {use:.0%}" for name, use in step.uses.items())
         text = f"step {number + 1}: struts {step.volume:,.0f} mm3" + f", {uses}" * bool(uses)
-        print(f"\r{text:<79}", file=sys.stderr)
+        if number:
+            each = (now - start) / number
+            rest = each * max(most_steps - number - 1, 0)
+            text += f", {each:.2g} s a step, at most {_time(rest)} more"
+        else:
+            start = now  # the time before the first step is the part's
+        if sys.stderr.isatty():  # over the line of the progress
+            text = f"\r{text:<79}"
+        print(text, file=sys.stderr, flush=True)
         return True
 
     return tell_step
+
+
+def _time(seconds: float) -> str:
+    return f"{seconds:.0f} s" if seconds < 90 else f"{seconds / 60:.0f} min"
 
 
 def _write_specification(options: SizeOptions, made: SizedPart) -> None:

@@ -2,6 +2,7 @@
 """`volfrep size`: from a part and its load cases to a part whose struts follow them."""
 
 import json
+import re
 import shutil
 import signal
 from collections.abc import Callable
@@ -214,16 +215,18 @@ def test_a_plot_is_an_svg(part: Path, capsys: pytest.CaptureFixture[str]) -> Non
     assert "is an .svg file" in refusal(part, capsys, "--plot", part.with_name("steps.png"))
 
 
-def test_ctrl_c_keeps_the_best_design_so_far(
-    part: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_to_stop_keeps_the_best_design_so_far(
+    part: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, number: signal.Signals
 ) -> None:
     told = []
+    handlers = [signal.getsignal(each) for each in (signal.SIGINT, signal.SIGTERM)]
 
-    def interrupting(quiet: bool) -> Callable[[int, Step], bool]:
-        def watch(number: int, step: Step) -> bool:
+    def interrupting(quiet: bool, most_steps: int) -> Callable[[int, Step], bool]:
+        def watch(count: int, step: Step) -> bool:
             told.append(step)
-            if number == 2:
-                signal.raise_signal(signal.SIGINT)
+            if count == 2:
+                signal.raise_signal(number)
             return True
 
         return watch
@@ -234,6 +237,18 @@ def test_ctrl_c_keeps_the_best_design_so_far(
     assert len(told) == 3 or len(told) == 4
     assert json.loads(report.read_text())["sizing"]["stopped"] == "cancelled"
     assert part.with_name("out.stl").exists()
+    assert [signal.getsignal(each) for each in (signal.SIGINT, signal.SIGTERM)] == handlers
+
+
+def test_every_step_is_told_though_nobody_looks(
+    part: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    options = ("--loads", part.with_name("loads.toml"), "-o", part.with_name("out.stl"))
+    assert run("size", part, *options, *WHOLE, "--no-proof", "--steps", "3") in (0, 3)
+    lines = [line for line in capsys.readouterr().err.splitlines() if line.startswith("step ")]
+    assert len(lines) == 3
+    assert re.fullmatch(r"step 1: struts [\d,]+ mm3", lines[0])
+    assert re.search(r", [\d.e+-]+ s a step, at most \d+ s more$", lines[1])
 
 
 @pytest.mark.parametrize(

@@ -57,7 +57,7 @@ WINDOWS = $(call lane,$(GUI_FIRST)) , \
 	$(call lane,$(filter-out $(GUI_FIRST),$(GUI_GROUPS) $(GUI_ALONE)))
 IN_FREECAD = "freecad=make --no-print-directory test-freecad"
 
-check: setup ## style, types, and the tests nearest to what changed, in a minute (SECONDS=50, BASE=main)
+check: setup ## style, types, and the tests nearest to what changed, in FreeCAD too, in a minute (SECONDS=50, BASE=main)
 	@$(PYTHON) tools/check.py $(if $(BASE),--base $(BASE)) $(if $(SECONDS),--seconds $(SECONDS))
 
 lint: setup ## ruff and mypy

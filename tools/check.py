@@ -9,10 +9,11 @@ Which tests: those that import a changed module, then those that import a module
 on, the nearest first, until the seconds are over; of as near ones the cheapest first. Imports are
 read from the sources, wherever in them they stand; names taken from the package `volfrep` count as
 imports of the modules that they live in. A changed file that is no module counts for the tests
-that name it. The rules of the house (layers, documents, translations) are always among them.
+that name it. The rules of the house (layers, documents, translations) are always among them. Where
+the workbench changed and FreeCAD is installed, its tests are chosen and run likewise, beside these.
 
-What was not run is told, and is much: tests inside FreeCAD and its windows, slow ones, and those
-there was no time for. `make test` runs them.
+What was not run is told, and is much: FreeCAD's windows, slow tests, and those there was no time
+for. `make test` runs them.
 """
 
 from __future__ import annotations
@@ -22,6 +23,8 @@ import ast
 import functools
 import json
 import os
+import shlex
+import shutil
 import subprocess
 import sys
 import time
@@ -32,6 +35,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
 CORE = ROOT / "tests" / "core"
+IN_FREECAD = ROOT / "tests" / "freecad"
 ALWAYS = ("test_layers.py", "test_workbench_layers.py", "test_docs.py", "test_translations.py")
 #: Seconds that files of tests took when they last ran here, and those of one that never did.
 TIMES = ROOT / ".cache" / "check_times.json"
@@ -63,27 +67,41 @@ def _git(*words: str) -> subprocess.CompletedProcess[str]:
 
 
 def module_names() -> dict[str, Path]:
-    """Modules of the engine, the benchmark and the tests by the names they are imported by."""
+    """Modules of engine, workbench, benchmark and tests by the names they are imported by.
+
+    Those of the tests in FreeCAD begin with `freecad:`: some are called as others of the engine's.
+    """
     found = {}
-    for folder, start in (("core", "core/volfrep"), ("", "bench"), ("tests/core", "tests/core")):
+    for folder, start, prefix in (
+        ("core", "core/volfrep", ""),
+        ("", "freecad_volfrep", ""),
+        ("", "bench", ""),
+        ("tests/core", "tests/core", ""),
+        ("tests/freecad", "tests/freecad", "freecad:"),
+    ):
         for path in sorted((ROOT / start).rglob("*.py")):
             parts = path.relative_to(ROOT / folder).with_suffix("").parts
-            found[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path
+            name = ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+            found[prefix + name] = path
     return found
 
 
 def imports(name: str, path: Path, known: dict[str, Path], homes: dict[str, str]) -> Iterator[str]:
     """Modules that a module imports, and those that names of the package live in."""
     package = name.split(".") if path.name == "__init__.py" else name.split(".")[:-1]
+    beside = "freecad:" if name.startswith("freecad:") else ""
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):
-            yield from (alias.name for alias in node.names if alias.name in known)
+            for alias in node.names:
+                yield beside + alias.name if beside + alias.name in known else alias.name
         elif isinstance(node, ast.ImportFrom):
             base = package[: len(package) - node.level + 1] if node.level else []
             home = ".".join(filter(None, [*base, node.module or ""]))
             for alias in node.names:
                 inner = f"{home}.{alias.name}"
                 yield inner if inner in known else home
+                if beside:
+                    yield beside + home
                 if home == "volfrep" and alias.name in homes:
                     yield f"volfrep.{homes[alias.name]}"
         elif (
@@ -104,9 +122,9 @@ def graph() -> tuple[dict[str, Path], dict[str, set[str]]]:
 
     importers: dict[str, set[str]] = {name: set() for name in known}
     for name, path in known.items():
-        # The package itself loads its names when they are first used: it passes nothing on.
+        # The packages themselves load their names when they are first used: they pass nothing on.
         for target in set(imports(name, path, known, _HOMES)) & importers.keys():
-            if name != "volfrep":
+            if name not in ("volfrep", "freecad_volfrep"):
                 importers[target].add(name)
     return known, importers
 
@@ -117,7 +135,7 @@ def distances(files: list[str]) -> dict[Path, int]:
     names = {str(path.relative_to(ROOT)): name for name, path in known.items()}
     reached = {names[file]: 0 for file in files if file in names}
     others = [Path(file).name for file in files if file not in names]
-    tests = [p for p in known.values() if p.name.startswith("test_") and p.is_relative_to(CORE)]
+    tests = [p for p in known.values() if p.name.startswith("test_") and "tests" in p.parts]
     found = {CORE / name: 1 for name in ALWAYS}
     for path in tests:
         text = path.read_text(encoding="utf-8")
@@ -191,44 +209,64 @@ def main() -> int:
     times = json.loads(TIMES.read_text()) if TIMES.is_file() else {}
     cost = {path: times.get(str(path.relative_to(ROOT)), UNKNOWN) for path in near}
     lanes = min(2, os.cpu_count() or 1)
-    chosen, left = [], options.seconds * 0.7 * lanes
-    for path in sorted(near, key=lambda path: (near[path], cost[path])):
-        # What was changed itself is run whatever it takes, until the end.
-        if cost[path] <= left or near[path] == 0:
-            chosen.append(path)
-            left -= cost[path]
+    inside = []
+    if any(f.startswith(("freecad_volfrep/", "tests/freecad/")) for f in files):
+        command = shutil.which("freecadcmd")
+        inside = choose(near, cost, IN_FREECAD, options.seconds * 0.5 if command else 0.0)
+    lanes = max(1, lanes - bool(inside))
+    chosen = choose(near, cost, CORE, options.seconds * 0.7 * lanes)
     failed += [name for name, process in running if process.wait()]
-    words = [str(path.relative_to(ROOT)) for path in chosen]
     environment = {**os.environ, _UNTIL: str(end), "PYTHONPATH": str(ROOT / "tools")}
     environment.pop("PYTHONDONTWRITEBYTECODE", None)
-    done = subprocess.run(
-        [python, "-m", "pytest", "-p", "check", "-q", "-m", "not slow", "-n", str(lanes),
-         "--dist", "loadfile", *words],
+    usual = ["-p", "check", "-q", "-m", "not slow"]
+    words = [str(path.relative_to(ROOT)) for path in chosen]
+    runs = [("tests", subprocess.Popen(
+        [python, "-m", "pytest", *usual, "-n", str(lanes), "--dist", "loadfile", *words],
         cwd=ROOT, env=environment,
-    )  # fmt: skip
-    if done.returncode:
-        failed.append("tests")
-    tell_the_rest(files, near, chosen)
+    ))]  # fmt: skip
+    if inside:
+        words = [*usual, *(str(path.relative_to(ROOT)) for path in inside)]
+        runs.append(("tests in FreeCAD", subprocess.Popen(
+            [str(command), "tools/run_in_freecad.py"], stdin=subprocess.DEVNULL, cwd=ROOT,
+            env={**environment, "PYTEST_ARGS": shlex.join(words)},
+        )))  # fmt: skip
+    failed += [name for name, process in runs if process.wait()]
+    tell_the_rest(files, near, [*chosen, *inside])
     print(f"check: {', '.join(failed)} failed" if failed else "check: what was run holds")
     return 1 if failed else 0
 
 
+def choose(
+    near: dict[Path, int], cost: dict[Path, float], folder: Path, seconds: float
+) -> list[Path]:
+    """Test files of a folder, the nearest first, that take so long together."""
+    chosen = []
+    of_folder = [path for path in near if path.is_relative_to(folder)]
+    for path in sorted(of_folder, key=lambda path: (near[path], cost[path])):
+        # What was changed itself is run whatever it takes, until the end.
+        if cost[path] <= seconds or (near[path] == 0 and seconds):
+            chosen.append(path)
+            seconds -= cost[path]
+    return chosen
+
+
 def tell_the_rest(files: list[str], near: dict[Path, int], chosen: list[Path]) -> None:
     """Say what was not run."""
-    all_tests = len(list(CORE.rglob("test_*.py")))
     left_out = sorted((near[path], path) for path in near if path not in chosen)
-    print(
-        f"check: {len(chosen)} of {all_tests} files of the engine's tests were run; of the others "
-        f"{len(left_out)} reach what changed by way of imports, {all_tests - len(near)} do not"
-    )
+    for folder, whose in ((CORE, "engine's"), (IN_FREECAD, "workbench's")):
+        every = list(folder.rglob("test_*.py"))
+        run, reach = (len(set(every) & set(paths)) for paths in (chosen, near))
+        print(
+            f"check: {run} of {len(every)} files of the {whose} tests were run; of the others "
+            f"{reach - run} reach what changed by way of imports, {len(every) - reach} do not"
+        )
     for distance, path in left_out[:5]:
         print(f"check:   not run, {distance} imports away: {path.relative_to(ROOT)}")
-    for folder, what in (("tests/freecad", "make test-freecad"), ("tests/gui", "make test-gui")):
-        print(f"check:   not run: {folder} ({what})")
+    print("check:   not run: tests/gui (make test-gui)")
     known = {str(path.relative_to(ROOT)) for path in module_names().values()}
     other = [f for f in files if f not in known and not f.startswith(("docs/", "tests/"))]
     if other:
-        print(f"check:   changed, and imported by no test of the engine: {', '.join(other[:8])}")
+        print(f"check:   changed, and imported by no test: {', '.join(other[:8])}")
 
 
 if __name__ == "__main__":

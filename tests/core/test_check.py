@@ -26,3 +26,11 @@ _spec.loader.exec_module(check)
 )
 def test_how_near_tests_are_to_a_change(file, test, distance):
     assert check.distances([file]).get(check.CORE / test) == distance
+
+
+def test_a_change_of_the_workbench_is_near_to_its_tests_in_freecad():
+    near = check.distances(["freecad_volfrep/features/infill/materials.py"])
+    assert near[check.IN_FREECAD / "test_freecad_targets.py"] == 1
+    assert near.get(check.CORE / "jobs" / "test_targets.py") is None
+    near = check.distances(["tests/freecad/conftest.py"])
+    assert near[check.IN_FREECAD / "test_freecad_print_check.py"] == 1

@@ -103,14 +103,14 @@ def imports(name: str, path: Path, known: dict[str, Path], homes: dict[str, str]
                 if beside:
                     yield beside + home
                 if home == "volfrep" and alias.name in homes:
-                    yield f"volfrep.{homes[alias.name]}"
+                    yield f"volfrep.{homes[alias.name].partition(':')[0]}"
         elif (
             isinstance(node, ast.Attribute)
             and node.attr in homes
             and isinstance(node.value, ast.Name)
             and node.value.id == "volfrep"
         ):
-            yield f"volfrep.{homes[node.attr]}"
+            yield f"volfrep.{homes[node.attr].partition(':')[0]}"
 
 
 @functools.cache

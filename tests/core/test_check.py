@@ -17,7 +17,7 @@ _spec.loader.exec_module(check)
     [
         ("tests/core/trim/test_prune.py", "trim/test_prune.py", 0),
         ("core/volfrep/trim/prune.py", "trim/test_prune.py", 1),
-        ("core/volfrep/api.py", "test_api.py", 1),  # by names of the package
+        ("core/volfrep/api/calls.py", "test_api.py", 1),  # by names of the package
         ("core/volfrep/cli/command.py", "cli/test_slice.py", 2),  # by the tests' own command
         ("tests/core/mechanics/anisotropic_lattices.json", "mechanics/test_frame.py", 1),
         ("README.md", "test_layers.py", 1),

@@ -2,7 +2,7 @@
 """What a job will come to, known before any work starts: cells, triangles, memory, file, time.
 
 Good to about a third for triangles and a factor of two for the rest: enough to see whether a job
-takes a second or an hour. The constants were measured on two cores of 2020s servers.
+takes a second or an hour. What each triangle, strut and bend takes is in `costs`.
 """
 
 from __future__ import annotations
@@ -21,23 +21,13 @@ from ..util.linalg import frame_about, normalize, times
 from ..util.numbers import duration, round_off
 from ..util.progress import Monitor
 from ..util.types import Floats
+from . import costs
 from .spec import LatticeSpec
 
 #: The least share of the solid that is left within a skin, where twice the skin exceeds it.
 LEAST_INSIDE = 0.05
 #: Where less than this share of the solid is left within a skin, parts of it have no lattice.
 ROOMY = 0.2
-#: Triangles that the cut leaves on each area of a facet's edge squared of the wall.
-WALL_TRIANGLES = 1.1
-#: The skin's wall is looked for where the surface bends (`skin_bends`): seconds, bytes and facets
-#: for each bend; and finer where the room between two skins is narrow (`narrow_room`). Of 17 parts
-#: with a skin of a hundredth of their length, of CVC and of Octet, time and memory are within a
-#: factor of two, also of a sheet of 200 x 300 x 3 with a skin of 0.15.
-SECONDS_PER_BEND = 1.1e-3
-BYTES_PER_BEND = 5.5e4
-FACETS_PER_BEND = 9.0
-SECONDS_PER_NARROW = 4e-5
-BYTES_PER_NARROW = 2.2e3
 #: Lines into the solid by which narrow rooms are told; rooms as wide as the skin are not narrow,
 #: and the cubes are no finer than for a room of the least width (thicknesses).
 NARROW_LINES = 2048
@@ -46,33 +36,6 @@ NARROWEST = 0.05
 #: cell is at least that holds a lattice, in radii.
 MAP_POINTS = 12
 LEAST_WIDTH = 4.0
-#: Fixed cost, s; per triangle of a part, s; and of a block, s.
-SECONDS = 0.5
-SECONDS_PER_TRIANGLE = 4.5e-6
-SECONDS_PER_BLOCK_TRIANGLE = 4e-7
-#: Facets of a graph's strut; and seconds for each of its triangles.
-TRIANGLES_PER_STRUT = 110.0
-SECONDS_PER_NETWORK_TRIANGLE = 1e-5
-#: Bytes at the peak: of every job, and for each triangle of a part and of a block.
-BYTES = 1e8
-BYTES_PER_TRIANGLE = 200.0
-BYTES_PER_BLOCK_TRIANGLE = 150.0
-#: Of a network, no two of whose joints are alike: of 500 and of 1,000 points in the bracket with a
-#: skin 0.69 and 1.00 GB were held.
-BYTES_PER_NETWORK_TRIANGLE = 900.0
-#: Bytes more where octants are moved, which are all different.
-BYTES_GRADED = 1.2e8
-#: How thick the layer of octants at the wall is, in units of L; bytes for each of its triangles,
-#: where the others go straight into the file.
-CUT_LAYER = 0.85
-BYTES_PER_CUT_TRIANGLE = 220.0
-#: Bytes of a triangle where only its vertices are kept, each in a place of its own: 18.7 million of
-#: a bracket take 0.4 to 0.6 GB more than those of equal cells.
-BYTES_PER_PLACED_TRIANGLE = 30.0
-#: Bytes that a cell of a block takes whose octants are written as they are laid.
-BYTES_PER_STREAMED_CELL = 5000
-#: Bytes of a triangle in a binary STL file.
-STL_BYTES = 50.0
 
 
 @dataclass(frozen=True)
@@ -126,27 +89,28 @@ def forecast_fill(solid: TriangleMesh, spec: LatticeSpec, *, streamed: bool = Fa
     wall = area * min(1.0, inside / (ROOMY * volume))
     dense = _density(solid, spec)
     bends = skin_bends(solid, spec)
-    triangles = len(solid.triangles) + FACETS_PER_BEND * bends * wall / area
+    triangles = len(solid.triangles) + costs.FACETS_PER_BEND * bends * wall / area
     if spec.output != "domain":
-        triangles += dense * expected_triangles(spec, inside) + WALL_TRIANGLES * wall / edge**2
+        cut = costs.WALL_TRIANGLES * wall / edge**2
+        triangles += dense * expected_triangles(spec, inside) + cut
     # A cell that the wall merely touches is active too: half a cell on either side of it.
     cells = dense * (inside + 0.5 * wall * spec.cell_size) / one
     if spec.cell_map is None:
         grid = np.ceil(np.ptp(solid.bounds, axis=0) / spec.cell_size - 1e-6).prod()
         cells = min(cells, float(grid) * spec.cell_size**3 / one)
     narrow = narrow_room(solid, spec)
-    seconds = SECONDS + SECONDS_PER_BEND * bends + SECONDS_PER_NARROW * narrow
-    seconds += SECONDS_PER_TRIANGLE * triangles
+    seconds = costs.SECONDS + costs.SECONDS_PER_BEND * bends + costs.SECONDS_PER_NARROW * narrow
+    seconds += costs.SECONDS_PER_TRIANGLE * triangles
     if spec.output != "domain":
         # Within a part all cells are there: those of the octants that are not lie outside.
         seconds += spec.kind.meshing_seconds(1.0)
-    held = BYTES_PER_TRIANGLE * triangles
+    held = costs.BYTES_PER_TRIANGLE * triangles
     if streamed and spec.streams:
-        at_wall = expected_triangles(spec, min(inside, CUT_LAYER * spec.cell_size * area))
-        placed = BYTES_PER_PLACED_TRIANGLE * triangles if spec.varies else 0.0
-        held = min(held, BYTES_PER_CUT_TRIANGLE * at_wall + placed)
-    held = max(held, BYTES_PER_BEND * bends + BYTES_PER_NARROW * narrow)
-    held += BYTES_GRADED if spec.is_graded else 0.0
+        at_wall = expected_triangles(spec, min(inside, costs.CUT_LAYER * spec.cell_size * area))
+        placed = costs.BYTES_PER_PLACED_TRIANGLE * triangles if spec.varies else 0.0
+        held = min(held, costs.BYTES_PER_CUT_TRIANGLE * at_wall + placed)
+    held = max(held, costs.BYTES_PER_BEND * bends + costs.BYTES_PER_NARROW * narrow)
+    held += costs.BYTES_GRADED if spec.is_graded else 0.0
     return _forecast(cells, spec.kind.strut_shares(), triangles, held / triangles, seconds)
 
 
@@ -241,14 +205,14 @@ def _density(solid: TriangleMesh, spec: LatticeSpec) -> float:
 def _forecast_graph(
     solid: TriangleMesh, spec: LatticeSpec, points: float, struts: float
 ) -> Forecast:
-    triangles = TRIANGLES_PER_STRUT * struts + len(solid.triangles)
+    triangles = costs.TRIANGLES_PER_STRUT * struts + len(solid.triangles)
     bends = skin_bends(solid, spec)
     narrow = narrow_room(solid, spec)
-    seconds = SECONDS + SECONDS_PER_BEND * bends + SECONDS_PER_NARROW * narrow
-    seconds += SECONDS_PER_NETWORK_TRIANGLE * triangles
+    seconds = costs.SECONDS + costs.SECONDS_PER_BEND * bends + costs.SECONDS_PER_NARROW * narrow
+    seconds += costs.SECONDS_PER_NETWORK_TRIANGLE * triangles
     share = np.array([struts / points])
-    wall = BYTES_PER_BEND * bends + BYTES_PER_NARROW * narrow
-    held = max(BYTES_PER_NETWORK_TRIANGLE * triangles, wall)
+    wall = costs.BYTES_PER_BEND * bends + costs.BYTES_PER_NARROW * narrow
+    held = max(costs.BYTES_PER_NETWORK_TRIANGLE * triangles, wall)
     return _forecast(points, share, triangles, held / triangles, seconds)
 
 
@@ -263,12 +227,13 @@ def forecast_block(spec: LatticeSpec, count: Sequence[int], *, streamed: bool = 
     shares = spec.kind.strut_shares(0.5 * (1.0 + 1.0 / layers))
     triangles = cells * spec.kind.triangles_of_cell(shares)
     in_pieces = streamed and not spec.is_graded
-    seconds = SECONDS + SECONDS_PER_BLOCK_TRIANGLE * triangles * (0.5 if in_pieces else 1.0)
+    share = 0.5 if in_pieces else 1.0
+    seconds = costs.SECONDS + costs.SECONDS_PER_BLOCK_TRIANGLE * triangles * share
     seconds += spec.kind.meshing_seconds(float(np.minimum(layers, 2.0).prod()))
     if in_pieces:
-        per_triangle = BYTES_PER_STREAMED_CELL * cells / triangles
+        per_triangle = costs.BYTES_PER_STREAMED_CELL * cells / triangles
     else:
-        per_triangle = BYTES_PER_BLOCK_TRIANGLE
+        per_triangle = costs.BYTES_PER_BLOCK_TRIANGLE
     return _forecast(cells, shares, triangles, per_triangle, seconds)
 
 
@@ -293,7 +258,7 @@ def _forecast(
         cells=max(1, round(cells)),
         struts=max(1, round(cells * float(shares.sum()))) if len(shares) else 0,
         triangles=round(triangles),
-        memory_gb=(BYTES + bytes_per_triangle * triangles) / 1e9,
-        stl_mb=STL_BYTES * triangles / 1e6,
+        memory_gb=(costs.BYTES + bytes_per_triangle * triangles) / 1e9,
+        stl_mb=costs.STL_BYTES * triangles / 1e6,
         seconds=seconds,
     )

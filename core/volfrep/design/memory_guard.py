@@ -12,17 +12,10 @@ import numpy as np
 
 from ..util import memory_limit
 from ..util.errors import VolfrepError
-from .forecast import BYTES_PER_PLACED_TRIANGLE, expected_triangles
+from . import costs
+from .forecast import expected_triangles
 from .spec import LatticeSpec
 
-#: Bytes that a triangle takes at the peak: laid out and checked, or in the Boolean as well.
-BYTES_PER_TRIANGLE = 150
-BYTES_PER_BOOLEAN_TRIANGLE = 250
-#: Bytes that a cell of the grid takes while cells and octants are told apart.
-BYTES_PER_CELL = 500
-#: Bytes that a strut of each cell of a block takes where it stays an axis: 5.2 million of Octet
-#: take 0.86 GB.
-BYTES_PER_STRUT = 120
 #: The estimate of triangles is good to a third: so much of it will be there.
 CERTAIN_SHARE = 0.6
 #: Struts of larger cells have so many times more facets for their length, at most.
@@ -45,7 +38,7 @@ def refuse_cells(count: int, cell_size: float) -> None:
     Raises:
         VolfrepError: they need more memory than is free; with the cells that would fit.
     """
-    needed, free = float(count) * BYTES_PER_CELL, free_memory()
+    needed, free = float(count) * costs.BYTES_PER_CELL, free_memory()
     if needed > free:
         fitting = rounded_up(cell_size * (1.2 * needed / free) ** (1 / 3))
         raise VolfrepError(
@@ -105,8 +98,9 @@ def refuse_memory(
     Raises:
         VolfrepError: it needs more memory than is free; with the nearest settings that would fit.
     """
-    needed = triangles * BYTES_PER_TRIANGLE + in_boolean * BYTES_PER_BOOLEAN_TRIANGLE
-    needed += placed * BYTES_PER_PLACED_TRIANGLE
+    needed = triangles * costs.BYTES_PER_BLOCK_TRIANGLE
+    needed += in_boolean * costs.BYTES_PER_BOOLEAN_TRIANGLE
+    needed += placed * costs.BYTES_PER_PLACED_TRIANGLE
     triangles += placed
     free = free_memory()
     most = np.iinfo(np.int32).max // 3

@@ -13,7 +13,7 @@ from exact import distances_to_one_cell
 from samples import SKEW
 from volfrep import LatticeSpec, VolfrepError
 from volfrep.design.cells import PAPERS, find_cell
-from volfrep.design.forecast import BYTES_PER_STREAMED_CELL
+from volfrep.design.costs import BYTES_PER_STREAMED_CELL
 from volfrep.design.grading import RadiusGrading
 from volfrep.design.profile import Profile
 from volfrep.io.solid import read_triangles

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from ...design.forecast import BYTES_PER_STREAMED_CELL
+from ...design.costs import BYTES_PER_STREAMED_CELL
 from ...design.memory_guard import refuse_block, refuse_expected
 from ...grid.placement import block_placement
 from ...grid.sizes import mapped_volume

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...design.memory_guard import BYTES_PER_STRUT, refuse_block
+from ...design.costs import BYTES_PER_STRUT
+from ...design.memory_guard import refuse_block
 from ...design.target import Target
 from ...grid.placement import graded_wireframe
 from ...grid.strut_graph import CellGraph, Wireframe, cell_graph

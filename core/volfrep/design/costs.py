@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What a job takes for each cell, strut, triangle and bend: seconds on two cores, bytes, facets.
+
+Measured on two cores of 2020s servers. `forecast` adds them up before a job, `memory_guard` refuses
+by them; what meshing one cell takes is its kind's (`kinds`), and what a file takes stands beside
+its writer and is added up by `reports/estimate`.
+"""
+
+#: Triangles that the cut leaves on each area of a facet's edge squared of the wall.
+WALL_TRIANGLES = 1.1
+#: The skin's wall is looked for where the surface bends (`skin_bends`): seconds, bytes and facets
+#: for each bend; and finer where the room between two skins is narrow (`narrow_room`). Of 17 parts
+#: with a skin of a hundredth of their length, of CVC and of Octet, time and memory are within a
+#: factor of two, also of a sheet of 200 x 300 x 3 with a skin of 0.15.
+SECONDS_PER_BEND = 1.1e-3
+BYTES_PER_BEND = 5.5e4
+FACETS_PER_BEND = 9.0
+SECONDS_PER_NARROW = 4e-5
+BYTES_PER_NARROW = 2.2e3
+#: Fixed cost, s; per triangle of a part, s; and of a block, s.
+SECONDS = 0.5
+SECONDS_PER_TRIANGLE = 4.5e-6
+SECONDS_PER_BLOCK_TRIANGLE = 4e-7
+#: Facets of a graph's strut; and seconds for each of its triangles.
+TRIANGLES_PER_STRUT = 110.0
+SECONDS_PER_NETWORK_TRIANGLE = 1e-5
+#: Bytes at the peak: of every job, and for each triangle of a part and of a block. What is refused
+#: counts less (`memory_guard`): what is laid out and checked, and what goes into the Boolean.
+BYTES = 1e8
+BYTES_PER_TRIANGLE = 200.0
+BYTES_PER_BLOCK_TRIANGLE = 150.0
+BYTES_PER_BOOLEAN_TRIANGLE = 250.0
+#: Of a network, no two of whose joints are alike: of 500 and of 1,000 points in the bracket with a
+#: skin 0.69 and 1.00 GB were held.
+BYTES_PER_NETWORK_TRIANGLE = 900.0
+#: Bytes more where octants are moved, which are all different.
+BYTES_GRADED = 1.2e8
+#: How thick the layer of octants at the wall is, in units of L; bytes for each of its triangles,
+#: where the others go straight into the file.
+CUT_LAYER = 0.85
+BYTES_PER_CUT_TRIANGLE = 220.0
+#: Bytes of a triangle where only its vertices are kept, each in a place of its own: 18.7 million of
+#: a bracket take 0.4 to 0.6 GB more than those of equal cells.
+BYTES_PER_PLACED_TRIANGLE = 30.0
+#: Bytes that a cell of a block takes whose octants are written as they are laid.
+BYTES_PER_STREAMED_CELL = 5000
+#: Bytes of a triangle in a binary STL file.
+STL_BYTES = 50.0
+#: Bytes that a cell of the grid takes while cells and octants are told apart.
+BYTES_PER_CELL = 500.0
+#: Bytes that a strut of each cell of a block takes where it stays an axis: 5.2 million of Octet
+#: take 0.86 GB.
+BYTES_PER_STRUT = 120.0

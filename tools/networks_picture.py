@@ -18,7 +18,8 @@ from walls_picture import drawn
 
 import volfrep
 from volfrep.design.cells import find_cell
-from volfrep.design.graphs import GivenGraph, place_cells_along
+from volfrep.design.graphs import GivenGraph
+from volfrep.design.graphs.conformal_cells import place_cells_along
 from volfrep.util.types import Floats
 
 FILE = Path(__file__).parents[1] / "docs" / "images" / "graphs.png"

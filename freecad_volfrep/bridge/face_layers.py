@@ -10,7 +10,8 @@ import FreeCAD as App
 import numpy as np
 
 from volfrep.design.cells import UnitCell
-from volfrep.design.graphs import GivenGraph, place_cells_along
+from volfrep.design.graphs import GivenGraph
+from volfrep.design.graphs.conformal_cells import place_cells_along
 from volfrep.util.errors import VolfrepError
 from volfrep.util.types import Floats
 

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..design.cells import find_cell
-from ..design.graphs import read_network
+from ..design.graphs.files import read_network
 from ..design.parameters.field_keywords import is_sampled
 from ..design.parameters.keywords import (
     as_graph,

@@ -15,8 +15,6 @@ import numpy as np
 
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.even_points import even_points
-from ..spatial.proximity import neighbours
-from ..spatial.rays import inside_points, segment_crossings
 from ..util.linalg import frame_about, normalize, times
 from ..util.numbers import duration, round_off
 from ..util.progress import Monitor
@@ -126,6 +124,8 @@ def skin_bends(solid: TriangleMesh, spec: LatticeSpec) -> float:
 @lru_cache(maxsize=4)
 def _bending(solid: TriangleMesh) -> float:
     """The angles across a surface's edges times these' lengths, mm."""
+    from ..spatial.proximity import neighbours  # of no use to blocks, and slow to import
+
     across = neighbours(solid)
     a, b, c = solid.corners()
     normal = normalize(np.cross(b - a, c - a))
@@ -150,6 +150,8 @@ def narrow_room(solid: TriangleMesh, spec: LatticeSpec) -> float:
 @lru_cache(maxsize=8)
 def _narrow_room(solid: TriangleMesh, skin: float) -> float:
     """As `narrow_room`, of a skin of one thickness, mm."""
+    from ..spatial.rays import segment_crossings  # as above
+
     a, b, c = solid.corners()
     normal = np.cross(b - a, c - a)
     twice = np.linalg.norm(normal, axis=1)
@@ -174,6 +176,8 @@ def _density(solid: TriangleMesh, spec: LatticeSpec) -> float:
     cells = spec.cell_map
     if cells is None:
         return 1.0
+    from ..spatial.rays import inside_points  # as above
+
     low, high = solid.bounds
     middle = 0.5 * (low + high)
     points = low + even_points(3, MAP_POINTS) * (high - low)

@@ -20,7 +20,6 @@ from ..util.errors import VolfrepError
 from ..util.linalg import along, rotation, times
 from ..util.numbers import direction, number, point, whole
 from ..util.types import Floats
-from .field_files import read_points
 from .profile import Profile
 from .sampled_field import SampledField
 from .scattered_field import PointField, TransferCurve, default_curve
@@ -67,6 +66,8 @@ def read_point_field(path: str | os.PathLike[str], column: str | None = None) ->
     Raises:
         VolfrepError: naming the file, the line where there is one, and what is wrong.
     """
+    from .field_files import read_points  # reads many formats, slow to import
+
     return PointField(*read_points(path, column), source=os.fspath(path))
 
 

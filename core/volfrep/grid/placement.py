@@ -14,7 +14,6 @@ import numpy as np
 from ..design.grading import RadiusGrading
 from ..design.spec_parts import Grid, Struts
 from ..mesh.triangle_mesh import TriangleMesh
-from ..spatial.rays import inside_points
 from ..util.errors import VolfrepError
 from ..util.linalg import determinants
 from ..util.progress import Monitor
@@ -67,10 +66,12 @@ def placement_in(solid: TriangleMesh, grid: Grid, is_cut: bool, monitor: Monitor
     """Where a lattice lies inside a solid, whose wall or skin cuts it or not."""
 
     def depth(points: Floats) -> Floats:
+        # Of no use to blocks, and slow to import.
+        from ..spatial.proximity import closest_points
+        from ..spatial.rays import inside_points
+
         inside = inside_points(solid, points, monitor)
         result = np.zeros(len(points))
-        from ..spatial.proximity import closest_points  # slow to import
-
         result[inside] = monitor.call(lambda: closest_points(solid, points[inside])[1])
         return result
 

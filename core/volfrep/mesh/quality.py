@@ -15,6 +15,7 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from ..util.errors import VolfrepError
 from ..util.linalg import cross_columns, dot_columns
 from ..util.progress import Monitor
 from ..util.threads import threads
@@ -298,3 +299,13 @@ def _in_blocks(work: Callable[[int, int], T], count: int) -> list[T]:
 
 def _run(monitor: Monitor | None, function: Callable[[], T]) -> T:
     return function() if monitor is None else monitor.call(function)
+
+
+def refuse_no_solid(quality: Quality) -> None:
+    """Raise a `VolfrepError` where a mesh encloses no material."""
+    if quality.volume > 0.0 and quality.bodies > 0:
+        return
+    raise VolfrepError(
+        f"The result would be no solid: {quality.bodies} bodies of {quality.volume:.4g} mm3 "
+        "together. Choose a finer resolution, or another strut radius or cell size."
+    )

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,9 +18,11 @@ from ..grid.sizes import sizes
 from ..grid.strut_graph import Wireframe
 from ..mesh.quality import Quality
 from ..mesh.triangle_mesh import TriangleMesh
-from ..trim.trimmed_surface import TrimmedSurface
 from ..util.progress import Monitor, peak_memory_mb
 from .report import Report
+
+if TYPE_CHECKING:
+    from ..trim.trimmed_surface import TrimmedSurface
 
 #: Figures that a run without trimming has none of.
 NOTHING_REMOVED: Mapping[str, Any] = {

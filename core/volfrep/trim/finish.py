@@ -14,7 +14,7 @@ import numpy as np
 
 from ..mesh.float32_repair import edge_within, separate_vertices, without_slivers
 from ..mesh.precision import merging_vertices
-from ..mesh.quality import Quality
+from ..mesh.quality import Quality, refuse_no_solid
 from ..mesh.topology import touching
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..spatial.resolve_crossings import resolve_fold_crossings, turns_of
@@ -211,14 +211,4 @@ def refuse_merging(mesh: TriangleMesh) -> None:
         f"Near ({x:.6g}, {y:.6g}, {z:.6g}) the surface touches itself within the single precision "
         "of files: move the part nearer to the origin, or change the lattice's origin or radius "
         "by a little."
-    )
-
-
-def refuse_no_solid(quality: Quality) -> None:
-    """Raise a `VolfrepError` where a mesh encloses no material."""
-    if quality.volume > 0.0 and quality.bodies > 0:
-        return
-    raise VolfrepError(
-        f"The result would be no solid: {quality.bodies} bodies of {quality.volume:.4g} mm3 "
-        "together. Choose a finer resolution, or another strut radius or cell size."
     )

@@ -13,7 +13,8 @@ from exact import volume_of_struts
 from volfrep import LatticeSpec, StageCache, VolfrepError
 from volfrep.cli import command as cli
 from volfrep.design.grading import RadiusGrading, SizeGrading
-from volfrep.design.graphs import GivenGraph, RandomGraph, make_network, read_network
+from volfrep.design.graphs import GivenGraph, RandomGraph, make_network
+from volfrep.design.graphs.files import read_network
 from volfrep.design.parameters.specification import specification, values_of
 from volfrep.design.profile import Profile
 from volfrep.graphs.random_graph import merge_short_struts, without_narrow

@@ -13,7 +13,7 @@ from typing import Any
 from ...util.errors import VolfrepError
 from ..cells import any_cell, find_cell
 from ..grading import CellMap, Field, Orientation, RadiusGrading, SizeGrading, read_point_field
-from ..graphs import GivenGraph, RandomGraph, read_network
+from ..graphs import GivenGraph, RandomGraph
 from ..openings import DrainHoles, DrainPlace, OpenFace, OpenPatch, OpenPlane, SmoothFace
 from ..profile import Profile
 from ..scattered_field import read_curve
@@ -267,6 +267,8 @@ def _network(
     if used["network"] == "file":
         if not used["network_file"]:
             raise VolfrepError(f"{say('network')} file needs {say('network_file')}: give it.")
+        from ..graphs.files import read_network  # reads many formats, slow to import
+
         thickness, layers = used["network_thickness"], used["network_layers"]
         cell = used["cell"]
         made = read_network(

@@ -15,6 +15,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
 from itertools import chain
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,11 +23,13 @@ from numpy.typing import NDArray
 from ...grid.motion import Motion
 from ...lattice.assembly import Layout, in_steps, numbers, placed
 from ...octants.octant import Octant, OctantGrid
-from ...trim.placed_lattice import InnerOctants
-from ...trim.trimmed_surface import TrimmedSurface
 from ...util.progress import Monitor
 from ...util.types import Bools, Floats, Ints
 from .stl import BLOCK_FACETS, FACET, Facets, facets_at, mesh_blocks, write_facets
+
+if TYPE_CHECKING:
+    from ...trim.placed_lattice import InnerOctants
+    from ...trim.trimmed_surface import TrimmedSurface
 
 #: A facet of the file whose numbers are moved some at once: numpy is slow at filling records number
 #: by number.
@@ -85,6 +88,8 @@ def places_of(surface: TrimmedSurface) -> InnerOctants | None:
     beside = surface.octants
     if beside is None:
         return None
+    from ...trim.placed_lattice import InnerOctants  # of no use to blocks, and slow to import
+
     inner = InnerOctants(beside.laid, beside.laid.kept.inside).sound
     if np.array_equal(beside.where, inner.where):
         return beside

@@ -14,7 +14,8 @@ from functools import cached_property
 import numpy as np
 
 from ...design.cells import joint_radius
-from ...design.graphs import GivenGraph, RandomGraph, StretchedCells, place_cells_along
+from ...design.graphs import GivenGraph, RandomGraph, StretchedCells
+from ...design.graphs.conformal_cells import place_cells_along
 from ...design.spec import LatticeSpec
 from ...design.spec_parts import DEFAULT_RELATIVE_DEVIATION
 from ...design.target import Target

@@ -8,7 +8,7 @@ import os
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -20,18 +20,18 @@ from ...grid.strut_graph import Wireframe
 from ...io.write.stl_octants import write_octants_stl
 from ...lattice.assembly import Layout, facets
 from ...lattice.certificate import agree_on_faces, certify, keeps_corners
-from ...lattice.deform import Deformed
-from ...mesh.quality import Quality, measure
+from ...mesh.quality import Quality, measure, refuse_no_solid
 from ...mesh.triangle_mesh import TriangleMesh
 from ...octants.octant_spec import OctantSpec
 from ...reports.report import Report, with_warnings
 from ...reports.result import NOTHING_REMOVED, Result, report_of
-from ...trim.finish import finish, refuse_no_solid
-from ...trim.trimmed_surface import TrimmedSurface
 from ...util.progress import Monitor
 from ...util.types import Bools
 from ..octant_guard import refuse_too_large
 from .kind import BlockLattice, LatticeKind, write_whole
+
+if TYPE_CHECKING:
+    from ...lattice.deform import Deformed
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,6 +105,10 @@ class OctantBlock(BlockLattice):
 
     def _meshed(self, laid: LaidBlock, monitor: Monitor) -> Result:
         """It as a whole, without its specks."""
+        # Of no use to a block that goes straight into a file, and slow to import.
+        from ...trim.finish import finish
+        from ...trim.trimmed_surface import TrimmedSurface
+
         layout, spec = laid.layout, self.spec
         with monitor.stage("lattice", 0.4, 0.8):
             given = self.placed(laid, monitor)
@@ -113,7 +117,6 @@ class OctantBlock(BlockLattice):
         with monitor.stage("check", 0.8, 1.0):
             measured = measure(surface.mesh, monitor) if spec.is_graded else certify(layout)
             if measured.shells > 1 or measured.degenerate_triangles:
-                # of no use to most blocks, and slow to import
                 from ...trim.loose_pieces import clear, smallest_shell
 
                 smallest = smallest_shell(laid.octant_spec)

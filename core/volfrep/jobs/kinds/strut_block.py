@@ -14,8 +14,6 @@ from ...design.target import Target
 from ...grid.placement import graded_wireframe
 from ...grid.strut_graph import CellGraph, Wireframe, cell_graph
 from ...lattice.assembly import lay_out
-from ...lattice.deform import Deformed
-from ...lattice.padded_grid import keeps_places, vertices_of
 from ...octants.octant import octant_grid
 from ...octants.octant_mesh import mesh_octants, octant_spec
 from ...util.progress import Monitor
@@ -24,6 +22,7 @@ from ..finer import until_sound
 from .octant_block import LaidBlock, OctantBlock
 
 if TYPE_CHECKING:
+    from ...lattice.deform import Deformed
     from ...lattice.strut_volume import VolumeByRadius
     from .radius_search import RadiusSearch
 
@@ -47,6 +46,8 @@ class StrutBlock(OctantBlock):
     @property
     def is_moved(self) -> bool:
         """Whether vertices are elsewhere than they were meshed."""
+        from ...lattice.padded_grid import keeps_places
+
         return not keeps_places(self.spec.struts, self.placement)
 
     def wireframe(self) -> Wireframe:
@@ -71,6 +72,8 @@ class StrutBlock(OctantBlock):
 
     def placed(self, laid: LaidBlock, monitor: Monitor) -> Deformed:
         """Where the vertices of laid octants are."""
+        from ...lattice.padded_grid import vertices_of
+
         spec = self.spec
         return vertices_of(
             laid.layout, lambda: self.graph, spec.unit_cell(), spec.struts, laid.octant_spec,

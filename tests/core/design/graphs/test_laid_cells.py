@@ -6,8 +6,12 @@ import pytest
 
 import samples
 from volfrep.design.cells import LIBRARY, find_cell
-from volfrep.design.graphs import layers_on, place_cells_along, place_cells_into
-from volfrep.design.graphs.conformal_cells import CORNERS
+from volfrep.design.graphs.conformal_cells import (
+    CORNERS,
+    layers_on,
+    place_cells_along,
+    place_cells_into,
+)
 from volfrep.spatial.proximity import closest_points
 from volfrep.util.errors import VolfrepError
 

@@ -8,8 +8,8 @@ import pytest
 
 import volfrep
 from volfrep.design.cells import find_cell
-from volfrep.design.graphs import read_network
 from volfrep.design.graphs.conformal_cells import CORNERS
+from volfrep.design.graphs.files import read_network
 from volfrep.util.errors import VolfrepError
 
 meshio = pytest.importorskip("meshio")

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 
 from ..design.cells import find_cell
 from ..design.graphs.files import read_network
+from ..design.graphs.graph import GivenGraph
 from ..design.parameters.field_keywords import is_sampled
 from ..design.parameters.keywords import (
     as_graph,
@@ -22,8 +23,10 @@ from ..design.parameters.keywords import (
 from ..design.spec import LatticeSpec
 from ..io.solid import Solid, check_solid, read_solid
 from ..mesh.triangle_mesh import TriangleMesh
+from ..util.arguments import check_kind, check_path
 from ..util.cache import StageCache
-from ..util.errors import VolfrepError
+from ..util.errors import VolfrepError, brief
+from ..util.numbers import whole
 from ..util.progress import ProgressCallback
 from ..util.progress_bar import shown
 from .part import Part
@@ -96,7 +99,8 @@ def fill(
     from ..jobs.targets import solve_target
     from ..output.sources import FilledPart
 
-    cache = cache or StageCache()
+    cache = _cache(cache)
+    check_kind("executor", executor, (Executor, type(None)), "an Executor of concurrent.futures")
     with shown(progress) as told:
         solid, wanted = _asked(part, unit, told, spec, dict(parameters), material)
         infill = solve_target(solid, wanted, progress=told, cache=cache, executor=executor)
@@ -147,17 +151,17 @@ def size(
     from ..loads.load_file import load_cases_of, read_load_cases
     from ..output.sources import FilledPart
 
-    if steps < 1:
-        raise VolfrepError(f"There must be at least one step, not {steps}.")
+    whole("steps", steps, 1, 100_000)
     given: dict[str, Any] = dict(parameters)
     asked = {name: given.pop(name) for name in GOALS if name in given}
     refuse_unknown(given, accepted() | set(GOALS))
-    cache = cache or StageCache()
+    cache = _cache(cache)
     with shown(progress) as told:
         solid, wanted = _asked(part, unit, told, spec, given, None)
         if isinstance(loads, Mapping):
             loads = load_cases_of(loads, solid)
         elif not isinstance(loads, LoadCases):
+            check_path("loads", loads)
             loads = read_load_cases(loads, solid)
         wanted = dataclasses.replace(wanted, density=loads.material.density)
         goal = dataclasses.replace(
@@ -245,6 +249,7 @@ def mesh_network(
 
     if not isinstance(graph, (str, os.PathLike)):
         found = as_graph(graph)
+        check_kind("graph", found, GivenGraph, "a file, nodes and struts, a graph or a mesh")
     else:
         cell: Any = parameters.get("cell", None if spec is None else spec.cell)
         found = read_network(graph, find_cell(cell) if isinstance(cell, str) else cell)
@@ -300,11 +305,18 @@ def slice_layers(
     """
     from ..jobs.slices import write_layers
 
+    check_path("folder", folder)
     with shown(progress) as told:
         solid, wanted = _asked(part, unit, told, spec, dict(parameters), material)
         return write_layers(
             solid, wanted, folder, layer=layer, pixel=pixel, form=form, progress=told, cache=cache
         )
+
+
+def _cache(cache: StageCache | None) -> StageCache:
+    """The one that was given, or a new one."""
+    check_kind("cache", cache, (StageCache, type(None)), "a StageCache")
+    return StageCache() if cache is None else cache
 
 
 def as_solid(
@@ -336,7 +348,12 @@ def as_solid(
             f"A part is a file's path, a mesh with vertices and faces, or a pair of arrays, not "
             f"{type(part).__name__}."
         )
-    points, rows = np.asarray(vertices, np.float64), np.asarray(triangles)
+    try:
+        points, rows = np.asarray(vertices, np.float64), np.asarray(triangles)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise VolfrepError(
+            f"A mesh has (n, 3) vertices in mm and (m, 3) triangles, not {brief(part)}."
+        ) from error
     shapes_fit = points.ndim == 2 and rows.ndim == 2 and points.shape[1] == rows.shape[1] == 3
     if not shapes_fit or not len(rows) or rows.dtype.kind not in "iu":
         raise VolfrepError(

@@ -6,6 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..grid.strut_graph import Wireframe
+from ..util.linalg import along
 
 #: More lines than these are a smear: of a larger lattice those nearest to the viewer are drawn.
 MOST_LINES = 3000
@@ -22,8 +23,8 @@ def drawing(frame: Wireframe) -> str:
     if not len(frame.struts):
         return ""
     ends = frame.nodes[frame.struts]
-    order = np.argsort(ends.sum(axis=1) @ _TOWARDS, kind="stable")[-MOST_LINES:]
-    across, up = ends[order] @ _RIGHT, -(ends[order] @ _UP)
+    order = np.argsort(along(ends.sum(axis=1), _TOWARDS), kind="stable")[-MOST_LINES:]
+    across, up = along(ends[order], _RIGHT), -along(ends[order], _UP)
     radius = frame.radii[order].mean(axis=1)
     edge = float(radius.max())
     left, top = across.min() - edge, up.min() - edge

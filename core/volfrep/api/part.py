@@ -19,6 +19,7 @@ from ..grid.strut_graph import Wireframe
 from ..io.solid import Solid
 from ..reports.report import Report
 from ..reports.result import Result
+from ..util.arguments import check_kind, check_path
 from ..util.cache import StageCache
 from ..util.errors import VolfrepError
 from ..util.types import Floats
@@ -160,10 +161,12 @@ class Part:
         >>> "beam lattice extension" in said[0]
         True
         """
+        check_path("path", path)
         from ..mechanics.materials import Material, find_material
         from ..output.form import find_form
         from ..output.writer import Settings, writer_of
 
+        check_kind("form", form, (str, type(None)), "a word such as 'beams'")
         found = find_form(path, form)
         deck = Material(density=self.spec.density)
         if material is not None:
@@ -193,6 +196,7 @@ class Part:
         """
         from ..output.form import words
 
+        check_path("folder", folder)
         if form not in words("format"):
             raise VolfrepError(
                 f"There is no format '{form}': choose one of {', '.join(words('format'))}."
@@ -230,9 +234,11 @@ class Part:
         """
         from ..jobs.figures.print_check import check_print
         from ..jobs.pipeline import fill
+        from ..reports.printability import unit_direction
         from ..reports.processes import find_process
 
         limits = find_process(process)
+        unit_direction(build_direction)  # what is none is told before the work
         domain = None
         if self.solid is not None:
             inner = dataclasses.replace(self.spec, output="domain", drains=None)
@@ -260,6 +266,8 @@ class Part:
         """
         from ..reports.picture import SIZE, picture
 
+        if file is not None:
+            check_path("file", file)
         picture(
             self.result.mesh,
             self.spec,

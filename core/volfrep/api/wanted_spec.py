@@ -11,6 +11,7 @@ from ..design.cells import any_cell
 from ..design.grading import Field
 from ..design.parameters.field_keywords import with_fields
 from ..design.parameters.keywords import (
+    BAD_KINDS,
     FIELDS,
     KEYS,
     is_key,
@@ -23,6 +24,7 @@ from ..design.spec import LatticeSpec
 from ..design.spec_parts import first_radius
 from ..design.target import AIMS, THICKNESSES, read_target
 from ..design.tpms import FORMULA, TpmsSheet, find_surface, surface_name
+from ..util.arguments import check_kind
 from ..util.errors import VolfrepError
 from ..util.types import Floats
 
@@ -48,6 +50,7 @@ def specified(
     Raises:
         VolfrepError: there is no such parameter, or they make no sense.
     """
+    check_kind("spec", spec, (LatticeSpec, type(None)), "a LatticeSpec")
     refuse_unknown(parameters, accepted())
     young = 1.0
     if material is not None:
@@ -68,7 +71,7 @@ def specified(
         return dataclasses.replace(spec, **parameters) if parameters else spec
     except VolfrepError:
         raise
-    except (TypeError, ValueError, AttributeError, IndexError) as error:
+    except BAD_KINDS as error:
         raise refuse_kind(parameters, error) from error
 
 

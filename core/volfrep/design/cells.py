@@ -327,9 +327,12 @@ def make_cell(
 
 def _refuse_loose(nodes: Floats, struts: NDArray[np.int64], where: str) -> None:
     """Raise a `VolfrepError` where a node has no strut."""
-    loose = np.setdiff1d(np.arange(len(nodes)), struts)
-    if len(loose):
-        raise VolfrepError(f"In the {where}, node {loose[0]} has no strut: remove it or join it.")
+    loose = np.ones(len(nodes), bool)
+    loose[struts[(struts >= 0) & (struts < len(nodes))]] = False
+    if loose.any():
+        raise VolfrepError(
+            f"In the {where}, node {int(loose.argmax())} has no strut: remove it or join it."
+        )
 
 
 def _numbers(values: object, count: int, name: str, where: str) -> list[float]:

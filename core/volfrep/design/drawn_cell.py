@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..util.errors import VolfrepError
+from ..util.errors import VolfrepError, brief
 from ..util.files import replacing
 from ..util.linalg import along
 from ..util.types import Floats
@@ -42,6 +42,21 @@ class DrawnCell:
     warnings: tuple[str, ...]
 
 
+def _as_lines(lines: object) -> Floats:
+    """(n, 2, 3) of what a script gives.
+
+    Raises:
+        VolfrepError: it is none.
+    """
+    try:
+        found = np.asarray(lines, np.float64)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise VolfrepError(f"Lines are (n, 2, 3) numbers in mm, not {brief(lines)}.") from error
+    if (found.ndim != 3 or found.shape[1:] != (2, 3)) and found.size:
+        raise VolfrepError(f"Lines are (n, 2, 3) numbers in mm, not an array of {found.shape}.")
+    return found
+
+
 def cell_from_lines(name: str, lines: Floats) -> DrawnCell:
     """The unit cell whose struts are straight lines.
 
@@ -60,6 +75,7 @@ def cell_from_lines(name: str, lines: Floats) -> DrawnCell:
     >>> drawn.size, len(drawn.cell.nodes), len(drawn.cell.struts)  # a node where they cross
     (8.0, 5, 4)
     """
+    lines = _as_lines(lines)
     if not len(lines):
         raise VolfrepError("There is no line to make a cell of: draw its struts as straight lines.")
     if len(lines) > MAX_STRUTS:

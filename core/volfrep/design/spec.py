@@ -3,15 +3,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, is_dataclass, replace
 from typing import Any
 
+from ..util.arguments import check_kind
 from ..util.content import digest_of
-from ..util.errors import VolfrepError
+from ..util.errors import VolfrepError, brief
 from ..util.numbers import number
 from .cells import UnitCell, any_cell
-from .grading import as_plain
+from .grading import CellMap, Orientation, RadiusGrading, SizeGrading, as_plain
 from .kinds import Kind, kind_of
+from .openings import DrainHoles
 from .spec_fields import SpecFields
 from .spec_parts import (
     ACTIVATIONS,
@@ -20,6 +22,8 @@ from .spec_parts import (
     MAX_RESOLUTION,
     MIN_RESOLUTION,
 )
+from .target import Target
+from .tpms import TpmsSheet
 
 __all__ = [
     "ACTIVATIONS",
@@ -31,6 +35,16 @@ __all__ = [
     "LatticeSpec",
 ]
 
+#: Fields that hold a part of their own, or None.
+_PARTS = {
+    "drains": DrainHoles,
+    "size_grading": SizeGrading,
+    "radius_grading": RadiusGrading,
+    "cell_map": CellMap,
+    "orientation": Orientation,
+    "target": Target,
+    "wall": TpmsSheet,
+}
 OUTPUTS = ("part", "lattice", "domain")
 
 
@@ -102,6 +116,13 @@ class LatticeSpec(SpecFields):
     """
 
     def __post_init__(self) -> None:
+        for name, kind in _PARTS.items():
+            check_kind(name, getattr(self, name), (kind, type(None)), f"a {kind.__name__}")
+        for name in ("open_faces", "face_skins", "keep_solid"):
+            check_kind(name, getattr(self, name), (tuple, list), "a tuple")
+            for one in getattr(self, name):
+                if not is_dataclass(one):
+                    raise VolfrepError(f"'{name}' cannot hold {brief(one)}.")
         if isinstance(self.cell, str):
             cell = any_cell(self.cell)
             object.__setattr__(self, "cell", cell)
@@ -125,7 +146,7 @@ class LatticeSpec(SpecFields):
             )
         if self.output not in OUTPUTS:
             raise VolfrepError(
-                f"There is no output '{self.output}': choose one of {', '.join(OUTPUTS)}."
+                f"There is no output {brief(self.output)}: choose one of {', '.join(OUTPUTS)}."
             )
         of_skin = self.open_faces or self.face_skins or self.keep_solid or self.drains is not None
         if self.shell == 0 and of_skin:

@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from ..util.errors import VolfrepError
+from ..util.errors import VolfrepError, brief
 from ..util.numbers import number
 
 #: What can be aimed at, as parameters and files call it.
@@ -110,9 +110,12 @@ def read_target(
     aim, value = given[0], values[given[0]]
     if isinstance(value, Target):
         return value
+    if aim == "target" or isinstance(value, (dict, set)):
+        raise VolfrepError(f"'{aim}' cannot be {brief(value)}.")
     if aim != "stiffness":
-        return Target(aim, float(value))
-    if isinstance(value, tuple):
+        unit = "g" if aim == "mass" else ""
+        return Target(aim, number(aim.replace("_", " "), value, unit, positive=None))
+    if isinstance(value, tuple) and len(value) == 2:
         modulus, direction = value
         return Target(aim, modulus, direction, young)
     return read_stiffness(value, young)
@@ -129,8 +132,8 @@ def read_stiffness(text: str, young: float = 1.0) -> Target:
         value, (x, y, z) = float(modulus), read_direction(way)
     except ValueError as error:
         raise VolfrepError(
-            f"'{text}' is no stiffness: write the modulus and its direction, E:100, E:110, E:111 "
-            "or E:X,Y,Z, such as 500:111."
+            f"{brief(text)} is no stiffness: write the modulus and its direction, E:100, E:110, "
+            "E:111 or E:X,Y,Z, such as 500:111."
         ) from error
     return Target("stiffness", value, (x, y, z), young)
 

@@ -20,6 +20,7 @@ from ..mesh.float32_repair import remove_slivers, separate_vertices, shortest_ed
 from ..mesh.topology import Sides, edges_of
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..spatial.winding import Windings, windings
+from ..util.arguments import check_path
 from ..util.errors import VolfrepError
 from ..util.numbers import place_text, plural
 from ..util.progress import Monitor, ProgressCallback
@@ -99,6 +100,7 @@ def read_solid(
     >>> round(solid.volume, 3), solid.notes
     (6000.0, ())
     """
+    check_path("path", path)
     mesh, notes, states_unit = _in_mm(path, unit, progress)
     solid = check_solid(mesh, Path(path).name)
     return Solid(

@@ -10,6 +10,7 @@ from ..design.spec import LatticeSpec
 from ..grid.strut_graph import Wireframe
 from ..reports.report import Report
 from ..reports.result import Result
+from ..util.arguments import check_kind, check_path
 from ..util.progress import Monitor, ProgressCallback
 from .kinds import lattice_kind
 
@@ -58,6 +59,8 @@ def write_block_stl(
             disk, or the path cannot be written.
         Cancelled: the callback said so; no file is left behind.
     """
+    check_kind("spec", spec, LatticeSpec, "a LatticeSpec")
+    check_path("path", path)
     return lattice_kind(spec).block(count).write_stl(path, Monitor(progress))
 
 

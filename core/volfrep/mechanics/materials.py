@@ -15,6 +15,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
+from ..util.arguments import check_kind
 from ..util.errors import VolfrepError
 from ..util.numbers import number
 from ..util.reading import read_json, read_toml
@@ -157,6 +158,7 @@ def find_material(text: str) -> SolidMaterial:
     >>> find_material("pa12").young, find_material("Mine,2000,0.3").poisson
     (1550, 0.3)
     """
+    check_kind("material", text, str, "a material's name or file")
     wanted = text.strip()
     known = MATERIALS.get(wanted.lower())
     if known is not None:

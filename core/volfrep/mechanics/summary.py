@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 from ..design.cells import UnitCell, find_cell
 from ..design.kinds.strut_cells import MOST_CROSSING, crossing_struts
 from ..design.spec_parts import Grid, Struts
+from ..util.arguments import three_numbers
 from ..util.errors import VolfrepError
 from ..util.frames import make_frame
 from ..util.types import Floats
@@ -88,8 +89,8 @@ class CellProperties:
         >>> round(octet.young((1, 1, 1)) / octet.values["E111"], 6)
         1.0
         """
-        way = np.asarray(direction, float)
-        if way.shape != (3,) or not 0.0 < np.linalg.norm(way) < np.inf:
+        way = np.array(three_numbers("direction", direction))
+        if not 0.0 < np.linalg.norm(way) < np.inf:
             raise VolfrepError(f"A direction is three numbers, not all 0, not {direction!r}.")
         return float(young(self.stiffness, way))
 

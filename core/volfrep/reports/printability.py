@@ -18,6 +18,7 @@ from ..grid.strut_graph import Wireframe
 from ..mesh.quality import inspect
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.rays import inside_points
+from ..util.arguments import three_numbers
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats
@@ -306,9 +307,9 @@ def unit_direction(direction: tuple[float, float, float]) -> Floats:
     Raises:
         VolfrepError: it has no length, or is not three finite numbers.
     """
-    vector = np.array(direction, float)
+    vector = np.array(three_numbers("build direction", direction))
     size = float(np.linalg.norm(vector))
-    if vector.shape != (3,) or not 0 < size < np.inf:
+    if not 0 < size < np.inf:
         raise VolfrepError(
             f"The build direction must be three numbers that are not all 0, not {direction}."
         )

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..util.errors import VolfrepError
+from ..util.errors import VolfrepError, brief
 
 
 @dataclass(frozen=True)
@@ -79,7 +79,8 @@ def find_process(name: str) -> Process:
     Raises:
         VolfrepError: listing the known ones.
     """
-    process = PROCESSES.get(name.upper())
+    process = PROCESSES.get(name.upper()) if isinstance(name, str) else None
     if process is None:
-        raise VolfrepError(f"There is no process '{name}': choose one of {', '.join(PROCESSES)}.")
+        known = ", ".join(PROCESSES)
+        raise VolfrepError(f"There is no process {brief(name)}: choose one of {known}.")
     return process

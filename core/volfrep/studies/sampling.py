@@ -10,11 +10,13 @@ import itertools
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from numbers import Real
 from typing import Any
 
 import numpy as np
 from scipy.stats import qmc
 
+from ..util.arguments import check_kind
 from ..util.errors import VolfrepError
 
 SAMPLINGS = ("grid", "list", "latin-hypercube")
@@ -39,6 +41,10 @@ class Range:
     whole: bool = False
 
     def __post_init__(self) -> None:
+        for value in (self.low, self.high):
+            check_kind("an end of a range", value, Real, "a number")
+            if abs(value) > 1e300:
+                raise VolfrepError("The end of a range is too large a number.")
         if not (math.isfinite(self.low) and math.isfinite(self.high) and self.low < self.high):
             raise VolfrepError(
                 f"A range goes from a number to a larger one, not from {self.low:g} to "

@@ -16,6 +16,7 @@ from ..design.parameters.values import SCALES, from_plain
 from ..io.solid import Solid
 from ..mechanics.materials import SolidMaterial, find_material
 from ..reports.processes import Process, find_process
+from ..util.arguments import check_kind, check_path
 from ..util.errors import VolfrepError
 from .actions import check_actions
 from .sampling import SAMPLINGS, Range
@@ -46,6 +47,7 @@ class Front:
     designs: int | None = None
 
     def __post_init__(self) -> None:
+        check_kind("objectives", self.objectives, Mapping, "a dict of figures, least or most")
         if not self.objectives:
             raise VolfrepError("A Pareto front needs objectives: name figures, least or most.")
         for name, way in self.objectives.items():
@@ -107,6 +109,17 @@ class Study:
     unit: str | None = None
 
     def __post_init__(self) -> None:
+        check_kind("parts", self.parts, (tuple, list), "a tuple of files or solids")
+        check_kind("do", self.do, (tuple, list), "a tuple of names of actions")
+        for name in ("vary", "fixed", "goal"):
+            check_kind(name, getattr(self, name), Mapping, "a dict of values by name")
+            for key in getattr(self, name):
+                check_kind(name, key, str, "a dict of values by name")
+        for name, values in self.vary.items():
+            what = "its values or a Range"
+            check_kind(f"vary, {name}", values, (tuple, list, Range), what)
+        for name in self.do:
+            check_kind("do", name, str, "a tuple of names of actions")
         if not self.parts:
             raise VolfrepError("A study needs a part: name one or several files.")
         if self.sampling not in SAMPLINGS:
@@ -179,6 +192,7 @@ def read_study(path: str | os.PathLike[str]) -> Study:
     ...     read_study(file).vary
     {'cell': ('BCC', 'CVC')}
     """
+    check_path("path", path)
     path = Path(path)
     data = parse_spec(path, "study")
     try:

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..process.worker import Program
+from ..util.arguments import check_kind, check_path
 from ..util.errors import VolfrepError
 from ..util.files import check_writable, keeping_inputs, refuse_input
 from ..util.progress import ProgressCallback
@@ -124,6 +125,7 @@ def sweep(
     >>> made.count("done"), made.table.column("cell")
     (4, ['BCC', 'BCC', 'CVC', 'CVC'])
     """
+    check_kind("study", study, (Study, str, os.PathLike), "a Study, or the path of its file")
     limits = limits_of_a_run(limit_hours, limit_memory)
     how = How(workers, executor, scheduler, shard, limits, retry_failed, interpreter, words)
     with keeping_inputs():
@@ -183,6 +185,10 @@ def evaluate(
             ``error``.
         Cancelled: the callback said so.
     """
+    check_kind("study", study, Study, "a Study")
+    check_kind("designs", designs, Sequence, "a list of dicts with values by name")
+    for row in designs:
+        check_kind("designs", row, Mapping, "a list of dicts with values by name")
     at, parts, asked = _begun(study, folder)
     if len(parts) > 1:
         raise VolfrepError(f"An optimiser looks at one part, not at {len(parts)}.")
@@ -219,6 +225,7 @@ def _damaged(path: Path) -> str:
 
 def _begun(study: Study, folder: str | os.PathLike[str]) -> tuple[Path, tuple[Part, ...], Asked]:
     """A study's folder, with its parts in it."""
+    check_path("folder", folder)
     at = Path(folder).resolve()
     read = [read_part(given, study.unit) for given in study.parts]
     for name in TOLD:

@@ -5,9 +5,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from numbers import Real
 from typing import TYPE_CHECKING, Any
 
-from .errors import VolfrepError
+from .errors import VolfrepError, brief
 
 if TYPE_CHECKING:
     from .types import Floats
@@ -35,7 +36,7 @@ def number(name: str, value: float, unit: str, *, positive: bool | None) -> floa
     try:
         result = float(value)
     except (TypeError, ValueError) as error:
-        raise VolfrepError(f"The {name} must be a number{within}, not {value!r}.") from error
+        raise VolfrepError(f"The {name} must be a number{within}, not {brief(value)}.") from error
     except OverflowError:  # a whole number
         result = math.inf
     if not math.isfinite(result):
@@ -64,9 +65,9 @@ def whole(name: str, value: Any, least: int, most: int) -> int:
     Raises:
         VolfrepError: it is none; the text begins with the name.
     """
-    if isinstance(value, (str, bytes)) or not hasattr(value, "__int__"):
+    if not isinstance(value, Real) and getattr(value, "shape", None) != ():
         raise VolfrepError(
-            f"The {name} must be a whole number from {least} to {most}, not {value!r}."
+            f"The {name} must be a whole number from {least} to {most}, not {brief(value)}."
         )
     if not least <= value <= most or value != int(value):
         told = f"{value:.6g}" if abs(value) < 1e300 else "beyond 1e300"
@@ -77,7 +78,7 @@ def whole(name: str, value: Any, least: int, most: int) -> int:
 def point(name: str, values: Sequence[float]) -> None:
     """Raise a `VolfrepError` where three numbers are no place, in mm."""
     if not hasattr(values, "__len__") or len(values) != 3:
-        raise VolfrepError(f"The {name} must be three coordinates, not {values!r}.")
+        raise VolfrepError(f"The {name} must be three coordinates, not {brief(values)}.")
     for value in values:
         number(name, value, "mm", positive=None)
 

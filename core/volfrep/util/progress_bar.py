@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TextIO
 
-from .errors import VolfrepError
+from .errors import VolfrepError, brief
 from .progress import ProgressCallback
 
 WIDTH = 30
@@ -64,7 +64,7 @@ def shown(progress: ProgressCallback | bool | None) -> Iterator[ProgressCallback
     elif progress is not True:
         raise VolfrepError(
             f"'progress' is True for a bar, or a function of a fraction and a stage, not "
-            f"{progress!r}."
+            f"{brief(progress)}."
         )
     elif sys.stderr is None or not (sys.stderr.isatty() or _in_notebook()):
         yield None

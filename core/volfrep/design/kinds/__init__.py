@@ -6,6 +6,7 @@ How a solid is filled with one is in `volfrep.jobs.kinds`.
 
 from __future__ import annotations
 
+from ...util.errors import VolfrepError, brief
 from ..cells import UnitCell
 from ..graphs import GivenGraph, RandomGraph, StretchedCells
 from ..spec_fields import Kind, SpecFields
@@ -28,4 +29,9 @@ KINDS: dict[type, type[Kind]] = {
 
 def kind_of(spec: SpecFields) -> Kind:
     """The kind of lattice of a specification."""
-    return KINDS[type(spec.cell if spec.network is None else spec.network)](spec)
+    of = spec.cell if spec.network is None else spec.network
+    kind = KINDS.get(type(of))
+    if kind is None:
+        what = "cell" if spec.network is None else "network"
+        raise VolfrepError(f"The {what} of a lattice cannot be {brief(of)}.")
+    return kind(spec)

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from ...util.errors import VolfrepError
+from ...util.errors import VolfrepError, brief
 from ...util.numbers import number
 from ...util.types import Floats
 from ..cells import make_cell
@@ -25,6 +25,8 @@ from .specification import merge_values, specification, values_of
 from .table import BY_NAME, PARAMETERS
 from .values import from_plain
 
+#: What values of a wrong kind raise deep inside, where no sentence was thought of.
+BAD_KINDS = (TypeError, ValueError, AttributeError, LookupError, OverflowError)
 #: Fields of a `LatticeSpec`.
 FIELDS = {field.name for field in dataclasses.fields(LatticeSpec)}
 #: Keys of files, which are options of the command too.
@@ -110,14 +112,15 @@ def own_data(
                 f"A cell that is a dict has nodes and struts, as a cell's file: {missing[0]} are "
                 "missing."
             )
+        edges, widths = cell.get("edges", (1.0, 1.0, 1.0)), cell.get("widths", ())
         result["cell"] = make_cell(
             str(cell.get("name", "own")), cell["nodes"], cell["struts"], "cell",
-            edges=cell.get("edges", (1.0, 1.0, 1.0)), widths=cell.get("widths", ()),
+            edges=edges, widths=widths,
         )  # fmt: skip
     if network is not None and not isinstance(network, str):
         result["network"] = as_graph(network)
     size = result.get("cell_size")
-    size = cell_size if size is None else float(size)
+    size = cell_size if size is None else size
     bounds = None
     if box is not None and any(is_sampled(name, value) for name, value in result.items()):
         bounds = box(number("cell size", size, "mm", positive=True))
@@ -134,8 +137,8 @@ def _value(name: str, value: Any) -> Any:
         return value
     row, plain = BY_NAME[name], _plain_value(value)
     if plain is None or not isinstance(plain, (str, int, float, list)):
-        of_own = name in FIELDS or (name.endswith("_field") and isinstance(value, Field))
-        if plain is None or (of_own and not callable(value) and not isinstance(value, bytes)):
+        held = name in (*WORDS, "keep_solid") or isinstance(value, Field)
+        if plain is None or (held and not callable(value) and not isinstance(value, bytes)):
             return value
         kind = type(value).__name__
         raise VolfrepError(f"The parameter '{name}' does not take a {kind}: {_taken(row)}.")
@@ -184,10 +187,16 @@ def as_graph(network: Any) -> Any:
         VolfrepError: it has no struts, or a node has no place.
     """
     if isinstance(network, (tuple, list)):
+        if len(network) not in (2, 3):
+            raise VolfrepError(
+                f"A network is nodes and struts, and perhaps radii, not {brief(network)}."
+            )
         return make_network(*network)
     if hasattr(network, "edges_unique") and hasattr(network, "vertices"):
         return make_network(network.vertices, network.edges_unique)
-    if not (callable(getattr(network, "nodes", None)) and hasattr(network, "edges")):
+    nodes = getattr(network, "nodes", None)
+    is_graph = callable(nodes) and callable(getattr(network, "edges", None))
+    if not is_graph or not hasattr(nodes, "__iter__"):
         return network
     places = []
     for node, data in network.nodes(data=True):
@@ -213,9 +222,9 @@ def refuse_kind(given: Mapping[str, Any], error: Exception) -> VolfrepError:
             LatticeSpec(**{name: value})
         except VolfrepError:
             continue
-        except (TypeError, ValueError, AttributeError, IndexError):
+        except BAD_KINDS:
             return VolfrepError(
-                f"The parameter '{name}' does not take {value!r} ({type(value).__name__}): see its "
-                "values in docs/reference.md."
+                f"The parameter '{name}' does not take {brief(value)}: see its values in "
+                "docs/reference.md."
             )
     return VolfrepError(f"A parameter has a value of the wrong kind ({error}).")

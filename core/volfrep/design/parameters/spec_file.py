@@ -10,6 +10,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
+from ...util.arguments import check_kind, check_path
 from ...util.errors import VolfrepError
 from ...util.files import check_writable, replacing
 from ...util.reading import read_toml
@@ -31,6 +32,7 @@ def read_spec(path: str | os.PathLike[str]) -> LatticeSpec:
     Raises:
         VolfrepError: the file cannot be read, or its specification makes no sense.
     """
+    check_path("path", path)
     values = read_values(path)
     try:
         return specification(values)
@@ -52,6 +54,8 @@ def write_spec(spec: LatticeSpec, path: str | os.PathLike[str]) -> None:
     ...     print("cell_size = 8.0" in file.read_text(), read_spec(file) == spec)
     True True
     """
+    check_kind("spec", spec, LatticeSpec, "a LatticeSpec")
+    check_path("path", path)
     write_values(values_of(spec), path)
 
 

@@ -47,8 +47,7 @@ class TpmsSheet:
                 f"There is no kind of wall '{self.kind}': choose one of {', '.join(KINDS)}."
             )
         number("wall thickness", self.thickness, "mm", positive=True)
-        if not math.isfinite(self.offset):
-            raise VolfrepError(f"The wall offset must be a number of mm, not {self.offset}.")
+        number("wall offset", self.offset, "mm", positive=None)
 
     @property
     def is_sheet(self) -> bool:

@@ -10,6 +10,7 @@ from ...design.spec_parts import Grid
 from ...design.tpms import PeriodicSurface
 from ...mechanics.materials import SolidMaterial, find_material
 from ...mechanics.summary import CellProperties
+from ...util.arguments import check_kind
 from ...util.errors import VolfrepError
 from ..kinds import kind_of_cell
 from ..kinds.kind import EndlessWish
@@ -58,11 +59,14 @@ def lattice_properties(
     >>> round(found.relative_density, 2), found.stiffness.shape
     (0.23, (6, 6))
     """
+    check_kind("cell_values", cell_values, str, "a text such as 't = 0.3'")
     if isinstance(cell, str):
         cell = any_cell(cell, cell_values, wall_formula)
     elif cell_values:
         raise VolfrepError("Values are for a cell that is given by its name or file.")
+    kinds = (SolidMaterial, type(None))
     solid = find_material(material) if isinstance(material, str) else material
+    check_kind("material", solid, kinds, "a material's name or file")
     wish = EndlessWish(
         strut_radius, relative_density, fillet, solid, along, cell_values, wall_kind,
         wall_thickness, wall_offset, wall_formula, exact, told,

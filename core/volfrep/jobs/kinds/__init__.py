@@ -16,6 +16,7 @@ from ...design.kinds.tpms import Tpms
 from ...design.spec import LatticeSpec
 from ...design.spec_fields import Kind
 from ...design.tpms import PeriodicSurface
+from ...util.errors import VolfrepError, brief
 from .kind import LatticeKind
 
 #: Module and class, by what the kind is to a specification; loaded when the first one is made.
@@ -35,7 +36,10 @@ def lattice_kind(spec: LatticeSpec) -> LatticeKind:
 
 def kind_of_cell(cell: UnitCell | PeriodicSurface) -> type[LatticeKind]:
     """The kind of lattice of a cell side by side."""
-    return _load(KINDS[type(cell)])
+    kind = KINDS.get(type(cell))
+    if kind is None:
+        raise VolfrepError(f"The cell of a lattice cannot be {brief(cell)}.")
+    return _load(kind)
 
 
 def _load(kind: type[Kind]) -> type[LatticeKind]:

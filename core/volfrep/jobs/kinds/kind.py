@@ -21,7 +21,7 @@ from ...grid.strut_graph import Wireframe
 from ...io.write.stl import write_stl
 from ...mesh.triangle_mesh import TriangleMesh
 from ...reports.report import Report, with_warnings
-from ...util.errors import VolfrepError
+from ...util.errors import VolfrepError, brief
 from ...util.numbers import whole
 from ...util.progress import Monitor, peak_memory_mb
 from ...util.types import Floats
@@ -201,7 +201,7 @@ def block_counts(count: object) -> tuple[int, int, int]:
         VolfrepError: they are not three whole numbers above 0.
     """
     if isinstance(count, str) or not isinstance(count, Iterable) or len(tuple(count)) != 3:
-        raise VolfrepError(f"The count must be three whole numbers, not {count!r}.")
+        raise VolfrepError(f"The count must be three whole numbers, not {brief(count)}.")
     x, y, z = (whole("count", n, 1, MOST_CELLS) for n in count)
     return x, y, z
 

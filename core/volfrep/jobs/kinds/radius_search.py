@@ -12,10 +12,8 @@ import numpy as np
 from ...design.spec import LatticeSpec
 from ...design.target import volume_out_of_reach
 from ...lattice.strut_volume import FINE, ROUGH, VolumeByRadius
-from ...mechanics.density import relative_density
 from ...util.errors import VolfrepError
 from ...util.search import Rising
-from ..rough_radius import radius_range
 from ..target_search import WantedVolume
 
 #: The first guess is this near, relative; a radius is sought up to so much above it.
@@ -34,6 +32,8 @@ class RadiusSearch:
 
     def __init__(self, spec: LatticeSpec, wanted: WantedVolume, table: _Table) -> None:
         self._spec, self.wanted = spec, wanted
+        from ..rough_radius import radius_range  # slow to load, and most jobs have no target
+
         self._low, self._high = radius_range(spec)
         self._table = table(ROUGH, self._high)
         most = self._volume(self._high)
@@ -75,6 +75,8 @@ class RadiusSearch:
         volume = self._table.at(radius)
         if not self._spec.fillet:
             return volume
+        from ...mechanics.density import relative_density
+
         cell, size = self._spec.unit_cell(), self._spec.cell_size
         plain = relative_density(cell, radius / size).value
         return (

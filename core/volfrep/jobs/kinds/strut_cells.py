@@ -17,6 +17,7 @@ from ...design.spec import LatticeSpec
 from ...design.target import Target
 from ...mesh.triangle_mesh import TriangleMesh
 from ...util.errors import VolfrepError
+from ...util.numbers import number
 from ...util.types import Floats
 from .kind import EndlessWish, Expected, LatticeKind
 
@@ -140,6 +141,13 @@ class StrutCellKind(LatticeKind):
         from ...mechanics.summary import cell_properties
 
         radius = wish.strut_radius
+        numbers = {
+            "strut radius": (radius, "mm"), "relative density": (wish.relative_density, ""),
+            "joint fillet": (wish.fillet, "mm"),
+        }  # fmt: skip
+        for name, (value, unit) in numbers.items():
+            if value is not None:
+                number(name, value, unit, positive=None)
         of_walls = wish.wall_kind or wish.wall_formula
         if wish.given not in (["strut radius"], ["relative density"]) or of_walls:
             raise VolfrepError("Of struts give either a strut radius or a relative density.")

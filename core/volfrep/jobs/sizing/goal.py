@@ -5,9 +5,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from numbers import Real
 
 from ...mechanics.materials import SolidMaterial
 from ...sizing.analysis import Limits
+from ...util.arguments import check_kind
 from ...util.errors import VolfrepError
 
 #: What a user may want: limits, or a mass of struts, and between which radii, how even.
@@ -56,6 +58,8 @@ def goal_of(
     Raises:
         VolfrepError: there is no goal of a name, two say the same, or a number makes no sense.
     """
+    for name, value in asked.items():
+        check_kind(named(name), value, (Real, type(None)), "a number")
     given = {name: float(value) for name, value in asked.items() if value is not None}
     for name in given:
         if name not in GOALS:

@@ -18,6 +18,7 @@ import numpy as np
 import Part
 from numpy.typing import NDArray
 
+from volfrep.grid.congruent_joints import Unsuitable, distinct_joints, refuse_overlaps
 from volfrep.grid.strut_graph import Wireframe
 from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.util.errors import VolfrepError
@@ -143,8 +144,6 @@ def packed_joints(
         VolfrepError: a joint cannot be fused, or the wall cannot be made.
         Cancelled: the callback said so.
     """
-    from volfrep.grid.congruent_joints import Unsuitable, distinct_joints, refuse_overlaps
-
     monitor, lattice = Monitor(progress), job.lattice
     refuse_overlaps(lattice)
     joints = distinct_joints(lattice)

@@ -27,6 +27,7 @@ from .colours.colouring import Colouring, add_properties
 from .draw import drawing
 from .jobs.in_steps import do_in_steps, drop_steps
 from .qt import QtCore, QtGui
+from .study.study_panel import open_study
 from .view.coarse_view import COARSE, show_likeness
 from .view.filled_view import FILLED, FilledPart, show_filled
 from .view.simplified_view import SIMPLIFIED, SimplifiedPart
@@ -357,8 +358,6 @@ class DesignStudyView:
 
     def setEdit(self, view: Any, mode: int = 0) -> bool:  # noqa: N802
         """Open the panel."""
-        from .study.study_panel import open_study
-
         return open_study(view.Object)
 
     def unsetEdit(self, view: Any, mode: int = 0) -> bool:  # noqa: N802

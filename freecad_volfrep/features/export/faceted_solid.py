@@ -14,6 +14,7 @@ from freecad_volfrep.engine import require_engine
 from freecad_volfrep.features.infill.freshness import tell_stale
 from freecad_volfrep.features.jobs.progress import job_title, run_job
 from volfrep.util.errors import VolfrepError
+from volfrep.util.files import check_writable, not_written
 
 from .input_files import refuse_inputs
 
@@ -150,8 +151,6 @@ def export_step(solid: App.DocumentObject, path: str | os.PathLike[str]) -> None
         VolfrepError: the file cannot be written, or is one that the solid is made of.
     """
     import Part
-
-    from volfrep.util.files import check_writable, not_written
 
     target = check_writable(path)
     refuse_inputs(path, solid)

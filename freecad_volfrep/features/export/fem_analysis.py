@@ -20,7 +20,7 @@ from freecad_volfrep.features.jobs.progress import all_or_nothing, go_through, j
 from volfrep.util.errors import VolfrepError
 
 from .exact import inputs_of, warn
-from .solver_files import beams_of, tetrahedra_of
+from .solver_files import beams_of, estimate_file, tetrahedra_of
 
 if TYPE_CHECKING:
     from volfrep.fem.beam_mesh import BeamMesh
@@ -79,8 +79,6 @@ def estimate_analysis(obj: App.DocumentObject, model: str) -> str:
     Raises:
         VolfrepError: too much; the text names the nearest setting that fits.
     """
-    from .solver_files import estimate_file
-
     return estimate_file(obj, "beam deck" if model == "beams" else "tetrahedra")
 
 

@@ -8,6 +8,8 @@ from collections.abc import Iterable
 
 import FreeCAD as App
 
+from volfrep.util.files import refuse_overwriting
+
 
 def files_read_by(objects: Iterable[App.DocumentObject]) -> dict[str, str]:
     """The files that objects, and all that they depend on, read; and their documents' own.
@@ -34,15 +36,11 @@ def refuse_inputs(path: str | os.PathLike[str], *objects: App.DocumentObject) ->
     Raises:
         VolfrepError: naming the property, its object and the path.
     """
-    from volfrep.util.files import refuse_overwriting
-
     refuse_overwriting({"output": path}, files_read_by(objects))
 
 
 def refuse_inputs_of_all(path: str | os.PathLike[str], but: tuple[str, ...] = ()) -> None:
     """The same for every object of every open document, but for properties of some names."""
-    from volfrep.util.files import refuse_overwriting
-
     objects = [obj for document in App.listDocuments().values() for obj in document.Objects]
     read = files_read_by(objects)
     kept = {what: file for what, file in read.items() if what.split(" of ")[0] not in but}

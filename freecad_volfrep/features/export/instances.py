@@ -13,6 +13,7 @@ import numpy as np
 
 from freecad_volfrep.features.jobs.progress import all_or_nothing, go_through, job_title, run_job
 from volfrep.util.errors import VolfrepError
+from volfrep.util.files import replacing
 
 from .exact import Ingredients, exact_job, ingredients_of, warn
 
@@ -129,7 +130,6 @@ def write_instances(obj: App.DocumentObject, path: str | os.PathLike[str]) -> No
     import Import
 
     from freecad_volfrep.bridge.exact import plain_curves, silence
-    from volfrep.util.files import replacing
 
     active = App.ActiveDocument
     # Hidden, so that no window of it opens.

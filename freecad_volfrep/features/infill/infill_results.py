@@ -10,6 +10,7 @@ import FreeCAD as App
 
 from freecad_volfrep.features.jobs.job import Job
 from freecad_volfrep.features.properties.quantities import is_driven, number_of, set_value
+from volfrep.design.parameters.table import BY_NAME
 
 from .properties import PROPERTIES
 
@@ -80,8 +81,6 @@ def with_radius(spec: LatticeSpec, found: dict[str, Any] | None) -> LatticeSpec:
 
 def _thickness(spec: LatticeSpec) -> tuple[str, float]:
     """The property that says how thick struts or walls are, and what it is."""
-    from volfrep.design.parameters.table import BY_NAME
-
     return BY_NAME[spec.kind.measure].property_name, spec.kind.thickness
 
 

@@ -10,6 +10,8 @@ import FreeCAD as App
 
 from freecad_volfrep.engine import require_engine
 from freecad_volfrep.translation import figure, grouped, translate
+from volfrep.design.target import Target
+from volfrep.util.content import digest_of
 
 from .freshness import is_of
 from .materials import advice, material_of
@@ -115,7 +117,6 @@ class LivePreview:
         from volfrep.design.forecast import forecast_fill
         from volfrep.io.solid import check_solid
         from volfrep.jobs.preview import PartDepth, preview
-        from volfrep.util.content import digest_of
 
         spec, mesh = self._obj.Proxy.read(self._obj)
         faces = (spec.open_faces, spec.face_skins, spec.keep_solid)
@@ -139,7 +140,6 @@ class LivePreview:
 
 def _stiffness(obj: App.DocumentObject, spec: LatticeSpec) -> float | None:
     """Young's modulus along the chosen direction, MPa, where it is known at once."""
-    from volfrep.design.target import Target
     from volfrep.jobs.stiffness_target import modulus
     from volfrep.mechanics.catalogue import known_cell
 

@@ -7,6 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import FreeCAD as App
 
+from volfrep.design.cells import find_cell
+from volfrep.util.errors import VolfrepError
+
 if TYPE_CHECKING:
     from volfrep.design.graphs import GivenGraph
 
@@ -23,8 +26,6 @@ def laid_along_faces(obj: App.DocumentObject, values: dict[str, Any]) -> GivenGr
     """
     from freecad_volfrep.bridge.face_layers import between_faces
     from freecad_volfrep.bridge.solids import parent_placement
-    from volfrep.design.cells import find_cell
-    from volfrep.util.errors import VolfrepError
 
     faces = [(owner, name) for owner, names in obj.NetworkFaces for name in names]
     if not faces:

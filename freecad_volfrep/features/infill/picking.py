@@ -8,6 +8,7 @@ from typing import Any
 import FreeCAD as App
 
 from volfrep.design.parameters import PARAMETERS
+from volfrep.util.errors import VolfrepError
 
 #: What is picked for the kinds of parameters.
 FACES, DIRECTION, POINT = "faces", "direction", "point"
@@ -56,7 +57,6 @@ def pick(
     """
     from freecad_volfrep.bridge.picked import direction_of, point_of
     from freecad_volfrep.bridge.solids import parent_placement
-    from volfrep.util.errors import VolfrepError
 
     frame = parent_placement(obj)
     if name in DISTANCES:
@@ -109,7 +109,6 @@ def _part_of(
     """
     from freecad_volfrep.bridge.solids import face_facets, is_fillable, resolve_base
     from volfrep.design.openings import OpenPatch
-    from volfrep.util.errors import VolfrepError
 
     if element.startswith("Face"):
         solid = obj.Proxy.read(obj)[1]

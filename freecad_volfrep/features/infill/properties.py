@@ -17,6 +17,7 @@ from freecad_volfrep.features.properties.property_table import (
     result,
 )
 from freecad_volfrep.features.properties.quantities import FALLBACK, supported
+from volfrep.design.cells import LIBRARY
 from volfrep.design.parameters import BY_NAME, GROUPS, PARAMETERS, Parameter
 from volfrep.design.parameters.table import (
     CUSTOM_CELL,
@@ -139,7 +140,6 @@ def ensure_properties(obj: App.DocumentObject) -> None:
     Results of a wrong type are ours, and made anew. What a user sets is left as it is, and so is
     the number of a later table: `refuse_spoiled` says so.
     """
-    from volfrep.design.cells import LIBRARY
     from volfrep.mechanics.materials import MATERIALS
     from volfrep.reports.processes import PROCESSES
 

@@ -18,6 +18,7 @@ import FreeCAD as App
 from freecad_volfrep.features.properties.quantities import is_driven, set_value
 from volfrep.design.parameters import BY_NAME, PARAMETERS, Parameter
 from volfrep.design.parameters.table import CUSTOM_CELL
+from volfrep.design.target import read_target
 from volfrep.util.errors import VolfrepError
 
 from .values import specification_of
@@ -79,7 +80,6 @@ def apply_recipe(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
         VolfrepError: the file cannot be read or makes no sense; nothing is changed.
     """
     from volfrep.design.parameters.spec_file import read_spec, read_values
-    from volfrep.design.target import read_target
 
     values = read_values(path)
     read_spec(path)  # says what makes no sense

@@ -17,6 +17,8 @@ from freecad_volfrep.features.properties.quantities import density_of, number_of
 from volfrep.design.parameters import BY_NAME, PARAMETERS, Parameter
 from volfrep.design.parameters.parameter import effective
 from volfrep.design.parameters.table import CUSTOM_CELL
+from volfrep.design.target import read_target
+from volfrep.util.errors import VolfrepError
 
 from .materials import material_of
 from .sized_radii import sized_field
@@ -83,7 +85,6 @@ def values_in_effect(obj: App.DocumentObject) -> tuple[dict[str, Any], Target | 
         VolfrepError: naming the first property that makes no sense.
     """
     from volfrep.design.spec_parts import first_radius
-    from volfrep.util.errors import VolfrepError
 
     from .network_faces import laid_along_faces
     from .openings import openings_of
@@ -119,9 +120,6 @@ def _target(values: dict[str, Any], material: SolidMaterial | None) -> Target | 
     Raises:
         VolfrepError: it makes no sense, or a stiffness has no material.
     """
-    from volfrep.design.target import read_target
-    from volfrep.util.errors import VolfrepError
-
     driver = values["radius_driven_by"]
     if driver == "radius":
         return None
@@ -161,7 +159,6 @@ def _field(obj: App.DocumentObject) -> PointField | None:
     from freecad_volfrep.bridge.fem_fields import field_of_result
     from freecad_volfrep.bridge.solids import parent_placement
     from volfrep.design.grading import read_point_field
-    from volfrep.util.errors import VolfrepError
 
     if obj.RadiusResult is not None:
         if obj.RadiusField:

@@ -16,7 +16,7 @@ from freecad_volfrep.features.jobs.screen import attach_view, revive_view
 from freecad_volfrep.features.properties.property_table import Property, add_missing, result
 from freecad_volfrep.features.properties.quantities import set_value
 from freecad_volfrep.saved_names import saved_module
-from volfrep.util.errors import VolfrepError
+from volfrep.util.errors import Cancelled, VolfrepError
 
 if TYPE_CHECKING:
     from volfrep.reports.printability import PrintReport
@@ -71,8 +71,6 @@ class PrintCheck:
         Raises:
             VolfrepError: one sentence; the object turns Invalid.
         """
-        from volfrep.util.errors import Cancelled
-
         self.state = State.RUNNING
         try:
             self._run(obj)

@@ -9,6 +9,7 @@ from typing import Any
 
 import FreeCADGui as Gui
 
+from freecad_volfrep.features.export.input_files import refuse_inputs_of_all
 from freecad_volfrep.gui.messages import WRONG, file_name
 from freecad_volfrep.gui.qt import QtCore, QtWidgets
 from freecad_volfrep.gui.selection import selected_infill, selected_with_edges
@@ -146,7 +147,6 @@ class CellLibrary(QtWidgets.QDialog):
 
     def save(self, path: str) -> bool:
         """Write the picked cell; returns whether that was done, says here why not."""
-        from freecad_volfrep.features.export.input_files import refuse_inputs_of_all
         from volfrep.design.drawn_cell import save_cell
 
         entry = self._entry()

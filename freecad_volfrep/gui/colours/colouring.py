@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from freecad_volfrep.features.jobs.job import Job
+from freecad_volfrep.features.jobs.progress import job_title
 from freecad_volfrep.gui.draw.coloured_struts import colours_of
 from freecad_volfrep.gui.draw.legend import Legend
 from freecad_volfrep.gui.jobs.background import begin
@@ -169,7 +170,6 @@ class Colouring:
 
     def _ask(self, quantity: str) -> None:
         """Have the values made beside the window."""
-        from freecad_volfrep.features.jobs.progress import job_title
         from freecad_volfrep.features.sizing.sizing import carried_by
         from volfrep.jobs.figures.point_values import OF_LOADS, point_values
         from volfrep.process.worker import Call

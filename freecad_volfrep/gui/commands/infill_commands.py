@@ -8,11 +8,14 @@ from typing import Any
 import FreeCAD as App
 import FreeCADGui as Gui
 
+from freecad_volfrep.bridge.solids import SolidReader, parent_placement
 from freecad_volfrep.deps import missing_packages
+from freecad_volfrep.features.infill.factory import make_lattice_infill, preferred_values
 from freecad_volfrep.gui.jobs.updating import begin_update, show_mesh
 from freecad_volfrep.gui.messages import ask, errors_shown, tell
 from freecad_volfrep.gui.selection import only_solid, selected_solids
 from freecad_volfrep.gui.undo import undo_step
+from freecad_volfrep.gui.view.preview_only import toggle_preview
 from freecad_volfrep.translation import translate
 
 #: How the camera is turned about Z and then tilted in the isometric view, degrees.
@@ -67,9 +70,6 @@ def open_panel(doc: App.Document, base: App.DocumentObject) -> None:
 
 def make_suitable_infill(doc: App.Document, base: App.DocumentObject) -> App.DocumentObject:
     """An infill with the preferred values, and sizes that suit the base."""
-    from freecad_volfrep.bridge.solids import SolidReader, parent_placement
-    from freecad_volfrep.features.infill.factory import make_lattice_infill, preferred_values
-
     low, high = SolidReader().read(base, parent_placement(base)).bounds
     return make_lattice_infill(doc, base, **preferred_values(tuple(high - low)))
 
@@ -99,8 +99,6 @@ def open_faces(selected: tuple[App.DocumentObject, Any]) -> None:
 
 def preview_only(infill: App.DocumentObject) -> None:
     """Show the struts of the present values without making a mesh, or take them away."""
-    from freecad_volfrep.gui.view.preview_only import toggle_preview
-
     with errors_shown():
         if toggle_preview(infill):
             said = translate(

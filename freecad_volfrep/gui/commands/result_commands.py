@@ -7,15 +7,20 @@ import FreeCAD as App
 import FreeCADGui as Gui
 
 from freecad_volfrep.features.jobs.job import State
+from freecad_volfrep.features.reports.mesh_check import check_mesh
+from freecad_volfrep.features.reports.print_check import make_print_check
+from freecad_volfrep.features.reports.statistics import statistics
+from freecad_volfrep.features.study.design_study import DesignStudy, make_design_study
 from freecad_volfrep.gui.messages import errors_shown
+from freecad_volfrep.gui.study.study_panel import open_study
 from freecad_volfrep.gui.undo import undo_step
+from freecad_volfrep.gui.windows.help_window import show_help
+from freecad_volfrep.gui.windows.report_window import show_report
 from freecad_volfrep.translation import translate
 
 
 def check_print(infill: App.DocumentObject) -> None:
     """Show the overhanging facets in red on the infill, and what else a printer would mind."""
-    from freecad_volfrep.features.reports.print_check import make_print_check
-
     doc = infill.Document
     with undo_step(doc, translate("VOLFREP_PrintCheck", "Print Check")):
         check = make_print_check(doc, infill)
@@ -32,9 +37,6 @@ def check_print(infill: App.DocumentObject) -> None:
 
 def study_designs(obj: App.DocumentObject) -> None:
     """Open a design study; of an infill, make one first."""
-    from freecad_volfrep.features.study.design_study import DesignStudy, make_design_study
-    from freecad_volfrep.gui.study.study_panel import open_study
-
     doc = obj.Document
     if not isinstance(obj.Proxy, DesignStudy):
         with undo_step(doc, translate("VOLFREP_DesignStudy", "Design Study")):
@@ -59,9 +61,6 @@ def colour_infill(obj: App.DocumentObject) -> None:
 
 def report_mesh(obj: App.DocumentObject) -> None:
     """Look at a mesh and show what was found in a window."""
-    from freecad_volfrep.features.reports.mesh_check import check_mesh
-    from freecad_volfrep.gui.windows.report_window import show_report
-
     with errors_shown():
         tables = check_mesh(obj)
         title = translate("VolfrepCommands", "Check Mesh: {label}").format(label=obj.Label)
@@ -70,9 +69,6 @@ def report_mesh(obj: App.DocumentObject) -> None:
 
 def show_statistics(infills: list[App.DocumentObject]) -> None:
     """Show the figures of infills in a window."""
-    from freecad_volfrep.features.reports.statistics import statistics
-    from freecad_volfrep.gui.windows.report_window import show_report
-
     name = infills[0].Label if len(infills) == 1 else infills[0].Document.Label
     with errors_shown():
         title = translate("VOLFREP_Statistics", "Statistics")
@@ -98,6 +94,4 @@ def show_strut_results(infill: App.DocumentObject) -> None:
 
 def open_help(_: object) -> None:
     """Open the window of help pages."""
-    from freecad_volfrep.gui.windows.help_window import show_help
-
     show_help()

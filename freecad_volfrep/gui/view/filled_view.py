@@ -16,8 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from freecad_volfrep import preferences
-from freecad_volfrep.features.infill.skin import is_just_made
+from freecad_volfrep.features.infill.skin import is_just_made, kinds_of
 from freecad_volfrep.gui.draw import drawing
+from volfrep.mesh.display_parts import drawn_parts
 
 if TYPE_CHECKING:
     from volfrep.mesh.display_parts import DrawnPart
@@ -150,7 +151,6 @@ def show_parts(obj: Any, node: Any, is_coarse: bool) -> FilledPart:
 
     What the engine has made with the mesh serves, once; else it is made here.
     """
-    from volfrep.mesh.display_parts import drawn_parts
     from volfrep.reports.facet_roles import OUTSIDE
 
     made = obj.Proxy.made
@@ -168,7 +168,6 @@ def mesh_and_kinds(obj: Any) -> tuple[TriangleMesh, NDArray[np.uint8]]:
     """An infill's mesh as it lies before its Placement moves it, and what its triangles are."""
     from freecad_volfrep.bridge.meshes import from_freecad
     from freecad_volfrep.bridge.solids import placed
-    from freecad_volfrep.features.infill.skin import kinds_of
 
     # The view moves its nodes by the object's Placement, which the mesh has in it already.
     mesh = placed(from_freecad(obj.Mesh), obj.Placement.inverse())

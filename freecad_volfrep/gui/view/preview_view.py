@@ -14,6 +14,7 @@ from freecad_volfrep.gui.draw import drawing
 from freecad_volfrep.gui.draw.coloured_struts import coloured_struts, colours_of
 from freecad_volfrep.gui.draw.legend import Legend
 from freecad_volfrep.gui.draw.prisms import CREASE_ANGLE, prisms
+from volfrep.util.errors import VolfrepError
 
 if TYPE_CHECKING:
     from freecad_volfrep.features.infill.live_preview import Shown
@@ -187,7 +188,6 @@ def preview_values(obj: App.DocumentObject, shown: Shown, quantity: str) -> np.n
     """(k, 2) a quantity at the ends of a preview's struts; None where it is not known of them."""
     from freecad_volfrep.features.sizing.sized_states import sized_states
     from volfrep.jobs.figures.point_values import OF_LOADS, values_in_space, values_on_struts
-    from volfrep.util.errors import VolfrepError
 
     struts = shown.preview
     if quantity == "Radius":

@@ -7,10 +7,12 @@ from pathlib import Path
 
 import FreeCADGui as Gui
 
+from freecad_volfrep.features.export.input_files import refuse_inputs_of_all
 from freecad_volfrep.features.reports.tables import Table, as_csv, as_html
 from freecad_volfrep.gui.messages import errors_shown, file_name, tell, tell_written
-from freecad_volfrep.gui.qt import QtWidgets
+from freecad_volfrep.gui.qt import QtCore, QtWidgets
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, marked, translate
+from volfrep.util.files import replacing
 
 #: Of the window, px.
 SIZE = (560, 620)
@@ -117,9 +119,6 @@ class ReportWindow(QtWidgets.QDialog):
         Raises:
             VolfrepError: the file cannot be written, or an open document reads it; it stays.
         """
-        from freecad_volfrep.features.export.input_files import refuse_inputs_of_all
-        from volfrep.util.files import replacing
-
         refuse_inputs_of_all(path)
         is_html = Path(path).suffix.lower() in (".html", ".htm")
         with replacing(path) as file:
@@ -129,8 +128,6 @@ class ReportWindow(QtWidgets.QDialog):
 
 def show_report(title: str, name: str, tables: list[Table]) -> ReportWindow:
     """Open a window of tables; it goes when it is closed."""
-    from freecad_volfrep.gui.qt import QtCore
-
     window = ReportWindow(title, name, tables)
     window.setAttribute(QtCore.Qt.WA_DeleteOnClose)
     window.show()

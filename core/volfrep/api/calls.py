@@ -143,6 +143,21 @@ def size(
         VolfrepError: the specification does not fit the part, nothing lies where a load acts, the
             part is not held, or the goal cannot be.
         Cancelled: the callback said so before there was a design.
+
+    >>> import trimesh, volfrep
+    >>> box = trimesh.creation.box(bounds=((0, 0, 0), (10, 10, 5)))
+    >>> held, pulled = ({"point": [x, 0, 0], "normal": [1, 0, 0]} for x in (0, 10))
+    >>> loads = {
+    ...     "material": "PA12",
+    ...     "support": [{"plane": held, "fixed": True}],
+    ...     "case": [{"load": [{"plane": pulled, "force": [5, 0, 0]}]}],
+    ... }
+    >>> part = volfrep.size(
+    ...     box, loads, cell="CVC", cell_size=5, strut_radius=0.4, shell=0, boundary="whole",
+    ...     safety=3, steps=3, proof=False, resolution=8,
+    ... )
+    >>> len(part.sized.radii) == len(part.sized.points)
+    True
     """
     from ..jobs.infill import Infill
     from ..jobs.sizing import GOALS, goal_of
@@ -329,6 +344,11 @@ def as_solid(
     Raises:
         VolfrepError: it is none.
         Cancelled: the callback said so while FreeCAD read a CAD file.
+
+    >>> import trimesh, volfrep
+    >>> solid = volfrep.as_solid(trimesh.creation.box((10, 20, 30)))
+    >>> round(solid.volume, 6), solid.bounds[1].tolist()
+    (6000.0, [5.0, 10.0, 15.0])
     """
     if isinstance(part, Solid):
         return part

@@ -46,6 +46,11 @@ class Part:
         cache: holds the stages, so that what is asked for later is not computed anew.
         source: what files are written from.
         sized: of `size`: radii, what they carry, and its report; None otherwise.
+
+    >>> import volfrep
+    >>> part = volfrep.block((1, 1, 1), cell="BCC", cell_size=10, strut_radius=1)
+    >>> part
+    <Part of BCC: 20 struts, 5,752 triangles, 516.5 mm3, 0.52 g>
     """
 
     result: Result
@@ -73,7 +78,13 @@ class Part:
 
     @cached_property
     def mesh(self) -> trimesh.Trimesh:
-        """The mesh, mm; its vertices and faces are those of `result.mesh`, none merged."""
+        """The mesh, mm; its vertices and faces are those of `result.mesh`, none merged.
+
+        >>> import volfrep
+        >>> part = volfrep.block((1, 1, 1), cell="BCC", cell_size=10, strut_radius=1)
+        >>> part.mesh.is_watertight, round(part.mesh.volume) == round(part.report.volume_mm3)
+        (True, True)
+        """
         import trimesh  # slow to import
 
         made = self.result.mesh
@@ -81,12 +92,24 @@ class Part:
 
     @property
     def struts(self) -> Wireframe:
-        """The unique nodes and struts of the active cells, with their radii, mm."""
+        """The unique nodes and struts of the active cells, with their radii, mm.
+
+        >>> import volfrep
+        >>> part = volfrep.block((1, 1, 1), cell="BCC", cell_size=10, strut_radius=1)
+        >>> part.struts.struts.shape, float(part.struts.radii.max())
+        ((20, 2), 1.0)
+        """
         return self.result.wireframe
 
     @property
     def nodes(self) -> NDArray[np.float64]:
-        """(n, 3) nodes of `struts`, mm."""
+        """(n, 3) nodes of `struts`, mm.
+
+        >>> import volfrep
+        >>> part = volfrep.block((1, 1, 1), cell="BCC", cell_size=10, strut_radius=1)
+        >>> part.nodes.shape, part.nodes.max(axis=0).tolist()
+        ((9, 3), [10.0, 10.0, 10.0])
+        """
         return self.struts.nodes
 
     @cached_property
@@ -116,12 +139,24 @@ class Part:
 
     @property
     def mass(self) -> float:
-        """Of the mesh at the density of the specification, g."""
+        """Of the mesh at the density of the specification, g.
+
+        >>> import volfrep
+        >>> part = volfrep.block((1, 1, 1), cell="BCC", strut_radius=1, material="Ti-6Al-4V")
+        >>> round(part.mass / part.report.volume_mm3 * 1000, 2)
+        4.41
+        """
         return self.report.mass_g
 
     @property
     def report(self) -> Report:
-        """The figures: cells, struts, triangles, volume, mass, seconds, warnings."""
+        """The figures: cells, struts, triangles, volume, mass, seconds, warnings.
+
+        >>> import volfrep
+        >>> part = volfrep.block((1, 1, 1), cell="BCC", cell_size=10, strut_radius=1)
+        >>> part.report.cells_active, part.report.bodies, part.report.watertight
+        (1, 1, True)
+        """
         return self.result.report
 
     def save(
@@ -193,6 +228,13 @@ class Part:
 
         Raises:
             VolfrepError: it is a block or a graph in free space, or the layers cannot be made so.
+
+        >>> import tempfile, trimesh, volfrep
+        >>> box = trimesh.creation.box((10, 10, 10))
+        >>> part = volfrep.fill(box, cell="BCC", strut_radius=1, shell=1, resolution=8)
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     part.layers(f"{folder}/layers", layer=1, pixel=0.5).count
+        10
         """
         from ..output.form import words
 
@@ -208,6 +250,11 @@ class Part:
 
         Raises:
             VolfrepError: the lattice is graded, or a network, and so has no one stiffness.
+
+        >>> import volfrep
+        >>> part = volfrep.block((1, 1, 1), cell="BCC", cell_size=10, strut_radius=1)
+        >>> round(part.properties().values["E100"], 3)
+        0.056
         """
         from ..jobs.figures.properties import lattice_properties
 
@@ -231,6 +278,11 @@ class Part:
 
         Raises:
             VolfrepError: there is no such process, or the direction is none.
+
+        >>> import volfrep
+        >>> part = volfrep.block((1, 1, 1), cell="BCC", cell_size=10, strut_radius=1)
+        >>> part.check("SLS").thinnest_strut_mm
+        2.0
         """
         from ..jobs.figures.print_check import check_print
         from ..jobs.pipeline import fill
@@ -263,6 +315,10 @@ class Part:
 
         Raises:
             VolfrepError: pyvista is missing, or the file cannot be written.
+
+        >>> import volfrep
+        >>> part = volfrep.block((1, 1, 1), cell="BCC", cell_size=10, strut_radius=1)
+        >>> part.plot("part.png")  # doctest: +SKIP
         """
         from ..reports.picture import SIZE, picture
 

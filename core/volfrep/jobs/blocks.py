@@ -58,6 +58,12 @@ def write_block_stl(
         VolfrepError: the counts make no sense, the block would not fit into memory or onto the
             disk, or the path cannot be written.
         Cancelled: the callback said so; no file is left behind.
+
+    >>> import tempfile, volfrep
+    >>> spec = volfrep.LatticeSpec(cell="BCC", cell_size=10, strut_radius=1)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     volfrep.write_block_stl(spec, (2, 2, 2), f"{folder}/block.stl").cells_active
+    8
     """
     check_kind("spec", spec, LatticeSpec, "a LatticeSpec")
     check_path("path", path)

@@ -65,6 +65,11 @@ class CellProperties:
         errors: by how much each may be off, by the same names, and relative_density and stiffness.
         von_mises: the solid's stress per unit of each macroscopic stress, by its name.
         along: voxels along L of the finest grid; 0 where the catalogue was read.
+
+    >>> import volfrep
+    >>> found = volfrep.properties("Octet", 10, 0.5)
+    >>> found.cell, round(found.relative_density, 3), found.stiffness.shape
+    ('Octet', 0.114, (6, 6))
     """
 
     cell: str
@@ -85,7 +90,8 @@ class CellProperties:
         Raises:
             VolfrepError: it is no direction.
 
-        >>> octet = cell_properties("Octet", 10, 0.5, along=16)
+        >>> import volfrep
+        >>> octet = volfrep.properties("Octet", 10, 0.5)
         >>> round(octet.young((1, 1, 1)) / octet.values["E111"], 6)
         1.0
         """
@@ -99,13 +105,22 @@ class CellProperties:
 
         Raises:
             VolfrepError: pandas is missing.
+
+        >>> import volfrep
+        >>> volfrep.properties("Octet", 10, 0.5).to_frame().loc["E100", "value"]  # doctest: +SKIP
+        0.0173
         """
         values = {"relative_density": self.relative_density, **self.values}
         columns = {"value": list(values.values()), "error": [self.errors[n] for n in values]}
         return make_frame(columns, list(values))
 
     def as_dict(self) -> dict[str, Any]:
-        """The figures as plain JSON values; the errors under ``errors``, by the same names."""
+        """The figures as plain JSON values; the errors under ``errors``, by the same names.
+
+        >>> import volfrep
+        >>> sorted(volfrep.properties("Octet", 10, 0.5).as_dict())[:3]
+        ['E100', 'E110', 'E111']
+        """
         solid = self.material
         return {
             "cell": self.cell,
@@ -140,7 +155,12 @@ class CellProperties:
         return f"r = {self.strut_radius:.5g} mm"
 
     def rows(self) -> list[tuple[str, str]]:
-        """Names and values, for people."""
+        """Names and values, for people.
+
+        >>> import volfrep
+        >>> volfrep.properties("Octet", 10, 0.5).rows()[0]
+        ('cell', 'Octet, L = 10 mm, r = 0.5 mm')
+        """
         solid = self.material
         unit = "E of the solid" if solid is None else "MPa"
         share = self.errors["relative_density"]

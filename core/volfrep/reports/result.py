@@ -43,6 +43,11 @@ class Result:
         surface: of the part, the lattice or the domain, as asked for.
         wireframe: the unique nodes and struts of the active cells.
         report: the figures.
+
+    >>> import volfrep
+    >>> part = volfrep.block((1, 1, 1), cell="BCC", cell_size=10, strut_radius=1)
+    >>> part.result.report.triangles == len(part.result.mesh.triangles)
+    True
     """
 
     surface: TrimmedSurface

@@ -33,6 +33,9 @@ class Range:
         high: the largest, above it.
         steps: how many values of it a grid has, both ends included; 0 where no grid asks.
         whole: whether only whole numbers are meant.
+
+    >>> Range(0.5, 1.5, 3).values("strut_radius")
+    (0.5, 1.0, 1.5)
     """
 
     low: float

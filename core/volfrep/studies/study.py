@@ -40,6 +40,9 @@ class Front:
         do: actions for the designs that are chosen, beside those of the study.
         designs: how many are chosen; None for the Pareto front as it is. More than there are on it
             are taken from the next fronts, fewer from where they lie farthest apart.
+
+    >>> Front({"forecast.mass_g": "least", "properties.E100": "most"}).designs is None
+    True
     """
 
     objectives: Mapping[str, str]
@@ -90,6 +93,10 @@ class Study:
 
     Raises:
         VolfrepError: at construction, naming what makes no sense.
+
+    >>> study = Study(parts=("part.stl",), vary={"cell": ("BCC", "CVC")}, fixed={"shell": 1.0})
+    >>> study.varied, study.all_actions
+    (('cell',), ('forecast', 'properties'))
     """
 
     parts: tuple[str | os.PathLike[str] | Solid, ...]

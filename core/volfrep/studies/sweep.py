@@ -184,6 +184,16 @@ def evaluate(
         VolfrepError: the study cannot be begun; designs that make no sense are told in their
             ``error``.
         Cancelled: the callback said so.
+
+    >>> import tempfile, trimesh, volfrep
+    >>> box = volfrep.as_solid(trimesh.creation.box((20, 20, 20)))
+    >>> study = volfrep.Study(parts=(box,), fixed={"cell": "BCC"}, do=("forecast",))
+    >>> with tempfile.TemporaryDirectory() as runs:
+    ...     thin, none = volfrep.evaluate(
+    ...         study, [{"strut_radius": 0.5}, {"strut_radius": 9.0}], runs, workers=1
+    ...     )
+    >>> thin["forecast.mass_g"] > 0, none["error"][:32]
+    (True, 'Struts of radius 9 mm are too th')
     """
     check_kind("study", study, Study, "a Study")
     check_kind("designs", designs, Sequence, "a list of dicts with values by name")

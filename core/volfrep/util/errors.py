@@ -9,8 +9,26 @@ def brief(value: object) -> str:
 
 
 class VolfrepError(ValueError):
-    """Bad input: the text names what is wrong, where, and what to do about it."""
+    """Bad input: the text names what is wrong, where, and what to do about it.
+
+    >>> import volfrep
+    >>> try:
+    ...     part = volfrep.block((1, 1, 1), cel="BCC")
+    ... except volfrep.VolfrepError as error:
+    ...     print(error)
+    A lattice has no parameter 'cel': did you mean 'cell'?
+    """
 
 
 class Cancelled(Exception):
-    """The progress callback asked to stop; nothing was written."""
+    """The progress callback asked to stop; nothing was written.
+
+    >>> import volfrep
+    >>> def refuse(fraction, stage):
+    ...     return False
+    >>> try:
+    ...     part = volfrep.block((1, 1, 1), cell="BCC", progress=refuse)
+    ... except volfrep.Cancelled:
+    ...     print("nothing was made")
+    nothing was made
+    """

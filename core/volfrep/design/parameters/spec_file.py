@@ -31,6 +31,9 @@ def read_spec(path: str | os.PathLike[str]) -> LatticeSpec:
 
     Raises:
         VolfrepError: the file cannot be read, or its specification makes no sense.
+
+    >>> read_spec("cushion").shell
+    0.0
     """
     check_path("path", path)
     values = read_values(path)

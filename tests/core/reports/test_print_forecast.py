@@ -7,6 +7,7 @@ import pytest
 import samples
 from volfrep.design.cells import LIBRARY, find_cell
 from volfrep.design.grading import Orientation, RadiusGrading
+from volfrep.design.graphs import RandomGraph
 from volfrep.design.openings import DrainHoles, OpenPlane
 from volfrep.design.profile import Profile
 from volfrep.design.spec import LatticeSpec
@@ -44,6 +45,11 @@ def test_it_tells_what_the_report_finds(cell):
     assert forecast.void_mm3 == pytest.approx(found.void_volume_mm3, rel=0.03)
     assert forecast.saved_g == pytest.approx(2.0 * found.void_volume_mm3 / 1000.0, rel=0.03)
     assert forecast.saved_share == pytest.approx(1.0 - mesh.volume / BOX.volume, abs=0.02)
+
+
+def test_the_gap_of_a_network_is_not_that_of_a_cell():
+    forecast = told(LatticeSpec(network=RandomGraph(points=20), strut_radius=0.5, shell=2.0))
+    assert (forecast.narrowest_gap_mm, forecast.is_gap_known) == (None, False)
 
 
 @pytest.mark.parametrize("cell", sorted(LIBRARY))

@@ -3,13 +3,20 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 import trimesh
 
 from volfrep import Study
+from volfrep.design.graphs import RandomGraph
+from volfrep.design.spec import LatticeSpec
+from volfrep.jobs.preview import PartDepth
+from volfrep.mesh.triangle_mesh import TriangleMesh
+from volfrep.studies.expectation import expect
 from volfrep.studies.sweep import sweep
 
 
@@ -48,3 +55,14 @@ def test_networks_have_forecasts_and_no_properties(cube: str, tmp_path: Path) ->
     row = only_row(study, tmp_path / "b")
     assert row["state"] == "failed"
     assert "repeats nowhere" in row["error"]
+
+
+@pytest.mark.parametrize("given", [{"cell": "Gyroid"}, {"network": RandomGraph(points=10)}])
+def test_of_a_domain_is_expected_what_walls_and_networks_fill(given: dict[str, Any]) -> None:
+    box = trimesh.creation.box((20.0, 20.0, 20.0))
+    solid = TriangleMesh(box.vertices, box.faces.astype(np.int32))
+    spec = LatticeSpec(**given, cell_size=8, strut_radius=0.5, shell=2, output="domain")
+    found = expect(solid, spec, PartDepth(solid))
+    assert found.volume_mm3 == pytest.approx(16.0**3, rel=0.01)
+    part = expect(solid, replace(spec, output="part"), PartDepth(solid))
+    assert found.relative_density == pytest.approx(part.relative_density)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""One step of a document's undo."""
+"""One step of a document's undo, also where its mesh comes later than what it is of."""
 
 from __future__ import annotations
 
@@ -19,3 +19,18 @@ def undo_step(doc: App.Document, name: str) -> Iterator[None]:
         doc.abortTransaction()
         raise
     doc.commitTransaction()
+
+
+#: At the end of a step's name, where nobody sees it: undone and redone with the one before it.
+FOLLOWS = "\u200b"
+
+
+def complete_steps(doc: App.Document, is_undone: bool) -> None:
+    """Undo or redo the other step of a change whose mesh came later than its values.
+
+    Args:
+        doc: in which steps were undone or redone.
+        is_undone: the mesh, rather than the values redone.
+    """
+    if doc.RedoNames and doc.RedoNames[0].endswith(FOLLOWS):
+        (doc.undo if is_undone else doc.redo)()

@@ -28,6 +28,7 @@ from .draw import drawing
 from .jobs.in_steps import do_in_steps, drop_steps
 from .qt import QtCore, QtGui
 from .study.study_panel import open_study
+from .undo import complete_steps
 from .view.coarse_view import COARSE, show_likeness
 from .view.filled_view import FILLED, FilledPart, show_filled
 from .view.simplified_view import SIMPLIFIED, SimplifiedPart
@@ -77,6 +78,7 @@ class LatticeInfillView:
         self._drawn: dict[str, Any] = {}
         self._coming: list[Iterator[None]] = []
         self._whole: set[str] = set()
+        self._redone: set[str] = set()
         if not hasattr(view, "LatticeColor"):
             view.addProperty("App::PropertyColor", "LatticeColor", "Object Style", LATTICE_COLOUR)
             view.LatticeColor = preferences.colour(preferences.STRUT_COLOUR)
@@ -121,8 +123,10 @@ class LatticeInfillView:
 
     def updateData(self, obj: Any, name: str) -> None:  # noqa: N802
         """A new mesh: what was made of the old one goes. A new state: it is shown."""
-        if name == "Fingerprint" and getattr(obj.Document, "Transacting", False):
-            QtCore.QTimer.singleShot(0, self._judge)  # once the step is undone
+        if getattr(obj.Document, "Transacting", False):
+            if not self._redone:
+                QtCore.QTimer.singleShot(0, self._judge)  # once all steps are undone
+            self._redone.add(name)
         if name == "Status":
             self._show_state()
         if name != "Mesh":
@@ -264,7 +268,11 @@ class LatticeInfillView:
     def _judge(self) -> None:
         """After a step was undone: where the mesh does not fit the values, a refresh makes it."""
         with suppress(ReferenceError):
-            obj = self.object
+            obj, redone = self.object, self._redone
+            self._redone = set()
+            complete_steps(obj.Document, is_undone="Fingerprint" in redone)
+            if "Fingerprint" not in redone:
+                return
             if why_stale(obj) and obj.Status == UP_TO_DATE:
                 obj.Status = STALE
                 obj.touch()

@@ -25,6 +25,7 @@ from driving import (
     click,
     click_in_view,
     click_item,
+    click_menu,
     comes_true,
     drawn_share,
     fail,
@@ -216,6 +217,32 @@ def edit_in_the_panel(doc, obj):
     check("Cancel takes the value back", abs(obj.StrutRadius.Value - radius) < 1e-9)
     check("and the mesh stays", obj.Mesh.CountFacets == facets)
     check("without an undo step", doc.UndoCount == steps, doc.UndoNames)
+
+
+def undo_an_edit(doc, obj):
+    """A change and the mesh that comes of it are undone, and redone, by one click."""
+    before, facets = obj.StrutRadius.Value, obj.Mesh.CountFacets
+    steps = doc.UndoCount
+    open_to_edit(obj)
+    type_value("StrutRadius", "1.3 mm")
+    answer_panel("OK")
+    check("the mesh comes", wait_until(lambda: obj.Mesh.CountFacets not in (0, facets)))
+    settle()
+    after = obj.Mesh.CountFacets
+    check("it is up to date", obj.Status == "Up to date", obj.Status)
+    click_menu("Edit", "Undo")
+    check("one click takes both back", wait_until(
+        lambda: (obj.StrutRadius.Value, obj.Mesh.CountFacets) == (before, facets)),
+        (obj.StrutRadius.Value, obj.Mesh.CountFacets, doc.UndoNames))  # fmt: skip
+    settle()
+    check("up to date again", obj.Status == "Up to date", obj.Status)
+    check("and nothing else", doc.UndoCount == steps, doc.UndoNames)
+    click_menu("Edit", "Redo")
+    check("one click brings both again", wait_until(
+        lambda: (obj.StrutRadius.Value, obj.Mesh.CountFacets) == (1.3, after)),
+        (obj.StrutRadius.Value, obj.Mesh.CountFacets))  # fmt: skip
+    settle()
+    check("up to date once more", obj.Status == "Up to date", obj.Status)
 
 
 def give_it_an_own_cell(doc, obj):
@@ -785,6 +812,7 @@ run_checks(
         find_the_workbench: boxed,
         fill_the_box: boxed,
         edit_in_the_panel: filled,
+        undo_an_edit: filled,
         give_it_an_own_cell: filled,
         drive_the_radius: filled,
         see_what_suits: filled,

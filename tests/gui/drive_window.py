@@ -284,7 +284,7 @@ def zoom_while_a_recompute_waits(doc, obj):
 
 
 def go_on_after_ok(doc, boxes):
-    """OK closes the panel at once; the mesh comes as a step of its own, which can be undone."""
+    """OK closes the panel at once; the mesh comes as a step that goes with its values."""
     box = boxes[0]
     select(box)
     steps = doc.UndoCount
@@ -305,10 +305,8 @@ def go_on_after_ok(doc, boxes):
     check("it is a step of its own", doc.UndoCount == steps + 2, doc.UndoNames)
     check("which says what it is", "Mesh of" in doc.UndoNames[0], doc.UndoNames)
     doc.undo()
-    settle()
-    check("without it the solid shows", wait_until(lambda: box.Visibility))
-    doc.undo()
-    check("and then it is gone", infills(doc) == [])
+    check("undone with its values", wait_until(lambda: infills(doc) == []), doc.UndoNames)
+    check("the solid shows", wait_until(lambda: box.Visibility))
 
 
 def answer_by_click(text):

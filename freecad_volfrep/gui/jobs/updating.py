@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Makes an infill's mesh beside what the user does, and installs it as one undo step."""
+"""Makes an infill's mesh beside what the user does, and installs it as one undo step.
+
+A mesh of values that are the last step belongs to that: they are undone and redone together.
+"""
 
 from __future__ import annotations
 
@@ -12,6 +15,7 @@ import FreeCADGui as Gui
 from freecad_volfrep.features.infill.infill_results import loaded
 from freecad_volfrep.features.jobs.job import State
 from freecad_volfrep.gui.qt import QtWidgets
+from freecad_volfrep.gui.undo import FOLLOWS
 from freecad_volfrep.gui.view.proxy_mesh import ProxyMesh
 from freecad_volfrep.translation import translate
 
@@ -55,6 +59,7 @@ class Update:
         self.is_in_panel, self.ended = is_in_panel, ended
         self._likeness: ProxyMesh | None = None
         self._mesh: Mesh.Mesh = None
+        self._pending = list(self._doc.UndoNames) if self._doc.HasPendingTransaction else None
         begin(
             job,
             self._arrive,
@@ -88,6 +93,11 @@ class Update:
         """FreeCAD has one transaction a document: ours would end what a panel has begun."""
         return self.is_in_panel or not self._doc.HasPendingTransaction
 
+    def _belongs_to_the_last_step(self) -> bool:
+        """Whether the last step is the one that was open when the mesh was asked for."""
+        names = list(self._doc.UndoNames)
+        return bool(names) and self._pending is not None and names == self._pending[: len(names)]
+
     def _take_over(self, come: tuple[Forecast, FilledMesh | None]) -> Iterator[None]:
         """Make FreeCAD's mesh; a large one when the user does nothing, after its likeness."""
         filled = come[1]
@@ -111,6 +121,8 @@ class Update:
         if self._likeness is not None:
             self._likeness.remove()
         step = translate("VolfrepCommands", "Mesh of {label}").format(label=self._obj.Label)
+        if self._belongs_to_the_last_step():
+            step += FOLLOWS
         has_step = self._mesh is not None and error is None and not self.is_in_panel
         if has_step:
             self._doc.openTransaction(step)

@@ -24,7 +24,7 @@ else
 fi
 git -C "$source" init -q
 git -C "$source" add -A
-for place in "package.xml" "pyproject.toml" "core/volfrep/util/version.py" "CHANGELOG.md" "CITATION.cff"; do
+for place in "package.xml" "core/volfrep/util/version.py" "CHANGELOG.md" "CITATION.cff"; do
   grep -qF "$version" "$source/$place" || refuse "$place does not name the version $version."
 done
 rm -rf "$target"

@@ -102,6 +102,9 @@ def __dir__() -> list[str]:
 
 
 def __getattr__(name: str) -> Any:
+    from .util.deprecation import NAMES, current_name
+
+    name = current_name(name, NAMES)
     if name not in _HOMES:
         raise AttributeError(f"module 'volfrep' has no attribute '{name}'")
     module, _, own = _HOMES[name].partition(":")

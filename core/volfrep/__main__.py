@@ -7,7 +7,7 @@ import sys
 from typing import NoReturn
 
 from .cli import process
-from .util.version import VERSION
+from .util.version import describe
 
 
 def main() -> NoReturn:
@@ -15,7 +15,7 @@ def main() -> NoReturn:
     try:
         process.prepare()
         if sys.argv[1:] == ["--version"]:  # without the options of all commands
-            print(f"volfrep {VERSION}")
+            print(describe())
             raise SystemExit(0)
         from .cli.command import run
 

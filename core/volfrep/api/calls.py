@@ -19,6 +19,7 @@ from ..design.parameters.field_keywords import is_sampled
 from ..design.parameters.keywords import (
     as_graph,
     refuse_unknown,
+    with_current_names,
 )
 from ..design.spec import LatticeSpec
 from ..io.solid import Solid, check_solid, read_solid
@@ -167,7 +168,7 @@ def size(
     from ..output.sources import FilledPart
 
     whole("steps", steps, 1, 100_000)
-    given: dict[str, Any] = dict(parameters)
+    given = with_current_names(parameters)
     asked = {name: given.pop(name) for name in GOALS if name in given}
     refuse_unknown(given, accepted() | set(GOALS))
     cache = _cache(cache)
@@ -396,6 +397,7 @@ def _asked(
     material: str | None,
 ) -> tuple[Solid, LatticeSpec]:
     """The solid and what to make; the specification first, where it needs no part."""
+    parameters = with_current_names(parameters)
     if any(is_sampled(name, value) for name, value in parameters.items()):
         refuse_unknown(parameters, accepted())
         solid = as_solid(part, unit, progress)

@@ -19,6 +19,7 @@ from ..design.parameters.keywords import (
     refuse_kind,
     refuse_unknown,
     spec_by_keys,
+    with_current_names,
 )
 from ..design.spec import LatticeSpec
 from ..design.spec_parts import first_radius
@@ -51,6 +52,7 @@ def specified(
         VolfrepError: there is no such parameter, or they make no sense.
     """
     check_kind("spec", spec, (LatticeSpec, type(None)), "a LatticeSpec")
+    parameters = with_current_names(parameters)
     refuse_unknown(parameters, accepted())
     young = 1.0
     if material is not None:

@@ -10,26 +10,10 @@ from argparse import Namespace
 from collections.abc import Callable
 from typing import Any
 
-from ..util.version import VERSION
+from ..util.version import PACKAGES, VERSION, versions
 
-#: Packages of which the version matters: needed ones, then those of single features.
-PACKAGES = (
-    "numpy", "scipy", "scikit-image", "trimesh", "manifold3d",
-    "meshio", "pyvista", "gmsh", "networkx", "pandas", "matplotlib", "distributed",
-)  # fmt: skip
-
-
-def versions() -> dict[str, str]:
-    """The version of each of `PACKAGES`; "none" for one that is not installed."""
-    from importlib.metadata import PackageNotFoundError, version
-
-    found = {}
-    for package in PACKAGES:
-        try:
-            found[package] = version(package)
-        except PackageNotFoundError:
-            found[package] = "none"
-    return found
+#: Packages of which the version matters beside the needed ones: those of single features.
+FEATURES = ("meshio", "pyvista", "gmsh", "networkx", "pandas", "matplotlib", "distributed")
 
 
 def describe_machine(specification: str = "") -> str:
@@ -44,7 +28,7 @@ def describe_machine(specification: str = "") -> str:
         "Python": platform.python_version(),
         "system": f"{platform.system()} {platform.release()}, {platform.machine()}",
         "processors": str(os.cpu_count()),
-        **versions(),
+        **versions((*PACKAGES, *FEATURES)),
     }
     text = "\n".join(f"- {name}: {value}" for name, value in rows.items())
     if specification:

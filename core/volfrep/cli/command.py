@@ -27,7 +27,7 @@ from . import bug_report, layers, process, properties, sizing, sweep
 from .files import read_part
 from .options import FillOptions, MeshOptions, block_options, fill_options, network_options
 from .parameter_options import add_parameters
-from .parser import Parser, Version, refuse_old
+from .parser import Parser, Version, refuse_old, with_current_options
 from .run_options import add_run_options
 from .telling import Progress, print_rows, print_summary, print_warnings, write_report
 
@@ -56,7 +56,7 @@ def run(arguments: Sequence[str]) -> int:
     """Run a command and return its exit code; errors of the user become one sentence."""
     try:
         refuse_old(arguments)
-        options = _parser().parse_args(arguments)
+        options = _parser().parse_args(with_current_options(arguments))
         command: Command = options.command
         memory_limit.keep_within()
         with keeping_inputs():

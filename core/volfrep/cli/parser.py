@@ -5,11 +5,13 @@ from __future__ import annotations
 
 import argparse
 import re
+import sys
 from collections.abc import Sequence
 from typing import NoReturn
 
+from ..util.deprecation import PARAMETERS, current_name
 from ..util.errors import VolfrepError
-from ..util.version import VERSION
+from ..util.version import describe
 
 #: Options of earlier versions, and what they are called now.
 RENAMED = {
@@ -46,7 +48,7 @@ class Version(argparse.Action):
 
     def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
         """Print and exit; argparse's signature."""
-        print(f"volfrep {VERSION}")
+        print(describe())
         parser.exit()
 
 
@@ -69,6 +71,31 @@ def refuse_old(arguments: Sequence[str]) -> None:
                 f"--output takes the file to write, as -o does: choose what to make by --make "
                 f"{value or following}."
             )
+
+
+def with_current_options(arguments: Sequence[str]) -> list[str]:
+    """Arguments by the names that options of parameters have today; a warning for each old one.
+
+    Raises:
+        VolfrepError: one has changed two minor versions ago.
+    """
+    return [_current(word) if word.startswith("--") else word for word in arguments]
+
+
+def _current(word: str) -> str:
+    option, mark, value = word.partition("=")
+    name = option[2:].replace("-", "_")
+    now = current_name(name, PARAMETERS, _as_option, lambda said: say(f"warning: {said}"))
+    return word if now == name else _as_option(now) + mark + value
+
+
+def _as_option(name: str) -> str:
+    return f"--{name.replace('_', '-')}"
+
+
+def say(text: str) -> None:
+    """A line on the terminal's error stream."""
+    print(f"volfrep: {text}", file=sys.stderr)
 
 
 def three_whole_numbers(text: str) -> tuple[int, int, int]:

@@ -12,6 +12,8 @@ from typing import Any
 
 import numpy as np
 
+from ...util.deprecation import PARAMETERS as RENAMED
+from ...util.deprecation import current_name
 from ...util.errors import VolfrepError, brief
 from ...util.numbers import number
 from ...util.types import Floats
@@ -33,6 +35,15 @@ FIELDS = {field.name for field in dataclasses.fields(LatticeSpec)}
 KEYS = {row.name for row in PARAMETERS if row.in_command}
 #: Keys whose word stands for what a field of the same name holds.
 WORDS = ("cell_map", "network", "radius_grading", "size_grading")
+
+
+def with_current_names(given: Mapping[str, Any]) -> dict[str, Any]:
+    """Keywords by their names of today, with a warning for each that has changed.
+
+    Raises:
+        VolfrepError: one has changed two minor versions ago.
+    """
+    return {current_name(name, RENAMED): value for name, value in given.items()}
 
 
 def refuse_unknown(given: Mapping[str, object], known: set[str]) -> None:

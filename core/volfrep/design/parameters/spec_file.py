@@ -11,6 +11,8 @@ from pathlib import Path
 from typing import Any
 
 from ...util.arguments import check_kind, check_path
+from ...util.deprecation import PARAMETERS as PARAMETERS_RENAMED
+from ...util.deprecation import current_name
 from ...util.errors import VolfrepError
 from ...util.files import check_writable, replacing
 from ...util.reading import read_toml
@@ -23,6 +25,8 @@ from .values import from_plain, to_plain
 
 #: Keys of a file, in the table's order.
 KEYS = tuple(parameter.name for parameter in PARAMETERS if parameter.in_command)
+#: Of the files: a later one, which this version cannot read, is named in them as `schema = 2`.
+SCHEMA = 1
 _HEAD = "# A lattice for VOLFREP. Lengths are in mm, angles in degrees, the density in g/cm3."
 
 
@@ -72,7 +76,15 @@ def read_values(path: str | os.PathLike[str]) -> dict[str, Any]:
         VolfrepError: the file cannot be read, or the first entry that makes no sense.
     """
     path = recipe_or_file(path)
-    return {name: _value(path, name, value) for name, value in parse_spec(path).items()}
+    entries = parse_spec(path)
+    schema = entries.pop("schema", 1)
+    if schema != SCHEMA:
+        raise VolfrepError(
+            f"{path} has the schema {schema}, and this version of VOLFREP reads {SCHEMA}: "
+            "update it."
+        )
+    named = {current_name(name, PARAMETERS_RENAMED): value for name, value in entries.items()}
+    return {name: _value(path, name, value) for name, value in named.items()}
 
 
 def write_values(values: Mapping[str, Any], path: str | os.PathLike[str]) -> None:

@@ -82,7 +82,7 @@ def test_help_and_version_start_at_once_without_numpy(arguments: list[str]) -> N
         (
             "import sys; sys.argv[1:] = ['--version']\nfrom volfrep.__main__ import main\n"
             "try:\n    main()\nexcept SystemExit:\n    pass",
-            ["numpy", "argparse", "dataclasses", "importlib.metadata", "volfrep.design"],
+            ["numpy", "argparse", "dataclasses", "volfrep.design"],
         ),
         (
             "from volfrep.cli.command import run\nassert run('block --cell CVC --cell-size 5 "

@@ -60,6 +60,10 @@ def test_a_density_drives_the_thickness(box) -> None:
     found = json.loads(infill.Report)["target"]["wall_thickness_mm"]
     assert infill.WallThickness.Value == pytest.approx(found)
     assert "ReadOnly" in infill.getEditorMode("WallThickness")
+    told = LivePreview(infill).show().text.splitlines()[0]
+    assert float(told.removeprefix("thickness ").removesuffix(" mm")) == pytest.approx(
+        found, rel=0.03
+    )
 
 
 def test_a_formula_of_ones_own_is_made_and_a_wrong_one_refused(box) -> None:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import FreeCAD as App
 
 from freecad_volfrep.engine import require_engine
-from freecad_volfrep.translation import figure, grouped, translate
+from freecad_volfrep.translation import QT_TRANSLATE_NOOP, figure, grouped, translate
 from volfrep.design.target import Target
 from volfrep.util.content import digest_of
 
@@ -28,6 +28,12 @@ TARGETS = {
     "Relative density": "TargetDensity",
     "Mass": "TargetMass",
     "Stiffness": "TargetStiffness",
+}
+#: What a target has come to, by the parameter that says how thick the lattice is.
+_THICKNESS = {
+    "strut_radius": QT_TRANSLATE_NOOP("VolfrepFigures", "strut radius {radius} mm"),
+    "wall_thickness": QT_TRANSLATE_NOOP("VolfrepFigures", "thickness {radius} mm"),
+    "wall_offset": QT_TRANSLATE_NOOP("VolfrepFigures", "offset {radius} mm"),
 }
 
 
@@ -75,8 +81,8 @@ class Shown:
         found = ()
         if p.spec.target is not None:
             found = (
-                translate("VolfrepFigures", "strut radius {radius} mm").format(
-                    radius=figure(p.spec.strut_radius, 4)
+                translate("VolfrepFigures", _THICKNESS[p.spec.kind.measure]).format(
+                    radius=figure(p.spec.kind.thickness, 4)
                 ),
             )
         return "\n".join((*found, figures, *self.advice))

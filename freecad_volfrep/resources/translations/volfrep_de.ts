@@ -1955,6 +1955,10 @@
       <translation>keine</translation>
     </message>
     <message>
+      <source>offset {radius} mm</source>
+      <translation>Versatz {radius} mm</translation>
+    </message>
+    <message>
       <source>over {width} mm</source>
       <translation>über {width} mm</translation>
     </message>
@@ -1969,6 +1973,10 @@
     <message>
       <source>struts below {angle}°</source>
       <translation>Stäbe unter {angle}°</translation>
+    </message>
+    <message>
+      <source>thickness {radius} mm</source>
+      <translation>Dicke {radius} mm</translation>
     </message>
     <message>
       <source>thinnest strut</source>

@@ -1955,6 +1955,10 @@
       <translation>nessuno</translation>
     </message>
     <message>
+      <source>offset {radius} mm</source>
+      <translation>scostamento {radius} mm</translation>
+    </message>
+    <message>
       <source>over {width} mm</source>
       <translation>oltre {width} mm</translation>
     </message>
@@ -1969,6 +1973,10 @@
     <message>
       <source>struts below {angle}°</source>
       <translation>aste sotto {angle}°</translation>
+    </message>
+    <message>
+      <source>thickness {radius} mm</source>
+      <translation>spessore {radius} mm</translation>
     </message>
     <message>
       <source>thinnest strut</source>

@@ -48,6 +48,7 @@ def cylinder(doc):
 
 
 def test_an_exact_part_of_a_box(doc, infill):
+    infill.CellSize = 15
     moved(doc, infill)
     solid = make_kind(doc, infill, "exact")
     doc.recompute()

@@ -24,7 +24,7 @@ from volfrep.util.errors import VolfrepError
 
 #: What is promised, relative.
 NEAR = 5e-3
-LATTICE = {"CellType": "BCC", "CellSize": 10, "ShellThickness": 2}
+LATTICE = {"CellType": "BCC", "CellSize": 10, "ShellThickness": 2, "Resolution": 8}
 
 
 def driven(doc, box, by, **settings):

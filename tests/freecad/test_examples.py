@@ -80,7 +80,7 @@ def test_follows_all_its_sizes_at_once(example):
 @pytest.mark.parametrize(
     ("name", "coarser"),
     [
-        ("Bracket", {"CellSize": 30, "StrutRadius": 3, "Deviation": 0.3}),
+        ("Bracket", {"CellSize": 30, "StrutRadius": 3, "Deviation": 0.3, "ShellThickness": 6}),
         pytest.param("Bracket", {}, marks=pytest.mark.slow),
         pytest.param("PistonRod", {}, marks=pytest.mark.slow),
     ],

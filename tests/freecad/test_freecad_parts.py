@@ -12,7 +12,7 @@ pytestmark = pytest.mark.skipif(not PARTS.is_dir(), reason=NO_PARTS)
 
 #: Cell size, strut radius and skin of each, mm.
 SETTINGS = {
-    "ge_bracket.step": (10.0, 1.0, 3.0),
+    "ge_bracket.step": (20.0, 2.0, 5.0),
     "piston_rod.step": (4.0, 0.4, 1.5),
     "trimesh_featuretype.STEP": (10.0, 1.0, 3.0),
     "nist_ctc_01_asme1_rd.stp": (60.0, 5.0, 8.0),

@@ -227,9 +227,9 @@ def block(
     corners = np.array([(0, 0, 0), counts], float)
     with shown(progress) as told:
         wanted = specified(spec, dict(parameters), material, lambda size: size * corners)
-        wanted = solve_block_target(wanted, counts, progress=told)
-        made = Block(wanted, counts, told)
-        return Part(made.result, wanted, None, StageCache(), made)
+        block = solve_block_target(wanted, counts, progress=told)
+        made = Block(block, told)
+        return Part(made.result, block.spec, None, StageCache(), made)
 
 
 def mesh_network(

@@ -203,12 +203,19 @@ def _block(given: argparse.Namespace) -> None:
 
     from ..design.forecast import forecast_block
 
+    before: dict[str, float]
     start, count, meshed = time.perf_counter(), options.count, options.form.meshed
-    spec = options.spec
-    if spec.target is not None:
+    if options.spec.target is None:
+        from ..jobs.kinds import lattice_kind
+
+        block = lattice_kind(options.spec).block(count)
+        before = {}
+    else:
         from ..jobs.targets import solve_block_target  # loads what fills parts
 
-        spec = solve_block_target(spec, count, meshed=meshed)
+        block = solve_block_target(options.spec, count, meshed=meshed)
+        before = {"target": time.perf_counter() - start}
+    spec = block.spec
     streamed = options.is_plain and options.form.name == "stl"
     if meshed:
         spec.kind.refuse_crossing()
@@ -219,13 +226,13 @@ def _block(given: argparse.Namespace) -> None:
         if not streamed:
             from ..output.sources import Block
 
-            _make(Block(spec, count, progress), options, start, {})
+            _make(Block(block, progress), options, start, before)
             return
-        from ..jobs.blocks import write_block_stl
+        from ..util.progress import Monitor
 
         # Octant by octant, without a surface in between.
-        report = write_block_stl(spec, count, options.output, progress=progress)
-        _tell(report, options)
+        report = block.write_stl(options.output, Monitor(progress))
+        _tell(dataclasses.replace(report, stages={**before, **report.stages}), options)
 
 
 def _network(given: argparse.Namespace) -> None:

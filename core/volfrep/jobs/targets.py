@@ -23,6 +23,7 @@ from ..util.cache import StageCache
 from ..util.progress import Monitor, ProgressCallback
 from .infill import Infill
 from .kinds import lattice_kind
+from .kinds.kind import BlockLattice
 from .target_search import make_with_volume
 
 
@@ -91,11 +92,11 @@ def solve_block_target(
     *,
     progress: ProgressCallback | None = None,
     meshed: bool = True,
-) -> LatticeSpec:
-    """The specification of a block, with the radius of its target; see `solve_target`.
+) -> BlockLattice:
+    """A block with the radius of its target, as it was measured last; see `solve_target`.
 
     Args:
-        spec: with a target, or without one: then it is returned as it is.
+        spec: with a target, or without one: then it is that of the block.
         count: cells along x, y, z.
         progress: called with the fraction done and the stage; returning False cancels.
         meshed: whether its octants, or the mesh of a graded block, are made and measured;
@@ -105,15 +106,18 @@ def solve_block_target(
         VolfrepError: as `solve_target`.
     """
     target = spec.target
-    if target is None:
-        return spec
     kind = lattice_kind(spec)
     block = kind.block(count)
+    if target is None:
+        return block
     if target.aim == "stiffness":
-        return kind.stiffened(target)
+        return lattice_kind(kind.stiffened(target)).block(count)
     search = block.search(target)
 
-    def measure(made: LatticeSpec) -> Report:
-        return lattice_kind(made).block(count).measured(Monitor(progress))
+    def make(volume: float) -> BlockLattice:
+        return lattice_kind(search.specification(volume)).block(count)
 
-    return make_with_volume(search.specification, measure if meshed else None, search.wanted)
+    def measure(made: BlockLattice) -> Report:
+        return made.measured(Monitor(progress))
+
+    return make_with_volume(make, measure if meshed else None, search.wanted)

@@ -25,6 +25,7 @@ from .writer import Axes, ExactStruts, Settings, Written, writer_of
 
 if TYPE_CHECKING:
     from ..jobs.infill import Infill
+    from ..jobs.kinds.kind import BlockLattice
     from ..jobs.slices import Layers
     from ..reports.estimate import ExportChoice
     from ..reports.result import Result
@@ -209,40 +210,30 @@ class Block(Free):
     """A free-standing block.
 
     Args:
-        spec: what is made, with the radius of its target.
-        count: cells along x, y, z.
+        made: it, with the radius of its target.
         progress: as of `FilledPart`.
     """
 
-    def __init__(
-        self,
-        spec: LatticeSpec,
-        count: Sequence[int],
-        progress: ProgressCallback | None = None,
-    ) -> None:
-        super().__init__(spec, progress)
-        self.count: Sequence[int] = count
+    def __init__(self, made: BlockLattice, progress: ProgressCallback | None = None) -> None:
+        super().__init__(made.spec, progress)
+        self._made = made
 
     @cached_property
     def result(self) -> Result:
         """The mesh and its figures."""
-        from ..jobs.blocks import block
-
-        return block(self.spec, self.count, progress=self._progress)
+        return self._made.result(Monitor(self._progress))
 
     @property
     def beams(self) -> BeamModel:
         """As of `Source`."""
         from ..jobs.beam_part import block_beams
 
-        return block_beams(self.spec, self.count)
+        return block_beams(self.spec, self._made.count)
 
     @property
     def axes(self) -> Axes:
         """As of `Source`."""
-        from ..jobs.blocks import block_wireframe
-
-        return Axes(block_wireframe(self.spec, self.count), None)
+        return Axes(self._made.wireframe(), None)
 
 
 class FreeGraph(Free):

@@ -574,7 +574,7 @@ def test_not_enough_memory(
     def greedy(*_: Any, **__: Any) -> None:
         raise MemoryError
 
-    monkeypatch.setattr("volfrep.jobs.blocks.write_block_stl", greedy)
+    monkeypatch.setattr("volfrep.jobs.kinds.octant_block.OctantBlock.write_stl", greedy)
     arguments = ["block", "-o", tmp_path / "x.stl", *LATTICE, "--count", "1,1,1"]
     assert "not enough memory" in refused(capsys, *arguments)
 
@@ -749,12 +749,12 @@ def test_openings_that_make_no_sense(
 def test_a_defect_is_one_sentence_and_its_traceback_a_file(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    import volfrep.jobs.blocks
+    from volfrep.jobs.kinds.octant_block import OctantBlock
 
     def broken(*_: object, **__: object) -> None:
         raise ZeroDivisionError("by accident")
 
-    monkeypatch.setattr(volfrep.jobs.blocks, "write_block_stl", broken)
+    monkeypatch.setattr(OctantBlock, "write_stl", broken)
     monkeypatch.setenv("TMPDIR", str(tmp_path))
     monkeypatch.setattr("tempfile.tempdir", None)
     out = tmp_path / "block.stl"

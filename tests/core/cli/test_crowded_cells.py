@@ -17,6 +17,7 @@ from volfrep.design.cells import find_cell
 from volfrep.design.kinds.strut_cells import crossing_struts
 from volfrep.io.write.stl import write_stl
 from volfrep.jobs import blocks
+from volfrep.jobs.kinds.octant_block import OctantBlock
 from volfrep.mechanics import homogenise
 from volfrep.mechanics.voxels import Voxels
 from volfrep.octants import octant_mesh
@@ -61,7 +62,7 @@ def test_what_a_cell_of_a_few_struts_takes_is_told(
     def made(*given: object, **named: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(blocks, "write_block_stl", made)
+    monkeypatch.setattr(OctantBlock, "write_stl", made)
     given = ["block", "--count", "1,1,1", "--cell", str(complete(tmp_path, 8)), "--cell-size", "10"]
     assert run([*given, "--strut-radius", "0.5", "-o", str(tmp_path / "out.stl")]) == 130
     told = capsys.readouterr().out

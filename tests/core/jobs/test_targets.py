@@ -22,7 +22,7 @@ from volfrep.io.solid import check_solid
 from volfrep.jobs import stiffness_target
 from volfrep.jobs.blocks import block
 from volfrep.jobs.infill import Infill
-from volfrep.jobs.kinds import strut_lattice
+from volfrep.jobs.kinds import strut_block, strut_lattice
 from volfrep.jobs.part_depth import PartDepth
 from volfrep.jobs.rough_radius import solve_target_roughly
 from volfrep.jobs.targets import solve_block_target, solve_target
@@ -176,8 +176,9 @@ def test_a_cell_of_ones_own_is_homogenised_for_its_stiffness() -> None:
         dataclasses.replace(LIBRARY["BCC"], name="mine"), 6.0, 0.3,
         target=Target("stiffness", 0.02, (1.0, 1.0, 1.0)),
     )  # fmt: skip
-    own = solve_block_target(spec, (1, 1, 1)).strut_radius
-    library = solve_block_target(dataclasses.replace(spec, cell="BCC"), (1, 1, 1)).strut_radius
+    own = solve_block_target(spec, (1, 1, 1)).spec.strut_radius
+    bcc = dataclasses.replace(spec, cell="BCC")
+    library = solve_block_target(bcc, (1, 1, 1)).spec.strut_radius
     assert own == pytest.approx(library, rel=5e-3)
 
 
@@ -244,3 +245,17 @@ def test_a_study_refuses_with_what_can_be_had_as_the_run_does(target) -> None:
     with pytest.raises(VolfrepError, match="choose one from") as told:
         expect(solid, spec, PartDepth(solid))
     assert ("of which the skin is" in str(told.value)) == (target.aim == "mass")
+
+
+def test_a_block_is_written_as_it_was_measured(monkeypatch, tmp_path):
+    """Its octants are meshed once for the target, and not again for the file."""
+    meshed = []
+    mesh = strut_block.mesh_octants
+    monkeypatch.setattr(
+        strut_block, "mesh_octants", lambda *given: meshed.append(given) or mesh(*given)
+    )
+    spec = LatticeSpec(cell="BCC", cell_size=5.0, target=density(0.1))
+    block = solve_block_target(spec, (2, 2, 2))
+    report = block.write_stl(tmp_path / "block.stl", Monitor(None))
+    assert len(meshed) == 1
+    assert report.relative_density == pytest.approx(0.1, rel=0.01)

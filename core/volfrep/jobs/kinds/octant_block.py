@@ -63,10 +63,16 @@ class OctantBlock(BlockLattice):
     def __init__(self, kind: LatticeKind, count: Sequence[int]) -> None:
         super().__init__(kind, count)
         self.cells, self.placement = block_placement(self.spec.grid, self.count)
+        self._laid: LaidBlock | None = None
 
     @abstractmethod
     def lay(self, monitor: Monitor) -> LaidBlock:
         """Mesh and lay the octants."""
+
+    def _lay_once(self, monitor: Monitor) -> LaidBlock:
+        if self._laid is None:
+            self._laid = self.lay(monitor)
+        return self._laid
 
     @abstractmethod
     def placed(self, laid: LaidBlock, monitor: Monitor) -> Deformed:
@@ -99,7 +105,7 @@ class OctantBlock(BlockLattice):
         """The block, as a mesh."""
         spec, shape = self.spec, self.cells.shape
         refuse_expected(spec, math.prod(shape) * spec.cell_size**3, shape)
-        laid = self.lay(monitor)
+        laid = self._lay_once(monitor)
         refuse_too_large(spec, laid.layout.grid, laid.layout.octants, None, shape)
         return self._meshed(laid, monitor)
 
@@ -142,7 +148,7 @@ class OctantBlock(BlockLattice):
         if self.spec.is_graded:
             return write_whole(self.result(monitor), path)
         refuse_block(self.cells.shape, BYTES_PER_STREAMED_CELL)
-        laid = self.lay(monitor)
+        laid = self._lay_once(monitor)
         with monitor.stage("check", 0.4, 0.5):
             measured = certify(laid.layout)
             refuse_no_solid(measured)
@@ -159,7 +165,7 @@ class OctantBlock(BlockLattice):
         """Its figures; of equal cells it is not meshed as a whole for them."""
         if self.spec.is_graded:
             return super().measured(monitor)
-        laid = self.lay(monitor)
+        laid = self._lay_once(monitor)
         return self._report(laid, certify(laid.layout), monitor, _removed(laid))
 
     def _report(

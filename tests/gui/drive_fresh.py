@@ -93,6 +93,31 @@ def a_stale_mesh_is_asked_about():
         window.close()
 
 
+def a_mesh_that_comes_is_waited_for():
+    """A command that needs the mesh of values that are being computed comes after them, unasked."""
+    _, _, obj = filled("Coming")
+    before = obj.Triangles
+    click_in_tree(obj.Label)
+    xdotool("click", "--repeat", 2, "--delay", 60, 1)
+    wait_until(lambda: panel() is not None)
+    type_value("CellSize", "5")
+    type_value("StrutRadius", "0.5")
+    buttons = Gui.getMainWindow().findChildren(QtGui.QPushButton)
+    start_by_click(next(b for b in buttons if b.isVisible() and b.text().replace("&", "") == "OK"))
+    wait_until(lambda: panel() is None)
+    Gui.Selection.clearSelection()
+    Gui.Selection.addSelection(obj)
+    entry = toolbar_button("Check Mesh")
+    wait_until(entry.isEnabled)
+    check("it is still being made", obj.Proxy.job.is_under_way)
+    start_by_click(entry)
+    check("nothing is asked", QtGui.QApplication.activeModalWidget() is None)
+    check("it comes with the mesh", wait_until(reports) and obj.Triangles != before)
+    check("that is up to date", obj.Status == "Up to date", obj.Status)
+    for window in reports():
+        window.close()
+
+
 def an_undone_mesh_keeps_the_colour_of_its_wall():
     from freecad_volfrep.gui.view.filled_view import mesh_and_kinds
     from volfrep.reports.facet_roles import LATTICE, WALL
@@ -239,6 +264,7 @@ run_checks(
     {
         its_looks_outlive_undo_and_a_file: None,
         a_stale_mesh_is_asked_about: None,
+        a_mesh_that_comes_is_waited_for: None,
         an_undone_mesh_keeps_the_colour_of_its_wall: None,
     },
 )

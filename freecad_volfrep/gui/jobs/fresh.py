@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from typing import Any
 
 import FreeCAD as App
@@ -16,11 +17,15 @@ from freecad_volfrep.translation import translate
 
 from .updating import begin_update
 
+#: Whether a mesh that is waited for has come is looked at so often, ms.
+TICK = 100
+
 
 def when_fresh(selected: Any, act: Callable[[Any], None], can_be_stale: bool) -> None:
     """Do something with infills; where a mesh is out of date, ask before.
 
-    A mesh that is to be recomputed first comes while the user goes on, and then it is done.
+    A mesh that is being made is waited for. It, and one that is to be recomputed first, comes
+    while the user goes on, and then it is done.
 
     Args:
         selected: an object, or several; those that are no lattice infills count as they are.
@@ -32,11 +37,35 @@ def when_fresh(selected: Any, act: Callable[[Any], None], can_be_stale: bool) ->
     if not stale:
         act(selected)
         return
+    if all(_is_coming(obj) for obj, _ in stale):
+        _wait_for([obj for obj, _ in stale], lambda: act(selected))
+        return
     answer = _ask([obj.Label for obj, _ in stale], stale[0][1], can_be_stale)
     if answer == "as it is":
         act(selected)
     elif answer == "recompute":
         _recompute([obj for obj, _ in stale], lambda: act(selected))
+
+
+def _is_coming(obj: App.DocumentObject) -> bool:
+    """Whether the mesh of an infill's present values is being made."""
+    job = obj.Proxy.job
+    return job.is_under_way and not obj.Proxy.differs(obj, job)
+
+
+def _wait_for(infills: list[App.DocumentObject], then: Callable[[], None]) -> None:
+    """Go on once the meshes that are being made are there; a cancel ends the wait."""
+
+    def look() -> None:
+        with suppress(ReferenceError):  # deleted meanwhile
+            if any(obj.Proxy.job.is_under_way for obj in infills):
+                QtCore.QTimer.singleShot(TICK, look)
+            elif not any(why_stale(obj) for obj in infills):
+                then()
+
+    text = translate("VolfrepFreshness", "Comes once the mesh is there")
+    Gui.getMainWindow().statusBar().showMessage(text)
+    QtCore.QTimer.singleShot(TICK, look)
 
 
 def _ask(labels: list[str], why: str, can_be_stale: bool) -> str:

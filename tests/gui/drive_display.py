@@ -14,6 +14,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 import new_infill
 from driving import (
     OUT,
+    answer_file_dialog,
     answer_panel,
     check,
     click,
@@ -245,6 +246,17 @@ def legends():
     return names.count("VolfrepLegend")
 
 
+def numbers_of(node):
+    """How many numbers are beside a legend, whose title is a text, too."""
+    from pivy import coin
+
+    search = coin.SoSearchAction()
+    search.setType(coin.SoText2.getClassTypeId())
+    search.setInterest(coin.SoSearchAction.ALL)
+    search.apply(node)
+    return search.getPaths().getLength() - 1
+
+
 def colourful(name):
     """Share of the 3D view's middle, in a picture, that has the scale's yellow or green."""
     _, green, blue = np.moveaxis(seen(name, view_3d()).astype(int), 2, 0)
@@ -253,6 +265,8 @@ def colourful(name):
 
 def colours(obj):
     """Coloured by radius, cell size and overhang, with a legend; the mouse reads off values."""
+    from freecad_volfrep.gui.draw.coloured_struts import legend
+
     view = obj.ViewObject
     Gui.Selection.clearSelection()
     Gui.Selection.addSelection(obj)
@@ -308,6 +322,18 @@ def colours(obj):
     settle()
     check("overhangs go to 90 degrees", wait_until(lambda: high.value() == 90.0), high.value())
     picture("colours_3_overhang")
+    saved_picture = OUT / "colours_picture.png"
+    saved_picture.unlink(missing_ok=True)
+    answer_file_dialog(saved_picture, "colours_3_saving")
+    click(dock.findChild(QtGui.QPushButton, "Picture"))
+    check("a picture is saved", wait_until(saved_picture.exists))
+    image = QtGui.QImage(str(saved_picture))
+    check("on white", image.pixelColor(2, 2).name() == "#ffffff", image.pixelColor(2, 2).name())
+    dark = [image.pixelColor(x, y).lightness() < 60 for x in range(0, image.width() // 4, 2)
+            for y in range(image.height() // 4, image.height() * 3 // 4, 2)]  # fmt: skip
+    check("with letters in black", sum(dark) > 20, sum(dark))
+    check("of a constant the legend tells one number", [numbers_of(legend("A", *ends)) for ends in
+          ((0.0, 2.0), (1.0, 1.0))] == [5, 1])  # fmt: skip
     dock.close()
     settle()
     check("colours stay without the dock", view.ColourBy == "Overhang" and legends() == 1)

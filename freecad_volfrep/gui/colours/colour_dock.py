@@ -15,6 +15,7 @@ import FreeCADGui as Gui
 
 from freecad_volfrep.bridge.solids import parent_placement
 from freecad_volfrep.gui.draw import drawing
+from freecad_volfrep.gui.draw.coloured_struts import save_picture
 from freecad_volfrep.gui.draw.probe import Probe
 from freecad_volfrep.gui.qt import QtCore, QtWidgets
 from freecad_volfrep.gui.view import section_view
@@ -138,7 +139,13 @@ class ColourDock(ObjectDock):
         for widget in of_cases:
             widget.setVisible(bool(colours.cases))
         by = QtWidgets.QLabel(translate("VolfrepColours", "Colour by"))
-        self.set_line((by, self._quantity, *of_cases, self._range, self._said))
+        shot = QtWidgets.QPushButton(translate("VolfrepColours", "Picture"))
+        shot.setObjectName("Picture")
+        shot.setToolTip(
+            translate("VolfrepColours", "Save the view with its legend, on white, for a report")
+        )
+        shot.clicked.connect(lambda _=False: self._save_picture())
+        self.set_line((by, self._quantity, *of_cases, self._range, shot, self._said))
         self._why = ""
         view = Gui.getDocument(obj.Document.Name).activeView()
         self._probe: Probe | None = Probe(view, colours.shapes, self._tell)
@@ -190,6 +197,13 @@ class ColourDock(ObjectDock):
         if self._probe is not None:
             self._probe.end(view_is_gone=view_is_gone)
             self._probe = None
+
+    def _save_picture(self) -> None:
+        path, _ = QtWidgets.QFileDialog.getSaveFileName(
+            Gui.getMainWindow(), self.windowTitle(), f"{self._obj.Label}.png", "PNG (*.png)"
+        )
+        if path:
+            save_picture(Gui.getDocument(self._doc.Name).activeView(), path)
 
     def _choose(self) -> None:
         self._colours.choose(self._quantity.currentData())

@@ -5,9 +5,11 @@ from __future__ import annotations
 
 from typing import Any
 
+import FreeCAD as App
 import numpy as np
 from numpy.typing import NDArray
 
+from freecad_volfrep.translation import figure
 from volfrep.mesh.shading import shade
 
 from . import drawing
@@ -22,12 +24,14 @@ COLOURS = np.array(
         (0.478, 0.821, 0.318), (0.741, 0.873, 0.150), (0.993, 0.906, 0.144),
     ]
 )  # fmt: skip
-#: Of the legend, in units of the view's height: place, size, letters.
-LEFT, BOTTOM, WIDTH, HEIGHT = 0.03, 0.28, 0.03, 0.44
-LETTERS = 13
-#: What the legend stands on, so that it is read on any background, and how far that reaches.
-GROUND, INK, GROUND_WIDTH, MARGIN = (0.13, 0.13, 0.16), (1.0, 1.0, 1.0), 0.19, 0.02
-TICKS = 5
+#: Of the legend, in units of the view's height: place, size.
+LEFT, BOTTOM, WIDTH, HEIGHT = 0.03, 0.28, 0.018, 0.44
+#: Its letters, which are of the system's own font, and its numbers.
+FONT, LETTERS, TICKS, DIGITS = "Sans", 13, 5, 3
+#: The name of what colours them.
+INK = "VolfrepInk"
+#: A background is light from this on, of 1.
+LIGHT = 0.5
 LINE_WIDTH = 3
 
 
@@ -95,7 +99,8 @@ def legend(title: str, low: float, high: float) -> Any:
     camera.viewportMapping = coin.SoCamera.LEAVE_ALONE
     camera.position, camera.height = (0.5, 0.5, 1.0), 1.0
     camera.nearDistance, camera.farDistance = 0.5, 2.0
-    steps = len(COLOURS)
+    colours = COLOURS if high > low else COLOURS[[0, 0]]
+    steps = len(colours)
     y = BOTTOM + HEIGHT * np.linspace(0.0, 1.0, steps)
     points = np.zeros((2 * steps, 3), np.float32)
     points[0::2, 0], points[1::2, 0] = LEFT, LEFT + WIDTH
@@ -103,48 +108,64 @@ def legend(title: str, low: float, high: float) -> Any:
     coordinates = coin.SoCoordinate3()
     coordinates.point.setValues(0, len(points), points)
     look = coin.SoMaterial()
-    look.diffuseColor.setValues(0, 2 * steps, np.repeat(COLOURS, 2, axis=0).astype(np.float32))
+    look.diffuseColor.setValues(0, 2 * steps, np.repeat(colours, 2, axis=0).astype(np.float32))
     binding = coin.SoMaterialBinding()
     binding.value = coin.SoMaterialBinding.PER_VERTEX
     strip = coin.SoTriangleStripSet()
     strip.numVertices.setValue(2 * steps)
     bar = drawing.separate(binding, look, coordinates, strip)
     root = coin.SoAnnotation()
-    for part in (drawing.unpickable(), camera, drawing.flat_light(), _ground(), bar):
+    for part in (drawing.unpickable(), camera, drawing.flat_light(), bar):
         root.addChild(part)
-    for k in range(TICKS):
-        share = k / (TICKS - 1)
-        value = low + share * (high - low)
-        place = (LEFT + 1.3 * WIDTH, BOTTOM + share * HEIGHT - 0.008, 0.0)
-        root.addChild(_text(f"{value:.3g}", place))
+    # Of a constant there is one number to tell.
+    for share in np.linspace(0.0, 1.0, TICKS) if high > low else (0.5,):
+        place = (LEFT + 1.5 * WIDTH, BOTTOM + share * HEIGHT - 0.008, 0.0)
+        root.addChild(_text(figure(low + share * (high - low), DIGITS), place))
     root.addChild(_text(title, (LEFT, BOTTOM + HEIGHT + 0.03, 0.0)))
     return root
 
 
-def _ground() -> Any:
+def save_picture(view: Any, path: str) -> None:
+    """Save what a 3D view shows as a picture on white, with the legend's letters in black."""
     from pivy import coin
 
-    left, right = LEFT - MARGIN, LEFT - MARGIN + GROUND_WIDTH
-    low, high = BOTTOM - 2.0 * MARGIN, BOTTOM + HEIGHT + 4.0 * MARGIN
-    points = np.array(
-        [[left, low, -0.1], [right, low, -0.1], [right, high, -0.1], [left, high, -0.1]], np.float32
-    )
-    coordinates = coin.SoCoordinate3()
-    coordinates.point.setValues(0, 4, points)
-    colour = coin.SoBaseColor()
-    colour.rgb = GROUND
-    return drawing.separate(colour, coordinates, coin.SoFaceSet())
+    search = coin.SoSearchAction()
+    search.setName(INK)
+    search.setInterest(coin.SoSearchAction.ALL)
+    search.apply(view.getSceneGraph())
+    paths = search.getPaths()
+    inks = [paths[k].getTail() for k in range(paths.getLength())]
+    for ink in inks:
+        ink.rgb = (0.0, 0.0, 0.0)
+    try:
+        view.saveImage(path, *view.getSize(), "White")
+    finally:
+        for ink in inks:
+            ink.rgb = _ink()
 
 
 def _text(text: str, place: tuple[float, float, float]) -> Any:
     from pivy import coin
 
     ink = coin.SoBaseColor()
-    ink.rgb = INK
+    ink.setName(INK)
+    ink.rgb = _ink()
     move = coin.SoTranslation()
     move.translation = place
     font = coin.SoFont()
-    font.size = LETTERS
+    font.name, font.size = FONT, LETTERS
     words = coin.SoText2()
     words.string = text
     return drawing.separate(ink, move, font, words)
+
+
+def _ink() -> tuple[float, float, float]:
+    """Black or white, whichever is read on the background that the user has chosen for views."""
+    view = App.ParamGet("User parameter:BaseApp/Preferences/View")
+    names = ["BackgroundColor"]
+    if view.GetBool("Gradient", True) or view.GetBool("RadialGradient", False):
+        names = ["BackgroundColor2", "BackgroundColor3"]
+    first = {"BackgroundColor2": 0x333365FF, "BackgroundColor3": 0xADADCCFF}
+    packed = [view.GetUnsigned(name, first.get(name, 0x333365FF)) for name in names]
+    channels = [(colour >> shift & 255) / 255 for colour in packed for shift in (24, 16, 8)]
+    return (0.0,) * 3 if np.mean(channels) > LIGHT else (1.0,) * 3

@@ -1738,12 +1738,20 @@
       <translation>Überhang, Grad</translation>
     </message>
     <message>
+      <source>Picture</source>
+      <translation>Bild</translation>
+    </message>
+    <message>
       <source>Radius</source>
       <translation>Radius</translation>
     </message>
     <message>
       <source>Radius, mm</source>
       <translation>Radius, mm</translation>
+    </message>
+    <message>
+      <source>Save the view with its legend, on white, for a report</source>
+      <translation>Die Ansicht mit ihrer Legende auf Weiß speichern, für einen Bericht</translation>
     </message>
     <message>
       <source>Share of the buckling load</source>
@@ -2080,6 +2088,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
   </context>
   <context>
     <name>VolfrepFreshness</name>
+    <message>
+      <source>Comes once the mesh is there</source>
+      <translation>Kommt, sobald das Netz da ist</translation>
+    </message>
     <message>
       <source>Out of date</source>
       <translation>Veraltet</translation>

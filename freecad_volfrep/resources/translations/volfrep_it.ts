@@ -1738,12 +1738,20 @@
       <translation>Sbalzo, gradi</translation>
     </message>
     <message>
+      <source>Picture</source>
+      <translation>Immagine</translation>
+    </message>
+    <message>
       <source>Radius</source>
       <translation>Raggio</translation>
     </message>
     <message>
       <source>Radius, mm</source>
       <translation>Raggio, mm</translation>
+    </message>
+    <message>
+      <source>Save the view with its legend, on white, for a report</source>
+      <translation>Salvare la vista con la sua legenda, su bianco, per una relazione</translation>
     </message>
     <message>
       <source>Share of the buckling load</source>
@@ -2080,6 +2088,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
   </context>
   <context>
     <name>VolfrepFreshness</name>
+    <message>
+      <source>Comes once the mesh is there</source>
+      <translation>Viene quando la mesh c'è</translation>
+    </message>
     <message>
       <source>Out of date</source>
       <translation>Non aggiornata</translation>

@@ -15,7 +15,7 @@ TITANIUM = {
 }
 
 
-def loaded(size=(60, 20, 20), cell=10, shell=0.0, **values):
+def loaded(size=(40, 20, 20), cell=10, shell=0.0, **values):
     """A document with a lattice beam, held at one end, and two analyses of it.
 
     Args:

@@ -63,7 +63,7 @@ class Part:
     def __repr__(self) -> str:
         report = self.report
         return (
-            f"<Part of {report.spec.get('cell')}: {report.struts:,} struts, "
+            f"<Part of {report.lattice}: {report.struts:,} struts, "
             f"{report.triangles:,} triangles, {report.volume_mm3:,.1f} mm3, {report.mass_g:,.2f} g>"
         )
 

@@ -10,6 +10,7 @@ import argparse
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
+from ..util.numbers import plural
 from .files import check_files
 from .run_options import add_run_options
 from .telling import Progress, print_rows, print_warnings
@@ -79,7 +80,7 @@ def _tell(made: Swept, quiet: bool) -> None:
     if made.front:
         best = sum(rank == 1 for rank in made.front.values())
         rows.append(("chosen", f"{len(made.front):,}, {best:,} of them on the Pareto front"))
-    rows += [("this time", f"{made.runs:,} runs"), ("page", str(made.page))]
+    rows += [("this time", plural(made.runs, "design")), ("page", str(made.page))]
     print_rows(*rows)
 
 

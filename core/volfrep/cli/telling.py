@@ -67,7 +67,9 @@ def print_summary(
     seconds = before + sum(report.stages.values())
     print_rows(
         ("file", f"{output}, {size:.1f} MB"),
-        ("cells", f"{report.cells_active:,} active of {report.cells_total:,} ({grid})"),
+        ("cells", f"{report.cells_active:,} active of {report.cells_total:,} ({grid})")
+        if report.cells_total
+        else ("lattice", report.lattice),
         _lattice(report),
         *_sizes(report),
         ("triangles", f"{report.triangles:,}"),

@@ -8,7 +8,7 @@ takes a second or an hour. What each triangle, strut and bend takes is in `costs
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -41,7 +41,7 @@ class Forecast:
     """What a job will come to, about.
 
     Attributes:
-        cells: active unit cells.
+        cells: active unit cells; 0 for a graph, which has none.
         struts: of the lattice.
         triangles: of the mesh.
         memory_gb: at the peak.
@@ -59,8 +59,9 @@ class Forecast:
     @property
     def of_axes(self) -> str:
         """Where nothing is meshed: the struts, and no triangles, memory and file of a mesh."""
-        struts = f", {round_off(self.struts)} struts" if self.struts else ""
-        return f"about {round_off(self.cells)} cells{struts}"
+        counts = {"cells": self.cells, "struts": self.struts}
+        told = (f"{round_off(count)} {what}" for what, count in counts.items() if count)
+        return f"about {', '.join(told)}"
 
     def __str__(self) -> str:
         return (
@@ -217,7 +218,8 @@ def _forecast_graph(
     share = np.array([struts / points])
     wall = costs.BYTES_PER_BEND * bends + costs.BYTES_PER_NARROW * narrow
     held = max(costs.BYTES_PER_NETWORK_TRIANGLE * triangles, wall)
-    return _forecast(points, share, triangles, held / triangles, seconds)
+    found = _forecast(points, share, triangles, held / triangles, seconds)
+    return replace(found, cells=0)
 
 
 def forecast_block(spec: LatticeSpec, count: Sequence[int], *, streamed: bool = False) -> Forecast:

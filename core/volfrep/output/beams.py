@@ -3,8 +3,10 @@
 
 from __future__ import annotations
 
+import json
 import os
 
+from ..grid.strut_graph import BeamModel
 from ..io.write.threemf import BEAMS_ONLY, write_3mf_beams
 from .writer import Settings, Source, Writer, Written
 
@@ -15,10 +17,23 @@ class BeamsWriter(Writer):
     def write(self, source: Source, path: str | os.PathLike[str], settings: Settings) -> Written:
         """As of `Writer`."""
         model = source.beams
-        write_3mf_beams(model, path)
+        write_3mf_beams(model, path, figures=_figures_of(source, model))
         struts, nodes = len(model.lattice.struts), len(model.lattice.nodes)
         row = ("struts", f"{struts:,} between {nodes:,} nodes, as beams")
         return Written((*model.warnings, *model.loose, BEAMS_ONLY), (row,))
+
+
+def _figures_of(source: Source, model: BeamModel) -> dict[str, str]:
+    """What is known without a mesh: counts, and what was asked for."""
+    spec = source.spec.as_dict()
+    struts, nodes = len(model.lattice.struts), len(model.lattice.nodes)
+    what = spec["cell"] if source.spec.network is None else "Strut graph"
+    return {
+        "Description": f"{what}: {struts:,} struts as beams between {nodes:,} nodes",
+        "Struts": str(struts),
+        "Nodes": str(nodes),
+        "Specification": json.dumps(spec, sort_keys=True),
+    }
 
 
 class BothWriter(Writer):

@@ -88,12 +88,28 @@ class Report:
     target: dict[str, Any] | None = None
 
     @property
+    def lattice(self) -> str:
+        """What the lattice is called: its cell, or the graph that is there in place of cells.
+
+        >>> import volfrep
+        >>> corner = ([[0, 0, 0], [9, 0, 0], [0, 9, 0]], [(0, 1), (0, 2)])
+        >>> volfrep.mesh_network(corner, strut_radius=1).report.lattice
+        'Strut graph'
+        """
+        network = self.spec.get("network")
+        if self.cells_total or network is None:
+            return str(self.spec.get("cell", "Lattice"))
+        kind = network.get("kind") if isinstance(network, dict) else None
+        return f"{kind.capitalize()} graph" if kind else "Strut graph"
+
+    @property
     def figures(self) -> dict[str, str]:
         """What a file of the part may keep: the same for the same part, whenever it was made."""
         bodies = f"{self.bodies:,} {'body' if self.bodies == 1 else 'bodies'}"
+        cells = f"{self.cells_active:,} cells, " * bool(self.cells_total)
         return {
             "Description": (
-                f"{self.spec.get('cell', 'Lattice')} lattice: {self.cells_active:,} cells, "
+                f"{self.lattice}{' lattice' * bool(self.cells_total)}: {cells}"
                 f"{self.struts:,} struts, {bodies}, {self.volume_mm3:,.1f} mm3, "
                 f"{self.area_mm2:,.1f} mm2, relative density {self.relative_density:.2%}, "
                 f"{self.mass_g:,.2f} g"

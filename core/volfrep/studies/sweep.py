@@ -54,7 +54,7 @@ class Swept:
             designs are still open.
         refused: how often a sentence says why a combination makes no sense.
         repeated: combinations that are the same as an earlier one.
-        runs: that were done this time.
+        runs: designs of which something was done this time.
         page: the page to look at.
         damaged: a sentence for each record that was damaged, and is done anew.
     """
@@ -151,8 +151,8 @@ def _swept(
         front = _front(at, found.designs, study, asked)
         if study.front.do and front:
             best = [design for design in mine if design.key in front]
-            runs += job.do(best, study.all_actions)
-    return replace(_told(study, at, found, front, runs), damaged=tuple(filter(None, damaged)))
+            runs |= job.do(best, study.all_actions)
+    return replace(_told(study, at, found, front, len(runs)), damaged=tuple(filter(None, damaged)))
 
 
 def evaluate(

@@ -109,8 +109,8 @@ def drain(
             if len(own.start) < wanted.count:
                 x, y, z = wall.vertices.mean(axis=0)
                 warnings.append(
-                    f"Only {len(own.start)} of {wanted.count} drain holes found room in the void "
-                    f"about ({x:.4g}, {y:.4g}, {z:.4g}): choose a smaller diameter, or give their "
+                    f"The void about ({x:.4g}, {y:.4g}, {z:.4g}) has room for {len(own.start)} of "
+                    f"its {wanted.count} drain holes: choose a smaller diameter, or give their "
                     "places."
                 )
             monitor.tick()

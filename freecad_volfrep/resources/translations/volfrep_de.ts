@@ -1045,8 +1045,8 @@
       <translation>Um die Position von Orientation drehen; sonst um die Mitte des Quaders um den Volumenkörper</translation>
     </message>
     <message>
-      <source>Turns the lattice, not the solid: about this axis, by this angle, counter-clockwise seen against it</source>
-      <translation>Dreht das Gitter, nicht den Volumenkörper: um diese Achse, um diesen Winkel, gegen den Uhrzeigersinn, ihr entgegen gesehen</translation>
+      <source>Turns the lattice, not the solid: about this axis, by this angle, counter-clockwise seen against it; cells then begin at a corner of the box that is turned with them</source>
+      <translation>Dreht das Gitter, nicht den Volumenkörper: um diese Achse, um diesen Winkel, gegen den Uhrzeigersinn, ihr entgegen gesehen; Zellen beginnen dann an einer Ecke des Quaders, der mit ihnen gedreht ist</translation>
     </message>
     <message>
       <source>Two faces between which cells lie, or one upon which they do; each has four sides</source>

@@ -1045,8 +1045,8 @@
       <translation>Ruota attorno alla posizione di Orientation; altrimenti attorno al centro del parallelepipedo del solido</translation>
     </message>
     <message>
-      <source>Turns the lattice, not the solid: about this axis, by this angle, counter-clockwise seen against it</source>
-      <translation>Ruota il reticolo, non il solido: attorno a questo asse, di questo angolo, in senso antiorario visto contro di esso</translation>
+      <source>Turns the lattice, not the solid: about this axis, by this angle, counter-clockwise seen against it; cells then begin at a corner of the box that is turned with them</source>
+      <translation>Ruota il reticolo, non il solido: attorno a questo asse, di questo angolo, in senso antiorario visto contro di esso; le celle iniziano allora a un angolo del parallelepipedo ruotato con loro</translation>
     </message>
     <message>
       <source>Two faces between which cells lie, or one upon which they do; each has four sides</source>

@@ -256,7 +256,7 @@ def test_a_damaged_record_is_done_anew_and_told(text, studied, capsys) -> None:
     told = capsys.readouterr()
     assert f"'{record}' is damaged" in told.err
     assert "done anew" in told.err
-    assert "1 runs" in told.out
+    assert "1 design" in told.out
     rows = [line.split(",") for line in (studied / "runs" / "runs.csv").read_text().splitlines()]
     assert [row[:5] for row in rows] == [row.split(",")[:5] for row in first.splitlines()]
 

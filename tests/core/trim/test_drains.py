@@ -149,7 +149,7 @@ def test_a_void_behind_no_open_face_is_said():
 def test_holes_that_find_no_room_are_said():
     report = drained(samples.box((40.0, 9.0, 9.0)), diameter=7.5, count=1).report
     assert report.voids == 1
-    assert "Only 0 of 1 drain holes found room" in report.warnings[0]
+    assert "has room for 0 of its 1 drain holes" in report.warnings[0]
 
 
 def test_beams_have_the_holes_in_their_skin():

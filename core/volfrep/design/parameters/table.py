@@ -421,7 +421,7 @@ PARAMETERS = (
     Parameter(
         "rotate", "rotation", "Orientation",
         "Turns the lattice, not the solid: about this axis, by this angle, counter-clockwise seen "
-        "against it",
+        "against it; cells then begin at a corner of the box that is turned with them",
         otherwise="not turned", needs=GIVEN, freecad_name="Orientation",
     ),
     Parameter(

@@ -199,7 +199,8 @@ class Keywords(TypedDict, total=False):
     """Facets along the edge of a cell; 0 to choose it by the deviation; 0 if not given."""
     rotate: Any
     """Turns the lattice, not the solid: about this axis, by this angle, counter-clockwise seen
-    against it; not turned if not given.
+    against it; cells then begin at a corner of the box that is turned with them; not turned if not
+    given.
     """
     rotate_origin: Any
     """The point that stays in place when the lattice turns, mm; the middle of the part's box, or a

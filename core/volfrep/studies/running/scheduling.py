@@ -98,15 +98,15 @@ class Job:
     ) -> None:
         self._folder, self._asked, self._how, self._progress = folder, asked, how, progress
 
-    def do(self, designs: Sequence[Design], actions: tuple[str, ...]) -> int:
-        """Do what is missing, what needs no mesh first; how many runs there were."""
-        done = 0
+    def do(self, designs: Sequence[Design], actions: tuple[str, ...]) -> set[str]:
+        """Do what is missing, what needs no mesh first; the keys of the designs it was of."""
+        done: set[str] = set()
         for meshed in (False, True):
             names = tuple(name for name in actions if ACTIONS[name].meshed == meshed)
             pending = [design for design in designs if self._is_missing(design, names)]
             if pending:
                 self._run(pending, names, meshed)
-                done += len(pending)
+                done |= {design.key for design in pending}
         return done
 
     def _is_missing(self, design: Design, names: tuple[str, ...]) -> bool:

@@ -86,11 +86,15 @@ def study_an_infill(doc, infill):
     type_into("Values1", "BCC, CVC, Octet")
     type_into("Values2", "0.7 to 1.1 in 3")
     type_into("Values3", "1, 2")
+    check("it says how many designs", part("Count").text() == "18 designs", part("Count").text())
     click(part("Start"))
     check(
         "designs come", wait_until(lambda: study_of(doc).Designs == 18, 120), study_of(doc).Status
     )
     settle()
+    axes = [part(name).currentText() for name in ("Across", "Up")]
+    check("the plot's axes are in words", axes == ["expected mass, g", "stiffness along an edge"],
+          axes)  # fmt: skip
     picture("study")
     undo = doc.UndoCount
     (row,) = (
@@ -131,7 +135,7 @@ def open_it_again(doc, infill):
     xdotool("click", "--repeat", 2, "--delay", 60, 1)
     check("a double click opens it", wait_until(lambda: form() is not None, 10))
     check("with its values", part("Values1").text() == "0.8, 0.9, 1.0", part("Values1").text())
-    check("its axes", part("Across").currentText() == "forecast.mass_g")
+    check("its axes", part("Across").currentText() == "expected mass, g")
     click_point(rows_of(doc)[0])
     check("and its points", part("Apply").isEnabled())
     picture("study_again")

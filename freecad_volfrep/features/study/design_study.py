@@ -7,6 +7,7 @@ import hashlib
 import json
 import re
 from functools import cache, partial
+from math import prod
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -169,6 +170,21 @@ def values_about(infill: App.DocumentObject, parameter: Parameter) -> str:
     if parameter.kind == "integer":
         return ", ".join(str(max(1, round(present)) + step) for step in range(3))
     return ", ".join(f"{(present or 1.0) * share:.3g}" for share in _AROUND)
+
+
+def designs_asked(infill: App.DocumentObject, lines: list[str]) -> int:
+    """How many designs such lines ask for.
+
+    Raises:
+        VolfrepError: as `variations`.
+    """
+    from volfrep.studies.sampling import Range
+
+    varied = variations(infill, lines)
+    return prod(
+        len(span.values(name)) if isinstance(span, Range) else len(span)
+        for name, span in varied.items()
+    )
 
 
 def variations(infill: App.DocumentObject, lines: list[str]) -> dict[str, Any]:

@@ -12,6 +12,7 @@ import FreeCADGui as Gui
 from freecad_volfrep import ICONS
 from freecad_volfrep.features.study.design_study import (
     apply_design,
+    designs_asked,
     designs_of_study,
     run_study,
     values_about,
@@ -27,7 +28,7 @@ from freecad_volfrep.gui.widgets.panel_manners import (
     fits_any_width,
     leave_the_wheel,
 )
-from freecad_volfrep.translation import spaced, translate
+from freecad_volfrep.translation import QT_TRANSLATE_NOOP, grouped, spaced, translate
 from volfrep.util.errors import VolfrepError
 
 from .study_plot import StudyPlot
@@ -36,6 +37,25 @@ from .study_plot import StudyPlot
 ROWS = 3
 #: What a plot shows first, where the table has it.
 FIRST = (("fill.mass_g", "forecast.mass_g"), ("properties.E100", "forecast.seconds"))
+#: Figures of its table in words; the others are shown as the table has them.
+WORDS = {
+    "forecast.mass_g": QT_TRANSLATE_NOOP("VolfrepStudy", "expected mass, g"),
+    "forecast.relative_density": QT_TRANSLATE_NOOP("VolfrepStudy", "expected relative density"),
+    "forecast.triangles": QT_TRANSLATE_NOOP("VolfrepStudy", "expected triangles"),
+    "forecast.seconds": QT_TRANSLATE_NOOP("VolfrepStudy", "time, s"),
+    "fill.mass_g": QT_TRANSLATE_NOOP("VolfrepStudy", "mass, g"),
+    "fill.volume_mm3": QT_TRANSLATE_NOOP("VolfrepStudy", "volume, mm3"),
+    "fill.relative_density": QT_TRANSLATE_NOOP("VolfrepStudy", "relative density"),
+    "fill.triangles": QT_TRANSLATE_NOOP("VolfrepStudy", "triangles"),
+    "properties.E100": QT_TRANSLATE_NOOP("VolfrepStudy", "stiffness along an edge"),
+    "properties.E110": QT_TRANSLATE_NOOP("VolfrepStudy", "stiffness across a face"),
+    "properties.E111": QT_TRANSLATE_NOOP("VolfrepStudy", "stiffness along a diagonal"),
+    "properties.G": QT_TRANSLATE_NOOP("VolfrepStudy", "shear modulus"),
+    "properties.K": QT_TRANSLATE_NOOP("VolfrepStudy", "bulk modulus"),
+    "properties.nu": QT_TRANSLATE_NOOP("VolfrepStudy", "Poisson's ratio"),
+    "properties.zener": QT_TRANSLATE_NOOP("VolfrepStudy", "Zener anisotropy"),
+    "properties.strength": QT_TRANSLATE_NOOP("VolfrepStudy", "strength"),
+}
 
 
 class StudyPanel:
@@ -108,11 +128,15 @@ class StudyPanel:
         self._known = {p.property_name: p for p in variable(self._obj.Infill)}
         self._rows = [self._row(rows, number) for number in range(ROWS)]
         column.addWidget(box)
-        self._fill = QtWidgets.QCheckBox(translate("VolfrepStudy", "Make every design (slow)"))
+        self._fill = QtWidgets.QCheckBox(translate("VolfrepStudy", "Mesh and measure every design"))
         self._fill.setObjectName("Fill")
         self._fill.setChecked(self._obj.Fill)
+        column.addWidget(self._fill)
         line = QtWidgets.QHBoxLayout()
-        line.addWidget(self._fill, 1)
+        self._count = QtWidgets.QLabel()
+        self._count.setObjectName("Count")
+        line.addWidget(self._count, 1)
+        self._show_count()
         self._button(line, "Start", translate("VolfrepStudy", "Start"), self.start)
         column.addLayout(line)
         self._plot = StudyPlot(self._pick)
@@ -129,7 +153,9 @@ class StudyPanel:
         self._applies.setToolTip(
             translate("VolfrepStudy", "Give this design to the infill, as one undo step")
         )
-        self._page = self._button(line, "Page", translate("VolfrepStudy", "Page"), self.open_page)
+        self._page = self._button(
+            line, "Page", translate("VolfrepStudy", "Open report"), self.open_page
+        )
         self._page.setToolTip(
             translate("VolfrepStudy", "Show the table and all plots in the browser")
         )
@@ -153,6 +179,7 @@ class StudyPanel:
             name.setCurrentIndex(max(0, name.findData(varied)))
             values.setText(text)
         name.currentIndexChanged.connect(lambda _: self._suggest(name, values))
+        values.textChanged.connect(lambda _: self._show_count())
         rows.addWidget(name, number, 0)
         rows.addWidget(values, number, 1)
         rows.setColumnStretch(1, 1)
@@ -180,15 +207,28 @@ class StudyPanel:
         line.addWidget(button)
         return button
 
-    def _write(self) -> None:
-        """What the panel shows, into the object."""
+    def _lines(self) -> list[str]:
+        """What varies, as the object has it."""
         lines = [
             f"{name.currentData()}: {values.text()}"
             for name, values in self._rows
             if name.currentData()
         ]
-        more = self._obj.Vary[ROWS:]  # written by hand, and not shown
-        self._obj.Vary = lines + list(more)
+        return lines + list(self._obj.Vary[ROWS:])  # written by hand, and not shown
+
+    def _show_count(self) -> None:
+        """How many designs a start makes; nothing while what varies makes no sense."""
+        try:
+            number = designs_asked(self._obj.Infill, self._lines())
+        except VolfrepError:
+            self._count.setText("")
+            return
+        text = translate("VolfrepStudy", "{number} designs")
+        self._count.setText(text.format(number=grouped(number)))
+
+    def _write(self) -> None:
+        """What the panel shows, into the object."""
+        self._obj.Vary = self._lines()
         self._obj.Fill = self._fill.isChecked()
 
     def _show_table(self) -> None:
@@ -200,12 +240,13 @@ class StudyPanel:
             if "." in name and any(isinstance(row[name], (int, float)) for row in rows)
         ]
         for choice, wanted in zip((self._across, self._up), FIRST, strict=True):
-            before = choice.currentText()
+            before = choice.currentData()
             choice.blockSignals(True)
             choice.clear()
-            choice.addItems(numeric)
+            for name in numeric:
+                choice.addItem(_in_words(name), name)
             shown = [name for name in (before, *wanted) if name in numeric]
-            choice.setCurrentText(shown[0] if shown else "")
+            choice.setCurrentIndex(choice.findData(shown[0]) if shown else -1)
             choice.blockSignals(False)
         self._picked = None
         self._applies.setEnabled(False)
@@ -217,14 +258,15 @@ class StudyPanel:
         words = [name for name in varied_of_study(self._obj) if name == "cell"]
         colour = words[0] if words else ""
         rows = designs_of_study(self._obj)
-        self._plot.show_rows(rows, self._across.currentText(), self._up.currentText(), colour)
+        axes = [choice.currentData() or "" for choice in (self._across, self._up)]
+        self._plot.show_rows(rows, (axes[0], axes[1]), [_in_words(name) for name in axes], colour)
 
     def _pick(self, row: dict[str, Any]) -> None:
         self._picked = row
         self._applies.setEnabled(True)
         values = [f"{name} {_shown(row[name])}" for name in varied_of_study(self._obj)]
-        axes = (self._across.currentText(), self._up.currentText())
-        self._say(", ".join(values + [f"{name} {_shown(row[name])}" for name in axes]))
+        axes = (self._across.currentData(), self._up.currentData())
+        self._say(", ".join(values + [f"{_in_words(name)} {_shown(row[name])}" for name in axes]))
 
     def _say(self, text: str, wrong: bool = False) -> None:
         self._text.setStyleSheet(WRONG if wrong else "")
@@ -240,6 +282,11 @@ def open_study(obj: App.DocumentObject) -> bool:
         return False
     Gui.Control.showDialog(StudyPanel(obj))
     return True
+
+
+def _in_words(name: str) -> str:
+    """A figure of the table as a user reads it."""
+    return str(translate("VolfrepStudy", WORDS[name])) if name in WORDS else name
 
 
 def _shown(value: Any) -> str:

@@ -34,13 +34,23 @@ class StudyPlot(QtWidgets.QWidget):
         self._picked = picked
         self._rows: list[dict[str, Any]] = []
         self._axes = "", ""
+        self._words = ["", ""]
         self._colour = ""
         self._chosen: str | None = None
 
-    def show_rows(self, rows: list[dict[str, Any]], across: str, up: str, colour: str) -> None:
-        """Draw the designs that have both figures; `colour` is the name of what colours say."""
-        self._rows = [r for r in rows if _is_number(r.get(across)) and _is_number(r.get(up))]
-        self._axes, self._colour = (across, up), colour
+    def show_rows(
+        self, rows: list[dict[str, Any]], axes: tuple[str, str], words: list[str], colour: str
+    ) -> None:
+        """Draw the designs that have both figures.
+
+        Args:
+            rows: the designs.
+            axes: names of the figures to the right and up.
+            words: what they are called.
+            colour: the name of what colours say.
+        """
+        self._rows = [r for r in rows if all(_is_number(r.get(name)) for name in axes)]
+        self._axes, self._words, self._colour = axes, words, colour
         self.update()
 
     def choose(self, key: str | None) -> None:
@@ -123,12 +133,12 @@ class StudyPlot(QtWidgets.QWidget):
         frame = QtCore.QRectF(left, top, width - left - right, height - top - bottom)
         painter.drawRect(frame)
         bottom_line = QtCore.QRectF(left, height - 16, width - left - right, 15)
-        painter.drawText(bottom_line, int(QtCore.Qt.AlignHCenter), self._axes[0])
+        painter.drawText(bottom_line, int(QtCore.Qt.AlignHCenter), self._words[0])
         painter.save()
         painter.translate(2, top + frame.height() / 2)
         painter.rotate(-90)
         side = QtCore.QRectF(-frame.height() / 2, 0, frame.height(), 14)
-        painter.drawText(side, int(QtCore.Qt.AlignHCenter), self._axes[1])
+        painter.drawText(side, int(QtCore.Qt.AlignHCenter), self._words[1])
         painter.restore()
 
     def _draw_legend(self, painter: Any, words: list[Any]) -> None:

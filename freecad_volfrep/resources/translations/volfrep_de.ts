@@ -3375,12 +3375,16 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Der Füllung diesen Entwurf geben, als ein Schritt zum Rückgängigmachen</translation>
     </message>
     <message>
-      <source>Make every design (slow)</source>
-      <translation>Jeden Entwurf herstellen (langsam)</translation>
+      <source>Mesh and measure every design</source>
+      <translation>Jeden Entwurf vernetzen und messen</translation>
     </message>
     <message>
-      <source>Page</source>
-      <translation>Seite</translation>
+      <source>Open report</source>
+      <translation>Bericht öffnen</translation>
+    </message>
+    <message>
+      <source>Poisson's ratio</source>
+      <translation>Querkontraktionszahl</translation>
     </message>
     <message>
       <source>Show the table and all plots in the browser</source>
@@ -3401,6 +3405,70 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>What varies</source>
       <translation>Was sich ändert</translation>
+    </message>
+    <message>
+      <source>Zener anisotropy</source>
+      <translation>Zener-Anisotropie</translation>
+    </message>
+    <message>
+      <source>bulk modulus</source>
+      <translation>Kompressionsmodul</translation>
+    </message>
+    <message>
+      <source>expected mass, g</source>
+      <translation>erwartete Masse, g</translation>
+    </message>
+    <message>
+      <source>expected relative density</source>
+      <translation>erwartete relative Dichte</translation>
+    </message>
+    <message>
+      <source>expected triangles</source>
+      <translation>erwartete Dreiecke</translation>
+    </message>
+    <message>
+      <source>mass, g</source>
+      <translation>Masse, g</translation>
+    </message>
+    <message>
+      <source>relative density</source>
+      <translation>relative Dichte</translation>
+    </message>
+    <message>
+      <source>shear modulus</source>
+      <translation>Schubmodul</translation>
+    </message>
+    <message>
+      <source>stiffness across a face</source>
+      <translation>Steifigkeit quer über eine Fläche</translation>
+    </message>
+    <message>
+      <source>stiffness along a diagonal</source>
+      <translation>Steifigkeit entlang einer Diagonale</translation>
+    </message>
+    <message>
+      <source>stiffness along an edge</source>
+      <translation>Steifigkeit entlang einer Kante</translation>
+    </message>
+    <message>
+      <source>strength</source>
+      <translation>Festigkeit</translation>
+    </message>
+    <message>
+      <source>time, s</source>
+      <translation>Zeit, s</translation>
+    </message>
+    <message>
+      <source>triangles</source>
+      <translation>Dreiecke</translation>
+    </message>
+    <message>
+      <source>volume, mm3</source>
+      <translation>Volumen, mm3</translation>
+    </message>
+    <message>
+      <source>{number} designs</source>
+      <translation>{number} Entwürfe</translation>
     </message>
   </context>
   <context>

@@ -3375,12 +3375,16 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Dà questo progetto al riempimento, come un solo passo annullabile</translation>
     </message>
     <message>
-      <source>Make every design (slow)</source>
-      <translation>Crea ogni progetto (lento)</translation>
+      <source>Mesh and measure every design</source>
+      <translation>Generare e misurare ogni progetto</translation>
     </message>
     <message>
-      <source>Page</source>
-      <translation>Pagina</translation>
+      <source>Open report</source>
+      <translation>Aprire il rapporto</translation>
+    </message>
+    <message>
+      <source>Poisson's ratio</source>
+      <translation>coefficiente di Poisson</translation>
     </message>
     <message>
       <source>Show the table and all plots in the browser</source>
@@ -3401,6 +3405,70 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>What varies</source>
       <translation>Che cosa varia</translation>
+    </message>
+    <message>
+      <source>Zener anisotropy</source>
+      <translation>anisotropia di Zener</translation>
+    </message>
+    <message>
+      <source>bulk modulus</source>
+      <translation>modulo di compressibilità</translation>
+    </message>
+    <message>
+      <source>expected mass, g</source>
+      <translation>massa prevista, g</translation>
+    </message>
+    <message>
+      <source>expected relative density</source>
+      <translation>densità relativa prevista</translation>
+    </message>
+    <message>
+      <source>expected triangles</source>
+      <translation>triangoli previsti</translation>
+    </message>
+    <message>
+      <source>mass, g</source>
+      <translation>massa, g</translation>
+    </message>
+    <message>
+      <source>relative density</source>
+      <translation>densità relativa</translation>
+    </message>
+    <message>
+      <source>shear modulus</source>
+      <translation>modulo di taglio</translation>
+    </message>
+    <message>
+      <source>stiffness across a face</source>
+      <translation>rigidezza attraverso una faccia</translation>
+    </message>
+    <message>
+      <source>stiffness along a diagonal</source>
+      <translation>rigidezza lungo una diagonale</translation>
+    </message>
+    <message>
+      <source>stiffness along an edge</source>
+      <translation>rigidezza lungo uno spigolo</translation>
+    </message>
+    <message>
+      <source>strength</source>
+      <translation>resistenza</translation>
+    </message>
+    <message>
+      <source>time, s</source>
+      <translation>tempo, s</translation>
+    </message>
+    <message>
+      <source>triangles</source>
+      <translation>triangoli</translation>
+    </message>
+    <message>
+      <source>volume, mm3</source>
+      <translation>volume, mm3</translation>
+    </message>
+    <message>
+      <source>{number} designs</source>
+      <translation>{number} progetti</translation>
     </message>
   </context>
   <context>

@@ -87,7 +87,7 @@ def test_with_equal_radii_at_the_same_places_nothing_moves(laid):
     assert found.excess < 0.01
 
 
-@pytest.mark.slow_cases("skew-0.6")
+@pytest.mark.slow_cases("skew-0.6", "skew-1.02")
 @pytest.mark.parametrize("radius", [0.6, 1.02])
 def test_vertices_come_onto_struts_of_another_radius(laid, radius):
     """As far from them as they were from the first ones, in units of the radius."""

@@ -54,7 +54,9 @@ def homes() -> dict[str, str]:
 def gather() -> None:
     """Copy the pages to one folder, with links that lead somewhere there."""
     shutil.rmtree(PAGES, ignore_errors=True)
-    shutil.copytree(ROOT / "docs", PAGES, ignore=shutil.ignore_patterns("release", "upstream"))
+    shutil.copytree(
+        ROOT / "docs", PAGES, ignore=shutil.ignore_patterns("release", "upstream", "gallery")
+    )
     (PAGES / "commands" / "README.md").rename(PAGES / "commands" / "index.md")
     shutil.copytree(ROOT / ICONS, PAGES / "images" / "icons")
     for source, name in TOP.items():
@@ -73,9 +75,18 @@ def gather() -> None:
         for source, name in TOP.items():
             text = text.replace(f"]({up}../{source})", f"]({up}{name})")
         text = text.replace("commands/README.md", "commands/index.md")
+        text = text.replace("](gallery)", "](gallery.md)")
         if page.parent.name == "commands":
             text = text.replace("](README.md", "](index.md")
         page.write_text(text, "utf-8")
+    shown = ["# Gallery", "", "Short scripts, each run by the tests.", ""]
+    for script in sorted((ROOT / "docs" / "gallery").glob("*.py")):
+        title = script.stem.replace("_", " ").capitalize()
+        text = script.read_text("utf-8").partition("\n")[2].strip()  # without the licence's line
+        told = ast.get_docstring(ast.parse(text)) or ""
+        code = text.partition('"""\n')[2].strip()
+        shown += [f"## {title}", "", told, "", "```python", code, "```", ""]
+    (PAGES / "gallery.md").write_text("\n".join(shown), "utf-8")
     reference = ["# Python", "", "Every name that the package promises, `volfrep.NAME`.", ""]
     where = homes()
     for name in sorted(public_names(), key=str.lower):

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from .design.spec import LatticeSpec
     from .io.solid import read_solid
     from .jobs.blocks import write_block_stl
+    from .jobs.figures.find import find_lattices as find
     from .jobs.figures.properties import lattice_properties as properties
     from .mechanics.summary import CellProperties
     from .mesh.triangle_mesh import TriangleMesh
@@ -54,6 +55,7 @@ _HOMES = {
     "Study": "studies.study",
     "read_study": "studies.study",
     "fill": "api.calls",
+    "find": "jobs.figures.find:find_lattices",
     "size": "api.calls",
     "mesh_network": "api.calls",
     "slice_layers": "api.calls",
@@ -83,6 +85,7 @@ __all__ = [
     "cell_from_lines",
     "evaluate",
     "fill",
+    "find",
     "make_cell",
     "mesh_network",
     "properties",

@@ -103,8 +103,9 @@ test-gui: setup ## every check of the real FreeCAD window, on a virtual screen
 test-escape: setup ## Escape at ten random times in every long command of the window, a quarter of an hour
 	@ESCAPES=10 GUI_LONGEST=900 GUI_TIMEOUT=3600 tools/run_gui.sh tests/gui/drive_escape.py < /dev/null
 
-docs-pictures: setup ## the pictures of the tutorial and the help pages anew
+docs-pictures: setup ## the pictures of the tutorial and the help pages anew, and the animation
 	@tools/docs_pictures.sh $(FROM)
+	@$(if $(FROM),,tools/film.sh)
 
 fuzz: setup ## random solids and options, judged without the engine (MINUTES=5, SEED=...)
 	@$(PYTHON) tools/fuzz.py --minutes $(or $(MINUTES),5) $(if $(SEED),--seed $(SEED))

@@ -54,9 +54,7 @@ def homes() -> dict[str, str]:
 def gather() -> None:
     """Copy the pages to one folder, with links that lead somewhere there."""
     shutil.rmtree(PAGES, ignore_errors=True)
-    shutil.copytree(
-        ROOT / "docs", PAGES, ignore=shutil.ignore_patterns("release", "upstream", "gallery")
-    )
+    shutil.copytree(ROOT / "docs", PAGES, ignore=shutil.ignore_patterns("upstream", "gallery"))
     (PAGES / "commands" / "README.md").rename(PAGES / "commands" / "index.md")
     shutil.copytree(ROOT / ICONS, PAGES / "images" / "icons")
     for source, name in TOP.items():
@@ -96,5 +94,5 @@ def gather() -> None:
 
 if __name__ == "__main__":
     gather()
-    command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--quiet"]
+    command = [sys.executable, "-m", "mkdocs", "build", "--strict"]
     raise SystemExit(subprocess.run([*command, "-f", str(ROOT / "mkdocs.yml")]).returncode)

@@ -192,8 +192,8 @@ def evaluate(
     ...     thin, none = volfrep.evaluate(
     ...         study, [{"strut_radius": 0.5}, {"strut_radius": 9.0}], runs, workers=1
     ...     )
-    >>> thin["forecast.mass_g"] > 0, none["error"][:32]
-    (True, 'Struts of radius 9 mm are too th')
+    >>> thin["forecast.mass_g"] > 0, none["error"].startswith("Struts of radius 9 mm")
+    (True, True)
     """
     check_kind("study", study, Study, "a Study")
     check_kind("designs", designs, Sequence, "a list of dicts with values by name")

@@ -5,7 +5,9 @@ from __future__ import annotations
 
 import json
 import os
+from collections.abc import Mapping
 
+from ..design.spec import LatticeSpec
 from ..grid.strut_graph import BeamModel
 from ..io.write.threemf import BEAMS_ONLY, write_3mf_beams
 from .writer import Settings, Source, Writer, Written
@@ -23,11 +25,17 @@ class BeamsWriter(Writer):
         return Written((*model.warnings, *model.loose, BEAMS_ONLY), (row,))
 
 
-def _figures_of(source: Source, model: BeamModel) -> dict[str, str]:
-    """What is known without a mesh: counts, and what was asked for."""
-    spec = source.spec.as_dict()
+def _figures_of(source: Source, model: BeamModel) -> Mapping[str, str]:
+    """What is known without a mesh: counts, and what was asked for.
+
+    A document hands over the beams alone, without a specification, and its own figures.
+    """
+    asked: LatticeSpec | None = source.spec
+    if asked is None:
+        return source.figures
+    spec = asked.as_dict()
     struts, nodes = len(model.lattice.struts), len(model.lattice.nodes)
-    what = spec["cell"] if source.spec.network is None else "Strut graph"
+    what = spec["cell"] if asked.network is None else "Strut graph"
     return {
         "Description": f"{what}: {struts:,} struts as beams between {nodes:,} nodes",
         "Struts": str(struts),

@@ -572,7 +572,7 @@ class Opened(QtCore.QObject):
 
 
 def ask_whats_this():
-    """FreeCAD's What's This on a button opens the command's page."""
+    """FreeCAD's What's This on a button opens the page of its command, or of its first one."""
     opened = Opened()
     # FreeCAD 1.0 leaves the scheme out.
     for scheme in ("file", ""):
@@ -580,7 +580,7 @@ def ask_whats_this():
     try:
         QtGui.QWhatsThis.enterWhatsThisMode()
         wait_until(QtGui.QWhatsThis.inWhatsThisMode)
-        click(toolbar_button("Cell Library"))
+        click(toolbar_button("Cell Library").button)
         wait_until(lambda: opened.addresses)
     finally:
         for scheme in ("file", ""):

@@ -107,8 +107,9 @@ class CommandGroup:
     commands: tuple[Command, ...]
 
     def GetResources(self) -> dict[str, str]:  # noqa: N802
-        """Its text; icons and tips are its commands'."""
-        return {"MenuText": self.text, "ToolTip": self.text}
+        """Its text; icons and tips are its commands', the help page is the first one's."""
+        page = page_address(self.commands[0].name)
+        return {"MenuText": self.text, "ToolTip": self.text, "WhatsThis": page}
 
     def GetCommands(self) -> tuple[str, ...]:  # noqa: N802
         """The names of the commands in it."""

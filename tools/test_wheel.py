@@ -104,7 +104,15 @@ def try_in(python: str, wheel: Path) -> str:
         pip = (own, "-m", "pip", "--disable-pip-version-check")
         try:
             before = set(folder.rglob("*volfrep*"))
-            run(*pip, "install", "--quiet", "--no-compile", "--only-binary", ":all:", wheel)
+            run(
+                *pip,
+                "install",
+                "--quiet",
+                "--no-compile",
+                "--only-binary",
+                ":all:",
+                f"{wheel}[spec]",
+            )
             run(own, "-c", "import volfrep")  # compiled once
             took, tried, failures = run(own, "-c", CHECKS).splitlines()[-1].split()
             said = run(scripts / "volfrep", "--version")

@@ -35,7 +35,7 @@ def _figures_of(source: Source, model: BeamModel) -> Mapping[str, str]:
         return source.figures
     spec = asked.as_dict()
     struts, nodes = len(model.lattice.struts), len(model.lattice.nodes)
-    what = spec["cell"] if asked.network is None else "Strut graph"
+    what = spec["cell"] if asked.kind.has_grid else "Strut graph"
     return {
         "Description": f"{what}: {struts:,} struts as beams between {nodes:,} nodes",
         "Struts": str(struts),

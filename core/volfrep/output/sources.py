@@ -217,6 +217,7 @@ class Block(Free):
     def __init__(self, made: BlockLattice, progress: ProgressCallback | None = None) -> None:
         super().__init__(made.spec, progress)
         self._made = made
+        self.count: Sequence[int] = made.count
 
     @cached_property
     def result(self) -> Result:

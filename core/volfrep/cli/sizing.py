@@ -19,6 +19,7 @@ from types import FrameType
 from typing import TYPE_CHECKING, Any
 
 from ..util.errors import Cancelled, VolfrepError
+from ..util.numbers import duration
 from ..util.progress import ProgressCallback
 from .files import read_part
 from .options import SizeOptions, size_options
@@ -143,7 +144,7 @@ def _teller(quiet: bool, most_steps: int) -> Callable[[int, Step], bool] | None:
         if number:
             each = (now - start) / number
             rest = each * max(most_steps - number - 1, 0)
-            text += f", {each:.2g} s a step, at most {_time(rest)} more"
+            text += f", {each:.2g} s a step, at most {duration(rest)} more"
         else:
             start = now  # the time before the first step is the part's
         if sys.stderr.isatty():  # over the line of the progress
@@ -152,10 +153,6 @@ def _teller(quiet: bool, most_steps: int) -> Callable[[int, Step], bool] | None:
         return True
 
     return tell_step
-
-
-def _time(seconds: float) -> str:
-    return f"{seconds:.0f} s" if seconds < 90 else f"{seconds / 60:.0f} min"
 
 
 def _write_specification(options: SizeOptions, made: SizedPart) -> None:

@@ -229,7 +229,7 @@ class Block(Free):
         """As of `Source`."""
         from ..jobs.beam_part import block_beams
 
-        return block_beams(self.spec, self._made.count)
+        return block_beams(self.spec, self.count)
 
     @property
     def axes(self) -> Axes:

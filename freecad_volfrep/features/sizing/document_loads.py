@@ -57,15 +57,10 @@ def make_case(doc: App.Document, like: App.DocumentObject | None = None) -> App.
     case = ObjectsFem.makeAnalysis(doc, "LoadCase")
     number = sum(1 for other in doc.Objects if other.TypeId == case.TypeId)
     case.Label = translate("VolfrepLoads", "Load case {number}").format(number=number)
-    for one in loads_in(like) if like is not None else ():
+    for one in constraints_of(like) if like is not None else ():
         if load_kind(one) == HELD:
             add_load(case, HELD).References = one.References
     return case
-
-
-def loads_in(case: App.DocumentObject) -> list[App.DocumentObject]:
-    """What a case has of `KINDS` and other constraints that are read."""
-    return constraints_of(case)
 
 
 def load_kind(load: App.DocumentObject) -> str:

@@ -9,7 +9,7 @@ from typing import Any
 import FreeCAD as App
 import FreeCADGui as Gui
 
-from freecad_volfrep.bridge.fem_loads import has_loads, is_analysis
+from freecad_volfrep.bridge.fem_loads import constraints_of, has_loads, is_analysis
 from freecad_volfrep.features.sizing.document_loads import (
     DIRECTIONS,
     FORCE,
@@ -21,7 +21,6 @@ from freecad_volfrep.features.sizing.document_loads import (
     add_load,
     direction_of,
     load_kind,
-    loads_in,
     make_case,
     remove_load,
     said_load,
@@ -165,7 +164,7 @@ class LoadsBox(QtWidgets.QGroupBox):
     def _add_case(self) -> App.DocumentObject:
         before = self._case()
         case = make_case(self._doc, before)
-        self._made += loads_in(case)
+        self._made += constraints_of(case)
         self._add_row(case)
         self._picked = None
         self._cases.setCurrentRow(self._cases.count() - 1)
@@ -174,13 +173,13 @@ class LoadsBox(QtWidgets.QGroupBox):
     def _load(self) -> App.DocumentObject | None:
         """The support or load that is chosen."""
         case, row = self._case(), self._loads.currentRow()
-        loads = [] if case is None else loads_in(case)
+        loads = [] if case is None else constraints_of(case)
         return loads[row] if 0 <= row < len(loads) else None
 
     def _show_loads(self, chosen: App.DocumentObject | None = None) -> None:
         """The rows of the case that is chosen; another case's symbols go out of the view."""
         case = self._case()
-        loads = [] if case is None else loads_in(case)
+        loads = [] if case is None else constraints_of(case)
         self._loads.blockSignals(True)
         self._loads.clear()
         self._loads.addItems([said_load(load) for load in loads])

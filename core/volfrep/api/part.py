@@ -122,7 +122,7 @@ class Part:
 
         >>> import volfrep
         >>> part = volfrep.block((1, 1, 1), cell="BCC", cell_size=10, strut_radius="1 + x / 50")
-        >>> sorted(part.fields), part.fields["radius"].round(2).max()
+        >>> sorted(part.fields), float(part.fields["radius"].round(2).max())
         (['field', 'radius'], 1.2)
         """
         radius = np.zeros(len(self.nodes))

@@ -759,6 +759,8 @@ def clear():
             window.close()
     for dock in section_docks():
         dock.close()
+    # Where a dock wants more room, the window grows beyond the screen: no window manager holds it.
+    Gui.getMainWindow().setGeometry(QtGui.QApplication.primaryScreen().geometry())
     Gui.Selection.clearSelection()
     App.ParamGet("User parameter:BaseApp/Preferences/Mod/VOLFREP").Clear()
     fold_sections(False)

@@ -21,6 +21,7 @@ from freecad_volfrep.gui.qt import QtCore, QtWidgets
 from freecad_volfrep.gui.view import section_view
 from freecad_volfrep.gui.widgets.colour_range import ColourRange
 from freecad_volfrep.gui.widgets.object_dock import ObjectDock, close_docks
+from freecad_volfrep.gui.widgets.panel_manners import fits_any_width
 from freecad_volfrep.translation import figure, translate
 
 from .colouring import Colouring
@@ -145,7 +146,9 @@ class ColourDock(ObjectDock):
             translate("VolfrepColours", "Save the view with its legend, on white, for a report")
         )
         shot.clicked.connect(lambda _=False: self._save_picture())
-        self.set_line((by, self._quantity, *of_cases, self._range, shot, self._said))
+        column = self.set_line((by, self._quantity, *of_cases, self._range, shot))
+        fits_any_width(self._said)  # in the line it would make the window wider than the screen
+        column.addWidget(self._said)
         self._why = ""
         view = Gui.getDocument(obj.Document.Name).activeView()
         self._probe: Probe | None = Probe(view, colours.shapes, self._tell)

@@ -23,13 +23,14 @@ from ..design.parameters import BY_NAME
 from ..util import memory_limit
 from ..util.errors import VolfrepError
 from ..util.files import keeping_inputs
+from ..util.progress_bar import drawn
 from . import bug_report, layers, process, properties, sizing, sweep
 from .files import read_part
 from .options import FillOptions, MeshOptions, block_options, fill_options, network_options
 from .parameter_options import add_parameters
 from .parser import Parser, Version, refuse_old, with_current_options
 from .run_options import add_run_options
-from .telling import Progress, print_rows, print_summary, print_warnings, write_report
+from .telling import print_rows, print_summary, print_warnings, write_report
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -189,7 +190,7 @@ def _fill(given: argparse.Namespace) -> None:
         print(f"Expected: {expected if meshed else expected.of_axes}.", flush=True)
     is_cut = meshed and spec.kind.is_cut_in_groups and spec.output != "domain"
     cut = expected.triangles if is_cut else 0
-    with _workers(options, cut) as executor, Progress(options.quiet) as progress:
+    with _workers(options, cut) as executor, drawn(options.quiet) as progress:
         infill = solve_target(
             solid, spec, progress=progress, meshed=meshed, executor=executor,
             streamed=options.is_plain,
@@ -222,7 +223,7 @@ def _block(given: argparse.Namespace) -> None:
         if not options.quiet:
             expected = forecast_block(spec, count, streamed=streamed)
             print(f"Expected: {expected}.", flush=True)
-    with Progress(options.quiet) as progress:
+    with drawn(options.quiet) as progress:
         if not streamed:
             from ..output.sources import Block
 
@@ -241,7 +242,7 @@ def _network(given: argparse.Namespace) -> None:
     from ..output.sources import FreeGraph
 
     start = time.perf_counter()
-    with Progress(options.quiet) as progress:
+    with drawn(options.quiet) as progress:
         _make(FreeGraph(options.spec, progress), options, start, {})
 
 

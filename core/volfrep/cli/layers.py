@@ -10,11 +10,12 @@ import argparse
 from collections.abc import Callable
 from typing import Any
 
+from ..util.progress_bar import drawn
 from .files import read_part
 from .options import slice_options
 from .parameter_options import add_parameters
 from .run_options import add_run_options
-from .telling import Progress, print_rows, print_warnings
+from .telling import print_rows, print_warnings
 
 _TEXT = "Write a filled part in layers along z, straight from its struts: no mesh is made."
 
@@ -35,7 +36,7 @@ def _slice(given: argparse.Namespace) -> None:
     from ..jobs.slices import write_layers
 
     solid = read_part(options.part, options.unit, options.spec.cell_size)
-    with Progress(options.quiet) as progress:
+    with drawn(options.quiet) as progress:
         made = write_layers(
             solid, options.spec, options.output, layer=options.layer, pixel=options.pixel,
             form=options.form.word, progress=progress,

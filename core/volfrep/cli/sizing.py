@@ -21,11 +21,12 @@ from typing import TYPE_CHECKING, Any
 from ..util.errors import Cancelled, VolfrepError
 from ..util.numbers import duration
 from ..util.progress import ProgressCallback
+from ..util.progress_bar import drawn
 from .files import read_part
 from .options import SizeOptions, size_options
 from .parameter_options import add_parameters
 from .run_options import add_run_options
-from .telling import Progress, print_rows, print_summary, print_warnings
+from .telling import print_rows, print_summary, print_warnings
 
 if TYPE_CHECKING:
     from ..jobs.sizing import SizedPart
@@ -65,7 +66,7 @@ def _size(given: argparse.Namespace) -> int | None:
     goal = replace(goal, remove_thin=options.remove_thin)
     cache = StageCache()
     start = time.perf_counter()
-    with Progress(options.quiet) as progress:
+    with drawn(options.quiet) as progress:
         with _stopping(progress) as told:
             made = size(
                 solid, spec, loads, goal, most_steps=options.steps, prove_it=options.prove,

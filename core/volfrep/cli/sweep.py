@@ -11,9 +11,10 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from ..util.numbers import plural
+from ..util.progress_bar import drawn
 from .files import check_files
 from .run_options import add_run_options
-from .telling import Progress, print_rows, print_warnings
+from .telling import print_rows, print_warnings
 
 if TYPE_CHECKING:
     from ..studies.sweep import Swept
@@ -49,7 +50,7 @@ def _sweep(options: argparse.Namespace) -> None:
             ("one after the other", f"about {told_time(seconds)}, up to {memory:.2g} GB of memory"),
         )
         return
-    with Progress(options.quiet) as progress:
+    with drawn(options.quiet) as progress:
         made = sweep(
             study,
             options.output,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the command prints: progress, rows of figures, warnings."""
+"""What the command prints: rows of figures, warnings."""
 
 from __future__ import annotations
 
@@ -12,31 +12,6 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from ..reports.printability import PrintReport
     from ..reports.report import Report
-    from ..util.progress import ProgressCallback
-
-
-class Progress:
-    """Shows the stage and the fraction done on one line of standard error, if it is a terminal."""
-
-    def __init__(self, quiet: bool) -> None:
-        self._visible = not quiet and sys.stderr.isatty()
-        self._shown = ""
-
-    def __enter__(self) -> ProgressCallback:
-        # Always a callback, shown or not: with one, long compiled calls run beside the main
-        # thread, which can then be interrupted.
-        return self._update
-
-    def __exit__(self, *_: object) -> None:
-        if self._shown:
-            print("\r" + " " * len(self._shown) + "\r", end="", file=sys.stderr, flush=True)
-
-    def _update(self, fraction: float, stage: str) -> None:
-        text = f"{100 * fraction:3.0f} % {stage}"
-        if self._visible and text != self._shown:
-            padding = " " * (len(self._shown) - len(text))
-            print(f"\r{text}{padding}", end="", file=sys.stderr, flush=True)
-            self._shown = text
 
 
 def write_report(report: Report, path: str, printing: PrintReport | None = None) -> None:

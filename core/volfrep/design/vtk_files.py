@@ -25,6 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..util.errors import VolfrepError
+from ..util.packages import package
 from ..util.types import Floats
 
 #: Numbers of a compressed file, all its arrays together.
@@ -74,13 +75,7 @@ def mesh_of(file: Path, without: str, better: str) -> tuple[Any, Floats]:
     Raises:
         VolfrepError: meshio is missing, or the file is damaged, or too large inside.
     """
-    try:
-        import meshio
-    except ImportError as error:
-        raise VolfrepError(
-            f"Reading '{file.name}' needs the Python package meshio: install it with "
-            f"'pip install meshio', or {without}."
-        ) from error
+    meshio = package("meshio", f"Reading '{file.name}'", then=f"or {without}")
     kind = file.suffix.lower()
     if kind == ".vtk":
         _refuse_empty_promises(file)

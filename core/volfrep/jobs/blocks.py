@@ -70,18 +70,6 @@ def write_block_stl(
     return lattice_kind(spec).block(count).write_stl(path, Monitor(progress))
 
 
-def measured_block(
-    spec: LatticeSpec, count: Sequence[int], *, progress: ProgressCallback | None = None
-) -> Report:
-    """The figures of a block; one of equal cells is not meshed as a whole for them.
-
-    Raises:
-        VolfrepError: as `block`.
-        Cancelled: the callback said so.
-    """
-    return lattice_kind(spec).block(count).measured(Monitor(progress))
-
-
 def block_wireframe(spec: LatticeSpec, count: Sequence[int]) -> Wireframe:
     """The nodes and struts of a free-standing block.
 

@@ -20,7 +20,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, TypeVar
 
-from ..util.errors import VolfrepError
+from ..util.packages import package
 from ..util.progress import POLL_SECONDS
 
 T = TypeVar("T")
@@ -221,13 +221,7 @@ def resident_gb(process: int) -> float:
             return int(pages) * os.sysconf("SC_PAGE_SIZE") / 1e9
         except (OSError, IndexError):  # it has ended meanwhile
             return 0.0
-    try:
-        import psutil
-    except ImportError as error:
-        raise VolfrepError(
-            "A limit of memory needs the package psutil here, which is not installed: run "
-            "'pip install psutil', or leave the limit out."
-        ) from error
+    psutil = package("psutil", "A limit of memory", then="or leave the limit out")
     try:
         return float(psutil.Process(process).memory_info().rss) / 1e9
     except psutil.NoSuchProcess:

@@ -10,6 +10,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from ..util.errors import VolfrepError
+from ..util.packages import package
 from ..util.version import VERSION
 
 #: A scheduler that does not answer within so long is not there, s.
@@ -31,15 +32,9 @@ def dask_workers(address: str) -> Iterator[Executor]:
         VolfrepError: the package is missing, nobody answers, there is no worker, or one has
             another version of this package.
     """
+    library = package("distributed", "A scheduler")
     try:
-        from distributed import Client
-    except ImportError as error:
-        raise VolfrepError(
-            "A scheduler needs the package distributed, which is not installed: run "
-            "'pip install volfrep[dask]'."
-        ) from error
-    try:
-        client = Client(address, timeout=PATIENCE)
+        client = library.Client(address, timeout=PATIENCE)
     except (OSError, ValueError, TimeoutError) as error:
         raise VolfrepError(
             f"No Dask scheduler answers at '{address}': start 'dask scheduler', or correct the "

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A part seen cut open: skin, lattice and cut faces, each in a colour of its own.
 
-pyvista draws; it is an optional package (``pip install volfrep[plot]``).
+pyvista draws; it is an optional package.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from ..mesh.booleans import difference
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.errors import VolfrepError
 from ..util.files import check_writable, replacing
+from ..util.packages import package
 from ..util.types import Bools, Floats
 from . import facet_roles
 
@@ -147,14 +148,7 @@ def drawing_library() -> Any:
     Raises:
         VolfrepError: it is missing; the text says how to install it.
     """
-    try:
-        import pyvista
-    except ImportError as error:
-        raise VolfrepError(
-            "Pictures are drawn by the package pyvista, which is not installed: "
-            "run 'pip install pyvista'."
-        ) from error
-    return pyvista
+    return package("pyvista", "A picture")
 
 
 def _coloured(

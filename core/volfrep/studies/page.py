@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 
 from ..util.files import replacing
+from ..util.packages import install_command
 from ..util.types import Bools
 from .designs import Design, Designs, command_of
 from .study import Study
@@ -132,7 +133,7 @@ def _drawings(plots: list[Plot]) -> list[str]:
     if not plots:
         return [
             "<h2>Plots</h2><p>None: they take at least two figures, and the package matplotlib "
-            "('pip install volfrep[study]').</p>"
+            f"({install_command('matplotlib')}).</p>"
         ]
     images = [
         f'<figure><img alt="{_text(plot.y)} against {_text(plot.x)}" '

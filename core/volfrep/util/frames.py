@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Tables as frames of pandas, which is optional (``pip install volfrep[study]``)."""
+"""Tables as frames of pandas, which is optional."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from .errors import VolfrepError
+from .packages import package
 
 if TYPE_CHECKING:
     import pandas
@@ -16,12 +16,7 @@ def make_frame(columns: Mapping[str, Any], index: Sequence[str] | None = None) -
     """A frame of columns by name.
 
     Raises:
-        VolfrepError: pandas is missing.
+        MissingPackage: pandas is missing.
     """
-    try:
-        import pandas
-    except ImportError as error:
-        raise VolfrepError(
-            "A table as a frame needs pandas, which is missing: pip install pandas."
-        ) from error
-    return pandas.DataFrame(dict(columns), index=index)
+    frame: pandas.DataFrame = package("pandas", "A table as a frame").DataFrame
+    return frame(dict(columns), index=index)

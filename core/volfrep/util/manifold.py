@@ -9,21 +9,16 @@ the seam cut is not certain need it.
 
 from __future__ import annotations
 
-import importlib
 import importlib.util
 import os
 import sys
 from typing import Any
 
-from .errors import VolfrepError
+from .packages import package
 
 #: Names the command that installs it where the Python that runs is not the one to ask: the
 #: workbench sets it, and the processes that it starts have it from there.
 INSTALL = "VOLFREP_INSTALL_MANIFOLD3D"
-
-
-class MissingPackage(VolfrepError):
-    """What was asked for needs a package that this Python does not have."""
 
 
 def has_manifold() -> bool:
@@ -42,15 +37,7 @@ def manifold_library(purpose: str) -> Any:
     Raises:
         MissingPackage: it is not there; the text says how to get it.
     """
-    try:
-        return importlib.import_module("manifold3d")
-    except ModuleNotFoundError as error:
-        if error.name != "manifold3d":
-            raise
-        raise MissingPackage(
-            f"{purpose} needs the Python package manifold3d, which is not installed: install it "
-            f"with the command  {install_command()}  and start again."
-        ) from error
+    return package("manifold3d", purpose, install_command())
 
 
 def install_command() -> str:

@@ -21,16 +21,16 @@ class ProgressBar:
     """A callback that draws how far a job is, over itself.
 
     Args:
-        file: where.
+        file: where; None draws nothing.
     """
 
-    def __init__(self, file: TextIO) -> None:
+    def __init__(self, file: TextIO | None) -> None:
         self._file, self._last, self._longest = file, 0.0, 0
 
     def __call__(self, fraction: float, stage: str) -> None:
         """Draw it, but not more often than every tenth of a second."""
         now = time.monotonic()
-        if now - self._last < EVERY:
+        if self._file is None or now - self._last < EVERY:
             return
         self._last = now
         done = round(WIDTH * fraction)
@@ -41,9 +41,24 @@ class ProgressBar:
 
     def close(self) -> None:
         """Wipe it."""
-        if self._longest:
+        if self._file is not None and self._longest:
             self._file.write("\r" + " " * self._longest + "\r")
             self._file.flush()
+
+
+@contextmanager
+def drawn(quiet: bool = False) -> Iterator[ProgressBar]:
+    """A bar on standard error, where that is a terminal or a notebook and nobody wants it quiet.
+
+    Always a callback, drawn or not: with one, long compiled calls run beside the main thread, which
+    can then be interrupted.
+    """
+    seen = not quiet and sys.stderr is not None and (sys.stderr.isatty() or _in_notebook())
+    bar = ProgressBar(sys.stderr if seen else None)
+    try:
+        yield bar
+    finally:
+        bar.close()
 
 
 @contextmanager
@@ -51,8 +66,7 @@ def shown(progress: ProgressCallback | bool | None) -> Iterator[ProgressCallback
     """The callback that a call's `progress` stands for, while it works.
 
     Args:
-        progress: a callback; True for a bar on standard error where that is a terminal or a
-            notebook; False or None for nothing.
+        progress: a callback; True for a bar as `drawn`; False or None for nothing.
 
     Raises:
         VolfrepError: it is none of these.
@@ -66,14 +80,9 @@ def shown(progress: ProgressCallback | bool | None) -> Iterator[ProgressCallback
             f"'progress' is True for a bar, or a function of a fraction and a stage, not "
             f"{brief(progress)}."
         )
-    elif sys.stderr is None or not (sys.stderr.isatty() or _in_notebook()):
-        yield None
     else:
-        bar = ProgressBar(sys.stderr)
-        try:
+        with drawn() as bar:
             yield bar
-        finally:
-            bar.close()
 
 
 def _in_notebook() -> bool:

@@ -15,6 +15,7 @@ from typing import Any
 
 from .errors import VolfrepError
 from .files import note_input
+from .packages import package
 
 #: Bytes of the largest text with entries (a specification, a load file) that is read.
 LARGEST = 1_000_000
@@ -124,13 +125,8 @@ def toml_library(what: str) -> ModuleType:
     try:
         import tomllib
     except ModuleNotFoundError:  # Python 3.10
-        try:
-            import tomli as tomllib  # type: ignore[import-not-found, no-redef, unused-ignore]
-        except ModuleNotFoundError as error:
-            raise VolfrepError(
-                f"{what.capitalize()} are read by Python 3.11 or later, or with the package tomli: "
-                "run 'pip install tomli'."
-            ) from error
+        library: ModuleType = package("tomli", f"To read {what} this Python")
+        return library
     return tomllib
 
 

@@ -7,7 +7,7 @@ import sys
 import pytest
 
 from volfrep.util.errors import VolfrepError
-from volfrep.util.progress_bar import ProgressBar, shown
+from volfrep.util.progress_bar import ProgressBar, drawn, shown
 
 
 class Terminal(io.StringIO):
@@ -29,9 +29,13 @@ def test_a_terminal_sees_a_bar_that_is_wiped_at_the_end(monkeypatch):
 def test_where_nobody_looks_nothing_is_written(monkeypatch):
     file = io.StringIO()
     monkeypatch.setattr(sys, "stderr", file)
-    for progress in (True, False, None):
+    for progress in (False, None):
         with shown(progress) as told:
             assert told is None
+    with shown(True) as told:
+        told(0.5, "lattice")
+    with drawn(quiet=True) as told:
+        told(0.5, "lattice")
     assert file.getvalue() == ""
 
 

@@ -12,8 +12,9 @@ from ...mesh.topology import pieces_of
 from ...mesh.triangle_mesh import TriangleMesh, compact, concatenate
 from ...spatial.winding import Windings, windings
 from ...util.errors import VolfrepError
-from ...util.manifold import MissingPackage, manifold_library
+from ...util.manifold import manifold_library
 from ...util.numbers import place_text
+from ...util.packages import MissingPackage
 from ...util.ragged import spread
 from ...util.types import Ints
 

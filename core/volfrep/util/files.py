@@ -7,6 +7,7 @@ import os
 import secrets
 import shutil
 import tempfile
+import threading
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from contextvars import ContextVar
@@ -17,6 +18,8 @@ from .errors import VolfrepError
 
 #: What Windows says of a file that is to be replaced while a program holds it open.
 _WINDOWS_HOLDS = (5, 32)
+#: There a file has one place at a time.
+_placing = threading.Lock()
 #: What the files that the running job reads are called, by device and number on it, which are the
 #: same through every link; None outside of `keeping_inputs`.
 _inputs: ContextVar[dict[tuple[int, int], str] | None] = ContextVar("inputs", default=None)
@@ -157,6 +160,23 @@ def replacing(path: str | os.PathLike[str], size: int = 0) -> Iterator[BinaryIO]
             part.unlink(missing_ok=True)
     except OSError as error:
         raise not_written(target, error) from error
+
+
+def write_at(file: BinaryIO, data: memoryview, place: int) -> None:
+    """Write bytes at a place of an open file, from any thread.
+
+    Raises:
+        OSError: as of any writing.
+    """
+    if not hasattr(os, "pwrite"):  # Windows
+        with _placing:
+            file.seek(place)
+            file.write(data)
+        return
+    left = data.cast("B")
+    while left:
+        done = os.pwrite(file.fileno(), left, place)
+        left, place = left[done:], place + done
 
 
 def refuse_full(path: str | os.PathLike[str], size: int) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import os
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Generator, Iterable
 from concurrent.futures import Future, ThreadPoolExecutor
 from typing import TypeVar
 
@@ -39,7 +39,7 @@ def threads() -> int:
     return _told or _cores()
 
 
-def in_threads(work: Callable[[S], T], items: Iterable[S]) -> Iterator[T]:
+def in_threads(work: Callable[[S], T], items: Iterable[S]) -> Generator[T, None, None]:
     """`work(item)` for each item, in their order, on `threads` threads and a few items ahead.
 
     Numpy lets go of the interpreter while it computes: portions of 10,000 numbers and more gain.

@@ -46,7 +46,7 @@ def test_a_negative_number_is_refused_and_changes_nothing():
 @pytest.mark.parametrize("count", [1, 3])
 def test_every_pool_has_the_told_size(mesh, tmp_path, monkeypatch, count):
     sizes = []
-    for module in (stl, quality):
+    for module in (threads, quality):
         pool = module.ThreadPoolExecutor
 
         def counting(max_workers, pool=pool, **options):

@@ -4,12 +4,10 @@
 from __future__ import annotations
 
 import os
-from collections import deque
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import ThreadPoolExecutor
+from contextlib import closing
+from dataclasses import dataclass
 from functools import partial
-from itertools import islice
-from typing import BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,9 +15,9 @@ from numpy.typing import NDArray
 from ...mesh.precision import refuse_lost_corners, single_precision
 from ...mesh.triangle_mesh import TriangleMesh, compact
 from ...util.errors import VolfrepError
-from ...util.files import replacing
+from ...util.files import replacing, write_at
 from ...util.progress import Monitor
-from ...util.threads import threads
+from ...util.threads import in_threads
 from ...util.types import Floats
 
 HEADER_BYTES = 80
@@ -31,6 +29,19 @@ Facets = NDArray[np.void]
 MOST_FACETS = int(np.iinfo(np.uint32).max)
 #: Facets prepared at once by each thread: they should stay in the processor's cache.
 BLOCK_FACETS = 1 << 13
+
+
+@dataclass(frozen=True)
+class Block:
+    """Facets that follow each other in a file.
+
+    Attributes:
+        count: of them.
+        make: called on any thread.
+    """
+
+    count: int
+    make: Callable[[], Facets]
 
 
 def write_stl(
@@ -53,7 +64,7 @@ def write_stl(
 
 def mesh_blocks(
     mesh: TriangleMesh, path: str | os.PathLike[str], first: int = 0
-) -> Iterator[Callable[[], Facets]]:
+) -> Iterator[Block]:
     """The facets of a mesh in mm, from the first one wanted, block by block, for the file.
 
     Raises:
@@ -61,21 +72,19 @@ def mesh_blocks(
     """
     vertices = single_precision(mesh, path)
     for start in range(first, len(mesh.triangles), BLOCK_FACETS):
-        yield partial(facets_at, vertices, mesh.triangles[start : start + BLOCK_FACETS], path)
+        block = mesh.triangles[start : start + BLOCK_FACETS]
+        yield Block(len(block), partial(facets_at, vertices, block, path))
 
 
 def write_facets(
-    path: str | os.PathLike[str],
-    count: int,
-    blocks: Iterable[Callable[[], Facets]],
-    monitor: Monitor | None,
+    path: str | os.PathLike[str], count: int, blocks: Iterable[Block], monitor: Monitor | None
 ) -> None:
-    """Write a binary STL of blocks of facets, each made when its turn comes near.
+    """Write a binary STL of blocks of facets.
 
     Args:
         path: of the file; an old file stays if anything goes wrong.
         count: of all the facets.
-        blocks: called on all cores, a few blocks ahead of what is written.
+        blocks: each is made and written on one of the threads, at its place in the file.
         monitor: told the progress, asked for a cancel.
 
     Raises:
@@ -84,9 +93,29 @@ def write_facets(
         Cancelled: when the monitor says so; no file is left behind.
     """
     refuse_too_many(count, path)
-    with replacing(path, HEADER_BYTES + 4 + FACET.itemsize * count) as file:
-        write_head(file, count)
-        append_facets(file, blocks, count, 0, monitor)
+    head = b"binary STL, mm".ljust(HEADER_BYTES, b" ") + np.array(count, "<u4").tobytes()
+    with replacing(path, len(head) + FACET.itemsize * count) as file:
+        file.write(head)
+        file.flush()
+
+        def placed() -> Iterator[tuple[int, Block]]:
+            place = len(head)
+            for block in blocks:
+                yield place, block
+                place += FACET.itemsize * block.count
+
+        def write(each: tuple[int, Block]) -> int:
+            place, block = each
+            write_at(file, block.make().data, place)
+            return block.count
+
+        written = 0
+        with closing(in_threads(write, placed())) as ended:  # before the file is
+            for more in ended:
+                written += more
+                if monitor is not None:
+                    monitor.count("bytes written", FACET.itemsize * more)
+                    monitor.tick(written / count)
 
 
 def refuse_too_many(count: int, path: str | os.PathLike[str]) -> None:
@@ -96,38 +125,6 @@ def refuse_too_many(count: int, path: str | os.PathLike[str]) -> None:
             f"Cannot write '{path}': an STL file holds at most {MOST_FACETS:,} triangles, and "
             f"there are {count:,}; use a coarser resolution or fewer cells."
         )
-
-
-def write_head(file: BinaryIO, count: int) -> None:
-    """Write what comes before the facets."""
-    file.write(b"binary STL, mm".ljust(HEADER_BYTES, b" "))
-    file.write(np.array(count, "<u4").tobytes())
-
-
-def append_facets(
-    file: BinaryIO,
-    blocks: Iterable[Callable[[], Facets]],
-    count: int,
-    written: int,
-    monitor: Monitor | None,
-) -> None:
-    """Write blocks of facets, as of `write_facets`, where so many of all are written."""
-    workers, waiting = threads(), iter(blocks)
-    with ThreadPoolExecutor(max_workers=workers) as pool:
-        # A few blocks ahead, so that the threads work on while a block is written.
-        ahead = deque(pool.submit(block) for block in islice(waiting, 2 * workers))
-        try:
-            while ahead:
-                facets = ahead.popleft().result()
-                ahead.extend(pool.submit(block) for block in islice(waiting, 1))
-                file.write(facets.data)
-                written += len(facets)
-                if monitor is not None:
-                    monitor.count("bytes written", facets.nbytes)
-                    monitor.tick(written / count)
-        finally:
-            for future in ahead:
-                future.cancel()
 
 
 def merge_corners(corners: NDArray[np.float32]) -> TriangleMesh:

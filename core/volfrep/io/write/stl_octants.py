@@ -25,7 +25,7 @@ from ...lattice.assembly import Layout, in_steps, numbers, placed
 from ...octants.octant import Octant, OctantGrid
 from ...util.progress import Monitor
 from ...util.types import Bools, Floats, Ints
-from .stl import BLOCK_FACETS, FACET, Facets, facets_at, mesh_blocks, write_facets
+from .stl import BLOCK_FACETS, FACET, Block, Facets, facets_at, mesh_blocks, write_facets
 
 if TYPE_CHECKING:
     from ...trim.placed_lattice import InnerOctants
@@ -52,7 +52,7 @@ def write_octants_stl(
         Cancelled: when the monitor says so; no file is left behind.
     """
     copies = _copies(layout, Motion(np.zeros(3)))
-    write_facets(path, layout.triangles, (some.facets for some in copies), monitor)
+    write_facets(path, layout.triangles, (some.block(some.facets) for some in copies), monitor)
 
 
 def write_surface_stl(
@@ -74,7 +74,8 @@ def write_surface_stl(
     rest = mesh_blocks(surface.mesh, path)
     inner = places_of(surface)
     if inner is not None:
-        blocks = (facets for _, facets in filled_places(surface, inner, path))
+        filled = filled_places(surface, inner, path)
+        blocks = (some.block(facets) for some, facets in filled)
         rest = chain(blocks, mesh_blocks(surface.mesh, path, left_over(surface, inner)))
     write_facets(path, surface.triangles, rest, monitor)
 
@@ -134,6 +135,10 @@ class Copies:
     places: Ints
     each: int
     facets: Callable[[], Facets]
+
+    def block(self, facets: Callable[[], Facets]) -> Block:
+        """In the file, as they are or with others in their places."""
+        return Block(len(self.places) * self.each, facets)
 
     def without(
         self, gone: Bools, vertices: Floats, triangles: NDArray[np.int32],

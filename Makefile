@@ -72,12 +72,14 @@ format: setup ## let ruff rewrite the sources
 # Which tests: pytest's word for it, that the windows' scripts know, too (tools/run_gui.sh). By way
 # of the environment, so that the parts of test-all and test-slow see it.
 export MARK ?= not slow
+# What the tests take of the processor is told at the end, with the costliest cases.
+COST := -p tools.processor_time
 test-core: setup ## the engine's tests on plain Python
-	@$(PYTHON) -m pytest tests/core -m "$(MARK)" -n auto --dist loadfile --durations=10
+	@$(PYTHON) -m pytest tests/core -m "$(MARK)" -n auto --dist loadfile $(COST)
 
 test-random: setup ## searches by chance, with other seeds every time, in the engine's tests
 	@$(PYTHON) -m pytest tests/core -m "hypothesis and not slow" --hypothesis-profile=random \
-		-n auto --durations=10
+		-n auto $(COST)
 
 # What uses real parts, and the benchmark's jobs on them, where there are none.
 test-alone: export VOLFREP_PARTS := $(CURDIR)/build/no-parts
@@ -91,7 +93,7 @@ test-alone: setup ## the tests and jobs that take real parts, as in a checkout w
 	@$(PYTHON) -m bench --quick --only rod
 
 test-freecad: setup ## the workbench's tests in the real freecadcmd
-	@PYTEST_ARGS='tests/freecad -m "$(MARK)" --durations=10' freecadcmd tools/run_in_freecad.py < /dev/null
+	@PYTEST_ARGS='tests/freecad -m "$(MARK)" $(COST)' freecadcmd tools/run_in_freecad.py < /dev/null
 
 test-in-freecad: setup ## both of these side by side
 	@$(SIDE_BY_SIDE) $(WINDOWS) , $(IN_FREECAD)

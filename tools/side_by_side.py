@@ -5,9 +5,10 @@
 
 A lane's commands run one after the other, the lanes side by side; those named window-... have the
 processor before the others, because a window that waits for its turn is not what is tested. What
-a command says is in build/test/NAME.log. One that fails is shown by its last lines when it ends,
-and last of all come all failed checks by name: the lines that begin with FAILED or ERROR, which
-pytest and the window's scripts write, and before them what held only at its second try (AGAIN).
+a command says is in build/test/NAME.log; what it took of the processor is told, and its costliest
+cases. One that fails is shown by its last lines when it ends, and last of all come all failed
+checks by name: the lines that begin with FAILED or ERROR, which pytest and the window's scripts
+write, and before them what held only at its second try (AGAIN).
 """
 
 from __future__ import annotations
@@ -36,6 +37,7 @@ class Part:
         command: for the shell.
         code: with which it ended, or None.
         seconds: it took.
+        processor: user and system seconds of all its processes that have ended.
         failures: what failed, where something did.
         again: what held only at its second try.
     """
@@ -44,6 +46,7 @@ class Part:
     command: str
     code: int | None = None
     seconds: float = 0.0
+    processor: float = 0.0
     failures: list[str] = field(default_factory=list)
     again: list[str] = field(default_factory=list)
 
@@ -61,11 +64,14 @@ class Part:
         """Run it, and tell how it ended."""
         start = time.monotonic()
         with self.log.open("wb") as log:
-            self.code = subprocess.run(
+            process = subprocess.Popen(
                 ["nice", "-n", str(self.niceness), "bash", "-c", self.command],
                 stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT,
-            ).returncode  # fmt: skip
+            )  # fmt: skip
+            _, status, usage = os.wait4(process.pid, 0)
+        self.code = process.returncode = os.waitstatus_to_exitcode(status)
         self.seconds = time.monotonic() - start
+        self.processor = usage.ru_utime + usage.ru_stime
         lines = self.log.read_text(encoding="utf-8", errors="replace").splitlines()
         self.again = [line for line in lines if line.startswith("AGAIN ")]
         if self.code:
@@ -74,9 +80,9 @@ class Part:
                 + (f"; its last line: {lines[-1]}" if lines else "")
             ]  # fmt: skip
         with _said:
-            print(f"{self.name}: {self.seconds:.0f} s, "
+            print(f"{self.name}: {self.seconds:.0f} s, {self.processor:.0f} of the processor, "
                   + (f"FAILED (exit code {self.code})" if self.code else "passed"))  # fmt: skip
-            shown = lines[-TAIL:] if self.code else slowest_of(lines)
+            shown = lines[-TAIL:] if self.code else costliest_of(lines)
             print("".join(f"    {line}\n" for line in shown), end="", flush=True)
 
 
@@ -85,10 +91,9 @@ def failures_of(lines: list[str]) -> list[str]:
     return [line for line in lines if re.match(r"(FAILED|ERROR) ", line)]
 
 
-def slowest_of(lines: list[str]) -> list[str]:
-    """Pytest's table of the slowest tests, and its last line."""
-    return [line for line in lines
-            if re.match(r"\s*[\d.]+s (call|setup|teardown) ", line)] + [
+def costliest_of(lines: list[str]) -> list[str]:
+    """The cases that tools/processor_time.py tells, and pytest's last line."""
+    return [line for line in lines if re.match(r"\s*[\d.]+  \S+::", line)] + [
             line for line in lines[-1:] if " passed" in line]  # fmt: skip
 
 
@@ -115,7 +120,10 @@ def main(arguments: list[str]) -> int:
     for part in (part for lane in lanes for part in lane if part.again):
         print(f"\n{part.name} had a second try ({part.log}):")
         print("".join(f"    {line}\n" for line in part.again), end="")
-    print(f"\n{sum(len(lane) for lane in lanes) - len(failed)} parts passed, {len(failed)} failed.")
+    print(
+        f"\n{sum(len(lane) for lane in lanes) - len(failed)} parts passed, {len(failed)} failed; "
+        f"{sum(part.processor for lane in lanes for part in lane):.0f} s of the processor."
+    )
     for part in failed:
         print(f"{part.name} ({part.log}):")
         for line in part.failures:

@@ -672,7 +672,7 @@ def test_a_network_far_from_the_origin_keeps_its_volume_or_is_refused(
 def test_properties_of_a_cell_that_is_not_cubic(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    asked = ["--cell-size", "10", "--strut-radius", "1"]
+    asked = ["--cell-size", "10", "--strut-radius", "1", "--voxels", "32"]
     assert cli.run(["properties", "Columns", *asked]) == 0
     told = said_rows(capsys.readouterr().out)
     assert not {"E100", "zener", "nu", "strength"} & set(told)
@@ -684,6 +684,7 @@ def test_properties_of_a_cell_that_is_not_cubic(
     assert {"E100", "zener", "strength"} <= set(said_rows(capsys.readouterr().out))
 
 
+@pytest.mark.slow
 def test_targets_that_no_radius_meets(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     part = tmp_path / "part.stl"
     write_stl(samples.box((20.0, 20.0, 20.0)), part)
@@ -704,6 +705,7 @@ def test_targets_that_no_radius_meets(capsys: pytest.CaptureFixture[str], tmp_pa
     assert "choose one from" in said(*inside, "--fillet", "1", "--relative-density", "0.00036")
 
 
+@pytest.mark.slow
 def test_walls_are_drained_where_none_stands_in_the_hole(tmp_path: Path) -> None:
     part, out, report = (tmp_path / name for name in ("part.stl", "x.stl", "report.json"))
     write_stl(samples.box((20.0, 20.0, 20.0)), part)

@@ -114,6 +114,7 @@ def test_780_struts_have_no_properties(tmp_path: Path, capsys: pytest.CaptureFix
     assert "has 325 struts, which run into each other beside" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_properties_that_take_long_tell_it_before_the_finer_grids(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

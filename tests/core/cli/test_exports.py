@@ -42,9 +42,9 @@ def test_the_extension_picks_the_format(tmp_path: Path, suffix: str) -> None:
     assert found.genus == 20 - 12 + 1
 
 
-def test_a_3mf_file_holds_the_mesh_unless_told_otherwise(tmp_path: Path, part: Path) -> None:
-    assert fill(part, tmp_path / "part.3mf") == 0
-    assert fill(part, tmp_path / "part2.3mf", "--3mf", "mesh") == 0
+def test_a_3mf_file_holds_the_mesh_unless_told_otherwise(tmp_path: Path) -> None:
+    assert block(tmp_path / "part.3mf") == 0
+    assert block(tmp_path / "part2.3mf", "--3mf", "mesh") == 0
     for name in ("part.3mf", "part2.3mf"):
         assert "<triangle " in model(tmp_path / name)
         assert "<b:beam " not in model(tmp_path / name)

@@ -21,6 +21,7 @@ def part(tmp_path: Path) -> Path:
     return path
 
 
+@pytest.mark.slow
 def test_a_part_and_a_block_are_pictured(tmp_path: Path, part: Path) -> None:
     pytest.importorskip("pyvista", reason="pictures need the optional package pyvista")
     for job in (["fill", str(part)], ["block", "--count", "1,1,1"]):

@@ -80,6 +80,7 @@ def test_the_sized_part_is_an_ordinary_graded_one(part: Path, tmp_path: Path) ->
     assert figures["strut_volume_mm3"] == pytest.approx(told["part"]["volume_mm3"], rel=3e-3)
 
 
+@pytest.mark.slow_but("CVC")
 @pytest.mark.parametrize("cell", ["CVC", "Octahedron"])
 def test_the_mass_asked_for_is_that_of_the_mesh(part: Path, cell: str) -> None:
     report, out = part.with_name("report.json"), part.with_name("out.stl")
@@ -114,6 +115,7 @@ def test_thin_struts_that_carry_little_are_taken_away(part: Path, tmp_path: Path
     assert told["sizing"]["strut_volume_mm3"] < whole["strut_volume_mm3"]
 
 
+@pytest.mark.slow
 def test_with_a_skin_the_struts_end_in_it_and_both_are_told(
     part: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -177,6 +179,7 @@ def test_a_part_that_is_not_held_is_refused(part: Path, capsys: pytest.CaptureFi
     assert "move freely" in refusal(part, capsys, *WHOLE, "--no-proof")
 
 
+@pytest.mark.slow
 def test_a_target_says_what_mass_struts_have_before_they_are_sized(
     part: Path, tmp_path: Path
 ) -> None:
@@ -215,6 +218,7 @@ def test_a_plot_is_an_svg(part: Path, capsys: pytest.CaptureFixture[str]) -> Non
     assert "is an .svg file" in refusal(part, capsys, "--plot", part.with_name("steps.png"))
 
 
+@pytest.mark.slow_but("2")
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_signal_to_stop_keeps_the_best_design_so_far(
     part: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, number: signal.Signals
@@ -291,6 +295,7 @@ def test_limits_that_cannot_be_held_are_told(
     assert "What may help: thicker struts, where --thickest limits them" in said
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX (ccx) is not installed")
 def test_a_design_of_which_nothing_was_compared_is_not_told_as_proved(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]

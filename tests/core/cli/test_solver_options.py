@@ -106,6 +106,7 @@ def test_a_deck_of_beams_is_ready_for_a_step(tmp_path: Path, part: Path) -> None
     assert moved[inner - 1, 0] > 1e-9
 
 
+@pytest.mark.slow
 @needs_gmsh
 def test_a_deck_of_tetrahedra(tmp_path: Path, part: Path) -> None:
     out = tmp_path / "part.inp"
@@ -124,6 +125,7 @@ def test_a_deck_of_tetrahedra(tmp_path: Path, part: Path) -> None:
     assert (np.sort(off, axis=1)[:, 2] < 1e-6).sum() == 8  # the corners
 
 
+@pytest.mark.slow
 @needs_freecad
 def test_exact_surfaces_of_a_block(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert block(tmp_path / "block.step", "--step", "exact") == 0
@@ -265,6 +267,7 @@ def test_absurd_sizes_name_what_would_fit(
     assert not out.exists()
 
 
+@pytest.mark.slow
 @needs_calculix
 def test_a_tube_of_cut_struts_is_as_stiff_in_beams_as_in_solids(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]

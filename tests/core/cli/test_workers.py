@@ -8,11 +8,10 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
+from typing import NoReturn
 
 import numpy as np
 import pytest
@@ -65,15 +64,14 @@ def test_others_help_where_the_job_is_worth_it_or_they_are_asked_for(
 ) -> None:
     asked: list[tuple[int | None, str]] = []
 
-    @contextmanager
-    def nobody(count: int | None = None, module: str = "", lost: object = None) -> Iterator[None]:
+    def nobody(count: int | None = None, module: str = "", lost: object = None) -> NoReturn:
         asked.append((count, module))
-        yield None
+        raise VolfrepError("Nobody is there.")
 
     monkeypatch.setattr(pool, "processes", nobody)
     for least, given in ((10**9, ()), (10**9, ("--workers", 3)), (1, ()), (1, ("--workers", 3))):
         monkeypatch.setattr(volfrep.cli.command, "WORTH_WORKERS", least)
-        assert fill(part, tmp_path / "out.stl", "--quiet", "--cell-size", 12, *given) == 0
+        assert fill(part, tmp_path / "out.stl", "--quiet", "--cell-size", 12, *given) == 2
     module = "volfrep.trim.group_cut"
     assert asked == [(1, ""), (3, ""), (None, module), (3, module)]
 
@@ -92,6 +90,7 @@ def test_as_many_workers_as_are_asked_for(monkeypatch: pytest.MonkeyPatch) -> No
         assert "volfrep.trim.group_cut" in executor.submit(_modules).result(), "before it is asked"
 
 
+@pytest.mark.slow
 def test_workers_go_when_all_groups_are_cut_and_groups_are_cut_without_them(
     tmp_path: Path, part: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

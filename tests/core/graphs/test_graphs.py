@@ -198,6 +198,7 @@ def test_points_may_follow_a_field(tmp_path):
         specification({"network": "voronoi", "network_field": str(path)})
 
 
+@pytest.mark.slow
 def test_struts_along_the_wall_lie_on_it_and_hold_what_ends_there():
     solid = samples.box((30.0, 24.0, 20.0))
     wanted = {"strut_radius": 0.4, "shell": 0.0}

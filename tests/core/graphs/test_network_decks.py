@@ -81,6 +81,7 @@ def test_a_graph_alone_as_tetrahedra_has_its_volume(tmp_path, capsys):
     assert capsys.readouterr().err == ""
 
 
+@pytest.mark.slow
 def test_a_voronoi_network_sized_for_a_load_is_stiffer_and_stays_the_same_graph(tmp_path):
     (tmp_path / "loads.toml").write_text(LOADS)
     solid = cube()
@@ -122,6 +123,7 @@ def test_a_graph_is_moved_by_its_origin_and_turned_about_a_point():
     np.testing.assert_allclose(inside.struts.nodes[1], [-4, 8, -4], atol=0.01)
 
 
+@pytest.mark.slow
 def test_cells_of_any_box_are_turned_and_still_cover_the_part():
     corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
     cell = make_cell("flat", corners, [(0, 1), (0, 2), (0, 3)], edges=(1, 1, 0.5))

@@ -128,6 +128,7 @@ def test_struts_may_be_cones_and_balls_larger_than_they_are():
     holds_the_contract(frame_of(nodes, struts, 0.7, ball=2.0))
 
 
+@pytest.mark.slow
 def test_finer_facets_come_nearer_to_the_volume():
     frame = random_graph(4)
     exact = volume_of_struts(frame)

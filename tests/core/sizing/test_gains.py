@@ -61,13 +61,14 @@ def bend_case():
     return LoadCase("bend", (mirror, foot), (Force(ridge, (0, 0, -100.0)),))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "cell", "radius", "least", "published"),
     [
-        pytest.param("L", "BCC", 0.95, 2.2, 2.60, marks=pytest.mark.slow),
+        ("L", "BCC", 0.95, 2.2, 2.60),
         ("L", "CVC", 1.28, 3.4, 2.60),
-        pytest.param("bend", "BCC", 0.72, 2.4, 3.82, marks=pytest.mark.slow),
-        pytest.param("bend", "CVC", 0.85, 9.9, 3.82, marks=pytest.mark.slow),
+        ("bend", "BCC", 0.72, 2.4, 3.82),
+        ("bend", "CVC", 0.85, 9.9, 3.82),
     ],
 )
 def test_published_cases_gain_as_much_as_told(name, cell, radius, least, published):

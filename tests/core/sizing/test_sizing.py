@@ -56,7 +56,7 @@ def cantilever(cell="CVC", count=(6, 2, 2), radius=0.6, cases=1, size=10.0):
     return problem, np.full(len(nodes), radius)
 
 
-@pytest.mark.slow_but("CVC", "Box")
+@pytest.mark.slow_but("CVC")
 @pytest.mark.parametrize("cell", PAPERS)
 def test_struts_and_joints_have_the_volume_of_their_mesh(cell):
     """Of thick joints whose struts thin away from them, and the reverse."""
@@ -162,7 +162,7 @@ def test_derivatives_are_those_of_differences():
     )
 
 
-@pytest.mark.slow_but("CVC", "Box")
+@pytest.mark.slow_but("Box")
 @pytest.mark.parametrize("cell", PAPERS)
 def test_a_sized_cantilever_is_much_stiffer_than_an_even_one_of_its_volume(cell):
     problem, radii = cantilever(cell)
@@ -190,6 +190,7 @@ def test_the_lightest_design_holds_its_limits_and_saves_mass():
     assert made.analysis.volume < 0.8 * one.volume
 
 
+@pytest.mark.slow
 def test_nodes_that_move_alike_are_all_held():
     """A block pulled along: its whole end moves by the limit, and one radius is far from least."""
     problem, radii = cantilever("BCC", (3, 2, 2), radius=1.0)

@@ -61,6 +61,7 @@ def made(part):
     return size(solid, spec, LoadCases(TITANIUM, (case,)), goal, most_steps=1)
 
 
+@pytest.mark.slow_but("neck")
 @needs_calculix
 @pytest.mark.parametrize("shape", [arm, neck])
 def test_wedges_of_both_sides_are_one_where_the_wall_is_thinner_than_two_skins(shape):

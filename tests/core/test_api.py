@@ -114,6 +114,7 @@ def test_a_unit_belongs_to_a_file(tmp_path: Path) -> None:
     assert np.ptp(part.mesh.bounds, axis=0) == pytest.approx((40, 30, 20))
 
 
+@pytest.mark.slow
 def test_a_picture_shows_skin_lattice_and_cut_in_their_colours(
     tmp_path: Path, part: volfrep.Part
 ) -> None:

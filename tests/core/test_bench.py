@@ -87,6 +87,7 @@ def test_the_published_method_stacks_overlapping_copies():
     assert len(published_method.valid(bad)) == 2
 
 
+@pytest.mark.slow
 def test_a_job_of_ours_is_timed_looked_at_and_removed(tmp_path):
     context = measuring.Context(
         quick=True, folder=tmp_path, seconds_for_peers=10, most_triangles=10**6

@@ -20,6 +20,12 @@ WITH_EXAMPLES = sorted(
 )
 
 
+@pytest.mark.slow_cases(
+    "volfrep.studies.sweep",
+    "volfrep.tpms.widths",
+    "volfrep.mechanics.summary",
+    "volfrep.reports.passage",
+)
 @pytest.mark.parametrize("name", WITH_EXAMPLES)
 def test_examples_in_docstrings(name: str) -> None:
     result = doctest.testmod(import_module(name))

@@ -76,7 +76,7 @@ def test_a_part_of_cells_with_short_struts(cell):
     assert agrees(expected.triangles, report.triangles)
 
 
-@pytest.mark.slow_cases("spherical-12", "spherical-None")
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("kind", "around"),
     [

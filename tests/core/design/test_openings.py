@@ -36,6 +36,7 @@ def test_the_open_box_is_filled_up_to_its_face():
     assert domain.volume == pytest.approx(36.0 * 26.0 * 18.0, rel=0.001)
 
 
+@pytest.mark.slow
 def test_an_open_part_is_where_skin_or_lattice_is():
     """Monte Carlo, with the skin on five of the six sides; and the same in the open face."""
     solid = samples.box()
@@ -110,6 +111,7 @@ def test_the_outputs_of_an_open_part_add_up():
     assert part.mesh.volume == pytest.approx(skin + lattice.mesh.volume, rel=1e-4)
 
 
+@pytest.mark.slow
 def test_struts_that_end_in_an_open_face_have_a_free_end():
     solid = samples.box()
     closed = replace(SPEC, cell="CVC", remove_dangling=True, open_faces=())
@@ -119,6 +121,7 @@ def test_struts_that_end_in_an_open_face_have_a_free_end():
     assert (report.bodies, report.watertight) == (1, True)
 
 
+@pytest.mark.slow
 def test_beams_are_not_held_in_an_open_face():
     clipped = clipped_infill(samples.box(), replace(SPEC, origin=(0.0, 0.0, 1.0)))
     nodes, on_wall = clipped.wireframe.nodes, clipped.on_wall

@@ -231,6 +231,7 @@ def check(first, count):
     assert counts["as before"] > count / 20
 
 
+@pytest.mark.slow
 def test_fifty_mutated_files_give_a_sentence_or_a_right_solid():
     check(0, 50)
 

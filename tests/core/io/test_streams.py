@@ -70,7 +70,7 @@ def rows(mesh: TriangleMesh) -> np.ndarray:
     return flat[np.lexsort(flat.T[::-1])]
 
 
-@pytest.mark.slow_but(".obj")
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", STREAMED)
 def test_a_part_is_read_as_its_mesh_is(
     suffix: str, tmp_path: Path, unmeshed: TrimmedSurface
@@ -85,6 +85,7 @@ def test_a_part_is_read_as_its_mesh_is(
     assert found.volume == pytest.approx(wanted.volume_mm3, rel=1e-6)
 
 
+@pytest.mark.slow_but(".ply")
 @pytest.mark.parametrize("suffix", [".stl", ".ply"])
 def test_triangle_for_triangle(suffix: str, tmp_path: Path) -> None:
     write_mesh(part().part.surface, tmp_path / f"streamed{suffix}")
@@ -93,7 +94,7 @@ def test_triangle_for_triangle(suffix: str, tmp_path: Path) -> None:
     np.testing.assert_array_equal(rows(one), rows(two))
 
 
-@pytest.mark.slow_cases(".3mf", ".stl")
+@pytest.mark.slow_but(".obj")
 @pytest.mark.parametrize("suffix", STREAMED)
 def test_a_lattice_that_is_turned(suffix: str, tmp_path: Path) -> None:
     found = turned().part
@@ -133,6 +134,7 @@ def test_beams_and_triangles_in_one_file(tmp_path: Path, unmeshed: TrimmedSurfac
     assert (found.watertight, found.triangles) == (True, part().part.report.triangles)
 
 
+@pytest.mark.slow
 def test_what_is_inside_is_numbered_a_layer_at_a_time(tmp_path: Path) -> None:
     surface = part(60.0).part.surface
     given = number_vertices(surface, tmp_path / "part.ply", as_text=False)

@@ -212,6 +212,7 @@ def test_a_part_is_its_skin_and_its_clipped_beams(tmp_path: Path):
     )
 
 
+@pytest.mark.slow
 def test_with_a_fallback_the_object_is_the_part_twice(tmp_path: Path):
     solid = samples.box((40, 30, 20))
     part = fill(solid, SPEC).mesh
@@ -228,6 +229,7 @@ def test_with_a_fallback_the_object_is_the_part_twice(tmp_path: Path):
     assert len(both.ends) == len(beam_model(solid, SPEC).lattice.struts)
 
 
+@pytest.mark.slow
 def test_a_file_of_both_is_checked_by_our_own_command(tmp_path: Path, capsys):
     solid = samples.box((40, 30, 20))
     part = fill(solid, SPEC)

@@ -19,6 +19,7 @@ def jobs():
         yield pytest.param((path, name, expected), id=name, marks=marks)
 
 
+@pytest.mark.slow_cases("parts/odri_electronics_box_base.STL")
 @pytest.mark.parametrize("job", list(jobs()))
 def test_every_file_gets_what_its_readme_asks(job):
     path, name, expected = job

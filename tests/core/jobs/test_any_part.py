@@ -90,18 +90,7 @@ QUICK = {(name, number) for name in MODELLED for number in (15, 30)} - {
 }  # fmt: skip
 
 
-@pytest.mark.slow_cases(
-    "bracket-15",
-    "bracket-30",
-    "imported_flange-30",
-    "plate-15",
-    "plate-30",
-    "sphere-15",
-    "sphere-30",
-    "three_bodies-15",
-    "wing-15",
-    "wing-30",
-)
+@pytest.mark.slow_but("box-15")
 @pytest.mark.parametrize(
     ("name", "number"),
     [

@@ -40,7 +40,7 @@ def sorted_corners(facets):
     return rows[np.lexsort(rows.T)]
 
 
-@pytest.mark.slow_but("Box", "Octahedron", "CVC")
+@pytest.mark.slow_but("Box")
 @pytest.mark.parametrize("cell", [*map(find_cell, PAPERS), SKEW], ids=lambda cell: cell.name)
 def test_the_streamed_file_holds_the_facets_of_the_mesh(cell, tmp_path):
     file = tmp_path / "cell.json"
@@ -91,6 +91,7 @@ def test_neighbouring_octants_share_their_vertices_to_the_last_bit(tmp_path):
     assert pinched_vertices(mesh) == 0
 
 
+@pytest.mark.slow
 def test_memory_does_not_grow_with_the_triangles(tmp_path):
     """Four times the triangles, within a few bytes for each cell."""
     peak = {}

@@ -44,6 +44,7 @@ def test_a_stage_runs_those_that_it_needs_and_no_others(solid, stage, run):
     assert ("kinds of octants meshed" in infill.monitor.work) == ("tile" in run)
 
 
+@pytest.mark.slow_cases("part")
 @pytest.mark.parametrize(
     "stage", ["domain", "cavity", "cells", "struts", "axes", "beams", "lattice", "part"]
 )
@@ -68,13 +69,7 @@ def test_later_stages_use_earlier_ones(solid):
     assert part.mesh.volume == pytest.approx(skin + lattice.mesh.volume, rel=1e-5)
 
 
-@pytest.mark.slow_cases(
-    "drains-octants-shell-tile-voxels",
-    "fillet-octants-shell-voxels",
-    "open_faces-tile",
-    "remove_dangling-octants-shell-tile-voxels",
-    "resolution-octants-shell-voxels",
-)
+@pytest.mark.slow_but("strut_radius-octants-shell-voxels", "origin-shell-tile")
 @pytest.mark.parametrize(
     ("changes", "kept"),
     [
@@ -102,6 +97,7 @@ def test_a_change_of_the_specification_repeats_the_stages_it_goes_to(solid, chan
     assert {name for name in before if after[name] is before[name]} == kept
 
 
+@pytest.mark.slow
 def test_another_solid_repeats_everything_but_the_octants_meshes(solid):
     cache = StageCache()
     first = Infill(solid, SPEC, cache=cache)
@@ -136,6 +132,7 @@ def test_without_a_skin_the_part_is_its_lattice(solid):
     assert infill.beams.skin is None
 
 
+@pytest.mark.slow
 def test_whole_cells_are_cut_by_the_skin_only(solid):
     infill = Infill(solid, replace(SPEC, boundary="whole", activation="centre"))
     low, high = infill.lattice.mesh.bounds

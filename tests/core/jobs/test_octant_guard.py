@@ -22,6 +22,7 @@ def meshed(cell, radius, **options):
     return spec, wanted, mesh_octants(spec.unit_cell(), wanted, grid.keys, Monitor())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("cell", "is_told"), [("CVC", False), ("Weaire-Phelan", True)])
 def test_facets_that_stray_farther_than_promised_are_told_by_how_much(cell, is_told):
     spec, wanted, octants = meshed(cell, 1.0)

@@ -59,6 +59,7 @@ def test_struts_have_radii_of_their_own() -> None:
     assert areas == pytest.approx([np.pi * 0.25] * 6, rel=0.05)
 
 
+@pytest.mark.slow
 def test_a_part_is_filled_and_skinned() -> None:
     box = trimesh.creation.box((40, 30, 24))
     part = volfrep.fill(box, cell=honeycomb(), cell_size=8, strut_radius=0.6, shell=1.5)

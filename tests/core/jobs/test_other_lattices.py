@@ -31,7 +31,7 @@ STRUTS = np.argwhere(np.triu(np.isclose(np.linalg.norm(NODES[:, None] - NODES, a
 OWN = make_network(NODES, STRUTS)
 
 
-@pytest.mark.slow_cases("more2", "more3", "more4", "more7")
+@pytest.mark.slow_but("more1", "more6")
 @pytest.mark.parametrize(
     "more",
     [
@@ -71,7 +71,7 @@ def test_walls_that_are_too_many_are_not_shown() -> None:
         preview(BOX, LatticeSpec("Gyroid", 0.3, wall=TpmsSheet("sheet", 0.1)), DEPTH)
 
 
-@pytest.mark.slow_but("target0-network1")
+@pytest.mark.slow
 @pytest.mark.parametrize("network", [BONE, OWN])
 @pytest.mark.parametrize("target", [Target("relative_density", 0.15), Target("mass", 3.5)])
 def test_a_network_in_a_part_meets_its_target(network: object, target: Target) -> None:

@@ -127,7 +127,7 @@ def test_a_modelled_part_keeps_its_bodies(name, tmp_path):
     np.testing.assert_allclose(result.mesh.bounds, solid.bounds, atol=1e-5)
 
 
-@pytest.mark.slow_cases("Octet")
+@pytest.mark.slow
 @needs_parts
 @pytest.mark.parametrize(
     "cell",

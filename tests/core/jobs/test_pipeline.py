@@ -65,6 +65,7 @@ def test_thickness_zero_trims_the_lattice_at_the_outer_surface():
     assert radius.max() > 19.9
 
 
+@pytest.mark.slow
 def test_the_outputs_add_up():
     solid = samples.plate(64)
     cache = StageCache()
@@ -122,6 +123,7 @@ def test_a_block_reports_what_it_is():
     assert wanted <= data.keys()
 
 
+@pytest.mark.slow
 def test_only_the_stages_that_a_change_affects_run_again(monkeypatch):
     from volfrep.jobs import active_cells
     from volfrep.jobs.kinds import strut_lattice
@@ -195,6 +197,7 @@ def test_a_block_larger_than_memory_is_refused_before_it_is_made():
         block(SMALL, (100_000, 100_000, 100_000))
 
 
+@pytest.mark.slow
 def test_a_skin_that_strays_is_said_in_the_report(monkeypatch):
     from volfrep.shell import domain
 

@@ -30,6 +30,7 @@ def figures(folder):
     return json.loads((folder / "layers.json").read_text())
 
 
+@pytest.mark.slow_but("skin", "lattice")
 @pytest.mark.parametrize(
     "spec",
     [
@@ -174,6 +175,7 @@ def test_layers_are_replaced_and_other_files_are_not(tmp_path):
     assert sorted(path.name for path in tmp_path.iterdir()) == ["file", "layers"]
 
 
+@pytest.mark.slow
 def test_cancelled_layers_leave_the_old_ones(tmp_path):
     target = tmp_path / "layers"
     write_layers(samples.box(), SPEC, target, layer=5)

@@ -48,7 +48,7 @@ def test_what_is_solved_is_what_was_designed():
     assert doubled.largest == pytest.approx(2.0 * analysis.largest)
 
 
-@pytest.mark.slow_cases("1.0")
+@pytest.mark.slow
 @pytest.mark.parametrize("shell", [0.0, 1.0])
 def test_a_design_can_be_sent_to_another_process(shell):
     goal = Goal(limits=Limits(displacement=0.3), thinnest=0.3, thickest=1.6)
@@ -87,6 +87,7 @@ def test_a_search_that_is_cancelled_before_it_began_has_nothing():
         size(beam(), SPEC, bent(), progress=lambda fraction, stage: False)
 
 
+@pytest.mark.slow
 def test_a_graded_lattice_ends_at_the_wall_where_the_one_of_its_own_radius_does():
     """A design, whose radii have changed since, is solved as it was sized."""
     tube = trimesh.creation.cylinder(17.0, 40.0, sections=48)

@@ -67,6 +67,7 @@ def test_a_part_has_the_relative_density_asked_for(solid, settings) -> None:
     assert not [warning for warning in report.warnings if "missed" in warning]
 
 
+@pytest.mark.slow
 def test_the_mass_is_that_of_the_finished_part_with_its_skin_and_holes() -> None:
     part = volfrep.fill(
         samples.box((32.0, 24.0, 20.0)), cell="CVC", cell_size=8, shell=2, mass=20,
@@ -101,7 +102,7 @@ def test_a_graded_block_has_the_mass_asked_for() -> None:
     assert made.mesh.volume / 1000.0 == pytest.approx(0.5, rel=NEAR)
 
 
-@pytest.mark.slow_but("stubs")
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "settings",
     [
@@ -182,6 +183,7 @@ def test_a_cell_of_ones_own_is_homogenised_for_its_stiffness() -> None:
     assert own == pytest.approx(library, rel=5e-3)
 
 
+@pytest.mark.slow
 def test_a_cell_of_ones_own_is_guessed_on_coarse_grids(monkeypatch) -> None:
     monkeypatch.setattr(stiffness_target, "LEAST", 0.06)  # thin struts take many voxels
     own = dataclasses.replace(LIBRARY["BCC"], name="mine")
@@ -230,6 +232,7 @@ def test_what_cannot_be_met_is_refused_with_what_can(asked, text) -> None:
         volfrep.fill(samples.bracket(), **{"cell": "CVC", "cell_size": 8, "shell": 2, **asked})
 
 
+@pytest.mark.slow
 def test_a_target_and_a_radius_take_each_others_place() -> None:
     first = volfrep.block((1, 1, 1), cell="BCC", cell_size=5, relative_density=0.2)
     again = volfrep.block((1, 1, 1), first.spec, strut_radius=0.5)

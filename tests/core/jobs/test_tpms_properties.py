@@ -74,6 +74,7 @@ def test_an_octant_has_the_stiffness_of_the_whole_cell():
     assert part == pytest.approx(whole, rel=1e-3, abs=1e-4)
 
 
+@pytest.mark.slow
 def test_a_wall_is_below_the_upper_bounds_and_a_sheet_near_that_of_the_bulk_modulus():
     found = volfrep.properties("gyroid", 10, wall_thickness=0.8, along=18)
     density = found.relative_density
@@ -138,6 +139,7 @@ def test_a_wall_is_made_as_stiff_as_it_is_asked_for(monkeypatch):
     assert stiffness.tpms_modulus(found, target) == pytest.approx(0.05, rel=0.01)
 
 
+@pytest.mark.slow
 def test_a_stiffness_that_no_wall_has_is_refused_with_what_can_be_had(monkeypatch):
     monkeypatch.setattr(stiffness, "_COARSE", 0.25)
     spec = LatticeSpec("Schwarz P", 10.0, shell=0)

@@ -22,7 +22,7 @@ def cube(cells):
     return fill(box((5.0 * cells,) * 3), spec).report
 
 
-@pytest.mark.slow_cases("FCC", "Octet")
+@pytest.mark.slow_but("BCC")
 @pytest.mark.parametrize("cell", PAPERS)
 def test_a_block_takes_eight_kinds_of_octants_however_large_it_is(cell):
     """Of 27 patterns of neighbours: struts that end in a joint do not show beyond it."""
@@ -56,6 +56,7 @@ def test_cells_inside_do_not_enter_the_boolean():
     assert done.work["triangles into the Boolean"] < 0.5 * done.triangles
 
 
+@pytest.mark.slow
 def test_a_change_of_the_radius_finds_no_wall_again():
     solid, cache = box((32.0,) * 3), StageCache()
     first = fill(solid, SPEC, cache=cache).report.work
@@ -65,12 +66,14 @@ def test_a_change_of_the_radius_finds_no_wall_again():
     assert again.report.work["kinds of octants meshed"] == first["kinds of octants meshed"]
 
 
+@pytest.mark.slow
 def test_the_same_job_again_meshes_no_octant():
     solid, cache = box((32.0,) * 3), StageCache()
     fill(solid, SPEC, cache=cache)
     assert "kinds of octants meshed" not in fill(solid, SPEC, cache=cache).report.work
 
 
+@pytest.mark.slow
 def test_a_block_takes_memory_for_its_mesh_and_little_more():
     """Bytes at the peak, beside those of the mesh: 24 a vertex and 12 a triangle."""
     spec = LatticeSpec("CVC", 10.0, 1.0, resolution=12)

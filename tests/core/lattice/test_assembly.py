@@ -38,7 +38,7 @@ def monte_carlo_volume(cell, active, radius, samples=60_000):
     return box * share, box * np.sqrt(share * (1 - share) / samples)
 
 
-@pytest.mark.slow_cases("FCC", "Octet", "skew")
+@pytest.mark.slow_but("BCC")
 @pytest.mark.parametrize("cell", [*map(find_cell, PAPERS), SKEW], ids=lambda c: c.name)
 def test_a_block_is_one_closed_surface_of_the_wireframes_genus(cell):
     active = np.ones((2, 2, 2), bool)
@@ -150,7 +150,7 @@ def test_facets_stray_little_and_to_both_sides_alike(name, resolution, allowed):
     assert abs(distance.mean()) < 0.1 * allowed
 
 
-@pytest.mark.slow_cases("Octet")
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["CVC", "Octet"])
 def test_the_volume_converges_with_resolution(name):
     cell, active = LIBRARY[name], np.ones((1, 1, 1), bool)
@@ -178,6 +178,7 @@ def test_capped_octants_have_the_closed_forms_density(name, radius):
     assert mesh.volume / volume == pytest.approx(a * x**2 - b * x**3, rel=0.005)
 
 
+@pytest.mark.slow_but("CVC", "Box")
 @pytest.mark.parametrize("cell", [*map(find_cell, PAPERS), SKEW], ids=lambda c: c.name)
 def test_flat_caps_close_any_set_of_octants_that_touch_by_faces(cell):
     where = np.ones((4, 5, 3), bool)

@@ -55,7 +55,7 @@ def test_the_survey_agrees_with_the_measure(cell, share):
     np.testing.assert_array_equal(surveyed.bounds, measured.bounds)
 
 
-@pytest.mark.slow_cases("Kagome-1.5877651511816147-8-1.0")
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("cell", "radius", "facets", "share"),
     [("Kagome", 1.5877651511816147, 8, 1.0), ("Kelvin", 1.5690050236742336, 15, 0.6)],

@@ -125,6 +125,7 @@ def test_moved_nodes_take_their_vertices_along(laid):
     assert np.mean(on_struts < 1e-9) > 0.99
 
 
+@pytest.mark.slow_but("1.5")
 @pytest.mark.parametrize("stretch", [1.5, 2.5])
 def test_no_facets_cross_where_creases_meet_elsewhere_between_struts(stretch):
     """Octet's struts close up where cells are stretched: 8 facets folded at every such corner."""

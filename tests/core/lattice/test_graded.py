@@ -77,24 +77,7 @@ BLOCKS = [
 ]
 
 
-@pytest.mark.slow_cases(
-    "BCC, size",
-    "Box, size",
-    "CVC, cylindrical",
-    "CVC, radius, oblique",
-    "CVC, radius",
-    "CVC, size, oblique, and radius",
-    "CVC, size",
-    "FCC, size",
-    "Octahedron, cylindrical",
-    "Octahedron, radius, oblique",
-    "Octahedron, radius",
-    "Octahedron, size",
-    "Octahedron, spherical",
-    "Octahedron, turned and graded",
-    "Octet, size",
-    "skew, size",
-)
+@pytest.mark.slow_but("CVC, turned and graded")
 @pytest.mark.parametrize(("cell", "grading"), BLOCKS)
 def test_blocks_hold_the_contract(cell, grading):
     asked, count = GRADINGS[grading]
@@ -253,6 +236,7 @@ def test_parts_hold_the_contract(make, grading):
     )
 
 
+@pytest.mark.slow
 def test_the_skin_is_where_struts_are_thick_and_the_core_where_they_are_thin():
     solid = samples.box()
     for by, at_skin in (("skin", 1.0), ("core", 0.5)):
@@ -337,7 +321,7 @@ def random_grading(random, size):
     return asked
 
 
-@pytest.mark.slow_cases("1", "2", "3", "4")
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "seed", [pytest.param(s, marks=pytest.mark.slow if s >= 5 else ()) for s in range(80)]
 )

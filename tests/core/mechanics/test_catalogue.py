@@ -76,6 +76,7 @@ def test_cells_that_are_not_alike_along_x_y_and_z_keep_all_of_their_tensor(name)
     assert "least strength along x, y, z" in rows
 
 
+@pytest.mark.slow
 def test_columns_carry_along_themselves_only_and_a_point_computed_again_is_that_shipped():
     known = catalogue()["Columns"]
     found = known_properties(LIBRARY["Columns"], 10.0, 0.5)
@@ -150,7 +151,7 @@ def test_fits_run_through_the_points_and_between_them(name):
     assert stiffness == pytest.approx((whole.E100, whole.G), rel=0.02)
 
 
-@pytest.mark.slow_cases("None")
+@pytest.mark.slow
 @pytest.mark.parametrize("material", [None, "AlSi10Mg"])
 def test_what_a_lattice_does_is_read_off_at_once_within_its_errors(material):
     """At a radius between those of the catalogue, beside the homogenised cell."""

@@ -184,6 +184,7 @@ def test_an_element_strained_evenly_has_the_solids_stress():
     assert forces == pytest.approx(element.load.sum(axis=0)[:, 0])
 
 
+@pytest.mark.slow
 def test_a_pulled_box_yields_where_its_columns_do():
     found = homogenise(LIBRARY["Box"], 0.05, along=60)
     stressed = stresses(found.finest, 0.3)

@@ -44,7 +44,7 @@ def test_angles_are_those_of_triangles_that_are_known():
     assert is_bad(flat).tolist() == [False, False, True]
 
 
-@pytest.mark.slow_cases("CVC")
+@pytest.mark.slow
 def test_few_needles_of_a_trimmed_part_are_left(trimmed, better):
     before, after = (is_bad(corners(mesh)).sum() for mesh in (trimmed, better))
     assert before > 100

@@ -67,6 +67,7 @@ def test_the_border_stays_as_the_octant_beyond_has_it(monkeypatch):
         assert {tuple(row) for row in one.vertices[border]} == beyond
 
 
+@pytest.mark.slow
 def test_a_border_that_strays_is_divided_as_the_octant_beyond_divides_it(monkeypatch):
     divided = octant_of("BCC", 25)
     part = block(LatticeSpec("BCC", cell_size=10.0, strut_radius=1.0, resolution=25), (2, 2, 2))

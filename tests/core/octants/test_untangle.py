@@ -35,7 +35,7 @@ def crowded_cell(seed=0):
     return UnitCell("crowded", nodes, np.array(sorted(ends)))
 
 
-@pytest.mark.slow_but("FCC-0.3", "BCC-0.3", "Octet-0.3", "Octahedron-0.3", "CVC-1.0")
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "radius"),
     [
@@ -88,6 +88,7 @@ def test_struts_that_cross_anyhow_leave_no_facets_that_do(resolution):
         assert inner.max() < 3.5
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "resolution",
     [24, pytest.param(28, marks=pytest.mark.slow), pytest.param(30, marks=pytest.mark.slow)],
@@ -130,6 +131,7 @@ def test_where_facets_cross_however_they_are_meshed_finer_ones_are_tried():
         until_sound(tile, never)
 
 
+@pytest.mark.slow
 def test_a_written_block_tells_the_same(tmp_path):
     spec = LatticeSpec("Octet", 10.0, 0.3, resolution=4)
     report = write_block_stl(spec, (1, 1, 1), tmp_path / "a.stl")

@@ -11,6 +11,7 @@ from volfrep.octants.octant_spec import OctantSpec
 from volfrep.octants.windows import sampled_finely_enough
 
 
+@pytest.mark.slow
 def test_a_window_of_a_fifth_of_the_radius_is_open():
     """It was closed: facets strayed by 7.5 times the deviation there."""
     octant = octant_of("Truncated Cube", 15)

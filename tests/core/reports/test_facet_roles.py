@@ -42,6 +42,7 @@ def depth(points):
     return np.minimum(points, SIZE - points).min(axis=1)
 
 
+@pytest.mark.slow_but("uniform")
 @pytest.mark.parametrize(
     "grading",
     [{}, {"radius_grading": RadiusGrading("direction", Profile("linear", 0.5, 1.5))}],

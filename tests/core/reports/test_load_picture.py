@@ -32,6 +32,7 @@ def test_every_load_of_the_documented_bracket_finds_its_place():
         assert np.hypot(loaded[:, 0], loaded[:, 1] - 42).max() < 10.01
 
 
+@pytest.mark.slow
 def test_what_is_held_is_blue_and_what_is_loaded_orange(tmp_path):
     pytest.importorskip("pyvista", reason="pictures need the optional package pyvista")
     from PIL import Image

@@ -60,6 +60,7 @@ def test_a_bracket_has_sharp_and_round_edges_where_it_should(turn):
     assert wall.volume == pytest.approx(section * 26.0, rel=0.005)
 
 
+@pytest.mark.slow
 def test_a_plate_with_holes_keeps_its_wall_round_them():
     solid = samples.plate()
     wall = inner_wall(solid, 2.0, Monitor()).mesh
@@ -133,7 +134,7 @@ def test_the_industrial_bracket():
     assert len(wall.triangles) < 20_000
 
 
-@pytest.mark.slow_cases("ge_bracket.stl-5.0", "odri_lower_leg_v2.STL-2.0")
+@pytest.mark.slow
 @needs_parts
 @pytest.mark.parametrize(
     ("name", "thickness"),

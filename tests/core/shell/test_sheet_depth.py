@@ -55,6 +55,7 @@ def _cavity(solid: TriangleMesh, skin: Skin) -> TriangleMesh:
     return found.mesh
 
 
+@pytest.mark.slow_cases("beside open", "two", "thick")
 @pytest.mark.parametrize(
     ("skin", "volume"),
     [
@@ -84,7 +85,7 @@ def test_a_box_has_the_cavity_of_its_skins(skin: Skin, volume: float) -> None:
     assert _cavity(BOX, skin).volume == pytest.approx(volume, rel=1e-4)
 
 
-@pytest.mark.slow_cases("2.0-1.0")
+@pytest.mark.slow
 @pytest.mark.parametrize(("shell", "own"), [(1.0, 4.0), (2.0, 1.0)])
 def test_a_hole_has_a_bush_as_thick_as_its_skin(shell: float, own: float) -> None:
     at = SmoothFace((3.0, 0.0, 0.0))
@@ -94,6 +95,7 @@ def test_a_hole_has_a_bush_as_thick_as_its_skin(shell: float, own: float) -> Non
     assert made.volume == pytest.approx(wanted, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_what_is_kept_solid_round_a_hole_is_as_if_its_skin_were_so_thick() -> None:
     at, solid = SmoothFace((3.0, 0.0, 0.0)), _plate(3.0)
     own = _cavity(solid, Skin(2.0, (), (FaceSkin(at, 3.0),)))
@@ -147,6 +149,7 @@ def domain() -> TriangleMesh:
     return fill(BOX, LatticeSpec(**{**_fields(SPEC), "output": "domain"})).result.mesh
 
 
+@pytest.mark.slow
 def test_the_part_its_figures_and_its_preview_agree(part: Part, domain: TriangleMesh) -> None:
     solid_room = 6 * 6 * 12
     cavity = 25 * 18 * 12 - solid_room

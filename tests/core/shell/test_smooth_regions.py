@@ -26,6 +26,7 @@ def found(solid, skin=SKIN):
     return find_smooth_regions(solid, start, cube, top, skin, 0.3 * skin, math.inf, Monitor()), cube
 
 
+@pytest.mark.slow
 def test_a_sheet_needs_few_cubes_and_few_samples():
     solid = samples.sheet()
     plain, cube = found(solid)

@@ -34,6 +34,7 @@ def test_exact_distances_agree_with_trimesh(part):
     np.testing.assert_allclose(closest_on_triangles(corners, points)[0], closest, atol=1e-12)
 
 
+@pytest.mark.slow
 def test_the_centre_of_a_sphere_is_equally_near_to_all():
     part = samples.sphere(20.0, 4)
     _, distance, _ = closest_points(part, np.zeros((300, 3)))

@@ -82,6 +82,7 @@ FOLDED = LatticeSpec(
 )  # fmt: skip
 
 
+@pytest.mark.slow
 def test_struts_that_fold_without_turning_back_wholly_are_drawn_apart():
     """25 pairs of facets crossed here, at edges that turn by 110 to 150 degrees."""
     result = Infill(samples.box((24.0, 20.0, 14.0)), FOLDED).result

@@ -76,6 +76,7 @@ def test_limits_that_are_kept_change_nothing(here: Path, tmp_path: Path) -> None
     assert timeless(tmp_path) == timeless(here)
 
 
+@pytest.mark.slow
 def test_a_process_that_dies_gets_its_run_again_and_then_is_at_fault(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -76,6 +76,7 @@ def test_twice_the_load_moves_twice_as_far_and_is_a_new_question(
         assert twice.table.numbers(name) == pytest.approx(2.0 * once.table.numbers(name), rel=1e-5)
 
 
+@pytest.mark.slow
 def test_a_sized_design_is_made_by_its_specification(beam: Study, tmp_path: Path) -> None:
     study = replace(
         beam,

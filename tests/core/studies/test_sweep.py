@@ -133,6 +133,7 @@ def triangles_of(file: Path) -> Counter[bytes]:
     return Counter(one.tobytes() for one in turned)
 
 
+@pytest.mark.slow
 def test_the_command_of_a_chosen_design_makes_exactly_that_part(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -195,6 +196,7 @@ def test_a_defect_of_the_engine_is_told_and_ends_nothing(
     assert made.front == {}
 
 
+@pytest.mark.slow
 def test_shards_together_are_the_whole_study(whole: Swept, tmp_path: Path) -> None:
     first = volfrep.sweep(QUICK, tmp_path / "parts", shard=(1, 2))
     assert (first.count("done"), first.count("open"), first.front) == (3, 3, {})
@@ -205,6 +207,7 @@ def test_shards_together_are_the_whole_study(whole: Swept, tmp_path: Path) -> No
         volfrep.sweep(QUICK, tmp_path, shard=(3, 2))
 
 
+@pytest.mark.slow
 def test_any_executor_does_the_runs(whole: Swept, tmp_path: Path) -> None:
     with ThreadPoolExecutor(2) as pool:
         made = volfrep.sweep(QUICK, tmp_path / "pool", executor=pool)
@@ -244,6 +247,7 @@ def test_an_optimiser_gets_figures_by_name_and_sentences_for_what_makes_no_sense
     assert len(list((tmp_path / "records").iterdir())) == 2
 
 
+@pytest.mark.slow
 def test_a_grid_may_take_several_parts(tmp_path: Path) -> None:
     ball = check_solid(samples.sphere(12.0), "ball")
     study = Study(parts=(BOX, ball), fixed={"cell": "CVC", "cell_size": 8.0}, do=("forecast",))
@@ -281,6 +285,7 @@ def test_the_command_does_a_study(tmp_path: Path, capsys: pytest.CaptureFixture[
     assert [line for line in errors if not line.startswith("volfrep: ")] == []
 
 
+@pytest.mark.slow
 def test_the_table_reads_as_parquet_where_pandas_is_there(whole: Swept) -> None:
     pandas = pytest.importorskip("pandas", reason="needs the optional package pandas")
     pytest.importorskip("fastparquet", reason="needs the optional package fastparquet")

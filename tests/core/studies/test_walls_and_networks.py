@@ -46,6 +46,7 @@ def test_forecasts_and_properties_of_walls_are_those_of_the_part(cube: str, tmp_
     assert row["forecast.strut_radius_mm"] == pytest.approx(0.428)
 
 
+@pytest.mark.slow
 def test_networks_have_forecasts_and_no_properties(cube: str, tmp_path: Path) -> None:
     fixed = {"network": "voronoi", "network_points": 20, "strut_radius": 0.4}
     study = Study((cube,), fixed=fixed, vary={"shell": (1.0,)}, do=("forecast", "fill"))

@@ -134,7 +134,7 @@ def test_blocks_of_gyroid_grow_by_a_genus_of_three_for_each_primitive_cell() -> 
     assert np.diff(euler, 3)[0] == 6 * 2 * 2 * (2 - 2 * 3)
 
 
-@pytest.mark.slow_cases("Neovius")
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "name",
     [
@@ -158,6 +158,7 @@ def test_a_sheet_is_as_thick_as_wanted_from_side_to_side() -> None:
     assert np.quantile(found, [0.03, 0.97]) == pytest.approx(0.8, rel=0.05)
 
 
+@pytest.mark.slow
 def test_a_filled_part_does_not_run_through_itself() -> None:
     spec = LatticeSpec("Gyroid", 9.0, shell=1.0, resolution=16, wall=TpmsSheet("sheet", 1.2))
     made = volfrep.fill(samples.box((24.0, 20.0, 16.0)), spec)
@@ -173,6 +174,7 @@ def test_a_blocks_density_is_that_of_a_point_count(name) -> None:
     assert report.relative_density == pytest.approx(counted(name, 0.08, 17), rel=3e-3)
 
 
+@pytest.mark.slow
 def test_a_skeleton_and_its_complement_fill_the_cell() -> None:
     spec = {"cell": "IWP", "cell_size": SIZE}
     one = block(LatticeSpec(**spec, wall=TpmsSheet("skeleton", offset=0.4)), (1, 1, 1)).report
@@ -218,6 +220,7 @@ def test_a_part_filled_with_walls_keeps_the_contract(settings) -> None:
     check_contract(check_solid(samples.bracket(33.0), "bracket"), spec, (), _stages)
 
 
+@pytest.mark.slow
 def test_graded_walls_have_their_thickness_in_the_part() -> None:
     grading = RadiusGrading("direction", Profile("linear", 0.6, 1.6), (0.0, 0.0, 1.0))
     spec = LatticeSpec(
@@ -234,6 +237,7 @@ def test_graded_walls_have_their_thickness_in_the_part() -> None:
     assert np.quantile(share, [0.05, 0.95]) == pytest.approx(1.0, abs=0.1)
 
 
+@pytest.mark.slow
 def test_walls_in_a_part_with_an_open_face_keep_the_contract() -> None:
     spec = LatticeSpec("Schwarz P", 9.0, shell=1.0, resolution=16, wall=TpmsSheet("sheet", 1.2),
                        open_faces=(OpenPlane((0, 0, 18), (0, 0, 1)),))  # fmt: skip

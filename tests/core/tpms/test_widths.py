@@ -43,6 +43,7 @@ def test_a_sheet_keeps_its_thickness_where_cells_are_bent_and_nothing_is_said_of
     assert lattice_kind(LatticeSpec("BCC")).walls() == (None, None)
 
 
+@pytest.mark.slow
 def test_the_print_check_names_walls_that_are_too_thin_and_too_near() -> None:
     sheet = LatticeSpec("Gyroid", 3.0, resolution=16, wall=TpmsSheet("sheet", 0.5))
     found = volfrep.block((1, 1, 1), sheet).check("SLS")

@@ -67,7 +67,7 @@ def mesh_of(found):
     return found.surface.whole(Monitor())
 
 
-@pytest.mark.slow_but("BCC", "CVC")
+@pytest.mark.slow_but("CVC")
 @pytest.mark.parametrize("name", PAPERS)
 def test_lattice_and_cavity_share_the_domain_between_them(name):
     domain = samples.sphere(22.0)
@@ -79,6 +79,7 @@ def test_lattice_and_cavity_share_the_domain_between_them(name):
     assert lattice.volume - cavity.volume == pytest.approx(domain.volume, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_octants_inside_are_put_back_as_the_boolean_would_have_left_them():
     domain = samples.sphere(25.0)
     some, everything = trimmed(domain), trimmed(domain, grow=1)
@@ -88,9 +89,7 @@ def test_octants_inside_are_put_back_as_the_boolean_would_have_left_them():
     assert quality.measure(one).genus == quality.measure(two).genus
 
 
-@pytest.mark.slow_cases(
-    "False-FCC", "False-Octahedron", "False-Octet", "True-FCC", "True-Octahedron", "True-Octet"
-)
+@pytest.mark.slow_but("True-BCC", "False-CVC")
 @pytest.mark.parametrize("name", PAPERS)
 @pytest.mark.parametrize("cavity", [True, False])
 def test_what_is_proved_of_octants_inside_is_what_their_triangles_show(name, cavity):
@@ -120,6 +119,7 @@ def test_octants_that_do_not_fit_to_the_cut_are_found_out():
     assert (found.watertight, found.open_edges) == (False, 3)
 
 
+@pytest.mark.slow
 def test_the_boolean_takes_only_what_the_wall_crosses():
     """Twice the size has eight times the octants, but the wall crosses only four times as many."""
     small, large = (
@@ -193,7 +193,7 @@ def tilted_box():
     return TriangleMesh(np.asarray(box.vertices), box.faces.astype(np.int32))
 
 
-@pytest.mark.slow_but("flat-CVC-False", "flat-Box-False", "round-CVC-True")
+@pytest.mark.slow_but("round-CVC-True")
 @pytest.mark.parametrize("cavity", [True, False])
 @pytest.mark.parametrize("name", ["CVC", "Box"])
 @pytest.mark.parametrize("domain", [tilted_box(), samples.sphere(22.0)], ids=["flat", "round"])
@@ -259,6 +259,7 @@ def test_the_surface_is_the_same_whoever_cuts_the_groups(small_groups):
             np.testing.assert_array_equal(mesh.triangles, alone.triangles)
 
 
+@pytest.mark.slow
 def test_a_worker_that_is_gone_costs_time_and_nothing_else(small_groups):
     class Gone(ThreadPoolExecutor):
         taken = 0
@@ -316,6 +317,7 @@ def test_what_is_not_certain_the_library_decides(cavity, small_groups, monkeypat
     assert found.volume == pytest.approx(expected.volume, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_slivers_go_in_the_groups_but_not_where_these_meet(small_groups):
     domain, coarse = samples.sphere(22.0), 0.02
     exact = trimmed(domain).surface.mesh

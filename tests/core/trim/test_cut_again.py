@@ -40,7 +40,7 @@ def made(name: str) -> Result:
     return Infill(samples.box((30.0, 30.0, 30.0)), CASES[name]).result
 
 
-@pytest.mark.slow_but("a drain deep into the cells")
+@pytest.mark.slow
 @pytest.mark.parametrize("name", CASES)
 def test_it_is_what_the_whole_mesh_would_have_become(
     name: str, monkeypatch: pytest.MonkeyPatch

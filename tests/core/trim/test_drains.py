@@ -78,6 +78,7 @@ def test_a_splinter_that_the_drill_leaves_is_no_body(monkeypatch):
     assert quality.measure(result.mesh).bodies == 1
 
 
+@pytest.mark.slow
 def test_a_hole_may_slant():
     solid = samples.box()
     closed = fill(solid, SPEC).report
@@ -103,6 +104,7 @@ def test_automatic_holes_are_at_the_lowest_places(up):
     assert np.linalg.norm(one - two) > 6.0
 
 
+@pytest.mark.slow
 def test_on_a_ball_the_hole_is_near_the_pole():
     report = drained(samples.sphere(), count=1).report
     (place,) = report.drain_holes
@@ -139,6 +141,7 @@ def test_a_void_that_stays_closed_is_said():
     assert report.drain_holes[1][0] > 25.0
 
 
+@pytest.mark.slow
 def test_a_void_behind_no_open_face_is_said():
     spec = replace(SPEC, open_faces=(OpenPlane((0.0, 0.0, 0.0), (1.0, 0.0, 0.0)),))
     report = fill(dumbbell(), spec).report

@@ -53,7 +53,7 @@ def test_what_is_found_of_moved_octants_is_what_their_triangles_show():
     assert found.bodies == 1
 
 
-@pytest.mark.slow_cases(".3mf")
+@pytest.mark.slow_but(".stl")
 @pytest.mark.parametrize("suffix", [".stl", ".ply", ".obj", ".3mf"])
 def test_a_file_holds_what_the_mesh_does(suffix, tmp_path):
     surface, path = graded().part.surface, tmp_path / f"part{suffix}"

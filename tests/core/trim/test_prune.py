@@ -140,6 +140,7 @@ def strut_volume(frame, radius, low, high, points):
     return box * share, box * np.sqrt(share * (1.0 - share) / points)
 
 
+@pytest.mark.slow
 def test_whole_cells_fill_the_volume_of_their_struts():
     solid = samples.box((25.0, 17.0, 9.0))
     spec = replace(WHOLE, cell="Octet", activation="inside", resolution=None)
@@ -181,6 +182,7 @@ def test_a_strut_taken_away_takes_its_volume():
     assert result.report.volume_mm3 == pytest.approx(volume, abs=0.005 * volume + 3 * deviation)
 
 
+@pytest.mark.slow
 def test_without_a_skin_trimming_leaves_stubs_that_can_go():
     solid = samples.sphere(12.0)
     spec = LatticeSpec(cell="CVC", cell_size=8, strut_radius=0.8, shell=0, resolution=8)

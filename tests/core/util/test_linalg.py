@@ -85,7 +85,7 @@ def test_a_part_has_the_same_bytes_with_one_thread_and_with_two():
         "import hashlib, samples; from volfrep import LatticeSpec; "
         "from volfrep.jobs.pipeline import fill\n"
         "spec = LatticeSpec('BCC', cell_size=10, strut_radius=1, shell=1.5, resolution=8)\n"
-        "mesh = fill(samples.bracket(20.0), spec).mesh\n"
+        "mesh = fill(samples.bracket(10.0), spec).mesh\n"
         "print(hashlib.sha256(mesh.vertices.tobytes() + mesh.triangles.tobytes()).hexdigest())\n"
     )
     tests = str(Path(__file__).parents[1])

@@ -88,7 +88,7 @@ test-alone: setup ## the tests and jobs that take real parts, as in a checkout w
 	@$(PYTHON) -m pytest -q -rs -n auto -k "not modelled" -m "not slow" tests/core/test_bench.py \
 		tests/core/jobs/test_parts.py tests/core/shell/test_offset.py \
 		tests/core/io/test_slicers.py tests/core/io/test_solid.py tests/core/io/test_torture.py
-	@PYTEST_ARGS='-q -rs -m "not slow" tests/freecad/test_freecad_parts.py' \
+	@PYTEST_ARGS='-q -rs tests/freecad/test_freecad_parts.py' \
 		freecadcmd tools/run_in_freecad.py < /dev/null
 	@$(PYTHON) -m bench --quick --only rod
 

@@ -51,6 +51,7 @@ def test_tessellates_to_a_closed_mesh(example):
         assert mesh.Volume == pytest.approx(part.Shape.Volume, rel=0.01)
 
 
+@pytest.mark.slow_but("piston_rod")
 def test_follows_its_spreadsheet(example):
     part, sheet, box = example
     sheet.set("length", f"{box[0] + 10} mm")
@@ -61,6 +62,7 @@ def test_follows_its_spreadsheet(example):
     assert box_of(part.Shape) == pytest.approx((box[0] + 10, box[1], box[2]), abs=0.02)
 
 
+@pytest.mark.slow_but("bracket")
 def test_follows_all_its_sizes_at_once(example):
     """Larger by a twentieth, but for a few radii of fillets, which do not change."""
     part, sheet, box = example
@@ -77,12 +79,13 @@ def test_follows_all_its_sizes_at_once(example):
     assert part.Shape.Volume == pytest.approx(1.05**3 * volume, rel=0.01)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "coarser"),
     [
         ("Bracket", {"CellSize": 30, "StrutRadius": 3, "Deviation": 0.3, "ShellThickness": 6}),
-        pytest.param("Bracket", {}, marks=pytest.mark.slow),
-        pytest.param("PistonRod", {}, marks=pytest.mark.slow),
+        ("Bracket", {}),
+        ("PistonRod", {}),
     ],
 )
 def test_a_filled_example_is_ready(monkeypatch, name, coarser):

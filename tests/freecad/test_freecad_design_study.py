@@ -56,6 +56,7 @@ def test_a_design_given_to_the_infill_is_that_design(study, infill):
         apply_design(study, "x")
 
 
+@pytest.mark.slow
 def test_what_was_measured_is_what_the_infill_becomes(doc, infill):
     study = make_design_study(doc, infill, StrutRadius="0.9, 1.1")
     study.Fill = True
@@ -81,6 +82,7 @@ def test_saved_and_opened_it_has_its_designs_and_runs_on(doc, study, tmp_path):
         App.closeDocument(again.Name)
 
 
+@pytest.mark.slow
 def test_a_graded_lattice_is_studied_by_its_mass_alone(doc, infill):
     infill.SizeGrading = "Linear"
     infill.LambdaEnd = 1.5

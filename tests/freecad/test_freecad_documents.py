@@ -157,6 +157,7 @@ def test_a_density_that_lacks_its_unit_is_told(doc, infill):
     assert mass_of(infill) == pytest.approx(7.85e-3 * infill.Volume.Value)
 
 
+@pytest.mark.slow
 def test_expressions_follow_the_names(earlier):
     doc = earlier["Plain"].Document
     doc.recompute()

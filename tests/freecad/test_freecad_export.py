@@ -111,6 +111,7 @@ def read_3mf(path):
     return objects
 
 
+@pytest.mark.slow_but("both")
 @pytest.mark.parametrize("content", ["mesh", "beams", "both"])
 def test_3mf_lies_where_the_mesh_does(doc, infill, tmp_path, content):
     part = doc.addObject("App::Part", "Holder")
@@ -255,6 +256,7 @@ def test_solid_of_something_without_a_mesh(doc, box):
         make_solid(doc, box)
 
 
+@pytest.mark.slow
 def test_a_large_solid(doc):
     """Thousands of triangles at once; FreeCAD's own sewing takes minutes."""
     obj = doc.addObject("Mesh::Feature", "Ball")

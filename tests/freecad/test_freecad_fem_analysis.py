@@ -163,6 +163,7 @@ def test_beams_solved_by_freecad_and_by_our_own_deck(doc, tmp_path):
     assert own.mean() == pytest.approx(1.54, rel=0.08)
 
 
+@pytest.mark.slow
 @needs_calculix
 def test_the_skin_holds_the_lattice(doc, infill, tmp_path):
     analysis = make_fem_analysis(doc, infill)

@@ -91,34 +91,20 @@ def test_the_file_of_a_cell_is_shown_with_a_cell_of_ones_own(doc, box):
     assert "Hidden" in obj.getEditorMode("CellFile")
 
 
+@pytest.mark.slow_but("values2-edges2-radii2", "values7-None-None")
 @pytest.mark.parametrize(
     ("values", "edges", "radii"),
     [
-        pytest.param(
-            {"SizeGrading": "Linear", "LambdaEnd": 1.5},
-            (10, 20),
-            (0.7, 0.7),
-            marks=pytest.mark.slow,
-        ),
+        ({"SizeGrading": "Linear", "LambdaEnd": 1.5}, (10, 20), (0.7, 0.7)),
         (
             {"SizeGrading": "Formula", "LambdaFormula": "1 + 0.5 * s", "KeepRadius": False},
             (10, 20),
             None,
         ),
         ({"RadiusGrading": "Direction", "RadiusEnd": 1.1}, (10, 10), (0.7, 1.1)),
-        pytest.param(
-            {"RadiusGrading": "Direction", "RadiusProfile": "Formula"},
-            (10, 10),
-            (0.8, 1.2),
-            marks=pytest.mark.slow,
-        ),
+        ({"RadiusGrading": "Direction", "RadiusProfile": "Formula"}, (10, 10), (0.8, 1.2)),
         ({"RadiusGrading": "Skin", "RadiusEnd": 1, "RadiusReach": 8}, (10, 10), (0.7, 1)),
-        pytest.param(
-            {"RadiusGrading": "Core", "RadiusStart": 1, "RadiusReach": 8},
-            (10, 10),
-            (0.7, 1),
-            marks=pytest.mark.slow,
-        ),
+        ({"RadiusGrading": "Core", "RadiusStart": 1, "RadiusReach": 8}, (10, 10), (0.7, 1)),
         ({"Orientation": about((1, 0, 0), 30)}, (10, 10), (0.7, 0.7)),
         ({"CellMap": "Cylindrical", "MapAround": 9, "MapAxis": App.Vector(1, 0, 0)}, None, None),
     ],

@@ -105,6 +105,7 @@ def test_editing_a_property_recomputes(doc, infill, runs, name, value):
     assert digest(infill) != before
 
 
+@pytest.mark.slow
 def test_deviation_instead_of_resolution(doc, infill):
     before = infill.Triangles
     infill.Resolution = 0
@@ -114,6 +115,7 @@ def test_deviation_instead_of_resolution(doc, infill):
     assert infill.Triangles > before
 
 
+@pytest.mark.slow
 def test_activation_by_centre(doc, box):
     box.Length = 27
     obj = make_lattice_infill(doc, box, Activation="Touching", **SMALL)

@@ -70,6 +70,7 @@ def test_a_network_is_shown_before_it_is_made_and_meets_a_density(doc, box):
     assert 0.7 * obj.Struts < shown.preview.struts <= obj.Struts  # those that reach inside
 
 
+@pytest.mark.slow
 def test_a_cells_values_are_a_property(doc, box):
     obj = make_lattice_infill(
         doc, box, CellType="Re-entrant", CellSize=12, ShellThickness=1.5, CellValues="arm = 0.2"
@@ -137,6 +138,7 @@ def radii_of(obj):
     return (nodes[:, 0] ** 2 + nodes[:, 1] ** 2) ** 0.5
 
 
+@pytest.mark.slow
 def test_cells_lie_between_the_two_faces_of_a_tubes_sector(doc, sector):
     tube, (inner, outer) = sector
     obj = make_lattice_infill(

@@ -78,6 +78,7 @@ def test_a_face_that_is_no_more_is_named(doc, box, infill):
     assert "has no face 'Edge1'" in infill.Status
 
 
+@pytest.mark.slow
 def test_picked_faces_are_added_to_those_that_are_open(doc, box, infill):
     top = top_of(box)
     open_faces(infill, [(box, (top,))])
@@ -89,6 +90,7 @@ def test_picked_faces_are_added_to_those_that_are_open(doc, box, infill):
     assert infill.isValid(), infill.getStatusString()
 
 
+@pytest.mark.slow
 def test_a_feature_of_a_body_stands_for_it(doc):
     body = doc.addObject("PartDesign::Body", "Body")
     block = doc.addObject("PartDesign::AdditiveBox", "Block")

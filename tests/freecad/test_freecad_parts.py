@@ -21,12 +21,6 @@ SETTINGS = {
     "nist_ftc_10_asme1_rb.stp": (8.0, 0.8, 2.5),
 }
 
-#: Large or finely rounded: many seconds each.
-SLOW = {
-    "nist_ctc_01_asme1_rd.stp", "nist_ctc_02_asme1_rc.stp", "nist_ftc_06_asme1_rd.stp",
-    "nist_ftc_10_asme1_rb.stp", "piston_rod.step", "trimesh_featuretype.STEP",
-}  # fmt: skip
-
 
 @pytest.fixture
 def doc():
@@ -43,10 +37,8 @@ def part(doc, name):
     return base
 
 
-@pytest.mark.parametrize(
-    "name",
-    [pytest.param(n, marks=pytest.mark.slow if n in SLOW else ()) for n in SETTINGS],
-)
+@pytest.mark.slow
+@pytest.mark.parametrize("name", SETTINGS)
 def test_a_step_part_becomes_one_printable_body(doc, name):
     size, radius, skin = SETTINGS[name]
     base = part(doc, name)

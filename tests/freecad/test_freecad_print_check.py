@@ -137,6 +137,7 @@ def test_what_it_cannot_look_at(doc, infill, check):
     assert "choose a lattice infill" in check.getStatusString()
 
 
+@pytest.mark.slow
 def test_an_infill_that_is_out_of_date(doc, box):
     infill = make_lattice_infill(doc, box, AutoUpdate=False, **SMALL)
     infill.Proxy.update(infill)

@@ -82,6 +82,7 @@ def test_they_are_saved_opened_and_undone(doc, infill, runs, tmp_path):
     assert digest(infill) == made
 
 
+@pytest.mark.slow
 def test_radii_go_along_with_a_base_that_moves(doc, box, infill):
     sized(infill)
     before = digest(infill)

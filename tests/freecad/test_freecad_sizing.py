@@ -161,6 +161,7 @@ def test_what_struts_carry_is_kept_with_the_document(infill, tmp_path):
         App.closeDocument(doc.Name)
 
 
+@pytest.mark.slow
 def test_colours_peak_where_the_design_does(infill, tmp_path):
     """With a skin, whose triangles follow the struts it was sized with: one figure, not two."""
     infill.ShellThickness = 1
@@ -193,6 +194,7 @@ def test_colours_peak_where_the_design_does(infill, tmp_path):
     assert peak(infill) == pytest.approx(2.0 * told, rel=0.2)
 
 
+@pytest.mark.slow
 def test_the_stiffest_struts_of_a_mass_beat_one_radius(infill):
     analyses = [loaded(infill)]
     outcome = sized(infill, analyses, goal="stiffness")
@@ -243,6 +245,7 @@ def test_a_script_sizes_in_one_call(infill):
         size_lattice(infill, safty=2)
 
 
+@pytest.mark.slow
 def test_a_random_network_is_sized_as_cells_are(doc):
     box = doc.addObject("Part::Box", "Beam")
     box.Length, box.Width, box.Height = 30, 10, 10
@@ -273,6 +276,7 @@ def test_a_target_gives_the_mass_that_is_distributed(infill):
     assert infill.RelativeDensity == pytest.approx(0.05, rel=0.05)  # of coarse facets
 
 
+@pytest.mark.slow
 def test_an_infill_stays_as_it_is_until_radii_are_stored(infill):
     before = infill.Fingerprint, infill.RadiusGrading
     analysis = loaded(infill)

@@ -47,6 +47,7 @@ def cylinder(doc):
     return base
 
 
+@pytest.mark.slow
 def test_an_exact_part_of_a_box(doc, infill):
     infill.CellSize = 15
     moved(doc, infill)

@@ -57,6 +57,12 @@ def test_the_part_has_the_mass_that_drives_the_radius_in_its_material(doc, box):
     assert obj.Mesh.Volume * 2.67 / 1000.0 == pytest.approx(20.0, rel=NEAR)
     assert mass_of(obj) == pytest.approx(20.0, rel=NEAR)
     assert density_of(obj) == pytest.approx(2.67)
+
+
+@pytest.mark.slow
+def test_a_heavier_material_asks_for_another_mass(doc, box):
+    obj = driven(doc, box, "Mass", TargetMass=20.0, PrintMaterial="AlSi10Mg")
+    doc.recompute()
     thick = obj.StrutRadius.Value
     obj.PrintMaterial = "316L"  # three times as heavy: the skin alone is too much
     with pytest.raises(VolfrepError, match="of which the skin is"):
@@ -84,6 +90,7 @@ def test_the_lattice_has_the_stiffness_along_a_direction_of_its_material(doc, bo
         specification_of(obj)
 
 
+@pytest.mark.slow
 def test_a_target_follows_what_the_solid_and_an_expression_say(doc, box):
     sheet = doc.addObject("Spreadsheet::Sheet", "Sheet")
     sheet.set("A1", "0.2")
@@ -114,6 +121,7 @@ def test_an_expression_of_the_radius_stays_beside_a_target(doc, box):
     assert max(obj.StrutRadii) == pytest.approx(1.25)
 
 
+@pytest.mark.slow
 def test_undo_takes_a_target_and_its_radius_back(doc, box):
     obj = make_lattice_infill(doc, box, **LATTICE)
     doc.recompute()
@@ -134,6 +142,7 @@ def test_undo_takes_a_target_and_its_radius_back(doc, box):
     assert obj.RelativeDensity == pytest.approx(0.12, rel=NEAR)
 
 
+@pytest.mark.slow
 def test_a_saved_target_is_up_to_date_when_it_is_opened(doc, box, tmp_path):
     obj = driven(doc, box, "Relative density", TargetDensity=0.22)
     doc.recompute()
@@ -150,6 +159,7 @@ def test_a_saved_target_is_up_to_date_when_it_is_opened(doc, box, tmp_path):
         App.closeDocument(copy.Name)
 
 
+@pytest.mark.slow
 def test_files_and_analyses_have_the_struts_that_were_found(doc, box, tmp_path):
     obj = driven(doc, box, "Relative density", TargetDensity=0.2, PrintMaterial="Ti-6Al-4V")
     doc.recompute()

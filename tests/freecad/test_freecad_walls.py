@@ -48,6 +48,7 @@ def test_a_gyroid_fills_a_solid_and_shows_what_applies(box) -> None:
     assert hidden(infill, "StrutRadius", "WallKind") == [False, True]
 
 
+@pytest.mark.slow
 def test_a_density_drives_the_thickness(box) -> None:
     doc = box.Document
     infill = make_lattice_infill(

@@ -122,6 +122,7 @@ def many_struts(obj):
     obj.ViewObject.DisplayMode = "Shaded"
 
 
+@slow
 def saved_modes(obj):
     """A document that was saved simplified opens so; one of 0.1.0 as it was."""
     obj.ViewObject.DisplayMode = "Simplified"

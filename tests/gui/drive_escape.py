@@ -370,6 +370,7 @@ def answer_yes():
     return True
 
 
+@slow
 def leave_the_exact_solid(obj):
     """Lattice To Solid, the one with exact joints."""
     escape(lambda: select(obj), lambda: choose_after("Lattice To Solid", "exact"), take_away(obj))

@@ -29,6 +29,7 @@ from driving import (
     section_docks,
     select,
     settle,
+    slow,
     start_by_click,
     toolbar_button,
     type_value,
@@ -193,6 +194,7 @@ def by_menu(menu, command):
     click_menu(menu, Gui.Command.get(command).getInfo()["menuText"].replace("&", ""))
 
 
+@slow
 def its_looks_outlive_undo_and_a_file():
     """Cut open and coloured, undone, refreshed, saved, closed and opened: it looks the same."""
     from freecad_volfrep.gui.view.filled_view import mesh_and_kinds

@@ -202,6 +202,7 @@ def in_language(language):
         Gui.setLocale("English")
 
 
+@slow
 def italian():
     """The whole window in Italian."""
     in_language("Italian")

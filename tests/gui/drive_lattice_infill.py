@@ -562,6 +562,7 @@ def pick_in_the_panel(doc, obj):
     check("Cancel takes all of it back", obj.OpenFaces == [], obj.OpenFaces)
 
 
+@slow
 def pick_a_skin_in_the_panel(doc, obj):
     """A skin of its own, a bolt's bush and a boss by clicks; an arrow is turned by its end."""
     look_at_all()
@@ -752,6 +753,7 @@ def see_what_suits(doc, obj):
     check("Cancel closes the panel", wait_until(lambda: panel() is None))
 
 
+@slow
 def choose_walls(doc, obj):
     """A Gyroid of the panel's list asks for a thickness in place of a radius, and is made."""
     open_to_edit(obj)

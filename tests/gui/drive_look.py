@@ -201,6 +201,7 @@ def fill_a_box(doc, box):
     check("a click on it selects it", wait_until(lambda: Gui.Selection.getSelection() == [obj]))
 
 
+@slow
 def look_alike_in_any_order(doc, obj):
     """Neither the order of triangles nor turning the view changes the picture."""
     does_not_depend_on_order(obj, "look_5_box")

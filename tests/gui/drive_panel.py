@@ -166,6 +166,7 @@ def type_a_sum(doc, box):
     cancelled()
 
 
+@slow
 def start_from_a_recipe(doc, box):
     """A shipped recipe sets the fields; settings are saved under a name, and applied elsewhere."""
     from freecad_volfrep.features.infill.recipes import known_recipes, recipe_folder

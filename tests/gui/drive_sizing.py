@@ -126,6 +126,7 @@ def size_and_take(doc, obj):
     check("which is taken back", (obj.Mesh.CountFacets, obj.Volume.Value) == before)
 
 
+@slow
 def size_a_network(doc, obj):
     """A random network is sized by clicks as cells are, and its radii stored on its own nodes."""
     struts = obj.Struts
@@ -198,6 +199,7 @@ def scene_names():
     return [scene.getChild(k).getName().getString() for k in range(scene.getNumChildren())]
 
 
+@slow
 def cancel_the_panel(doc, obj):
     """Cancel of the panel leaves nothing behind."""
     before = obj.Mesh.CountFacets, obj.RadiusGrading

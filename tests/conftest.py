@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Which cases of a parametrised test are slow, of the engine's tests and of those in FreeCAD.
+
+Those that the mark `slow_cases` names beside it, or all but those that `slow_but` names.
+"""
+
+from __future__ import annotations
+
+import pytest
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Mark what `slow_cases` names and `slow_but` does not, before pytest looks at marks.
+
+    Raises:
+        pytest.UsageError: a mark names a case that its test does not have.
+    """
+    cases: dict[str, dict[str, pytest.Item]] = {}
+    for item in items:
+        if isinstance(item, pytest.Function) and hasattr(item, "callspec"):
+            cases.setdefault(item.nodeid.partition("[")[0], {})[item.callspec.id] = item
+    are_all_there = not any("::" in argument for argument in config.invocation_params.args)
+    for test, of_test in cases.items():
+        one = next(iter(of_test.values()))
+        for kind in ("slow_cases", "slow_but"):
+            for mark in one.iter_markers(kind):
+                gone = [name for name in mark.args if name not in of_test]
+                if gone and are_all_there:
+                    raise pytest.UsageError(f"{kind} of {test} names {gone[0]}, which is no case.")
+                for name, item in of_test.items():
+                    if (name in mark.args) == (kind == "slow_cases"):
+                        item.add_marker("slow")

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """VOLFREP: strut-and-node lattice infills for solids.
 
-`fill` and `block` make a `Part`, `sweep` many designs. The names below are loaded when first used,
-so that importing the package costs nothing.
+`fill` and `block` make a `Part`, `sweep` many designs, `solve` says what any solid carries. The
+names below are loaded when first used, so that importing the package costs nothing.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from .util.version import VERSION
 
 if TYPE_CHECKING:
-    from .api import Part, as_solid, block, fill, mesh_network, size, slice_layers
+    from .api import Part, as_solid, block, fill, mesh_network, size, slice_layers, solve
     from .design.cells import make_cell
     from .design.drawn_cell import cell_from_lines
     from .design.parameters.spec_file import read_spec, write_spec
@@ -59,6 +59,7 @@ _HOMES = {
     "size": "api.calls",
     "mesh_network": "api.calls",
     "slice_layers": "api.calls",
+    "solve": "api.calls",
     "Report": "reports.report",
     "read_solid": "io.solid",
     "LatticeSpec": "design.spec",
@@ -94,6 +95,7 @@ __all__ = [
     "read_study",
     "size",
     "slice_layers",
+    "solve",
     "sweep",
     "write_block_stl",
     "write_spec",

@@ -11,7 +11,7 @@
 True
 """
 
-from .calls import as_solid, block, fill, mesh_network, size, slice_layers
+from .calls import as_solid, block, fill, mesh_network, size, slice_layers, solve
 from .part import Part
 from .wanted_spec import accepted, specified
 
@@ -24,5 +24,6 @@ __all__ = [
     "mesh_network",
     "size",
     "slice_layers",
+    "solve",
     "specified",
 ]

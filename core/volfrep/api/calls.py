@@ -38,6 +38,7 @@ if TYPE_CHECKING:
 
     from ..design.parameters.typed import Keywords, SizeKeywords
     from ..jobs.slices import Layers
+    from ..jobs.solving import Solved
     from ..loads.load_cases import LoadCases
 
 
@@ -163,8 +164,6 @@ def size(
     from ..jobs.infill import Infill
     from ..jobs.sizing import GOALS, goal_of
     from ..jobs.sizing import size as size_struts
-    from ..loads.load_cases import LoadCases
-    from ..loads.load_file import load_cases_of, read_load_cases
     from ..output.sources import FilledPart
 
     whole("steps", steps, 1, 100_000)
@@ -174,11 +173,7 @@ def size(
     cache = _cache(cache)
     with shown(progress) as told:
         solid, wanted = _asked(part, unit, told, spec, given, None)
-        if isinstance(loads, Mapping):
-            loads = load_cases_of(loads, solid)
-        elif not isinstance(loads, LoadCases):
-            check_path("loads", loads)
-            loads = read_load_cases(loads, solid)
+        loads = _loads(loads, solid)
         wanted = dataclasses.replace(wanted, density=loads.material.density)
         goal = dataclasses.replace(
             goal_of(loads.material, asked, lambda name: name), remove_thin=remove_thin
@@ -189,6 +184,79 @@ def size(
         )  # fmt: skip
         infill = Infill(solid, made.spec, progress=told, cache=cache)
         return Part(infill.result, made.spec, solid, cache, FilledPart(infill, cache), made)
+
+
+def solve(
+    part: Part | str | os.PathLike[str] | TriangleMesh | MeshLike | tuple[ArrayLike, ArrayLike],
+    loads: LoadCases | Mapping[str, Any] | str | os.PathLike[str],
+    *,
+    voxel: float | None = None,
+    material: str | None = None,
+    unit: str | None = None,
+    progress: ProgressCallback | bool | None = None,
+) -> Solved:
+    """Solve any solid under load cases by voxel finite elements: a filled part, or another.
+
+    Args:
+        part: as of `fill`; or a `Part`, the finished mesh of which is solved.
+        loads: the file of the load cases (docs/loads.md), or a dict with the file's entries.
+        voxel: edge of a voxel, mm; None for what makes a quarter of a million of them, or lays a
+            few across its walls. It is solved with voxels 1.5 times as large, too.
+        material: in place of the loads': a name of the table in docs/cells.md, a file, or
+            "NAME,E,NU" in MPa.
+        unit: as of `fill`.
+        progress: as of `fill`.
+
+    Returns:
+        Its `report` holds the figures, `states` the displacements and nominal stress of each case;
+        `save` writes them as .vtu or .json.
+
+    Raises:
+        VolfrepError: nothing lies where a load acts, the part is not held, or it would not fit
+            into memory.
+        Cancelled: the callback said so.
+
+    >>> import trimesh, volfrep
+    >>> box = trimesh.creation.box(bounds=((0, 0, 0), (40, 10, 10)))
+    >>> held, pulled = ({"point": [x, 0, 0], "normal": [1, 0, 0]} for x in (0, 40))
+    >>> loads = {
+    ...     "material": "PA12",
+    ...     "support": [{"plane": held, "fixed": True}],
+    ...     "case": [{"load": [{"plane": pulled, "force": [100, 0, 0]}]}],
+    ... }
+    >>> solved = volfrep.solve(box, loads, voxel=2.5)
+    >>> bool(solved.report["cases"][0]["imbalance"] < 1e-6)
+    True
+    """
+    from ..jobs.solving import solve_solid
+    from ..mechanics.materials import find_material
+
+    with shown(progress) as told:
+        mesh: TriangleMesh
+        if isinstance(part, Part):
+            mesh = part.result.mesh
+            cases = _loads(loads, part.solid or mesh)
+        else:
+            mesh = as_solid(part, unit, told)
+            cases = _loads(loads, mesh)
+        if material is not None:
+            cases = dataclasses.replace(cases, material=find_material(material))
+        return solve_solid(mesh, cases, voxel=voxel, progress=told)
+
+
+def _loads(
+    loads: LoadCases | Mapping[str, Any] | str | os.PathLike[str], solid: TriangleMesh | None
+) -> LoadCases:
+    """The load cases of a call, on a solid."""
+    from ..loads.load_cases import LoadCases
+    from ..loads.load_file import load_cases_of, read_load_cases
+
+    if isinstance(loads, LoadCases):
+        return loads
+    if isinstance(loads, Mapping):
+        return load_cases_of(loads, solid)
+    check_path("loads", loads)
+    return read_load_cases(loads, solid)
 
 
 def block(

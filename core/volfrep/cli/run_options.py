@@ -97,6 +97,11 @@ RUN_OPTIONS = (
         "FOLDER", required=True, writes="output", short="o",
     ),
     RunOption(
+        "output", ("solve",),
+        "displacements and stress in colours as .vtu for ParaView, or the figures as .json",
+        "FILE", writes="output", short="o",
+    ),
+    RunOption(
         "output", ("sweep",),
         "of records, table and page; what is done there is not done again",
         "FOLDER", required=True, short="o",
@@ -106,7 +111,7 @@ RUN_OPTIONS = (
         "output", ("cells",), "a cell file of it", "FILE.json", writes="output", short="o",
     ),
     RunOption(
-        "unit", ("fill", "slice", "size", "check"),
+        "unit", ("fill", "slice", "size", "solve", "check"),
         "of the file's lengths: mm, cm, m, inch, ft or um (default: what the file says, else mm)",
         "UNIT",
     ),
@@ -129,6 +134,7 @@ RUN_OPTIONS = (
     RunOption(
         "report", ("size",), "write the figures, before and after", "FILE.json", writes="report",
     ),
+    RunOption("report", ("solve",), "write the figures as JSON", "FILE.json", writes="report"),
     RunOption(
         "picture", MESHED, "write a picture, cut open (needs pyvista)",
         "FILE.png", writes="picture",
@@ -166,6 +172,12 @@ RUN_OPTIONS = (
         "M", reads="material file",
     ),
     RunOption(
+        "material", ("solve",),
+        "in place of the load file's: a name of the table in docs/cells.md, a .toml or .json file, "
+        "or NAME,E,NU in MPa",
+        "M", reads="material file",
+    ),
+    RunOption(
         "material", ("properties",),
         "of the solid: a name of the table (see docs/cells.md), a .toml or .json file, or "
         "NAME,E,NU; without one, figures are in units of the solid's",
@@ -195,8 +207,14 @@ RUN_OPTIONS = (
         "WORD", choices=words("format"), default=words("format")[0],
     ),
     RunOption(
-        "loads", ("size",), "load cases, see docs/loads.md",
+        "loads", ("size", "solve"), "load cases, see docs/loads.md",
         "FILE.toml", required=True, reads="load file",
+    ),
+    RunOption(
+        "voxel", ("solve",),
+        "edge of a voxel (default: what makes a quarter of a million of them, or lays a few across "
+        "its walls)",
+        "MM", read=float,
     ),
     RunOption(
         "radii", ("size",), "the radii at the nodes, as --radius-field reads it",
@@ -326,7 +344,7 @@ RUN_OPTIONS = (
     RunOption("limit-hours", ("sweep",), "end a run that takes longer", "H", read=float),
     RunOption("limit-memory", ("sweep",), "end a run that takes more", "GB", read=float),
     RunOption("retry-failed", ("sweep",), "try again what failed before"),
-    RunOption("quiet", (*LATTICE, "sweep"), "print nothing but errors"),
+    RunOption("quiet", (*LATTICE, "solve", "sweep"), "print nothing but errors"),
 )  # fmt: skip
 #: Arguments without hyphens, and options of the table of parameters, that name files which are
 #: read; what the command calls them.

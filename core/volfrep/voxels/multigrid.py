@@ -1,0 +1,391 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Equations of bricks on a grid, solved by conjugate gradients that multigrid preconditions.
+
+The finest level has no matrix: an element's displacements are gathered, multiplied by the one
+matrix of a full brick and its share, and scattered. Each coarser level joins 2 x 2 x 2 elements
+into one whose matrix is Galerkin's, of the finer ones under trilinear displacements with what is
+held left out; it is kept as 27 blocks a node. The smoother is Chebyshev's polynomial about the
+nodes' own 3 x 3 blocks, in single precision; the conjugate gradients are in double. The coarsest
+level is factorised.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import bsr_matrix, csr_matrix
+from scipy.sparse.linalg import splu
+
+from ..mechanics.elements import CORNERS
+from ..util.errors import VolfrepError
+from ..util.progress import Monitor
+from ..util.types import Bools, Floats, Ints
+
+Any32 = NDArray[Any]
+#: Degrees of freedom of a level that is factorised.
+FACTORISED = 6_000
+#: Degree of the smoother's polynomial, and the largest eigenvalue over the least that it damps.
+DEGREE, DAMPED = 3, 12.0
+#: Steps of the power method for the largest eigenvalue, and what is added to it.
+POWERS, SAFE = 12, 1.1
+#: Elements that are multiplied in one go.
+AT_ONCE = 60_000
+#: The largest number of steps; more than three times what any part has taken.
+MOST_STEPS = 600
+
+
+@dataclass(frozen=True, eq=False)
+class Elements:
+    """Elements of one level and their nodes.
+
+    Attributes:
+        place: (e, 3) int64, in the level's grid, in rising order.
+        nodes: (e, 8) int32, rows of `node_place`, in the order of `CORNERS`.
+        node_place: (n, 3) int64, in rising order.
+    """
+
+    place: Ints
+    nodes: NDArray[np.int32]
+    node_place: Ints
+
+
+def elements_at(place: Ints, size: tuple[int, ...]) -> Elements:
+    """The elements at (e, 3) places, in rising order, of a grid of that many."""
+    shape = tuple(one + 1 for one in size)
+    number = np.full(shape, -1, np.int32)
+    for corner in CORNERS:
+        number[tuple((place + corner).T)] = 0
+    flat = np.flatnonzero(number.ravel() == 0)
+    number.ravel()[flat] = np.arange(len(flat), dtype=np.int32)
+    nodes = np.stack([number[tuple((place + corner).T)] for corner in CORNERS], axis=1)
+    return Elements(place, nodes, np.stack(np.unravel_index(flat, shape), axis=1))
+
+
+class Fine:
+    """The equations without a matrix.
+
+    Args:
+        elements: of the finest level.
+        shares: (e,) of each.
+        stiffness: (24, 24) of a full brick.
+        free: (n, 3) bool, what is not held.
+    """
+
+    def __init__(self, elements: Elements, shares: Floats, stiffness: Floats, free: Bools) -> None:
+        self.elements, self.shares = elements, shares
+        self.stiffness, self.free = stiffness, free
+        count, size = len(elements.nodes), len(elements.node_place)
+        order = np.argsort(elements.nodes.ravel(), kind="stable").astype(np.int32)
+        ends = np.concatenate([[0], np.cumsum(np.bincount(elements.nodes.ravel(), minlength=size))])
+        self._scatter = {}
+        for kind in (np.float32, np.float64):
+            ones = np.ones(len(order), kind)
+            self._scatter[np.dtype(kind)] = csr_matrix(
+                (ones, order, ends.astype(np.int32)), (size, 8 * count), copy=False
+            )
+        self._matrix = {np.dtype(k): stiffness.astype(k) for k in (np.float32, np.float64)}
+        self._shares = {np.dtype(k): shares.astype(k) for k in (np.float32, np.float64)}
+
+    def full(self, moved: Any32) -> Any32:
+        """(n, 3) N that hold (n, 3) displacements, mm, whatever is held; in their precision."""
+        nodes, kind = self.elements.nodes, moved.dtype
+        matrix, shares = self._matrix[kind], self._shares[kind]
+        forces = np.empty((len(nodes), 24), kind)
+        for begin in range(0, len(nodes), AT_ONCE):
+            part = slice(begin, begin + AT_ONCE)
+            own = np.take(moved, nodes[part], axis=0).reshape(-1, 24)
+            np.matmul(own, matrix, out=forces[part])
+            forces[part] *= shares[part, None]
+        result: Any32 = self._scatter[kind] @ forces.reshape(-1, 3)
+        return result
+
+    def __call__(self, moved: Any32) -> Any32:
+        """(n, 3) N on what is free of displacements that are zero where it is not."""
+        return self.full(moved) * self.free
+
+    def blocks(self) -> Floats:
+        """(n, 3, 3) the nodes' own parts of the matrix; 1 where it is held."""
+        own = np.stack([self.stiffness[3 * a : 3 * a + 3, 3 * a : 3 * a + 3] for a in range(8)])
+        result = np.zeros((len(self.free), 3, 3))
+        for a in range(8):  # no node is the same corner of two elements
+            result[self.elements.nodes[:, a]] += self.shares[:, None, None] * own[a]
+        result *= self.free[:, :, None] & self.free[:, None, :]
+        return with_unit_rows(result)
+
+    def coarse_matrices(self, parent: Ints, child: Ints, count: int) -> NDArray[np.float32]:
+        """(count, 24, 24) of the elements of the next level.
+
+        Args:
+            parent: (e,) the coarse element of each.
+            child: (e,) which of its eight it is.
+            count: of the coarse elements.
+        """
+        inner = child_prolongations()
+        weights = np.zeros((count, 8))
+        bound = ~self.free[self.elements.nodes].all(axis=(1, 2))
+        weights[parent[~bound], child[~bound]] = self.shares[~bound]
+        joined = np.einsum("cai,ab,cbj->cij", inner, self.stiffness, inner).reshape(8, -1)
+        result: Any32 = (weights @ joined).astype(np.float32).reshape(-1, 24, 24)
+        for c in range(8):
+            rows = np.flatnonzero(bound & (child == c))
+            for part in np.array_split(rows, len(rows) // AT_ONCE + 1):
+                mask = self.free[self.elements.nodes[part]].reshape(-1, 24)
+                own = self.stiffness * (mask[:, :, None] & mask[:, None, :])
+                own *= self.shares[part, None, None]
+                # A parent has one such child.
+                result[parent[part]] += inner[c].T @ own @ inner[c]
+        return result
+
+
+def child_prolongations() -> Floats:
+    """(8, 24, 24) displacements of the nodes of each of eight children by those of their parent."""
+    place = 0.5 * (CORNERS[:, None] + CORNERS[None])  # child, node, axis
+    near = np.where(CORNERS[None, None], place[:, :, None], 1.0 - place[:, :, None]).prod(axis=3)
+    return np.stack([np.kron(one, np.eye(3)) for one in near])
+
+
+def with_unit_rows(blocks: Floats) -> Floats:
+    """(n, 3, 3) blocks with 1 on the diagonal where a row is empty."""
+    row = np.arange(3)
+    own = blocks[:, row, row]
+    blocks[:, row, row] = np.where(own > 0.0, own, 1.0)
+    return blocks
+
+
+def inverse(blocks: Floats) -> Floats:
+    """(n, 3, 3) the inverse of symmetric blocks, by their cofactors."""
+    rows = [blocks[:, k] for k in range(3)]
+    turned = np.stack([np.cross(rows[k - 2], rows[k - 1]) for k in range(3)], axis=2)
+    result: Floats = turned / np.einsum("ni,ni->n", rows[0], turned[:, :, 0])[:, None, None]
+    return result
+
+
+def block_matrix(elements: Elements, matrices: Any32) -> tuple[Any, Floats]:
+    """The matrix of a level as 3 x 3 blocks of scipy's, and (n, 3, 3) its diagonal ones."""
+    count = len(elements.node_place)
+    value = np.zeros((count, 27, 3, 3), np.float32)
+    column = np.full((count, 27), -1, np.int32)
+    steps = (CORNERS[None] - CORNERS[:, None] + 1) @ np.array([9, 3, 1])
+    split = matrices.reshape(-1, 8, 3, 8, 3)
+    for a in range(8):
+        for b in range(8):
+            row, way = elements.nodes[:, a], steps[a, b]
+            value[row, way] += split[:, a, :, b, :]
+            column[row, way] = elements.nodes[:, b]
+    own = with_unit_rows(value[:, 13].astype(float))
+    value[:, 13] = own
+    there = column >= 0
+    ends = np.concatenate([[0], np.cumsum(there.sum(axis=1))])
+    shape = (3 * count, 3 * count)
+    return bsr_matrix((value[there], column[there], ends), shape, blocksize=(3, 3)), own
+
+
+def prolongation(fine: Elements, coarse: Elements, size: tuple[int, ...]) -> Any:
+    """The matrix that takes nodal values of a level to the next finer one, trilinearly."""
+    number = np.full(tuple(one + 1 for one in size), -1, np.int32)
+    number[tuple(coarse.node_place.T)] = np.arange(len(coarse.node_place), dtype=np.int32)
+    low, odd = fine.node_place >> 1, fine.node_place & 1
+    rows, columns, values = [], [], []
+    for corner in CORNERS:
+        row = np.flatnonzero((odd | (corner == 0)).all(axis=1))
+        rows.append(row)
+        columns.append(number[tuple((low[row] + corner).T)])
+        values.append(0.5 ** odd[row].sum(axis=1))
+    shape = (len(fine.node_place), len(coarse.node_place))
+    entries = (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
+    return csr_matrix(entries, shape, np.float32)
+
+
+class Level:
+    """A level above the coarsest: its equations, its smoother, the way to the next.
+
+    Args:
+        apply: (n, 3) float32 displacements to forces.
+        blocks: (n, 3, 3) the diagonal ones.
+        prolong: from the next coarser level.
+    """
+
+    def __init__(self, apply: Callable[[Any32], Any32], blocks: Floats, prolong: Any) -> None:
+        self.apply = apply
+        self.prolong, self.restrict = prolong, prolong.T.tocsr()
+        self.inverse = inverse(blocks).astype(np.float32)
+        self.largest = self._largest()
+
+    def _scaled(self, forces: Any32) -> Any32:
+        return np.asarray(np.einsum("nij,nj->ni", self.inverse, forces))
+
+    def _largest(self) -> float:
+        """The largest eigenvalue of the equations scaled by their blocks, and some more."""
+        random = np.random.default_rng(1)
+        vector = random.standard_normal((len(self.inverse), 3)).astype(np.float32)
+        size = 1.0
+        for _ in range(POWERS):
+            vector = self._scaled(self.apply(vector))
+            size = float(np.linalg.norm(vector))
+            vector /= np.float32(size)
+        return SAFE * size
+
+    def smooth(self, forces: Any32) -> Any32:
+        """(n, 3) Chebyshev's polynomial of the scaled equations, applied to forces."""
+        high = self.largest
+        middle, half = 0.5 * high * (1 + 1 / DAMPED), 0.5 * high * (1 - 1 / DAMPED)
+        ratio = half / middle
+        step = self._scaled(forces) / np.float32(middle)
+        moved, before = step.copy(), ratio
+        for _ in range(DEGREE - 1):
+            left = self._scaled(forces - self.apply(moved))
+            after = 1.0 / (2.0 / ratio - before)
+            step = np.float32(after * before) * step + np.float32(2.0 * after / half) * left
+            moved += step
+            before = after
+        return moved
+
+
+class Multigrid:
+    """Equations of bricks, and their solver.
+
+    Args:
+        place: (e, 3) int64, voxels of the grid that are not empty, in rising order.
+        shares: (e,) how full each is.
+        size: of the grid.
+        stiffness: (24, 24) of a full brick.
+        free: (n, 3) bool, what is not held, in the order of `elements_at(place, size)`.
+        monitor: asked for a cancel.
+        elements: those, if they are there already.
+    """
+
+    def __init__(
+        self,
+        elements: Elements,
+        shares: Floats,
+        size: tuple[int, ...],
+        stiffness: Floats,
+        free: Bools,
+        monitor: Monitor | None = None,
+    ) -> None:
+        self.monitor = monitor or Monitor()
+        self.fine = Fine(elements, shares, stiffness, free)
+        self._free32 = free.astype(np.float32)
+        self.levels: list[Level] = []
+        self.sizes = [len(elements.node_place)]
+        apply: Callable[[Any32], Any32] = self.fine
+        blocks, matrices, matrix = self.fine.blocks(), None, None
+        while True:
+            self.monitor.tick()
+            half = tuple(-(-one // 2) for one in size)
+            above = elements.place >> 1
+            key = np.ravel_multi_index(tuple(above.T), half)
+            found, parent = np.unique(key, return_inverse=True)
+            child = (elements.place & 1) @ np.array([4, 2, 1])
+            coarse = elements_at(np.stack(np.unravel_index(found, half), axis=1), half)
+            if matrices is None:
+                joined = self.fine.coarse_matrices(parent, child, len(found))
+            else:
+                joined = join(matrices, parent, child, len(found))
+            self.levels.append(Level(apply, blocks, prolongation(elements, coarse, half)))
+            matrix, blocks = block_matrix(coarse, joined)
+            elements, matrices, size = coarse, joined, half
+            self.sizes.append(len(coarse.node_place))
+            if 3 * len(coarse.node_place) <= FACTORISED:
+                break
+            apply = _applied(matrix)
+        self._lowest = factorised(matrix)
+
+    def precondition(self, forces: Floats) -> Floats:
+        """(n, 3) one cycle's displacements under forces; symmetric, in single precision."""
+        size = float(np.abs(forces).max()) or 1.0
+        moved = self._cycle(0, (forces / size).astype(np.float32)) * self._free32
+        return moved.astype(float) * size
+
+    def _cycle(self, k: int, forces: Any32) -> Any32:
+        if k == len(self.levels):
+            solved = self._lowest(forces.astype(float).ravel())
+            return np.asarray(solved.reshape(-1, 3).astype(np.float32))
+        level = self.levels[k]
+        moved = level.smooth(forces)
+        left = forces - level.apply(moved)
+        moved += self._only_free(k, level.prolong @ self._cycle(k + 1, level.restrict @ left))
+        left = forces - level.apply(moved)
+        moved += level.smooth(left)
+        return moved
+
+    def _only_free(self, k: int, moved: Any32) -> Any32:
+        return moved * self._free32 if k == 0 else moved
+
+    def solve(
+        self, loads: Floats, start: Floats | None = None, tolerance: float = 1e-6
+    ) -> tuple[Floats, int]:
+        """(n, 3) displacements on what is free, mm, and the steps that they took.
+
+        Args:
+            loads: (n, 3) N.
+            start: displacements to begin with; None for none.
+            tolerance: of the forces that are left, over the loads.
+
+        Raises:
+            VolfrepError: it does not converge: something is held badly.
+            Cancelled: when the monitor says so.
+        """
+        fine = self.fine
+        right = loads * fine.free
+        moved = np.zeros_like(right) if start is None else start * fine.free
+        left = right - fine(moved) if start is not None else right.copy()
+        small = tolerance * float(np.linalg.norm(right))
+        if float(np.linalg.norm(left)) <= small:
+            return moved, 0
+        ahead = self.precondition(left)
+        step, work = ahead, float(np.vdot(left, ahead))
+        first = float(np.linalg.norm(left))
+        for number in range(1, MOST_STEPS + 1):
+            pulled = fine(step)
+            size = work / float(np.vdot(step, pulled))
+            moved += size * step
+            before = left
+            left = left - size * pulled
+            norm = float(np.linalg.norm(left))
+            self.monitor.tick(min(np.log(first / norm) / np.log(first / small), 1.0))
+            if norm <= small:
+                return moved, number
+            ahead = self.precondition(left)
+            after = float(np.vdot(left, ahead))
+            # The preconditioner is rounded: the step is made conjugate to the one before.
+            step = ahead + (after - float(np.vdot(before, ahead))) / work * step
+            work = after
+        raise VolfrepError(
+            f"The voxels' equations did not converge in {MOST_STEPS} steps: something of the part "
+            "hangs on next to nothing; choose smaller voxels, or hold more of it."
+        )
+
+
+def _applied(matrix: Any) -> Callable[[Any32], Any32]:
+    def apply(moved: Any32) -> Any32:
+        return np.asarray((matrix @ moved.ravel()).reshape(-1, 3))
+
+    return apply
+
+
+def join(matrices: Any32, parent: Ints, child: Ints, count: int) -> NDArray[np.float32]:
+    """(count, 24, 24) matrices of coarse elements of those of their children."""
+    inner = child_prolongations()
+    result = np.zeros((count, 24, 24))
+    for c in range(8):
+        rows = np.flatnonzero(child == c)
+        for part in np.array_split(rows, len(rows) // AT_ONCE + 1):
+            # A parent has one such child.
+            result[parent[part]] += inner[c].T @ matrices[part].astype(float) @ inner[c]
+    return result.astype(np.float32)
+
+
+def factorised(matrix: Any) -> Callable[[Floats], Floats]:
+    """The solution of a level's equations."""
+    whole = matrix.astype(float).tocsc()
+    whole = 0.5 * (whole + whole.T)
+    held: Callable[[Floats], Floats] = splu(
+        whole.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0,
+        options={"SymmetricMode": True},
+    ).solve  # fmt: skip
+    return held

@@ -1,0 +1,240 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A closed mesh under load cases as a solid: displacements, reactions, nominal stress."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy import ndimage
+
+from ..loads.load_cases import LoadCase
+from ..mechanics.materials import SolidMaterial
+from ..mesh.triangle_mesh import TriangleMesh
+from ..util.errors import VolfrepError
+from ..util.progress import Monitor
+from ..util.types import Bools, Floats
+from .bricks import Brick, brick, von_mises
+from .loaded import Loaded, VoxelCase, resultant, surface_body
+from .multigrid import AT_ONCE, Elements, Multigrid, elements_at
+from .shares import VoxelGrid, voxel_grid
+
+#: Voxels that are less full count as empty: together they were below 0.1 % of every part.
+LEAST = 0.01
+#: Stress is told of voxels at least so full.
+TOLD = 0.5
+#: Peaks of stress on so much of the volume are not told, but the largest is.
+PEAKS = 0.001
+#: A place is thick where so many voxels lie between it and its surfaces, or nearly.
+DEEP = 2.0
+#: Voxels that count as the outside, from it inwards.
+OUTER = 2
+
+
+@dataclass(frozen=True, eq=False)
+class VoxelModel:
+    """A part as bricks.
+
+    Attributes:
+        grid: its voxels.
+        elements: those that are there.
+        shares: (e,) how full they are.
+        brick: a full one.
+        material: of all.
+        loaded: takes loads to the nodes.
+        dropped: mm3 of pieces that hang on nothing, of which voxels know no more than an edge.
+    """
+
+    grid: VoxelGrid
+    elements: Elements
+    shares: Floats
+    brick: Brick
+    material: SolidMaterial
+    loaded: Loaded
+    dropped: float
+
+    @property
+    def nodes(self) -> Floats:
+        """(n, 3) mm."""
+        return self.loaded.nodes
+
+    @property
+    def volume(self) -> float:
+        """Of what the voxels hold, mm3."""
+        return float(self.shares.sum() * np.prod(self.grid.edge))
+
+
+@dataclass(frozen=True, eq=False)
+class VoxelState:
+    """A load case solved.
+
+    Attributes:
+        case: on the nodes.
+        displacements: (n, 3) mm.
+        stress: (e,) MPa, von Mises, nominal: the largest of a voxel's Gauss points.
+        reactions: (n, 3) N on what is held.
+        steps: of the conjugate gradients.
+    """
+
+    case: VoxelCase
+    displacements: Floats
+    stress: Floats
+    reactions: Floats
+    steps: int
+
+
+def voxel_model(
+    mesh: TriangleMesh, voxel: float, material: SolidMaterial, monitor: Monitor | None = None
+) -> VoxelModel:
+    """Make bricks of a closed mesh.
+
+    Args:
+        mesh: closed, mm.
+        voxel: edge of a voxel, mm.
+        material: of the solid.
+        monitor: asked for a cancel.
+
+    Raises:
+        VolfrepError: no voxel is filled.
+    """
+    grid = voxel_grid(mesh, voxel, monitor)
+    filled = grid.shares >= LEAST
+    labels, count = ndimage.label(filled)
+    if not count:
+        raise VolfrepError(f"The part fills no voxel of {voxel:g} mm: choose smaller ones.")
+    sizes = ndimage.sum_labels(grid.shares, labels, np.arange(1, count + 1))
+    keep = 1 + int(np.argmax(sizes))
+    filled = labels == keep
+    each = float(np.prod(grid.edge))
+    place = np.argwhere(filled)
+    shares = grid.shares[filled]
+    elements = elements_at(place, grid.shares.shape)
+    loaded = Loaded(
+        surface_body(mesh, float(grid.edge.max())), grid, elements, shares, material.density
+    )
+    dropped = float(np.delete(sizes, keep - 1).sum()) * each
+    own = brick(material.young, material.poisson, grid.edge)
+    return VoxelModel(grid, elements, shares, own, material, loaded, dropped)
+
+
+def solve_cases(
+    model: VoxelModel,
+    cases: Sequence[LoadCase],
+    monitor: Monitor | None = None,
+    tolerance: float = 1e-6,
+) -> list[VoxelState]:
+    """Solve load cases.
+
+    Args:
+        model: the part.
+        cases: what it carries.
+        monitor: asked for a cancel, and told how far it is.
+        tolerance: of the forces that are left, over the loads.
+
+    Raises:
+        VolfrepError: a case does not fit the part, or it is not held.
+        Cancelled: when the monitor says so.
+    """
+    monitor = monitor or Monitor()
+    laid = [model.loaded.case(case) for case in cases]
+    states: dict[int, VoxelState] = {}
+    while len(states) < len(laid):
+        first = next(k for k in range(len(laid)) if k not in states)
+        held = laid[first].held
+        size, own = model.grid.shares.shape, model.brick.stiffness
+        solver = Multigrid(model.elements, model.shares, size, own, ~held, monitor)
+        for k, case in enumerate(laid):
+            if k not in states and np.array_equal(case.held, held):
+                states[k] = _solved(model, solver, case, tolerance)
+    return [states[k] for k in range(len(laid))]
+
+
+def _solved(model: VoxelModel, solver: Multigrid, case: VoxelCase, tolerance: float) -> VoxelState:
+    loads = case.loads
+    if case.moved.any():
+        loads = loads - solver.fine.full(case.moved)
+    moved, steps = solver.solve(loads, tolerance=tolerance)
+    moved = moved + case.moved
+    forces = solver.fine.full(moved) - case.loads
+    reactions = np.where(case.held, forces, 0.0)
+    return VoxelState(case, moved, stresses(model, moved), reactions, steps)
+
+
+def stresses(model: VoxelModel, moved: Floats) -> Floats:
+    """(e,) MPa, von Mises: the largest of the eight Gauss points of each voxel."""
+    table = model.brick.stress[:8].reshape(48, 24).T
+    result = np.empty(len(model.shares))
+    for begin in range(0, len(result), AT_ONCE):
+        part = slice(begin, begin + AT_ONCE)
+        own = moved[model.elements.nodes[part]].reshape(-1, 24)
+        result[part] = von_mises((own @ table).reshape(-1, 8, 6)).max(axis=1)
+    return result
+
+
+def thick_places(model: VoxelModel) -> Bools:
+    """(e,) the voxels of places that are at least four voxels thick."""
+    solid = np.pad(model.grid.shares >= TOLD, 1)
+    deep = ndimage.distance_transform_edt(solid) >= DEEP
+    near = ndimage.distance_transform_edt(~deep) <= DEEP if deep.any() else deep
+    return np.asarray(near[1:-1, 1:-1, 1:-1][tuple(model.elements.place.T)])
+
+
+def outer_places(model: VoxelModel) -> Bools:
+    """(e,) the voxels next to the outside: the skin of a closed part, not what it encloses."""
+    empty = np.pad(model.grid.shares < LEAST, 1, constant_values=True)
+    labels, _ = ndimage.label(empty)
+    outside = labels == labels[0, 0, 0]
+    near = ndimage.binary_dilation(outside, np.ones((3, 3, 3), bool), OUTER)
+    return np.asarray(near[1:-1, 1:-1, 1:-1][tuple(model.elements.place.T)])
+
+
+def figures_of(model: VoxelModel, state: VoxelState) -> dict[str, Any]:
+    """What a load case came to, as plain JSON values."""
+    case, moved = state.case, state.displacements
+    size = np.linalg.norm(moved, axis=1)
+    most = int(size.argmax())
+    told = model.shares >= TOLD
+    edge, low = model.grid.edge, model.grid.low
+    worst = int(np.argmax(np.where(told, state.stress, 0.0)))
+    places = {"all": told, "outside": told & outer_places(model)}
+    places["thick"] = told & thick_places(model)
+    applied = resultant(model.nodes, case.loads)
+    back = resultant(model.nodes, state.reactions)
+    return {
+        "name": case.name,
+        "displacement_mm": float(size[most]),
+        "displacement_at": model.nodes[most].tolist(),
+        "loads": [
+            {"name": name, "moved_mm": (weights @ moved).tolist()} for name, weights in case.places
+        ],
+        "compliance_nmm": float(np.vdot(case.loads, moved)),
+        "stress_mpa": {
+            name: most_of(state.stress[at], model.shares[at]) for name, at in places.items()
+        },
+        "largest_stress_mpa": float(state.stress[worst]),
+        "largest_stress_at": ((model.elements.place[worst] + 0.5) * edge + low).tolist(),
+        "asked": case.asked.tolist(),
+        "reaction": back.tolist(),
+        "imbalance": _imbalance(model, case, applied, back),
+        "steps": state.steps,
+    }
+
+
+def most_of(stress: Floats, weights: Floats) -> float | None:
+    """The stress that no more than `PEAKS` of the volume goes beyond; None of nothing."""
+    if not len(stress):
+        return None
+    order = np.argsort(stress)
+    total = np.cumsum(weights[order])
+    return float(stress[order[np.searchsorted(total, (1.0 - PEAKS) * total[-1])]])
+
+
+def _imbalance(model: VoxelModel, case: VoxelCase, applied: Floats, back: Floats) -> float:
+    """What is left of loads and reactions together, and of what was asked, over all forces."""
+    size = float(np.linalg.norm(model.nodes.max(axis=0) - model.nodes.min(axis=0)))
+    scale = np.repeat([1.0, 1.0 / size], 3)
+    total = np.abs(case.loads).sum() + np.abs(back[:3]).sum()
+    left = np.abs((applied + back) * scale).max() + np.abs((applied - case.asked) * scale).max()
+    return float(left / max(total, 1e-300))

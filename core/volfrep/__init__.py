@@ -13,7 +13,17 @@ from typing import TYPE_CHECKING, Any
 from .util.version import VERSION
 
 if TYPE_CHECKING:
-    from .api import Part, as_solid, block, fill, mesh_network, size, slice_layers, solve
+    from .api import (
+        Part,
+        as_solid,
+        block,
+        fill,
+        mesh_network,
+        size,
+        slice_layers,
+        slicer_infill,
+        solve,
+    )
     from .design.cells import make_cell
     from .design.drawn_cell import cell_from_lines
     from .design.parameters.spec_file import read_spec, write_spec
@@ -59,6 +69,7 @@ _HOMES = {
     "size": "api.calls",
     "mesh_network": "api.calls",
     "slice_layers": "api.calls",
+    "slicer_infill": "api.calls",
     "solve": "api.calls",
     "Report": "reports.report",
     "read_solid": "io.solid",
@@ -95,6 +106,7 @@ __all__ = [
     "read_study",
     "size",
     "slice_layers",
+    "slicer_infill",
     "solve",
     "sweep",
     "write_block_stl",

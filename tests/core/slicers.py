@@ -102,6 +102,22 @@ def prusa_volume(path: Path) -> float:
     return _volume(float(length[1]))
 
 
+def prusa_project_volume(path: Path) -> float:
+    """Volume in mm3 of the filament for a project that says itself how it is to be printed.
+
+    Infill does not reach into walls, which else adds a share of their width.
+    """
+    own = ("perimeters", "top_solid_layers", "bottom_solid_layers", "fill_density", "fill_pattern")
+    rest = [line for line in _PRUSA.splitlines() if line.partition(" =")[0] not in own]
+    settings, gcode = path.with_suffix(".ini"), path.with_suffix(".prusa.gcode")
+    settings.write_text("\n".join(rest))
+    command = ["prusa-slicer", "--export-gcode", "--load", str(settings), "--output", str(gcode)]
+    _run([*command, str(path)], path.parent, {})
+    length = re.search(r"filament used \[mm\] = ([\d.]+)", gcode.read_text())
+    assert length
+    return _volume(float(length[1]))
+
+
 def cura_volume(path: Path) -> float:
     """Volume in mm3 of the filament that CuraEngine wants for an STL file that starts at z = 0."""
     resources = cura_resources()

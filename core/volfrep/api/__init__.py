@@ -11,7 +11,16 @@
 True
 """
 
-from .calls import as_solid, block, fill, mesh_network, size, slice_layers, solve
+from .calls import (
+    as_solid,
+    block,
+    fill,
+    mesh_network,
+    size,
+    slice_layers,
+    slicer_infill,
+    solve,
+)
 from .part import Part
 from .wanted_spec import accepted, specified
 
@@ -24,6 +33,7 @@ __all__ = [
     "mesh_network",
     "size",
     "slice_layers",
+    "slicer_infill",
     "solve",
     "specified",
 ]

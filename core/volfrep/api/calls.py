@@ -13,14 +13,16 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..design.cells import find_cell
+from ..design.grading import Field
 from ..design.graphs.files import read_network
 from ..design.graphs.graph import GivenGraph
-from ..design.parameters.field_keywords import is_sampled
+from ..design.parameters.field_keywords import field_of, is_sampled
 from ..design.parameters.keywords import (
     as_graph,
     refuse_unknown,
     with_current_names,
 )
+from ..design.sampled_field import sample_function
 from ..design.spec import LatticeSpec
 from ..io.solid import Solid, check_solid, read_solid
 from ..mesh.triangle_mesh import TriangleMesh
@@ -36,7 +38,9 @@ from .wanted_spec import accepted, specified
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
+    from ..design.banded_infill import BandedInfill
     from ..design.parameters.typed import Keywords, SizeKeywords
+    from ..jobs.slicer_infill import SlicerInfill
     from ..jobs.slices import Layers
     from ..jobs.solving import Solved
     from ..loads.load_cases import LoadCases
@@ -395,6 +399,61 @@ def slice_layers(
         return write_layers(
             solid, wanted, folder, layer=layer, pixel=pixel, form=form, progress=told, cache=cache
         )
+
+
+def slicer_infill(
+    part: str | os.PathLike[str] | TriangleMesh | MeshLike | tuple[ArrayLike, ArrayLike],
+    wanted: BandedInfill | None = None,
+    *,
+    unit: str | None = None,
+    material: str | None = None,
+    progress: ProgressCallback | bool | None = None,
+    **parameters: Any,
+) -> SlicerInfill:
+    """Bands of a slicer's own infill, denser where a field says; no lattice is made.
+
+    Args:
+        part: as of `fill`, as it stands on the build plate.
+        wanted: densities, pattern, walls and layers; None for the defaults.
+        unit: of a file's lengths; None for what it says, else mm.
+        material: as of `fill`: its density gives the mass.
+        progress: as of `fill`.
+        parameters: fields of a `BandedInfill` on top of it; `field` may be a file, a pair of points
+            and values, or a function of points that gives percents.
+
+    Returns:
+        The bands, with the filament that they take; `save` writes the slicer's project.
+
+    Raises:
+        VolfrepError: the part is no closed solid, or a parameter makes no sense.
+        Cancelled: the callback said so.
+
+    >>> import trimesh, volfrep
+    >>> box = trimesh.creation.box((30, 20, 10))
+    >>> made = volfrep.slicer_infill(box, grading="direction", start=10, end=40, bands=3)
+    >>> [round(band.mean) for band in made.bands]
+    [15, 25, 35]
+    """
+    from ..design.banded_infill import BandedInfill
+    from ..jobs.slicer_infill import cut_bands
+    from ..mechanics.materials import find_material
+
+    check_kind("wanted", wanted, (BandedInfill, type(None)), "a BandedInfill")
+    known = {field.name for field in dataclasses.fields(BandedInfill) if field.init}
+    refuse_unknown(parameters, known)
+    with shown(progress) as told:
+        solid = as_solid(part, unit, told)
+        values = parameters.get("field")
+        if callable(values) and not isinstance(values, Field):
+            step = float(np.ptp(solid.bounds, axis=0).max()) / 60.0
+            values = sample_function(values, solid.bounds, step, "field")
+            low, high = values.range
+            parameters |= {"field": values, "start": low, "end": high, "grading": "field"}
+        elif isinstance(values, (tuple, list)):
+            parameters["field"] = field_of("field", values, None, 1.0)
+        density = LatticeSpec.density if material is None else find_material(material).density
+        wanted = dataclasses.replace(wanted or BandedInfill(), **parameters)
+        return cut_bands(solid, wanted, material_density=density, progress=told)
 
 
 def _cache(cache: StageCache | None) -> StageCache:

@@ -24,7 +24,7 @@ from ..util import memory_limit
 from ..util.errors import VolfrepError
 from ..util.files import keeping_inputs
 from ..util.progress_bar import drawn
-from . import bug_report, layers, process, properties, sizing, solving, sweep
+from . import bug_report, infill, layers, process, properties, sizing, solving, sweep
 from .files import read_part
 from .options import FillOptions, MeshOptions, block_options, fill_options, network_options
 from .parameter_options import add_parameters
@@ -127,6 +127,7 @@ def _parser() -> argparse.ArgumentParser:
     add_parameters(network, of_block=True, also=laid)
 
     layers.add_command(add)
+    infill.add_command(add)
     properties.add_command(add)
 
     sizing.add_command(add)
@@ -192,12 +193,12 @@ def _fill(given: argparse.Namespace) -> None:
     is_cut = meshed and spec.kind.is_cut_in_groups and spec.output != "domain"
     cut = expected.triangles if is_cut else 0
     with _workers(options, cut) as executor, drawn(options.quiet) as progress:
-        infill = solve_target(
+        made = solve_target(
             solid, spec, progress=progress, meshed=meshed, executor=executor,
             streamed=options.is_plain,
         )  # fmt: skip
-        infill.ahead = lambda _: let_go(executor)  # all groups are cut
-        _make(FilledPart(infill, progress=progress), options, start, {"read": read_seconds})
+        made.ahead = lambda _: let_go(executor)  # all groups are cut
+        _make(FilledPart(made, progress=progress), options, start, {"read": read_seconds})
 
 
 def _block(given: argparse.Namespace) -> None:

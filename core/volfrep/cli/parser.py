@@ -109,6 +109,17 @@ def three_whole_numbers(text: str) -> tuple[int, int, int]:
     return x, y, z
 
 
+def three_numbers(text: str) -> tuple[float, float, float]:
+    """Three numbers between commas."""
+    try:
+        x, y, z = (float(number) for number in text.split(","))
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(
+            f"'{text}' is not three numbers with commas, X,Y,Z, such as 0,0,1"
+        ) from error
+    return x, y, z
+
+
 def shard(text: str) -> tuple[int, int]:
     """I of N, from 1 on."""
     try:

@@ -13,10 +13,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from ..design.banded_words import GRADINGS, PATTERNS, SLICERS
 from ..design.parameters.recipes import RECIPES
 from ..output.form import suffixes, suffixes_of, words
 from ..util.errors import VolfrepError
-from .parser import shard, three_whole_numbers
+from .parser import shard, three_numbers, three_whole_numbers
 
 MESHED = ("fill", "block", "network")
 LATTICE = (*MESHED, "slice", "size")
@@ -24,6 +25,8 @@ SPEC_GROUP = "a whole specification"
 MATERIAL_GROUP = "what it is printed of, and how"
 FORM_GROUP = "files for CAD and for a solver"
 GOAL_GROUP = "what is wanted: limits for the least mass, or the most stiffness at a mass"
+DENSITY_GROUP = "density of the infill"
+PRINT_GROUP = "how the slicer is to print; its own settings count for all else"
 SIZED_PICTURE_GROUP = "a picture of it"
 
 
@@ -106,12 +109,16 @@ RUN_OPTIONS = (
         "of records, table and page; what is done there is not done again",
         "FOLDER", required=True, short="o",
     ),
+    RunOption(
+        "output", ("infill",), "the slicer's project", "FILE.3mf", required=True, writes="output",
+        short="o",
+    ),
     RunOption("entry", ("cells",), "the cell of the catalogue", "NAME"),
     RunOption(
         "output", ("cells",), "a cell file of it", "FILE.json", writes="output", short="o",
     ),
     RunOption(
-        "unit", ("fill", "slice", "size", "solve", "check"),
+        "unit", ("fill", "slice", "infill", "size", "solve", "check"),
         "of the file's lengths: mm, cm, m, inch, ft or um (default: what the file says, else mm)",
         "UNIT",
     ),
@@ -166,7 +173,7 @@ RUN_OPTIONS = (
         "M", MATERIAL_GROUP, reads="material file",
     ),
     RunOption(
-        "material", ("slice",),
+        "material", ("slice", "infill"),
         "a name of the table in docs/cells.md, or a .toml or .json file: its density gives the "
         "mass",
         "M", reads="material file",
@@ -205,6 +212,76 @@ RUN_OPTIONS = (
         "a picture of one bit a pixel a layer, for resin printers (default); a drawing a layer; or "
         "one file of the common layer interface, for metal printers",
         "WORD", choices=words("format"), default=words("format")[0],
+    ),
+    RunOption(
+        "slicer", ("infill",),
+        "whose project it is: PrusaSlicer's (prusa), or OrcaSlicer's and Bambu Studio's (orca)",
+        "WORD", choices=SLICERS, default=SLICERS[0],
+    ),
+    RunOption(
+        "grading", ("infill",),
+        "what the density follows: the depth below the surface (skin: s = 1 at the surface and 0 "
+        "at the reach; core: the reverse), the place s along a direction, a field of values, or a "
+        "formula (default skin)",
+        "WORD", DENSITY_GROUP, choices=GRADINGS, default=GRADINGS[0],
+    ),
+    RunOption(
+        "start", ("infill",), "density at s = 0, or where the field is smallest (default 10)",
+        "PERCENT", DENSITY_GROUP, float, 10.0,
+    ),
+    RunOption(
+        "end", ("infill",), "density at s = 1, or where the field is largest (default 50)",
+        "PERCENT", DENSITY_GROUP, float, 50.0,
+    ),
+    RunOption(
+        "profile", ("infill",), "between the two (default linear)", "WORD", DENSITY_GROUP,
+        choices=("linear", "quadratic", "exponential"), default="linear",
+    ),
+    RunOption(
+        "reach", ("infill",), "depth at which the grading ends (default 5)",
+        "MM", DENSITY_GROUP, float, 5.0,
+    ),
+    RunOption(
+        "direction", ("infill",), "along which it varies (default 0,0,1)", "X,Y,Z",
+        DENSITY_GROUP, three_numbers, (0.0, 0.0, 1.0),
+    ),
+    RunOption(
+        "field", ("infill",),
+        "CSV with x, y, z and values, or a VTK file, such as the stress of a FEM result",
+        "FILE", DENSITY_GROUP, reads="field file",
+    ),
+    RunOption(
+        "column", ("infill",), "of the file's values, where it has several", "NAME", DENSITY_GROUP,
+    ),
+    RunOption(
+        "curve", ("infill",), "values and densities in place of start and end, as '0:10,80:60'",
+        "TEXT", DENSITY_GROUP, default="",
+    ),
+    RunOption(
+        "formula", ("infill",), "the density in percent of x, y and z in mm", "TEXT",
+        DENSITY_GROUP, default="",
+    ),
+    RunOption(
+        "bands", ("infill",), "how many densities there are, 2 to 8 (default 5)", "N",
+        DENSITY_GROUP, int, 5,
+    ),
+    RunOption(
+        "pattern", ("infill",), "of the infill (default gyroid)", "WORD", PRINT_GROUP,
+        choices=PATTERNS, default=PATTERNS[0],
+    ),
+    RunOption("walls", ("infill",), "lines side by side (default 3)", "N", PRINT_GROUP, int, 3),
+    RunOption(
+        "top-layers", ("infill",), "solid ones (default 4)", "N", PRINT_GROUP, int, 4,
+    ),
+    RunOption(
+        "bottom-layers", ("infill",), "solid ones (default 4)", "N", PRINT_GROUP, int, 4,
+    ),
+    RunOption(
+        "line-width", ("infill",), "of an extruded line (default 0.45)", "MM", PRINT_GROUP, float,
+        0.45,
+    ),
+    RunOption(
+        "layer", ("infill",), "height of a layer (default 0.2)", "MM", PRINT_GROUP, float, 0.2,
     ),
     RunOption(
         "loads", ("size", "solve"), "load cases, see docs/loads.md",
@@ -344,7 +421,7 @@ RUN_OPTIONS = (
     RunOption("limit-hours", ("sweep",), "end a run that takes longer", "H", read=float),
     RunOption("limit-memory", ("sweep",), "end a run that takes more", "GB", read=float),
     RunOption("retry-failed", ("sweep",), "try again what failed before"),
-    RunOption("quiet", (*LATTICE, "solve", "sweep"), "print nothing but errors"),
+    RunOption("quiet", (*LATTICE, "infill", "solve", "sweep"), "print nothing but errors"),
 )  # fmt: skip
 #: Arguments without hyphens, and options of the table of parameters, that name files which are
 #: read; what the command calls them.

@@ -43,13 +43,13 @@ BEAM_STEP = 1e-4
 #: PrusaSlicer would refuse a file with a mesh that is not to be printed.
 HIDING_PREFIX = "core:"
 
-_MODEL = "3D/3dmodel.model"
-_XML = '<?xml version="1.0" encoding="UTF-8"?>\n'
-_CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
+MODEL = "3D/3dmodel.model"
+XML = '<?xml version="1.0" encoding="UTF-8"?>\n'
+CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
 _BEAMS = "http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02"
 _BALLS = "http://schemas.microsoft.com/3dmanufacturing/beamlattice/balls/2020/07"
 _EXTENSIONS = (
-    f' xmlns:core="{_CORE}" xmlns:b="{_BEAMS}" xmlns:b2="{_BALLS}" requiredextensions="b b2"'
+    f' xmlns:core="{CORE}" xmlns:b="{_BEAMS}" xmlns:b2="{_BALLS}" requiredextensions="b b2"'
 )
 #: Of metadata that other programs need not understand, and the names they do.
 _OWN = "https://volfrep.invalid/2026/figures"
@@ -63,15 +63,15 @@ BEAMS_ONLY = (
 NOTHING: Mapping[str, str] = {}
 _PACKAGE = "http://schemas.openxmlformats.org/package/2006"
 _PART = "application/vnd.ms-package.3dmanufacturing-3dmodel+xml"
-_CONTENT_TYPES = (
-    f'{_XML}<Types xmlns="{_PACKAGE}/content-types"><Default Extension="rels" '
+CONTENT_TYPES = (
+    f'{XML}<Types xmlns="{_PACKAGE}/content-types"><Default Extension="rels" '
     'ContentType="application/vnd.openxmlformats-package.relationships+xml"/>'
     f'<Default Extension="model" ContentType="{_PART}"/></Types>'
 )
-_RELATIONSHIPS = (
-    f'{_XML}<Relationships xmlns="{_PACKAGE}/relationships"><Relationship Id="model" '
+RELATIONSHIPS = (
+    f'{XML}<Relationships xmlns="{_PACKAGE}/relationships"><Relationship Id="model" '
     'Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel" '
-    f'Target="/{_MODEL}"/></Relationships>'
+    f'Target="/{MODEL}"/></Relationships>'
 )
 
 
@@ -169,7 +169,7 @@ def _write(
     """Write the package; `build` is the number of the object to print, `rows` for the progress."""
     title = "".join(letter for letter in Path(path).stem if letter.isprintable())
     head = (
-        f'{_XML}<model unit="millimeter" xml:lang="en-US" xmlns="{_CORE}" xmlns:v="{_OWN}"'
+        f'{XML}<model unit="millimeter" xml:lang="en-US" xmlns="{CORE}" xmlns:v="{_OWN}"'
         f"{extensions}>"
         f'<metadata name="Title">{escape(title)}</metadata>'
         f'<metadata name="Application">VOLFREP {__version__}</metadata>'
@@ -177,9 +177,9 @@ def _write(
     ).encode()
     tail = f'</resources><build><item objectid="{build}"/></build></model>'.encode()
     with replacing(path) as file, zipfile.ZipFile(file, "w") as package:
-        package.writestr(_entry("[Content_Types].xml"), _CONTENT_TYPES)
-        package.writestr(_entry("_rels/.rels"), _RELATIONSHIPS)
-        with package.open(_entry(_MODEL), "w", force_zip64=True) as model:
+        package.writestr(package_entry("[Content_Types].xml"), CONTENT_TYPES)
+        package.writestr(package_entry("_rels/.rels"), RELATIONSHIPS)
+        with package.open(package_entry(MODEL), "w", force_zip64=True) as model:
             for count, chunk in enumerate(chain([head], *objects, [tail])):
                 model.write(chunk)
                 if monitor is not None:
@@ -195,7 +195,8 @@ def _metadata(figures: Mapping[str, str]) -> str:
     )
 
 
-def _entry(name: str) -> zipfile.ZipInfo:
+def package_entry(name: str) -> zipfile.ZipInfo:
+    """A file's place in a package."""
     entry = zipfile.ZipInfo(name)  # with the oldest date: the same input makes the same file
     entry.compress_type = zipfile.ZIP_DEFLATED
     return entry
@@ -208,7 +209,7 @@ def _object(number: int, name: str, inside: Iterator[bytes], prefix: str = "") -
 
 
 def _mesh_object(number: int, name: str, given: Numbered, prefix: str = "") -> Iterator[bytes]:
-    inside = _mesh(given.decimals(), given.corners(), iter(()), prefix)
+    inside = mesh_text(given.decimals(), given.corners(), iter(()), prefix)
     return _object(number, name, inside, prefix)
 
 
@@ -222,15 +223,16 @@ def _beam_object(
     if more is not None:
         points = chain(points, more.decimals())
         triangles = (block + np.int32(len(nodes)) for block in more.corners())
-    return _object(number, "lattice", _mesh(points, triangles, _beam_lattice(lattice, clip)))
+    return _object(number, "lattice", mesh_text(points, triangles, _beam_lattice(lattice, clip)))
 
 
-def _mesh(
+def mesh_text(
     points: Iterable[Floats],
     triangles: Iterable[NDArray[np.int32]],
     more: Iterator[bytes],
     prefix: str = "",
 ) -> Iterator[bytes]:
+    """A mesh element of (k, 3) points and of triangles by the numbers of these."""
     vertex = f'<{prefix}vertex x="%.9g" y="%.9g" z="%.9g"/>'
     triangle = f'<{prefix}triangle v1="%d" v2="%d" v3="%d"/>'
     yield f"<{prefix}mesh><{prefix}vertices>".encode()

@@ -7,7 +7,7 @@ import dataclasses
 import os
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, Literal, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -120,6 +120,8 @@ def size(
     *,
     steps: int = 60,
     proof: bool = True,
+    prove: Literal["file"] | None = None,
+    voxel: float | None = None,
     remove_thin: bool = False,
     unit: str | None = None,
     progress: ProgressCallback | bool | None = None,
@@ -134,6 +136,9 @@ def size(
         spec: what to make; its radius is what the design begins with.
         steps: of the search, at most.
         proof: let CalculiX solve the final design, where it is installed.
+        prove: "file" solves the finished mesh as a solid, by voxels, too, and sets it beside the
+            design and CalculiX: the report's entry ``file``.
+        voxel: edge of its voxels, mm; None for what suits the part.
         remove_thin: take away struts that end as thin as allowed, and size the rest again.
         unit: as of `fill`.
         progress: as of `fill`.
@@ -166,11 +171,13 @@ def size(
     True
     """
     from ..jobs.infill import Infill
-    from ..jobs.sizing import GOALS, goal_of
+    from ..jobs.sizing import GOALS, goal_of, prove_file
     from ..jobs.sizing import size as size_struts
     from ..output.sources import FilledPart
 
     whole("steps", steps, 1, 100_000)
+    if prove not in (None, "file"):
+        raise VolfrepError(f"'prove' is 'file' or nothing, not {brief(prove)}.")
     given = with_current_names(parameters)
     asked = {name: given.pop(name) for name in GOALS if name in given}
     refuse_unknown(given, accepted() | set(GOALS))
@@ -187,6 +194,8 @@ def size(
             cache=cache,
         )  # fmt: skip
         infill = Infill(solid, made.spec, progress=told, cache=cache)
+        if prove == "file":
+            prove_file(made, infill.result.mesh, loads, voxel=voxel, progress=told)
         return Part(infill.result, made.spec, solid, cache, FilledPart(infill, cache), made)
 
 

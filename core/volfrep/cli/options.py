@@ -152,6 +152,8 @@ class SizeOptions(LatticeOptions):
         remove_thin: take away the thinnest struts, and size again.
         steps: of the search, at most.
         prove: whether CalculiX solves the final design.
+        prove_file: whether the finished file is solved as a solid.
+        voxel: edge of its voxels, mm; None for what suits the part.
         radii: file for the radii; None for none.
         write_spec: file for the specification with these radii; None for none.
         report: file for the figures; None for none.
@@ -170,6 +172,8 @@ class SizeOptions(LatticeOptions):
     remove_thin: bool
     steps: int
     prove: bool
+    prove_file: bool
+    voxel: float | None
     radii: str | None
     write_spec: str | None
     report: str | None
@@ -238,13 +242,16 @@ def size_options(given: argparse.Namespace) -> SizeOptions:
         from ..reports.sizing_plot import check_plot
 
         check_plot(given.plot)
+    if given.voxel is not None and given.prove is None:
+        raise VolfrepError("--voxel is of the file that is solved: give --prove file.")
     if given.steps < 1:
         raise VolfrepError(f"There must be at least one step, not {given.steps}.")
     return SizeOptions(
         spec=found.spec, output=given.output, quiet=given.quiet, kept=None,
         part=given.part, unit=given.unit, form=form, loads=given.loads,
         goal={name: getattr(given, name) for name in GOALS}, remove_thin=given.remove_thin,
-        steps=given.steps, prove=not given.no_proof, radii=given.radii,
+        steps=given.steps, prove=not given.no_proof,
+        prove_file=given.prove == "file", voxel=given.voxel, radii=given.radii,
         write_spec=given.write_spec, report=given.report, plot=given.plot, picture=given.picture,
         colour=given.colour or "radius", case=given.case, deformed=given.deformed or 0.0,
     )  # fmt: skip

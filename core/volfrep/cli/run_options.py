@@ -288,9 +288,9 @@ RUN_OPTIONS = (
         "FILE.toml", required=True, reads="load file",
     ),
     RunOption(
-        "voxel", ("solve",),
-        "edge of a voxel (default: what makes a quarter of a million of them, or lays a few across "
-        "its walls)",
+        "voxel", ("size", "solve"),
+        "edge of a voxel of the file that is solved (default: what makes a quarter of a million of "
+        "them, or lays two across its walls)",
         "MM", read=float,
     ),
     RunOption(
@@ -335,6 +335,11 @@ RUN_OPTIONS = (
     RunOption("steps", ("size",), "of the search, at most (default 60)", "N", GOAL_GROUP, int, 60),
     RunOption(
         "no-proof", ("size",), "do not let CalculiX solve the final design", group=GOAL_GROUP,
+    ),
+    RunOption(
+        "prove", ("size",),
+        "solve the finished file as a solid, by voxels, and set it beside the design and CalculiX",
+        "WORD", GOAL_GROUP, choices=("file",),
     ),
     RunOption(
         "plot", ("size",), "draw mass and limits, step by step", "FILE.svg", writes="plot",

@@ -26,6 +26,7 @@ from .files import read_part
 from .options import SizeOptions, size_options
 from .parameter_options import add_parameters
 from .run_options import add_run_options
+from .solving import tell_expected
 from .telling import print_rows, print_summary, print_warnings
 
 if TYPE_CHECKING:
@@ -49,7 +50,7 @@ def _size(given: argparse.Namespace) -> int | None:
     options = size_options(given)
 
     from ..jobs.infill import Infill
-    from ..jobs.sizing import goal_of, size, write_radii
+    from ..jobs.sizing import goal_of, prove_file, size, write_radii
     from ..loads.load_file import read_load_cases
     from ..output.sources import FilledPart
     from ..output.writer import Settings, writer_of
@@ -73,12 +74,16 @@ def _size(given: argparse.Namespace) -> int | None:
                 progress=told, cache=cache, watch=_teller(options.quiet, options.steps),
             )  # fmt: skip
         seconds = time.perf_counter() - start
-        infill = Infill(
-            solid, made.spec, progress=progress, cache=cache, streamed=options.form.streamed
-        )
+        streamed = options.form.streamed and not options.prove_file
+        infill = Infill(solid, made.spec, progress=progress, cache=cache, streamed=streamed)
         part = FilledPart(infill, cache, progress)
         report = part.result.report
         writer_of(options.form).write(part, options.output, Settings())
+        if options.prove_file:
+            prove_file(
+                made, part.result.mesh, loads, voxel=options.voxel, progress=progress,
+                tell=tell_expected(options.quiet),
+            )  # fmt: skip
     if options.radii is not None:
         write_radii(made, options.radii)
         _write_specification(options, made)

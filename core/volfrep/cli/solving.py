@@ -29,7 +29,7 @@ def add_command(add: Callable[[str, Callable[[argparse.Namespace], None], str], 
 
 def _solve(options: argparse.Namespace) -> None:
     from ..io.solid import read_solid
-    from ..jobs.solving import Expected, check_result_file, solve_solid
+    from ..jobs.solving import check_result_file, solve_solid
     from ..loads.load_file import read_load_cases
     from ..mechanics.materials import find_material
 
@@ -41,11 +41,7 @@ def _solve(options: argparse.Namespace) -> None:
     loads = read_load_cases(options.loads, solid)
     if material is not None:
         loads = dataclasses.replace(loads, material=material)
-
-    def tell(expected: Expected) -> None:
-        if not options.quiet:
-            print(f"Expected: {expected}.", flush=True)
-
+    tell = tell_expected(options.quiet)
     with drawn(options.quiet) as progress:
         solved = solve_solid(solid, loads, voxel=options.voxel, progress=progress, tell=tell)
     if options.output is not None:
@@ -55,3 +51,13 @@ def _solve(options: argparse.Namespace) -> None:
     print_warnings(solved.report["notes"])
     if not options.quiet:
         print_rows(*solved.rows())
+
+
+def tell_expected(quiet: bool) -> Callable[[object], None]:
+    """What tells on standard output how much work there is, unless it is to be quiet."""
+
+    def tell(expected: object) -> None:
+        if not quiet:
+            print(f"Expected: {expected}.", flush=True)
+
+    return tell

@@ -184,6 +184,36 @@ def sizing_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
         most = max(report["skin_stress_mpa"])
         rows.append(("skin stress", f"{most:.4g} MPa on all but {PEAKS:.1%} of its area"))
     rows.append(("CalculiX", _confirmation(proof)))
+    if "file" in report:
+        rows += _file_rows(report["file"])
+    return rows
+
+
+def _file_rows(file: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """The finished file solved as a solid, beside the design and CalculiX."""
+    edge = sum(file["voxels"][-1]["edge_mm"]) / 3.0
+    rows = [("the file", f"solved as {file['voxels'][-1]['count']:,} voxels of {edge:.3g} mm")]
+    for case in file["cases"]:
+        own, solid = case["design"], case["file"]
+        limit, stress = solid["extrapolated"], solid["stress_mpa"]
+        there = case["calculix"]["displacement_mm"]
+        calculix = "" if there is None else f", in CalculiX {there:.4g}"
+        rows.append(
+            (
+                f"case {case['name']}",
+                f"moves {limit['displacement_mm']:.4g} mm ({solid['displacement_mm']:.4g} before "
+                f"extrapolation), in the design {own['displacement_mm']:.4g}{calculix}; work "
+                f"{limit['compliance_nmm'] / 2:.4g} N mm, in the design "
+                f"{own['compliance_nmm'] / 2:.4g}",
+            )
+        )
+        skin = own["skin_stress_mpa"]
+        beside = "" if skin is None else f" (the design's skin {skin:.4g})"
+        thick = stress["thick"]
+        deep = "" if thick is None else f", where it is thick {thick:.4g}"
+        rows.append(
+            ("", f"nominal stress next to the outside {stress['outside']:.4g} MPa{beside}{deep}")
+        )
     return rows
 
 

@@ -141,9 +141,34 @@ def test_with_a_skin_the_struts_end_in_it_and_both_are_told(
     assert read_triangles(out).volume == pytest.approx(figures["part"]["volume_mm3"], rel=1e-5)
 
 
+def test_the_finished_file_as_a_solid_stands_beside_the_design(
+    part: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    report, loads, out = (part.with_name(n) for n in ("report.json", "loads.toml", "out.stl"))
+    done = run(
+        "size", part, "--loads", loads, "-o", out, "--cell", "CVC", "--cell-size", 10,
+        "--strut-radius", 0.8, "--shell", 1, "--steps", 2, "--no-proof", "--prove", "file",
+        "--voxel", 0.4, "--report", report,
+    )  # fmt: skip
+    assert done == 0
+    told = capsys.readouterr().out
+    assert "voxels of 0.4 mm" in told
+    assert "(the design's skin" in told
+    figures = json.loads(report.read_text(encoding="utf-8"))
+    file = figures["sizing"]["file"]
+    assert file["solid_volume_mm3"] == pytest.approx(figures["part"]["volume_mm3"], rel=1e-5)
+    assert file["voxels"][-1]["volume_mm3"] == pytest.approx(file["solid_volume_mm3"], rel=2e-3)
+    assert [case["name"] for case in file["cases"]] == ["down", "aside"]
+    for case in file["cases"]:  # beams and shells against solids
+        print(f"design over file {case['compliance_of_file']:.3f}")
+        assert case["compliance_of_file"] == pytest.approx(1.0, abs=0.15)
+        assert case["displacement_of_file"] == pytest.approx(1.0, abs=0.15)
+
+
 @pytest.mark.parametrize(
     ("more", "says"),
     [
+        (["--voxel", "1"], "give --prove file"),
         (["--max-stress", "100", "--safety", "2"], "give one of them"),
         (["--max-stress", "100", "--strut-mass", "3"], "least mass, or a volume"),
         (["--safety", "0"], "--safety must be above 0"),

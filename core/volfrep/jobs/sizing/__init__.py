@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Radii that follow what a part carries: what is wanted, and the job that finds them."""
 
+from .file_proof import prove_file
 from .goal import GOALS, Goal, goal_of
 from .removal import radius_field
 from .sizing import (
@@ -16,6 +17,7 @@ __all__ = [
     "Goal",
     "SizedPart",
     "goal_of",
+    "prove_file",
     "radius_field",
     "size",
     "solve_struts",

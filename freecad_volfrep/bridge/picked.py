@@ -17,6 +17,8 @@ _ROLES = {
 }  # fmt: skip
 #: Datums of PartDesign and the kind, which have theirs along their own Z.
 _DATUMS = ("PartDesign::Line", "PartDesign::Plane", "Part::DatumLine", "Part::DatumPlane")
+#: Faces are alike whose areas and radii differ by no more, as a share.
+ALIKE = 0.05
 
 
 def direction_of(owner: App.DocumentObject, name: str, frame: App.Placement) -> App.Vector:
@@ -71,6 +73,30 @@ def point_of(owner: App.DocumentObject, name: str, frame: App.Placement) -> App.
         centre = getattr(element.Curve, "Center", None)
         point = element.CenterOfMass if centre is None else centre
     return frame.inverse().multiply(parent_placement(resolve_base(owner))).multVec(point)
+
+
+def faces_alike(owner: App.DocumentObject, name: str) -> list[str]:
+    """Names of the faces like one that was picked, itself among them: all bolt holes, say.
+
+    They are of the same kind of surface and of about its area, and where they have an axis or a
+    normal it is parallel; round ones are of about its radius.
+    """
+    picked = _element(owner, name)
+    if picked is None or picked.ShapeType != "Face":
+        return [name]
+    faces = Part.getShape(resolve_base(owner)).Faces
+    return [f"Face{k}" for k, face in enumerate(faces, 1) if _are_alike(face, picked)]
+
+
+def _are_alike(face: Part.Face, picked: Part.Face) -> bool:
+    sizes = [(face.Area, picked.Area)]
+    if face.Surface.TypeId != picked.Surface.TypeId:
+        return False
+    if hasattr(picked.Surface, "Radius"):
+        sizes.append((face.Surface.Radius, picked.Surface.Radius))
+    ways = [getattr(one.Surface, "Axis", None) for one in (face, picked)]
+    is_along = None in ways or ways[0].cross(ways[1]).Length < ALIKE
+    return is_along and all(abs(one - other) <= ALIKE * other for one, other in sizes)
 
 
 def _direction(owner: App.DocumentObject, name: str) -> App.Vector | None:

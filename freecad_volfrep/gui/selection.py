@@ -16,6 +16,10 @@ AN_INFILL = QT_TRANSLATE_NOOP("VolfrepCommands", "Select one lattice infill.")
 AN_INFILL_IN_VIEW = QT_TRANSLATE_NOOP(
     "VolfrepCommands", "Select one lattice infill that has a solid, with its 3D view in front."
 )
+AN_INFILL_OR_SOLID_IN_VIEW = QT_TRANSLATE_NOOP(
+    "VolfrepCommands",
+    "Select one lattice infill that has a solid, or one solid, with its 3D view in front.",
+)
 AN_INFILL_AND_FACES = QT_TRANSLATE_NOOP(
     "VolfrepCommands", "Select one lattice infill and, with Ctrl, faces of its solid."
 )
@@ -133,6 +137,17 @@ def infill_in_view() -> App.DocumentObject | None:
         return None
     view = Gui.activeDocument().activeView()
     return infill if hasattr(view, "getSceneGraph") else None
+
+
+def infill_or_solid_in_view() -> App.DocumentObject | None:
+    """The same, or one solid that can be filled: the selected one or the only one there is."""
+    view = None if Gui.activeDocument() is None else Gui.activeDocument().activeView()
+    if not hasattr(view, "getSceneGraph"):
+        return None
+    if selected_infill() is not None:
+        return infill_in_view()
+    solids = selected_solids() or only_solid()
+    return solids[0] if len(solids) == 1 else None
 
 
 def infill_with_mesh() -> App.DocumentObject | None:

@@ -20,7 +20,12 @@ from freecad_volfrep.features.infill.lattice_infill import (
     OUT_OF_DATE,
     UP_TO_DATE,
 )
-from freecad_volfrep.features.infill.properties import PROPERTIES, SCHEMA_VERSION, ensure_properties
+from freecad_volfrep.features.infill.properties import (
+    PROPERTIES,
+    RESULT,
+    SCHEMA_VERSION,
+    ensure_properties,
+)
 from freecad_volfrep.features.jobs.job import State
 from freecad_volfrep.features.properties.quantities import mass_of, set_value
 from volfrep.design.cells import PAPERS
@@ -72,7 +77,7 @@ def test_properties_are_grouped_and_described(infill):
         assert len(infill.getDocumentationOfProperty(prop.name)) > 10
         assert prop.name not in units
     read_only = {p.name for p in PROPERTIES if "ReadOnly" in infill.getTypeOfProperty(p.name)}
-    assert read_only == {p.name for p in PROPERTIES if p.group == "Result"}
+    assert read_only == {p.name for p in PROPERTIES if p.group == RESULT}
     hidden = {p.name for p in PROPERTIES if "Hidden" in infill.getTypeOfProperty(p.name)}
     stored = {"SizedNodes", "SizedRadii", "SizedFor", "SizedLoads", "SizedStates", "SizingReport"}
     assert hidden == {"Fingerprint", "SchemaVersion"} | stored

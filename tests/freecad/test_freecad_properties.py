@@ -5,7 +5,7 @@ import FreeCAD as App
 import pytest
 
 from freecad_volfrep import make_lattice_infill
-from freecad_volfrep.features.infill.properties import PROPERTIES, TYPES
+from freecad_volfrep.features.infill.properties import PROPERTIES, TYPES, editor_group
 from freecad_volfrep.features.infill.values import specification_of
 from freecad_volfrep.features.jobs import screen
 from freecad_volfrep.features.properties.quantities import FALLBACK, density_of, supported
@@ -27,7 +27,7 @@ def test_a_row_of_the_table_is_a_property(plain, row):
     name = row.property_name
     kind = TYPES[row.kind]
     assert plain.getTypeIdOfProperty(name) == (kind if supported(plain, kind) else FALLBACK)
-    assert plain.getGroupOfProperty(name) == row.group
+    assert plain.getGroupOfProperty(name) == editor_group(row)
     assert plain.getDocumentationOfProperty(name) == row.help
     if row.choices:
         assert plain.getEnumerationsOfProperty(name) == list(row.labels)

@@ -31,6 +31,8 @@ OUT = Path(os.environ["GUI_OUT"])
 PATIENCE = 60
 #: Of one check, in s: then it hangs, in a box that nobody answers or in FreeCAD.
 LONGEST = int(os.environ.get("GUI_LONGEST", "400"))
+#: The same of one that is marked as slow.
+LONGEST_SLOW = 3 * LONGEST
 #: Clicks at a widget that moves away under the mouse.
 TRIES = 5
 figures = {}
@@ -669,9 +671,15 @@ def choose_lattice(tab, name):
 
 def answer_panel(text):
     """Really click OK or Cancel of the task panel."""
+    start_answer(text)
+    settle()
+
+
+def start_answer(text):
+    """The same, without waiting for what comes of it."""
     for button in Gui.getMainWindow().findChildren(QtGui.QPushButton):
         if button.isVisible() and button.text().replace("&", "") == text:
-            click(button)
+            start_by_click(button)
             return
     raise LookupError(f"no button {text}")
 
@@ -834,7 +842,8 @@ def run_tables():
                 continue
             _running = one
             print(f"check: {one}", file=sys.__stdout__, flush=True)
-            hangs = threading.Timer(LONGEST, _give_up, (name,))
+            longest = LONGEST_SLOW if function in _slow else LONGEST
+            hangs = threading.Timer(longest, _give_up, (name, longest))
             hangs.daemon = True
             hangs.start()
             start, used = time.monotonic(), processor_seconds()
@@ -877,9 +886,9 @@ def processor_seconds():
     return sum(os.times()[:4]) + ticks / os.sysconf("SC_CLK_TCK")
 
 
-def _give_up(name):
+def _give_up(name, longest):
     """The running check does not end: say where it is, and leave."""
-    fail(f"does not end within {LONGEST} s; what runs is said above")
+    fail(f"does not end within {longest} s; what runs is said above")
     faulthandler.dump_traceback(file=sys.__stderr__, all_threads=True)
     _write(name)
     os._exit(1)

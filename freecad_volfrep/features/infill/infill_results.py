@@ -12,7 +12,7 @@ from freecad_volfrep.features.jobs.job import Job
 from freecad_volfrep.features.properties.quantities import is_driven, number_of, set_value
 from volfrep.design.parameters.table import BY_NAME
 
-from .properties import PROPERTIES
+from .properties import PROPERTIES, RESULT
 
 if TYPE_CHECKING:
     import Mesh
@@ -117,7 +117,7 @@ def _write_results(obj: App.DocumentObject, report: Report) -> None:
         "Report": report.to_json(),
         "Warnings": list(report.warnings),
     }
-    results = {prop.name for prop in PROPERTIES if prop.group == "Result"} - {"Status", "Expected"}
+    results = {prop.name for prop in PROPERTIES if prop.group == RESULT} - {"Status", "Expected"}
     assert values.keys() == results, "the table of properties and the report have drifted apart"
     for name, value in values.items():
         set_value(obj, name, value)

@@ -12,11 +12,12 @@ from freecad_volfrep.features.properties.migration import migrate
 from freecad_volfrep.features.properties.property_table import (
     HIDDEN,
     OUTPUT,
+    READ_ONLY,
     Property,
     add_missing,
-    result,
 )
 from freecad_volfrep.features.properties.quantities import FALLBACK, supported
+from freecad_volfrep.translation import marked
 from volfrep.design.cells import LIBRARY
 from volfrep.design.parameters import BY_NAME, GROUPS, PARAMETERS, Parameter
 from volfrep.design.parameters.table import (
@@ -60,8 +61,53 @@ TYPES = {
 }
 
 
+LATTICE, SKIN, GRADING, PRINT, RESULT, ADVANCED = marked(
+    "App::Property", "1 Lattice", "2 Skin", "3 Grading", "4 Print", "5 Result", "6 Advanced"
+)
+#: Groups of the property editor, which sorts them by name, for those of the table of parameters.
+EDITOR_GROUPS = {
+    "Solid": LATTICE,
+    "Lattice": LATTICE,
+    "Walls": LATTICE,
+    "Network": LATTICE,
+    "Boundary": ADVANCED,
+    "Openings": SKIN,
+    "Cell size": GRADING,
+    "Strut radius": GRADING,
+    "Cell map": ADVANCED,
+    "Orientation": ADVANCED,
+    "Mesh": ADVANCED,
+    "Material": PRINT,
+}
+#: Properties that are looked for elsewhere, and what is rarely set.
+ELSEWHERE = {
+    "ShellThickness": SKIN,
+    "BuildDirection": PRINT,
+    "Output": LATTICE,
+    "AutoUpdate": LATTICE,
+    **dict.fromkeys(
+        (
+            "CellValues", "Origin", "NetworkRelax", "NetworkDensity", "NetworkField",
+            "NetworkOnWall", "NetworkShortest", "NetworkAngle", "KeepSolidAround", "KeepDistance",
+            "KeepRadius", "RemoveBelow",
+        ),
+        ADVANCED,
+    ),
+}  # fmt: skip
+
+
+def editor_group(parameter: Parameter) -> str:
+    """The group of the property editor in which a parameter's property is."""
+    return ELSEWHERE.get(parameter.property_name, EDITOR_GROUPS[parameter.group])
+
+
 def _internal(type_name: str, name: str, description: str, default: Any) -> Property:
     return Property(type_name, name, "Internal", description, default, HIDDEN | OUTPUT)
+
+
+def result(type_name: str, name: str, description: str) -> Property:
+    """A property that only we write."""
+    return Property(type_name, name, RESULT, description, flags=READ_ONLY | OUTPUT)
 
 
 def _inputs() -> Iterator[Property]:
@@ -72,12 +118,14 @@ def _inputs() -> Iterator[Property]:
                 continue
             if parameter.switch:
                 switch = parameter.switch_name
-                yield Property("App::PropertyBool", switch, group, parameter.switch, False)
+                yield Property(
+                    "App::PropertyBool", switch, editor_group(parameter), parameter.switch, False
+                )
             if not parameter.position_of:
                 yield Property(
                     TYPES[parameter.kind],
                     parameter.property_name,
-                    group,
+                    editor_group(parameter),
                     parameter.help,
                     _first_value(parameter),
                 )

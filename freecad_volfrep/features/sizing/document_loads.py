@@ -11,6 +11,7 @@ from typing import Any
 import FreeCAD as App
 
 from freecad_volfrep.bridge.fem_loads import constraints_of, kind_of
+from freecad_volfrep.bridge.picked import faces_alike
 from freecad_volfrep.compat import in_unit, set_in_unit
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, figure, translate
 
@@ -89,11 +90,23 @@ def remove_load(load: App.DocumentObject) -> None:
         doc.removeObject(line.Name)
 
 
-def toggle_face(load: App.DocumentObject, owner: App.DocumentObject, face: str) -> None:
-    """Put a face to those that a support or load acts on, or take it away from them."""
+def toggle_face(
+    load: App.DocumentObject, owner: App.DocumentObject, face: str, and_alike: bool = False
+) -> None:
+    """Put a face to those that a support or load acts on, or take it away from them.
+
+    Args:
+        load: the support or load.
+        owner: of the face.
+        face: its name.
+        and_alike: all faces like this one, too.
+    """
     faces = {one: list(names) for one, names in load.References}
     names = faces.setdefault(owner, [])
-    (names.remove if face in names else names.append)(face)
+    is_there = face in names
+    for one in faces_alike(owner, face) if and_alike else [face]:
+        if is_there == (one in names):
+            (names.remove if is_there else names.append)(one)
     load.References = [(one, tuple(names)) for one, names in faces.items() if names]
     if load_kind(load) == FORCE and load.References:
         set_direction(load, direction_of(load))  # which the face may say

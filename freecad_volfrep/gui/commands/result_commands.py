@@ -18,6 +18,8 @@ from freecad_volfrep.gui.windows.help_window import show_help
 from freecad_volfrep.gui.windows.report_window import show_report
 from freecad_volfrep.translation import translate
 
+from .infill_commands import make_suitable_infill
+
 
 def check_print(infill: App.DocumentObject) -> None:
     """Show the overhanging facets in red on the infill, and what else a printer would mind."""
@@ -75,12 +77,25 @@ def show_statistics(infills: list[App.DocumentObject]) -> None:
         show_report(title, f"{name} statistics", statistics(infills))
 
 
-def size_lattice(infill: App.DocumentObject) -> None:
-    """Open the panel in which an infill's struts are sized for the document's load cases."""
+def size_lattice(obj: App.DocumentObject) -> None:
+    """Open the panel in which an infill's struts are sized for the document's load cases.
+
+    Args:
+        obj: the infill, or a solid, which is given one with sizes that suit it.
+    """
+    from freecad_volfrep.features import LatticeInfill
     from freecad_volfrep.gui.sizing.size_panel import SizePanel
 
+    if isinstance(getattr(obj, "Proxy", None), LatticeInfill):
+        with errors_shown():
+            Gui.Control.showDialog(SizePanel(obj))
+        return
+    doc = App.ActiveDocument
+    doc.openTransaction(translate("VOLFREP_SizeLattice", "Loads and Sizing"))
     with errors_shown():
-        Gui.Control.showDialog(SizePanel(infill))
+        Gui.Control.showDialog(SizePanel(make_suitable_infill(doc, obj), is_new=True))
+        return
+    doc.abortTransaction()
 
 
 def show_strut_results(infill: App.DocumentObject) -> None:

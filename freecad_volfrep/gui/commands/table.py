@@ -15,9 +15,11 @@ from freecad_volfrep.gui.selection import (
     AN_INFILL,
     AN_INFILL_AND_FACES,
     AN_INFILL_IN_VIEW,
+    AN_INFILL_OR_SOLID_IN_VIEW,
     AN_INFILL_OR_STUDY,
     SOME_INFILLS,
     infill_in_view,
+    infill_or_solid_in_view,
     infill_with_mesh,
     selected_infill,
     selected_infill_and_faces,
@@ -224,12 +226,12 @@ _TABLE = (
         "VOLFREP_SizeLattice",
         "size_lattice.svg",
         "Loads and Sizing",
-        "Pick what holds and loads the selected lattice infill, and find the radii of its struts: "
-        "least mass within limits, or most stiffness at a mass",
+        "Pick what holds and loads the selected lattice infill, or solid, and find the radii of "
+        "its struts: least mass within limits, or most stiffness at a mass",
         "L, Z",
-        infill_in_view,
+        infill_or_solid_in_view,
         size_lattice,
-        AN_INFILL_IN_VIEW,
+        AN_INFILL_OR_SOLID_IN_VIEW,
     ),
     Command(
         "VOLFREP_StrutResults",

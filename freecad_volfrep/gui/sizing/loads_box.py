@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import FreeCAD as App
@@ -31,16 +30,27 @@ from freecad_volfrep.features.sizing.document_loads import (
 )
 from freecad_volfrep.gui.panel.property_fields import PlainNumber
 from freecad_volfrep.gui.qt import QtCore, QtWidgets
-from freecad_volfrep.gui.widgets.panel_manners import narrow
+from freecad_volfrep.gui.widgets.panel_manners import fits_any_width, narrow
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 
 #: Most height of the lists, and least width of a field, px.
 CASES, LOADS, FIELD = 48, 78, 60
 LARGEST = 1e9
+#: Lines of text that say what is picked.
+HINT = 3
 TIPS = {
-    HELD: QT_TRANSLATE_NOOP("VolfrepLoads", "Click at faces in the view that do not move"),
-    FORCE: QT_TRANSLATE_NOOP("VolfrepLoads", "Click at faces in the view that carry the force"),
-    PRESSURE: QT_TRANSLATE_NOOP("VolfrepLoads", "Click at faces in the view under pressure"),
+    HELD: QT_TRANSLATE_NOOP(
+        "VolfrepLoads",
+        "Click at faces in the view that do not move; Ctrl takes all alike",
+    ),
+    FORCE: QT_TRANSLATE_NOOP(
+        "VolfrepLoads",
+        "Click at faces in the view that carry the force; Ctrl takes all alike",
+    ),
+    PRESSURE: QT_TRANSLATE_NOOP(
+        "VolfrepLoads",
+        "Click at faces in the view under pressure; Ctrl takes all alike",
+    ),
     WEIGHT: QT_TRANSLATE_NOOP("VolfrepLoads", "The part's own weight, downwards"),
 }
 
@@ -50,16 +60,16 @@ class LoadsBox(QtWidgets.QGroupBox):
 
     Args:
         obj: the infill.
-        said: called with a sentence on what is to be done next, or an empty one.
     """
 
-    def __init__(self, obj: App.DocumentObject, said: Callable[[str], None]) -> None:
+    def __init__(self, obj: App.DocumentObject) -> None:
         super().__init__(translate("VolfrepSizePanel", "Load cases"))
-        self._obj, self._doc, self._said = obj, obj.Document, said
+        self._obj, self._doc = obj, obj.Document
         self._kind = ""
         self._picked: App.DocumentObject | None = None
         self._shown: dict[App.DocumentObject, bool] = {}
         self._made: list[App.DocumentObject] = []
+        self._takes_alike = False
         self._cases = QtWidgets.QListWidget()
         self._cases.setObjectName("Cases")
         self._cases.setMaximumHeight(CASES)
@@ -69,6 +79,12 @@ class LoadsBox(QtWidgets.QGroupBox):
         self._new = QtWidgets.QPushButton(translate("VolfrepLoads", "New case"))
         self._new.setObjectName("NewCase")
         self._new.setToolTip(translate("VolfrepLoads", "Another case, held as this one is"))
+        self._hint = QtWidgets.QLabel()
+        self._hint.setObjectName("Hint")
+        fits_any_width(self._hint)
+        # There at all times, so that nothing moves under the mouse.
+        self._hint.setMinimumHeight(HINT * self._hint.fontMetrics().height())
+        self._hint.setAlignment(QtCore.Qt.AlignTop)
         self._loads = QtWidgets.QListWidget()
         self._loads.setObjectName("Loads")
         self._loads.setMaximumHeight(LOADS)
@@ -94,6 +110,7 @@ class LoadsBox(QtWidgets.QGroupBox):
         for number, button in enumerate(self._buttons.values()):
             grid.addWidget(button, number // 2, number % 2)
         column.addLayout(grid)
+        column.addWidget(self._hint)
         column.addWidget(self._loads)
         for widgets in ((self.size, self.direction), (self._new, self._remove)):
             line = QtWidgets.QHBoxLayout()
@@ -117,6 +134,11 @@ class LoadsBox(QtWidgets.QGroupBox):
         rows = [self._cases.item(k) for k in range(self._cases.count())]
         return [self._case_of(row) for row in rows if row.checkState() == QtCore.Qt.Checked]
 
+    def begin(self) -> None:
+        """Where nothing says yet what the part carries: pick what is held."""
+        if not self._cases.count():
+            self._pick(HELD)
+
     def end(self, is_kept: bool) -> None:
         """Pick no more; symbols of what was made here go out of the view.
 
@@ -134,6 +156,8 @@ class LoadsBox(QtWidgets.QGroupBox):
 
     def addSelection(self, *_: Any) -> None:  # noqa: N802
         """Called by FreeCAD, which is not done with it yet."""
+        held_down = QtWidgets.QApplication.keyboardModifiers()
+        self._takes_alike = bool(held_down & QtCore.Qt.ControlModifier)
         QtCore.QTimer.singleShot(0, self._take)
 
     def _kind_button(self, kind: str) -> Any:
@@ -224,7 +248,7 @@ class LoadsBox(QtWidgets.QGroupBox):
             Gui.Selection.addObserver(self)
         for one, was_shown in self._shown.items():
             one.ViewObject.Visibility = one == self._obj.Base if kind else was_shown
-        self._said(translate("VolfrepLoads", TIPS[kind]) if kind else "")
+        self._hint.setText(translate("VolfrepLoads", TIPS[kind]) if kind else "")
 
     def _take(self) -> None:
         """Put the faces that are selected to what is picked."""
@@ -240,7 +264,7 @@ class LoadsBox(QtWidgets.QGroupBox):
         if self._picked is None:
             self._picked = self._begin(self._kind)
         for owner, name in chosen:
-            toggle_face(self._picked, owner, name)
+            toggle_face(self._picked, owner, name, self._takes_alike)
         self._show_loads(self._picked)
         if self._kind in SIZES:
             self.size.setFocus()

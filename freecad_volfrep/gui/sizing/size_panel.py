@@ -18,7 +18,7 @@ from freecad_volfrep.features.sizing.sizing import (
     store_outcome,
 )
 from freecad_volfrep.gui.colours.colour_dock import close_struts, open_struts
-from freecad_volfrep.gui.jobs.updating import begin_update
+from freecad_volfrep.gui.jobs.updating import begin_update, show_mesh
 from freecad_volfrep.gui.messages import WRONG
 from freecad_volfrep.gui.panel.property_fields import PropertyFields, label_of
 from freecad_volfrep.gui.qt import OK_CANCEL, QtCore, QtWidgets
@@ -113,18 +113,23 @@ class SizePanel:
 
     Args:
         obj: the infill.
+        is_new: whether it was made for this panel, in a transaction that is open.
     """
 
-    def __init__(self, obj: App.DocumentObject) -> None:
+    def __init__(self, obj: App.DocumentObject, is_new: bool = False) -> None:
         self._obj, self._doc = obj, obj.Document
-        self._doc.openTransaction(translate("VOLFREP_SizeLattice", "Loads and Sizing"))
+        if not is_new:
+            self._doc.openTransaction(translate("VOLFREP_SizeLattice", "Loads and Sizing"))
         self._steps: list[tuple[str, ...]] = []
         self._outcome: Outcome | None = None
+        self._is_open = True
         close_struts(obj)
         self.form = self._build(first_numbers(obj))
         self._timer = QtCore.QTimer(self.form)
         self._timer.timeout.connect(self._show_steps)
         self._show_fields()
+        # Once FreeCAD has put the panel up.
+        QtCore.QTimer.singleShot(0, self._begin_loads)
 
     def getStandardButtons(self) -> int:  # noqa: N802
         """OK and Cancel."""
@@ -154,9 +159,13 @@ class SizePanel:
         show_report(title, f"{self._obj.Label} sizing", outcome.tables())
         return True
 
+    def _begin_loads(self) -> None:
+        if self._is_open:
+            self._loads.begin()
+
     def _show_mesh(self, is_there: bool | None) -> None:
         if is_there:
-            self._obj.ViewObject.Visibility = True
+            show_mesh(self._obj)
 
     def reject(self) -> bool:
         """Close and leave the infill as it was."""
@@ -215,7 +224,7 @@ class SizePanel:
         entitle(form, title.format(label=self._obj.Label))
         column = QtWidgets.QVBoxLayout(form)
         column.setContentsMargins(0, 0, 0, 0)
-        self._loads = LoadsBox(self._obj, self._say)
+        self._loads = LoadsBox(self._obj)
         self._lists = [self._loads.size, self._loads.direction]
         for box in (self._loads, self._material_box(), self._goal_box(first)):
             column.addWidget(box)
@@ -349,6 +358,7 @@ class SizePanel:
         self._said.setText(text)
 
     def _close(self) -> None:
+        self._is_open = False
         self._timer.stop()
         Gui.Control.closeDialog()
         if Gui.ActiveDocument is not None:

@@ -5,6 +5,30 @@
   <context>
     <name>App::Property</name>
     <message>
+      <source>1 Lattice</source>
+      <translation>1 Gitter</translation>
+    </message>
+    <message>
+      <source>2 Skin</source>
+      <translation>2 Haut</translation>
+    </message>
+    <message>
+      <source>3 Grading</source>
+      <translation>3 Verlauf</translation>
+    </message>
+    <message>
+      <source>4 Print</source>
+      <translation>4 Druck</translation>
+    </message>
+    <message>
+      <source>5 Result</source>
+      <translation>5 Ergebnis</translation>
+    </message>
+    <message>
+      <source>6 Advanced</source>
+      <translation>6 Erweitert</translation>
+    </message>
+    <message>
       <source>A field that the density of the points follows in place of the depth: s is 0 at its smallest value and 1 at its largest (files as of a radius field, of one column)</source>
       <translation>Ein Feld, dem die Dichte der Punkte statt der Tiefe folgt: s ist 0 bei seinem kleinsten Wert und 1 bei seinem größten (Dateien wie für ein Radiusfeld, mit einer Spalte)</translation>
     </message>
@@ -1448,8 +1472,8 @@
       <translation>Lasten und Auslegung</translation>
     </message>
     <message>
-      <source>Pick what holds and loads the selected lattice infill, and find the radii of its struts: least mass within limits, or most stiffness at a mass</source>
-      <translation>Wählen, was die gewählte Gitterfüllung hält und belastet, und die Radien ihrer Streben finden: geringste Masse innerhalb von Grenzen oder größte Steifigkeit bei einer Masse</translation>
+      <source>Pick what holds and loads the selected lattice infill, or solid, and find the radii of its struts: least mass within limits, or most stiffness at a mass</source>
+      <translation>Wählen, was die gewählte Gitterfüllung oder den Körper hält und belastet, und die Radien der Streben finden: geringste Masse innerhalb von Grenzen oder größte Steifigkeit bei einer Masse</translation>
     </message>
   </context>
   <context>
@@ -1835,6 +1859,10 @@
     <message>
       <source>Select one lattice infill or one design study.</source>
       <translation>Eine Gitterfüllung oder eine Variantenstudie auswählen.</translation>
+    </message>
+    <message>
+      <source>Select one lattice infill that has a solid, or one solid, with its 3D view in front.</source>
+      <translation>Eine Gitterfüllung mit Körper oder einen Körper auswählen, dessen 3D-Ansicht vorn ist.</translation>
     </message>
     <message>
       <source>Select one lattice infill that has a solid, with its 3D view in front.</source>
@@ -2257,16 +2285,16 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Ein weiterer Lastfall, gehalten wie dieser</translation>
     </message>
     <message>
-      <source>Click at faces in the view that carry the force</source>
-      <translation>Flächen in der Ansicht anklicken, die die Kraft tragen</translation>
+      <source>Click at faces in the view that carry the force; Ctrl takes all alike</source>
+      <translation>Flächen in der Ansicht anklicken, die die Kraft tragen; Strg nimmt alle gleichen</translation>
     </message>
     <message>
-      <source>Click at faces in the view that do not move</source>
-      <translation>Flächen in der Ansicht anklicken, die sich nicht bewegen</translation>
+      <source>Click at faces in the view that do not move; Ctrl takes all alike</source>
+      <translation>Flächen in der Ansicht anklicken, die sich nicht bewegen; Strg nimmt alle gleichen</translation>
     </message>
     <message>
-      <source>Click at faces in the view under pressure</source>
-      <translation>Flächen in der Ansicht anklicken, auf die Druck wirkt</translation>
+      <source>Click at faces in the view under pressure; Ctrl takes all alike</source>
+      <translation>Flächen in der Ansicht anklicken, auf die Druck wirkt; Strg nimmt alle gleichen</translation>
     </message>
     <message>
       <source>Direction</source>

@@ -5,6 +5,30 @@
   <context>
     <name>App::Property</name>
     <message>
+      <source>1 Lattice</source>
+      <translation>1 Reticolo</translation>
+    </message>
+    <message>
+      <source>2 Skin</source>
+      <translation>2 Guscio</translation>
+    </message>
+    <message>
+      <source>3 Grading</source>
+      <translation>3 Gradazione</translation>
+    </message>
+    <message>
+      <source>4 Print</source>
+      <translation>4 Stampa</translation>
+    </message>
+    <message>
+      <source>5 Result</source>
+      <translation>5 Risultato</translation>
+    </message>
+    <message>
+      <source>6 Advanced</source>
+      <translation>6 Avanzate</translation>
+    </message>
+    <message>
       <source>A field that the density of the points follows in place of the depth: s is 0 at its smallest value and 1 at its largest (files as of a radius field, of one column)</source>
       <translation>Un campo che la densità dei punti segue al posto della profondità: s è 0 al suo valore minimo e 1 al massimo (file come per un campo del raggio, con una colonna)</translation>
     </message>
@@ -1448,8 +1472,8 @@
       <translation>Carichi e dimensionamento</translation>
     </message>
     <message>
-      <source>Pick what holds and loads the selected lattice infill, and find the radii of its struts: least mass within limits, or most stiffness at a mass</source>
-      <translation>Scegliere ciò che regge e carica il riempimento selezionato e trovare i raggi delle sue aste: massa minima entro limiti o rigidezza massima con una massa</translation>
+      <source>Pick what holds and loads the selected lattice infill, or solid, and find the radii of its struts: least mass within limits, or most stiffness at a mass</source>
+      <translation>Scegliere che cosa vincola e carica il riempimento o il solido selezionato, e trovare i raggi delle aste: massa minima entro i limiti, o massima rigidezza a una data massa</translation>
     </message>
   </context>
   <context>
@@ -1835,6 +1859,10 @@
     <message>
       <source>Select one lattice infill or one design study.</source>
       <translation>Selezionare un riempimento reticolare o uno studio di varianti.</translation>
+    </message>
+    <message>
+      <source>Select one lattice infill that has a solid, or one solid, with its 3D view in front.</source>
+      <translation>Selezionare un riempimento reticolare che ha un solido, o un solido, con la sua vista 3D in primo piano.</translation>
     </message>
     <message>
       <source>Select one lattice infill that has a solid, with its 3D view in front.</source>
@@ -2257,16 +2285,16 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Un altro caso, vincolato come questo</translation>
     </message>
     <message>
-      <source>Click at faces in the view that carry the force</source>
-      <translation>Fare clic sulle facce che portano la forza</translation>
+      <source>Click at faces in the view that carry the force; Ctrl takes all alike</source>
+      <translation>Fare clic nella vista sulle facce che portano la forza; Ctrl prende tutte le uguali</translation>
     </message>
     <message>
-      <source>Click at faces in the view that do not move</source>
-      <translation>Fare clic sulle facce che non si muovono</translation>
+      <source>Click at faces in the view that do not move; Ctrl takes all alike</source>
+      <translation>Fare clic nella vista sulle facce che non si muovono; Ctrl prende tutte le uguali</translation>
     </message>
     <message>
-      <source>Click at faces in the view under pressure</source>
-      <translation>Fare clic sulle facce sotto pressione</translation>
+      <source>Click at faces in the view under pressure; Ctrl takes all alike</source>
+      <translation>Fare clic nella vista sulle facce sotto pressione; Ctrl prende tutte le uguali</translation>
     </message>
     <message>
       <source>Direction</source>

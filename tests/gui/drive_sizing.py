@@ -39,6 +39,7 @@ from driving import (
     xdotool,
 )
 from new_analysis import loaded
+from new_infill import boxed
 from new_infill import filled as filled_block
 from PySide import QtCore, QtGui
 
@@ -421,6 +422,41 @@ def choose(name, entry, read):
     check(f"{entry} is chosen", wait_until(lambda: read() == entry), read())
 
 
+def size_a_solid(doc, box):
+    """Loads and Sizing of a solid makes its lattice, which Cancel takes away and OK shows."""
+    steps = doc.UndoCount
+    click(toolbar_button("Loads and Sizing").button)
+    check("a click opens the panel", wait_until(lambda: sizing_panel() is not None, 20))
+    check("the solid is still shown", box.Visibility)
+    check("what is held is picked at once", wait_until(part("AddHeld").isChecked))
+    answer_panel("Cancel")
+    check("the panel closes", wait_until(lambda: sizing_panel() is None, 10))
+    check("Cancel takes the lattice away", doc.Objects == [box] and box.Visibility)
+    check("without a step", doc.UndoCount == steps)
+    click(toolbar_button("Loads and Sizing").button)
+    wait_until(lambda: sizing_panel() is not None and part("AddHeld").isChecked())
+    obj = infills(doc)[0]
+    loads = part("Loads", QtGui.QListWidget)
+    click_alike((20, 0, 10), lambda: loads.count() == 1)
+    held = next(one for one in doc.Objects if one.TypeId == "Fem::ConstraintFixed")
+    check("with Ctrl the face opposite is held, too", held.References[0][1] == ("Face3", "Face4"))
+    click(part("AddForce"))
+    click_in_view((20, 15, 20), lambda: loads.count() == 2)
+    click(part("Prove"))
+    answer_panel("OK")
+    check("a material is asked for", wait_until(lambda: "aterial" in part("Said").text()))
+    picture("solid_1_asked")
+    choose("PrintMaterial", "AlSi10Mg", lambda: obj.PrintMaterial)
+    answer_panel("OK")
+    check("a report opens", wait_until(lambda: len(reports()) == 1, 90))
+    reports()[0].close()
+    settle(MINUTES)
+    check("the lattice is up to date", obj.Status == "Up to date", obj.Status)
+    shown = obj.Visibility, box.Visibility
+    check("and shown in place of the solid", shown == (True, False), shown)
+    picture("solid_2_sized")
+
+
 @slow
 def open_and_size_the_bracket():
     """From File > Open of the GE bracket to the report of its sized lattice: clicks, and seconds.
@@ -545,6 +581,7 @@ run_checks(
         escape_keeps_the_best: lambda: loaded((120, 40, 40)),
         show_results: loaded,
         load_by_clicks: filled,
+        size_a_solid: boxed,
         open_and_size_the_bracket: None,
         make_more_cases: filled,
         without_an_analysis: loaded,

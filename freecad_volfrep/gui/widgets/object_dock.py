@@ -31,6 +31,8 @@ class ObjectDock(QtWidgets.QDockWidget):
         self.setAttribute(QtCore.Qt.WA_DeleteOnClose)
         self.setWindowTitle(title)
         self._obj, self._doc = obj, obj.Document
+        #: From `put_up` on, which is before Qt shows it.
+        self.is_up = False
 
     def set_line(self, widgets: Iterable[Any]) -> Any:
         """Fill it with a line of widgets and a button that closes; returns the column of both.
@@ -60,6 +62,7 @@ class ObjectDock(QtWidgets.QDockWidget):
 
     def put_up(self) -> None:
         """Show it below the view, and follow the object from now on."""
+        self.is_up = True
         App.addDocumentObserver(self)
         Gui.getMainWindow().addDockWidget(QtCore.Qt.BottomDockWidgetArea, self)
 
@@ -69,6 +72,7 @@ class ObjectDock(QtWidgets.QDockWidget):
 
     def closeEvent(self, event: Any) -> None:  # noqa: N802
         """Take away what was shown."""
+        self.is_up = False
         App.removeDocumentObserver(self)
         self.take_away()
         super().closeEvent(event)
@@ -101,7 +105,7 @@ class ObjectDock(QtWidgets.QDockWidget):
 def docks_of(kind: type[_Dock]) -> list[_Dock]:
     """Those of a kind that are open."""
     found = Gui.getMainWindow().findChildren(QtWidgets.QDockWidget, kind.NAME)
-    return [dock for dock in found if isinstance(dock, kind) and dock.isVisible()]
+    return [dock for dock in found if isinstance(dock, kind) and dock.is_up]
 
 
 def close_docks(kind: type[_Dock], obj: App.DocumentObject | None = None) -> bool:

@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""docs/validation.md says what its table of specimens and the engine's predictions say."""
+
+import importlib.util
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+@pytest.fixture(scope="module")
+def tool():
+    """`tools/validate.py`."""
+    path = ROOT / "tools" / "validate.py"
+    spec = importlib.util.spec_from_file_location(path.stem, path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_the_page_is_made_of_the_table_and_of_what_was_predicted(tool):
+    text = (ROOT / "docs" / "validation.md").read_text(encoding="utf-8")
+    assert tool.made_page(text, tool.kept()) == text, "run make validate"
+
+
+def test_there_are_specimens_of_several_processes_and_cells(tool):
+    rows, _ = tool.specimens()
+    assert len(rows) >= 12
+    assert len({row["process"] for row in rows}) >= 3
+    assert len({row["cell"] for row in rows}) >= 4
+    assert {row["read"] for row in rows} == {"text", "quoted"}
+
+
+@pytest.mark.parametrize("name", ["F-BCC tube", "Diamond 28 %", "BCC, d 1 mm", "Octet"])
+def test_what_takes_no_time_is_predicted_as_the_page_says(tool, name):
+    row = next(row for row in tool.specimens()[0] if row["name"] == name)
+    own = tool.kept()["specimens"][name]["nominal"]
+    found = tool.predict(row, row.get("diameter"))
+    assert {key: found[key] for key in own} == pytest.approx(own, rel=2e-3)
+
+
+def test_problems_whose_answer_is_known_are_answered(tool):
+    for problem in tool.benchmarks():
+        assert abs(problem.error) < problem.within, problem.name
+
+
+@pytest.mark.slow
+def test_everything_is_predicted_as_the_page_says(tool):
+    for row in tool.specimens()[0]:
+        own = tool.kept()["specimens"][row["name"]]
+        for way, diameter in (("nominal", "diameter"), ("measured", "measured_diameter")):
+            if way in own:
+                found = tool.predict(row, row.get(diameter))
+                assert {k: found[k] for k in own[way]} == pytest.approx(own[way], rel=0.02)

@@ -1,0 +1,207 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Tables, means and the plot of docs/validation.md."""
+
+from __future__ import annotations
+
+import itertools
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[2]
+PAGE = ROOT / "docs" / "validation.md"
+PLOT = ROOT / "docs" / "images" / "validation.png"
+FIGURES = ("young", "strength", "energy")
+NAMES = {"young": "E, MPa", "strength": "strength, MPa", "energy": "energy to 50 %, J/g"}
+
+
+def refreshed(text: str, blocks: dict[str, str]) -> str:
+    """The page with each block between its two comments anew.
+
+    Raises:
+        ValueError: a block has no place.
+    """
+    for name, block in blocks.items():
+        place = re.compile(rf"(<!-- {name}: made by make validate -->\n).*?(<!-- end -->)", re.S)
+        text, count = place.subn(lambda found, b=block: found[1] + b + found[2], text)
+        if count != 1:
+            raise ValueError(f"The page has {count} places for '{name}'.")
+    return text
+
+
+def blocks(
+    specimens: list[dict[str, Any]],
+    series: list[dict[str, Any]],
+    found: dict[str, Any],
+) -> dict[str, str]:
+    """All that is made of the specimens and of what was predicted."""
+    return {
+        "specimens": specimen_table(specimens, found["specimens"]),
+        "notes": notes(specimens),
+        "errors": error_table(specimens, found["specimens"]),
+        "order": order_table(specimens, series, found),
+        "benchmarks": benchmark_table(found["benchmarks"]),
+    }
+
+
+def _short(value: float) -> str:
+    return f"{value:,.0f}" if value >= 100 else f"{value:.3g}"
+
+
+def best(own: dict[str, Any]) -> dict[str, float]:
+    """With measured sizes, where there are some."""
+    result: dict[str, float] = own.get("measured") or own["nominal"]
+    return result
+
+
+def specimen_table(specimens: list[dict[str, Any]], found: dict[str, Any]) -> str:
+    """A line for each figure of each specimen."""
+    lines = [
+        "| specimen | process, solid | size | figure | measured | nominal size | measured size "
+        "| source |\n|---|---|---|---|---|---|---|---|\n"
+    ]
+    for row in specimens:
+        own = found[row["name"]]
+        for figure in FIGURES:
+            if figure not in row:
+                continue
+            told = [
+                f"{_short(own[way][figure])} ({own[way][figure] / row[figure] - 1:+.0%})"
+                if way in own
+                else ""
+                for way in ("nominal", "measured")
+            ]
+            word = row.get("strength_is", "") if figure == "strength" else NAMES[figure]
+            word = f"{word}, MPa" if figure == "strength" else word
+            lines.append(
+                f"| {row['name']} | {row['process']}, {row['material']} | {_size(row)} | {word} "
+                f"| {_short(row[figure])} | {told[0]} | {told[1]} | {_source(row)} |\n"
+            )
+    return "".join(lines)
+
+
+def _size(row: dict[str, Any]) -> str:
+    if "density" in row:
+        kind = f" {row['kind']}" if "kind" in row else ""
+        return f"{row['density']:.1%} stated{kind}"
+    size = f"L {row['cell_size']:g}, " if "cell_size" in row else ""
+    text = f"{size}d {row['diameter']:g}"
+    if "measured_diameter" in row:
+        text += f", measured {row['measured_diameter']:g}"
+    return f"{text} mm; {row['cells']}"
+
+
+def _source(row: dict[str, Any]) -> str:
+    source = row["source"]
+    link = f"[{source}](https://doi.org/{row['doi']})" if "doi" in row else source
+    return f"{link}, {row['read']}"
+
+
+def notes(specimens: list[dict[str, Any]]) -> str:
+    """What is to be known of a specimen beside its figures."""
+    return "".join(f"- {row['name']}: {row['note']}.\n" for row in specimens if "note" in row)
+
+
+def ratios(
+    specimens: list[dict[str, Any]], found: dict[str, Any], figure: str, read: str | None = None
+) -> Any:
+    """(n,) predicted over measured."""
+    return np.array(
+        [
+            best(found[row["name"]])[figure] / row[figure]
+            for row in specimens
+            if figure in row and read in (None, row["read"])
+        ]
+    )
+
+
+def error_table(specimens: list[dict[str, Any]], found: dict[str, Any]) -> str:
+    """Mean and spread by figure, and the factor that covers nine in ten."""
+    lines = [
+        "| figure | specimens | mean error | mean size of it | spread (standard deviation) | "
+        "from | to | measured over predicted, least |\n|---|---|---|---|---|---|---|---|\n"
+    ]
+    groups = [(figure, None) for figure in FIGURES]
+    groups += [("young", "text"), ("strength", "text")]
+    for figure, read in groups:
+        error = ratios(specimens, found, figure, read) - 1.0
+        name = figure if read is None else f"{figure}, the complete set only"
+        spread = f"{error.std(ddof=1):.0%}" if len(error) > 1 else ""
+        lines.append(
+            f"| {name} | {len(error)} | {error.mean():+.0%} | {np.abs(error).mean():.0%} "
+            f"| {spread} | {error.min():+.0%} | {error.max():+.0%} "
+            f"| {1 / (1 + error.max()):.2f} |\n"
+        )
+    return "".join(lines)
+
+
+def order_table(
+    specimens: list[dict[str, Any]], series: list[dict[str, Any]], found: dict[str, Any]
+) -> str:
+    """Pairs of one series in the right order, and ratios of its largest to its smallest."""
+    lines = [
+        "| series | figure | pairs in the right order | largest over smallest, measured "
+        "| of the same two, predicted |\n|---|---|---|---|---|\n"
+    ]
+    names = dict.fromkeys(row["series"] for row in specimens)
+    for name, figure in itertools.product(names, FIGURES):
+        rows = [row for row in specimens if row["series"] == name and figure in row]
+        if len(rows) < 2:
+            continue
+        measured = np.array([row[figure] for row in rows])
+        ours = np.array([best(found["specimens"][row["name"]])[figure] for row in rows])
+        pairs = list(itertools.combinations(range(len(rows)), 2))
+        right = sum((measured[a] - measured[b]) * (ours[a] - ours[b]) > 0 for a, b in pairs)
+        top, low = int(measured.argmax()), int(measured.argmin())
+        lines.append(
+            f"| {name} | {figure} | {right} of {len(pairs)} | {measured[top] / measured[low]:.2f} "
+            f"| {ours[top] / ours[low]:.2f} |\n"
+        )
+    for row in series:
+        low, high = row["densities"]
+        lines.append(
+            f"| {row['name']}, soft polymer, {low:.1%} to {high:.1%} ({row['source']}) | young "
+            f"| 1 of 1 | {row['ratio']:.2f} | {found['growth'][row['name']]:.2f} |\n"
+        )
+    return "".join(lines)
+
+
+def benchmark_table(found: list[dict[str, Any]]) -> str:
+    """What is known beside what was found."""
+    lines = ["| problem | known | found | off by |\n|---|---|---|---|\n"]
+    for row in found:
+        off = row["found"] / row["expected"] - 1.0
+        lines.append(
+            f"| {row['name']} | {row['expected']:.4g} ({row['source']}) | {row['found']:.4g} "
+            f"| {off:+.1%} |\n"
+        )
+    return "".join(lines)
+
+
+def plot(specimens: list[dict[str, Any]], found: dict[str, Any]) -> None:
+    """Predicted over measured, a mark for each specimen; matplotlib comes with FreeCAD."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    from matplotlib import pyplot as plt
+
+    figure, axes = plt.subplots(1, 2, figsize=(10, 4.6), layout="constrained")
+    names = list(dict.fromkeys(row["series"] for row in specimens))
+    for plot_, what in zip(axes, FIGURES, strict=False):
+        for colour, name in zip(plt.cm.tab10.colors, names, strict=False):
+            rows = [row for row in specimens if row["series"] == name and what in row]
+            if rows:
+                ours = [best(found[row["name"]])[what] for row in rows]
+                mark = "D" if rows[0]["read"] == "text" else "o"
+                plot_.loglog([row[what] for row in rows], ours, mark, color=colour, label=name)
+        ends = np.array(plot_.get_xlim())
+        plot_.loglog(ends, ends, "k-", linewidth=1)
+        plot_.loglog(ends, 1.25 * ends, "k:", linewidth=0.8)
+        plot_.loglog(ends, 0.8 * ends, "k:", linewidth=0.8)
+        plot_.set(xlabel=f"measured {NAMES[what]}", ylabel=f"predicted {NAMES[what]}")
+        plot_.grid(which="both", linewidth=0.3)
+        plot_.legend(fontsize=8)
+    figure.savefig(PLOT, dpi=80)
+    plt.close(figure)

@@ -8,7 +8,9 @@ more file. All are read by `load_cell`.
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from pathlib import Path
 from typing import Any, ClassVar, TypeVar
 
@@ -140,17 +142,55 @@ USES = {
     "auxetic": "auxetic: wider when pulled",
 }
 _FOLDER = Path(__file__).with_name("cell_library")
-#: The library's files by the names of their cells.
-_FILES: dict[str, str] = {}
 
 
-def _library() -> dict[str, UnitCell]:
-    cells = [load_cell(file) for file in _FOLDER.glob("*.json")]
-    _FILES.update((cell.name, cell.source) for cell in cells)
-    cells = [replace(cell, source="") for cell in cells]
-    uses = list(USES)
-    cells.sort(key=lambda cell: (uses.index(cell.use), len(cell.struts), cell.name))
-    return {cell.name: cell for cell in cells}
+class _Library(Mapping[str, UnitCell]):
+    """The library's cells by name, sorted by what they are for.
+
+    A cell is made when it is first asked for: all of them take longer than most of an import.
+    """
+
+    def __init__(self) -> None:
+        self._made: dict[str, UnitCell] = {}
+
+    @cached_property
+    def _told(self) -> dict[str, tuple[Path, set[str]]]:
+        """Of each cell its file, and all its names in lower case."""
+        told = {}
+        for path in sorted(_FOLDER.glob("*.json")):
+            data = read_json(path, "cell file", MAX_FILE_BYTES)
+            names = [data["name"], *data.get("also", [])]
+            told[names[0]] = path, {name.lower() for name in names}
+        return told
+
+    @cached_property
+    def _order(self) -> list[str]:
+        uses = list(USES)
+
+        def place(name: str) -> tuple[int, int, str]:
+            return uses.index(self[name].use), len(self[name].struts), name
+
+        return sorted(self._told, key=place)
+
+    def __getitem__(self, name: str) -> UnitCell:
+        if name not in self._made:
+            self._made[name] = replace(load_cell(self.file(name)), source="")
+        return self._made[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._order)
+
+    def __len__(self) -> int:
+        return len(self._told)
+
+    def file(self, name: str) -> Path:
+        """The file of the cell of a name."""
+        return self._told[name][0]
+
+    def named(self, name: str) -> str | None:
+        """The name of the cell that is called so, by whatever of its names; None for none."""
+        wanted = name.strip().lower()
+        return next((own for own, (_, names) in self._told.items() if wanted in names), None)
 
 
 def find_cell(name: str, values: str = "") -> UnitCell:
@@ -168,12 +208,11 @@ def find_cell(name: str, values: str = "") -> UnitCell:
     >>> find_cell("octet").name
     'Octet'
     """
-    wanted = name.strip().lower()
-    for cell in LIBRARY.values():
-        if wanted in (cell.name.lower(), *(other.lower() for other in cell.also)):
-            if not values.strip():
-                return cell
-            return replace(load_cell(_FILES[cell.name], values), source="")
+    own = LIBRARY.named(name)
+    if own is not None:
+        if not values.strip():
+            return LIBRARY[own]
+        return replace(load_cell(LIBRARY.file(own), values), source="")
     if name.lower().endswith(".json"):
         return load_cell(name, values)
     raise VolfrepError(
@@ -353,7 +392,7 @@ def _numbers(values: object, count: int, name: str, where: str) -> list[float]:
 
 
 #: The library's cells by name, sorted by what they are for.
-LIBRARY: dict[str, UnitCell] = _library()
+LIBRARY = _Library()
 
 Number = TypeVar("Number", float, Floats)
 

@@ -209,8 +209,8 @@ RUN_OPTIONS = (
     ),
     RunOption(
         "format", ("slice",),
-        "a picture of one bit a pixel a layer, for resin printers (default); a drawing a layer; or "
-        "one file of the common layer interface, for metal printers",
+        "a picture a layer, of each pixel the share of material, for resin printers (default); a "
+        "drawing a layer; or one file of the common layer interface, for metal printers",
         "WORD", choices=words("format"), default=words("format")[0],
     ),
     RunOption(

@@ -92,8 +92,8 @@ def write_layers(
             other must be empty.
         layer: height of a layer, mm.
         pixel: edge of a picture's pixel, mm; None for the height of a layer.
-        form: png (a picture of one bit a pixel a layer), svg (a drawing a layer), or cli (one file
-            of the common layer interface).
+        form: png (a picture a layer: of each pixel the share of material, 0 to 255), svg (a
+            drawing a layer), or cli (one file of the common layer interface).
         progress: called with the fraction done and the stage; returning False cancels.
         cache: keeps the stages between calls.
 
@@ -141,8 +141,8 @@ def write_layers(
 
     def made(section: Section, z: float) -> tuple[bytes, float]:
         if form == "png":
-            found = section.pixels(grid)
-            return png(found, grid), np.count_nonzero(found) * pixel**2
+            found, area = section.pixels(grid)
+            return png(found, grid), area
         outline = section.outline()
         if form == "svg":
             return svg(outline, part.bounds), outline.area()

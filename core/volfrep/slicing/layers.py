@@ -9,15 +9,16 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..grid.strut_graph import Wireframe
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.manifold import manifold_library
 from ..util.progress import Monitor
 from ..util.threads import threads
-from ..util.types import Bools, Floats
+from ..util.types import Floats
 from .plane_section import plane_cutter
-from .raster import PixelGrid, fill_pixels
+from .raster import PixelGrid, pixel_shares
 from .sections import Bodies, bodies_of, section_polygons
 
 if TYPE_CHECKING:
@@ -62,13 +63,13 @@ class Section:
     clip: list[Floats] | None
     skin: list[Floats]
 
-    def pixels(self, grid: PixelGrid) -> Bools:
-        """(rows, columns) the pixels whose middles lie in it, rows from low y to high y."""
+    def pixels(self, grid: PixelGrid) -> tuple[NDArray[np.uint8], float]:
+        """What share of each pixel lies in it, as `pixel_shares`, and their area, mm2."""
         groups = [[self.struts, self.joints], [one[None] for one in self.skin]]
         if self.clip is None:
-            return fill_pixels(groups, lambda held: held[0] | held[1], grid)
+            return pixel_shares(groups, lambda held: held[0] | held[1], grid)
         groups.append([one[None] for one in self.clip])
-        return fill_pixels(groups, lambda held: held[0] & held[2] | held[1], grid)
+        return pixel_shares(groups, lambda held: held[0] & held[2] | held[1], grid)
 
     def outline(self) -> manifold3d.CrossSection:
         """The union as the library's own polygons, without overlaps."""

@@ -10,16 +10,17 @@ import io
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...slicing.raster import PixelGrid
-from ...util.types import Bools, Floats
+from ...util.types import Floats
 
 if TYPE_CHECKING:
     import manifold3d
 
 
-def png(pixels: Bools, grid: PixelGrid) -> bytes:
-    """A picture of one bit a pixel, white where there is material, y upwards.
+def png(pixels: NDArray[np.uint8], grid: PixelGrid) -> bytes:
+    """A picture of eight bits a pixel, y upwards: the share of material, 255 for all of it.
 
     Args:
         pixels: (rows, columns), from low y to high y.
@@ -28,8 +29,7 @@ def png(pixels: Bools, grid: PixelGrid) -> bytes:
     from PIL import Image  # comes with scikit-image; slow to import
 
     rows, columns = pixels.shape
-    bits = np.packbits(pixels[::-1], axis=1).tobytes()
-    picture = Image.frombytes("1", (columns, rows), bits)
+    picture = Image.frombytes("L", (columns, rows), pixels[::-1].tobytes())
     file = io.BytesIO()
     picture.save(file, "PNG", compress_level=3, dpi=(25.4 / grid.pixel, 25.4 / grid.pixel))
     return file.getvalue()

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..design.cells import find_cell
+from ..design.file_limits import FileLimits, limits_of
 from ..design.grading import Field
 from ..design.graphs.files import read_network
 from ..design.graphs.graph import GivenGraph
@@ -67,6 +68,9 @@ def fill(
     progress: ProgressCallback | bool | None = None,
     cache: StageCache | None = None,
     executor: Executor | None = None,
+    max_triangles: int | None = None,
+    max_size: float | None = None,
+    service: str | None = None,
     **parameters: Unpack[Keywords],
 ) -> Part:
     """Fill a solid with a lattice.
@@ -83,6 +87,10 @@ def fill(
             fraction done and the stage, and cancels by returning False.
         cache: keeps the stages between calls.
         executor: cuts the lattice at the wall on its workers; the mesh is the same with any.
+        max_triangles: of the mesh: facets are as much coarser as it takes; the report's warnings
+            tell what that costs in mm.
+        max_size: of its binary STL in megabytes, in the same way.
+        service: whose limits these are: Shapeways, Artrovo or Ponoko.
         parameters: keys of a specification's file (docs/reference.md) or fields of a
             `LatticeSpec`, in place of one or on top of it; `cell` may be a dict with nodes and
             struts, `network` a pair of arrays or a `networkx.Graph`, `radius_field` a pair of
@@ -109,8 +117,44 @@ def fill(
     check_kind("executor", executor, (Executor, type(None)), "an Executor of concurrent.futures")
     with shown(progress) as told:
         solid, wanted = _asked(part, unit, told, spec, dict(parameters), material)
+        limits = limits_of(service, max_triangles, max_size)
+        if limits:
+            return _fill_within(solid, wanted, limits, told, cache, executor)
         infill = solve_target(solid, wanted, progress=told, cache=cache, executor=executor)
         return Part(infill.result, infill.spec, solid, cache, FilledPart(infill, cache))
+
+
+def _fill_within(
+    solid: Solid,
+    wanted: LatticeSpec,
+    limits: FileLimits,
+    told: ProgressCallback | None,
+    cache: StageCache,
+    executor: Executor | None,
+) -> Part:
+    """A part whose binary STL keeps within limits."""
+    from ..design.forecast import forecast_fill
+    from ..jobs.file_limits import fit_within
+    from ..jobs.kinds import lattice_kind
+    from ..jobs.targets import solve_target
+    from ..output.file_size import written_size
+    from ..output.form import find_form
+    from ..output.sources import FilledPart
+
+    def expect(spec: LatticeSpec) -> float:
+        return forecast_fill(solid, lattice_kind(spec).roughly_solved(solid)).triangles
+
+    def make(spec: LatticeSpec) -> tuple[FilledPart, int, float]:
+        infill = solve_target(solid, spec, progress=told, cache=cache, executor=executor)
+        made = FilledPart(infill, cache)
+        return made, made.triangles, written_size(made, find_form("part.stl"))
+
+    found = fit_within(wanted, limits, expect, make)
+    result = found.made.result
+    notes = (found.note,) if found.note else ()
+    report = dataclasses.replace(result.report, warnings=(*result.report.warnings, *notes))
+    result = dataclasses.replace(result, report=report)
+    return Part(result, found.made.spec, solid, cache, found.made)
 
 
 def size(

@@ -26,7 +26,14 @@ from ..util.files import keeping_inputs
 from ..util.progress_bar import drawn
 from . import bug_report, infill, layers, process, properties, sizing, solving, sweep
 from .files import read_part
-from .options import FillOptions, MeshOptions, block_options, fill_options, network_options
+from .options import (
+    BlockOptions,
+    FillOptions,
+    MeshOptions,
+    block_options,
+    fill_options,
+    network_options,
+)
 from .parameter_options import add_parameters
 from .parser import Parser, Version, refuse_old, with_current_options
 from .run_options import add_run_options
@@ -35,6 +42,8 @@ from .telling import print_rows, print_summary, print_warnings, write_report
 if TYPE_CHECKING:
     from concurrent.futures import Executor
 
+    from ..design.spec import LatticeSpec
+    from ..io.solid import Solid
     from ..output.sources import FilledPart, Free
     from ..process.worker import Ending
     from ..reports.estimate import Estimate
@@ -184,6 +193,9 @@ def _fill(given: argparse.Namespace) -> None:
     start = time.perf_counter()
     solid = read_part(options.part, options.unit, spec.cell_size)
     read_seconds = time.perf_counter() - start
+    if options.limits:
+        _fill_within(options, solid, start, {"read": read_seconds})
+        return
     rough = lattice_kind(spec).roughly_solved(solid)
     if meshed and spec.output != "domain":
         rough.kind.refuse_crossing()
@@ -201,6 +213,60 @@ def _fill(given: argparse.Namespace) -> None:
         _make(FilledPart(made, progress=progress), options, start, {"read": read_seconds})
 
 
+def _fill_within(
+    options: FillOptions, solid: Solid, start: float, before: dict[str, float]
+) -> None:
+    """Fill with the finest facets with which the file keeps within its limits."""
+    from ..design.forecast import forecast_fill
+    from ..jobs.kinds import lattice_kind
+    from ..jobs.targets import solve_target
+    from ..output.sources import FilledPart
+    from ..util.cache import StageCache
+
+    cache = StageCache()
+
+    def expect(spec: LatticeSpec) -> float:
+        return forecast_fill(solid, lattice_kind(spec).roughly_solved(solid)).triangles
+
+    with drawn(options.quiet) as progress:
+
+        def make(spec: LatticeSpec) -> FilledPart:
+            made = solve_target(solid, spec, progress=progress, cache=cache)
+            return FilledPart(made, progress=progress)
+
+        _make_within(options, expect, make, start, before)
+
+
+def _make_within(
+    options: FillOptions | BlockOptions,
+    expect: Callable[[LatticeSpec], float],
+    make: Callable[[LatticeSpec], FilledPart | Free],
+    start: float,
+    before: dict[str, float],
+) -> None:
+    """Make and write what keeps within the limits of the file.
+
+    Args:
+        options: of the command.
+        expect: triangles of a specification.
+        make: makes one.
+        start: as of `_make`.
+        before: as of `_make`.
+    """
+    from ..jobs.file_limits import fit_within
+    from ..output.file_size import written_size
+
+    def tried(spec: LatticeSpec) -> tuple[FilledPart | Free, int, float]:
+        made = make(spec)
+        size = written_size(made, options.form) if options.limits.megabytes else 0.0
+        return made, made.triangles, size
+
+    found = fit_within(options.spec, options.limits, expect, tried)
+    if found.note:
+        print_warnings([found.note])
+    _make(found.made, options, start, before)
+
+
 def _block(given: argparse.Namespace) -> None:
     options = block_options(given)
 
@@ -208,6 +274,19 @@ def _block(given: argparse.Namespace) -> None:
 
     before: dict[str, float]
     start, count, meshed = time.perf_counter(), options.count, options.form.meshed
+    if options.limits:
+        from ..jobs.targets import solve_block_target
+        from ..output.sources import Block
+
+        with drawn(options.quiet) as progress:
+            _make_within(
+                options,
+                lambda spec: forecast_block(spec, count).triangles,
+                lambda spec: Block(solve_block_target(spec, count), progress),
+                start,
+                {},
+            )
+        return
     if options.spec.target is None:
         from ..jobs.kinds import lattice_kind
 

@@ -22,6 +22,7 @@ from .run_options import refuse_extensions
 from .telling import print_warnings
 
 if TYPE_CHECKING:
+    from ..design.file_limits import FileLimits
     from ..design.spec import LatticeSpec
     from ..mechanics.materials import Material, SolidMaterial
     from ..reports.processes import Process
@@ -77,6 +78,7 @@ class MeshOptions(LatticeOptions):
         process: of the print report; None for none.
         build_direction: of it, from the build plate up.
         material: of a solver's deck.
+        limits: of the file.
     """
 
     form: Form
@@ -85,6 +87,7 @@ class MeshOptions(LatticeOptions):
     process: Process | None
     build_direction: tuple[float, float, float]
     material: Material
+    limits: FileLimits
 
     @property
     def is_plain(self) -> bool:
@@ -282,7 +285,23 @@ def _mesh_options(given: argparse.Namespace, found: Specified) -> dict[str, Any]
         "process": process,
         "build_direction": found.build_direction,
         "material": _deck_material(solid, _density(found, given.material, solid)),
+        "limits": _limits(given, form),
     }
+
+
+def _limits(given: argparse.Namespace, form: Form) -> FileLimits:
+    """Those of the file; none of a network's, whose command has no such options."""
+    from ..design.file_limits import FileLimits, limits_of
+
+    if not hasattr(given, "max_triangles"):
+        return FileLimits()
+    limits = limits_of(given.service, given.max_triangles, given.max_size)
+    if limits and not form.bytes_by:
+        raise VolfrepError(
+            f"Limits are kept by coarser facets of a mesh, which '{given.output}' is not: leave "
+            "them out, or write an STL or a 3MF."
+        )
+    return limits
 
 
 def _lattice_options(

@@ -14,15 +14,18 @@ from pathlib import Path
 from typing import Any
 
 from ..design.banded_words import GRADINGS, PATTERNS, SLICERS
+from ..design.file_limits import SERVICES
 from ..design.parameters.recipes import RECIPES
 from ..output.form import suffixes, suffixes_of, words
 from ..util.errors import VolfrepError
 from .parser import shard, three_numbers, three_whole_numbers
 
 MESHED = ("fill", "block", "network")
+FITTED = ("fill", "block")
 LATTICE = (*MESHED, "slice", "size")
 SPEC_GROUP = "a whole specification"
 MATERIAL_GROUP = "what it is printed of, and how"
+LIMITS_GROUP = "limits of the file"
 FORM_GROUP = "files for CAD and for a solver"
 GOAL_GROUP = "what is wanted: limits for the least mass, or the most stiffness at a mass"
 DENSITY_GROUP = "density of the infill"
@@ -142,6 +145,18 @@ RUN_OPTIONS = (
         "report", ("size",), "write the figures, before and after", "FILE.json", writes="report",
     ),
     RunOption("report", ("solve",), "write the figures as JSON", "FILE.json", writes="report"),
+    RunOption(
+        "max-triangles", FITTED, "coarser facets, where the file would have more; the cost is told",
+        "N", LIMITS_GROUP, int,
+    ),
+    RunOption(
+        "max-size", FITTED, "the same, where the file would be larger", "MB", LIMITS_GROUP, float,
+    ),
+    RunOption(
+        "service", FITTED,
+        f"both, as a service takes them: {', '.join(row.name for row in SERVICES.values())}",
+        "NAME", LIMITS_GROUP,
+    ),
     RunOption(
         "picture", MESHED, "write a picture, cut open (needs pyvista)",
         "FILE.png", writes="picture",

@@ -262,6 +262,12 @@ class Kind(ABC):
         """
         return self.spec.detail.along_cell(self.spec.cell_size, self.spec.struts)
 
+    def deviation_of(self, facets: int) -> float:
+        """How far so many facet edges along L stray from the lattice to either side, mm."""
+        struts = self.spec.struts
+        radius = struts.template_radius**2 / struts.extremes[1]
+        return (self.spec.cell_size / facets) ** 2 / (16.0 * radius)
+
     @property
     def too_coarse(self) -> str | None:
         """What fewer facets than are made would be too coarse for; None: they are made so."""

@@ -15,7 +15,7 @@ from ..cells import UnitCell
 from ..spec_fields import Kind
 from ..spec_parts import MAX_RESOLUTION
 from ..tpms import PeriodicSurface
-from ..tpms.sheet import wanted_facets
+from ..tpms.sheet import CURVATURE, wanted_facets
 
 #: Facets on one side of a wall in a cell, for each facet along its edge squared.
 TRIANGLES_OF_SIDE = 8.0
@@ -139,6 +139,10 @@ class Tpms(Kind):
                 "make them thicker, the cells smaller or the deviation larger."
             )
         return facets
+
+    def deviation_of(self, facets: int) -> float:
+        """As of `Kind`, by the surface's curvature."""
+        return CURVATURE * self.spec.cell_size / (16.0 * facets**2)
 
     @property
     def too_coarse(self) -> str:

@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The finest facets with which a file keeps within limits: first by forecast, then by the file.
+
+Triangles grow with the square of the facets along a cell, but for those of the skin. So after each
+file that was made the next is as much finer or coarser as its own size says.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Generic, TypeVar
+
+from ..design.file_limits import FileLimits
+from ..design.spec import LatticeSpec
+from ..util.errors import VolfrepError
+
+T = TypeVar("T")
+
+#: Bytes of a triangle in a binary STL, by which sizes are judged before there is a file.
+STL_BYTES = 50.0
+#: A file that uses as much of its limits is not made anew to be finer.
+ENOUGH = 0.85
+#: The next file is made to use so much of them.
+AIM = 0.95
+MOST_FILES = 8
+
+
+@dataclass(frozen=True)
+class Fitted(Generic[T]):
+    """What keeps within limits.
+
+    Attributes:
+        made: as `fit_within` was told to make it.
+        spec: of it.
+        used: of the limits, 0 to 1.
+        note: what it costs, for the user; empty where it costs nothing.
+    """
+
+    made: T
+    spec: LatticeSpec
+    used: float
+    note: str
+
+
+def fit_within(
+    spec: LatticeSpec,
+    limits: FileLimits,
+    expect: Callable[[LatticeSpec], float],
+    make: Callable[[LatticeSpec], tuple[T, int, float]],
+) -> Fitted[T]:
+    """Make a file with the finest facets, none finer than asked for, that keeps within limits.
+
+    Args:
+        spec: what is wanted.
+        limits: of the file.
+        expect: about how many triangles a specification has.
+        make: makes one; gives it, its triangles and the size of its file in megabytes.
+
+    Raises:
+        VolfrepError: the lattice has no cells, or not even the coarsest facets that keep its
+            struts round, or its walls whole, are few enough.
+    """
+    if not spec.kind.has_grid:
+        raise VolfrepError(
+            "Limits of a file are kept by coarser facets of cells, and a graph lattice has none: "
+            "give it a larger deviation instead."
+        )
+    finest, coarsest = spec.facets_along_cell, spec.kind.coarsest_resolution
+    coarsest = min(coarsest, finest)
+    low, high = coarsest, finest
+    facets, best = _first(spec, limits, expect, coarsest, finest), None
+    for _ in range(MOST_FILES):
+        tried = spec if facets == finest else _with(spec, facets)
+        made, triangles, megabytes = make(tried)
+        used = _used(limits, triangles, megabytes)
+        if used <= 1.0:
+            deviation = "" if facets == finest else _note(spec, facets, finest, limits)
+            best = Fitted(made, tried, used, deviation)
+            low = facets + 1
+        else:
+            high = facets - 1
+            if facets == coarsest:
+                size = "" if limits.megabytes is None else f" and {megabytes:.3g} MB"
+                raise VolfrepError(
+                    f"With the coarsest facets at which its lattice keeps its shape ({facets} "
+                    f"along a cell) the file has {triangles:,} triangles{size}, more than "
+                    f"{limits}: make the cells larger or the part smaller."
+                )
+        if low > high or (best is not None and best.used >= ENOUGH):
+            break
+        facets = min(max(int(facets * (AIM / used) ** 0.5), low), high)
+    if best is None:
+        raise VolfrepError(
+            f"No facets were found with which the file keeps within {limits} in {MOST_FILES} "
+            "tries: give a larger --deviation yourself."
+        )
+    return best
+
+
+def _with(spec: LatticeSpec, facets: int) -> LatticeSpec:
+    return replace(spec, resolution=facets, deviation=None)
+
+
+def _used(limits: FileLimits, triangles: float, megabytes: float) -> float:
+    """The largest share of the limits."""
+    shares = [0.0]
+    if limits.triangles is not None:
+        shares.append(triangles / limits.triangles)
+    if limits.megabytes is not None:
+        shares.append(megabytes / limits.megabytes)
+    return max(shares)
+
+
+def _first(
+    spec: LatticeSpec,
+    limits: FileLimits,
+    expect: Callable[[LatticeSpec], float],
+    coarsest: int,
+    finest: int,
+) -> int:
+    """Facets along a cell that are expected to keep within the limits."""
+    low, high = coarsest, finest
+    while low < high:
+        facets = (low + high + 1) // 2
+        triangles = expect(spec if facets == finest else _with(spec, facets))
+        if _used(limits, triangles, STL_BYTES * triangles / 1e6) <= 1.0:
+            low = facets
+        else:
+            high = facets - 1
+    return low
+
+
+def _note(spec: LatticeSpec, facets: int, finest: int, limits: FileLimits) -> str:
+    """What coarser facets cost."""
+    return (
+        f"To keep within {limits} there are {facets} facets along a cell in place of {finest}: "
+        f"they stray {spec.kind.deviation_of(facets):.2g} mm from the lattice in place of "
+        f"{spec.kind.deviation_of(finest):.2g} mm."
+    )

@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Files keep within limits by coarser facets, use most of them, and say what that costs."""
+
+import re
+from pathlib import Path
+
+import pytest
+import trimesh
+
+import samples
+from command import run
+from volfrep import VolfrepError, fill
+from volfrep.design.file_limits import SERVICES, FileLimits, limits_of
+from volfrep.io.write.stl import write_stl
+
+BOX = samples.box((30.0, 20.0, 20.0))
+
+
+def part_file(folder: Path) -> Path:
+    path = folder / "solid.stl"
+    write_stl(BOX, path)
+    return path
+
+
+#: Cells and what is asked of their file: an extension, triangles, MB.
+JOBS = [
+    (("--cell", "BCC", "--cell-size", 10, "--strut-radius", 1), "stl", 20_000, None),
+    (("--cell", "Octet", "--cell-size", 10, "--strut-radius", 0.8), "stl", None, 2.5),
+    (("--cell", "CVC", "--cell-size", 10, "--strut-radius", 1), "3mf", None, 0.15),
+    (("--cell", "CVC", "--cell-size", 10, "--strut-radius", 1), "ply", 15_000, None),
+    (("--cell", "Gyroid", "--cell-size", 10, "--wall-thickness", 1), "stl", 65_000, None),
+    (("--cell", "Box", "--cell-size", 5, "--strut-radius", 0.5), "obj", 60_000, 3.0),
+]
+
+
+@pytest.mark.slow_cases("job1", "job3", "job5")
+@pytest.mark.parametrize(
+    ("lattice", "extension", "triangles", "megabytes"),
+    [pytest.param(*job, id=f"job{k}") for k, job in enumerate(JOBS)],
+)
+def test_a_file_uses_most_of_its_limits(lattice, extension, triangles, megabytes, tmp_path, capsys):
+    out = tmp_path / f"part.{extension}"
+    limits = [*(("--max-triangles", triangles) if triangles else ())]
+    limits += [*(("--max-size", megabytes) if megabytes else ())]
+    part = part_file(tmp_path)
+    assert run("fill", part, "-o", out, *lattice, "--shell", 1, *limits) == 0
+    mesh = trimesh.load(out, force="mesh")
+    used = [len(mesh.faces) / triangles] if triangles else []
+    used += [out.stat().st_size / 1e6 / megabytes] if megabytes else []
+    assert 0.7 <= max(used) <= 1.0
+    said = capsys.readouterr().err
+    assert re.search(r"facets along a cell in place of \d+: they stray [\d.e-]+ mm", said)
+
+
+def test_a_file_within_its_limits_is_as_fine_as_ever(tmp_path, capsys):
+    lattice = ("--cell", "BCC", "--cell-size", 10, "--strut-radius", 1, "--count", "2,2,2")
+    plain, limited = tmp_path / "plain.stl", tmp_path / "limited.stl"
+    assert run("block", "-o", plain, *lattice) == 0
+    assert run("block", "-o", limited, *lattice, "--service", "shapeways") == 0
+    assert len(trimesh.load(plain).faces) == len(trimesh.load(limited).faces)
+    assert "to keep within" not in capsys.readouterr().err.lower()
+
+
+def test_a_block_keeps_within_limits(tmp_path):
+    lattice = ("--cell", "BCC", "--cell-size", 10, "--strut-radius", 1, "--count", "2,2,2")
+    out = tmp_path / "block.stl"
+    assert run("block", "-o", out, *lattice, "--max-triangles", 18_000) == 0
+    assert 0.7 * 18_000 <= len(trimesh.load(out).faces) <= 18_000
+
+
+def test_in_python_the_report_tells_what_it_costs():
+    part = fill(BOX, cell="BCC", cell_size=10, strut_radius=1, shell=1, max_triangles=20_000)
+    assert 14_000 <= part.report.triangles <= 20_000
+    assert any("To keep within 20,000 triangles" in text for text in part.report.warnings)
+    assert part.report.watertight
+
+
+def test_struts_that_would_lose_their_shape_are_refused(tmp_path, capsys):
+    out = tmp_path / "part.stl"
+    lattice = ("--cell", "BCC", "--cell-size", 10, "--strut-radius", 1)
+    assert run("fill", part_file(tmp_path), "-o", out, *lattice, "--max-triangles", 2_000) == 2
+    assert "at which its lattice keeps its shape" in capsys.readouterr().err
+    assert not out.exists()
+
+
+def test_a_form_without_a_mesh_has_no_limits(tmp_path, capsys):
+    wanted = ("--cell", "BCC", "--max-size", 5)
+    assert run("fill", part_file(tmp_path), "-o", tmp_path / "part.inp", *wanted) == 2
+    assert "coarser facets of a mesh" in capsys.readouterr().err
+
+
+def test_services_are_known_by_name_source_and_date():
+    assert limits_of("shapeways", None, None) == FileLimits(1_000_000, 64.0)
+    assert all(row.source and re.fullmatch(r"20\d\d-\d\d", row.read) for row in SERVICES.values())
+    with pytest.raises(VolfrepError, match="choose Shapeways"):
+        limits_of("nobody", None, None)

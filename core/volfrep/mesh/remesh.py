@@ -122,6 +122,7 @@ class Rules:
         merge: called with (k,) from and to vertices of edges: the cost of merging them, and the
             place of what they become. The cheapest go first, those of infinite cost stay. None:
             the shortest first, into the middle of two free ends or else where the second one is.
+        lastly: as `stays_good`, of edges that all else allows; None: nothing more is asked.
     """
 
     rank: Ints
@@ -129,6 +130,7 @@ class Rules:
     forbidden: Callable[[Ints, Ints], Bools]
     stays_good: Callable[[Floats, Floats], Bools]
     merge: Callable[[Ints, Ints], tuple[Floats, Floats]] | None = None
+    lastly: Callable[[Floats, Floats], Bools] | None = None
 
 
 def collapse(
@@ -186,15 +188,21 @@ def collapse(
     for side, other, moves in ((gone, kept, np.ones(len(gone), bool)), (kept, gone, free)):
         rows, owner = rows_of(corner_start, side)
         corners = triangles[corner_triangle[rows]]
-        affected = ~(corners == other[owner][:, None]).any(axis=1) & moves[owner]
+        affected = ~(corners == other[owner][:, None]).any(axis=1) & (moves & good)[owner]
         corners, owner = corners[affected], owner[affected]
         before = vertices[corners]
         after = np.where(
             (corners == side[owner][:, None])[:, :, None], target[owner][:, None, :], before
         )
-        bad = ~rules.stays_good(before, after)
-        span = np.linalg.norm(after - np.roll(after, 1, axis=1), axis=2).max(axis=1)
-        bad |= span > longest
+        bad = np.linalg.norm(after - np.roll(after, 1, axis=1), axis=2).max(axis=1) > longest
+        # What takes longer is asked only where all else is good.
+        for test in (rules.stays_good, rules.lastly):
+            if test is None:
+                continue
+            good &= np.bincount(owner[bad], minlength=len(gone)) == 0
+            rest = good[owner]
+            before, after, owner = before[rest], after[rest], owner[rest]
+            bad = ~test(before, after)
         good &= np.bincount(owner[bad], minlength=len(gone)) == 0
     gone, kept, target, cost = gone[good], kept[good], target[good], cost[good]
 

@@ -113,6 +113,12 @@ def even_surface(
         wanted = closest_points(mesh, places)[0]
         near = cKDTree(wanted).query_pairs(_APART * edge, output_type="ndarray")
         wanted = np.delete(wanted, near.max(axis=1), axis=0)
+    outwards = remesh.normals(mesh.vertices[mesh.triangles])
+
+    def below(points: Floats) -> Floats:
+        return np.asarray(outwards[closest_points(mesh, points)[2]])
+
+    may, allowed = _keeps_shape(below, _TINY * edge)
     for number in range(_PASSES):
         monitor.tick()
 
@@ -125,9 +131,7 @@ def even_surface(
             vertices, triangles, pinned = _with_vertices(vertices, triangles, wanted, edge)
         for _ in range(3):
             creases = _Creases(vertices, triangles, pinned, _TINY * edge)
-            rules = remesh.Rules(
-                creases.rank, creases.may_slide, _nothing, _keeps_shape(mesh, _TINY * edge)
-            )
+            rules = remesh.Rules(creases.rank, creases.may_slide, _nothing, may, lastly=allowed)
             before = len(vertices)
             vertices, triangles, _ = remesh.collapse(
                 vertices, triangles, rules, _SHORT * edge, _LONG * edge
@@ -200,15 +204,20 @@ def _nothing(one: Ints, two: Ints) -> Bools:
     return np.zeros(len(one), bool)
 
 
-def _keeps_shape(mesh: TriangleMesh, tiny: float) -> Callable[[Floats, Floats], Bools]:
-    """Which triangles may change as they would.
+def _keeps_shape(
+    below: Callable[[Floats], Floats], tiny: float
+) -> tuple[Callable[[Floats, Floats], Bools], Callable[[Floats, Floats], Bools]]:
+    """Which triangles may change as they would, and which of these indeed.
 
     Of needles, and of those lower than `tiny`, which close strips, it is only asked that they do
     not lie on the surface with their back outside: their own direction may be any.
-    """
-    outwards = remesh.normals(mesh.vertices[mesh.triangles])
 
-    def allowed(before: Floats, after: Floats) -> Bools:
+    Args:
+        below: the normals of the surface next to some points.
+        tiny: mm.
+    """
+
+    def judged(before: Floats, after: Floats) -> tuple[Bools, Bools, Floats]:
         old, new = remesh.normals(before), remesh.normals(after)
         cosine = np.einsum("ij,ij->i", old, new)
         size, now = np.linalg.norm(old, axis=1), np.linalg.norm(new, axis=1)
@@ -217,13 +226,22 @@ def _keeps_shape(mesh: TriangleMesh, tiny: float) -> Callable[[Floats, Floats], 
         good = (cosine > _TURN * size * now) & (now > 0) & shape
         side = np.linalg.norm(before - np.roll(before, 1, axis=1), axis=2).max(axis=1)
         low = size < tiny * side
-        rest = np.flatnonzero(~good & (low | ((first < _NEEDLE) & (now > 0) & shape)))
+        maybe = ~good & (low | ((first < _NEEDLE) & (now > 0) & shape))
+        return good, maybe, new
+
+    def may(before: Floats, after: Floats) -> Bools:
+        good, maybe, _ = judged(before, after)
+        return np.asarray(good | maybe)
+
+    def allowed(before: Floats, after: Floats) -> Bools:
+        good, maybe, new = judged(before, after)
+        rest = np.flatnonzero(maybe)
         if len(rest):
-            below = outwards[closest_points(mesh, after[rest].mean(axis=1))[2]]
-            good[rest] = np.einsum("ij,ij->i", new[rest], below) >= 0.0
+            outwards = below(after[rest].mean(axis=1))
+            good[rest] = np.einsum("ij,ij->i", new[rest], outwards) >= 0.0
         return np.asarray(good)
 
-    return allowed
+    return may, allowed
 
 
 def _rounder(vertices: Floats, creases: _Creases) -> Callable[[Ints, Ints], Floats]:

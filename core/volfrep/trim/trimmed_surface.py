@@ -244,17 +244,32 @@ def equal_rows(points: Floats, among: Floats) -> Ints:
     if not len(some):
         return np.full(len(ours), -1, np.int64)
     some = some[np.argsort(theirs[some])]
-    row = some[np.minimum(np.searchsorted(theirs[some], ours), len(some) - 1)]
-    result: Ints = np.where((among[row] == points).all(axis=1), row, -1)
+    theirs = theirs[some]
+    result: Ints = np.full(len(ours), -1, np.int64)
+    waiting, place = np.arange(len(ours)), np.searchsorted(theirs, ours)
+    while len(waiting):  # other points may have the same number
+        alike = theirs[np.minimum(place, len(some) - 1)] == ours[waiting]
+        alike &= place < len(some)
+        waiting, place = waiting[alike], place[alike]
+        row = some[place]
+        found = (among[row] == points[waiting]).all(axis=1)
+        result[waiting[found]] = row[found]
+        waiting, place = waiting[~found], place[~found] + 1
     return result
 
 
 def _hashed(points: Floats) -> NDArray[np.uint64]:
-    """(n,) a number for each point, equal where the coordinates are."""
-    x, y, z = (np.ascontiguousarray(points[:, k] + 0.0).view(np.uint64) for k in range(3))
+    """(n,) a number for each point, equal where the coordinates are.
+
+    Each coordinate is mixed in by the finaliser of SplitMix64 (Steele, Lea and Flood, 2014): cells
+    repeat, and less leaves points whose coordinates differ by the same steps with one number.
+    """
+    result = np.zeros(len(points), np.uint64)
     with np.errstate(over="ignore"):
-        mixed = x * np.uint64(0x9E3779B97F4A7C15) ^ (y * np.uint64(0xC2B2AE3D27D4EB4F))
-        mixed = (mixed ^ (mixed >> np.uint64(29))) * np.uint64(0xBF58476D1CE4E5B9)
-        mixed += z * np.uint64(0x165667B19E3779F9)
-        result: NDArray[np.uint64] = mixed ^ (mixed >> np.uint64(32))
+        for k in range(3):
+            result ^= np.ascontiguousarray(points[:, k] + 0.0).view(np.uint64)
+            for shift, factor in ((30, 0xBF58476D1CE4E5B9), (27, 0x94D049BB133111EB)):
+                result ^= result >> np.uint64(shift)
+                result *= np.uint64(factor)
+            result ^= result >> np.uint64(31)
     return result

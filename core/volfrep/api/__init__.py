@@ -31,6 +31,7 @@ __all__ = [
     "block",
     "fill",
     "mesh_network",
+    "orient",
     "size",
     "slice_layers",
     "slicer_infill",

@@ -45,6 +45,7 @@ if TYPE_CHECKING:
     from ..jobs.slices import Layers
     from ..jobs.solving import Solved
     from ..loads.load_cases import LoadCases
+    from ..reports.orientation import Orientations
 
 
 class MeshLike(Protocol):
@@ -299,6 +300,49 @@ def solve(
         if material is not None:
             cases = dataclasses.replace(cases, material=find_material(material))
         return solve_solid(mesh, cases, voxel=voxel, progress=told)
+
+
+def orient(
+    part: Part | str | os.PathLike[str] | TriangleMesh | MeshLike | tuple[ArrayLike, ArrayLike],
+    *,
+    process: str | None = None,
+    inclination: float | None = None,
+    best: int = 5,
+    unit: str | None = None,
+    progress: ProgressCallback | bool | None = None,
+) -> Orientations:
+    """The best build directions of a part: by overhang, closed rooms, supports, height.
+
+    Args:
+        part: as of `solve`.
+        process: FFF, SLA, SLS, MJF, LPBF or EBM, whose inclination holds.
+        inclination: least angle of a facet to the build plate that needs no support, degrees;
+            None for the process's, or 45.
+        best: how many are told, at most.
+        unit: as of `fill`.
+        progress: as of `fill`.
+
+    Returns:
+        Its `best` holds the figures of each, `turned` gives the part as it stands on the plate.
+
+    Raises:
+        VolfrepError: the part is no solid, or there is no such process.
+        Cancelled: the callback said so.
+
+    >>> import trimesh, volfrep
+    >>> found = volfrep.orient(trimesh.creation.box((40, 10, 20)))
+    >>> round(found.best[0].height_mm, 6), round(found.best[0].base_mm2, 3)
+    (10.0, 800.0)
+    """
+    from ..reports.orientation import inclination_of
+    from ..reports.orientation import orient as best_orientations
+
+    whole("best", best, 1, 100)
+    with shown(progress) as told:
+        mesh = part.result.mesh if isinstance(part, Part) else as_solid(part, unit, told)
+        return best_orientations(
+            mesh, inclination_of(process, inclination), best=best, progress=told
+        )
 
 
 def _loads(

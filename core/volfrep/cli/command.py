@@ -24,7 +24,7 @@ from ..util import memory_limit
 from ..util.errors import VolfrepError
 from ..util.files import keeping_inputs
 from ..util.progress_bar import drawn
-from . import bug_report, infill, layers, process, properties, sizing, solving, sweep
+from . import bug_report, infill, layers, orienting, process, properties, sizing, solving, sweep
 from .files import read_part
 from .options import (
     BlockOptions,
@@ -141,6 +141,7 @@ def _parser() -> argparse.ArgumentParser:
 
     sizing.add_command(add)
     solving.add_command(add)
+    orienting.add_command(add)
     sweep.add_command(add)
 
     check = add("check", _check, "Tell what a reader sees in a mesh file (STL, OBJ, PLY, 3MF).")

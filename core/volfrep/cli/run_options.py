@@ -108,6 +108,10 @@ RUN_OPTIONS = (
         "FILE", writes="output", short="o",
     ),
     RunOption(
+        "output", ("orient",), "the part turned, with its lowest place at z = 0",
+        "FILE", writes="output", short="o",
+    ),
+    RunOption(
         "output", ("sweep",),
         "of records, table and page; what is done there is not done again",
         "FOLDER", required=True, short="o",
@@ -121,7 +125,7 @@ RUN_OPTIONS = (
         "output", ("cells",), "a cell file of it", "FILE.json", writes="output", short="o",
     ),
     RunOption(
-        "unit", ("fill", "slice", "infill", "size", "solve", "check"),
+        "unit", ("fill", "slice", "infill", "size", "solve", "orient", "check"),
         "of the file's lengths: mm, cm, m, inch, ft or um (default: what the file says, else mm)",
         "UNIT",
     ),
@@ -144,7 +148,9 @@ RUN_OPTIONS = (
     RunOption(
         "report", ("size",), "write the figures, before and after", "FILE.json", writes="report",
     ),
-    RunOption("report", ("solve",), "write the figures as JSON", "FILE.json", writes="report"),
+    RunOption(
+        "report", ("solve", "orient"), "write the figures as JSON", "FILE.json", writes="report",
+    ),
     RunOption(
         "max-triangles", FITTED, "coarser facets, where the file would have more; the cost is told",
         "N", LIMITS_GROUP, int,
@@ -210,6 +216,22 @@ RUN_OPTIONS = (
         "FFF, SLA, SLS, MJF, LPBF or EBM: adds its print report where there is a mesh, and says if "
         "it does not print the material",
         "P", MATERIAL_GROUP,
+    ),
+    RunOption(
+        "process", ("orient",),
+        "FFF, SLA, SLS, MJF, LPBF or EBM: the inclination that needs no support is its", "P",
+    ),
+    RunOption(
+        "inclination", ("orient",),
+        "least angle of a facet to the build plate that needs no support, in degrees (default 45)",
+        "DEG", read=float,
+    ),
+    RunOption(
+        "best", ("orient",), "directions that are told (default 5)", "N", read=int, default=5,
+    ),
+    RunOption(
+        "take", ("orient",), "which of them the output is turned to (default 1)", "N", read=int,
+        default=1,
     ),
     RunOption(
         "print-report", MESHED,
@@ -441,7 +463,9 @@ RUN_OPTIONS = (
     RunOption("limit-hours", ("sweep",), "end a run that takes longer", "H", read=float),
     RunOption("limit-memory", ("sweep",), "end a run that takes more", "GB", read=float),
     RunOption("retry-failed", ("sweep",), "try again what failed before"),
-    RunOption("quiet", (*LATTICE, "infill", "solve", "sweep"), "print nothing but errors"),
+    RunOption(
+        "quiet", (*LATTICE, "infill", "solve", "orient", "sweep"), "print nothing but errors",
+    ),
 )  # fmt: skip
 #: Arguments without hyphens, and options of the table of parameters, that name files which are
 #: read; what the command calls them.

@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The command ``volfrep orient``: which way a part is built best.
+
+numpy and the engine are imported inside the functions, as in `command`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from ..util.errors import VolfrepError
+from ..util.progress_bar import drawn
+from .files import check_files
+from .run_options import add_run_options
+from .telling import print_rows
+
+_TEXT = "Find the best build directions of a solid: overhang, closed rooms, height, footprint."
+
+
+def add_command(add: Callable[[str, Callable[[argparse.Namespace], None], str], Any]) -> None:
+    """Add the command with `cli`'s own function for that."""
+    parser = add("orient", _orient, _TEXT)
+    parser.add_argument("part", metavar="PART", help="the closed solid, as for fill")
+    add_run_options(parser, "orient")
+
+
+def _orient(options: argparse.Namespace) -> None:
+    from ..io.solid import read_solid
+    from ..output.meshes import mesh_form, write_mesh
+    from ..reports.orientation import inclination_of, orient
+    from ..util.files import replacing
+
+    check_files(options)
+    if options.output is not None:
+        mesh_form(options.output)
+    if options.take < 1 or options.take > options.best:
+        raise VolfrepError(
+            f"--take is the number of one of the {options.best} best, not {options.take}."
+        )
+    inclination = inclination_of(options.process, options.inclination)
+    solid = read_solid(Path(options.part), options.unit)
+    with drawn(options.quiet) as progress:
+        found = orient(solid, inclination, best=options.best, progress=progress)
+    if options.output is not None:
+        write_mesh(found.turned(min(options.take, len(found.best)) - 1), options.output)
+    if options.report is not None:
+        with replacing(options.report) as file:
+            file.write(json.dumps(found.as_dict(), indent=2).encode() + b"\n")
+    if not options.quiet:
+        print_rows(*found.rows())

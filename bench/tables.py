@@ -43,17 +43,29 @@ def yes_no(value: bool) -> str:
     return "yes" if value else "no"
 
 
+#: Of a table with as many rows a column that says the same in all is a sentence below it.
+TOLD_ONCE = 3
+
+
 def table(columns: Sequence[Column], rows: Sequence[Row]) -> str:
     """The rows as a Markdown table, columns without any value left out.
 
-    Notes come in a last column of their own, if there is one.
+    A column whose values are all the same is told once, below. Notes come in a last column of
+    their own, if there is one.
     """
     shown = [column for column in columns if any(column.text(row) for row in rows)]
+    same = []
+    for column in shown[1:] if len(rows) >= TOLD_ONCE else []:
+        values = {column.text(row) for row in rows}
+        if len(values) == 1:
+            same.append(f"{column.title}: {values.pop()}")
+            shown = [other for other in shown if other is not column]
     if any(row.get("note") for row in rows):
         shown.append(Column("", "note"))
     lines = [[column.title for column in shown], ["---"] * len(shown)]
     lines += [[column.text(row).replace("|", "/") for column in shown] for row in rows]
-    return "\n".join(f"| {' | '.join(line)} |" for line in lines)
+    text = "\n".join(f"| {' | '.join(line)} |" for line in lines)
+    return f"{text}\n\nIn all rows {', '.join(same)}." if same else text
 
 
 def measured(rows: Sequence[Row], *keys: str) -> list[Row]:

@@ -29,11 +29,9 @@ display         section                 section_2_moved      section_view
 display         colours                 colours_1_radius     colour_by
 lattice_infill  pick_in_the_panel       11_picked_direction  picking
 lattice_infill  choose_walls            panel_6_walls        walls_panel
-lattice_infill  choose_walls            walls_made           walls_made
 sizing          size_and_take           sizing_2_plot        sizing_plot
 sizing          size_and_take           sizing_2_sized       size_lattice
 sizing          size_a_network          network_3_sized      network_sized
-sizing          size_a_network          network_5_mesh       network_made
 sizing          show_results            results_deformed     strut_results
 "
 rows() { grep -E "$only" <<<"$PICTURES"; }

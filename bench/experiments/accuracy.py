@@ -87,12 +87,17 @@ def _distances(path: Path, brep: TriangleMesh | None) -> Row:
     return row
 
 
-COLUMNS = (
-    Column("tool", "tool"),
-    Column("points or facets along L", "resolution"),
-    Column("RMS, mm", "rms", ".4f"),
-    Column("RMS to the B-rep, mm", "rms_brep", ".4f"),
-)
+def _by_resolution(rows: list[Row]) -> str:
+    """A row a resolution, with both distances of each tool."""
+    tools = list(dict.fromkeys(row["tool"] for row in rows))
+    columns = [Column("points or facets along L", "resolution")]
+    columns += [Column(tool, tool) for tool in tools]
+    shown: dict[int, Row] = {}
+    for row in rows:
+        figures = [format(row[key], ".4f") for key in ("rms", "rms_brep") if key in row]
+        at = shown.setdefault(row["resolution"], {"resolution": row["resolution"]})
+        at[row["tool"]] = row.get("note") or ", ".join(figures)
+    return table(columns, list(shown.values()))
 
 
 def render(result: dict[str, Any], images: Path) -> str:
@@ -123,5 +128,7 @@ def render(result: dict[str, Any], images: Path) -> str:
 
 {plot}
 
-{table(COLUMNS, rows)}
+RMS in mm, to the exact surface and to the B-rep:
+
+{_by_resolution(rows)}
 """

@@ -39,6 +39,18 @@ def test_a_table_shows_figures_and_leaves_empty_columns_out():
     ]
 
 
+def test_a_column_that_says_the_same_in_all_rows_is_told_once():
+    columns = (Column("cell", "cell"), Column("s", "seconds", ".0f"), Column("bodies", "bodies"))
+    rows = [
+        {"cell": cell, "seconds": k, "bodies": 1} for k, cell in enumerate(("BCC", "CVC", "FCC"))
+    ]
+    told = table(columns, rows).splitlines()
+    assert told[0] == "| cell | s |"
+    assert told[-2:] == ["", "In all rows bodies: 1."]
+    rows[1]["bodies"] = 2
+    assert table(columns, rows).splitlines()[0] == "| cell | s | bodies |"
+
+
 def test_bars_say_met_missed_and_not_measured():
     rows = [bar("fast", 0.9, 1.0, "s"), bar("slow", 1.1, 1.0, "s"), bar("gone", None, 1.0, "s")]
     fast, slow, gone = bars_table(rows).splitlines()[2:]

@@ -59,6 +59,7 @@ def profile(tmp_path_factory):
     return home
 
 
+@pytest.mark.slow
 def test_the_archive_fills_and_documents_open_both_ways(doc, infill, profile, tmp_path):
     mine, made = tmp_path / "checkout.FCStd", tmp_path / "archive.FCStd"
     doc.saveAs(str(mine))

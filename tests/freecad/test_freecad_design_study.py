@@ -93,6 +93,7 @@ def test_a_graded_lattice_is_studied_by_its_mass_alone(doc, infill):
     assert "properties.E100" not in rows[0]
 
 
+@pytest.mark.slow
 def test_combinations_without_sense_are_told_and_passed_over(doc, infill):
     study = make_design_study(doc, infill, CellSize="10, 99", StrutRadius="1, 6")
     run_study(study)

@@ -77,6 +77,7 @@ def test_the_volume_of_the_papers_sample(tmp_path):
     assert (tmp_path / "sample.step").stat().st_size < 0.25e6
 
 
+@pytest.mark.slow
 def test_cones_of_random_radii(tmp_path):
     frame = result("CVC", (1, 1, 1)).wireframe
     radius = np.random.default_rng(1).uniform(1.2, 2.2, len(frame.nodes))
@@ -104,6 +105,7 @@ def sampled_volume(frame):
     return inside.mean() * np.prod(high - low)
 
 
+@pytest.mark.slow
 def test_pieces_that_do_not_touch_are_solids_of_their_own():
     frame = result("CVC", (1, 1, 1)).wireframe
     two = dataclasses.replace(

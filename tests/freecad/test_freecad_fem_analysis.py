@@ -221,6 +221,7 @@ def test_tetrahedra_solved_by_freecad_and_by_our_own_deck(doc, tmp_path):
     assert 1000 * 16 / 210_000 / whole < moved[end, 0].mean() < 2 * 1000 * 16 / 210_000 / skin
 
 
+@pytest.mark.slow
 def test_what_has_no_analysis(doc, box, infill):
     with pytest.raises(VolfrepError, match="no model 'shells': choose beams or tetrahedra"):
         make_fem_analysis(doc, infill, "shells")

@@ -53,6 +53,7 @@ def test_figures(infill, check):
     assert "Hubs" in check.Limits
 
 
+@pytest.mark.slow
 def test_a_graded_lattice_has_no_largest_ball(doc, infill, check):
     infill.CellMap = "Spherical"
     doc.recompute()
@@ -81,6 +82,7 @@ def test_it_follows_the_infill(doc, infill, check):
     assert check.Mesh.Area == pytest.approx(check.OverhangArea.Value, rel=1e-4) != area
 
 
+@pytest.mark.slow
 def test_it_lies_where_the_infill_does(doc, infill, check):
     part = doc.addObject("App::Part", "Holder")
     part.addObject(infill)

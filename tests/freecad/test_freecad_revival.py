@@ -93,6 +93,7 @@ def test_what_another_freecad_saved_is_alive_again(doc, infill, tmp_path, opened
                       LatticeInfill)  # fmt: skip
 
 
+@pytest.mark.slow
 def test_what_was_changed_there_is_followed(doc, infill, tmp_path, opened):
     path = tmp_path / "part.FCStd"
     doc.saveCopy(str(path))

@@ -101,6 +101,7 @@ def test_one_radius_for_all_is_no_grading(doc, infill):
     assert infill.StrutRadii == pytest.approx([0.65, 0.65])
 
 
+@pytest.mark.slow
 def test_a_file_goes_before_them(doc, infill, tmp_path):
     sized(infill)
     table = tmp_path / "radii.csv"

@@ -109,6 +109,7 @@ def test_a_target_follows_what_the_solid_and_an_expression_say(doc, box):
     assert obj.RelativeDensity == pytest.approx(0.3, rel=NEAR)
 
 
+@pytest.mark.slow
 def test_an_expression_of_the_radius_stays_beside_a_target(doc, box):
     obj = make_lattice_infill(doc, box, **LATTICE)
     obj.setExpression("StrutRadius", "CellSize / 8")

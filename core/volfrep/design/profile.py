@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -134,21 +133,6 @@ class Profile:
             "end": self.end,
             "expression": self.expression,
         }
-
-    @classmethod
-    def from_dict(cls, values: Mapping[str, Any]) -> Profile:
-        """The profile that `as_dict` wrote; entries left out take their defaults.
-
-        Raises:
-            VolfrepError: an entry that is no part of a profile, or a profile that makes no sense.
-        """
-        if not isinstance(values, Mapping):
-            raise VolfrepError(f"A profile must be an object with a 'kind', not {values!r}.")
-        known = ("kind", "start", "end", "expression")
-        strange = [str(name) for name in values if name not in known]
-        if strange:
-            raise VolfrepError(f"A profile has no entry '{strange[0]}': use {', '.join(known)}.")
-        return cls(**values)
 
 
 def _positive(name: str, value: Any) -> float:

@@ -18,6 +18,7 @@ import numpy as np
 
 from ..design.cells import UnitCell
 from ..grid.strut_graph import Wireframe
+from ..mechanics.catalogue import joint_law, known_cell
 from ..mechanics.frame import Ends, JointLaw
 from ..util.errors import VolfrepError
 from ..util.ragged import spread
@@ -164,8 +165,6 @@ def ends_law(cell: UnitCell | None, cell_size: float, section: str) -> JointLaw:
         cell_size: L, mm.
         section: of the beams, ``square`` or ``circle``.
     """
-    from ..mechanics.catalogue import joint_law
-
     return rigid_ends(JOINT_LENGTH) if cell is None else joint_law(cell, cell_size, section)
 
 
@@ -228,8 +227,6 @@ def _misfit(
     wireframe: Wireframe, cell: UnitCell, cell_size: float, section: str
 ) -> tuple[str, ...]:
     """A sentence where no ends give a library's cell its stiffness."""
-    from ..mechanics.catalogue import known_cell
-
     known = known_cell(cell)
     if known is None:
         return ()

@@ -170,8 +170,8 @@ def struts_of(graph: CellGraph, cell: UnitCell, cells: NDArray[np.int32]) -> Boo
     return result
 
 
-def select_struts(lattice: Wireframe, struts: Bools) -> Wireframe:
-    """Some of the struts of a wireframe, (m,) bool, and their nodes."""
+def select_struts(lattice: Wireframe, struts: Bools | Ints) -> Wireframe:
+    """Some of the struts of a wireframe, (m,) bool or (k,) rows, and their nodes."""
     used, rows = np.unique(lattice.struts[struts], return_inverse=True)
     return Wireframe(
         lattice.nodes[used],

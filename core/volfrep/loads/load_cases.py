@@ -10,8 +10,7 @@ from ..mechanics.materials import SolidMaterial
 from ..util.errors import VolfrepError
 from .regions import Region, Vector
 
-#: Where a support leaves an axis free.
-FREE = None
+#: Along x, y and z; None where a support leaves an axis free.
 Displacement = tuple[float | None, float | None, float | None]
 
 

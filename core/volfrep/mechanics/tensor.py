@@ -15,11 +15,8 @@ import numpy as np
 from ..design.target import Target
 from ..util.types import Floats
 
-_VOIGT = ((0, 0), (1, 1), (2, 2), (1, 2), (0, 2), (0, 1))
 #: Stiffness of what carries nothing, over the mean.
 _NOTHING = 1e-9
-#: Row in Voigt's order of each pair of axes.
-_ROW = np.array([[0, 5, 4], [5, 1, 3], [4, 3, 2]])
 
 
 @dataclass(frozen=True)
@@ -80,15 +77,6 @@ def moduli(tensor: Floats) -> Moduli:
         bulk=float(tensor[:3, :3].sum() / 9.0),
         zener=float(2.0 * np.trace(tensor[3:, 3:]) / 3.0 / (direct - across)),
     )
-
-
-def rotate_tensor(tensor: Floats, rotation: Floats) -> Floats:
-    """The tensor of the same lattice turned by a (3, 3) rotation matrix."""
-    full = tensor[_ROW[:, :, None, None], _ROW[None, None]]
-    turned = np.einsum("ai,bj,ck,dl,ijkl->abcd", *[rotation] * 4, full, optimize=True)
-    rows, columns = np.array(_VOIGT).T
-    result: Floats = turned[rows[:, None], columns[:, None], rows, columns]
-    return result
 
 
 def cubic(c11: float, c12: float, c44: float) -> Floats:

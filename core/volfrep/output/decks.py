@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import os
 
-from ..fem.beam_mesh import fitted_beams
+from ..fem.beam_mesh import beam_model, fitted_beams
 from ..fem.deck import write_beams, write_tetrahedra
 from ..fem.joint_loads import side_joints
 from ..fem.tet_mesh import nodes_on, tetrahedra
@@ -19,8 +19,6 @@ class BeamDeckWriter(Writer):
 
     def estimate(self, source: Source) -> Estimate:
         """As of `Writer`."""
-        from ..fem.beam_mesh import beam_model
-
         axes = source.axes
         return estimate_beams(beam_model(axes.wireframe, axes.on_wall), source.choice)
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ..grid.strut_graph import Wireframe
+from ..grid.strut_graph import Wireframe, select_struts
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.manifold import manifold_library
 from ..util.progress import Monitor
@@ -144,13 +144,6 @@ def whole(lattice: Wireframe) -> Callable[[float, float], Wireframe]:
     low, high = (ends - reach).min(axis=1), (ends + reach).max(axis=1)
 
     def between(bottom: float, top: float) -> Wireframe:
-        kept = np.flatnonzero((low < top) & (high > bottom))
-        used, struts = np.unique(lattice.struts[kept], return_inverse=True)
-        return Wireframe(
-            lattice.nodes[used],
-            struts.reshape(-1, 2).astype(np.int32),
-            lattice.radii[kept],
-            lattice.joint_radii[used],
-        )
+        return select_struts(lattice, (low < top) & (high > bottom))
 
     return between

@@ -12,17 +12,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.spatial import cKDTree
+from skimage.measure import marching_cubes
 
 from ..design.expression import Expression, compile_expression
 from ..design.tpms import PeriodicSurface
 from ..util.errors import VolfrepError
 from ..util.types import Floats
-
-if TYPE_CHECKING:
-    from scipy.spatial import cKDTree
 
 #: What formulas of surfaces are formulas of.
 VARIABLES = ("x", "y", "z")
@@ -125,9 +123,6 @@ def midsurface(surface: PeriodicSurface) -> Midsurface:
         VolfrepError: the formula cannot be read, does not repeat, has no finite value everywhere,
             or is nowhere zero.
     """
-    from scipy.spatial import cKDTree
-    from skimage.measure import marching_cubes
-
     expression = compile_expression(surface.formula, VARIABLES)
     axis = np.arange(CLOUD + 1) / CLOUD
     # Off the lattice points, on which symmetric formulas like to be zero.

@@ -12,6 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from ..util.types import Floats
 from .solid import TpmsSolid
@@ -51,8 +52,6 @@ def measure_widths(solid: TpmsSolid) -> TpmsWidths:
     >>> round(measure_widths(sheet).thickness, 2)
     0.1
     """
-    from scipy.spatial import cKDTree
-
     middle = solid.surface
     feet = middle.feet(middle.cloud, middle.cloud, 2)
     sides = (1.0, -1.0) if solid.kind == "sheet" else (1.0,)

@@ -7,7 +7,7 @@ import numpy as np
 
 from ..design.openings import DrainHoles
 from ..design.spec_parts import Grid, Skin, Struts
-from ..grid.strut_graph import BeamModel, Wireframe
+from ..grid.strut_graph import BeamModel, Wireframe, select_struts
 from ..mesh.booleans import difference
 from ..mesh.triangle_mesh import TriangleMesh, concatenate
 from ..spatial.proximity import closest_points
@@ -65,13 +65,7 @@ def reaching_into(lattice: Wireframe, solid: TriangleMesh) -> Wireframe:
     if len(outside):
         outside = outside[closest_points(solid, middle[outside])[1] > reach[outside]]
     kept = np.delete(np.arange(len(middle)), outside)
-    used, struts = np.unique(lattice.struts[kept], return_inverse=True)
-    return Wireframe(
-        lattice.nodes[used],
-        struts.reshape(-1, 2).astype(np.int32),
-        lattice.radii[kept],
-        lattice.joint_radii[used],
-    )
+    return select_struts(lattice, kept)
 
 
 def refuse_fillets(struts: Struts) -> None:

@@ -16,8 +16,6 @@ from volfrep.mechanics.tensor import (
     gibson_ashby,
     hashin_shtrikman,
     moduli,
-    rotate_tensor,
-    young,
 )
 
 CATALOGUE = json.loads(Path(__file__).with_name("anisotropic_lattices.json").read_text())[
@@ -104,19 +102,6 @@ def test_moduli_of_a_published_cubic_tensor():
     along = found.E100, found.E111
     assert along == pytest.approx((130.1, 187.9), rel=1e-3)
     assert found.zener == pytest.approx(1.564, rel=1e-3)
-
-
-def test_a_turned_tensor_is_as_stiff_along_turned_directions():
-    angle = 0.7
-    turn = np.array(
-        [[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0], [0, 0, 1]]
-    )
-    tensor = cubic(3.0, 1.0, 2.0)
-    ways = np.random.default_rng(0).normal(size=(20, 3))
-    assert young(rotate_tensor(tensor, turn), ways @ turn.T) == pytest.approx(young(tensor, ways))
-    assert rotate_tensor(cubic(3.0, 1.0, 1.0), turn) == pytest.approx(
-        cubic(3.0, 1.0, 1.0), abs=1e-12
-    )
 
 
 def test_the_lines_to_compare_with():

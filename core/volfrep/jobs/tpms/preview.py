@@ -8,6 +8,7 @@ from functools import lru_cache
 
 import numpy as np
 from scipy.ndimage import map_coordinates
+from skimage.measure import marching_cubes
 
 from ...design.grading import RadiusGrading
 from ...design.spec import LatticeSpec
@@ -84,8 +85,6 @@ def preview_tpms(
 def _surface(
     solid: TriangleMesh, spec: LatticeSpec, depth: PartDepth, where: _Where
 ) -> TriangleMesh:
-    from skimage.measure import marching_cubes
-
     low, high = solid.bounds
     pitch = max(spec.cell_size / ALONG_CELL, float(np.cbrt(np.prod(high - low) / MOST_SAMPLES)))
     if pitch > spec.cell_size / LEAST_ALONG:

@@ -24,6 +24,7 @@ sys.path.insert(0, str(ROOT / "core"))
 from volfrep.cli.run_options import RUN_OPTIONS, RunOption  # noqa: E402
 from volfrep.design.parameters import GROUPS, PARAMETERS, Need, Parameter  # noqa: E402
 from volfrep.design.parameters.parameter import SHAPES  # noqa: E402
+from volfrep.design.parameters.table import WALLS  # noqa: E402
 
 _PLACE = re.compile(
     r"(<!-- parameters: (?P<groups>[^>]*) -->\n).*?(<!-- end of parameters -->)", re.DOTALL
@@ -112,6 +113,8 @@ def _need(need: Need) -> str:
     names = " or ".join(name.replace("_", " ") for name in need.names)
     if need.absent:
         return f"no {names}"
+    if need.values == WALLS:
+        return f"{names} a [TPMS](tpms.md)"
     words = [str(value) for value in need.values]
     return f"{names} {' or '.join(filter(None, (', '.join(words[:-1]), *words[-1:])))}".strip()
 

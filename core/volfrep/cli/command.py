@@ -24,7 +24,18 @@ from ..util import memory_limit
 from ..util.errors import VolfrepError
 from ..util.files import keeping_inputs
 from ..util.progress_bar import drawn
-from . import bug_report, infill, layers, orienting, process, properties, sizing, solving, sweep
+from . import (
+    bug_report,
+    find,
+    infill,
+    layers,
+    orienting,
+    process,
+    properties,
+    sizing,
+    solving,
+    sweep,
+)
 from .files import read_part
 from .options import (
     BlockOptions,
@@ -138,6 +149,7 @@ def _parser() -> argparse.ArgumentParser:
     layers.add_command(add)
     infill.add_command(add)
     properties.add_command(add)
+    find.add_command(add)
 
     sizing.add_command(add)
     solving.add_command(add)

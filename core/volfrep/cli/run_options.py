@@ -206,7 +206,7 @@ RUN_OPTIONS = (
         "M", reads="material file",
     ),
     RunOption(
-        "material", ("properties",),
+        "material", ("properties", "find"),
         "of the solid: a name of the table (see docs/cells.md), a .toml or .json file, or "
         "NAME,E,NU; without one, figures are in units of the solid's",
         "M", reads="material file",
@@ -396,6 +396,18 @@ RUN_OPTIONS = (
         "deformed", ("size",), "displacements drawn so many times as large",
         "F", SIZED_PICTURE_GROUP, float,
     ),
+    RunOption("modulus", ("find",), "Young's modulus of the lattice, in MPa with a material", "E",
+              read=float),
+    RunOption(
+        "relative-density", ("find",), "from 0 to 1; with a modulus too the nearest cells are "
+        "first", "D", read=float,
+    ),
+    RunOption(
+        "direction", ("find",), "of the modulus: x, y, z, 100, 110, 111 or X,Y,Z (default x)", "D",
+        default="x",
+    ),
+    RunOption("cell-size", ("find",), "edge L (default 10)", "MM", read=float, default=10.0),
+    RunOption("most", ("find",), "cells told (default 10)", "N", read=int, default=10),
     RunOption(
         "cell-size", ("properties",), "edge L of a cell", "MM", read=float, required=True,
     ),
@@ -432,7 +444,7 @@ RUN_OPTIONS = (
         "voxels", ("properties",), "along L (default: what the radius asks for)", "N", read=int,
     ),
     RunOption(
-        "json", ("properties",), "write the figures, and their errors, as JSON",
+        "json", ("properties", "find"), "write the figures, and their errors, as JSON",
         "FILE", writes="figures",
     ),
     RunOption(

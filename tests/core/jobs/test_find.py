@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Cells by what they do, from the catalogue."""
 
+import json
+
 import pytest
 
 import volfrep
+from command import run
 
 
 def test_each_cell_that_is_found_has_the_modulus_and_the_lightest_is_first():
@@ -38,3 +41,21 @@ def test_of_a_density_the_stiffest_and_with_a_modulus_the_nearest_is_first():
 def test_what_makes_no_sense_is_refused(given, words):
     with pytest.raises(volfrep.VolfrepError, match=words):
         volfrep.find(**given)
+
+
+def test_the_command_tells_cells_with_their_errors(tmp_path, capsys):
+    out = tmp_path / "found.json"
+    wanted = ("--modulus", 50, "--relative-density", 0.2, "--material", "PA12", "--direction", "z")
+    assert run("find", *wanted, "--most", 3, "--json", out) == 0
+    head, *rows, more = capsys.readouterr().out.splitlines()
+    assert "E along z, MPa" in head
+    assert len(rows) == 3
+    assert more.startswith("and ")
+    name, told = rows[0].split()[0], float(rows[0].split(" %")[1].split()[0])
+    again = volfrep.find(modulus=50, relative_density=0.2, material="PA12", direction="z")[0]
+    assert name == again.cell
+    assert told == pytest.approx(again.young((0, 0, 1)), rel=1e-3)
+    kept = json.loads(out.read_text())
+    assert kept[0]["cell"] == again.cell
+    assert run("find", "--modulus", 1e8, "--material", "PA12") == 2
+    assert run("find") == 2

@@ -11,12 +11,14 @@ from ...design.target import read_direction
 from ...mechanics.catalogue import CatalogueCell, catalogue, known_properties
 from ...mechanics.materials import SolidMaterial, find_material
 from ...mechanics.summary import CellProperties
+from ...mechanics.tensor import young
 from ...util.arguments import check_kind, three_numbers
 from ...util.errors import VolfrepError, brief
 from ...util.numbers import number
 
 #: Places between a cell's thinnest and thickest struts at which its modulus is looked at.
 _PLACES = 49
+_AXES = {"x": "1,0,0", "y": "0,1,0", "z": "0,0,1"}
 
 
 def find_lattices(
@@ -33,7 +35,7 @@ def find_lattices(
         modulus: Young's along `direction`, MPa with a material, else in units of the solid's.
         relative_density: of the lattice. With a modulus too, each cell has this density, and those
             whose modulus comes nearest are first.
-        direction: of the cell: "100", "110", "111" or three numbers.
+        direction: of the cell: "x", "y", "z", "100", "110", "111" or three numbers.
         material: as of `properties`.
         cell_size: L, mm.
 
@@ -56,11 +58,7 @@ def find_lattices(
     size = Grid(cell_size).size
     solid = find_material(material) if isinstance(material, str) else material
     check_kind("material", solid, (SolidMaterial, type(None)), "a material's name or file")
-    try:
-        way = read_direction(direction) if isinstance(direction, str) else direction
-    except ValueError as error:
-        raise VolfrepError(f"{brief(direction)} is no direction: write 100, 110 or 111.") from error
-    way = three_numbers("direction", way)
+    way = direction_of(direction)
     found = []
     for name, cell in catalogue().items():
         if relative_density is not None:
@@ -78,6 +76,20 @@ def find_lattices(
     return sorted(found, key=lambda one: abs(np.log(max(one.young(way), 1e-300) / modulus)))
 
 
+def direction_of(direction: str | tuple[float, float, float]) -> tuple[float, float, float]:
+    """Three numbers of what `find_lattices` takes for a direction.
+
+    Raises:
+        VolfrepError: it is none.
+    """
+    word = _AXES.get(direction, direction) if isinstance(direction, str) else direction
+    try:
+        way = read_direction(word) if isinstance(word, str) else word
+    except ValueError as error:
+        raise VolfrepError(f"{brief(direction)} is no direction: write 100, 110 or 111.") from error
+    return three_numbers("direction", way)
+
+
 def _radius_of_modulus(
     cell: CatalogueCell,
     modulus: float,
@@ -88,8 +100,13 @@ def _radius_of_modulus(
     """mm; None where the catalogue's radii have smaller or larger moduli only."""
     ratios = np.geomspace(cell.ratios[0], cell.ratios[-1] * (1.0 - 1e-12), _PLACES)
     ratios[0] = cell.ratios[0]
-    made = [known_properties(LIBRARY[cell.name], size, size * ratio, solid) for ratio in ratios]
-    moduli = np.array([0.0 if one is None else one.young(way) for one in made])
+    own = 1.0 if solid is None else solid.young
+    moduli = own * np.array([young(cell.tensor(ratio), np.array(way)) for ratio in ratios])
     if not moduli.min() <= modulus <= moduli.max() or moduli.min() <= 0.0:
         return None
     return float(size * np.exp(np.interp(np.log(modulus), np.log(moduli), np.log(ratios))))
+
+
+def error_along(found: CellProperties) -> float:
+    """By how much a modulus along any direction may be off: the largest share of the known ones."""
+    return float(max(found.errors[k] / found.values[k] for k in ("E100", "E110", "E111")))

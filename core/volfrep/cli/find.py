@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The command ``volfrep find``: cells by what they do.
+
+numpy and the engine are imported inside the functions, as in `command`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+from collections.abc import Callable
+from typing import Any
+
+from ..util.errors import VolfrepError
+from .files import check_files
+from .run_options import add_run_options
+
+_TEXT = (
+    "Tell which library cells, at which radius, have a modulus or a relative density; or both, the "
+    "nearest first."
+)
+
+
+def add_command(add: Callable[[str, Callable[[argparse.Namespace], None], str], Any]) -> None:
+    """Add the command with `cli`'s own function for that."""
+    add_run_options(add("find", _find, _TEXT), "find")
+
+
+def _find(given: argparse.Namespace) -> None:
+    from ..jobs.figures.find import direction_of, error_along, find_lattices
+    from ..util.files import replacing
+
+    check_files(given)
+    if given.most < 1:
+        raise VolfrepError(f"There must be at least one cell to tell, not {given.most}.")
+    found = find_lattices(
+        modulus=given.modulus,
+        relative_density=given.relative_density,
+        direction=given.direction,
+        material=given.material,
+        cell_size=given.cell_size,
+    )
+    if not found:
+        raise VolfrepError(
+            "No cell of the library has that: ask for another modulus, density or material."
+        )
+    if given.json is not None:
+        with replacing(given.json) as file:
+            file.write(json.dumps([one.as_dict() for one in found], indent=2).encode() + b"\n")
+    unit = "of the solid" if given.material is None else "MPa"
+    way = direction_of(given.direction)
+    heads = f"{'r, mm':>9}{'density':>10}{f'E along {given.direction}, {unit}':>32}"
+    print(f"{'cell':<25}{heads}{'strength':>12}")
+    for one in found[: given.most]:
+        modulus = one.young(way)
+        told = f"{modulus:.4g} +- {100.0 * error_along(one):.1f} %"
+        print(
+            f"{one.cell:<25}{one.strut_radius:>9.4g}{100.0 * one.relative_density:>8.2f} %"
+            f"{told:>32}{one.values['strength']:>12.4g}"
+        )
+    if len(found) > given.most:
+        print(f"and {len(found) - given.most} more: --most {len(found)} tells them all")

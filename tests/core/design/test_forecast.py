@@ -15,9 +15,11 @@ from volfrep.design.forecast import (
     skin_bends,
 )
 from volfrep.design.grading import CellMap, SizeGrading
+from volfrep.design.graphs import RandomGraph
 from volfrep.design.profile import Profile
 from volfrep.design.spec import LatticeSpec
 from volfrep.jobs.blocks import block
+from volfrep.jobs.infill import Infill
 from volfrep.jobs.pipeline import fill
 
 #: Promised for triangles, cells and struts: a third to either side, and a little for small parts.
@@ -161,3 +163,11 @@ def test_it_reads_as_a_sentence(seconds, words):
         "about 1,200 cells, 9,900 struts, 1,200,000 triangles, 1.3 GB of memory, an STL file of "
         f"62 MB and {words}"
     )
+
+
+@pytest.mark.parametrize("kind", ["voronoi", "delaunay"])
+def test_a_random_graph_has_the_struts_that_the_surface_cuts_too(kind):
+    solid = samples.box((24.0, 12.0, 12.0))
+    spec = LatticeSpec(network=RandomGraph(kind), cell_size=4, strut_radius=0.3, shell=0)
+    struts = len(Infill(solid, spec).struts.struts)
+    assert forecast_fill(solid, spec).struts == pytest.approx(struts, rel=0.15)

@@ -19,6 +19,8 @@ from .strut_cells import strut_shares, triangles_of_struts
 
 #: Struts for each point of a random network once short ones are drawn together.
 STRUTS_PER_POINT = {"voronoi": 9.0, "delaunay": 7.5}
+#: And for each square of the surface as wide as the points are apart: those that it cuts.
+STRUTS_PER_FACE = {"voronoi": 0.8, "delaunay": 2.0}
 
 
 class Graph(Kind):
@@ -151,7 +153,9 @@ class GraphOfPoints(Graph):
     def graph_in(self, inside: float, area: float) -> tuple[float, float]:
         """Points, and struts between them once short ones are drawn together."""
         points = self.graph.points or max(1.0, inside / self.spec.cell_size**3)
-        return points, points * STRUTS_PER_POINT[self.graph.kind]
+        faced = area / (inside / points) ** (2.0 / 3.0)
+        kind = self.graph.kind
+        return points, points * STRUTS_PER_POINT[kind] + faced * STRUTS_PER_FACE[kind]
 
     def refuse_idle_cell(self, given: Mapping[str, object]) -> None:
         """Refuse a cell, and its size beside a number of points."""

@@ -3,8 +3,10 @@
 
 from __future__ import annotations
 
+import json
 import os
 import platform
+import re
 import sys
 from argparse import Namespace
 from collections.abc import Callable
@@ -14,6 +16,11 @@ from ..util.version import PACKAGES, VERSION, versions
 
 #: Packages of which the version matters beside the needed ones: those of single features.
 FEATURES = ("meshio", "pyvista", "gmsh", "networkx", "pandas", "matplotlib", "distributed")
+
+#: Texts and comments of TOML.
+_SAID = re.compile(r"""\"(?:[^"\\]|\\.)*"|'[^']*'|#.*""")
+#: What begins at a root, or ends as files do; formulas divide, too.
+_PATH = re.compile(r"^(/|~|\.\.?[\\/]|\\\\|[A-Za-z]:[\\/])|[\\/].*\.[A-Za-z]\w*$")
 
 
 def describe_machine(specification: str = "") -> str:
@@ -37,16 +44,21 @@ def describe_machine(specification: str = "") -> str:
 
 
 def without_folders(text: str) -> str:
-    """A specification whose files are named without the folders that they lie in."""
-    lines = []
-    for line in text.splitlines():
-        key, mark, value = line.partition(" = ")
-        quoted = value.strip()
-        if mark and quoted[:1] in ("'", '"') and ("/" in quoted or "\\" in quoted):
-            name = quoted.strip("'\"").replace("\\\\", "/").replace("\\", "/").rpartition("/")[2]
-            line = f'{key} = "{name}"'
-        lines.append(line)
-    return "\n".join(lines)
+    """A specification without comments, whose files are named without their folders.
+
+    >>> without_folders('keep_solid = ["/home/ann/boss.stl"]  # of Ann')
+    'keep_solid = ["boss.stl"]'
+    """
+    return "\n".join(_SAID.sub(_kept, line).rstrip() for line in text.splitlines())
+
+
+def _kept(found: re.Match[str]) -> str:
+    """What is kept of a text, or of a comment."""
+    said = found[0]
+    if said.startswith("#"):
+        return ""
+    inner = said[1:-1].replace("\\\\", "\\")
+    return json.dumps(re.split(r"[\\/]", inner)[-1]) if _PATH.search(inner) else said
 
 
 def add_command(add: Callable[..., Any]) -> None:

@@ -12,6 +12,7 @@ import math
 import os
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -238,11 +239,11 @@ def as_tuples(part: object, *names: str) -> None:
 
 
 def as_plain(value: Any) -> Any:
-    """A grading as plain JSON values."""
+    """A grading as plain JSON values, which files hold that are handed on: no folders."""
     if isinstance(value, Profile):
         return value.as_dict()
     if isinstance(value, PointField):
-        return f"{len(value.values)} points" + f" of {value.source}" * bool(value.source)
+        return f"{len(value.values)} points" + f" of {Path(value.source).name}" * bool(value.source)
     if hasattr(value, "as_plain"):
         return value.as_plain()
     if hasattr(value, "__dataclass_fields__"):

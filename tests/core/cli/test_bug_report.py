@@ -31,3 +31,18 @@ def test_a_specification_keeps_its_values_and_loses_its_folders() -> None:
     windows = without_folders(r'network_file = "C:\\Users\\Ann\\graph.csv"')
     assert windows == 'network_file = "graph.csv"'
     assert "Ann" not in describe_machine(windows)
+
+
+def test_formulas_stay_and_what_a_list_or_a_comment_tells_of_folders_goes() -> None:
+    text = (
+        "# for Ann's bracket\n"
+        'strut_radius = "1 + x / 50.5"\n'
+        "keep_solid = ['/home/ann/boss.stl', \"C:/Users/Ann/no extension\"]  # /home/ann\n"
+        'cell = "ours/kelvin.json"'
+    )
+    assert without_folders(text).splitlines() == [
+        "",
+        'strut_radius = "1 + x / 50.5"',
+        'keep_solid = ["boss.stl", "no extension"]',
+        'cell = "kelvin.json"',
+    ]

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -62,9 +63,9 @@ class GivenGraph:
         object.__setattr__(self, "_content", content)
 
     def as_plain(self) -> str:
-        """It in a few words."""
+        """It in a few words, which files hold that are handed on: no folders."""
         words = f"{len(self.struts)} struts between {len(self.nodes)} nodes"
-        return words + f" of {self.source}" * bool(self.source)
+        return words + f" of {Path(self.source).name}" * bool(self.source)
 
 
 @dataclass(frozen=True)
@@ -148,7 +149,7 @@ class RandomGraph:
     def as_plain(self) -> dict[str, Any]:
         """It as plain JSON values."""
         values = {name: getattr(self, name) for name in self.__dataclass_fields__}
-        values["field"] = None if self.field is None else self.field.source or "points"
+        values["field"] = None if self.field is None else Path(self.field.source).name or "points"
         return values
 
 

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..util.ragged import rows_of
+from ..util.threads import in_threads
 from ..util.types import Bools, Ints
 from . import remesh
 from .precision import merging_vertices
@@ -109,10 +110,13 @@ def _names(triangles: NDArray[np.int32]) -> NDArray[np.uint64]:
 def _slivers(points: NDArray[np.float64], triangles: NDArray[np.int32], tolerance: float) -> Ints:
     """The triangles with an edge or a height below the tolerance."""
     columns = points.T
-    starts = range(0, len(triangles), BLOCK_TRIANGLES)
-    found = [
-        _slivers_in(columns, triangles[k : k + BLOCK_TRIANGLES], tolerance) + k for k in starts
-    ]
+
+    def block(start: int) -> Ints:
+        part = triangles[start : start + BLOCK_TRIANGLES]
+        found: Ints = _slivers_in(columns, part, tolerance) + start
+        return found
+
+    found = in_threads(block, range(0, len(triangles), BLOCK_TRIANGLES))
     return np.concatenate([np.zeros(0, np.int64), *found])
 
 

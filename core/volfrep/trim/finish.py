@@ -85,10 +85,11 @@ def finish(
     mesh = surface.mesh
     apart = separate_vertices(mesh, edge_within(quality.bounds))
     if apart is not mesh:
-        wider = _with_reached(surface, apart, monitor)
-        if wider is not surface:
+        changed = replace(surface, mesh=apart)
+        wider = _with_reached(surface, changed, monitor)
+        if wider is not changed:
             return finish(wider, quality, monitor, moved, cut)
-        surface = replace(surface, mesh=apart)
+        surface = changed
         again = surface.inspected(monitor).found.quality
         if abs(again.volume - quality.volume) > MOST_MOVED * abs(quality.volume):
             raise _finer_than_files(mesh)
@@ -103,10 +104,11 @@ def finish(
             turns = turns.followed_by(len(surface.mesh.triangles) - beside)
         straight, place = resolve_fold_crossings(surface.mesh, monitor, moved, turns)
     if straight is not surface.mesh:
-        wider = _with_reached(surface, straight, monitor)
-        if wider is not surface:
+        changed = replace(surface, mesh=straight)
+        wider = _with_reached(surface, changed, monitor)
+        if wider is not changed:
             return finish(wider, quality, monitor, moved, cut)
-        surface = replace(surface, mesh=straight)
+        surface = changed
         quality = surface.inspected(monitor).found.quality
     refuse_no_solid(quality)
     told = () if place is None else (_touching(place),)
@@ -138,24 +140,27 @@ def _with_octants_about(surface: TrimmedSurface, pairs: Ints, monitor: Monitor) 
     return surface.with_octants(near, monitor)
 
 
-def _with_reached(surface: TrimmedSurface, mesh: TriangleMesh, monitor: Monitor) -> TrimmedSurface:
-    """The surface with the octants in its mesh that belong to vertices which another mesh moves.
+def _with_reached(
+    surface: TrimmedSurface, changed: TrimmedSurface, monitor: Monitor
+) -> TrimmedSurface:
+    """The surface as it was, with the octants in its mesh that vertices which move belong to.
 
     Args:
         surface: with its mesh as it was.
-        mesh: as it is to be.
+        changed: the same with its vertices where they are to be.
         monitor: for cancel.
 
     Returns:
-        The same surface where no octants beside it are touched or reached into.
+        The changed one where no octants beside its mesh are touched or reached into.
     """
     if surface.octants is None:
-        return surface
-    if not replace(surface, mesh=mesh).is_joined:
+        return changed
+    if not changed.is_joined:
         return TrimmedSurface(surface.whole(monitor))
-    moved = (mesh.vertices != surface.mesh.vertices).any(axis=1)
-    about = mesh.triangles[touching(moved, mesh.triangles)]
-    return surface.with_octants(surface.octants.reached(mesh.vertices[about]), monitor)
+    vertices, triangles = changed.mesh.vertices, changed.mesh.triangles
+    moved = (vertices != surface.mesh.vertices).any(axis=1)
+    reached = surface.octants.reached(vertices[triangles[touching(moved, triangles)]])
+    return surface.with_octants(reached, monitor) if reached.any() else changed
 
 
 def piece_warnings(

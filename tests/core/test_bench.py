@@ -71,6 +71,7 @@ def test_the_exponent_of_a_power_law():
         power_law([5, 5], [1, 2])
 
 
+@pytest.mark.slow_but("Box")
 @pytest.mark.parametrize("cell", ["Box", "CVC"])
 def test_one_cell_of_the_published_method_is_the_cell(cell):
     unit, size, radius = LIBRARY[cell], published.SIZE, published.RADIUS

@@ -37,7 +37,7 @@ def random_case(seed):
     )
 
 
-@pytest.mark.slow_cases("10", "11", "2", "4", "5")
+@pytest.mark.slow_but("0", "1")
 @pytest.mark.parametrize(
     "seed",
     [pytest.param(s, marks=pytest.mark.slow if s >= 12 or s in (6, 9) else ()) for s in range(80)],

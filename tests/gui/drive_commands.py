@@ -145,6 +145,7 @@ def fill_a_box():
     picture("tutorial_4_computed")
 
 
+@slow
 def preview_without_a_mesh(doc, box, obj):
     """Preview Only shows struts and figures, follows the values, and goes as it came."""
     obj.AutoUpdate = False

@@ -288,6 +288,7 @@ def leave_a_refresh(obj):
     escape(new_radii(obj), lambda: click_menu("Edit", text))
 
 
+@slow
 def leave_the_print_check(obj):
     """Print Check."""
     kept = {o.Name for o in obj.Document.Objects}

@@ -119,6 +119,7 @@ def a_mesh_that_comes_is_waited_for():
         window.close()
 
 
+@slow
 def an_undone_mesh_keeps_the_colour_of_its_wall():
     from freecad_volfrep.gui.view.filled_view import mesh_and_kinds
     from volfrep.reports.facet_roles import LATTICE, WALL

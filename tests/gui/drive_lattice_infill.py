@@ -125,6 +125,7 @@ def fill_the_box(doc, box, fill):
     picture("3_redone")
 
 
+@slow
 def show_coarsely(doc, obj):
     """A mesh above the preference is shown by fewer triangles, and stays what it is."""
     group = App.ParamGet("User parameter:BaseApp/Preferences/Mod/VOLFREP")
@@ -245,6 +246,7 @@ def undo_an_edit(doc, obj):
     check("up to date once more", obj.Status == "Up to date", obj.Status)
 
 
+@slow
 def give_it_an_own_cell(doc, obj):
     """Custom in the panel asks for a file, of a cell whose picture and struts are then seen."""
     from volfrep.design.cells import LIBRARY
@@ -415,6 +417,7 @@ def cancel_soon(pressed, by_click=False):
     return Watch(look, "the bar of a job")
 
 
+@slow
 def cancel_an_edit(doc, obj):
     """Escape during a recompute keeps the last mesh and says so."""
     before, documents = obj.Mesh.CountFacets, len(App.listDocuments())
@@ -705,6 +708,7 @@ def save_and_reopen(doc, obj):
     picture("9_reopened")
 
 
+@slow
 def open_an_invalid_one(doc, obj):
     """An infill that could not be computed opens with its solid, and not with nothing."""
     empty = doc.copyObject(obj, False)

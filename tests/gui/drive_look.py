@@ -207,6 +207,7 @@ def look_alike_in_any_order(doc, obj):
     does_not_depend_on_order(obj, "look_5_box")
 
 
+@slow
 def fill_cut_faces_in_every_mode(doc, obj):
     """Ours fill what is cut; so does FreeCAD's own, opaque."""
     view = obj.ViewObject

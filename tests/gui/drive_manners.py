@@ -27,6 +27,7 @@ from driving import (
     run_checks,
     select,
     settle,
+    slow,
     toolbar_button,
     type_value,
     wait_until,
@@ -143,6 +144,7 @@ def type_what_makes_no_sense(doc, box):
     cancelled()
 
 
+@slow
 def type_another_extension(doc, obj):
     """What is typed into the file dialog says more than the kind of file it stands at."""
     for suffix, what in ((".inp", "beams"), (".step", "plane faces")):

@@ -80,6 +80,7 @@ def see_why_commands_are_grey(doc, box):
     check("no more once it is there", "\u2192" not in toolbar_button("Lattice Infill").toolTip())
 
 
+@slow
 def fold_and_find_it_so(doc, box):
     """Sections fold, by mouse and keys, and are found so again; all of them fit a small screen."""
     fold_sections()

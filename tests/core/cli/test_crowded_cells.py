@@ -70,6 +70,7 @@ def test_what_a_cell_of_a_few_struts_takes_is_told(
     assert 22.0 / 3.0 < seconds < 22.0 * 3.0
 
 
+@pytest.mark.slow
 def test_struts_that_cross_are_counted(tmp_path: Path) -> None:
     """Against the distances of points along them."""
     cell = find_cell(str(complete(tmp_path, 8)))

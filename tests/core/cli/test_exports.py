@@ -97,6 +97,7 @@ def test_the_print_report(tmp_path: Path, part: Path, capsys: pytest.CaptureFixt
     assert len(printing["findings"]) == 3
 
 
+@pytest.mark.slow
 def test_the_build_direction(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     shares = {}
     for direction in ("0,0,1", "-1,0,0", "1,1e0,1"):

@@ -241,7 +241,7 @@ def studied(done: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path
     return tmp_path
 
 
-@pytest.mark.slow_but("text0", "results", "values")
+@pytest.mark.slow_but("text0", "results")
 @pytest.mark.parametrize(
     "text", [DEEP, "[]", "3", "{}", '{"key": 1}', "", b"\xff\xfe", "values", "results", "errors"]
 )

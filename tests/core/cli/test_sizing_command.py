@@ -280,6 +280,7 @@ def test_every_step_is_told_though_nobody_looks(
     assert re.search(r", [\d.e+-]+ s a step, at most \d+ s more$", lines[1])
 
 
+@pytest.mark.slow_but("fixed = true-", "x = 0-sliding across x and turning about x through (")
 @pytest.mark.parametrize(
     ("held", "says"),
     [

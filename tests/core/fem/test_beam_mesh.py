@@ -142,6 +142,7 @@ def test_a_slender_cubic_lattice_is_as_stiff_as_theory(tmp_path: Path):
     assert moved == pytest.approx(100 * 60 / 210_000 / (np.pi * 0.25), rel=0.03)
 
 
+@pytest.mark.slow
 @needs_calculix
 def test_a_slender_octet_is_as_stiff_as_theory(tmp_path: Path):
     """Stretched along x between smooth walls: C11 = rho (1/6 + lambda / 2), with rigid joints.

@@ -155,6 +155,7 @@ def test_two_thousand_points_in_a_part_with_a_skin_are_one_body():
     assert read.bodies == 1
 
 
+@pytest.mark.slow
 def test_the_same_seed_gives_the_same_network():
     solid = samples.box()
 

@@ -154,6 +154,7 @@ def overlapping_graphs():
     return {"cross": cross, "short": short, "through": through}
 
 
+@pytest.mark.slow_but("through", "cross")
 @pytest.mark.parametrize("name", overlapping_graphs())
 def test_struts_that_overlap_are_united(name):
     frame = overlapping_graphs()[name]

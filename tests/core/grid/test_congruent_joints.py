@@ -27,6 +27,7 @@ def joint(arms, radii, ball):
     )  # fmt: skip
 
 
+@pytest.mark.slow_but("CVC-27")
 @pytest.mark.parametrize(("cell", "kinds"), [("CVC", 27), ("Box", 27), ("Octet", 27)])
 def test_a_block_has_few_kinds_however_large(cell, kinds):
     small, large = (distinct_joints(lattice(cell, count)) for count in ((3, 3, 3), (6, 4, 5)))
@@ -61,6 +62,7 @@ def test_radii_tell_joints_apart():
     assert cones.radii[cones.radii[:, 0].round(9) == 1.9, 1] == pytest.approx([1.95])
 
 
+@pytest.mark.slow_but("CVC-21.765592-39.191836")
 @pytest.mark.parametrize(
     ("cell", "first", "second"),
     [("Box", 9.424778, 11.313708), ("CVC", 21.765592, 39.191836), ("Octet", 53.314595, 154.509668)],

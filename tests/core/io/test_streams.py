@@ -94,7 +94,7 @@ def test_triangle_for_triangle(suffix: str, tmp_path: Path) -> None:
     np.testing.assert_array_equal(rows(one), rows(two))
 
 
-@pytest.mark.slow_but(".obj")
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", STREAMED)
 def test_a_lattice_that_is_turned(suffix: str, tmp_path: Path) -> None:
     found = turned().part

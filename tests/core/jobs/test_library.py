@@ -94,6 +94,7 @@ def volume_of_part(frame, depth, bounds):
     return (skin + np.count_nonzero(held)) * each
 
 
+@pytest.mark.slow_but("Columns")
 @pytest.mark.parametrize(
     "name",
     [n if n in ("Columns", "Re-entrant") else pytest.param(n, marks=pytest.mark.slow)

@@ -92,6 +92,7 @@ def test_under_an_open_face_there_is_no_skin():
     assert lowest == pytest.approx(3.0, abs=0.05)
 
 
+@pytest.mark.slow
 def test_a_cell_larger_than_the_part_is_active_and_no_more_than_all_is_filled():
     box = samples.box()
     spec = LatticeSpec(cell="BCC", cell_size=100.0, strut_radius=10.0, shell=2.0)

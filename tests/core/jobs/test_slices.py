@@ -30,7 +30,7 @@ def figures(folder):
     return json.loads((folder / "layers.json").read_text())
 
 
-@pytest.mark.slow_but("skin", "lattice")
+@pytest.mark.slow_but("lattice", "domain")
 @pytest.mark.parametrize(
     "spec",
     [

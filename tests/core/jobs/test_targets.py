@@ -250,6 +250,7 @@ def test_a_study_refuses_with_what_can_be_had_as_the_run_does(target) -> None:
     assert ("of which the skin is" in str(told.value)) == (target.aim == "mass")
 
 
+@pytest.mark.slow
 def test_a_block_is_written_as_it_was_measured(monkeypatch, tmp_path):
     """Its octants are meshed once for the target, and not again for the file."""
     meshed = []

@@ -64,6 +64,7 @@ def test_a_thin_wall_along_a_minimal_surface_conducts_two_thirds_of_its_density(
     assert conductance(grid)[0, 0] / voxels.relative_density == pytest.approx(2 / 3, rel=0.03)
 
 
+@pytest.mark.slow
 def test_an_octant_has_the_stiffness_of_the_whole_cell():
     solid = sheet("Schwarz P", 0.12)
     ways = ((False, False), (True, True))

@@ -52,7 +52,7 @@ def test_a_block_is_one_closed_surface_of_the_wireframes_genus(cell):
     assert found.volume == pytest.approx(volume, abs=0.005 * volume + 3 * deviation)
 
 
-@pytest.mark.slow_but("Box", "Octahedron", "CVC")
+@pytest.mark.slow_but("CVC")
 @pytest.mark.parametrize("cell", [*map(find_cell, PAPERS), SKEW], ids=lambda c: c.name)
 def test_scattered_cells_give_closed_surfaces_too(cell):
     active = np.random.default_rng(5).random((3, 3, 2)) < 0.5
@@ -76,7 +76,7 @@ def _pieces(nodes, struts):
     return connected_components(graph, directed=False)[0]
 
 
-@pytest.mark.slow_cases("FCC", "Octet")
+@pytest.mark.slow_but("CVC")
 @pytest.mark.parametrize("name", PAPERS)
 def test_no_triangles_cross(name):
     mesh = lattice(LIBRARY[name], np.ones((2, 1, 1), bool))
@@ -123,7 +123,7 @@ def _pierces(first, second):
     return result
 
 
-@pytest.mark.slow_cases("FCC", "Octet")
+@pytest.mark.slow_but("CVC")
 @pytest.mark.parametrize("name", PAPERS)
 def test_triangles_are_well_shaped(name):
     mesh = lattice(LIBRARY[name], np.ones((2, 2, 2), bool))
@@ -132,9 +132,7 @@ def test_triangles_are_well_shaped(name):
     assert shape.smallest_angle > 5.0
 
 
-@pytest.mark.slow_cases(
-    "15-0.03-FCC", "30-0.008-BCC", "30-0.008-Box", "30-0.008-FCC", "30-0.008-Octet"
-)
+@pytest.mark.slow_but("15-0.03-CVC", "15-0.03-Octahedron")
 @pytest.mark.parametrize("name", PAPERS)
 @pytest.mark.parametrize(("resolution", "allowed"), [(15, 0.03), (30, 0.008)])
 def test_facets_stray_little_and_to_both_sides_alike(name, resolution, allowed):
@@ -167,6 +165,7 @@ def test_a_fillet_adds_material_at_the_joints_and_keeps_the_genus():
     assert 1.01 * sharp.volume < round_.volume < 1.5 * sharp.volume
 
 
+@pytest.mark.slow_but("0.5-CVC", "1.0-Box")
 @pytest.mark.parametrize("name", DENSITY)
 @pytest.mark.parametrize("radius", [0.5, 1.0])
 def test_capped_octants_have_the_closed_forms_density(name, radius):

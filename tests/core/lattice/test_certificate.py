@@ -35,7 +35,7 @@ def layout_of(cell, active, radius=1.0, facets=12, size=10.0):
     return lay_out(grid, mesh_octants(cell, spec, grid.keys, monitor))
 
 
-@pytest.mark.slow_cases("0.4-BCC", "0.4-FCC", "0.4-Octet", "0.4-skew", "1.0-FCC", "1.0-skew")
+@pytest.mark.slow_but("1.0-BCC", "0.4-CVC")
 @pytest.mark.parametrize("cell", [*map(find_cell, PAPERS), SKEW], ids=lambda c: c.name)
 @pytest.mark.parametrize("share", [1.0, 0.4])
 def test_the_survey_agrees_with_the_measure(cell, share):

@@ -87,7 +87,7 @@ def test_with_equal_radii_at_the_same_places_nothing_moves(laid):
     assert found.excess < 0.01
 
 
-@pytest.mark.slow_cases("skew-0.6", "skew-1.02")
+@pytest.mark.slow_but("CVC-0.6")
 @pytest.mark.parametrize("radius", [0.6, 1.02])
 def test_vertices_come_onto_struts_of_another_radius(laid, radius):
     """As far from them as they were from the first ones, in units of the radius."""
@@ -115,6 +115,7 @@ def test_where_creases_meet_vertices_are_bound_to_the_middle_of_their_strut():
         assert -0.1 < share.min() < share.max() < 1.01
 
 
+@pytest.mark.slow_cases("skew")
 def test_moved_nodes_take_their_vertices_along(laid):
     """A lattice turned and shifted as a whole is its mesh turned and shifted."""
     shift = np.array([3.0, -4.0, 0.5])

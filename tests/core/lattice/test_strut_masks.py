@@ -37,6 +37,7 @@ def test_a_node_is_of_a_cell_that_has_it(cell):
         assert (place < 1 + 1e-9).all()
 
 
+@pytest.mark.slow_but("CVC", "Box")
 def test_the_nodes_of_the_whole_lie_where_the_octants_are(cell):
     grid, graph = grid_and_graph(cell, np.random.default_rng(4).random((3, 2, 3)) < 0.7)
     seen = 0
@@ -61,6 +62,7 @@ def test_with_all_struts_kept_nothing_changes(cell):
     assert found.keys == grid.keys
 
 
+@pytest.mark.slow_but("CVC-True", "Box-False")
 @pytest.mark.parametrize("joined", [False, True])
 def test_octants_lack_the_struts_that_reach_them(cell, joined):
     """Those that lack one lie by the strut; farther ones stay what they were."""

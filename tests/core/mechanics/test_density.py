@@ -12,7 +12,7 @@ from volfrep.mechanics.endless import all_primitives, endless_cell
 from volfrep.octants import sdf as frep
 
 
-@pytest.mark.slow_cases("0.02-Octet", "0.1-Octet", "0.15-Octet")
+@pytest.mark.slow_but("0.1-CVC", "0.02-Box")
 @pytest.mark.parametrize("name", exact.DENSITY)
 @pytest.mark.parametrize("radius", [0.02, 0.1, 0.15])
 def test_it_is_that_of_the_closed_form(name, radius):
@@ -60,7 +60,7 @@ def test_a_single_column_is_a_cylinder_with_its_joint():
     assert found.value == pytest.approx(np.pi * radius**2 + bulge, rel=5e-4)
 
 
-@pytest.mark.slow_cases("CVC-0.6")
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "density"),
     [pytest.param("Octahedron", 0.2, marks=pytest.mark.slow), ("Box", 0.02), ("CVC", 0.6)],

@@ -76,6 +76,7 @@ def test_a_mesh_without_needles_is_left_alone():
     assert np.array_equal(corners(same), corners(mesh))
 
 
+@pytest.mark.slow_but("Box")
 @pytest.mark.parametrize("cell", ["Box", "BCC", "FCC"])
 def test_a_wall_along_struts_leaves_no_needles(cell):
     """Its faces run through the middles of struts, a hair beside facets' corners."""

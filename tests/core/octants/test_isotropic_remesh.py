@@ -37,6 +37,7 @@ def euler(surface):
     return len(used) - len(table.ends) + len(surface.triangles)
 
 
+@pytest.mark.slow_but("CVC", "Box")
 def test_the_vertices_lie_on_the_exact_surface(pair):
     _, found, _ = pair
     values = np.abs(found.field.values(found.vertices))

@@ -45,14 +45,14 @@ def pair(request):
     return found, surface_fit.fit_facets(surface_fit.fit_border(found))
 
 
-@pytest.mark.slow_cases("BCC", "FCC", "Octet")
+@pytest.mark.slow_but("CVC", "Box")
 def test_the_missed_volume_is_put_right(pair):
     before, after = missed(pair[0]), missed(pair[1])
     assert before[0] < 0.0  # facets with their corners on a strut cut inside it
     assert abs(after[0]) < 0.03 * abs(before[0])
 
 
-@pytest.mark.slow_cases("Octet")
+@pytest.mark.slow_but("CVC", "Octahedron")
 def test_the_facets_come_nearer_to_the_surface(pair):
     assert missed(pair[1])[1] < 0.85 * missed(pair[0])[1]
 

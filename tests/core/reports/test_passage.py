@@ -47,6 +47,7 @@ def test_nothing_passes_a_wall_of_struts():
     assert largest_ball(UnitCell("Shut", shut, rows), 0.12) == 0.0
 
 
+@pytest.mark.slow
 def test_of_windows_that_differ_nothing_is_told():
     equal = LatticeSpec("Box", 10.0, 1.0)
     assert lattice_kind(equal).largest_ball() == pytest.approx(8.0)

@@ -100,6 +100,7 @@ def test_overhangs_go_by_the_build_direction():
         told(spec, up=(0.0, 0.0, 0.0))
 
 
+@pytest.mark.slow_but("None")
 @pytest.mark.parametrize("grading", [None, RadiusGrading("skin", Profile("linear", 0.6, 1.2))])
 def test_walls_have_no_struts_to_tell_of(grading):
     spec = LatticeSpec(cell="Gyroid", cell_size=10.0, shell=2.0, radius_grading=grading)

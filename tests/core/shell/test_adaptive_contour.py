@@ -39,6 +39,7 @@ def test_the_wall_of_a_ball_strays_no_further_than_it_may():
     assert np.abs(field.depth.strays(found.vertices)).max() < refine.STRAY_SMALL
 
 
+@pytest.mark.slow
 def test_the_wall_about_a_cone_strays_no_further_where_halved_cubes_lie_beside_smaller_ones():
     """Such cubes may have no edge of their own that was not looked at before."""
     cone = manifold3d.Manifold.cylinder(20.0, 6.0, 3.0, 24).translate((0.0, 0.0, -3.0))

@@ -60,6 +60,7 @@ def test_nodes_lie_at_whole_steps_of_the_unit(box):
     assert COARSEST * box.unit == pytest.approx(0.5 * THICKNESS)
 
 
+@pytest.mark.slow_but("box", "plate")
 @pytest.mark.parametrize(
     "part", [samples.box(SIZE), samples.sphere(), samples.plate(64)], ids=["box", "ball", "plate"]
 )

@@ -55,7 +55,7 @@ def _cavity(solid: TriangleMesh, skin: Skin) -> TriangleMesh:
     return found.mesh
 
 
-@pytest.mark.slow_cases("beside open", "two", "thick")
+@pytest.mark.slow_but("thin", "open body", "kept", "flush body")
 @pytest.mark.parametrize(
     ("skin", "volume"),
     [

@@ -122,7 +122,7 @@ def test_struts_part_before_their_middles_at_the_largest_radius():
     assert largest_radii(nodes, pair, 1.0)[0] == 1.0
 
 
-@pytest.mark.slow_cases("FCC", "Octahedron", "Octet")
+@pytest.mark.slow_but("CVC")
 @pytest.mark.parametrize("cell", PAPERS)
 def test_a_lattice_whose_radii_jump_between_their_bounds_has_a_mesh(cell):
     frame = block_wireframe(LatticeSpec(cell, cell_size=10.0, strut_radius=0.5), (2, 1, 1))

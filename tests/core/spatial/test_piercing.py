@@ -50,7 +50,7 @@ def in_fractions(mesh):
     ]
 
 
-@pytest.mark.slow_but("9.094947017729282e-13-0", "0.25-0", "1.0-0")
+@pytest.mark.slow_but("0.25-0")
 @pytest.mark.parametrize("seed", range(5))
 @pytest.mark.parametrize("step", [2.0**-40, 0.25, 1.0])
 def test_the_pairs_are_those_of_rational_arithmetic(seed, step):

@@ -102,6 +102,7 @@ def test_deformed_balls_that_meet_where_nothing_turns_back_are_drawn_apart():
     assert np.abs(straight.vertices - mesh.vertices).max() < 1.0
 
 
+@pytest.mark.slow
 def test_what_cannot_be_drawn_apart_is_told_with_its_place(monkeypatch):
     monkeypatch.setattr(resolve_crossings, "FOLDED_SHARES", ())
     monkeypatch.setattr(resolve_crossings, "SHARES", ())

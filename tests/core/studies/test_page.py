@@ -106,6 +106,7 @@ def test_refused_combinations_are_counted_on_it(made: Path) -> None:
     assert "6 x Cells of 40 mm are larger than" in text
 
 
+@pytest.mark.slow
 def test_the_same_study_has_the_same_page_but_for_times(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

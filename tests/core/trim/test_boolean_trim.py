@@ -214,6 +214,7 @@ def test_groups_give_the_surface_that_one_boolean_gives(
         assert getattr(some, figure) == getattr(one, figure)
 
 
+@pytest.mark.slow
 def test_threads_of_this_process_cut_the_same(small_groups, monkeypatch):
     alone, cutting = mesh_of(trimmed(tilted_box())), set()
     real = boolean_trim.cut_group

@@ -39,6 +39,7 @@ def inside_box(frame, low, high):
     return np.where(outside, 0, np.maximum(last - first, 0)) * np.linalg.norm(along, axis=1)
 
 
+@pytest.mark.slow_but("CVC")
 @pytest.mark.parametrize("cell", ["CVC", "Box", "Octet"])
 def test_cut_at_a_box(cell):
     frame = lattice(cell=cell)

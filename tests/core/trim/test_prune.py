@@ -90,7 +90,7 @@ def test_a_wall_just_below_the_nodes_leaves_them_joined():
     assert left.kept.tolist() == [False, True, False, False]  # the one outside is cut away
 
 
-@pytest.mark.slow_cases("BCC-centre", "Octet-centre")
+@pytest.mark.slow_but("CVC-centre", "CVC-inside", "CVC-touching")
 @pytest.mark.parametrize(
     ("cell", "activation"),
     [
@@ -150,6 +150,7 @@ def test_whole_cells_fill_the_volume_of_their_struts():
     assert result.report.volume_mm3 == pytest.approx(volume, abs=0.005 * volume + 3 * deviation)
 
 
+@pytest.mark.slow_but("inside")
 @pytest.mark.parametrize("activation", ["inside", "centre", "touching"])
 def test_no_free_end_is_left_in_whole_cells(activation):
     solid = samples.sphere(16.0)

@@ -168,6 +168,7 @@ def test_the_part_its_figures_and_its_preview_agree(part: Part, domain: Triangle
     assert depth.below_skin(middle, 1.0).min() > -0.4
 
 
+@pytest.mark.slow
 def test_struts_are_told_from_walls_of_every_thickness(part: Part, domain: TriangleMesh) -> None:
     made = part.result.mesh
     kinds = kinds_of_triangles(made, BOX, SPEC)

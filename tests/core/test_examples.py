@@ -24,7 +24,7 @@ WITH_EXAMPLES = sorted(
     "volfrep.studies.sweep",
     "volfrep.tpms.widths",
     "volfrep.mechanics.summary",
-    "volfrep.reports.passage",
+    "volfrep.reports.largest_ball",
 )
 @pytest.mark.parametrize("name", WITH_EXAMPLES)
 def test_examples_in_docstrings(name: str) -> None:

@@ -10,7 +10,7 @@ from conftest import SMALL
 from freecad_volfrep import make_lattice_infill, make_print_check
 from freecad_volfrep.features.properties.quantities import mass_of
 from volfrep.design.cells import find_cell
-from volfrep.reports.passage import largest_ball
+from volfrep.reports.largest_ball import largest_ball
 from volfrep.util.errors import VolfrepError
 
 

@@ -193,8 +193,8 @@ def print_report(
         build_direction: from the build plate up, of any length.
         density: of the material, g/cm3.
         domain: closed mesh of what the lattice fills; struts outside do not count. None: all do.
-        ball_mm: diameter of the largest ball that gets through the lattice (`passage`); None where
-            it is not known.
+        ball_mm: diameter of the largest ball that gets through the lattice (`largest_ball`); None
+            where it is not known.
         walls_mm: least thickness of walls and least gap between them (`LatticeKind.walls`).
 
     Raises:

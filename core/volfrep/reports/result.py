@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ..design.spec import LatticeSpec
 from ..grid.cell_grid import CellGrid
 from ..grid.placement import Placement
-from ..grid.sizes import sizes
+from ..grid.size_ranges import sizes
 from ..grid.strut_graph import Wireframe
 from ..mesh.quality import Quality
 from ..mesh.triangle_mesh import TriangleMesh

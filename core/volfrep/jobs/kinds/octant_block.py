@@ -15,7 +15,7 @@ import numpy as np
 from ...design.costs import BYTES_PER_STREAMED_CELL
 from ...design.memory_guard import refuse_block, refuse_expected
 from ...grid.placement import block_placement
-from ...grid.sizes import mapped_volume
+from ...grid.size_ranges import mapped_volume
 from ...grid.strut_graph import Wireframe
 from ...io.write.stl_octants import write_octants_stl
 from ...lattice.assembly import Layout, facets

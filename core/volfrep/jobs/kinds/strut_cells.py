@@ -127,7 +127,7 @@ class StrutCellKind(LatticeKind):
 
     def largest_ball(self) -> float | None:
         """Of equal cells; a fillet makes windows narrower still."""
-        from ...reports.passage import largest_ball
+        from ...reports.largest_ball import largest_ball
 
         spec, size = self.spec, self.spec.cell_size
         if spec.varies:

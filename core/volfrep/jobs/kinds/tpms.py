@@ -22,8 +22,8 @@ from ...mechanics.summary import CellProperties
 from ...mesh.triangle_mesh import TriangleMesh
 from ...octants.octant import Octant, OctantKey
 from ...octants.octant_spec import OctantSpec
-from ...reports.passage import PLACES as BALL_PLACES
-from ...reports.passage import ball_through
+from ...reports.largest_ball import PLACES as BALL_PLACES
+from ...reports.largest_ball import ball_through
 from ...spatial.even_points import even_points
 from ...tpms.deform import part_levels
 from ...tpms.octants import closed_octants, endless_octants, octants_of_cells

@@ -11,7 +11,7 @@ from volfrep.design.grading import CellMap
 from volfrep.design.graphs import RandomGraph
 from volfrep.design.spec import LatticeSpec
 from volfrep.jobs.kinds import lattice_kind
-from volfrep.reports.passage import largest_ball
+from volfrep.reports.largest_ball import largest_ball
 
 #: Radii of the circles within the windows' axes, in units of L: a square of L, a triangle of
 #: L / sqrt(2) (the Octet's and the FCC's faces are halved by their diagonals).

@@ -9,7 +9,7 @@ from volfrep.design.grading import CellMap, Orientation, SizeGrading
 from volfrep.design.profile import Profile
 from volfrep.design.spec import LatticeSpec
 from volfrep.grid.placement import block_placement, graded_wireframe
-from volfrep.grid.sizes import mapped_volume, sizes
+from volfrep.grid.size_ranges import mapped_volume, sizes
 from volfrep.grid.strut_graph import cell_graph
 
 

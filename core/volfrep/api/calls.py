@@ -17,6 +17,7 @@ from ..design.file_limits import FileLimits, limits_of
 from ..design.grading import Field
 from ..design.graphs.files import read_network
 from ..design.graphs.graph import GivenGraph
+from ..design.parameters import BY_NAME
 from ..design.parameters.field_keywords import field_of, is_sampled
 from ..design.parameters.keywords import (
     as_graph,
@@ -41,6 +42,7 @@ if TYPE_CHECKING:
 
     from ..design.banded_infill import BandedInfill
     from ..design.parameters.typed import Keywords, SizeKeywords
+    from ..jobs.infill import Infill
     from ..jobs.slicer_infill import SlicerInfill
     from ..jobs.slices import Layers
     from ..jobs.solving import Solved
@@ -72,6 +74,7 @@ def fill(
     max_triangles: int | None = None,
     max_size: float | None = None,
     service: str | None = None,
+    compensate: str | None = None,
     **parameters: Unpack[Keywords],
 ) -> Part:
     """Fill a solid with a lattice.
@@ -92,6 +95,10 @@ def fill(
             tell what that costs in mm.
         max_size: of its binary STL in megabytes, in the same way.
         service: whose limits these are: Shapeways, Artrovo or Ponoko.
+        compensate: table of printed diameters (LPBF-Ti64, LPBF-316L, SLS-PA12, or a .csv file)
+            by which struts are drawn so that they come out as thick as asked for; None draws them
+            as asked for. The report's warnings say so. The print goes up along the parameter
+            `build_direction`.
         parameters: keys of a specification's file (docs/reference.md) or fields of a
             `LatticeSpec`, in place of one or on top of it; `cell` may be a dict with nodes and
             struts, `network` a pair of arrays or a `networkx.Graph`, `radius_field` a pair of
@@ -111,6 +118,8 @@ def fill(
     >>> part.report.cells_active
     8
     """
+    from ..design.as_printed import find_printed_table
+    from ..jobs.as_printed import compensated
     from ..jobs.targets import solve_target
     from ..output.sources import FilledPart
 
@@ -118,22 +127,33 @@ def fill(
     check_kind("executor", executor, (Executor, type(None)), "an Executor of concurrent.futures")
     with shown(progress) as told:
         solid, wanted = _asked(part, unit, told, spec, dict(parameters), material)
+        notes = []
+        if compensate is not None:
+            table = find_printed_table(compensate)
+            up = parameters.get("build_direction", BY_NAME["build_direction"].default)
+            wanted, note = compensated(wanted, table, up)
+            notes.append(note)
         limits = limits_of(service, max_triangles, max_size)
         if limits:
-            return _fill_within(solid, wanted, limits, told, cache, executor)
-        infill = solve_target(solid, wanted, progress=told, cache=cache, executor=executor)
-        return Part(infill.result, infill.spec, solid, cache, FilledPart(infill, cache))
+            infill, note = _fit(solid, wanted, limits, told, cache, executor)
+            notes += [note] if note else []
+        else:
+            infill = solve_target(solid, wanted, progress=told, cache=cache, executor=executor)
+        result = infill.result
+        report = dataclasses.replace(result.report, warnings=(*notes, *result.report.warnings))
+        result = dataclasses.replace(result, report=report)
+        return Part(result, infill.spec, solid, cache, FilledPart(infill, cache))
 
 
-def _fill_within(
+def _fit(
     solid: Solid,
     wanted: LatticeSpec,
     limits: FileLimits,
     told: ProgressCallback | None,
     cache: StageCache,
     executor: Executor | None,
-) -> Part:
-    """A part whose binary STL keeps within limits."""
+) -> tuple[Infill, str]:
+    """A filled part whose binary STL keeps within limits, and what that costs."""
     from ..design.forecast import forecast_fill
     from ..jobs.file_limits import fit_within
     from ..jobs.kinds import lattice_kind
@@ -145,17 +165,13 @@ def _fill_within(
     def expect(spec: LatticeSpec) -> float:
         return forecast_fill(solid, lattice_kind(spec).roughly_solved(solid)).triangles
 
-    def make(spec: LatticeSpec) -> tuple[FilledPart, int, float]:
+    def make(spec: LatticeSpec) -> tuple[Infill, int, float]:
         infill = solve_target(solid, spec, progress=told, cache=cache, executor=executor)
         made = FilledPart(infill, cache)
-        return made, made.triangles, written_size(made, find_form("part.stl"))
+        return infill, made.triangles, written_size(made, find_form("part.stl"))
 
     found = fit_within(wanted, limits, expect, make)
-    result = found.made.result
-    notes = (found.note,) if found.note else ()
-    report = dataclasses.replace(result.report, warnings=(*result.report.warnings, *notes))
-    result = dataclasses.replace(result, report=report)
-    return Part(result, found.made.spec, solid, cache, found.made)
+    return found.made, found.note
 
 
 def size(

@@ -28,6 +28,7 @@ from .drawing import drawing
 if TYPE_CHECKING:
     import trimesh
 
+    from ..jobs.as_printed import Printed
     from ..jobs.sizing import SizedPart
     from ..jobs.slices import Layers
     from ..mechanics.summary import CellProperties
@@ -298,6 +299,28 @@ class Part:
         return check_print(
             self.result.mesh, self.struts, domain, self.spec, limits, build_direction
         )
+
+    def as_printed(
+        self, table: str, build_direction: tuple[float, float, float] = (0.0, 0.0, 1.0)
+    ) -> Printed:
+        """How thick the struts come out of the printer.
+
+        Args:
+            table: LPBF-Ti64, LPBF-316L, SLS-PA12, or a .csv file of your own.
+            build_direction: from the build plate up, of any length.
+
+        Raises:
+            VolfrepError: there is no such table, no struts, or the direction is none.
+
+        >>> import volfrep
+        >>> part = volfrep.block((1, 1, 1), cell="BCC", cell_size=10, strut_radius=0.5)
+        >>> part.as_printed("LPBF-316L").diameters
+        (1.0227, 1.0227)
+        """
+        from ..design.as_printed import find_printed_table
+        from ..jobs.as_printed import as_printed
+
+        return as_printed(self.struts, find_printed_table(table), build_direction)
 
     def plot(
         self,

@@ -363,6 +363,7 @@ def _make(
     writer, notes = writer_of(form).settle(part)
     print_warnings(notes)
     if not form.meshed:
+        print_warnings(options.notes)
         written = writer.write(part, out, settings)
         print_warnings(written.warnings)
         if not options.quiet:
@@ -384,12 +385,22 @@ def _make(
         peak_memory_mb=peak_memory_mb(),
         warnings=tuple(dict.fromkeys((*result.report.warnings, *written.warnings))),
     )
-    printing = None
+    report = dataclasses.replace(report, warnings=(*options.notes, *report.warnings))
+    printing, struts = None, result.wireframe
+    if options.printed is not None:
+        from ..jobs.as_printed import as_printed
+
+        printed = as_printed(struts, options.printed, options.build_direction)
+        struts, cavity = printed.struts, part.cavity
+        room = report.volume_mm3 / report.relative_density if cavity is None else cavity.volume
+        lattice = report.relative_density * abs(room)
+        if not options.quiet:
+            print_rows(printed.row(lattice, report.volume_mm3, part.spec.density))
     if options.process is not None:
         from ..jobs.figures.print_check import check_print
 
         printing = check_print(
-            result.mesh, result.wireframe, part.cavity, part.spec, options.process,
+            result.mesh, struts, part.cavity, part.spec, options.process,
             options.build_direction,
         )  # fmt: skip
     _tell(report, options, printing)

@@ -32,7 +32,11 @@ def check_files(
 
     given = vars(options) | dict(named or {})
     inputs, outputs = _given(given, INPUTS), _given(given, OUTPUTS)
-    for called, suffixes in (("cell file", (".json",)), ("material file", (".toml", ".json"))):
+    named_or_file = (
+        ("cell file", (".json",)), ("material file", (".toml", ".json")),
+        ("table of printed diameters", (".csv",)),
+    )  # fmt: skip
+    for called, suffixes in named_or_file:
         if not inputs.get(called, "").lower().endswith(suffixes):
             inputs.pop(called, None)  # a name, of the library or the table
     for called, path in inputs.items():

@@ -22,6 +22,7 @@ from .run_options import refuse_extensions
 from .telling import print_warnings
 
 if TYPE_CHECKING:
+    from ..design.as_printed import PrintedTable
     from ..design.file_limits import FileLimits
     from ..design.spec import LatticeSpec
     from ..mechanics.materials import Material, SolidMaterial
@@ -79,6 +80,8 @@ class MeshOptions(LatticeOptions):
         build_direction: of it, from the build plate up.
         material: of a solver's deck.
         limits: of the file.
+        printed: how thick struts come out; None where nobody asks.
+        notes: sentences for the user, known before anything is made.
     """
 
     form: Form
@@ -88,6 +91,8 @@ class MeshOptions(LatticeOptions):
     build_direction: tuple[float, float, float]
     material: Material
     limits: FileLimits
+    printed: PrintedTable | None
+    notes: tuple[str, ...]
 
     @property
     def is_plain(self) -> bool:
@@ -272,6 +277,13 @@ def _mesh_options(given: argparse.Namespace, found: Specified) -> dict[str, Any]
         raise _no_density(given.output)
     process = _print_process(given, form, solid)
     fields = _lattice_options(given, found, solid)
+    table = _printed_table(given, form)
+    notes: tuple[str, ...] = ()
+    if table is not None and given.compensate:
+        from ..jobs.as_printed import compensated
+
+        fields["spec"], note = compensated(fields["spec"], table, found.build_direction)
+        notes = (note,)
     _check_reports(given, form)
     if process is not None:
         from ..reports.printability import unit_direction
@@ -286,7 +298,24 @@ def _mesh_options(given: argparse.Namespace, found: Specified) -> dict[str, Any]
         "build_direction": found.build_direction,
         "material": _deck_material(solid, _density(found, given.material, solid)),
         "limits": _limits(given, form),
+        "printed": table,
+        "notes": notes,
     }
+
+
+def _printed_table(given: argparse.Namespace, form: Form) -> PrintedTable | None:
+    """How thick struts come out; None of a network's, whose command has no such option."""
+    if getattr(given, "as_printed", None) is None:
+        if getattr(given, "compensate", False):
+            raise VolfrepError("--compensate goes by a table: name it by --as-printed.")
+        return None
+    from ..design.as_printed import find_printed_table
+
+    if not form.meshed and not given.compensate:
+        raise VolfrepError(
+            "What comes out is told of a mesh: write one, or give --compensate for what is drawn."
+        )
+    return find_printed_table(given.as_printed)
 
 
 def _limits(given: argparse.Namespace, form: Form) -> FileLimits:

@@ -234,6 +234,16 @@ RUN_OPTIONS = (
         default=1,
     ),
     RunOption(
+        "as-printed", FITTED,
+        "tell how thick struts come out, by a table (LPBF-Ti64, LPBF-316L, SLS-PA12) or a .csv "
+        "file of your own with inclination, nominal, measured; the print report is of these",
+        "TABLE", MATERIAL_GROUP, reads="table of printed diameters",
+    ),
+    RunOption(
+        "compensate", FITTED,
+        "draw struts so that by that table they come out as thick as asked for", "", MATERIAL_GROUP,
+    ),
+    RunOption(
         "print-report", MESHED,
         "say how the part suits a printing process: FFF, SLA, SLS, MJF, LPBF or EBM", "PROCESS",
     ),

@@ -2,8 +2,11 @@
 """The brick: eight nodes and nine incompatible modes, with which it bends without locking.
 
 E. L. Wilson, R. L. Taylor and others, in Numerical and Computer Methods in Structural Mechanics,
-1973. On bricks with right angles it passes the patch test, and all elements of a grid are one. A
-voxel that the surface cuts counts by its filled share.
+1973. On bricks with right angles it passes the patch test, and all full elements of a grid are one.
+A voxel that the surface cuts is integrated over its eight parts, each by its filled share (the
+finite cell method); there modes count without their mean, so that the patch test is passed too
+(R. L. Taylor, P. J. Beresford and E. L. Wilson, Int. J. Numer. Meth. Eng. 10, 1976). By its share
+alone a cut wall of two voxels would bend 20 % too little.
 """
 
 from __future__ import annotations
@@ -13,7 +16,7 @@ from itertools import product
 
 import numpy as np
 
-from ..mechanics.elements import CORNERS, SHEARS, solid_stiffness
+from ..mechanics.elements import CORNERS, SHEARS, gradients, solid_stiffness
 from ..util.types import Floats
 
 #: Gauss points of an element, in units of half its edges.
@@ -31,6 +34,58 @@ class Brick:
 
     stiffness: Floats
     stress: Floats
+
+
+class CutBricks:
+    """Elements that are filled in part.
+
+    Args:
+        young: MPa.
+        poisson: of the solid.
+        edge: (3,) mm.
+    """
+
+    def __init__(self, young: float, poisson: float, edge: Floats) -> None:
+        self._law = solid_stiffness(young, poisson)
+        self._size = float(np.prod(edge)) / 8.0
+        whole, nodes, modes = [], [], []
+        for corner in CORNERS:
+            middle = corner - 0.5
+            strain = np.stack([_strain(middle + 0.5 * point, edge) for point in POINTS])
+            each = np.einsum("pij,ik,pkl->jl", strain, self._law, strain)
+            whole.append(each * self._size / 8.0)
+            nodes.append(strain[:, :, :24].sum(axis=0) * self._size / 8.0)
+            modes.append(_strain(middle, edge)[:, 24:])
+        self._whole, self._nodes, self._modes = np.stack(whole), np.stack(nodes), np.stack(modes)
+
+    def stiffness(self, parts: Floats) -> Floats:
+        """(k, 24, 24) N/mm of elements with (k, 8) shares of their parts, none of them empty."""
+        total = parts.sum(axis=1)[:, None, None]
+        whole = (parts @ self._whole.reshape(8, -1)).reshape(-1, 33, 33)
+        nodes = (parts @ self._nodes.reshape(8, -1)).reshape(-1, 6, 24)
+        mean = (parts @ self._modes.reshape(8, -1)).reshape(-1, 6, 9) / total
+        felt = np.swapaxes(self._law @ mean, 1, 2)
+        inner = whole[:, 24:, 24:] - self._size * total * (felt @ mean)
+        across = whole[:, 24:, :24] - felt @ nodes
+        result = whole[:, :24, :24] - np.swapaxes(across, 1, 2) @ np.linalg.solve(inner, across)
+        symmetric: Floats = 0.5 * (result + np.swapaxes(result, 1, 2))
+        return symmetric
+
+    def stress(self, parts: Floats, moved: Floats, edge: Floats) -> Floats:
+        """(k, 6) MPa, Voigt, in the middle of what is filled, where modes say nothing.
+
+        Args:
+            parts: (k, 8) shares.
+            moved: (k, 24) mm, of the nodes.
+            edge: (3,) mm.
+        """
+        middle = 0.25 + 0.5 * (parts @ CORNERS) / parts.sum(axis=1)[:, None]
+        slopes = gradients(middle) / edge
+        turned = np.einsum("kna,knb->kab", slopes, moved.reshape(-1, 8, 3))
+        strain = [turned[:, axis, axis] for axis in range(3)]
+        strain += [turned[:, one, two] + turned[:, two, one] for one, two in SHEARS]
+        result: Floats = np.stack(strain, axis=1) @ self._law
+        return result
 
 
 def brick(young: float, poisson: float, edge: Floats) -> Brick:

@@ -3,8 +3,8 @@
 
 Regions take the surface itself, in pieces no longer than a voxel. A force on it goes to the eight
 nodes of the voxel that holds its place, or the nearest that is solid enough, trilinearly, so that
-sum and moment stay what they are. Held are the nodes within half a voxel of what is held: as many
-lie outside as inside, so that a support is neither deeper nor shallower than it is.
+sum and moment stay what they are. Held are the nodes within about half a voxel of what is held: as
+many lie outside as inside, so that a support is neither deeper nor shallower than it is.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from scipy.spatial import cKDTree
 
 from ..loads.load_cases import LoadCase
 from ..loads.nodal_loads import Body, nodal_case, share_of
+from ..loads.regions import facet_normals
 from ..mechanics.elements import CORNERS
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..spatial.proximity import closest_points
@@ -28,8 +29,12 @@ from .shares import VoxelGrid
 
 #: Voxels that are looked at about a place that is loaded.
 NEAR = 8
-#: A hair more than half a voxel.
+#: A hair more than a voxel.
 HAIR = 1.0 + 1e-6
+#: Held are nodes no deeper below what is held, and no farther outside, in edges: one on each line
+#: across it. Half and half would be a little stiff where the surface lies askew: a node that is
+#: held holds those beside it. Of walls of holes and ends of bars, askew, the error is least so.
+INNER, OUTER = 0.4, 0.6
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,18 +144,20 @@ class Loaded:
         single = held.copy()
         if len(facets):
             single[facets.ravel()] = False
-            reach = 0.5 * HAIR * float(self.grid.edge.max())
+            edge = HAIR * float(self.grid.edge.max())
             corners = np.unique(facets)
             points = self.body.nodes[corners]
-            low, high = points.min(axis=0) - reach, points.max(axis=0) + reach
+            low, high = points.min(axis=0) - edge, points.max(axis=0) + edge
             rows = np.flatnonzero(((self.nodes >= low) & (self.nodes <= high)).all(axis=1))
             # No place of a facet is farther from its corners than a voxel.
-            most = reach + float(self.grid.edge.max())
+            most = 2.0 * edge
             there = cKDTree(points).query(self.nodes[rows], distance_upper_bound=most)[0] < most
             rows = np.union1d(rows[there], self._near_node.query(points)[1])
             surface = compact(TriangleMesh(self.body.nodes, facets.astype(np.int32)))
-            _, distance, triangle = closest_points(surface, self.nodes[rows])
-            on = distance <= reach
+            place, distance, triangle = closest_points(surface, self.nodes[rows])
+            side = np.einsum("ni,ni->n", self.nodes[rows] - place, facet_normals(surface)[triangle])
+            aside = np.sqrt(np.maximum(distance**2 - side**2, 0.0))
+            on = (side >= -INNER * edge) & (side <= OUTER * edge) & (aside <= 0.5 * edge)
             rows, nearest = rows[on], facets[triangle[on], 0]
         alone = np.flatnonzero(single)
         if len(alone):

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Equations of bricks on a grid, solved by conjugate gradients that multigrid preconditions.
 
-The finest level has no matrix: an element's displacements are gathered, multiplied by the one
-matrix of a full brick and its share, and scattered. Each coarser level joins 2 x 2 x 2 elements
+The finest level has no matrix where bricks are full: an element's displacements are gathered,
+multiplied by the one matrix of a full brick, and scattered. Elements that are cut differ, and make
+a matrix of their nodes. Each coarser level joins 2 x 2 x 2 elements
 into one whose matrix is Galerkin's, of the finer ones under trilinear displacements with what is
 held left out; it is kept as 27 blocks a node. The smoother is Chebyshev's polynomial about the
 nodes' own 3 x 3 blocks, in single precision; the conjugate gradients are in double. The coarsest
@@ -17,7 +18,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import bsr_matrix, csr_matrix
+from scipy.sparse import bsr_matrix, csr_matrix, diags
 from scipy.sparse.linalg import splu
 
 from ..mechanics.elements import CORNERS
@@ -32,8 +33,8 @@ FACTORISED = 6_000
 DEGREE, DAMPED = 3, 12.0
 #: Steps of the power method for the largest eigenvalue, and what is added to it.
 POWERS, SAFE = 12, 1.1
-#: Elements that are multiplied in one go.
-AT_ONCE = 60_000
+#: Elements that are multiplied in one go, and matrices of elements that are held in one go.
+AT_ONCE, MATRICES = 60_000, 8_000
 #: The largest number of steps; more than three times what any part has taken.
 MOST_STEPS = 600
 
@@ -66,41 +67,54 @@ def elements_at(place: Ints, size: tuple[int, ...]) -> Elements:
 
 
 class Fine:
-    """The equations without a matrix.
+    """The equations of the finest level: no matrix where bricks are full, one where they are cut.
 
     Args:
         elements: of the finest level.
-        shares: (e,) of each.
+        cut: (e,) bool, elements with a matrix of their own.
         stiffness: (24, 24) of a full brick.
+        matrices: (k, 24, 24) of k of the cut elements, by their rows.
         free: (n, 3) bool, what is not held.
     """
 
-    def __init__(self, elements: Elements, shares: Floats, stiffness: Floats, free: Bools) -> None:
-        self.elements, self.shares = elements, shares
-        self.stiffness, self.free = stiffness, free
-        count, size = len(elements.nodes), len(elements.node_place)
-        order = np.argsort(elements.nodes.ravel(), kind="stable").astype(np.int32)
-        ends = np.concatenate([[0], np.cumsum(np.bincount(elements.nodes.ravel(), minlength=size))])
-        self._scatter = {}
-        for kind in (np.float32, np.float64):
-            ones = np.ones(len(order), kind)
-            self._scatter[np.dtype(kind)] = csr_matrix(
-                (ones, order, ends.astype(np.int32)), (size, 8 * count), copy=False
+    def __init__(
+        self,
+        elements: Elements,
+        cut: Bools,
+        stiffness: Floats,
+        matrices: Callable[[Ints], Floats],
+        free: Bools,
+    ) -> None:
+        self.elements, self.stiffness, self.free = elements, stiffness, free
+        self._whole_rows, self._cut_rows = np.flatnonzero(~cut), np.flatnonzero(cut)
+        self._matrices = matrices
+        self._whole = elements.nodes[self._whole_rows]
+        flat, size = self._whole.ravel(), len(elements.node_place)
+        order = np.argsort(flat, kind="stable").astype(np.int32)
+        ends = np.concatenate([[0], np.cumsum(np.bincount(flat, minlength=size))])
+        self._scatter = {
+            np.dtype(kind): csr_matrix(
+                (np.ones(len(order), kind), order, ends.astype(np.int32)), (size, len(order))
             )
-        self._matrix = {np.dtype(k): stiffness.astype(k) for k in (np.float32, np.float64)}
-        self._shares = {np.dtype(k): shares.astype(k) for k in (np.float32, np.float64)}
+            for kind in _KINDS
+        }
+        self._matrix = {np.dtype(kind): stiffness.astype(kind) for kind in _KINDS}
+        self._cut: dict[Any, Any] = {}
+        self._cut_nodes = np.unique(elements.nodes[self._cut_rows])
+        self._cut_blocks = np.zeros((0, 3, 3))
 
     def full(self, moved: Any32) -> Any32:
         """(n, 3) N that hold (n, 3) displacements, mm, whatever is held; in their precision."""
-        nodes, kind = self.elements.nodes, moved.dtype
-        matrix, shares = self._matrix[kind], self._shares[kind]
+        nodes, kind = self._whole, moved.dtype
         forces = np.empty((len(nodes), 24), kind)
         for begin in range(0, len(nodes), AT_ONCE):
             part = slice(begin, begin + AT_ONCE)
             own = np.take(moved, nodes[part], axis=0).reshape(-1, 24)
-            np.matmul(own, matrix, out=forces[part])
-            forces[part] *= shares[part, None]
+            np.matmul(own, self._matrix[kind], out=forces[part])
         result: Any32 = self._scatter[kind] @ forces.reshape(-1, 3)
+        if len(self._cut_nodes):
+            own = np.take(moved, self._cut_nodes, axis=0)
+            result[self._cut_nodes] += (self._cut[kind] @ own.ravel()).reshape(-1, 3)
         return result
 
     def __call__(self, moved: Any32) -> Any32:
@@ -112,12 +126,13 @@ class Fine:
         own = np.stack([self.stiffness[3 * a : 3 * a + 3, 3 * a : 3 * a + 3] for a in range(8)])
         result = np.zeros((len(self.free), 3, 3))
         for a in range(8):  # no node is the same corner of two elements
-            result[self.elements.nodes[:, a]] += self.shares[:, None, None] * own[a]
+            result[self._whole[:, a]] += own[a]
+        result[self._cut_nodes] += self._cut_blocks
         result *= self.free[:, :, None] & self.free[:, None, :]
         return with_unit_rows(result)
 
-    def coarse_matrices(self, parent: Ints, child: Ints, count: int) -> NDArray[np.float32]:
-        """(count, 24, 24) of the elements of the next level.
+    def assemble(self, parent: Ints, child: Ints, count: int) -> NDArray[np.float32]:
+        """Make the matrix of cut elements, and (count, 24, 24) those of the next level's elements.
 
         Args:
             parent: (e,) the coarse element of each.
@@ -126,19 +141,38 @@ class Fine:
         """
         inner = child_prolongations()
         weights = np.zeros((count, 8))
-        bound = ~self.free[self.elements.nodes].all(axis=(1, 2))
-        weights[parent[~bound], child[~bound]] = self.shares[~bound]
+        nodes = self.elements.nodes
+        rows = self._whole_rows
+        bound = ~self.free[nodes[rows]].all(axis=(1, 2))
+        weights[parent[rows[~bound]], child[rows[~bound]]] = 1.0
         joined = np.einsum("cai,ab,cbj->cij", inner, self.stiffness, inner).reshape(8, -1)
         result: Any32 = (weights @ joined).astype(np.float32).reshape(-1, 24, 24)
-        for c in range(8):
-            rows = np.flatnonzero(bound & (child == c))
-            for part in np.array_split(rows, len(rows) // AT_ONCE + 1):
-                mask = self.free[self.elements.nodes[part]].reshape(-1, 24)
-                own = self.stiffness * (mask[:, :, None] & mask[:, None, :])
-                own *= self.shares[part, None, None]
-                # A parent has one such child.
-                result[parent[part]] += inner[c].T @ own @ inner[c]
+
+        def add(rows: Ints, own: Floats) -> None:
+            mask = self.free[nodes[rows]].reshape(-1, 24)
+            own = own * (mask[:, :, None] & mask[:, None, :])
+            for c in range(8):  # a parent has one such child
+                part = child[rows] == c
+                result[parent[rows[part]]] += inner[c].T @ own[part] @ inner[c]
+
+        for part in _pieces(rows[bound]):
+            add(part, np.broadcast_to(self.stiffness, (len(part), 24, 24)))
+        cut = Stencils(len(self._cut_nodes), np.float64)
+        for part in _pieces(self._cut_rows):
+            own = self._matrices(part)
+            cut.add(np.searchsorted(self._cut_nodes, nodes[part]), own)
+            add(part, own)
+        matrix, self._cut_blocks = cut.matrix()
+        self._cut = {np.dtype(kind): matrix.astype(kind) for kind in _KINDS}
         return result
+
+
+_KINDS = (np.float32, np.float64)
+
+
+def _pieces(rows: Ints) -> list[Ints]:
+    """Rows in pieces, whose matrices are held in one go."""
+    return [rows[begin : begin + MATRICES] for begin in range(0, len(rows), MATRICES)]
 
 
 def child_prolongations() -> Floats:
@@ -164,24 +198,44 @@ def inverse(blocks: Floats) -> Floats:
     return result
 
 
+class Stencils:
+    """A matrix that grows by elements of a grid: 27 blocks of 3 x 3 a node.
+
+    Args:
+        count: of nodes.
+        kind: float32 or float64.
+    """
+
+    def __init__(self, count: int, kind: Any) -> None:
+        self.value = np.zeros((count, 27, 3, 3), kind)
+        self._column = np.full((count, 27), -1, np.int32)
+
+    def add(self, nodes: NDArray[np.integer[Any]], matrices: Any32) -> None:
+        """Add (k, 24, 24) matrices of elements with (k, 8) nodes in the order of `CORNERS`."""
+        steps = (CORNERS[None] - CORNERS[:, None] + 1) @ np.array([9, 3, 1])
+        split = matrices.reshape(-1, 8, 3, 8, 3)
+        for a in range(8):
+            for b in range(8):  # no node is the same corner of two elements
+                row, way = nodes[:, a], steps[a, b]
+                self.value[row, way] += split[:, a, :, b, :]
+                self._column[row, way] = nodes[:, b]
+
+    def matrix(self) -> tuple[Any, Floats]:
+        """The matrix, scipy's, and (n, 3, 3) its diagonal blocks."""
+        value, column, size = self.value, self._column, 3 * len(self.value)
+        own = value[:, 13].astype(float)
+        there = column >= 0
+        ends = np.concatenate([[0], np.cumsum(there.sum(axis=1))])
+        kept = (value[there], column[there], ends)
+        return bsr_matrix(kept, (size, size), blocksize=(3, 3)), own
+
+
 def block_matrix(elements: Elements, matrices: Any32) -> tuple[Any, Floats]:
-    """The matrix of a level as 3 x 3 blocks of scipy's, and (n, 3, 3) its diagonal ones."""
-    count = len(elements.node_place)
-    value = np.zeros((count, 27, 3, 3), np.float32)
-    column = np.full((count, 27), -1, np.int32)
-    steps = (CORNERS[None] - CORNERS[:, None] + 1) @ np.array([9, 3, 1])
-    split = matrices.reshape(-1, 8, 3, 8, 3)
-    for a in range(8):
-        for b in range(8):
-            row, way = elements.nodes[:, a], steps[a, b]
-            value[row, way] += split[:, a, :, b, :]
-            column[row, way] = elements.nodes[:, b]
-    own = with_unit_rows(value[:, 13].astype(float))
-    value[:, 13] = own
-    there = column >= 0
-    ends = np.concatenate([[0], np.cumsum(there.sum(axis=1))])
-    shape = (3 * count, 3 * count)
-    return bsr_matrix((value[there], column[there], ends), shape, blocksize=(3, 3)), own
+    """The matrix of a level, and (n, 3, 3) its diagonal blocks; 1 on it where a row is empty."""
+    made = Stencils(len(elements.node_place), np.float32)
+    made.add(elements.nodes, matrices)
+    made.value[:, 13] = with_unit_rows(made.value[:, 13])
+    return made.matrix()
 
 
 def prolongation(fine: Elements, coarse: Elements, size: tuple[int, ...]) -> Any:
@@ -249,31 +303,24 @@ class Multigrid:
     """Equations of bricks, and their solver.
 
     Args:
-        place: (e, 3) int64, voxels of the grid that are not empty, in rising order.
-        shares: (e,) how full each is.
-        size: of the grid.
-        stiffness: (24, 24) of a full brick.
-        free: (n, 3) bool, what is not held, in the order of `elements_at(place, size)`.
+        fine: the finest level.
+        size: of its grid.
         monitor: asked for a cancel.
-        elements: those, if they are there already.
     """
 
     def __init__(
         self,
-        elements: Elements,
-        shares: Floats,
+        fine: Fine,
         size: tuple[int, ...],
-        stiffness: Floats,
-        free: Bools,
         monitor: Monitor | None = None,
     ) -> None:
         self.monitor = monitor or Monitor()
-        self.fine = Fine(elements, shares, stiffness, free)
+        self.fine, elements, free = fine, fine.elements, fine.free
         self._free32 = free.astype(np.float32)
         self.levels: list[Level] = []
         self.sizes = [len(elements.node_place)]
         apply: Callable[[Any32], Any32] = self.fine
-        blocks, matrices, matrix = self.fine.blocks(), None, None
+        blocks, matrices, matrix = np.zeros(0), None, None
         while True:
             self.monitor.tick()
             half = tuple(-(-one // 2) for one in size)
@@ -283,7 +330,8 @@ class Multigrid:
             child = (elements.place & 1) @ np.array([4, 2, 1])
             coarse = elements_at(np.stack(np.unravel_index(found, half), axis=1), half)
             if matrices is None:
-                joined = self.fine.coarse_matrices(parent, child, len(found))
+                joined = self.fine.assemble(parent, child, len(found))
+                blocks = self.fine.blocks()
             else:
                 joined = join(matrices, parent, child, len(found))
             self.levels.append(Level(apply, blocks, prolongation(elements, coarse, half)))
@@ -383,7 +431,8 @@ def join(matrices: Any32, parent: Ints, child: Ints, count: int) -> NDArray[np.f
 def factorised(matrix: Any) -> Callable[[Floats], Floats]:
     """The solution of a level's equations."""
     whole = matrix.astype(float).tocsc()
-    whole = 0.5 * (whole + whole.T)
+    # A free node between coarse ones that are held else makes two of them one.
+    whole = 0.5 * (whole + whole.T) + diags(1e-6 * whole.diagonal())
     held: Callable[[Floats], Floats] = splu(
         whole.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0,
         options={"SymmetricMode": True},

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""How much of each voxel of a grid a closed mesh fills.
+"""How much of each voxel of a grid, and of its eight parts, a closed mesh fills.
 
-Lines along z through `LINES` x `LINES` places of each column of voxels cross the mesh; where a line
+Lines along z through `LINES` x `LINES` places of each column of parts cross the mesh; where a line
 enters and leaves is exact, so that a share is exact along z and sampled along x and y. Each place
 is somewhere in its own part of the column, elsewhere from row to row: faces across x and y count
 by where they are, not by the nearest line.
@@ -12,15 +12,19 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
+from ..mechanics.elements import CORNERS
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.progress import Monitor
 from ..util.types import Floats, Ints
 
-#: Lines along each edge of a column of voxels.
-LINES = 4
+#: Lines along each edge of a column of parts.
+LINES = 2
 #: The golden section, by multiples of which the places of lines are spread.
 _GOLDEN = 0.6180339887498949
+#: Shares nearer to nothing or all are that.
+ROUNDING = 1e-6
 #: Triangle times line that are looked at in one go.
 _AT_ONCE = 2_000_000
 
@@ -34,11 +38,19 @@ class VoxelGrid:
         edge: (3,) of a voxel, mm: nearly the same along all axes, and a whole number of them fits
             the mesh's box.
         shares: (nx, ny, nz) float64 in [0, 1].
+        parts: (2 nx, 2 ny, 2 nz) float32 in [0, 1], of halves of voxels along each axis.
     """
 
     low: Floats
     edge: Floats
     shares: Floats
+    parts: NDArray[np.float32]
+
+    def parts_of(self, place: Ints) -> Floats:
+        """(k, 8) shares of the parts of voxels at (k, 3) places, in the order of `CORNERS`."""
+        at = [tuple((2 * place + corner).T) for corner in CORNERS]
+        result: Floats = np.stack([self.parts[one] for one in at], axis=1).astype(float)
+        return result
 
 
 def grid_of(bounds: Floats, voxel: float) -> tuple[Ints, Floats]:
@@ -59,7 +71,8 @@ def voxel_grid(mesh: TriangleMesh, voxel: float, monitor: Monitor | None = None)
     """
     monitor = monitor or Monitor()
     low = mesh.bounds[0]
-    count, edge = grid_of(mesh.bounds, voxel)
+    whole, voxel_edge = grid_of(mesh.bounds, voxel)
+    count, edge = 2 * whole, 0.5 * voxel_edge
     lines = count[:2] * LINES
     # In spacings of lines along x and y; along z in voxels.
     scale = np.array([LINES / edge[0], LINES / edge[1], 1.0 / edge[2]])
@@ -73,7 +86,7 @@ def voxel_grid(mesh: TriangleMesh, voxel: float, monitor: Monitor | None = None)
     steps = np.arange(1, number.sum() // _AT_ONCE + 2) * _AT_ONCE
     ends = np.searchsorted(np.cumsum(number[rows]), steps)
     size = (*count[:2], count[2] + 2)
-    # What begins within a voxel, and what is filled in all voxels above.
+    # What begins within a part, and what is filled in all parts above.
     total = np.zeros(int(np.prod(size)))
     begin = 0
     for end in np.minimum(ends + 1, len(rows)):
@@ -85,15 +98,21 @@ def voxel_grid(mesh: TriangleMesh, voxel: float, monitor: Monitor | None = None)
         chosen = [corner[part] for corner in corners]
         place, height, sense = _crossings(chosen, first[part], wide[part])
         height = np.clip(height, 0.0, count[2])
-        voxel_z = np.floor(height).astype(np.int64)
+        level = np.floor(height).astype(np.int64)
         column = place // LINES
-        index = (column[:, 0] * count[1] + column[:, 1]) * size[2] + voxel_z
-        rest = 1.0 - (height - voxel_z)
+        index = (column[:, 0] * count[1] + column[:, 1]) * size[2] + level
+        rest = 1.0 - (height - level)
         total += np.bincount(index, sense * rest, len(total))
         total += np.bincount(index + 1, sense * (1.0 - rest), len(total))
-    shares = np.cumsum(total.reshape(size), axis=2)[:, :, : count[2]] / LINES**2
-    shares[shares < 1e-9] = 0.0
-    return VoxelGrid(low, edge, np.minimum(shares, 1.0))
+    total = total.reshape(size)
+    np.cumsum(total, axis=2, out=total)
+    parts = (total[:, :, : count[2]] / LINES**2).astype(np.float32)
+    del total
+    np.clip(parts, 0.0, 1.0, out=parts)
+    parts[parts < ROUNDING] = 0.0
+    parts[parts > 1.0 - ROUNDING] = 1.0
+    split = parts.reshape(whole[0], 2, whole[1], 2, whole[2], 2)
+    return VoxelGrid(low, voxel_edge, split.mean(axis=(1, 3, 5), dtype=float), parts)
 
 
 def _crossings(corners: list[Floats], first: Ints, wide: Ints) -> tuple[Ints, Floats, Floats]:

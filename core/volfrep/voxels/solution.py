@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -16,9 +16,9 @@ from ..mesh.triangle_mesh import TriangleMesh
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats
-from .bricks import Brick, brick, von_mises
+from .bricks import Brick, CutBricks, brick, von_mises
 from .loaded import Loaded, VoxelCase, resultant, surface_body
-from .multigrid import AT_ONCE, Elements, Multigrid, elements_at
+from .multigrid import AT_ONCE, Elements, Fine, Multigrid, elements_at
 from .shares import VoxelGrid, voxel_grid
 
 #: Voxels that are less full count as empty: together they were below 0.1 % of every part.
@@ -41,7 +41,9 @@ class VoxelModel:
         grid: its voxels.
         elements: those that are there.
         shares: (e,) how full they are.
+        parts: (e, 8) the same of their parts.
         brick: a full one.
+        cut: those that are not full.
         material: of all.
         loaded: takes loads to the nodes.
         dropped: mm3 of pieces that hang on nothing, of which voxels know no more than an edge.
@@ -50,7 +52,9 @@ class VoxelModel:
     grid: VoxelGrid
     elements: Elements
     shares: Floats
+    parts: Floats
     brick: Brick
+    cut: CutBricks
     material: SolidMaterial
     loaded: Loaded
     dropped: float
@@ -116,7 +120,10 @@ def voxel_model(
     )
     dropped = float(np.delete(sizes, keep - 1).sum()) * each
     own = brick(material.young, material.poisson, grid.edge)
-    return VoxelModel(grid, elements, shares, own, material, loaded, dropped)
+    cut = CutBricks(material.young, material.poisson, grid.edge)
+    parts = grid.parts_of(place)
+    grid = replace(grid, parts=np.zeros((0, 0, 0), np.float32))  # they are with the elements
+    return VoxelModel(grid, elements, shares, parts, own, cut, material, loaded, dropped)
 
 
 def solve_cases(
@@ -143,8 +150,11 @@ def solve_cases(
     while len(states) < len(laid):
         first = next(k for k in range(len(laid)) if k not in states)
         held = laid[first].held
-        size, own = model.grid.shares.shape, model.brick.stiffness
-        solver = Multigrid(model.elements, model.shares, size, own, ~held, monitor)
+        fine = Fine(
+            model.elements, model.shares < 1.0, model.brick.stiffness,
+            lambda rows: model.cut.stiffness(model.parts[rows]), ~held,
+        )  # fmt: skip
+        solver = Multigrid(fine, model.grid.shares.shape, monitor)
         for k, case in enumerate(laid):
             if k not in states and np.array_equal(case.held, held):
                 states[k] = _solved(model, solver, case, tolerance)
@@ -163,13 +173,18 @@ def _solved(model: VoxelModel, solver: Multigrid, case: VoxelCase, tolerance: fl
 
 
 def stresses(model: VoxelModel, moved: Floats) -> Floats:
-    """(e,) MPa, von Mises: the largest of the eight Gauss points of each voxel."""
+    """(e,) MPa, von Mises: the largest of the eight Gauss points of a full voxel; of one that is
+    cut in the middle of what is filled.
+    """
     table = model.brick.stress[:8].reshape(48, 24).T
     result = np.empty(len(model.shares))
     for begin in range(0, len(result), AT_ONCE):
         part = slice(begin, begin + AT_ONCE)
         own = moved[model.elements.nodes[part]].reshape(-1, 24)
         result[part] = von_mises((own @ table).reshape(-1, 8, 6)).max(axis=1)
+        rows = np.flatnonzero(model.shares[part] < 1.0)
+        felt = model.cut.stress(model.parts[part][rows], own[rows], model.grid.edge)
+        result[begin + rows] = von_mises(felt)
     return result
 
 

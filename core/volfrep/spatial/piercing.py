@@ -18,7 +18,7 @@ from ..util.linalg import cross_columns, dot_columns
 from ..util.progress import Monitor
 from ..util.threads import in_threads
 from ..util.types import Bools, Floats, Ints
-from .self_intersection import close_pairs
+from .self_intersection import portions_of_pairs
 
 Signs = NDArray[np.int8]
 
@@ -78,8 +78,8 @@ def pairs_at_planes(
     planes = _Planes(mesh, moves)
     found = [np.empty((0, 2), np.int64)]
     among = np.ones(len(corners), bool) if among is None else among
-    close = close_pairs(corners, among, moves)
-    for pairs in in_threads(lambda some: planes.met(*some), close):
+    portions = portions_of_pairs(corners, among, moves)
+    for pairs in in_threads(lambda portion: planes.met(*portion()), portions):
         monitor.tick()
         found.append(pairs)
     return np.concatenate(found)

@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -105,6 +107,13 @@ def close_pairs(corners: Floats, among: Bools, margin: float = 0.0) -> Iterator[
         among: (m,) bool, the chosen ones.
         margin: by which each box is larger than its triangle on every side, mm.
     """
+    return (portion() for portion in portions_of_pairs(corners, among, margin))
+
+
+def portions_of_pairs(
+    corners: Floats, among: Bools, margin: float = 0.0
+) -> Iterator[Callable[[], tuple[Ints, Ints]]]:
+    """What finds the pairs of `close_pairs`, portion by portion, on any thread."""
     if not len(corners):
         return
     low, high = corners.min(axis=1) - margin, corners.max(axis=1) + margin
@@ -130,22 +139,51 @@ def close_pairs(corners: Floats, among: Bools, margin: float = 0.0) -> Iterator[
             count = np.searchsorted(its_bin, bins, "right") - first
             if not count.any():
                 continue
+            bins_of = _Bins(waits, begins, visits, ours, first, count)
             total = np.cumsum(count)
             steps = np.searchsorted(total, np.arange(0, int(count.sum()), PAIRS_PER_STEP))
             for begin, end in zip(steps, [*steps[1:], len(count)], strict=True):
-                row, place = spread(count[begin:end])
-                row, place = begin + row, first[begin + row] + place
-                # Boxes overlap in many bins: in the first of these one of the two begins.
-                here = (ours[row] | begins[place]) == ALONG_ALL
-                a, b = visits[row[here]], waits[place[here]]
-                # Of two chosen ones of a size both visit: once is enough.
-                keep = (a < b) | (level[a] < grid) | ~among[b]
-                a, b = a[keep], b[keep]
-                for axis in range(3):
-                    lo, hi = low[:, axis], high[:, axis]
-                    keep = (lo[a] <= hi[b]) & (lo[b] <= hi[a])
-                    a, b = a[keep], b[keep]
-                yield a, b
+                yield partial(
+                    _pairs_in, bins_of, int(begin), int(end), low, high, level, grid, among
+                )
+
+
+@dataclass(frozen=True, eq=False)
+class _Bins:
+    """Triangles in the bins of a grid, and those that visit them there.
+
+    Attributes:
+        waits, begins: (w,) triangles, bin by bin, and along which axes they begin in it.
+        visits, ours: (v,) the same of those that visit a bin.
+        first, count: (v,) where those that wait in it are.
+    """
+
+    waits: Ints
+    begins: NDArray[np.uint8]
+    visits: Ints
+    ours: NDArray[np.uint8]
+    first: Ints
+    count: Ints
+
+
+def _pairs_in(
+    bins: _Bins, begin: int, end: int, low: Floats, high: Floats, level: Ints, grid: int,
+    among: Bools,
+) -> tuple[Ints, Ints]:  # fmt: skip
+    """The pairs that some of the visits find."""
+    row, place = spread(bins.count[begin:end])
+    row, place = begin + row, bins.first[begin + row] + place
+    # Boxes overlap in many bins: in the first of these one of the two begins.
+    here = (bins.ours[row] | bins.begins[place]) == ALONG_ALL
+    a, b = bins.visits[row[here]], bins.waits[place[here]]
+    # Of two chosen ones of a size both visit: once is enough.
+    keep = (a < b) | (level[a] < grid) | ~among[b]
+    a, b = a[keep], b[keep]
+    for axis in range(3):
+        lo, hi = low[:, axis], high[:, axis]
+        keep = (lo[a] <= hi[b]) & (lo[b] <= hi[a])
+        a, b = a[keep], b[keep]
+    return a, b
 
 
 def _together(pairs: Iterator[tuple[Ints, Ints]]) -> Iterator[tuple[Ints, Ints]]:

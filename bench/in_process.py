@@ -5,6 +5,7 @@ python -m bench.in_process changes PART CELL OUT.stl
 python -m bench.in_process unvoxelised PART CELL OUT.stl
 python -m bench.in_process profile CELL OUT.stl [PART]
 python -m bench.in_process struts PART CELL L OUT.bin
+python -m bench.in_process shares PART CELL L WORKERS OUT.stl
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ import json
 import pstats
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -62,6 +64,29 @@ def struts(part: str, cell: str, size: str, out: str) -> dict[str, Any]:
     radii = [frame.radii.max(axis=1), frame.joint_radii[frame.struts].max(axis=1)]
     np.column_stack([ends, *radii]).astype("<f8").tofile(out)
     return {"struts": len(ends)}
+
+
+def shares(part: str, cell: str, size: str, workers: str, out: str) -> dict[str, Any]:
+    """Who computes while a part is filled, in seconds of a processor.
+
+    Returns:
+        Of the first thread, which nobody helps; of this process, with its other threads; of all,
+        with the workers. The start of the process is in it.
+    """
+    import resource
+
+    from volfrep.cli.command import run
+
+    lattice = ["--cell", cell, "--cell-size", size, "--strut-radius", f"{0.1 * float(size):g}"]
+    skin = ["--shell", f"{SHELL:g}", "--workers", workers]
+    code = run(["fill", part, "-o", out, *lattice, *skin, "--quiet"])
+    if code:
+        raise RuntimeError(f"the command ended with exit code {code}")
+    own, others = (
+        used.ru_utime + used.ru_stime
+        for used in map(resource.getrusage, (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
+    )
+    return {"first_thread": time.thread_time(), "main_process": own, "all": own + others}
 
 
 def unvoxelised(part: str, cell: str, out: str) -> dict[str, Any]:
@@ -148,7 +173,8 @@ def _name(where: tuple[str, int, str]) -> str:
 def main() -> None:
     """Do the job that the arguments say."""
     job, *given = sys.argv[1:]
-    jobs = {"changes": changes, "struts": struts, "unvoxelised": unvoxelised, "profile": profile}
+    known = (changes, struts, shares, unvoxelised, profile)
+    jobs: dict[str, Callable[..., dict[str, Any]]] = {job.__name__: job for job in known}
     found = jobs[job](*given)
     plain = json.dumps(found, default=lambda value: np.asarray(value).tolist())
     print(plain)

@@ -20,6 +20,7 @@ from bench import measuring, plots, published, published_method  # noqa: E402
 from bench.document import document  # noqa: E402
 from bench.exact import block_volume  # noqa: E402
 from bench.experiments import EXPERIMENTS  # noqa: E402
+from bench.experiments.trimmed import expected_seconds  # noqa: E402
 from bench.readme import figures_table, write_into  # noqa: E402
 from bench.tables import Column, bar, bars_table, power_law, table  # noqa: E402
 
@@ -69,6 +70,12 @@ def test_the_exponent_of_a_power_law():
     assert power_law([1, 2, 4], [1, 3, 2]).r2 < 0.8
     with pytest.raises(ValueError, match="two different points"):
         power_law([5, 5], [1, 2])
+
+
+def test_what_one_thread_does_alone_bounds_what_cores_gain():
+    assert expected_seconds(12.0, 100.0, 1) == pytest.approx(100.0)
+    assert expected_seconds(12.0, 100.0, 8) == pytest.approx(12.0 + 88.0 / 8)
+    assert expected_seconds(12.0, 100.0, 10**9) == pytest.approx(12.0)
 
 
 @pytest.mark.slow_but("Box")

@@ -14,6 +14,7 @@ True
 from .calls import (
     as_solid,
     block,
+    coupons,
     fill,
     mesh_network,
     size,
@@ -29,6 +30,7 @@ __all__ = [
     "accepted",
     "as_solid",
     "block",
+    "coupons",
     "fill",
     "mesh_network",
     "orient",

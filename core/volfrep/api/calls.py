@@ -42,6 +42,7 @@ if TYPE_CHECKING:
 
     from ..design.banded_infill import BandedInfill
     from ..design.parameters.typed import Keywords, SizeKeywords
+    from ..jobs.coupons import Coupon
     from ..jobs.infill import Infill
     from ..jobs.slicer_infill import SlicerInfill
     from ..jobs.slices import Layers
@@ -512,6 +513,41 @@ def slice_layers(
         return write_layers(
             solid, wanted, folder, layer=layer, pixel=pixel, form=form, progress=told, cache=cache
         )
+
+
+def coupons(
+    spec: LatticeSpec | None = None,
+    kinds: Sequence[str] = ("cube", "tension", "bending", "ladder"),
+    *,
+    cells: int = 4,
+    first: int = 1,
+    progress: ProgressCallback | bool | None = None,
+    **parameters: Unpack[Keywords],
+) -> list[Coupon]:
+    """Specimens of a lattice to print and measure, numbered in relief.
+
+    Args:
+        spec: of the lattice.
+        kinds: of cube, tension, bending and ladder.
+        cells: along the edge of the cube.
+        first: number of the first one.
+        progress: as of `fill`.
+        parameters: as of `fill`.
+
+    Raises:
+        VolfrepError: there is no such kind, or the lattice makes no sense.
+        Cancelled: the callback said so.
+
+    >>> import volfrep
+    >>> ladder = volfrep.coupons(kinds=["ladder"], first=7)[0]
+    >>> ladder.number, len(ladder.struts), ladder.table().splitlines()[0]
+    (7, 25, 'inclination,nominal,measured')
+    """
+    from ..jobs.coupons import make_coupons
+
+    with shown(progress) as told:
+        wanted = specified(spec, dict(parameters), None)
+        return make_coupons(wanted, kinds, cells=cells, first=first, progress=told)
 
 
 def slicer_infill(

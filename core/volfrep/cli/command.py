@@ -26,6 +26,7 @@ from ..util.files import keeping_inputs
 from ..util.progress_bar import drawn
 from . import (
     bug_report,
+    coupon,
     find,
     infill,
     layers,
@@ -148,6 +149,7 @@ def _parser() -> argparse.ArgumentParser:
 
     layers.add_command(add)
     infill.add_command(add)
+    coupon.add_command(add)
     properties.add_command(add)
     find.add_command(add)
 

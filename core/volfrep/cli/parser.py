@@ -109,6 +109,14 @@ def three_whole_numbers(text: str) -> tuple[int, int, int]:
     return x, y, z
 
 
+def numbers(text: str) -> tuple[float, ...]:
+    """Numbers between commas."""
+    try:
+        return tuple(float(number) for number in text.split(","))
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(f"'{text}' is no list of numbers with commas") from error
+
+
 def three_numbers(text: str) -> tuple[float, float, float]:
     """Three numbers between commas."""
     try:

@@ -18,7 +18,7 @@ from ..design.file_limits import SERVICES
 from ..design.parameters.recipes import RECIPES
 from ..output.form import suffixes, suffixes_of, words
 from ..util.errors import VolfrepError
-from .parser import shard, three_numbers, three_whole_numbers
+from .parser import numbers, shard, three_numbers, three_whole_numbers
 
 MESHED = ("fill", "block", "network")
 FITTED = ("fill", "block")
@@ -120,6 +120,30 @@ RUN_OPTIONS = (
         "output", ("infill",), "the slicer's project", "FILE.3mf", required=True, writes="output",
         short="o",
     ),
+    RunOption(
+        "output", ("coupon",), "for the specimens, the ladder's table to fill in, and coupons.json",
+        "FOLDER", required=True, writes="output", short="o",
+    ),
+    RunOption(
+        "kinds", ("coupon",),
+        "with commas: cube (cells between plates), tension (a bar with grips), bending (a beam for "
+        "three points) and ladder (single struts over diameter and inclination)",
+        "WORDS", default="cube,tension,bending,ladder",
+    ),
+    RunOption("cells", ("coupon",), "along the cube's edge (default 4)", "N", read=int, default=4),
+    RunOption("number", ("coupon",), "of the first one (default 1)", "N", read=int, default=1),
+    RunOption(
+        "diameters", ("coupon",), "of the ladder (default 0.4,0.6,0.8,1,1.5)", "MM,...",
+        read=numbers, default=(0.4, 0.6, 0.8, 1.0, 1.5),
+    ),
+    RunOption(
+        "inclinations", ("coupon",), "of the ladder (default 0,30,45,60,90)", "DEGREES,...",
+        read=numbers, default=(0.0, 30.0, 45.0, 60.0, 90.0),
+    ),
+    RunOption(
+        "format", ("coupon",), "of the specimens (default stl)", "WORD", choices=("stl", "3mf"),
+        default="stl",
+    ),
     RunOption("entry", ("cells",), "the cell of the catalogue", "NAME"),
     RunOption(
         "output", ("cells",), "a cell file of it", "FILE.json", writes="output", short="o",
@@ -134,7 +158,7 @@ RUN_OPTIONS = (
         read=three_whole_numbers, required=True,
     ),
     RunOption(
-        "spec", LATTICE, f"read a specification, or one to start from by its name "
+        "spec", (*LATTICE, "coupon"), f"read a specification, or one to start from by its name "
         f"({', '.join(RECIPES)}); options override its entries",
         "FILE.toml|NAME", SPEC_GROUP, reads="specification",
     ),
@@ -194,7 +218,7 @@ RUN_OPTIONS = (
         "M", MATERIAL_GROUP, reads="material file",
     ),
     RunOption(
-        "material", ("slice", "infill"),
+        "material", ("slice", "infill", "coupon"),
         "a name of the table in docs/cells.md, or a .toml or .json file: its density gives the "
         "mass",
         "M", reads="material file",
@@ -486,7 +510,8 @@ RUN_OPTIONS = (
     RunOption("limit-memory", ("sweep",), "end a run that takes more", "GB", read=float),
     RunOption("retry-failed", ("sweep",), "try again what failed before"),
     RunOption(
-        "quiet", (*LATTICE, "infill", "solve", "orient", "sweep"), "print nothing but errors",
+        "quiet", (*LATTICE, "infill", "coupon", "solve", "orient", "sweep"),
+        "print nothing but errors",
     ),
 )  # fmt: skip
 #: Arguments without hyphens, and options of the table of parameters, that name files which are

@@ -45,6 +45,7 @@ from driving import (
     settle,
     shoot,
     slow,
+    told,
     toolbar_button,
     tree_items,
     type_value,
@@ -168,7 +169,7 @@ def use_the_panel(doc, box, fill):
     check("the panel opens", open_panel(fill))
     check("one object appears", len(infills(doc)) == 1)
     check("nothing is computed yet", infills(doc)[0].Mesh.CountFacets == 0)
-    check("figures are shown", "active cells" in panel_part("Figures").text())
+    check("figures are shown", "active cells" in told())
     check("the preview is in the view", previews() == 1, previews())
     picture("panel_1_open")
     answer_panel("Cancel")
@@ -181,17 +182,17 @@ def use_the_panel(doc, box, fill):
     select(box)
     open_panel(fill)
     obj = infills(doc)[0]
-    figures_before = panel_part("Figures").text()
+    figures_before = told()
     type_value("CellSize", "10 mm")
     check("a typed length is set", abs(obj.CellSize.Value - 10) < 1e-9, obj.CellSize)
     type_value("StrutRadius", "1 mm")
     check("so is the next one", abs(obj.StrutRadius.Value - 1) < 1e-9, obj.StrutRadius)
-    check("the figures follow", panel_part("Figures").text() != figures_before)
+    check("the figures follow", told() != figures_before)
     click(panel_part("Cells"))
     picture("panel_2_typed")
     type_value("ShellThickness", "12 mm")
-    check("what does not fit is said", "inside the skin" in panel_part("Figures").text(),
-          panel_part("Figures").text())  # fmt: skip
+    check("what does not fit is said", "inside the skin" in told(),
+          told())  # fmt: skip
     picture("panel_3_refused")
     share = drawn_share("panel_3_refused")
     check("and the solid stays to be seen", share > 0.1, share)
@@ -263,16 +264,16 @@ def give_it_an_own_cell(doc, obj):
     click_item(picker, custom)
     check("Custom is chosen", obj.CellType == "Custom", obj.CellType)
     check("it asks for a file", panel_part("CellFile").isVisible())
-    check("and says so", "CellFile" in panel_part("Figures").text(), panel_part("Figures").text())
+    check("and says so", "CellFile" in told(), told())
     type_value("CellFile", str(path))
     check("the file is set", obj.CellFile == str(path), obj.CellFile)
     check("the picture is the cell's", custom.icon().pixmap(48, 48).toImage() != empty)
-    check("the figures follow", "struts" in panel_part("Figures").text(),
-          panel_part("Figures").text())  # fmt: skip
+    check("the figures follow", "struts" in told(),
+          told())  # fmt: skip
     picture("panel_5_own_cell")
     type_value("CellFile", str(OUT / "not_there.json"))
-    check("a file that is not there is said", "not_there" in panel_part("Figures").text(),
-          panel_part("Figures").text())  # fmt: skip
+    check("a file that is not there is said", "not_there" in told(),
+          told())  # fmt: skip
     check("and its picture is empty", custom.icon().pixmap(48, 48).toImage() == empty)
     answer_panel("Cancel")
     wait_until(lambda: panel() is None)
@@ -312,7 +313,7 @@ def drive_the_radius(doc, obj):
     check("the radius found is shown", found > 1.1 * before, (found, before))
     check("and cannot be typed over", not shown.isEnabled())
     check("the property waits for the mesh", obj.StrutRadius.Value == before)
-    figures = panel_part("Figures").text()
+    figures = told()
     check("the figures are the target's", "relative density 30 %" in figures, figures)
     picture("panel_6_density")
     choose("PrintMaterial", "AlSi10Mg")
@@ -320,18 +321,18 @@ def drive_the_radius(doc, obj):
     check("a material and a process", (obj.PrintMaterial, obj.PrintProcess) == ("AlSi10Mg", "LPBF"))
     choose("RadiusDrivenBy", "Mass")
     mass = panel_part("TargetMass").value()
-    figures = panel_part("Figures").text()
+    figures = told()
     begun = f"mass {mass:.3g}"[:8] in figures
     check("a mass begins with what there is", begun, (mass, figures))
     field, more = panel_part("TargetMass"), round(1.1 * mass, 3)
     type_value("TargetMass", f"={more}/2 + {more}/2")
     check("an expression says the mass", is_driven(obj, "TargetMass"), obj.ExpressionEngine)
     check("which the field shows", abs(field.value() / more - 1) < 1e-3, (field.value(), more))
-    check("and the figures", f"mass {more:.3g}"[:8] in panel_part("Figures").text(),
-          panel_part("Figures").text())  # fmt: skip
+    check("and the figures", f"mass {more:.3g}"[:8] in told(),
+          told())  # fmt: skip
     type_value("TargetMass", "=2*what")
     check("what is none is said", "=" not in field.text() and "what" in
-          panel_part("Figures").text(), panel_part("Figures").text())  # fmt: skip
+          told(), told())  # fmt: skip
     check("and changes nothing", is_driven(obj, "TargetMass"), obj.ExpressionEngine)
     type_value("TargetMass", "=")
     check("nothing ends the expression", not is_driven(obj, "TargetMass"), obj.ExpressionEngine)
@@ -348,11 +349,11 @@ def drive_the_radius(doc, obj):
     check("a typed stiffness is set", number_of(obj, "TargetStiffness") == 3000)
     stiff = shown.property("rawValue")
     check("a stiffness finds a radius", (stiff > same) == (begins < 3000), (begins, same, stiff))
-    check("without an error", "strut radius" in panel_part("Figures").text(),
-          panel_part("Figures").text())  # fmt: skip
+    check("without an error", "strut radius" in told(),
+          told())  # fmt: skip
     picture("panel_7_stiffness")
     type_value("StiffnessDirection", "along")
-    check("no direction is said", "no direction" in panel_part("Figures").text())
+    check("no direction is said", "no direction" in told())
     choose("RadiusDrivenBy", "Relative")
     type_value("TargetDensity", "30")
     click(panel_part("Compute"))
@@ -582,7 +583,7 @@ def pick_a_skin_in_the_panel(doc, obj):
     check("an open face has no length", not length.isVisible())
     begin("SkinFaces")
     check("the skin of a face has a thickness", wait_until(length.isVisible))
-    mass = panel_part("Figures").text()
+    mass = told()
     click(button)
     wait_until(lambda: obj.Base.Visibility)
     type_value("PickLength", "6")
@@ -590,7 +591,7 @@ def pick_a_skin_in_the_panel(doc, obj):
     click_in_view(top, lambda: obj.SkinFaces)
     check("a click gives a face its skin", list(obj.SkinThicknesses) == [6.0], told.text())
     check("and it is told", "Face6 6 mm" in told.text(), told.text())
-    check("the preview follows", wait_until(lambda: panel_part("Figures").text() != mass))
+    check("the preview follows", wait_until(lambda: told() != mass))
     picture("12_picked_skin")
     type_value("PickLength", "4")
     click_in_view(top, lambda: list(obj.SkinThicknesses) == [4.0])

@@ -26,6 +26,7 @@ from driving import (
     select,
     settle,
     slow,
+    told,
     toolbar_button,
     type_value,
     wait_until,
@@ -155,14 +156,14 @@ def type_a_sum(doc, box):
         check(f"{text} is {value:g} mm", wait_until(
             lambda value=value: abs(obj.CellSize.Value - value) < 1e-9), obj.CellSize)  # fmt: skip
     type_value("CellSize", "7 abc")
-    text = panel_part("Figures").text()
+    text = told()
     check("what is no value is said", "7 abc" in text, text)
     picture("panel_no_value")
     type_value("CellSize", "8 mm")
-    check("until the next one", "cells" in panel_part("Figures").text())
+    check("until the next one", "cells" in told())
     type_value("CellSize", "1000 mm")
     type_value("StrutRadius", "1 mm")
-    text = panel_part("Figures").text()
+    text = told()
     check("cells that are too large are called so", text.startswith("Cells of 1000 mm"), text)
     cancelled()
 
@@ -246,7 +247,11 @@ def drag_a_curve(doc, box):
     obj = opened(box)
     type_value("CellSize", "10 mm")
     choose("RadiusGrading", "Direction")
+    fits = f"{0.8 * obj.StrutRadius.Value:g} + {0.4 * obj.StrutRadius.Value:g} * s"
+    check("the formula begins with this radius", obj.RadiusFormula == fits, obj.RadiusFormula)
+    obj.RadiusFormula = "0.8 + 0.4 * s"
     choose("RadiusProfile", "Formula")
+    type_value("RadiusFormula", "0.8 + 0.4 * s + 0")
     curve = panel_part("Curve", QtGui.QWidget)
     curve = next(c for c in panel().findChildren(QtGui.QWidget, "Curve") if c.isVisible())
     in_sight(curve)
@@ -286,7 +291,7 @@ def drag_a_curve(doc, box):
     xdotool("key", "Delete")
     check("a key takes it away", wait_until(lambda: len(curve.points) == 2), curve.points)
     settle()
-    check("the lattice is graded so", "active cells" in panel_part("Figures").text())
+    check("the lattice is graded so", "active cells" in told())
     cancelled()
 
 

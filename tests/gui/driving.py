@@ -656,6 +656,12 @@ def panel_part(name, kind=QtGui.QWidget):
     return panel().findChild(kind, name)
 
 
+def told():
+    """What the task panel says: below the field that it is about, or else with the figures."""
+    labels = [label for label in panel().findChildren(QtGui.QLabel, "Wrong") if label.isVisible()]
+    return (labels or [panel_part("Figures")])[0].text()
+
+
 def choose_lattice(tab, name):
     """Really click a tab of the panel's first section, and a picture in it."""
     tabs = panel_part("LatticeTabs", QtGui.QTabBar)

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import FreeCAD as App
@@ -80,14 +81,14 @@ class PropertyFields:
     Args:
         obj: the infill.
         changed: called with the name of a property that the user has changed.
-        refused: called with a sentence where what was typed is no value.
+        refused: called with a property's name and a sentence where what was typed is no value.
     """
 
     def __init__(
         self,
         obj: App.DocumentObject,
         changed: Callable[[str], None],
-        refused: Callable[[str], None],
+        refused: Callable[[str, str], None],
     ) -> None:
         self._obj, self._changed, self._refused = obj, changed, refused
         self._bindings: list[Any] = []
@@ -144,7 +145,7 @@ class PropertyFields:
         line = spin.findChild(QtWidgets.QLineEdit)
         # Its own signal has a type that Python's Qt does not know.
         line.textChanged.connect(lambda _: self._setter(name)(spin.property("rawValue")))
-        self._sums.append(TypedSums(self._obj, spin, line, self._refused))
+        self._sums.append(TypedSums(self._obj, spin, line, partial(self._refused, name)))
         binding = Gui.ExpressionBinding(spin)
         binding.bind(self._obj, name)
         self._bindings.append(binding)
@@ -170,7 +171,7 @@ class PropertyFields:
                 try:
                     set_expression(self._obj, name, formula)
                 except Exception as error:  # whatever FreeCAD raises for an expression
-                    self._refused(f"{formula}: {error}")
+                    self._refused(name, f"{formula}: {error}")
                 else:
                     self._changed(name)
             if is_driven(self._obj, name):
@@ -239,10 +240,11 @@ class PropertyFields:
             self._setter(name)(App.Vector(*read_direction(text)))
         except ValueError:
             self._refused(
+                name,
                 translate(
                     "VolfrepTaskPanel",
                     "'{text}' is no direction: write 100, 110, 111 or three numbers such as 1,2,0.",
-                ).format(text=text)
+                ).format(text=text),
             )
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
+from functools import partial
 from typing import Any
 
 import FreeCAD as App
@@ -25,6 +26,7 @@ from freecad_volfrep.gui.widgets.panel_manners import (
     allow_ok,
     entitle,
     fits_any_width,
+    keep_height,
     keep_space,
     leave_the_wheel,
 )
@@ -67,6 +69,8 @@ SECOND = "Boundary"
 PRINT = QT_TRANSLATE_NOOP("VolfrepTaskPanel", "To print")
 #: Least width of a field, px: the panel must fit beside FreeCAD's tree.
 FIELD = 82
+#: Lines that the figures take.
+FIGURES = 5
 _HIDDEN = "Hidden"
 
 
@@ -98,7 +102,8 @@ class TaskPanel:
         for shown in self._was_visible:
             shown.ViewObject.Visibility = False
         self._fields = PropertyFields(obj, self._value_changed, self._refuse)
-        self._refusal = ""
+        #: A sentence on what was typed or chosen, and the property that changed last.
+        self._refusal = self._last = ""
         self._cell_size = obj.CellSize.Value
         self._rows: dict[str, tuple[Any, Any]] = {}
         self._boxes: list[tuple[Section, Rows, tuple[str, ...]]] = []
@@ -238,9 +243,14 @@ class TaskPanel:
         with suppress(VolfrepError):  # of values that were changed meanwhile
             self._print.tell(self._obj, self._live.show())
 
-    def _refuse(self, text: str) -> None:
-        """Say why something that was typed or chosen is not taken, until a value changes."""
-        self._refusal = text
+    def _refuse(self, name: str, text: str) -> None:
+        """Say why something that was typed or chosen is not taken, until a value changes.
+
+        Args:
+            name: of the property, or empty.
+            text: the sentence.
+        """
+        self._refusal, self._last = text, name
         self._say(text, wrong=True)
 
     def _show_all(self) -> None:
@@ -248,7 +258,7 @@ class TaskPanel:
         for name, (_, widget) in self._rows.items():
             self._fields.show(name, widget)
         self._picker.show_present()
-        self._refusal = ""
+        self._refusal = self._last = ""
         self._show_rows()
         self._timer.start(0)
 
@@ -275,7 +285,7 @@ class TaskPanel:
         entitle(form, self._obj.Label)
         column = QtWidgets.QVBoxLayout(form)
         column.setContentsMargins(0, 0, 0, 0)
-        self._recipes = RecipeRow(self._obj, self._show_all, self._refuse)
+        self._recipes = RecipeRow(self._obj, self._show_all, partial(self._refuse, ""))
         column.addWidget(self._recipes)
         self._picker = LatticePicker(self._obj, self._fields.set_value)
         kind = translate("VolfrepTaskPanel", "Kind of lattice")
@@ -381,9 +391,10 @@ class TaskPanel:
 
     def _value_changed(self, name: str) -> None:
         """Show what applies now, and a new preview once nothing changes any more."""
+        self._last = name
         if name == "RadiusDrivenBy":
             self._begin_target(self._obj.RadiusDrivenBy)
-        elif name == "RadiusGrading":
+        elif name in ("RadiusGrading", "RadiusProfile"):
             self._begin_grading()
         elif name in ("CellSize", "CellType"):
             self._follow_cell()
@@ -436,6 +447,11 @@ class TaskPanel:
             if not getattr(self._obj, name).Value and not is_driven(self._obj, name):
                 set_value(self._obj, name, usual.Value)
                 self._fields.show(name, self._rows[name][1])
+        # The table's is of a radius of 1 mm.
+        if self._obj.RadiusFormula == BY_NAME["radius_formula"].initial and usual.Value:
+            low, more = (float(f"{share * usual.Value:.3g}") for share in (0.8, 0.4))
+            self._obj.RadiusFormula = f"{low:g} + {more:g} * s"
+            self._fields.show("RadiusFormula", self._rows["RadiusFormula"][1])
 
     def _follow_cell(self) -> None:
         """Let a sheet whose thickness nobody has changed be as thick as suits the cell."""
@@ -451,8 +467,13 @@ class TaskPanel:
             self._rows["StrutRadius"][1].setProperty("rawValue", radius)
 
     def _say(self, text: str, wrong: bool = False) -> None:
+        """A sentence or figures; what is wrong stands below the field that changed last."""
+        is_told = False
+        for _, rows, _ in self._boxes:
+            is_told = rows.tell(self._last if wrong else "", text) or is_told
         self._figures.setStyleSheet(WRONG if wrong else "")
-        self._figures.setText(text)
+        self._figures.setText("" if is_told else text)
+        keep_height(self._figures, FIGURES)
 
     def _close(self) -> None:
         self._is_open = False

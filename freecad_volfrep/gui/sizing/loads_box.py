@@ -30,7 +30,7 @@ from freecad_volfrep.features.sizing.document_loads import (
 )
 from freecad_volfrep.gui.panel.property_fields import PlainNumber
 from freecad_volfrep.gui.qt import QtCore, QtWidgets
-from freecad_volfrep.gui.widgets.panel_manners import fits_any_width, narrow
+from freecad_volfrep.gui.widgets.panel_manners import fits_any_width, keep_height, narrow
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 
 #: Most height of the lists, and least width of a field, px.
@@ -82,9 +82,7 @@ class LoadsBox(QtWidgets.QGroupBox):
         self._hint = QtWidgets.QLabel()
         self._hint.setObjectName("Hint")
         fits_any_width(self._hint)
-        # There at all times, so that nothing moves under the mouse.
-        self._hint.setMinimumHeight(HINT * self._hint.fontMetrics().height())
-        self._hint.setAlignment(QtCore.Qt.AlignTop)
+        keep_height(self._hint, HINT)
         self._loads = QtWidgets.QListWidget()
         self._loads.setObjectName("Loads")
         self._loads.setMaximumHeight(LOADS)

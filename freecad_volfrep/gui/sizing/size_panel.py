@@ -24,6 +24,7 @@ from freecad_volfrep.gui.panel.property_fields import PropertyFields, label_of
 from freecad_volfrep.gui.qt import OK_CANCEL, QtCore, QtWidgets
 from freecad_volfrep.gui.widgets.panel_manners import (
     PanelForm,
+    bring_into_sight,
     entitle,
     fits_any_width,
     leave_the_wheel,
@@ -269,7 +270,7 @@ class SizePanel:
         box = QtWidgets.QGroupBox(translate("App::Property", "Material"))
         rows = QtWidgets.QFormLayout(box)
         rows.setContentsMargins(6, 4, 6, 4)
-        made = PropertyFields(self._obj, self._made_of, lambda text: self._say(text, wrong=True))
+        made = PropertyFields(self._obj, self._made_of, lambda _, text: self._say(text, wrong=True))
         for name in ("PrintMaterial", "PrintProcess"):
             field = made.field(name)
             field.setObjectName(name)
@@ -356,6 +357,13 @@ class SizePanel:
     def _say(self, text: str, wrong: bool = False) -> None:
         self._said.setStyleSheet(WRONG if wrong else "")
         self._said.setText(text)
+        if wrong:
+            # OK is far above: nobody would see it.
+            QtCore.QTimer.singleShot(0, self._show_said)
+
+    def _show_said(self) -> None:
+        if self._is_open:
+            bring_into_sight(self._said)
 
     def _close(self) -> None:
         self._is_open = False

@@ -89,6 +89,23 @@ def fits_any_width(label: Any) -> None:
     label.setSizePolicy(QtWidgets.QSizePolicy.Ignored, QtWidgets.QSizePolicy.Preferred)
 
 
+def keep_height(label: Any, lines: int) -> None:
+    """Let a label be no lower than so many lines, nor than it was before.
+
+    What is below it in a panel then stays where it is while the sentences in it change.
+    """
+    least = lines * label.fontMetrics().lineSpacing()
+    label.setAlignment(QtCore.Qt.AlignTop)
+    label.setMinimumHeight(max(least, label.minimumHeight(), label.heightForWidth(label.width())))
+
+
+def bring_into_sight(widget: Any) -> None:
+    """Scroll what a widget of a panel is in, so that it is seen."""
+    for area in Gui.getMainWindow().findChildren(QtWidgets.QScrollArea):
+        if area.isAncestorOf(widget):
+            area.ensureWidgetVisible(widget)
+
+
 def allow_ok(is_allowed: bool) -> None:
     """Let the open task panel's OK be pressed, or not.
 

@@ -8,9 +8,12 @@ from typing import Any
 
 import FreeCADGui as Gui
 
+from freecad_volfrep.gui.messages import WRONG
 from freecad_volfrep.gui.qt import QtCore, QtWidgets
 from freecad_volfrep.preferences import is_folded, keep_folded
 from volfrep.design import parameters
+
+from .panel_manners import fits_any_width
 
 #: What the panel shows, by group: properties of the object. Those that do not apply are hidden.
 GROUPS = {
@@ -88,6 +91,8 @@ class Rows(QtWidgets.QWidget):
         self._form.setVerticalSpacing(0)
         self._form.setRowWrapPolicy(QtWidgets.QFormLayout.WrapLongRows)
         self._rows: list[tuple[str, tuple[Any, ...]]] = []
+        #: Sentences below fields, by the names of their rows.
+        self._wrong: dict[str, Any] = {}
 
     def add(self, name: str, *widgets: Any) -> None:
         """A row, or where there is one widget only a line of its own; more than one to a name."""
@@ -97,6 +102,24 @@ class Rows(QtWidgets.QWidget):
             label.setContentsMargins(0, 0, 0, SPACE)
         self._form.addRow(*widgets)
         self._rows.append((name, widgets))
+
+    def tell(self, name: str, text: str) -> bool:
+        """Put a sentence below the field that it is about; whether that field is seen."""
+        for label in self._wrong.values():
+            label.hide()
+        rows = [widgets for one, widgets in self._rows if one == name and widgets[-1].isVisible()]
+        if not rows:
+            return False
+        if name not in self._wrong:
+            label = self._wrong[name] = QtWidgets.QLabel()
+            label.setObjectName("Wrong")
+            label.setStyleSheet(WRONG)
+            fits_any_width(label)
+            row = max(self._form.getWidgetPosition(widgets[-1])[0] for widgets in rows)
+            self._form.insertRow(row + 1, label)
+        self._wrong[name].setText(text)
+        self._wrong[name].show()
+        return True
 
     def show_only(self, names: Iterable[str]) -> None:
         """Show the rows of these names, and hide the others."""

@@ -83,6 +83,19 @@ CALLS: dict[str, Callable[[Any], object]] = {
         "none.stl" if isinstance(value, (int, float)) else TETRAHEDRON, HELD,
         safety="x" if value is None else value, **CELL,
     ),
+    "solve(part)": lambda value: volfrep.solve(value, HELD),
+    "solve(loads)": lambda value: volfrep.solve(TETRAHEDRON, value),
+    "solve(voxel)": lambda value: volfrep.solve(
+        TETRAHEDRON, HELD, voxel="x" if value is None else value
+    ),
+    "solve(material)": lambda value: volfrep.solve(TETRAHEDRON, HELD, material=value or 5)
+    if not isinstance(value, np.ndarray) else volfrep.as_solid(value),
+    "orient(process)": lambda value: volfrep.orient(TETRAHEDRON, process=value or 5)
+    if not isinstance(value, np.ndarray) else volfrep.as_solid(value),
+    "orient(inclination)": lambda value: volfrep.orient(
+        TETRAHEDRON, inclination=95 if value is None else value
+    ),
+    "orient(best)": lambda value: volfrep.orient(TETRAHEDRON, best=value),
     "slice_layers(folder)": lambda value: volfrep.slice_layers(
         "none.stl" if isinstance(value, str) else TETRAHEDRON, value, layer=1, **CELL
     ),

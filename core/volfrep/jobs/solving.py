@@ -150,7 +150,7 @@ def expect(mesh: TriangleMesh, voxel: float | None, cases: int) -> Expected:
         usual = _edge_for(mesh, USUAL)
         voxel = max(min(usual, thickness(mesh) / ACROSS), _edge_for(mesh, MOST))
     else:
-        number("voxel", voxel, "mm", positive=True)
+        voxel = number("voxel", voxel, "mm", positive=True)
     count = _count(mesh, voxel)
     box = float(grid_of(mesh.bounds, voxel)[0].astype(float).prod())
     both = count * (1.0 + COARSER**-3)

@@ -21,6 +21,7 @@ from ..mesh.topology import pieces_of
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..util.errors import VolfrepError
 from ..util.linalg import rotation
+from ..util.numbers import number
 from ..util.progress import Monitor, ProgressCallback
 from ..util.types import Bools, Floats, Ints
 from .printability import ON_PLATE
@@ -153,8 +154,11 @@ def orient(
         VolfrepError: the inclination is none.
         Cancelled: the callback said so.
     """
-    if not 0.0 <= inclination < 90.0:
-        raise VolfrepError(f"The inclination must be from 0 to 90 degrees, not {inclination:g}.")
+    inclination = number("inclination", inclination, "degrees", positive=False)
+    if inclination >= 90.0:
+        raise VolfrepError(
+            f"The inclination must be from 0 to below 90 degrees, not {inclination:g}."
+        )
     monitor = Monitor(progress)
     with monitor.stage("directions", 0.0, 1.0):
         judge = _Judge(mesh, inclination)

@@ -131,13 +131,16 @@ class Fine:
         result *= self.free[:, :, None] & self.free[:, None, :]
         return with_unit_rows(result)
 
-    def assemble(self, parent: Ints, child: Ints, count: int) -> NDArray[np.float32]:
+    def assemble(
+        self, parent: Ints, child: Ints, count: int, monitor: Monitor
+    ) -> NDArray[np.float32]:
         """Make the matrix of cut elements, and (count, 24, 24) those of the next level's elements.
 
         Args:
             parent: (e,) the coarse element of each.
             child: (e,) which of its eight it is.
             count: of the coarse elements.
+            monitor: asked for a cancel.
         """
         inner = child_prolongations()
         weights = np.zeros((count, 8))
@@ -159,6 +162,7 @@ class Fine:
             add(part, np.broadcast_to(self.stiffness, (len(part), 24, 24)))
         cut = Stencils(len(self._cut_nodes), np.float64)
         for part in _pieces(self._cut_rows):
+            monitor.tick()
             own = self._matrices(part)
             cut.add(np.searchsorted(self._cut_nodes, nodes[part]), own)
             add(part, own)
@@ -330,7 +334,7 @@ class Multigrid:
             child = (elements.place & 1) @ np.array([4, 2, 1])
             coarse = elements_at(np.stack(np.unravel_index(found, half), axis=1), half)
             if matrices is None:
-                joined = self.fine.assemble(parent, child, len(found))
+                joined = self.fine.assemble(parent, child, len(found), self.monitor)
                 blocks = self.fine.blocks()
             else:
                 joined = join(matrices, parent, child, len(found))

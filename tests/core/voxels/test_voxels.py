@@ -6,13 +6,14 @@ import pytest
 import trimesh
 from manifold3d import Manifold
 
-from volfrep.loads.load_cases import Force, Load, LoadCase, Moment, Support
+from volfrep.jobs.solving import solve_solid
+from volfrep.loads.load_cases import Force, Load, LoadCase, LoadCases, Moment, Support
 from volfrep.loads.regions import InPlane
 from volfrep.mechanics.elements import CORNERS
 from volfrep.mechanics.materials import SolidMaterial
 from volfrep.mesh.booleans import as_mesh
 from volfrep.mesh.triangle_mesh import TriangleMesh
-from volfrep.util.errors import VolfrepError
+from volfrep.util.errors import Cancelled, VolfrepError
 from volfrep.util.linalg import rotation
 from volfrep.voxels.bricks import CutBricks, brick
 from volfrep.voxels.shares import voxel_grid
@@ -153,6 +154,21 @@ def test_steps_do_not_grow_as_voxels_become_smaller():
     assert counts[-1] > 20 * counts[0]
     assert max(steps) <= 14
     assert steps[-1] <= steps[0] + 3
+
+
+@pytest.mark.parametrize("stage", ["voxels", "solving"])
+def test_a_cancel_ends_the_job_at_once_in_either_stage(stage):
+    force = Force(plane(AXES[0], 40.0), (1.0, 0.0, 0.0))
+    loads = LoadCases(SOLID, (LoadCase("one", (Support(plane(AXES[0])),), (force,)),))
+    told = []
+
+    def until(fraction, name):
+        told.append((fraction, name))
+        return name != stage
+
+    with pytest.raises(Cancelled):
+        solve_solid(bar(40.0), loads, voxel=2.0, progress=until)
+    assert [name for _, name in told].count(stage) == 1
 
 
 def test_a_part_that_may_move_is_refused_as_such():

@@ -216,8 +216,8 @@ def test_places_that_cannot_be_written(
 def test_the_tables_of_files_hold_every_option_that_takes_one(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    taken = {"part", "cell", "material"}  # PART, and what takes a name, too
-    for command in ("fill", "block", "size", "properties"):
+    taken = {"part", "cell", "material", "as_printed"}  # PART, and what takes a name, too
+    for command in ("fill", "block", "size", "properties", "infill"):
         with pytest.raises(SystemExit):
             cli.run([command, "--help"])
         usage = capsys.readouterr().out
@@ -229,12 +229,13 @@ def test_the_tables_of_files_hold_every_option_that_takes_one(
 def inputs_and_outputs() -> Iterator[tuple[str, str, str]]:
     """What each command could mix up: of the files it reads and of those it writes one each."""
     for command in ("fill", "block", "size"):
-        is_size = command == "size"
-        reads = set(run_options.INPUTS) - ({"material"} if is_size else {"loads"})
-        writes = set(run_options.OUTPUTS) - ({"json"} if is_size else {"json", "radii", "plot"})
-        for source in sorted(
-            reads - ({"part", "network_file", "network_field"} if command == "block" else set())
-        ):
+        rows = [row for row in run_options.RUN_OPTIONS if command in row.commands]
+        of_runs = {row.stored for row in run_options.RUN_OPTIONS if row.reads}
+        reads = set(run_options.INPUTS) - of_runs | {row.stored for row in rows if row.reads}
+        writes = {row.stored for row in rows if row.writes}
+        if command == "block":
+            reads -= {"part", "network_file", "network_field"}
+        for source in sorted(reads):
             yield from ((command, source, output) for output in sorted(writes))
 
 
@@ -259,6 +260,7 @@ def test_no_output_is_an_input(
         "network_field": tmp_path / "dense.csv",
         "material": tmp_path / "metal.toml",
         "loads": tmp_path / "loads.toml",
+        "as_printed": tmp_path / "printed.csv",
     }
     files["loads"].write_text("[material]\nname = 'PA12'\n")
     files["material"].write_text("young = 100000.0\npoisson = 0.3\ndensity = 4.0\n")
@@ -266,6 +268,7 @@ def test_no_output_is_an_input(
     save_cell(UnitCell("own", box.nodes, box.struts), files["cell"])
     files["radius_field"].write_text("x,y,z,v\n0,0,0,1\n9,0,0,2\n")
     files["network_file"].write_text("0,0,0,9,9,9")
+    files["as_printed"].write_text("inclination,nominal,measured\n0,1,1.1\n90,1,1.0\n")
     files["network_field"].write_text("x,y,z,v\n0,0,0,1\n9,0,0,2\n")
     before = {file: file.read_bytes() for file in files.values()}
     target = files[source]
@@ -287,6 +290,8 @@ def test_no_output_is_an_input(
         arguments += ["--material", files["material"]]
     arguments += ["--strut-radius", 1, "--radius-grading", "field"]
     arguments += ["--radius-field", files["radius_field"], "--radius-curve", "1:1,2:0.8"]
+    if source == "as_printed":
+        arguments += ["--as-printed", files["as_printed"]]
     if source == "network_file":
         arguments += ["--network", "file", "--network-file", files["network_file"]]
     if source == "network_field":

@@ -45,6 +45,16 @@ class ActiveCells:
         )
 
 
+def refuse_grid(solid: TriangleMesh, grid: Grid) -> None:
+    """Refuse more cells about a part than fit, as `find_active_cells`, before there is a domain.
+
+    Raises:
+        VolfrepError: the grid would have too many cells.
+    """
+    if part_map(grid, solid.bounds) is None:
+        refuse_cells(make_grid(solid.bounds, grid.size, grid.origin).cells, grid.size)
+
+
 def find_active_cells(
     solid: TriangleMesh,
     domain: Domain,

@@ -10,7 +10,9 @@ from samples import box
 from volfrep import LatticeSpec, StageCache
 from volfrep.design.cells import PAPERS
 from volfrep.jobs.blocks import block, write_block_stl
+from volfrep.jobs.infill import Infill
 from volfrep.jobs.pipeline import fill
+from volfrep.util.errors import VolfrepError
 
 SPEC = LatticeSpec("CVC", 5.0, 0.5, shell=1.0, resolution=8)
 
@@ -31,6 +33,14 @@ def test_a_block_takes_eight_kinds_of_octants_however_large_it_is(cell):
         report = block(spec, (count,) * 3).report
         assert report.work["kinds of octants meshed"] <= 8
         assert report.work["triangles laid"] == report.triangles
+
+
+def test_more_cells_than_fit_are_refused_before_the_skin_is_made():
+    infill = Infill(box((5000.0, 5000.0, 5000.0)), LatticeSpec("CVC", 2.0, 0.2, shell=1000.0))
+    for asked in ("part", "struts"):
+        with pytest.raises(VolfrepError, match="enlarge the cells"):
+            getattr(infill, asked)
+    assert "walls found" not in infill.monitor.work
 
 
 def test_a_file_is_written_once(tmp_path):

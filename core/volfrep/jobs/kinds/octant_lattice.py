@@ -20,7 +20,7 @@ from ...trim.placed_lattice import FIRST_MARGIN, PlacedLattice, in_place, lay
 from ...trim.stage import cut_lattice, uncut_lattice
 from ...util.cache import Kept
 from .. import octant_guard as guard
-from ..active_cells import ActiveCells, find_active_cells, roles_of
+from ..active_cells import ActiveCells, find_active_cells, refuse_grid, roles_of
 from ..part_domain import PartDomain
 from .kind import PartLattice
 
@@ -77,7 +77,9 @@ class OctantLattice(PartLattice):
     @cached_property
     def _cells(self) -> Kept[ActiveCells]:
         part, rule, least = self.part, self.spec.ending.activation, 0.0
-        domain, grid = part.kept_domain, self.spec.grid
+        grid = self.spec.grid
+        refuse_grid(part.solid, grid)  # before the skin is made
+        domain = part.kept_domain
         with self.monitor.stage("voxels", 0.3, 0.4):
             if grid.cell_map is not None:
                 least = self.least_width()
@@ -93,6 +95,7 @@ class OctantLattice(PartLattice):
             return
         spec, part = self.spec, self.part
         spec.kind.refuse_crossing()
+        refuse_grid(part.solid, spec.grid)  # before the skin is made
         refuse_expected(spec, 0.0 if part.streamed else part.domain.mesh.volume)
         _ = self.struts  # refused before anything is meshed
         motion = None if self.is_moved else part.placement.motion
